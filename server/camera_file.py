@@ -1,4 +1,4 @@
-"""A camera file: the camera's matrix and lens as calibration wrote them, and whose they are."""
+"""Camera files: camera matrix and distortion of a calibration, and the identity of the camera."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -15,19 +15,19 @@ REMEDY = (
     "and size_wh_px (width, height)."
 )
 
-LONGEST_READOUT_MS = 200.0
+MAX_READOUT_MS = 200.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraFile:
-    """What a camera file says.
+    """Content of a camera file.
 
     Attributes:
-        model: the camera.
-        camera_name: which camera it is, as `camera.name` in the settings; None where it does not say.
-        camera_source: its source, as `camera.source` in the settings; None where it does not say.
-        controls: of the camera at the calibration, in its driver's own units; empty where it does not say.
-        readout_ms: from when the first row of an image is read to the last one; None where it does not say.
+        model: The camera model.
+        camera_name: `camera.name` of the calibrated camera; None if not stated.
+        camera_source: `camera.source` of the calibrated camera; None if not stated.
+        controls: Camera controls at the calibration, in driver units; empty if not stated.
+        readout_ms: Readout time from the first to the last row; None if not stated.
     """
 
     model: CameraModel
@@ -38,12 +38,12 @@ class CameraFile:
 
 
 def load_camera_file(path: Path) -> CameraModel:
-    """The camera model in a YAML or JSON file; see `read_camera_file`."""
+    """Read the camera model of a YAML or JSON file; see `read_camera_file`."""
     return read_camera_file(path).model
 
 
 def read_camera_file(path: Path) -> CameraFile:
-    """What a YAML or JSON file says of a camera.
+    """Read a camera file (YAML or JSON).
 
     Raises:
         InvalidInput: CAMERA_FILE_UNREADABLE, CAMERA_FILE_INCOMPLETE, CAMERA_FILE_INVALID or
@@ -52,7 +52,7 @@ def read_camera_file(path: Path) -> CameraFile:
     context: dict[str, object] = {"file": str(path)}
     values = yaml_in(path, what="camera file", code="CAMERA_FILE_UNREADABLE", remedy=REMEDY)
     if not isinstance(values, dict):
-        message = f"the camera file {path} is a {type(values).__name__}, needed keys with values"
+        message = f"the camera file {path} is a {type(values).__name__}, expected keys with values"
         raise InvalidInput("CAMERA_FILE_INVALID", message, REMEDY, context)
     camera = values.get("camera")
     whose = camera if isinstance(camera, dict) else {}
@@ -73,7 +73,7 @@ def read_camera_file(path: Path) -> CameraFile:
 
 
 def controls_in(camera: Mapping[str, object]) -> Mapping[CameraControl, int]:
-    """The values of a camera's controls under `controls`; none where there is no such key.
+    """Return the camera controls under `controls`; empty without this key.
 
     Raises:
         InvalidInput: CAMERA_FILE_INVALID, a control that is not known, or a value that is no whole number.
@@ -87,14 +87,14 @@ def controls_in(camera: Mapping[str, object]) -> Mapping[CameraControl, int]:
         return {CameraControl(key): value for key, value in values.items()}
     raise InvalidInput(
         "CAMERA_FILE_INVALID",
-        f"the controls of a camera are {values!r}, needed are whole numbers by name",
-        f"Leave controls out, or name some of these with their values: {', '.join(known)}.",
+        f"the controls of a camera are {values!r}, expected integers by name",
+        f"Omit controls, or give values for some of: {', '.join(known)}.",
         {"controls": str(values)},
     )
 
 
 def readout_in(camera: Mapping[str, object]) -> float | None:
-    """The readout time of a camera's rows under `readout_ms`; None where there is no such key.
+    """Return the readout time under `readout_ms`; None without this key.
 
     Raises:
         InvalidInput: CAMERA_FILE_INVALID, it is no number from 0 to 200.
@@ -103,35 +103,35 @@ def readout_in(camera: Mapping[str, object]) -> float | None:
     if value is None:
         return None
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
-    if is_number and 0.0 <= float(str(value)) <= LONGEST_READOUT_MS:
+    if is_number and 0.0 <= float(str(value)) <= MAX_READOUT_MS:
         return float(str(value))
     raise InvalidInput(
         "CAMERA_FILE_INVALID",
-        f"the readout of a camera is {value!r}, needed is a number of ms from 0 to {LONGEST_READOUT_MS:g}",
-        "Leave readout_ms out where it is not known; 0 is a global shutter.",
+        f"the readout of a camera is {value!r}, expected a number of ms from 0 to {MAX_READOUT_MS:g}",
+        "Omit readout_ms if it is unknown; 0 is a global shutter.",
         {"readout_ms": str(value)},
     )
 
 
 def reject_other_camera(file: CameraFile, *, path: Path, name: str, source: object) -> None:
-    """Refuse a camera file that says it is of another camera; one that does not say is let be.
+    """Reject a camera file of another camera; a file without this information is accepted.
 
     Raises:
         CalibrationError: CAMERA_DIFFERS.
     """
-    for key, told, here in (("name", file.camera_name, name), ("source", file.camera_source, source)):
-        if told is not None and told != str(here):
+    for key, stated, here in (("name", file.camera_name, name), ("source", file.camera_source, source)):
+        if stated is not None and stated != str(here):
             raise CalibrationError(
                 "CAMERA_DIFFERS",
-                f"{path} was calibrated for the camera whose {key} is '{told}', "
-                f"and here camera.{key} is '{here}'",
-                "Calibrate this camera, or name the file that belongs to it.",
-                {"file": str(path), "calibrated": told, "camera": str(here)},
+                f"{path} was calibrated for the camera whose {key} is '{stated}', "
+                f"but camera.{key} is '{here}'",
+                "Calibrate this camera, or give its own camera file.",
+                {"file": str(path), "calibrated": stated, "camera": str(here)},
             )
 
 
 def camera_file_text(file: CameraFile, facts: Mapping[str, object]) -> str:
-    """The file's text: what is needed first, then `facts` for people."""
+    """Return the text of a camera file: required values, then `facts` for information."""
     values: dict[str, object] = {
         "matrix": file.model.matrix.tolist(),
         "distortion": file.model.distortion.tolist(),
@@ -151,7 +151,7 @@ def camera_file_text(file: CameraFile, facts: Mapping[str, object]) -> str:
 
 
 def controls_values(controls: Mapping[CameraControl, int]) -> dict[str, int]:
-    """Controls as a file or a document has them."""
+    """Return controls by name, as stored in files and documents."""
     return {control.value: value for control, value in controls.items()}
 
 

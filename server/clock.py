@@ -1,4 +1,4 @@
-"""The wall clock, and how a moment of it is written."""
+"""Wall clock and its text format."""
 
 from collections.abc import Callable
 from datetime import UTC, datetime
@@ -8,10 +8,10 @@ Clock: TypeAlias = Callable[[], datetime]
 
 
 def utc_now() -> datetime:
-    """The wall clock, in UTC."""
+    """Return the present time in UTC."""
     return datetime.now(tz=UTC)
 
 
 def utc_text(at: datetime, *, timespec: Literal["seconds", "milliseconds"] = "milliseconds") -> str:
-    """A moment of any time zone as UTC in ISO 8601, with a Z at its end."""
+    """Format a time as UTC in ISO 8601 with the suffix Z."""
     return at.astimezone(UTC).isoformat(timespec=timespec).replace("+00:00", "Z")

@@ -1,4 +1,4 @@
-"""From config.yaml, the environment and the command line to `Config`, with every mistake told at once."""
+"""Load `Config` from config.yaml, environment and command line, and report all errors at once."""
 
 import difflib
 import os
@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 import yaml
 from pydantic import ValidationError
 
-from server.allowed import allowed_keys, allowed_text, key_text
+from server.allowed_values import allowed_keys, allowed_text, key_text
 from server.camera_file import read_camera_file, reject_other_camera
 from server.capture.address import SourceKind, source_from_text
 from server.config import Config
@@ -25,7 +25,7 @@ Key: TypeAlias = tuple[str | int, ...]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Override:
-    """A setting that did not come from the file: its value, and what a person calls where it came from."""
+    """A setting from environment or command line, with its origin for messages."""
 
     value: object
     origin: str
@@ -33,7 +33,7 @@ class Override:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Mistake:
-    """One setting that cannot be used."""
+    """An invalid setting."""
 
     where: str
     key: str
@@ -47,13 +47,13 @@ def load_config(
     overrides: Mapping[tuple[str, ...], Override] | None = None,
     environment: Mapping[str, str] | None = None,
 ) -> Config:
-    """The settings from `path`, else ./config.yaml if there is one, else what is built in.
+    """Load the settings from `path`, else ./config.yaml if it exists, else the defaults.
 
-    Over the file stands the environment (COAXIAL_PORT), over both `overrides` (the command line). Relative
-    paths in the file are relative to the file; those in overrides to the working directory.
+    The environment (COAXIAL_PORT) overrides the file, and `overrides` (the command line) overrides both.
+    Paths in the file are relative to the file, paths in overrides to the working directory.
 
     Raises:
-        ConfigError: CONFIG_INVALID, with all mistakes, each with file, key, value and what is allowed;
+        ConfigError: CONFIG_INVALID with all errors, each with file, key, value and allowed values;
             CONFIG_FILE_UNREADABLE.
     """
     environment = os.environ if environment is None else environment
@@ -82,7 +82,7 @@ def load_config(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Where:
-    """Says where a key's value came from."""
+    """Origin of the value of a key."""
 
     file: Path | None
     origins: Mapping[Key, str]
@@ -95,7 +95,7 @@ class _Where:
 
 
 class _StrictLoader(yaml.SafeLoader):
-    """YAML without the silent loss of a key that is written twice."""
+    """SafeLoader that rejects duplicate keys."""
 
     def construct_mapping(self, node: Any, deep: bool = False) -> dict[Any, Any]:  # noqa: ANN401  PyYAML's node types
         keys: list[object] = []
@@ -103,7 +103,7 @@ class _StrictLoader(yaml.SafeLoader):
             key = self.construct_object(key_node, deep=True)
             if key in keys:
                 line = key_node.start_mark.line + 1
-                raise yaml.YAMLError(f"line {line}: the key '{key}' is there twice")
+                raise yaml.YAMLError(f"line {line}: duplicate key '{key}'")
             keys.append(key)
         mapping: dict[Any, Any] = super().construct_mapping(node, deep)
         return mapping
@@ -113,23 +113,23 @@ def _mapping_from_file(file: Path) -> dict[str, Any]:
     try:
         text = file.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is no UTF-8 text"
+        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
         raise ConfigError(
             "CONFIG_FILE_UNREADABLE",
             f"the settings file {file} cannot be read: {reason}",
-            "Give an existing YAML file with --config, or leave --config out.",
+            "Give an existing YAML file with --config, or omit --config.",
             {"file": str(file)},
         ) from error
     try:
         raw = yaml.load(text, Loader=_StrictLoader)  # noqa: S506  a SafeLoader
     except (ValueError, RecursionError, yaml.YAMLError) as error:
-        # Beside what is no YAML: a date that there is not, lists in lists without end.
+        # Also an invalid date, or nesting that is too deep.
         raise _yaml_error(file, error) from None
     if raw is None:
         return {}
     if not isinstance(raw, dict):
-        raise _yaml_error(file, yaml.YAMLError(f"it is a {type(raw).__name__}, needed keys with values"))
-    # A section whose lines are all commented out is an empty one.
+        raise _yaml_error(file, yaml.YAMLError(f"it is a {type(raw).__name__}, expected keys with values"))
+    # A section with only comments is empty.
     return {key: value for key, value in raw.items() if value is not None}
 
 
@@ -140,7 +140,7 @@ def _yaml_error(file: Path, error: Exception) -> ConfigError:
     return ConfigError(
         "CONFIG_INVALID",
         f"{file} is not valid YAML: {place}{reason}",
-        "Mend the line; keys are written as 'key: value', indented by two spaces under their section.",
+        "Correct the line; write keys as 'key: value', indented by two spaces under their section.",
         {"file": str(file)},
     )
 
@@ -154,7 +154,7 @@ def _from_environment(environment: Mapping[str, str]) -> dict[tuple[str, ...], O
 
 
 def _set(raw: dict[str, Any], key: tuple[str, ...], value: object) -> None:
-    """Put a value into nested mappings; what is no mapping on the way is left for the validation to tell."""
+    """Set a value in nested mappings; an intermediate value that is no mapping is left to the validation."""
     inner: Any = raw
     for part in key[:-1]:
         if inner.get(part) is None:
@@ -169,7 +169,7 @@ def _mistakes_from_validation(error: ValidationError, where: _Where) -> list[Mis
     mistakes: dict[str, Mistake] = {}
     for detail in error.errors(include_url=False):
         location = detail["loc"]
-        # A union reports each of its members; one sentence with all that is allowed is enough.
+        # A union reports an error for each member; one message with all allowed values suffices.
         key = tuple(part for part in location if not str(part).startswith(("constrained-", "[key]")))
         text = key_text(key)
         if text not in mistakes:
@@ -184,18 +184,18 @@ def _mistake(kind: str, key: Key, location: Key, given: object, where: _Where) -
         near = difflib.get_close_matches(str(key[-1]), keys, n=1, cutoff=0.5)
         meant = f", did you mean '{key_text((*key[:-1], near[0]))}'?" if near else ""
         allowed = ", ".join(keys) if keys else "letters, digits, - and _, at most 40, a letter or digit first"
-        sentence = f"'{text}' is no key here{f'{meant} Allowed' if meant else ', allowed'}: {allowed}"
+        sentence = f"'{text}' is not a known key{f'{meant} Allowed' if meant else ', allowed'}: {allowed}"
         if location[-1] == "[key]":
-            sentence = f"'{text}' has a name that cannot be used, allowed: {allowed}"
+            sentence = f"'{text}' has an invalid name, allowed: {allowed}"
     elif kind == "missing":
-        sentence = f"'{text}' is missing, needed: {allowed_text(key)}"
+        sentence = f"'{text}' is missing, expected: {allowed_text(key)}"
     else:
         sentence = f"'{text}' is {given!r}, allowed: {allowed_text(key)}"
     return Mistake(where=where.of(key), key=text, sentence=sentence, context={"given": repr(given)})
 
 
 def _with_absolute_paths(config: Config, *, folder: Path, origins: Mapping[Key, str]) -> Config:
-    """The same settings, with paths from the file taken from the file's folder."""
+    """Return the settings with absolute paths; those of the file are relative to its folder."""
 
     def resolved(path: Path, key: Key) -> Path:
         base = Path.cwd() if any(key[:n] in origins for n in range(1, len(key) + 1)) else folder
@@ -284,7 +284,7 @@ def _mistakes_between_keys(config: Config, where: _Where) -> list[Mistake]:
 
 
 def _mistakes_in_files(config: Config, where: _Where) -> list[Mistake]:
-    """Files that are named in the settings and cannot be used."""
+    """Return the errors of files that the settings refer to."""
     mistakes = []
     if config.camera.calibration is not None:
         try:
@@ -316,11 +316,11 @@ def _mistake_in_file(key: Key, error: NavigationError, where: _Where) -> Mistake
 
 def _config_error(mistakes: list[Mistake], file: Path | None) -> ConfigError:
     lines = [f"{mistake.where}: {mistake.sentence}" for mistake in mistakes]
-    message = lines[0] if len(lines) == 1 else "\n  ".join([f"{len(lines)} settings cannot be used:", *lines])
+    message = lines[0] if len(lines) == 1 else "\n  ".join([f"{len(lines)} settings are invalid:", *lines])
     return ConfigError(
         "CONFIG_INVALID",
         message.rstrip("."),
-        "Mend it and start again; config.yaml in the project shows every key with its default.",
+        "Correct it and start again; config.yaml in the project lists every key with its default.",
         {
             "file": str(file) if file else "",
             "mistakes": [{"where": m.where, "key": m.key, "message": m.sentence} for m in mistakes],

@@ -1,8 +1,8 @@
-"""The newest instant: the one place where tracking hands over to everybody who watches.
+"""`LiveHub`: publishes the newest result of tracking to all viewers.
 
-A thread publishes, any number of asyncio tasks and threads wait. Newest wins: who is slow skips, and is told
-how many instants it skipped by the sequence number. Nothing is queued, so nobody can delay anybody or fill
-memory.
+One thread publishes, any number of asyncio tasks and threads wait. Only the newest instant is stored: a slow
+reader skips instants, visible as gaps in the sequence number. Nothing is queued, so that a slow reader
+neither delays others nor fills the memory.
 """
 
 import asyncio
@@ -17,14 +17,14 @@ import numpy.typing as npt
 from tracker.camera import CameraControl, LampFlicker
 from tracker.errors import NavigationError
 from tracker.navigation import NavigationSnapshot
-from tracker.navigation.alarms import QUIET, AlarmPicture
+from tracker.navigation.alarms import QUIET, AlarmSnapshot
 
 # V4L2_EXPOSURE_MANUAL, and the unit of V4L2_CID_EXPOSURE_ABSOLUTE.
 EXPOSURE_FIXED, EXPOSURE_UNIT_MS = 1, 0.1
 
 
 class SourceState(StrEnum):
-    """What the source of images is doing."""
+    """State of the image source."""
 
     OPENING = "opening"
     RUNNING = "running"
@@ -34,7 +34,7 @@ class SourceState(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Problem:
-    """Something that is wrong now, in the one shape that errors have everywhere."""
+    """A present fault, with the fields of an error."""
 
     code: str
     message: str
@@ -43,19 +43,19 @@ class Problem:
 
     @classmethod
     def from_error(cls, error: NavigationError) -> "Problem":
-        """An error, from the moment on when it is a state rather than an event."""
+        """Return the fault that this error describes."""
         return cls(code=error.code, message=error.message, remedy=error.remedy, context=dict(error.context))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraMode:
-    """How a camera gives its images.
+    """A video mode of a camera.
 
     Attributes:
-        fourcc: pixel format, as V4L2 and OpenCV name it ("MJPG", "YUYV"), or GenICam ("BayerRG8"); empty
-            where it is not known.
-        size_wh_px: width and height.
-        rate_hz: images a second; 0 where it is not known.
+        fourcc: Pixel format as named by V4L2 and OpenCV ("MJPG", "YUYV") or GenICam ("BayerRG8"); empty if
+            unknown.
+        size_wh_px: Width and height.
+        rate_hz: Images per second; 0 if unknown.
     """
 
     fourcc: str
@@ -63,14 +63,14 @@ class CameraMode:
     rate_hz: float
 
     def __str__(self) -> str:
-        """For a person: "1920x1080 MJPG at 30 Hz"."""
+        """Return a text such as "1920x1080 MJPG at 30 Hz"."""
         width, height = self.size_wh_px
         rate = f" at {self.rate_hz:.4g} Hz" if self.rate_hz > 0.0 else ""
         return f"{width}x{height}{' ' if self.fourcc else ''}{self.fourcc}{rate}"
 
 
 class ImageClock(StrEnum):
-    """Whose clock says when an image was taken."""
+    """Source of the capture time of an image."""
 
     DRIVER = "driver"  # the camera's driver stamped it
     DEVICE = "device"  # the camera itself stamped it, by its own clock
@@ -81,19 +81,19 @@ class ImageClock(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraStatus:
-    """What is known of a camera beside its images.
+    """State of a camera.
 
     Attributes:
-        clock: whose clock stamped the last image.
-        asked: the mode it was asked for; None where it is not known what it offers.
-        granted: the mode that it granted; None where it is not known.
-        controls: their values when they were last read, in the driver's own units; empty where none is known.
-        trigger: the input that starts each image; empty where the camera runs freely.
-        flicker: lamps that beat with the images, as last seen; None where they do not, or it is not known.
+        clock: Source of the capture times.
+        requested: Requested mode; None if the supported modes are unknown.
+        granted: Mode that the camera delivers; None if unknown.
+        controls: Last values in the units of the driver; empty if unknown.
+        trigger: Trigger input; empty in free run.
+        flicker: Detected lamp flicker; None if there is none or it is unknown.
     """
 
     clock: ImageClock
-    asked: CameraMode | None = None
+    requested: CameraMode | None = None
     granted: CameraMode | None = None
     controls: Mapping[CameraControl, int] = field(default_factory=dict)
     trigger: str = ""
@@ -101,7 +101,7 @@ class CameraStatus:
 
     @property
     def exposure_ms(self) -> float | None:
-        """How long each image is exposed; None where it is not known, as while the camera sets it itself."""
+        """Exposure time; None if unknown or automatic."""
         exposure = self.controls.get(CameraControl.EXPOSURE)
         is_fixed = self.controls.get(CameraControl.AUTO_EXPOSURE) == EXPOSURE_FIXED
         return exposure * EXPOSURE_UNIT_MS if exposure and is_fixed else None
@@ -109,16 +109,16 @@ class CameraStatus:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SourceStatus:
-    """The source of images.
+    """State of the image source.
 
     Attributes:
-        name: what a person calls it: a path, an address, "rehearsal". Passwords in addresses are masked.
-        state: what it is doing.
-        trouble: why it is not running, if it is not.
-        images: how many images it has given since the server started.
-        skipped_images: how many of them were never looked at, because a newer one was there.
-        rate_hz: images a second, over the last second or so.
-        camera: what is known of the camera; None where images come from files or are rendered.
+        name: Path, address or "rehearsal". Passwords in addresses are masked.
+        state: Its state.
+        problem: Why it is not running; None if it is.
+        images: Images since the start of the server.
+        skipped_images: Images that were not processed because a newer one was available.
+        rate_hz: Images per second, over about the last second.
+        camera: State of the camera; None for files and rendered images.
     """
 
     name: str
@@ -131,23 +131,23 @@ class SourceStatus:
 
 
 class ProcessState(StrEnum):
-    """What the tracking process is doing."""
+    """State of the tracking process."""
 
     STARTING = "starting"
     RUNNING = "running"
     RESTARTING = "restarting"  # it died or fell silent, and is being started again
-    GIVEN_UP = "given_up"  # it died too often; see the trouble
+    GIVEN_UP = "given_up"  # it died too often; see the problem
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ProcessStatus:
-    """The process that captures and tracks.
+    """State of the process that captures and tracks.
 
     Attributes:
-        state: what it is doing.
-        restarts: how often it was started again since the server started.
-        trouble: why it is not running; or, while it runs, why it cannot track.
-        dropped_images: tracked images that the server was too slow to show, since it started.
+        state: Its state.
+        restarts: Restarts since the start of the server.
+        problem: Why it is not running; or, while it runs, why it cannot track.
+        dropped_images: Tracked images that the server was too slow to show.
     """
 
     state: ProcessState
@@ -158,22 +158,21 @@ class ProcessStatus:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Instant:
-    """What is true now, for everybody.
+    """The published state of one moment.
 
     Attributes:
-        sequence: grows by one with each instant, for ever, over restarts of the tracking process too.
-        source: the source of images.
-        process: the tracking process.
-        snapshot: what the newest image says; None before the first image, and from the moment on when
-            capture or tracking is known to be dead (an old snapshot is not kept as if it were live).
-        jpeg: the same image with the overlay burned in; empty when there is no snapshot, and when nobody has
-            watched in full size lately.
-        drawn: the picture in that JPEG, (h, w, 3) uint8 BGR, for other sizes; None when there is no snapshot,
-            and when nobody has watched in any size lately. Never written into.
-        image: the same image as the camera gave it, (h, w, 3) uint8 BGR, for set-up; None when there is no
-            snapshot. Never written into.
-        server_ms: time of the server's own stages ("overlay", "encode") for this image.
-        alarms: what the alarms say, this image looked at.
+        sequence: Increases by one with each instant, also over restarts of the tracking process.
+        source: State of the image source.
+        process: State of the tracking process.
+        snapshot: Result of the newest image; None before the first image and while capture or tracking is
+            stopped, so that an old result is not shown as live.
+        jpeg: The image with the overlay; empty without a snapshot or without recent full-size viewers.
+        drawn: The decoded picture of that JPEG, (h, w, 3) uint8 BGR, for other sizes; None without a
+            snapshot or without recent viewers. Read-only.
+        image: The camera image without overlay, (h, w, 3) uint8 BGR, for set-up; None without a snapshot.
+            Read-only.
+        server_ms: Duration of the server stages ("overlay", "encode") for this image.
+        alarms: Alarms, including this image.
     """
 
     sequence: int
@@ -184,26 +183,26 @@ class Instant:
     drawn: npt.NDArray[np.uint8] | None = None
     image: npt.NDArray[np.uint8] | None = None
     server_ms: dict[str, float] = field(default_factory=dict)
-    alarms: AlarmPicture = QUIET
+    alarms: AlarmSnapshot = QUIET
 
     @property
     def is_stopped(self) -> bool:
-        """Whether no image is to be expected: the source or the tracking does not run.
+        """Whether no image is expected because the source or the tracking is not running.
 
-        Between two images of a slow camera an instant without a snapshot goes out as a sign of life.
+        Between two images of a slow camera, instants without a snapshot serve as a heartbeat.
         """
         running = self.source.state is SourceState.RUNNING and self.process.state is ProcessState.RUNNING
         return self.snapshot is None and (not running or self.process.problem is not None)
 
     @property
     def has_picture(self) -> bool:
-        """Whether there is a picture to be shown, drawn and encoded yet or not."""
+        """Whether a picture is available, drawn and encoded or not."""
         drawable = self.image is not None and self.snapshot is not None
         return bool(self.jpeg) or self.drawn is not None or drawable
 
 
 class LiveHub:
-    """Holds the newest instant and wakes those who wait for the next one."""
+    """Store the newest instant and wake the readers that wait for it. Thread-safe."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -212,24 +211,24 @@ class LiveHub:
         self._waiting: set[tuple[asyncio.AbstractEventLoop, asyncio.Event]] = set()
 
     def publish(self, instant: Instant) -> None:
-        """Make this the newest instant. From any thread; never blocks on a reader."""
+        """Publish an instant. Never blocks on a reader."""
         with self._lock:
             self._newest = instant
             waiting, self._waiting = self._waiting, set()
             self._published.notify_all()
         for loop, event in waiting:
-            # A loop that was closed meanwhile has nobody left to wake.
+            # A closed event loop has no readers.
             if not loop.is_closed():
                 loop.call_soon_threadsafe(event.set)
 
     @property
     def newest(self) -> Instant | None:
-        """The newest instant, None before the first."""
+        """The newest instant; None before the first."""
         with self._lock:
             return self._newest
 
     def wait_after(self, sequence: int, timeout_s: float) -> Instant | None:
-        """As `next_after`, for a thread; None when nothing came within this time."""
+        """As `next_after`, for threads; None after the timeout."""
         with self._lock:
             self._published.wait_for(
                 lambda: self._newest is not None and self._newest.sequence > sequence, timeout_s
@@ -238,7 +237,7 @@ class LiveHub:
         return newest if newest is not None and newest.sequence > sequence else None
 
     async def next_after(self, sequence: int) -> Instant:
-        """The newest instant whose sequence is above `sequence` (use -1 to get whatever there is)."""
+        """Wait for an instant with a sequence above `sequence` (-1: any) and return the newest one."""
         while True:
             event = asyncio.Event()
             entry = (asyncio.get_running_loop(), event)

@@ -1,4 +1,4 @@
-"""Reads the picture of a marker from a file, and refuses what cannot be one."""
+"""Read and validate the image of a marker."""
 
 from pathlib import Path
 
@@ -11,11 +11,13 @@ from tracker.errors import InvalidInput
 SMALLEST_SIDE_PX = 8
 SQUARE_TOLERANCE_RATIO = 0.02
 MIN_CONTRAST_GREY = 32
-REMEDY = "Give a PNG, JPEG or BMP picture which the marker's black square fills edge to edge, row 0 on top."
+REMEDY = (
+    "Give a PNG, JPEG or BMP image that the black square of the marker fills edge to edge, row 0 at the top."
+)
 
 
 def load_marker_image(path: Path) -> npt.NDArray[np.uint8]:
-    """The picture of a marker as grey (h, w).
+    """Read a marker image as greyscale (h, w).
 
     Raises:
         InvalidInput: MARKER_IMAGE_UNREADABLE, MARKER_IMAGE_TOO_SMALL, MARKER_IMAGE_NOT_SQUARE or
@@ -34,10 +36,10 @@ def load_marker_image(path: Path) -> npt.NDArray[np.uint8]:
 
 
 def marker_image(content: bytes, *, named: str) -> npt.NDArray[np.uint8]:
-    """The picture of a marker as grey (h, w), out of a file's bytes.
+    """Decode a marker image as greyscale (h, w).
 
     Raises:
-        InvalidInput: as `load_marker_image`; `named` is how the file is called there.
+        InvalidInput: as `load_marker_image`; `named` is the file name in messages.
     """
     image = _grey(content, named)
     height, width = image.shape
@@ -45,8 +47,8 @@ def marker_image(content: bytes, *, named: str) -> npt.NDArray[np.uint8]:
     if min(width, height) < SMALLEST_SIDE_PX:
         raise InvalidInput(
             "MARKER_IMAGE_TOO_SMALL",
-            f"the marker picture {named} is {width}x{height} px, needed at least "
-            f"{SMALLEST_SIDE_PX} px a side",
+            f"the marker picture {named} is {width}x{height} px, the minimum is "
+            f"{SMALLEST_SIDE_PX} px per side",
             REMEDY,
             context,
         )
@@ -54,7 +56,7 @@ def marker_image(content: bytes, *, named: str) -> npt.NDArray[np.uint8]:
         raise InvalidInput(
             "MARKER_IMAGE_NOT_SQUARE",
             f"the marker picture {named} is {width}x{height} px, its sides may differ by "
-            f"{SQUARE_TOLERANCE_RATIO:.0%} at most",
+            f"at most {SQUARE_TOLERANCE_RATIO:.0%}",
             REMEDY,
             context,
         )
@@ -62,7 +64,7 @@ def marker_image(content: bytes, *, named: str) -> npt.NDArray[np.uint8]:
     if contrast < MIN_CONTRAST_GREY:
         raise InvalidInput(
             "MARKER_IMAGE_FLAT",
-            f"the marker picture {named} spans {contrast} grey levels of 255, needed at least "
+            f"the marker picture {named} spans {contrast} of 255 grey levels, the minimum is "
             f"{MIN_CONTRAST_GREY}",
             REMEDY,
             {**context, "contrast_grey": contrast},

@@ -1,4 +1,4 @@
-"""What is said of a marker that may be used, and had better not be."""
+"""Warnings about markers that are usable but nearly symmetric."""
 
 from collections.abc import Iterable
 
@@ -8,27 +8,30 @@ from tracker.marker import MarkerModel
 
 log = structlog.get_logger(__name__)
 
-# Two markers that are this much alike are nearly refused; of a designed one it is 0.8.
-MAX_LIKE_ITSELF = 0.9
-DESIGNED = "print one that 'coaxial marker design' proposes"
+# Correlation of a marker with its own rotation or mirror image; designed markers reach about 0.8.
+MAX_SELF_CORRELATION = 0.9
+DESIGNED = "print a marker made with 'coaxial marker design'"
 
 
-def warn_of_markers(models: Iterable[MarkerModel]) -> None:
-    """Say in the log which of these markers could be taken for itself, turned or mirrored."""
+def warn_of_ambiguous_markers(models: Iterable[MarkerModel]) -> None:
+    """Log a warning for markers that resemble their own rotation or mirror image."""
     for model in models:
         turned, mirrored = model.own_correlation
-        if turned > MAX_LIKE_ITSELF:
-            how, where = "when it is turned", "where it is small or blurred, its pose may be told turned"
-            remedy = f"Measure it with 'coaxial marker check', or {DESIGNED}."
+        if turned > MAX_SELF_CORRELATION:
+            how, where = (
+                "after rotation",
+                "if it is small or blurred, its pose may be rotated by a quarter or half turn",
+            )
+            remedy = f"Check it with 'coaxial marker check', or {DESIGNED}."
             log.warning(_like(model, how, turned, where), code="MARKER_NEARLY_SYMMETRIC", remedy=remedy)
-        if mirrored > MAX_LIKE_ITSELF:
-            how, where = "in a mirror", "in a mirrored picture, or on shining steel, that is taken for it"
-            remedy = f"Do not mirror the camera's picture, or {DESIGNED}."
+        if mirrored > MAX_SELF_CORRELATION:
+            how, where = "mirrored", "a mirrored video or a reflection in steel may be detected as the marker"
+            remedy = f"Do not mirror the video, or {DESIGNED}."
             log.warning(_like(model, how, mirrored, where), code="MARKER_NEARLY_MIRRORED", remedy=remedy)
 
 
 def _like(model: MarkerModel, how: str, correlation: float, where: str) -> str:
     return (
-        f"marker '{model.name}' looks much the same {how} (correlation {correlation:.2f}, "
-        f"better under {MAX_LIKE_ITSELF:g}): {where}"
+        f"marker '{model.name}' looks similar {how} (correlation {correlation:.2f}, "
+        f"recommended below {MAX_SELF_CORRELATION:g}): {where}"
     )

@@ -1,4 +1,4 @@
-"""What stands before the first image: camera, markers, tools, plan and registration, from the settings."""
+"""Setup of the tracker from the settings: camera, markers, tools, plan and registration."""
 
 import time
 from collections.abc import Mapping
@@ -14,66 +14,66 @@ from server.capture.address import SourceKind, source_from_text
 from server.capture.local_camera import CalibratedCamera
 from server.config import Config
 from server.marker_file import load_marker_image
-from server.theatre import theatre_of
+from server.theatre import theatre_from_config
 from server.tool_file import tool_from_config
 from tracker.camera import CameraControl, CameraModel
 from tracker.errors import CalibrationError
 from tracker.marker import MarkerModel, ScoreSettings
-from tracker.navigation import Absent, AbsentReason, DrillLimits, Guide, Setup
-from tracker.navigation.clearance import choose_wall
+from tracker.navigation import Absent, AbsentReason, DrillLimits, DrillReference, Setup
+from tracker.navigation.clearance import select_wall
 from tracker.pipeline import Tracker
 from tracker.plan import Channel
-from tracker.pose import SteadySettings, ToolModel
+from tracker.pose import SmoothingSettings, ToolModel
 from tracker.registration import AnchoredTo, Method, Registration
 
 if TYPE_CHECKING:
     from tracker.plan import Surface
     from tracker.rehearsal import Theatre
 
-# An ordinary lens: about 45 degrees across. It only helps to find the marker, no millimetre comes from it.
+# An ordinary lens with a field of view of about 45 degrees. Used to detect markers, never for distances.
 NOMINAL_FOCAL_BY_WIDTH = 1.2
 
 
-class Unconfirmed(StrEnum):
-    """Why nobody stands for a registration any more."""
+class ConfirmationReason(StrEnum):
+    """Why a registration has to be confirmed."""
 
-    SERVER_STARTED = "server_started"  # it was made, checked and confirmed before this run of the server
-    TRACKING_STARTED = "tracking_started"  # fixed to a camera that nobody watched for a while
+    SERVER_STARTED = "server_started"  # made, checked or confirmed before this run of the server
+    TRACKING_STARTED = "tracking_started"  # relative to a camera that was not monitored meanwhile
 
 
-def unconfirmed(
-    registration: Registration, believed_from_s: float | None, *, tracked_from_s: float
-) -> Unconfirmed | None:
-    """Why a person has to confirm a registration before it is navigated by; None where nobody has to.
+def confirmation_reason(
+    registration: Registration, confirmed_from_s: float | None, *, tracked_from_s: float
+) -> ConfirmationReason | None:
+    """Return why a registration has to be confirmed before navigation; None if it need not.
 
     Args:
-        registration: of plan and patient.
-        believed_from_s: when a person last touched, checked or confirmed it, by the images' clock; None
-            where that was before this run of the server.
-        tracked_from_s: since when the tracking process runs: what it watches for, it has watched since then.
+        registration: Registration of plan and patient.
+        confirmed_from_s: Time of its last capture, check or confirmation on the clock of the images; None if
+            before this run of the server.
+        tracked_from_s: Start of the tracking process, which monitors motion since then.
     """
-    if believed_from_s is None:
-        return Unconfirmed.SERVER_STARTED
+    if confirmed_from_s is None:
+        return ConfirmationReason.SERVER_STARTED
     is_loose = registration.anchored_to is AnchoredTo.CAMERA
-    return Unconfirmed.TRACKING_STARTED if is_loose and believed_from_s < tracked_from_s else None
+    return ConfirmationReason.TRACKING_STARTED if is_loose and confirmed_from_s < tracked_from_s else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CaseSetup:
-    """What the open case knows of camera, tools and plan; the rest stays as the settings have it.
+    """Setup from the open case; it overrides the settings.
 
     Attributes:
-        camera: calibrated in this case.
-        camera_controls, readout_ms: see `CameraFile`; of that calibration.
-        latency_ms: from light to page, 99 % are within; None where it was not measured.
-        models: markers whose picture was sent into this case.
-        tools: calibrated in this case, by name.
-        channel: the one that is to be drilled.
-        registration: of that channel's vertebra.
-        registered_from_s: when it was first touched or last checked; None where that was before this run.
-        guide: what is known of that pedicle besides its channel.
-        withheld: why no number may be given yet, although all is known.
-        believed_from_s: see `unconfirmed`.
+        camera: Camera calibration of the case.
+        camera_controls, readout_ms: See `CameraFile`; of this calibration.
+        latency_ms: 99th percentile of the latency from exposure to display; None if not measured.
+        models: Markers of the case.
+        tools: Tools calibrated in the case, by name.
+        channel: The active channel.
+        registration: Registration of its vertebra.
+        registered_from_s: Time of its first capture or last check; None if before this run.
+        guide: Wall and screw of this pedicle, besides its channel.
+        withheld: Why numbers are withheld although everything is known.
+        confirmed_from_s: see `confirmation_reason`.
     """
 
     camera: CameraModel | None = None
@@ -85,38 +85,38 @@ class CaseSetup:
     channel: Channel | None = None
     registration: Registration | None = None
     registered_from_s: float | None = None
-    guide: Guide | None = None
+    drill_reference: DrillReference | None = None
     withheld: AbsentReason | None = None
-    believed_from_s: float | None = None
+    confirmed_from_s: float | None = None
 
     def tracked_from(self, tracked_from_s: float) -> "CaseSetup":
-        """The same for a tracking process that runs since then: it may not know what happened before."""
+        """Return the setup for a tracking process that monitors motion since this time only."""
         if self.registration is None or self.withheld is not None:
             return self
-        why = unconfirmed(self.registration, self.believed_from_s, tracked_from_s=tracked_from_s)
+        why = confirmation_reason(self.registration, self.confirmed_from_s, tracked_from_s=tracked_from_s)
         return self if why is None else replace(self, withheld=AbsentReason.NOT_CONFIRMED)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Preparation:
-    """All that is known before the first image.
+    """Setup before the first image.
 
     Attributes:
-        camera: the calibrated camera; None when there is no camera file.
-        models: the markers to look for.
-        tools: by name.
-        channel: the planned channel, or why there is none.
-        registration: of plan and patient, or why there is none.
-        reference: name of the marker that is fixed to the patient; empty when there is none.
-        score_settings: when a marker counts as found.
+        camera: The calibrated camera; None without a camera file.
+        models: Markers to detect.
+        tools: Tools by name.
+        channel: The planned channel, or why there is none.
+        registration: Registration of plan and patient, or why there is none.
+        reference: Name of the patient marker; empty if there is none.
+        score_settings: Acceptance thresholds of the marker detector.
         max_tip_sd_mm, limits: see `tracker.navigation.Setup`.
-        smoothing: how much poses are steadied.
-        readout_s: from when the first row of an image is read to the last one; 0 of a global shutter.
-        theatre: the rehearsal's, None for every other source.
+        smoothing: Smoothing of poses.
+        readout_s: Readout time from the first to the last row; 0 for a global shutter.
+        theatre: Theatre of the rehearsal; None for other sources.
         withheld, registered_from_s, latency_ms: see `CaseSetup`.
-        guide: what is known of the pedicle besides its channel; None takes the channel alone.
+        guide: Wall and screw of the pedicle besides its channel; None uses the channel only.
         camera_controls: see `CaseSetup`; of the camera file, where the camera is that of the settings.
-        same_sensor_area: images of all sizes show the same area of the sensor, as the settings say.
+        same_sensor_area: Images of all sizes show the same area of the sensor (setting).
     """
 
     camera: CameraModel | None
@@ -127,46 +127,46 @@ class Preparation:
     reference: str
     score_settings: ScoreSettings
     max_tip_sd_mm: float
-    smoothing: SteadySettings = field(default_factory=SteadySettings)
+    smoothing: SmoothingSettings = field(default_factory=SmoothingSettings)
     readout_s: float = 0.0
     theatre: "Theatre | None" = None
     withheld: AbsentReason | None = None
     registered_from_s: float | None = None
     latency_ms: float | None = None
-    guide: Guide | None = None
+    drill_reference: DrillReference | None = None
     limits: DrillLimits = field(default_factory=DrillLimits)
     camera_controls: Mapping[CameraControl, int] = field(default_factory=dict)
     same_sensor_area: bool = False
 
-    def guide_along(self, channel: Channel) -> Guide:
-        """What a drill in this channel is held against: the case's bone, the rehearsal's, or the channel."""
-        if self.guide is not None:
-            return self.guide
+    def drill_reference_for(self, channel: Channel) -> DrillReference:
+        """Return the drill reference of a channel: bone of the case, of the rehearsal, or the channel."""
+        if self.drill_reference is not None:
+            return self.drill_reference
         registration = self.registration
         is_known = isinstance(registration, Registration) and registration.method is Method.REHEARSAL
         if self.theatre is not None and is_known:
-            return _rehearsed_guide(self.theatre)
-        return Guide.of_channel(channel)
+            return _rehearsal_drill_reference(self.theatre)
+        return DrillReference.of_channel(channel)
 
     @property
     def surface(self) -> "Surface | None":
-        """The vertebra for the 3-D scene, if there is one."""
+        """The vertebra of the 3-D scene; None if there is none."""
         return None if self.theatre is None else self.theatre.surface
 
     @property
     def calibrated_camera(self) -> CalibratedCamera | None:
-        """What a camera is set to so that the calibration in use holds of it; None where there is none."""
+        """Camera settings for which the calibration is valid; None without a calibration."""
         if self.camera is None:
             return None
         return CalibratedCamera(size_wh_px=self.camera.size_wh_px, controls=self.camera_controls)
 
     @property
     def setup(self) -> Setup | None:
-        """The setup when the camera is calibrated; otherwise it waits for the size of the first image."""
+        """The setup with a calibrated camera; None without one, because the image size is not known yet."""
         return None if self.camera is None else self._setup(self.camera, calibrated=True)
 
     def setup_for(self, size_wh_px: tuple[int, int], *, image: str | None = None) -> Setup:
-        """The setup for images of this size, which `image` has, if that can be told.
+        """Return the setup for images of this size; `image` names the image in messages.
 
         Raises:
             CalibrationError: CAMERA_SIZE_MISMATCH, the camera was calibrated at another size.
@@ -177,14 +177,14 @@ class Preparation:
         return self._setup(camera, calibrated=True)
 
     def uncalibrated_setup_for(self, size_wh_px: tuple[int, int]) -> Setup:
-        """A setup that finds and labels markers, and claims no millimetre."""
+        """Return a setup that detects and labels markers without distances."""
         return self._setup(nominal_camera(size_wh_px), calibrated=False)
 
     def with_case(self, case: CaseSetup) -> "Preparation":
-        """The same with what a case knows in the place of what the settings say.
+        """Return this setup with the values of a case.
 
-        A channel of the case is not registered by what registered another. A marker of the settings stays
-        what it is; a tool whose marker is not looked for is left out.
+        A channel of the case only uses the registration of the case. Markers of the settings are not
+        replaced; tools without a known marker are omitted.
         """
         settled = {model.name for model in self.models}
         models = (*self.models, *(model for model in case.models if model.name not in settled))
@@ -207,15 +207,15 @@ class Preparation:
             registration=case.registration or Absent(reason=AbsentReason.NOT_REGISTERED),
             withheld=case.withheld,
             registered_from_s=case.registered_from_s,
-            guide=case.guide,
+            drill_reference=case.drill_reference,
         )
 
     def _readout_s(self, readout_ms: float | None) -> float:
-        # The rehearsal's camera has a global shutter, whatever is said of a real one.
+        # The camera of the rehearsal has a global shutter, independent of the settings.
         return self.readout_s if readout_ms is None or self.theatre is not None else readout_ms / 1000.0
 
     def tracker_for(self, setup: Setup) -> Tracker:
-        """A new tracker of these markers, which knows nothing of images before."""
+        """Create a tracker of these markers without history."""
         return Tracker(
             camera=setup.camera,
             models=self.models,
@@ -232,8 +232,8 @@ class Preparation:
             channel=self.channel,
             registration=self.registration,
             reference=self.reference,
-            screw=None if self.guide is None else self.guide.screw,
-            side=None if self.guide is None else self.guide.side,
+            screw=None if self.drill_reference is None else self.drill_reference.screw,
+            side=None if self.drill_reference is None else self.drill_reference.side,
             withheld=self.withheld,
             max_tip_sd_mm=self.max_tip_sd_mm,
             limits=self.limits,
@@ -241,7 +241,7 @@ class Preparation:
 
 
 def build_setup(config: Config) -> Preparation:
-    """Everything that stands before the first image.
+    """Build the setup from the settings.
 
     Raises:
         NavigationError: a marker, tool or camera file cannot be used.
@@ -251,7 +251,7 @@ def build_setup(config: Config) -> Preparation:
         for name, marker in config.markers.items()
     )
     scores = ScoreSettings(**config.tracker.model_dump())
-    smoothing = SteadySettings(**config.smoothing.model_dump())
+    smoothing = SmoothingSettings(**config.smoothing.model_dump())
     tools = {
         name: tool_from_config(name, tool, config.markers.get(tool.marker))
         for name, tool in config.tools.items()
@@ -276,44 +276,46 @@ def build_setup(config: Config) -> Preparation:
         readout_s=(config.camera.readout_ms or (camera.readout_ms if camera else None) or 0.0) / 1000.0,
     )
     if source_from_text(config.camera.source).kind is SourceKind.REHEARSAL:
-        theatre = theatre_of(config.rehearsal)
+        theatre = theatre_from_config(config.rehearsal)
         brought = (theatre.marker,) if theatre.reference is None else (theatre.marker, theatre.reference)
         named = config.reference.marker or ("" if theatre.reference is None else theatre.reference.name)
-        unknowing = replace(bare, models=(*brought, *models), theatre=theatre, reference=named, readout_s=0.0)
-        return _with_what_it_brings(unknowing, theatre) if config.rehearsal.brings_setup else unknowing
+        base = replace(bare, models=(*brought, *models), theatre=theatre, reference=named, readout_s=0.0)
+        return _with_theatre_setup(base, theatre) if config.rehearsal.provides_setup else base
     return bare
 
 
-def _with_what_it_brings(unknowing: Preparation, theatre: "Theatre") -> Preparation:
-    """All that the rehearsal's theatre knows of itself."""
+def _with_theatre_setup(base: Preparation, theatre: "Theatre") -> Preparation:
+    """Return the setup with the ground truth of the theatre."""
     return replace(
-        unknowing,
+        base,
         camera=theatre.camera,
-        tools={theatre.tool.name: theatre.tool, **unknowing.tools},
+        tools={theatre.tool.name: theatre.tool, **base.tools},
         channel=replace(theatre.channels[0], name=f"rehearsal's {theatre.channels[0].name}"),
         registration=Registration.known_to_reference(theatre.reference_from_vertebra)
-        if theatre.reference is not None and unknowing.reference == theatre.reference.name
+        if theatre.reference is not None and base.reference == theatre.reference.name
         else Registration.known_to_camera(theatre.camera_from_vertebra),
     )
 
 
 @lru_cache(maxsize=1)
-def _rehearsed_guide(theatre: "Theatre") -> Guide:
-    """The bone of a theatre in software: known exactly."""
+def _rehearsal_drill_reference(theatre: "Theatre") -> DrillReference:
+    """Return the exact drill reference of a simulated theatre."""
     radius_mm = theatre.tool.radius_mm
-    return Guide(wall=choose_wall(theatre.channels[0], theatre.surface, None, radius_mm=radius_mm).wall)
+    return DrillReference(
+        wall=select_wall(theatre.channels[0], theatre.surface, None, radius_mm=radius_mm).wall
+    )
 
 
 def camera_for_size(
     camera: CameraModel, size_wh_px: tuple[int, int], *, same_sensor_area: bool, image: str | None = None
 ) -> CameraModel:
-    """The calibrated camera for images of this size: as it is, or scaled where that is known to be exact.
+    """Return the camera model for images of this size: unchanged, or scaled if scaling is exact.
 
     Args:
-        camera: as it was calibrated.
-        size_wh_px: of the images.
-        same_sensor_area: images of all sizes show the same area of the sensor.
-        image: which one has that size, if that can be told.
+        camera: The calibrated camera.
+        size_wh_px: Size of the images.
+        same_sensor_area: Images of all sizes show the same area of the sensor.
+        image: Name of the image for messages; None if unknown.
 
     Raises CalibrationError: CAMERA_SIZE_MISMATCH.
     """
@@ -327,20 +329,20 @@ def camera_for_size(
         "CAMERA_SIZE_MISMATCH",
         f"{'images are' if image is None else f'{image} is'} {width}x{height} px, but the camera was "
         f"calibrated at {width_file}x{height_file} px",
-        ("" if image is None else "Leave the image out if another camera took it. ")
+        ("" if image is None else "Omit the image if it is from another camera. ")
         + f"Set the camera to {width_file}x{height_file} px, or calibrate it at {width}x{height} px. "
         + (
-            "If both sizes show the same scene to its very edges, say so with camera.same_sensor_area, and "
-            "the calibration is scaled."
+            "If both sizes show the same field of view, set camera.same_sensor_area, and the calibration is "
+            "scaled."
             if has_aspect
-            else "To another ratio of width to height it is never scaled: another area is seen."
+            else "It is never scaled to another aspect ratio, because the field of view differs."
         ),
         {"image_size_wh_px": [width, height], "calibrated_size_wh_px": [width_file, height_file]},
     )
 
 
 def nominal_camera(size_wh_px: tuple[int, int]) -> CameraModel:
-    """A plausible camera for images of this size, when nothing is known of the real one."""
+    """Return a nominal camera for images of this size, for uncalibrated cameras."""
     width, height = size_wh_px
     focal = NOMINAL_FOCAL_BY_WIDTH * width
     return CameraModel(

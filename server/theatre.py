@@ -1,4 +1,4 @@
-"""The rehearsal's theatre, from the settings."""
+"""Simulated theatre of the rehearsal from the settings."""
 
 import math
 from typing import TYPE_CHECKING
@@ -9,13 +9,13 @@ if TYPE_CHECKING:
     from tracker.rehearsal import Theatre
 
 
-def theatre_of(rehearsal: RehearsalConfig) -> "Theatre":
-    """The theatre that these settings ask for.
+def theatre_from_config(rehearsal: RehearsalConfig) -> "Theatre":
+    """Return the theatre of these settings.
 
     Raises:
         InvalidInput: REHEARSAL_SETTING_INVALID.
     """
-    # Here, because it takes time to load and only the rehearsal needs it.
+    # Imported here, because it loads slowly and only the rehearsal needs it.
     from tracker.rehearsal import (  # noqa: PLC0415
         BoardKind,
         Event,

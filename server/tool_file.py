@@ -1,7 +1,7 @@
-"""Tool files: where pivot and spin found the tip and the axis of a tool, and behind which marker.
+"""Tool files: tip and axis of a tool from pivot and spin calibration.
 
-It names its marker and that marker's side, and is not written when the gate fails: a tip in another
-marker's frame, or behind a larger print, is a wrong number that looks right.
+A tool file contains the name and the side of its marker, because the tip is only valid in the frame of this
+marker at this size. It is not written if the calibration exceeds its limits.
 """
 
 from datetime import UTC, datetime
@@ -17,7 +17,7 @@ from tracker.errors import CalibrationError, InvalidInput
 from tracker.pose import ToolModel
 from tracker.pose.tool import PivotCalibration, SpinCalibration
 
-# A side is measured with a rule or calipers; a tip that belongs to another side is off by as many per cent.
+# The side is measured with a ruler or calipers; its relative error equals the relative error of the tip.
 SIDE_TOLERANCE_RATIO = 1e-3
 REMEDY = "Write one with 'coaxial pivot POSES --marker NAME --side-mm MM --output FILE'."
 
@@ -26,7 +26,7 @@ Matrix = Annotated[list[Row], Field(min_length=3, max_length=3)]
 
 
 class PivotPart(Section):
-    """What a pivot calibration found."""
+    """Result of a pivot calibration."""
 
     tip_in_marker_mm: Point
     covariance_mm2: Matrix
@@ -38,7 +38,7 @@ class PivotPart(Section):
 
 
 class SpinPart(Section):
-    """What a spin calibration found; its axis points from the marker towards the tip."""
+    """Result of a spin calibration; the axis points from the marker to the tip."""
 
     axis_in_marker: Point
     axis_sd_deg: Annotated[float, Field(ge=0.0)]
@@ -50,14 +50,14 @@ class SpinPart(Section):
 
 
 class ToolMarker(Section):
-    """The marker that a tool carries."""
+    """The marker of a tool."""
 
     marker: Name
     side_mm: Annotated[float, Field(gt=0.0, le=1000.0)]
 
 
 class ToolFile(ToolMarker):
-    """A tool behind one marker of one size; for any other it says nothing."""
+    """Calibration of a tool, valid for one marker of one size."""
 
     kind: Literal["coaxial tool"] = "coaxial tool"
     pivot: PivotPart
@@ -65,7 +65,7 @@ class ToolFile(ToolMarker):
 
 
 def load_tool_file(path: Path) -> ToolFile:
-    """What a tool file says.
+    """Read a tool file.
 
     Raises:
         InvalidInput: TOOL_FILE_UNREADABLE or TOOL_FILE_INVALID; the message names the file.
@@ -82,24 +82,24 @@ def load_tool_file(path: Path) -> ToolFile:
 
 
 def text_of_tool_file(tool: ToolFile) -> str:
-    """A tool file as it is written."""
+    """Return the text of a tool file."""
     values = tool.model_dump(mode="python", exclude_none=True)
-    return "# Written by coaxial. Name it under tools: NAME: calibration: in config.yaml.\n" + yaml.safe_dump(
+    return "# Written by coaxial. Add it to config.yaml as tools: NAME: calibration:.\n" + yaml.safe_dump(
         values, sort_keys=False, default_flow_style=None, width=100
     )
 
 
 def tool_mistakes(name: str, tool: ToolConfig) -> list[tuple[str, str]]:
-    """Which key of a tool's settings cannot be used, and the sentence about it."""
+    """Return the invalid keys of a tool's settings, each with a message."""
     found = []
     key = f"tools.{name}"
     if tool.calibration is None:
         for part in ("tip_in_marker_mm", "axis_in_marker"):
             if getattr(tool, part) is None:
-                sentence = f"'{key}.{part}' is missing, needed: three numbers, or a tool file under "
+                sentence = f"'{key}.{part}' is missing, expected: three numbers, or a tool file under "
                 found.append((part, f"{sentence}'{key}.calibration'"))
     elif tool.tip_in_marker_mm is not None:
-        sentence = f"'{key}.tip_in_marker_mm' is there, but its calibration says it too, allowed: one of them"
+        sentence = f"'{key}.tip_in_marker_mm' is given in addition to its calibration, allowed: one of them"
         found.append(("tip_in_marker_mm", sentence))
     axis = tool.axis_in_marker
     if axis is not None and max(abs(x) for x in axis) < 1e-9:
@@ -109,7 +109,7 @@ def tool_mistakes(name: str, tool: ToolConfig) -> list[tuple[str, str]]:
 
 
 def tool_from_config(name: str, tool: ToolConfig, marker: MarkerConfig | None) -> ToolModel:
-    """The tool of these settings, from its drawing or its tool file.
+    """Return the tool of these settings, from its drawing or its tool file.
 
     Raises:
         InvalidInput: TOOL_FILE_UNREADABLE or TOOL_FILE_INVALID.
@@ -127,7 +127,7 @@ def tool_from_config(name: str, tool: ToolConfig, marker: MarkerConfig | None) -
     if tip is None or axis is None:
         raise CalibrationError(
             "TOOL_TIP_UNKNOWN",
-            f"nobody said where the tip of '{name}' is and which way it points",
+            f"tip and axis of '{name}' are not defined",
             f"Give tools.{name}.calibration, or tip_in_marker_mm and axis_in_marker.",
             {"tool": name},
         )
@@ -150,8 +150,8 @@ def _reject_another_marker(file: ToolFile, tool: ToolConfig, marker: MarkerConfi
     raise CalibrationError(
         "TOOL_FILE_OF_ANOTHER_MARKER",
         f"{tool.calibration} was made with marker '{file.marker}' of {file.side_mm:g} mm, "
-        f"but the tool carries '{tool.marker}' of {side_mm:g} mm",
-        "Calibrate the tool with the marker that it carries; a tip is never scaled.",
+        f"but the tool has '{tool.marker}' of {side_mm:g} mm",
+        "Calibrate the tool with its present marker; a tip is never scaled.",
         {"file": str(tool.calibration), "marker": file.marker, "side_mm": file.side_mm},
     )
 
@@ -164,28 +164,28 @@ def _one_axis(name: str, tool: ToolConfig, file: ToolFile) -> list[float]:
     raise CalibrationError(
         "TOOL_AXIS_UNKNOWN",
         f"the axis of '{name}' is "
-        + (f"in the settings and in {tool.calibration}" if known else "nowhere")
-        + ", needed in one place",
-        f"Spin the tool and add its axis with 'coaxial spin', or give it as tools.{name}.axis_in_marker.",
+        + (f"defined in the settings and in {tool.calibration}" if known else "not defined")
+        + ", expected in one place",
+        f"Add the axis with 'coaxial spin', or set tools.{name}.axis_in_marker.",
         {"tool": name},
     )
 
 
 def pivot_part(found: PivotCalibration) -> PivotPart:
-    """What a tool file keeps of a pivot calibration."""
+    """Return the part of a tool file for a pivot calibration."""
     return PivotPart(
         tip_in_marker_mm=_rounded(found.tip_in_marker_mm),
         covariance_mm2=[_rounded(row) for row in found.tip_covariance_mm2],
         rms_3d_mm=round(found.rms_3d_mm, 4),
         used=int(found.used.sum()),
         rejected=len(found.rejected),
-        tilt_range_deg=round(found.turning.tilt_range_deg, 2),
+        tilt_range_deg=round(found.motion_range.tilt_range_deg, 2),
         made_at=_now(),
     )
 
 
 def spin_part(found: SpinCalibration) -> SpinPart:
-    """What a tool file keeps of a spin calibration."""
+    """Return the part of a tool file for a spin calibration."""
     return SpinPart(
         axis_in_marker=_rounded(found.axis_in_marker),
         axis_sd_deg=round(found.axis_sd_deg, 4),

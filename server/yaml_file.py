@@ -1,4 +1,4 @@
-"""Small YAML files that the program wrote, or a person: read in one way, whatever they hold."""
+"""Read small YAML or JSON files with uniform error messages."""
 
 from pathlib import Path
 
@@ -8,13 +8,13 @@ from tracker.errors import InvalidInput
 
 
 def yaml_in(path: Path, *, what: str, code: str, remedy: str) -> object:
-    """What a YAML or JSON file holds; JSON is YAML too.
+    """Parse a YAML or JSON file (JSON is a subset of YAML).
 
     Args:
-        path: of the file.
-        what: it should be, in words: "camera file".
-        code: of the error.
-        remedy: what to do instead.
+        path: The file.
+        what: Kind of file for the message, such as "camera file".
+        code: Error code.
+        remedy: Remedy of the error.
 
     Raises:
         InvalidInput: `code`; the message names the file.
@@ -26,7 +26,7 @@ def yaml_in(path: Path, *, what: str, code: str, remedy: str) -> object:
         why = (error.strerror or str(error)).lower()
         raise InvalidInput(code, f"the {what} {path} cannot be read: {why}", remedy, context) from error
     except (ValueError, RecursionError, yaml.YAMLError) as error:
-        # No text in UTF-8, a date that there is not, lists in lists without end.
-        message = f"the {what} {path} is neither YAML nor JSON that can be read"
+        # Not UTF-8, an invalid date, or nested too deeply.
+        message = f"the {what} {path} is neither valid YAML nor JSON"
         raise InvalidInput(code, message, remedy, context) from error
     return values

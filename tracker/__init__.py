@@ -1,4 +1,4 @@
-"""Coaxial's tracker: arrays and numbers in, frozen records out. No files, clocks, threads or sockets."""
+"""The tracker of Coaxial: pure computation on arrays, without files, clocks, threads or sockets."""
 
 from tracker.camera import CameraModel
 from tracker.errors import CalibrationError, InvalidInput, NavigationError, PlanError, RegistrationError

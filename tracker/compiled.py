@@ -1,13 +1,12 @@
-"""Hot loops, compiled by Numba once and kept beside the source.
+"""Numba compilation of the numerical kernels.
 
-Kept on disk (`cache`), so that nothing compiles in theatre; without the interpreter's lock (`nogil`), so that
-capture goes on meanwhile; with IEEE division (`error_model="numpy"`), so that a division by zero is inf, not
-an exception from a place without a sentence. Sums may be taken in another order (`fastmath`), so that several
-are taken at once; what is not a number stays one.
+Compiled code is cached on disk (`cache`), so that nothing compiles in theatre. It releases the interpreter
+lock (`nogil`), so that capture continues. Division by zero gives inf (`error_model="numpy"`) instead of an
+exception. Sums may be reordered (`fastmath`), so that they can be vectorised; NaN is preserved.
 
-Loops are untyped (their types are those of their calls), live in the `kernels.py` of their package, and
-solve their own small linear systems: NumPy's raise an exception in compiled code where a singular matrix is
-an ordinary answer, and are slower for so few unknowns.
+Kernels are untyped (Numba infers types from the calls), live in `*_kernels.py` modules, and solve their own
+small linear systems: NumPy's solver raises an exception in compiled code where a singular matrix is an
+expected case, and is slower for so few unknowns.
 """
 
 from collections.abc import Callable
@@ -17,12 +16,12 @@ import numba
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
-LOOPS: list[Any] = []
+DISPATCHERS: list[Any] = []
 """Numba's dispatcher of each compiled function that has been imported."""
 
 
 def compiled(function: Function) -> Function:
-    """The same function as machine code. `tracker.warm_up` calls each one, so that none is compiled later."""
+    """Return the function as compiled machine code. `tracker.warm_up` calls each one ahead of use."""
     loop = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})(function)
-    LOOPS.append(loop)
+    DISPATCHERS.append(loop)
     return cast("Function", loop)

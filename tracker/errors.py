@@ -1,22 +1,22 @@
-"""What can go wrong, in sentences with numbers and a remedy.
+"""Exceptions with a stable code, a message with numbers, and a remedy.
 
     NavigationError
-    ├── InvalidInput        what was handed in cannot be used
-    ├── CalibrationError    a calibration cannot be trusted
-    ├── PlanError           a plan cannot be carried out
-    └── RegistrationError   plan and patient do not fit together
+    ├── InvalidInput        a file, an image or a number is invalid
+    ├── CalibrationError    a calibration is missing, rejected, or does not match the images
+    ├── PlanError           a plan is missing or cannot be carried out
+    └── RegistrationError   plan and patient are not registered, or do not match
 
-A marker that is not seen is no error: it is a value, `tracker.pose.Unseen`.
+A marker that is not detected is a value, `tracker.pose.Unseen`, not an exception.
 """
 
 from collections.abc import Mapping
 
 
 class NavigationError(Exception):
-    """One thing that went wrong, told so that a person can mend it.
+    """Base class of all errors that a user can act on.
 
     Attributes:
-        code: stable identifier in UPPER_SNAKE_CASE, for machines.
+        code: stable identifier in UPPER_SNAKE_CASE.
         message: what happened in numbers and what was allowed, without a final full stop.
         remedy: what to do next, one full sentence.
         context: the numbers of the message by name, each with its unit in the name.
@@ -32,16 +32,16 @@ class NavigationError(Exception):
         self.context: dict[str, object] = dict(context or {})
 
     def __reduce__(self) -> tuple[object, ...]:
-        """Errors cross from the tracking process to the server; all four parts go with them."""
+        """Support pickling with all four parts: errors cross from the tracking process to the server."""
         return type(self), (self.code, self.message, self.remedy, self.context)
 
 
 class InvalidInput(NavigationError):
-    """What was handed in (a file, an image, a number) cannot be used."""
+    """A file, an image or a number from the caller is invalid."""
 
 
 class CalibrationError(NavigationError):
-    """A camera or tool calibration is missing, failed its gate, or does not fit the images."""
+    """A camera or tool calibration is missing, rejected by its gate, or does not match the images."""
 
 
 class PlanError(NavigationError):
@@ -49,4 +49,4 @@ class PlanError(NavigationError):
 
 
 class RegistrationError(NavigationError):
-    """Plan and patient are not registered, or do not fit together."""
+    """Plan and patient are not registered, or do not match."""

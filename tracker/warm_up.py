@@ -1,8 +1,8 @@
-"""Compile all hot loops ahead, so that nothing compiles in theatre: `python -m tracker.warm_up`.
+"""Compile all kernels ahead, so that nothing compiles in theatre: `python -m tracker.warm_up`.
 
-Chains, matching and fits are loops that NumPy cannot express, and 30 Hz on two cores leaves no time for
-Python in them. Numba costs 190 MB of packages and a minute at the first start; an extension in C++ would
-need a build step on every machine.
+Chaining, matching and fitting are loops that NumPy cannot express, and 30 Hz on two cores leaves no time for
+Python in them. Numba costs 190 MB of packages and a minute at the first start; an extension in C++ would need
+a build step on every machine.
 """
 
 from enum import StrEnum
@@ -10,24 +10,24 @@ from enum import StrEnum
 import numpy as np
 import numpy.typing as npt
 
-from tracker.appearance import textures_of, whole_fits
 from tracker.camera import CameraModel
 from tracker.edges import GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid, Tool, Vertebra
-from tracker.marker import MarkerModel, explanation_of
-from tracker.navigation.certainty import Drill, Placed, Room, judge
-from tracker.navigation.clearance import field_of_bone
+from tracker.marker import MarkerModel, photometric_fit_of
+from tracker.navigation.clearance import bone_distance_field
+from tracker.navigation.uncertainty import Drill, PedicleTolerance, UncertainPose, analyse_drill
+from tracker.photometric import refine_poses, textures_of
 from tracker.pipeline import Tracker
-from tracker.pipeline.practice import PracticePicture, practice_picture
+from tracker.pipeline.warm_up_image import WarmUpImage, warm_up_image
 from tracker.plan import Channel, Surface
-from tracker.plan.pedicle.kernels import walls_around
+from tracker.plan.pedicle.wall_kernels import walls_around
 
 # From the marker's centre towards its right top corner, in sides.
-COVERED_FROM_RATIO = 0.3
+OCCLUDED_FROM_RATIO = 0.3
 
 
 class Part(StrEnum):
-    """What can be compiled by itself; together the parts compile everything."""
+    """Groups of kernels that can be compiled separately; together they cover all kernels."""
 
     SEARCH = "search"  # finds a marker and follows it
     FIT = "fit"  # what `SEARCH` does at last: the photometric fit of a pose
@@ -35,7 +35,7 @@ class Part(StrEnum):
 
 
 def warm_up(*parts: Part) -> None:
-    """Run every loop of these parts once; of all parts where none is named."""
+    """Run every kernel of the given parts once; of all parts where none is named."""
     camera = CameraModel(
         matrix=np.array([[400.0, 0.0, 159.5], [0.0, 400.0, 119.5], [0.0, 0.0, 1.0]]),
         distortion=np.zeros(5),
@@ -45,35 +45,35 @@ def warm_up(*parts: Part) -> None:
     marker[16:48, 16:32] = 255
     marker[32:48, 16:48] = 255
     model = MarkerModel.from_image(marker, side_mm=25.0, name="warm-up")
-    picture = practice_picture(model.square, size_wh_px=camera.size_wh_px)
-    shaded = _half_in_shadow(picture)
+    picture = warm_up_image(model.square, size_wh_px=camera.size_wh_px)
+    half_shadowed = _half_in_shadow(picture)
     for part in parts or Part:
         match part:
             case Part.SEARCH:
                 _search(model, picture, camera)
             case Part.FIT:
-                _fit(model, picture, shaded, camera)
+                _fit(model, picture, half_shadowed, camera)
             case Part.REST:
-                _explain(model, picture, shaded)
+                _verify(model, picture, half_shadowed)
                 _judge()
                 _outline()
 
 
-def _search(model: MarkerModel, picture: PracticePicture, camera: CameraModel) -> None:
-    """Track a marker in a practice picture, after the tracker itself has practised."""
+def _search(model: MarkerModel, picture: WarmUpImage, camera: CameraModel) -> None:
+    """Track a marker in a synthetic image, after the tracker's own warm-up."""
     tracker = Tracker(camera=camera, models=[model])
     for at_s in (0.0, 0.03, 0.06):
         tracker.step(picture.image, captured_at_s=at_s)
 
 
 def _outline() -> None:
-    """Outline a section through a block without bone."""
+    """Compute the outline of a section through a block without bone."""
     block = np.zeros((2, 2, 2), np.float32)
     walls_around(block, np.zeros((1, 3)), np.ones((1, 1, 3)), 2, 1.0, 1, np.empty((1, 1)))
 
 
 def _judge() -> None:
-    """Hold a drill against the wall of a block of bone: distances made, looked up, and weighed."""
+    """Evaluate a drill against the wall of a block of bone: distance field, lookup, breach probability."""
     corners = np.array([[x, y, z] for x in (-9.0, 9.0) for y in (-9.0, 9.0) for z in (-9.0, 9.0)])
     faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
     halves = np.array([half for a, b, c, d in faces for half in ((a, b, c), (a, c, d))])
@@ -83,41 +83,43 @@ def _judge() -> None:
         target_in_vertebra_mm=np.array([0.0, -5.0, 0.0]),
         radius_mm=3.0,
     )
-    wall = field_of_bone(Surface(vertices_mm=corners, faces=halves), channel, step_mm=1.0, margin_mm=8.0)
+    wall = bone_distance_field(
+        Surface(vertices_mm=corners, faces=halves), channel, step_mm=1.0, margin_mm=8.0
+    )
     pose: Rigid[Vertebra, Tool] = Rigid(
         rotation=np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]), translation_mm=np.zeros(3)
     )
-    judge(
-        Placed(pose=pose, covariance=np.diag([9.0] * 3 + [0.01] * 3)),
+    analyse_drill(
+        UncertainPose(pose=pose, covariance=np.diag([9.0] * 3 + [0.01] * 3)),
         channel,
         wall,
-        Room(room_mm=1.0, lever_mm=10.0),
+        PedicleTolerance(tolerance_mm=1.0, lever_mm=10.0),
         Drill(radius_mm=2.0, length_mm=50.0),
     )
     wall.distances_mm(np.zeros((1, 3)))
 
 
-def _half_in_shadow(picture: PracticePicture) -> GreyImage:
-    """The same picture, the marker half in the shadow of something with a soft edge."""
+def _half_in_shadow(picture: WarmUpImage) -> GreyImage:
+    """Return the image with half of the marker behind a soft shadow edge."""
     columns = np.arange(picture.image.shape[1]) - float(picture.corners_px[:, 0].mean())
     light = 1.0 - 0.6 / (1.0 + np.exp(-columns / (0.06 * picture.side_px)))
     return np.asarray(np.rint(picture.image * light), dtype=np.uint8)
 
 
-def _explain(model: MarkerModel, picture: PracticePicture, shaded: GreyImage) -> None:
-    """Ask what explains a square that no light explains: half in shadow, with a spot of full brightness."""
+def _verify(model: MarkerModel, picture: WarmUpImage, half_shadowed: GreyImage) -> None:
+    """Verify a square that no simple illumination explains: half in shadow, with a saturated spot."""
     side = picture.side_px
     left, top = np.ceil(picture.corners_px[0]).astype(int).tolist()
-    spotted = shaded.copy()
+    spotted = half_shadowed.copy()
     spotted[top + 2 : top + side // 4, left + side // 3 : left + 2 * side // 3] = 255
-    explanation_of(spotted, model.square, picture.corners_px, side_px=float(side))
+    photometric_fit_of(spotted, model.square, picture.corners_px, side_px=float(side))
 
 
-def _fit(model: MarkerModel, picture: PracticePicture, shaded: GreyImage, camera: CameraModel) -> None:
-    """Fit the whole shape in light that varies, one corner of it covered."""
+def _fit(model: MarkerModel, picture: WarmUpImage, half_shadowed: GreyImage, camera: CameraModel) -> None:
+    """Refine a pose photometrically under spline illumination, with one corner occluded."""
 
-    def is_covered(points_ratio: Array) -> npt.NDArray[np.bool_]:
-        return np.asarray(points_ratio.min(axis=1) > COVERED_FROM_RATIO)
+    def is_occluded(points_ratio: Array) -> npt.NDArray[np.bool_]:
+        return np.asarray(points_ratio.min(axis=1) > OCCLUDED_FROM_RATIO)
 
     away_mm = model.side_mm * camera.matrix[0, 0] / picture.side_px
     beside_px = picture.corners_px.mean(axis=0) - camera.matrix[:2, 2]
@@ -125,15 +127,15 @@ def _fit(model: MarkerModel, picture: PracticePicture, shaded: GreyImage, camera
         rotation=np.diag([1.0, -1.0, -1.0]),
         translation_mm=np.array([*(beside_px * model.side_mm / picture.side_px), away_mm]),
     )
-    whole_fits(
-        shaded,
+    refine_poses(
+        half_shadowed,
         camera.lens,
         textures_of(model.square),
         [pose],
         side_mm=model.side_mm,
         side_px=float(picture.side_px),
         noise_grey=1.0,
-        covered_at=is_covered,
+        occluded_at=is_occluded,
     )
 
 

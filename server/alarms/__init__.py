@@ -1,17 +1,17 @@
-"""Alarms: what they look at, what is kept of them, and how they sound.
+"""Alarms: inputs, log and sounds.
 
-Their rules are in `tracker.navigation.alarms`; here are the clock, the screens, the disk and the people.
+The rules are in `tracker.navigation.alarms`; this package adds clock, screens, disk and people.
 """
 
-from server.alarms.desk import AlarmDesk, ProcedureFacts, alarm_limits, no_alarms
 from server.alarms.log import AlarmLog, NoLog, StoredAlarmLog
+from server.alarms.service import AlarmService, ProcedureFacts, alarm_limits, without_alarms
 
 __all__ = [
-    "AlarmDesk",
     "AlarmLog",
+    "AlarmService",
     "NoLog",
     "ProcedureFacts",
     "StoredAlarmLog",
     "alarm_limits",
-    "no_alarms",
+    "without_alarms",
 ]

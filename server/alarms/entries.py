@@ -1,4 +1,4 @@
-"""One line of the alarm log."""
+"""Lines of the alarm log."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,11 +12,11 @@ Line = Mapping[str, object]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Entry:
-    """What is kept of one change.
+    """One change in the alarm log.
 
     Attributes:
-        line: as JSON has it.
-        by: who did it; empty when nobody did.
+        line: JSON object.
+        by: Who caused it; empty if nobody.
     """
 
     line: Line
@@ -26,13 +26,13 @@ class Entry:
 def entry_of(
     event: AlarmEvent, *, at: str, unix_offset_s: float, snapshot: NavigationSnapshot | None
 ) -> Entry:
-    """The log's line for a change: when, what, value and limit, who, where the drill was, and in words.
+    """Return the log line of a change: time, condition, value, limit, person, tool poses and texts.
 
     Args:
-        event: the change.
-        at: the wall clock, UTC, ISO 8601.
-        unix_offset_s: to be added to the event's times to have Unix time.
-        snapshot: of the newest image at that moment.
+        event: The change.
+        at: Wall clock, UTC, ISO 8601.
+        unix_offset_s: Unix time minus monotonic time.
+        snapshot: Result of the newest image.
     """
     line: dict[str, object] = {"at": at, "at_s": event.at_s, "change": event.change.value}
     if event.alarm is not None:
@@ -48,7 +48,7 @@ def entry_of(
 
 
 def _alarm(alarm: Alarm, *, unix_offset_s: float) -> Line:
-    """The alarm in numbers and in words, as page and video have them."""
+    """Return numbers and texts of an alarm, as displayed."""
     words = alarm_text(alarm, unix_offset_s=unix_offset_s, of_now=False)
     line: dict[str, object] = {
         "number": alarm.number,
@@ -71,18 +71,18 @@ def _alarm(alarm: Alarm, *, unix_offset_s: float) -> Line:
 
 
 def _tool(snapshot: NavigationSnapshot, name: str) -> Line:
-    """Where the tool was: its pose in the camera's frame and its numbers, or why they are not known."""
+    """Return pose (camera frame) and deviations of a tool, or the reason for their absence."""
     tool, deviation = snapshot.tools[name], snapshot.deviations[name]
     if isinstance(tool, Absent):
         return {"absent": tool.reason.value}
-    said: dict[str, object] = {
+    values: dict[str, object] = {
         "camera_from_tool": {
             "rotation": tool.camera_from_tool.rotation.tolist(),
             "translation_mm": tool.camera_from_tool.translation_mm.tolist(),
         }
     }
     if isinstance(deviation, Deviation):
-        said["depth_mm"] = deviation.depth_mm
-        said["angle_deg"] = deviation.angle_deg
-        said["tip_offset_mm"] = deviation.tip_offset_mm
-    return said
+        values["depth_mm"] = deviation.depth_mm
+        values["angle_deg"] = deviation.angle_deg
+        values["tip_offset_mm"] = deviation.tip_offset_mm
+    return values

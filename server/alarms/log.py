@@ -1,9 +1,8 @@
-"""The alarm log: only ever added to, and on the disk within a moment, whatever becomes of the server.
+"""The append-only alarm log.
 
-It belongs to the case that is open, as documents of it; without one, to the folder of all cases. A thread
-writes, so that a slow disk delays no picture; whoever must be sure waits for it.
-
-So it is copied and deleted with its case, and what a person acknowledged is on the disk before the answer.
+Entries are stored as documents of the open case, so that they are exported and deleted with it; without an
+open case they go to a file in the home folder. A thread writes, so that a slow disk does not delay images;
+`flush` waits until an acknowledgement is on the disk.
 """
 
 import json
@@ -20,13 +19,13 @@ from typing import Protocol
 import structlog
 
 from server.alarms.entries import Entry, Line
-from server.store import CaseStore, DocumentKind, StoreError, says_archive, told
+from server.store import CaseStore, DocumentKind, StoreError, says_archive, translate_errors
 from tracker.errors import InvalidInput, NavigationError
 
 NAME = "log"
 FILE_NAME = "alarms.jsonl"
 NOBODY = "Coaxial"
-MAX_WAITING = 10_000
+MAX_PENDING = 10_000
 MAX_A_DOCUMENT = 200
 TRY_AGAIN_S = 2.0
 FLUSH_TIMEOUT_S = 5.0
@@ -35,55 +34,55 @@ log = structlog.get_logger(__name__)
 
 
 class AlarmLog(Protocol):
-    """Where alarms are kept."""
+    """Interface of an alarm log."""
 
     @property
     def is_well(self) -> bool:
-        """Whether everything is written so far, or just being written."""
+        """Whether writing works."""
         ...
 
     @property
     def free_mb(self) -> float | None:
-        """Room on its disk; None where that is not known."""
+        """Free disk space; None if unknown."""
         ...
 
     def append(self, entries: Sequence[Entry]) -> None:
-        """Keep these; returns at once."""
+        """Append entries; does not wait for the disk."""
         ...
 
     def flush(self) -> None:
-        """Return when everything that was appended before is on the disk.
+        """Wait until all appended entries are on the disk.
 
         Raises:
-            StoreError: it cannot be written.
+            StoreError: The log cannot be written.
         """
         ...
 
     def newest(self, count: int) -> list[Line]:
-        """The last of them, the oldest first."""
+        """Return the last lines, oldest first."""
         ...
 
 
 class NoLog:
-    """Where nothing is kept: a server without a folder."""
+    """Alarm log of a server without a home folder; discards all entries."""
 
     is_well = True
     free_mb: float | None = None
 
     def append(self, entries: Sequence[Entry]) -> None:
-        """Forget them."""
+        """Discard the entries."""
 
     def flush(self) -> None:
-        """Nothing waits."""
+        """Return at once."""
 
     def newest(self, count: int) -> list[Line]:
-        """None are kept."""
+        """Return no lines."""
         del count
         return []
 
 
 class StoredAlarmLog:
-    """The log of a server with cases. Safe to use from any thread."""
+    """Alarm log in the case store. Thread-safe."""
 
     def __init__(self, store: CaseStore) -> None:
         self._store = store
@@ -100,31 +99,31 @@ class StoredAlarmLog:
 
     @property
     def is_well(self) -> bool:
-        """Whether the last writing went well."""
+        """Whether the last write succeeded."""
         return self._problem is None
 
     @property
     def free_mb(self) -> float | None:
-        """Room on the disk, looked at every few seconds."""
+        """Free disk space, updated every few seconds."""
         return self._free_mb
 
     def append(self, entries: Sequence[Entry]) -> None:
-        """Keep these; returns at once."""
+        """Append entries; does not wait for the disk."""
         if not entries:
             return
         with self._changed:
-            if len(self._waiting) >= MAX_WAITING:
-                # The disk has been away for hours; what was first is the more telling.
+            if len(self._waiting) >= MAX_PENDING:
+                # The disk has failed for hours; the first entries are the more informative ones.
                 return
             self._waiting.extend(entries)
             self._appended += len(entries)
             self._changed.notify_all()
 
     def flush(self) -> None:
-        """Return when everything that was appended before is on the disk.
+        """Wait until all appended entries are on the disk.
 
         Raises:
-            StoreError: it cannot be written; it is tried again by itself.
+            StoreError: The log cannot be written; writing is retried.
         """
         with self._changed:
             wanted = self._appended
@@ -138,25 +137,27 @@ class StoredAlarmLog:
             raise problem
         raise StoreError(
             "ALARM_NOT_LOGGED",
-            f"it could not be written into the alarm log within {FLUSH_TIMEOUT_S:g} s",
-            "It was done, and is tried to be written on; look at the disk.",
+            f"the action could not be written to the alarm log within {FLUSH_TIMEOUT_S:g} s",
+            "The action took effect and writing is retried; check the disk.",
         )
 
     def newest(self, count: int) -> list[Line]:
-        """The last of the open case, or, where none is open, of the folder; the oldest first."""
-        case = self._store.opened()
+        """Return the last lines of the open case, or of the home folder without one, oldest first."""
+        case = self._store.get_open_case()
         if case is None:
             return lines_of(self._folder / FILE_NAME)[-count:]
         documents = self._store.history(case.id, DocumentKind.ALARM, NAME)
         lines: list[Line] = []
         for document in documents:
-            kept = document.content.get("lines")
-            told_lines = [line for line in kept if isinstance(line, dict)] if isinstance(kept, list) else []
+            stored = document.content.get("lines")
+            told_lines = (
+                [line for line in stored if isinstance(line, dict)] if isinstance(stored, list) else []
+            )
             lines += told_lines if document.imported is None else [_doubted(line) for line in told_lines]
         return lines[-count:]
 
     def stop(self) -> None:
-        """Write what waits, and no more."""
+        """Write the pending entries and stop the thread."""
         with self._changed:
             self._stopped = True
             self._changed.notify_all()
@@ -184,8 +185,8 @@ class StoredAlarmLog:
         except NavigationError as error:
             problem = error
         except Exception as error:
-            # This thread must not end: alarms would then be lost without a word.
-            problem = StoreError("ALARM_NOT_LOGGED", f"the alarm log failed: {error}", "Look at the log.")
+            # This thread must not end, because later alarms would be lost silently.
+            problem = StoreError("ALARM_NOT_LOGGED", f"the alarm log failed: {error}", "See the server log.")
             log.exception("the alarm log cannot be written")
         if problem is not None and self._problem is None:
             log.error(problem.message, code=problem.code, remedy=problem.remedy)
@@ -198,10 +199,10 @@ class StoredAlarmLog:
             self._changed.notify_all()
 
     def _keep(self, batch: list[Entry]) -> None:
-        case = self._store.opened()
-        lines = [sound_line(entry.line) for entry in batch]
+        case = self._store.get_open_case()
+        lines = [finite_line(entry.line) for entry in batch]
         if case is None:
-            with told(self._folder):
+            with translate_errors(self._folder):
                 append_lines(self._folder / FILE_NAME, lines)
             return
         names = {entry.by for entry in batch if entry.by}
@@ -211,17 +212,17 @@ class StoredAlarmLog:
         except InvalidInput as rejected:
             if rejected.code != "NAME_INVALID" or made_by == NOBODY:
                 raise
-            # Who it was is told in the line: for a name that the store does not take, no alarm is lost.
+            # The line contains the name, so that a name rejected by the store does not lose the alarm.
             self._store.put(case.id, DocumentKind.ALARM, NAME, {"lines": lines}, made_by=NOBODY)
 
 
 def _doubted(line: Line) -> Line:
-    """A line that came in with an archive: nobody signed in here to do what it says."""
+    """Mark the person in an imported line as claimed by the archive."""
     return {**line, "by": says_archive(str(line["by"]))} if line.get("by") else line
 
 
-def sound_line(line: Line) -> Line:
-    """The line without what JSON has no word for."""
+def finite_line(line: Line) -> Line:
+    """Return the line with null for values that JSON cannot represent."""
     return {
         key: None if isinstance(value, float) and not isfinite(value) else value
         for key, value in line.items()
@@ -229,14 +230,14 @@ def sound_line(line: Line) -> Line:
 
 
 def append_lines(file: Path, lines: Sequence[Line]) -> None:
-    """Add lines to the end of a file, one JSON a line, and have them on the disk."""
+    """Append JSON lines to a file and sync it to the disk."""
     text = "".join(json.dumps(line, ensure_ascii=False) + "\n" for line in lines)
     with file.open("ab+") as written:
         written.seek(0, os.SEEK_END)
         if written.tell() > 0:
             written.seek(-1, os.SEEK_END)
             if written.read(1) != b"\n":
-                # The last one was cut by a power cut: it stays cut, and does not spoil this one.
+                # A power failure truncated the last line; keep it apart from this one.
                 text = "\n" + text
         written.write(text.encode("utf-8"))
         written.flush()
@@ -244,7 +245,7 @@ def append_lines(file: Path, lines: Sequence[Line]) -> None:
 
 
 def lines_of(file: Path) -> list[Line]:
-    """The lines of such a file; one that was cut is left out."""
+    """Return the lines of such a file, without truncated ones."""
     try:
         content = file.read_bytes()
     except FileNotFoundError:

@@ -1,4 +1,4 @@
-"""Which screens would be heard: each says so every few seconds, and is lost when it stops saying so."""
+"""Screens with sound: each reports every few seconds and is lost when its reports stop."""
 
 from dataclasses import dataclass
 
@@ -7,11 +7,11 @@ MAX_SCREENS = 100
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Screen:
-    """One screen.
+    """A screen.
 
     Attributes:
-        armed: its sound is on.
-        heard_at_s: when it last said anything.
+        armed: Its sound is enabled.
+        heard_at_s: Time of its last report.
     """
 
     armed: bool
@@ -19,10 +19,10 @@ class Screen:
 
 
 class Screens:
-    """The screens that have said something. Mutable; time is brought by each call.
+    """The reporting screens. Each call passes the present time.
 
-    A screen that never armed its sound is not missed. One that did, and fell silent, is lost until it comes
-    back, another one is armed in its place, or somebody acknowledges that it is gone.
+    A screen that never enabled its sound is ignored. One that did and stopped reporting is lost until it
+    reports again, another one enables its sound, or its loss is acknowledged.
     """
 
     def __init__(self, *, lost_after_s: float) -> None:
@@ -30,8 +30,8 @@ class Screens:
         self._screens: dict[str, Screen] = {}
         self._lost: set[str] = set()
 
-    def said(self, name: str, *, armed: bool, at_s: float) -> None:
-        """A screen says whether its sound is armed."""
+    def report(self, name: str, *, armed: bool, at_s: float) -> None:
+        """Record the sound state of a screen."""
         if name not in self._screens and len(self._screens) >= MAX_SCREENS:
             oldest = min(self._screens, key=lambda one: self._screens[one].heard_at_s)
             del self._screens[oldest]
@@ -41,26 +41,26 @@ class Screens:
         if is_new:
             self._lost.clear()
 
-    def left(self, name: str) -> None:
-        """A screen says that it is closed."""
+    def close(self, name: str) -> None:
+        """Remove a screen that was closed."""
         self._screens.pop(name, None)
         self._lost.discard(name)
 
     def forget_lost(self) -> None:
-        """Somebody knows that they are gone."""
+        """Acknowledge the lost screens."""
         self._lost.clear()
 
     def armed(self, at_s: float) -> int:
-        """How many would be heard now."""
-        self._look(at_s)
+        """Return the number of screens with enabled sound."""
+        self._expire(at_s)
         return sum(screen.armed for screen in self._screens.values())
 
     def lost(self, at_s: float) -> int:
-        """How many were armed, and went without saying so."""
-        self._look(at_s)
+        """Return the number of lost screens."""
+        self._expire(at_s)
         return len(self._lost)
 
-    def _look(self, at_s: float) -> None:
+    def _expire(self, at_s: float) -> None:
         for name, screen in list(self._screens.items()):
             if at_s - screen.heard_at_s > self._lost_after_s:
                 del self._screens[name]

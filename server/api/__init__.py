@@ -1,1 +1,1 @@
-"""REST: what can be asked, and the one shape in which it is refused."""
+"""REST and WebSocket API: routers, messages and error responses."""

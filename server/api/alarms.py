@@ -1,22 +1,22 @@
-"""Alarms: seen, acknowledged, paused, asked for; their sounds, and their log."""
+"""Alarms: state, acknowledgement, audio pause, hold requests, sounds and log."""
 
 from typing import Annotated, Literal
 
 from fastapi import APIRouter, Query, Request, Response
 from pydantic import Field, StringConstraints
 
-from server.alarms import AlarmDesk
+from server.alarms import AlarmService
 from server.alarms.sound import BURSTS, burst_wav
-from server.api.doing import DoneBy
 from server.api.errors import rejections
-from server.security import acting, person_of
+from server.api.requester import DoneBy
+from server.security import actor_name, person_of
 from server.stream.alarm_messages import AlarmsMessage, alarms_message
 from server.stream.message import Message
-from server.supervision import Holds
-from tracker.navigation.alarms import AlarmPicture, Priority
+from server.supervision import HoldRequests
+from tracker.navigation.alarms import AlarmSnapshot, Priority
 
 WAV = "audio/wav"
-# Screens say this often whether their sound is armed; `alarms.screen_lost_after_s` is three times as long.
+# Period of the screens' sound reports; `alarms.screen_lost_after_s` is three times as long.
 ARMED_EVERY_S = 2.0
 ScreenName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{8,64}$")]
 
@@ -28,49 +28,49 @@ class SoundMessage(Message):
     path: str
     """One burst, as a WAV file."""
     repeat_every_s: float
-    """From the beginning of one burst to the beginning of the next."""
+    """Period between the starts of two bursts."""
 
 
 class ByRequest(Message):
-    """Who does it."""
+    """The person who acts."""
 
     by: DoneBy
 
 
 class AcknowledgeRequest(Message):
-    """Which alarms somebody has seen, and who."""
+    """Alarms to acknowledge, and by whom."""
 
     by: DoneBy
     numbers: Annotated[list[int], Field(min_length=1, max_length=100)]
-    """Of the alarms that were in sight; one that was raised since is not meant."""
+    """Numbers of the displayed alarms; alarms raised since are not acknowledged."""
 
 
 class PauseRequest(Message):
-    """For how long there shall be no sound."""
+    """Duration of an audio pause."""
 
     by: DoneBy
     seconds: float
-    """At most 120."""
+    """Maximum 120."""
 
 
 class ScreenRequest(Message):
-    """A screen says whether it would be heard."""
+    """Sound state of a screen."""
 
     screen: ScreenName
-    """Made up by the screen, for as long as it shows the page."""
+    """Random name that the screen chooses when it loads the page."""
     state: Literal["armed", "silent", "closed"]
-    """silent: nobody has touched it yet, or its sound failed. closed: it is not missed."""
+    """silent: sound not enabled yet, or it failed. closed: no alarm for its absence."""
 
 
 class LogMessage(Message):
-    """The alarm log of the open case, or of the time while none is open."""
+    """The alarm log of the open case, or of the time without an open case."""
 
     lines: list[dict[str, object]]
-    """The oldest first."""
+    """Oldest first."""
 
 
 def sound_messages() -> list[SoundMessage]:
-    """Where the sounds are, for the page."""
+    """Return the addresses of the alarm sounds."""
     return [
         SoundMessage(
             priority=priority,
@@ -81,35 +81,35 @@ def sound_messages() -> list[SoundMessage]:
     ]
 
 
-def alarms_router(desk: AlarmDesk, holds: Holds) -> APIRouter:
-    """Everything under `/api/alarms`."""
+def alarms_router(service: AlarmService, holds: HoldRequests) -> APIRouter:
+    """Return the router of `/api/alarms`."""
     router = APIRouter(prefix="/api/alarms", tags=["alarms"])
-    _add_seeing(router, desk)
-    _add_answering(router, desk)
-    _add_holding(router, desk, holds)
+    _add_seeing(router, service)
+    _add_answering(router, service)
+    _add_holding(router, service, holds)
     return router
 
 
-def _message(picture: AlarmPicture) -> AlarmsMessage:
+def _message(picture: AlarmSnapshot) -> AlarmsMessage:
     return alarms_message(picture, now_s=picture.at_s)
 
 
-def _logged(desk: AlarmDesk, picture: AlarmPicture) -> AlarmsMessage:
-    """What a person did is on the disk before they hear that it was done."""
-    desk.log.flush()
+def _logged(service: AlarmService, picture: AlarmSnapshot) -> AlarmsMessage:
+    """Flush the log, so that an action is on the disk before it is confirmed."""
+    service.log.flush()
     return _message(picture)
 
 
-def _add_seeing(router: APIRouter, desk: AlarmDesk) -> None:
+def _add_seeing(router: APIRouter, service: AlarmService) -> None:
     @router.get("")
     def alarms() -> AlarmsMessage:
-        """All alarms that are in sight, the highest first. The same comes with every live message."""
-        return _message(desk.picture)
+        """Return the active alarms, highest priority first. Each live message contains the same data."""
+        return _message(service.picture)
 
     @router.get("/log", responses=rejections(422, 503))
     def log(last: Annotated[int, Query(ge=1, le=10_000)] = 200) -> LogMessage:
-        """The last lines of the alarm log: what was raised, cleared, acknowledged, paused, when, by whom."""
-        return LogMessage(lines=[dict(line) for line in desk.log.newest(last)])
+        """Return the last lines of the alarm log: raised, cleared, acknowledged and paused alarms."""
+        return LogMessage(lines=[dict(line) for line in service.log.newest(last)])
 
     @router.get(
         "/sound/{priority}.wav",
@@ -117,42 +117,44 @@ def _add_seeing(router: APIRouter, desk: AlarmDesk) -> None:
         responses={200: {"content": {WAV: {}}}, **rejections(422)},
     )
     async def sound(priority: Priority) -> Response:
-        """One burst of the sound of a priority; how often it comes again is in `GET /api/dashboard`."""
+        """Return one burst of the sound of a priority; its period is in `GET /api/dashboard`."""
         return Response(burst_wav(priority), media_type=WAV)
 
 
-def _add_answering(router: APIRouter, desk: AlarmDesk) -> None:
+def _add_answering(router: APIRouter, service: AlarmService) -> None:
     @router.post("/acknowledgement", responses=rejections(422, 503, 507))
-    def acknowledge(asked: AcknowledgeRequest, request: Request) -> AlarmsMessage:
-        """Say that these alarms were seen: their sound stops, and one that was over goes out of sight."""
-        return _logged(desk, desk.acknowledge(asked.numbers, by=acting(request.scope, asked.by)))
+    def acknowledge(requested: AcknowledgeRequest, request: Request) -> AlarmsMessage:
+        """Acknowledge alarms: their sound stops, and alarms whose condition has ended are removed."""
+        return _logged(
+            service, service.acknowledge(requested.numbers, by=actor_name(request.scope, requested.by))
+        )
 
     @router.post("/pause", responses=rejections(422, 503, 507))
-    def pause(asked: PauseRequest, request: Request) -> AlarmsMessage:
-        """No sound for at most two minutes; it comes back by itself, at once with a new or higher alarm."""
-        return _logged(desk, desk.pause(asked.seconds, by=acting(request.scope, asked.by)))
+    def pause(requested: PauseRequest, request: Request) -> AlarmsMessage:
+        """Pause the sound for at most two minutes; a new or higher alarm ends the pause."""
+        return _logged(service, service.pause(requested.seconds, by=actor_name(request.scope, requested.by)))
 
     @router.post("/resumption", responses=rejections(422, 503, 507))
-    def resume(asked: ByRequest, request: Request) -> AlarmsMessage:
-        """End the pause now."""
-        return _logged(desk, desk.resume(by=acting(request.scope, asked.by)))
+    def resume(requested: ByRequest, request: Request) -> AlarmsMessage:
+        """End the audio pause."""
+        return _logged(service, service.resume(by=actor_name(request.scope, requested.by)))
 
     @router.post("/screens", responses=rejections(422))
-    def screen(asked: ScreenRequest) -> AlarmsMessage:
-        """A screen says whether its sound is armed, every two seconds."""
-        if asked.state == "closed":
-            desk.screen_left(asked.screen)
-            return _message(desk.picture)
-        return _message(desk.screen_said(asked.screen, armed=asked.state == "armed"))
+    def screen(requested: ScreenRequest) -> AlarmsMessage:
+        """Report the sound state of a screen; expected every two seconds."""
+        if requested.state == "closed":
+            service.close_screen(requested.screen)
+            return _message(service.picture)
+        return _message(service.report_screen(requested.screen, armed=requested.state == "armed"))
 
 
-def _add_holding(router: APIRouter, desk: AlarmDesk, holds: Holds) -> None:
+def _add_holding(router: APIRouter, service: AlarmService, holds: HoldRequests) -> None:
     @router.post("/hold", responses=rejections(422, 503, 507))
-    def hold(request: Request, asked: ByRequest) -> AlarmsMessage:
-        """Ask those in theatre to hold. It raises an alarm, and stops or changes nothing."""
-        return _logged(desk, holds.ask(person_of(request.scope), name=asked.by or ""))
+    def hold(request: Request, requested: ByRequest) -> AlarmsMessage:
+        """Request a hold from theatre. This raises an alarm and changes nothing else."""
+        return _logged(service, holds.request(person_of(request.scope), name=requested.by or ""))
 
     @router.post("/release", responses=rejections(409, 422, 503, 507))
-    def release(request: Request, asked: ByRequest) -> AlarmsMessage:
-        """Ask no more: who asked for themselves, the operator for everybody."""
-        return _logged(desk, holds.release(person_of(request.scope), name=asked.by or ""))
+    def release(request: Request, requested: ByRequest) -> AlarmsMessage:
+        """Withdraw a hold request: your own, or as operator all of them."""
+        return _logged(service, holds.release(person_of(request.scope), name=requested.by or ""))

@@ -1,4 +1,4 @@
-"""The audit log: read, and taken along."""
+"""Read and export the audit log."""
 
 import json
 from typing import Annotated
@@ -14,7 +14,7 @@ LINES = "application/x-ndjson"
 
 
 def audit_router(audit: AuditLog | None) -> APIRouter:
-    """Everything under `/api/audit`."""
+    """Return the router of `/api/audit`."""
     router = APIRouter(prefix="/api/audit", tags=["people"])
 
     @router.get("", responses=rejections(422, 503))
@@ -22,17 +22,17 @@ def audit_router(audit: AuditLog | None) -> APIRouter:
         last: Annotated[int, Query(ge=1, le=1000)] = 100,
         before: Annotated[int | None, Query(ge=1, le=10**9)] = None,
     ) -> AuditMessage:
-        """The last lines of the audit log, or the last ones before a number; and whether the log is whole."""
+        """Return the last lines of the audit log (before a line number), and whether it is intact."""
         if audit is None:
-            return AuditMessage(lines=[], count=0, sum="", is_whole=True, fault="", fault_line=None)
+            return AuditMessage(lines=[], count=0, sum="", is_intact=True, fault="", fault_line=None)
         verdict = audit.verify()
         fault = verdict.fault
         return AuditMessage(
-            lines=[_told(raw) for raw in audit.newest(last, before=before)],
+            lines=[_line_value(raw) for raw in audit.newest(last, before=before)],
             count=verdict.head.count,
             sum=verdict.head.sum,
-            is_whole=fault is None,
-            fault="" if fault is None else fault.said,
+            is_intact=fault is None,
+            fault="" if fault is None else fault.reason,
             fault_line=None if fault is None else fault.line,
         )
 
@@ -42,16 +42,16 @@ def audit_router(audit: AuditLog | None) -> APIRouter:
         responses={200: {"content": {LINES: {}}}, **rejections(503)},
     )
     def export() -> Response:
-        """The whole log, a line of JSON for each; `coaxial audit verify FILE` tells whether it is whole."""
-        content = b"" if audit is None else audit.whole()
+        """Return the log as JSON lines; check it with `coaxial audit verify FILE`."""
+        content = b"" if audit is None else audit.complete_lines()
         headers = {"Content-Disposition": 'attachment; filename="coaxial-audit.jsonl"'}
         return Response(content, media_type=LINES, headers=headers)
 
     return router
 
 
-def _told(raw: bytes) -> dict[str, object]:
-    """A line as it lies there; one that is none any more is shown as what it is."""
+def _line_value(raw: bytes) -> dict[str, object]:
+    """Parse a line of the log; a line that is not valid JSON is returned as `damaged`."""
     try:
         line = json.loads(raw)
     except ValueError:

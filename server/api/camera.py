@@ -1,4 +1,4 @@
-"""Calibrating the camera: views collected from the live images or sent, then the camera fitted and kept."""
+"""Camera calibration: collect views, fit the camera, store the result."""
 
 import numpy as np
 import numpy.typing as npt
@@ -19,23 +19,23 @@ from server.api.case_messages import DocumentMessage, document_message
 from server.api.errors import rejections
 from server.api.jobs import JobMessage, job_message
 from server.api.uploads import received
-from server.picture_file import decoded
+from server.image_file import decoded
 from server.printing import board_sheet, pdf_from_sheet, svg_from_sheet
 from server.procedure.camera import ACCURACY, MAIN_CAMERA, CameraStep
 from server.store import Current, DocumentKind, Home
 from tracker.errors import InvalidInput
 
-LARGEST_IMAGE_BYTES = 64 * 2**20
+MAX_IMAGE_BYTES = 64 * 2**20
 IMAGE_TYPES: dict[str, dict[str, object]] = {"image/png": {}, "image/jpeg": {}}
 
 
 def camera_router(step: CameraStep, home: Home) -> APIRouter:
-    """Everything under `/api/camera`."""
+    """Return the router of `/api/camera`."""
     router = APIRouter(prefix="/api/camera", tags=["camera"])
 
     @router.get("", responses=rejections(503))
     def camera() -> CameraStepMessage:
-        """What the open case has of the camera, and whether views are being collected."""
+        """Return the camera calibration of the open case, and whether views are being collected."""
         return CameraStepMessage(
             collecting=step.is_collecting,
             calibration=_newest(step, DocumentKind.CAMERA, MAIN_CAMERA),
@@ -50,10 +50,10 @@ def camera_router(step: CameraStep, home: Home) -> APIRouter:
         response_class=Response,
         responses={200: {"content": {"application/pdf": {}, "image/svg+xml": {}}}, **rejections(422)},
     )
-    def board(asked: BoardFileRequest) -> Response:
-        """A board as a page to print at 100 %, with rulers to check the printer."""
-        sheet = board_sheet(board_of(asked.board), paper=asked.paper)
-        if asked.file == "svg":
+    def board(requested: BoardFileRequest) -> Response:
+        """Return a calibration board as a sheet to print at 100 %, with rulers to check the scale."""
+        sheet = board_sheet(board_of(requested.board), paper=requested.paper)
+        if requested.file == "svg":
             return Response(svg_from_sheet(sheet), media_type="image/svg+xml")
         return Response(pdf_from_sheet(sheet), media_type="application/pdf")
 
@@ -62,50 +62,50 @@ def camera_router(step: CameraStep, home: Home) -> APIRouter:
 
 def _add_calibration(router: APIRouter, step: CameraStep) -> None:
     @router.post("/calibration", status_code=202, responses=rejections(409, 422, 503))
-    def calibrate(asked: CalibrationRequest) -> JobMessage:
-        """Fit the camera to the collected views; what passes the gate is kept in the open case.
+    def calibrate(requested: CalibrationRequest) -> JobMessage:
+        """Fit the camera to the collected views and store it in the open case if it passes its limits.
 
-        Answers the job; its result is the report, with the id of the document. The camera is used from the
-        next image on.
+        Returns the job; its result is the report with the id of the document. The calibration is used from
+        the next image on.
         """
-        return job_message(step.calibrate(made_by=asked.made_by))
+        return job_message(step.calibrate(made_by=requested.made_by))
 
     @router.get("/calibration", responses=rejections(409, 503))
     def calibration() -> DocumentMessage:
-        """The calibration of the open case with its report; refused where there is none that holds.
+        """Return the valid calibration of the open case with its report.
 
-        Its pictures (residuals, coverage) are the files that `plots` names: `/api/cases/{id}/files/{file}`.
+        Its plots (residuals, coverage) are the files in `plots`: `/api/cases/{id}/files/{file}`.
         """
-        return document_message(step.kept(), Current())
+        return document_message(step.calibration(), Current())
 
     @router.post("/accuracy", status_code=201, responses=rejections(409, 422, 503, 507))
-    def accuracy(asked: AccuracyRequest) -> DocumentMessage:
-        """Measure known displacements on a board that is in the picture now, as in the paper's Table 2.
+    def accuracy(requested: AccuracyRequest) -> DocumentMessage:
+        """Measure known displacements on a board in the live image, as in Table 2 of the paper.
 
-        The place of the board is fitted to other points than those that are measured. What came out is kept,
-        also when it does not pass.
+        The pose of the board is fitted to other points than the measured ones. The result is stored even if
+        it exceeds the limit.
         """
-        document = step.check_accuracy(board_of(asked.board), made_by=asked.made_by)
+        document = step.check_accuracy(board_of(requested.board), made_by=requested.made_by)
         return document_message(document, Current())
 
 
 def _add_collection(router: APIRouter, step: CameraStep, home: Home) -> None:
     @router.post("/collection", status_code=201, responses=rejections(422))
-    def begin(asked: CollectionRequest) -> CollectionMessage:
-        """Collect views of a board from the live images; one is taken when it holds still and adds something.
+    def begin(requested: CollectionRequest) -> CollectionMessage:
+        """Start collecting views of a board from the live images; still views that add information are taken.
 
-        What was collected before is thrown away.
+        Views collected before are discarded.
         """
-        return collection_message(step.begin(board_of(asked.board)))
+        return collection_message(step.begin(board_of(requested.board)))
 
     @router.get("/collection", responses=rejections(409))
     def progress() -> CollectionMessage:
-        """How far it has come, what is missing, and where the board was seen just now."""
+        """Return the progress of the collection, what is missing, and the last detection of the board."""
         return collection_message(step.collection)
 
     @router.delete("/collection", status_code=204)
     def end() -> Response:
-        """Collect no more; what was collected is thrown away."""
+        """Stop collecting and discard the views."""
         step.end()
         return Response(status_code=204)
 
@@ -116,9 +116,9 @@ def _add_collection(router: APIRouter, step: CameraStep, home: Home) -> None:
         openapi_extra={"requestBody": {"required": True, "content": IMAGE_TYPES}},
     )
     async def add_image(request: Request, name: str = "sent") -> CollectionMessage:
-        """Add the view in an image, which is the body of the request (PNG or JPEG)."""
+        """Add a view from an image in the request body (PNG or JPEG)."""
         collection = step.collection
-        async with received(request, home, max_bytes=LARGEST_IMAGE_BYTES) as path:
+        async with received(request, home, max_bytes=MAX_IMAGE_BYTES) as path:
             content = await to_thread.run_sync(path.read_bytes)
         await to_thread.run_sync(lambda: collection.add(_picture(content, name[:100]), name=name[:100]))
         return collection_message(collection)

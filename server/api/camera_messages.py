@@ -1,11 +1,11 @@
-"""What is asked and answered about calibrating the camera."""
+"""Messages of the camera calibration."""
 
 from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
 from server.api.case_messages import DocumentMessage
-from server.api.doing import MadeBy
+from server.api.requester import MadeBy
 from server.procedure.board_collection import BoardCollection, CollectionStatus
 from server.stream.messages import Message, ProblemMessage, problem_message
 from tracker.camera import Board, CharucoBoard, CharucoLayout, CheckerBoard, DotBoard, DotLayout
@@ -23,10 +23,10 @@ class DotsMessage(Message):
     columns: Count
     rows: Count
     pitch_mm: Millimetres
-    """From a dot to the next; of an asymmetric board half the distance between two dots of a row."""
+    """Distance between neighbouring dots; asymmetric: half the distance of two dots in a row."""
     layout: DotLayout = DotLayout.SYMMETRIC
     fiducials: Annotated[tuple[int, ...], Field(max_length=1000)] = ()
-    """Indexes of the larger dots, row by row from 0; found by themselves where none are given."""
+    """Indexes of the larger dots, row by row from 0; default: detected."""
 
 
 class CheckerboardMessage(Message):
@@ -51,9 +51,9 @@ class CharucoMessage(Message):
     square_mm: Millimetres
     marker_mm: Millimetres
     dictionary: Annotated[str, Field(max_length=40)]
-    """OpenCV's name, as DICT_6X6_250."""
+    """ArUco dictionary, as DICT_6X6_250."""
     layout: CharucoLayout | None = None
-    """Found out by itself where null."""
+    """null: detected."""
 
 
 BoardMessage: TypeAlias = Annotated[
@@ -62,51 +62,51 @@ BoardMessage: TypeAlias = Annotated[
 
 
 class CollectionRequest(Message):
-    """What to collect views of."""
+    """Board to collect views of."""
 
     board: BoardMessage
 
 
 class CollectionMessage(Message):
-    """How far collecting views has come."""
+    """Progress of the collection of views."""
 
     board: BoardMessage
     running: bool
-    """Whether more views are taken by themselves."""
+    """Whether views are being taken from the live images."""
     width_px: int
     height_px: int
     views: list[str]
-    """Names of the views that are kept."""
+    """Names of the stored views."""
     coverage_ratio: float
-    """How much of the image the board has been in."""
+    """Fraction of the image covered by the board so far."""
     covered: list[list[bool]]
-    """The same part by part, rows from the top."""
+    """Coverage by image region, rows from the top."""
     tilt_deg: list[float]
-    """Least and most lean (upper edge away is above 0), least and most turn (left edge away is above 0)."""
+    """Minimum and maximum pitch (> 0: upper edge away), minimum and maximum yaw (> 0: left edge away)."""
     missing: list[str]
-    """What to do next, in sentences; empty when there is enough."""
+    """Instructions for further views; empty if the views suffice."""
     image_number: int
-    """Of the newest image that was looked at; -1 where there is none."""
-    said: str
-    """What became of that image."""
+    """Number of the newest processed image; -1 if there is none."""
+    message: str
+    """Result for this image."""
     points_px: list[list[float]]
-    """Where the board was seen in it."""
+    """Detected board points in this image."""
     problem: ProblemMessage | None
 
 
 class CameraStepMessage(Message):
-    """How the camera's step stands in the open case."""
+    """State of the camera calibration in the open case."""
 
     collecting: bool
-    """Whether views are held: see `/api/camera/collection`."""
+    """Whether a collection exists: see `/api/camera/collection`."""
     calibration: DocumentMessage | None
-    """The newest, whether or not it holds; null where there is none."""
+    """The newest one, valid or not; null if there is none."""
     accuracy: DocumentMessage | None
-    """The newest check of the accuracy."""
+    """The newest accuracy check."""
 
 
 class BoardFileRequest(Message):
-    """A board to be printed."""
+    """A board to print."""
 
     board: BoardMessage
     paper: Literal["A4", "A3", "letter"] = "A4"
@@ -114,7 +114,7 @@ class BoardFileRequest(Message):
 
 
 class AccuracyRequest(Message):
-    """A board that is in the picture now, and who checks."""
+    """The board in the live image, and who checks."""
 
     board: BoardMessage
     made_by: MadeBy
@@ -127,7 +127,7 @@ class CalibrationRequest(Message):
 
 
 def board_of(message: BoardMessage) -> Board:
-    """The board that is described.
+    """Return the board of a message.
 
     Raises:
         InvalidInput: BOARD_INVALID.
@@ -155,7 +155,7 @@ def board_of(message: BoardMessage) -> Board:
 
 
 def board_message(board: Board) -> BoardMessage:
-    """The description of a board."""
+    """Return the message of a board."""
     match board:
         case DotBoard():
             return DotsMessage(
@@ -183,7 +183,7 @@ def board_message(board: Board) -> BoardMessage:
 
 
 def collection_message(collection: BoardCollection) -> CollectionMessage:
-    """How far a collection has come, as it is told."""
+    """Return the message of a collection."""
     status: CollectionStatus = collection.status
     progress = status.progress
     return CollectionMessage(
@@ -197,7 +197,7 @@ def collection_message(collection: BoardCollection) -> CollectionMessage:
         tilt_deg=[0.0] * 4 if progress is None else list(progress.tilt_deg),
         missing=[SHOW_IT] if progress is None else list(progress.missing),
         image_number=status.image_number,
-        said=status.said,
+        message=status.message,
         points_px=status.points_px.round(2).tolist(),
         problem=problem_message(status.problem),
     )

@@ -1,10 +1,10 @@
-"""What the answers about cases say."""
+"""Messages about cases and their documents."""
 
 from typing import Annotated
 
 from pydantic import Field
 
-from server.api.doing import MadeBy
+from server.api.requester import MadeBy
 from server.store import (
     Case,
     Current,
@@ -13,9 +13,9 @@ from server.store import (
     DocumentKind,
     Entry,
     Heading,
-    Imported,
-    Standing,
+    ImportRecord,
     StoredFile,
+    Validity,
     Withdrawal,
 )
 from server.stream.messages import Message
@@ -27,20 +27,20 @@ class CaseMessage(Message):
     """A case."""
 
     id: str
-    """Stands in addresses, where the name must not."""
+    """Used in addresses instead of the name, which may identify the patient."""
     name: str
     created_at: str
-    """UTC, ISO 8601 with milliseconds, as all times here."""
+    """UTC, ISO 8601 with milliseconds, like all times here."""
     changed_at: str
     copied_from: str | None
-    """The id under which its archive was made, if it came as one."""
+    """Id of the exported case if this case was imported."""
 
 
 class CasesMessage(Message):
-    """All cases, the newest first."""
+    """All cases, newest first."""
 
     opened_id: str | None
-    """The case that is open; null when none is."""
+    """The open case; null if none is open."""
     cases: list[CaseMessage]
 
 
@@ -51,14 +51,14 @@ class CaseNameMessage(Message):
 
 
 class ConfirmationMessage(Message):
-    """The word of confirmation."""
+    """Confirmation of a deletion."""
 
     confirm: Words
     """The name of the case, exactly."""
 
 
 class WithdrawalMessage(Message):
-    """That a document no longer holds."""
+    """Withdrawal of a document."""
 
     at: str
     by: str
@@ -66,19 +66,19 @@ class WithdrawalMessage(Message):
 
 
 class WithdrawMessage(Message):
-    """The wish to withdraw a document."""
+    """Request to withdraw a document."""
 
     by: MadeBy
     reason: Words
 
 
 class ImportedMessage(Message):
-    """That a document came in with an archive, in which anybody may have written anything."""
+    """Import of a document with an archive; the contents of archives are not authenticated."""
 
-    said_maker: str
-    """Who made it, as the archive says; nobody signed in here under this name to make it."""
+    claimed_maker: str
+    """Author as claimed by the archive; not authenticated on this server."""
     by: str
-    """Who took it in."""
+    """Who imported it."""
     at: str
 
 
@@ -91,22 +91,22 @@ class HeadingMessage(Message):
     version: int
     made_at: str
     made_by: str
-    """Who made it; of what came in with an archive, in words that say so."""
+    """Author; for imported documents a text that states the import."""
     imported: ImportedMessage | None
-    """That it came in with an archive; null where it was made here."""
-    stands_on: list[str]
-    """Ids of the documents that it was made from."""
+    """Import of the document; null if it was made on this server."""
+    depends_on: list[str]
+    """Ids of the documents that it depends on."""
     files: list[str]
-    """Ids of the files that belong to it."""
+    """Ids of its files."""
     withdrawn: WithdrawalMessage | None
     current: bool
-    """Whether it and all that it stands on are the newest, and nothing of it was withdrawn."""
+    """Whether it and all its dependencies are the newest versions and not withdrawn."""
     out_of_date: str | None
-    """Why it is not current, in a sentence; null when it is."""
+    """Why it is not current; null if it is."""
 
 
 class DocumentsMessage(Message):
-    """Every version of every document of a case, in the order of making."""
+    """All versions of all documents of a case, oldest first."""
 
     documents: list[HeadingMessage]
 
@@ -128,31 +128,31 @@ class FileMessage(Message):
 
 
 class FilesMessage(Message):
-    """All files of a case, the oldest first."""
+    """All files of a case, oldest first."""
 
     files: list[FileMessage]
 
 
 class DamageMessage(Message):
-    """A file that is not as it was stored."""
+    """A damaged file."""
 
     file_id: str
     problem: str
     """missing, size or content."""
-    told: str
+    message: str
     documents: list[str]
-    """What needs it, in words."""
+    """Titles of the documents that need it."""
 
 
 class VerificationMessage(Message):
-    """Whether every file of a case is as it was stored."""
+    """Result of the integrity check of a case."""
 
     sound: bool
     damages: list[DamageMessage]
 
 
 def case_message(case: Case) -> CaseMessage:
-    """A case, as it is told."""
+    """Return the message of a case."""
     return CaseMessage(
         id=case.id,
         name=case.name,
@@ -162,15 +162,15 @@ def case_message(case: Case) -> CaseMessage:
     )
 
 
-def imported_message(imported: Imported | None, *, said_maker: str) -> ImportedMessage | None:
-    """That a document came in with an archive, as it is told; None where it was made here."""
+def imported_message(imported: ImportRecord | None, *, claimed_maker: str) -> ImportedMessage | None:
+    """Return the message of an import; None for a document made on this server."""
     if imported is None:
         return None
-    return ImportedMessage(said_maker=said_maker, by=imported.by, at=imported.at)
+    return ImportedMessage(claimed_maker=claimed_maker, by=imported.by, at=imported.at)
 
 
-def heading_message(heading: Heading, standing: Standing) -> HeadingMessage:
-    """A document without its content, as it is told."""
+def heading_message(heading: Heading, validity: Validity) -> HeadingMessage:
+    """Return the message of a document without its content."""
     return HeadingMessage(
         id=heading.id,
         kind=heading.kind,
@@ -178,27 +178,27 @@ def heading_message(heading: Heading, standing: Standing) -> HeadingMessage:
         version=heading.version,
         made_at=heading.made_at,
         made_by=heading.maker,
-        imported=imported_message(heading.imported, said_maker=heading.made_by),
-        stands_on=list(heading.stands_on),
+        imported=imported_message(heading.imported, claimed_maker=heading.made_by),
+        depends_on=list(heading.depends_on),
         files=list(heading.files),
         withdrawn=_withdrawal_message(heading.withdrawn),
-        current=isinstance(standing, Current),
-        out_of_date=None if isinstance(standing, Current) else standing.reason,
+        current=isinstance(validity, Current),
+        out_of_date=None if isinstance(validity, Current) else validity.reason,
     )
 
 
-def document_message(document: Document, standing: Standing) -> DocumentMessage:
-    """A document with its content, as it is told."""
-    return DocumentMessage(heading=heading_message(document, standing), content=dict(document.content))
+def document_message(document: Document, validity: Validity) -> DocumentMessage:
+    """Return the message of a document with its content."""
+    return DocumentMessage(heading=heading_message(document, validity), content=dict(document.content))
 
 
 def documents_message(entries: tuple[Entry, ...]) -> DocumentsMessage:
-    """The list of a case, as it is told."""
-    return DocumentsMessage(documents=[heading_message(entry.heading, entry.standing) for entry in entries])
+    """Return the message of all documents of a case."""
+    return DocumentsMessage(documents=[heading_message(entry.heading, entry.validity) for entry in entries])
 
 
 def files_message(files: tuple[StoredFile, ...]) -> FilesMessage:
-    """The files of a case, as they are told."""
+    """Return the message of the files of a case."""
     return FilesMessage(
         files=[
             FileMessage(id=file.id, size_bytes=file.size_bytes, sha256=file.sha256, made_at=file.made_at)
@@ -208,14 +208,14 @@ def files_message(files: tuple[StoredFile, ...]) -> FilesMessage:
 
 
 def verification_message(damages: tuple[Damage, ...]) -> VerificationMessage:
-    """What was found, as it is told."""
+    """Return the message of an integrity check."""
     return VerificationMessage(
         sound=not damages,
         damages=[
             DamageMessage(
                 file_id=damage.file_id,
                 problem=damage.problem,
-                told=damage.told,
+                message=damage.message,
                 documents=list(damage.documents),
             )
             for damage in damages

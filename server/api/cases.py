@@ -1,4 +1,4 @@
-"""Cases: listed, made, opened, copied out and in, deleted; their documents and files."""
+"""Cases: list, create, open, export, import and delete; their documents and files."""
 
 from anyio import to_thread
 from fastapi import APIRouter, Request, Response
@@ -23,16 +23,16 @@ from server.api.case_messages import (
 )
 from server.api.errors import rejections
 from server.api.uploads import received
-from server.security import acting
+from server.security import actor_name
 from server.store import CaseStore, StoreConflict
 
-LARGEST_ARCHIVE_BYTES = 16 * 2**30
+MAX_ARCHIVE_BYTES = 16 * 2**30
 ZIP = "application/zip"
 BINARY = "application/octet-stream"
 
 
 def cases_router(store: CaseStore) -> APIRouter:
-    """Everything under `/api/cases`. Plain functions: they wait for the disk, in threads."""
+    """Return the router of `/api/cases`. Its routes are synchronous because they wait for the disk."""
     router = APIRouter(prefix="/api/cases", tags=["cases"])
     _add_list(router, store)
     _add_one(router, store)
@@ -45,40 +45,40 @@ def cases_router(store: CaseStore) -> APIRouter:
 def _add_list(router: APIRouter, store: CaseStore) -> None:
     @router.get("", responses=rejections(503))
     def cases() -> CasesMessage:
-        """All cases, and which one is open."""
-        opened = store.opened()
+        """Return all cases, and which one is open."""
+        opened = store.get_open_case()
         return CasesMessage(
             opened_id=None if opened is None else opened.id,
             cases=[case_message(case) for case in store.list()],
         )
 
     @router.post("", status_code=201, responses=rejections(422, 503, 507))
-    def create(asked: CaseNameMessage) -> CaseMessage:
-        """Make a case."""
-        return case_message(store.create(asked.name))
+    def create(requested: CaseNameMessage) -> CaseMessage:
+        """Create a case."""
+        return case_message(store.create(requested.name))
 
 
 def _add_one(router: APIRouter, store: CaseStore) -> None:
     @router.get("/{case_id}", responses=rejections(404, 503))
     def case(case_id: str) -> CaseMessage:
-        """One case."""
+        """Return one case."""
         return case_message(store.get(case_id))
 
     @router.patch("/{case_id}", responses=rejections(404, 422, 503, 507))
-    def rename(case_id: str, asked: CaseNameMessage) -> CaseMessage:
-        """Give a case another name."""
-        return case_message(store.rename(case_id, asked.name))
+    def rename(case_id: str, requested: CaseNameMessage) -> CaseMessage:
+        """Rename a case."""
+        return case_message(store.rename(case_id, requested.name))
 
     @router.post("/{case_id}/open", responses=rejections(404, 503, 507))
     def open_case(case_id: str) -> CaseMessage:
-        """Make this the case that is worked in; the one that was open is closed by it."""
+        """Open this case and close the one that was open."""
         return case_message(store.open(case_id))
 
     @router.post("/{case_id}/close", responses=rejections(404, 409, 503, 507))
     def close_case(case_id: str) -> CaseMessage:
-        """Close this case; then none is open."""
+        """Close this case."""
         closed = store.get(case_id)
-        opened = store.opened()
+        opened = store.get_open_case()
         if opened is None or opened.id != case_id:
             raise StoreConflict(
                 "CASE_NOT_OPEN",
@@ -90,12 +90,12 @@ def _add_one(router: APIRouter, store: CaseStore) -> None:
         return case_message(closed)
 
     @router.post("/{case_id}/deletion", status_code=204, responses=rejections(404, 409, 422, 503))
-    def delete(case_id: str, asked: ConfirmationMessage) -> Response:
-        """Delete a case and everything in it for ever. The word of confirmation is its name.
+    def delete(case_id: str, requested: ConfirmationMessage) -> Response:
+        """Delete a case permanently. The name of the case is the confirmation.
 
-        An open case, or one that is being copied out or written, is not deleted (409).
+        An open case, or one that is being exported or written, is not deleted (409).
         """
-        store.delete(case_id, confirm=asked.confirm)
+        store.delete(case_id, confirm=requested.confirm)
         return Response(status_code=204)
 
 
@@ -106,8 +106,8 @@ def _add_archives(router: APIRouter, store: CaseStore) -> None:
         responses={200: {"content": {ZIP: {}}}, **rejections(404, 503, 507)},
     )
     def copy_out(case_id: str, *, with_identity: bool = False) -> FileResponse:
-        """The case as one archive (zip). Its name, and who the patient is, are in it only if asked for."""
-        archive = store.copy_out(case_id, with_identity=with_identity)
+        """Return the case as a zip archive. Case name and patient identity are only included on request."""
+        archive = store.export_case(case_id, with_identity=with_identity)
         return FileResponse(
             archive.path,
             media_type=ZIP,
@@ -122,39 +122,39 @@ def _add_archives(router: APIRouter, store: CaseStore) -> None:
         openapi_extra={"requestBody": {"required": True, "content": {ZIP: {}}}},
     )
     async def copy_in(request: Request) -> CaseMessage:
-        """Take a case in from its archive, which is the body of the request: whole, or nothing of it.
+        """Import a case from an archive in the request body, completely or not at all.
 
-        Its documents say from then on who took them in, and when; whom they name as their maker, only the
-        archive says. Signatures in it do not count here.
+        Its documents record who imported them and when. Their authors are only claimed by the archive.
+        Signatures in the archive are not valid on this server.
         """
-        by = acting(request.scope, None)
-        async with received(request, store.home, max_bytes=LARGEST_ARCHIVE_BYTES) as path:
-            return case_message(await to_thread.run_sync(lambda: store.copy_in(path, by=by)))
+        by = actor_name(request.scope, None)
+        async with received(request, store.home, max_bytes=MAX_ARCHIVE_BYTES) as path:
+            return case_message(await to_thread.run_sync(lambda: store.import_archive(path, by=by)))
 
 
 def _add_documents(router: APIRouter, store: CaseStore) -> None:
     @router.get("/{case_id}/documents", responses=rejections(404, 503))
     def documents(case_id: str) -> DocumentsMessage:
-        """Every version of every document, with what it stands on, and whether it holds."""
+        """Return all versions of all documents with their dependencies and validity."""
         return documents_message(store.outline(case_id))
 
     @router.get("/{case_id}/documents/{document_id}", responses=rejections(404, 503))
     def document(case_id: str, document_id: str) -> DocumentMessage:
-        """One version of a document with its content."""
+        """Return one version of a document with its content."""
         found = store.document(case_id, document_id)
-        return document_message(found, store.standing(found))
+        return document_message(found, store.validity(found))
 
     @router.post("/{case_id}/documents/{document_id}/withdrawal", responses=rejections(404, 422, 503, 507))
-    def withdraw(case_id: str, document_id: str, asked: WithdrawMessage) -> DocumentMessage:
-        """Say that a document no longer holds; what stands on it is out of date from then on."""
-        found = store.withdraw(store.document(case_id, document_id), by=asked.by, reason=asked.reason)
-        return document_message(found, store.standing(found))
+    def withdraw(case_id: str, document_id: str, requested: WithdrawMessage) -> DocumentMessage:
+        """Withdraw a document; documents that depend on it become out of date."""
+        found = store.withdraw(store.document(case_id, document_id), by=requested.by, reason=requested.reason)
+        return document_message(found, store.validity(found))
 
 
 def _add_files(router: APIRouter, store: CaseStore) -> None:
     @router.get("/{case_id}/files", responses=rejections(404, 503))
     def files(case_id: str) -> FilesMessage:
-        """The files of a case, with their sizes and sums."""
+        """Return the files of a case with sizes and checksums."""
         return files_message(store.files(case_id))
 
     @router.get(
@@ -163,11 +163,11 @@ def _add_files(router: APIRouter, store: CaseStore) -> None:
         responses={200: {"content": {BINARY: {}}}, **rejections(404, 503)},
     )
     def file(case_id: str, file_id: str) -> FileResponse:
-        """One file, whole; parts of it by `Range`."""
+        """Return a file; supports `Range`."""
         found = store.file(case_id, file_id)
         return FileResponse(found.path, media_type=BINARY, filename=found.id)
 
     @router.post("/{case_id}/verification", responses=rejections(404, 503))
     def verify(case_id: str) -> VerificationMessage:
-        """Read every file of the case from end to end, and tell those that are not as they were stored."""
+        """Verify the checksums of all files of the case and return the damaged ones."""
         return verification_message(store.verify(case_id))

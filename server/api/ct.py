@@ -1,4 +1,4 @@
-"""The CT: sent, read, looked at in slices."""
+"""CT: upload, import and slices."""
 
 from dataclasses import dataclass
 from typing import Annotated, Literal
@@ -20,9 +20,9 @@ from server.api.ct_messages import (
     slice_message,
     upload_message,
 )
-from server.api.doing import MadeByQuery
 from server.api.errors import STATUS_OF, rejections
-from server.api.pictures import (
+from server.api.requester import MadeByQuery
+from server.api.slice_images import (
     HU,
     PNG,
     PNG_ANSWER,
@@ -33,12 +33,12 @@ from server.api.pictures import (
     SizeMm,
     SlabMm,
     WindowHu,
-    asked_point,
-    asked_window,
-    placed_picture,
+    image_with_headers,
+    point_from_query,
+    window_from_query,
 )
 from server.api.uploads import received
-from server.procedure.ct import CtInUse, CtStep, OpenedCt, UploadUnknown
+from server.procedure.ct import CtProvider, CtStep, MappedCt, UploadUnknown
 from server.store import Current, Home
 from tracker.plan import Channel, Volume
 from tracker.plan.slices import (
@@ -53,7 +53,7 @@ from tracker.plan.slices import (
 )
 
 STATUS_OF[UploadUnknown] = 404
-LARGEST_CT_BYTES = 4 * 2**30
+MAX_CT_BYTES = 4 * 2**30
 CT_TYPES: dict[str, dict[str, object]] = {"application/zip": {}, "application/octet-stream": {}}
 View = Literal["along", "across"]
 Degrees = Annotated[float, Query(ge=-360.0, le=360.0, allow_inf_nan=False)]
@@ -61,8 +61,8 @@ DepthMm = Annotated[float, Query(ge=-500.0, le=500.0, allow_inf_nan=False)]
 AtMm = Annotated[float, Query(ge=-10_000.0, le=10_000.0, allow_inf_nan=False)]
 
 
-def ct_router(step: CtStep, opened: OpenedCt, home: Home) -> APIRouter:
-    """Everything under `/api/ct`. Plain functions: they read the disk, in threads."""
+def ct_router(step: CtStep, opened: CtProvider, home: Home) -> APIRouter:
+    """Return the router of `/api/ct`. Its routes are synchronous because they read from the disk."""
     router = APIRouter(prefix="/api/ct", tags=["ct"])
     _add_uploads(router, step, home)
     _add_ct(router, opened)
@@ -79,21 +79,21 @@ def _add_uploads(router: APIRouter, step: CtStep, home: Home) -> None:
         openapi_extra={"requestBody": {"required": True, "content": CT_TYPES}},
     )
     async def send(request: Request, made_by: MadeByQuery) -> UploadMessage:
-        """Send a CT, which is the body of the request: a zip of DICOM slices, a DICOM file, or NIfTI.
+        """Upload a CT in the request body: a zip of DICOM slices, a DICOM file, or NIfTI.
 
-        It is read in a job, checked, and kept as the CT of the open case; what stood on the CT before is out
-        of date then. If it holds several CT series, the job's result lists them, for one to be chosen. What
-        cannot be planned on is refused by the job, and nothing of it is kept.
+        A job reads and checks it and stores it as the CT of the open case; documents that depend on the
+        previous CT become out of date. If it contains several CT series, the result of the job lists them.
+        A CT that is not usable for planning is rejected and not stored.
         """
         await to_thread.run_sync(step.reject_without_case)
-        async with received(request, home, max_bytes=LARGEST_CT_BYTES) as path:
+        async with received(request, home, max_bytes=MAX_CT_BYTES) as path:
             return upload_message(await to_thread.run_sync(lambda: step.receive(path, made_by=made_by)))
 
     @router.post(
         "/uploads/{upload_id}/series/{series}", status_code=202, responses=rejections(404, 422, 503, 507)
     )
     def choose(upload_id: str, series: str) -> UploadMessage:
-        """Read this series of an upload that holds several."""
+        """Read one series of an upload with several."""
         return upload_message(step.choose(upload_id, series))
 
     @router.get(
@@ -106,7 +106,7 @@ def _add_uploads(router: APIRouter, step: CtStep, home: Home) -> None:
         },
     )
     def preview(upload_id: str) -> Response:
-        """A slice of the middle, as soon as it is read and until the CT is; no content before that."""
+        """Return a preview slice from the middle while the CT is being read; 204 before it is available."""
         path = step.preview(upload_id)
         try:
             return Response(path.read_bytes(), media_type=PNG)
@@ -115,27 +115,27 @@ def _add_uploads(router: APIRouter, step: CtStep, home: Home) -> None:
             return Response(status_code=204)
 
 
-def _add_ct(router: APIRouter, opened: OpenedCt) -> None:
+def _add_ct(router: APIRouter, opened: CtProvider) -> None:
     @router.get("", responses=rejections(409, 422, 503))
     def ct() -> CtMessage:
-        """The CT of the open case: what it is, where its slices lie, and what to know of it."""
+        """Return the CT of the open case: description, geometry and warnings."""
         found = opened.current()
         heading = heading_message(found.document, Current())
         return ct_message(heading, found.document.content, found.volume)
 
     @router.post("/probe", responses=rejections(409, 422, 503))
-    def probe(asked: ProbeRequest) -> ProbeMessage:
-        """The Hounsfield units at a point."""
+    def probe(requested: ProbeRequest) -> ProbeMessage:
+        """Return the Hounsfield units at a point."""
         volume = opened.current().volume
-        point = np.array(asked.point_lps_mm)
+        point = np.array(requested.point_lps_mm)
         return ProbeMessage(
             hu=float(volume.sample_hu(point)),
-            inside=bool(volume.holds(point)),
+            inside=bool(volume.contains(point)),
             index_ijk=volume.index_from_lps(point).tolist(),
         )
 
 
-def _add_slices(router: APIRouter, opened: OpenedCt) -> None:
+def _add_slices(router: APIRouter, opened: CtProvider) -> None:
     @router.get(
         "/slices/{plane}.png",
         response_class=Response,
@@ -151,25 +151,25 @@ def _add_slices(router: APIRouter, opened: OpenedCt) -> None:
         slab_mm: SlabMm = 0.0,
         pixel_mm: PixelMm | None = None,
     ) -> Response:
-        """A slice as a picture, its place in the header; the middle one if no place is given.
+        """Return a slice as PNG with its geometry in a header; default: the middle slice.
 
-        Left in the image is the patient's right (axial, coronal) or front (sagittal). The pixels are the
-        scanner's own where they lie so, and need not be square; `pixel_mm` makes them.
+        The left side of the image is the patient's right (axial, coronal) or anterior (sagittal). Pixels are
+        those of the scanner where possible and need not be square; `pixel_mm` resamples them.
         """
-        grey = asked_window(window, level, preset)
+        grey = window_from_query(window, level, preset)
         found = opened.current()
 
         def draw() -> tuple[npt.NDArray[np.uint8], dict[str, str]]:
             one, at = _slice(found.volume, plane, at_mm, slab_mm, pixel_mm)
             return _drawn(found, one, at, grey)
 
-        return placed_picture(request, found.document.id, draw)
+        return image_with_headers(request, found.document.id, draw)
 
     @router.get("/slices/{plane}", responses=rejections(409, 422, 503))
     def slice_place(
         plane: Plane, at_mm: AtMm | None = None, slab_mm: SlabMm = 0.0, pixel_mm: PixelMm | None = None
     ) -> SliceMessage:
-        """Where the pixels of this slice's picture lie in the patient."""
+        """Return the geometry of the pixels of this slice."""
         one, at = _slice(opened.current().volume, plane, at_mm, slab_mm, pixel_mm)
         return slice_message(one, at_mm=at)
 
@@ -184,21 +184,21 @@ def _slice(
 
 
 def _drawn(
-    ct: CtInUse, one: Slice, at_mm: float | None, grey: Window
+    ct: MappedCt, one: Slice, at_mm: float | None, grey: Window
 ) -> tuple[npt.NDArray[np.uint8], dict[str, str]]:
-    """The pixels of a slice, and the headers that say where they lie and of which CT they are."""
+    """Return the pixels of a slice, and the headers with its geometry and its CT."""
     place = slice_message(one, at_mm=at_mm).model_dump_json()
     return shown(one.hu, grey), {SLICE_PLACE: place, SLICE_CT: ct.document.id}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Oblique:
-    """What is asked of a slice along or across a channel, in the query of picture and place alike."""
+    """Query parameters of an oblique slice along or across a channel."""
 
     entry: str
     target: str
     view: View = "along"
-    turn_deg: Degrees = 0.0
+    rotation_deg: Degrees = 0.0
     depth_mm: DepthMm = 0.0
     width_mm: SizeMm = 60.0
     height_mm: SizeMm = 100.0
@@ -207,11 +207,11 @@ class Oblique:
 
     @property
     def channel(self) -> Channel:
-        """The line that it is cut along; InvalidInput where an end is no point."""
+        """Return the axis of the slice; raises InvalidInput for an invalid point."""
         return Channel(
             name="oblique",
-            entry_in_vertebra_mm=asked_point(self.entry, name="entry"),
-            target_in_vertebra_mm=asked_point(self.target, name="target"),
+            entry_in_vertebra_mm=point_from_query(self.entry, name="entry"),
+            target_in_vertebra_mm=point_from_query(self.target, name="target"),
             radius_mm=1.0,
         )
 
@@ -230,40 +230,40 @@ class Oblique:
         return along_channel(
             volume,
             channel,
-            turn_deg=self.turn_deg,
+            rotation_deg=self.rotation_deg,
             size_mm=size_mm,
             pixel_mm=self.pixel_mm,
             slab_mm=self.slab_mm,
         )
 
 
-def _add_oblique(router: APIRouter, opened: OpenedCt) -> None:
+def _add_oblique(router: APIRouter, opened: CtProvider) -> None:
     @router.get(
         "/oblique.png", response_class=Response, responses={**SLICE_ANSWER, **rejections(409, 422, 503)}
     )
     def oblique_picture(
         request: Request,
-        asked: Annotated[Oblique, Depends()],
+        requested: Annotated[Oblique, Depends()],
         window: WindowHu | None = None,
         level: HU | None = None,
         preset: str | None = None,
     ) -> Response:
-        """A slice along a channel, turned about it, or across it at a depth from its entry.
+        """Return a slice along a channel, rotated about its axis, or across it at a depth from its entry.
 
-        Entry and target are `x,y,z` in mm of LPS. Along the channel, one drills upwards in the middle of the
-        image; across it, one looks in the drilling direction.
+        Entry and target are `x,y,z` in mm (LPS). Along the channel, the drilling direction points upwards;
+        across it, the view is in the drilling direction.
         """
-        grey = asked_window(window, level, preset)
-        channel = asked.channel
+        grey = window_from_query(window, level, preset)
+        channel = requested.channel
         found = opened.current()
 
         def draw() -> tuple[npt.NDArray[np.uint8], dict[str, str]]:
-            return _drawn(found, asked.of(found.volume, channel), None, grey)
+            return _drawn(found, requested.of(found.volume, channel), None, grey)
 
-        return placed_picture(request, found.document.id, draw)
+        return image_with_headers(request, found.document.id, draw)
 
     @router.get("/oblique", responses=rejections(409, 422, 503))
-    def oblique_place(asked: Annotated[Oblique, Depends()]) -> SliceMessage:
-        """Where the pixels of this slice's picture lie in the patient."""
+    def oblique_place(requested: Annotated[Oblique, Depends()]) -> SliceMessage:
+        """Return the geometry of the pixels of this slice."""
         volume = opened.current().volume
-        return slice_message(asked.of(volume, asked.channel))
+        return slice_message(requested.of(volume, requested.channel))

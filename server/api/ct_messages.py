@@ -1,4 +1,4 @@
-"""What is asked and answered about the CT."""
+"""Messages about the CT."""
 
 from collections.abc import Mapping
 from typing import Annotated, TypeAlias
@@ -7,7 +7,7 @@ from pydantic import Field
 
 from server.api.case_messages import HeadingMessage
 from server.api.jobs import JobMessage, job_message
-from server.procedure.ct import ReadingBegun
+from server.procedure.ct import CtUpload
 from server.stream.messages import Message
 from tracker.plan import Volume
 from tracker.plan.slices import WINDOWS, Plane, Slice, reach_mm
@@ -21,23 +21,23 @@ PointLps: TypeAlias = Annotated[list[Coordinate], Field(min_length=3, max_length
 class UploadMessage(JobMessage):
     """A CT that is being read.
 
-    Where it holds several series, the job's result lists them under `series`, and one is to be chosen.
+    If it contains several series, the result of the job lists them under `series`.
     """
 
     upload_id: str
 
 
 class ReachMessage(Message):
-    """Where a plane can be moved: z for axial, x for sagittal, y for coronal, in LPS."""
+    """Range of a slice plane in LPS: z for axial, x for sagittal, y for coronal."""
 
     from_mm: float
     to_mm: float
     step_mm: float
-    """From one slice to the next."""
+    """Distance between slices."""
 
 
 class WindowMessage(Message):
-    """Which Hounsfield units are shown: black to white around the level."""
+    """Display window in Hounsfield units: width around the level."""
 
     window_hu: float
     level_hu: float
@@ -51,18 +51,18 @@ class CtMessage(Message):
     """Voxels along left-right, front-back, feet-head."""
     spacing_mm: list[float]
     lps_from_ijk: list[list[float]]
-    """4 rows of 4."""
+    """4x4 matrix."""
     planes: dict[Plane, ReachMessage]
     presets: dict[str, WindowMessage]
     description: dict[str, object]
-    """What the scanner says of the series."""
+    """Series description from the DICOM header."""
     warnings: list[str]
-    """What to know before planning on it."""
+    """Warnings for planning."""
     left_out: list[dict[str, object]]
 
 
 class EdgesMessage(Message):
-    """Towards what the image's edges lie: L and R, A and P, H and F."""
+    """Anatomical direction of each image edge: L/R, A/P, H/F."""
 
     left: str
     right: str
@@ -71,19 +71,19 @@ class EdgesMessage(Message):
 
 
 class SliceMessage(Message):
-    """Where the pixels of a slice's picture lie."""
+    """Geometry of the pixels of a slice."""
 
     width_px: int
     height_px: int
     pixel_mm: list[float]
-    """Distance between columns and between rows; they may differ."""
+    """Column and row spacing."""
     lps_from_px: list[list[float]]
-    """3 rows of 3: (u, v, 1) to LPS in mm; the centre of the top-left pixel is (0, 0)."""
+    """3x3 matrix from (u, v, 1) to LPS in mm; the centre of the top-left pixel is (0, 0)."""
     normal_lps: list[float]
-    """In which direction one looks."""
+    """Viewing direction."""
     edges: EdgesMessage
     at_mm: float | None
-    """Of an axial, sagittal or coronal slice; null of others."""
+    """Position of an axial, sagittal or coronal slice; null for oblique slices."""
 
 
 class ProbeRequest(Message):
@@ -93,22 +93,22 @@ class ProbeRequest(Message):
 
 
 class ProbeMessage(Message):
-    """What the CT says at a point."""
+    """CT value at a point."""
 
     hu: float
-    """Between voxels, linear; -1024 beyond the CT."""
+    """Linear interpolation; -1024 outside the CT."""
     inside: bool
     index_ijk: list[float]
-    """In the order of `size_ijk`."""
+    """Voxel index in the order of `size_ijk`."""
 
 
-def upload_message(begun: ReadingBegun) -> UploadMessage:
-    """An upload with its job, as it is told."""
+def upload_message(begun: CtUpload) -> UploadMessage:
+    """Return the message of an upload."""
     return UploadMessage(upload_id=begun.upload_id, **job_message(begun.job).model_dump())
 
 
 def ct_message(heading: HeadingMessage, content: Mapping[str, object], volume: Volume) -> CtMessage:
-    """The CT, as it is told."""
+    """Return the message of the CT."""
     return CtMessage(
         heading=heading,
         size_ijk=list(volume.shape_ijk),
@@ -126,13 +126,13 @@ def ct_message(heading: HeadingMessage, content: Mapping[str, object], volume: V
 
 
 def reach_message(volume: Volume, plane: Plane) -> ReachMessage:
-    """How far a plane can be moved, as it is told."""
+    """Return the message of the range of a plane."""
     low, high, step = reach_mm(volume, plane)
     return ReachMessage(from_mm=low, to_mm=high, step_mm=step)
 
 
 def slice_message(one: Slice, *, at_mm: float | None = None) -> SliceMessage:
-    """Where a slice lies, as it is told."""
+    """Return the message of the geometry of a slice."""
     width, height = one.size_wh_px
     edges = one.edges
     return SliceMessage(
@@ -147,10 +147,10 @@ def slice_message(one: Slice, *, at_mm: float | None = None) -> SliceMessage:
 
 
 def mapping_of(value: object) -> dict[str, object]:
-    """What a document holds as a mapping; an empty one where it holds something else."""
+    """Return the value as a mapping; empty if it is not one."""
     return {str(key): one for key, one in value.items()} if isinstance(value, Mapping) else {}
 
 
 def list_of(value: object) -> list[object]:
-    """What a document holds as a list; an empty one where it holds something else."""
+    """Return the value as a list; empty if it is not one."""
     return list(value) if isinstance(value, list | tuple) else []

@@ -1,4 +1,4 @@
-"""What the page has to know when it is loaded."""
+"""Start-up data of the page."""
 
 from importlib.metadata import PackageNotFoundError, version
 
@@ -6,14 +6,14 @@ from fastapi import APIRouter
 
 from server.api.alarms import ARMED_EVERY_S, SoundMessage, sound_messages
 from server.config import Config
-from server.overlay.words import RESEARCH_SOFTWARE
+from server.overlay.panel_readings import RESEARCH_SOFTWARE
 from server.stream.message import Message
 
 PRODUCT = "Coaxial"
 
 
 class CameraMessage(Message):
-    """One camera and where its pictures are."""
+    """A camera and the addresses of its video."""
 
     name: str
     video_path: str
@@ -23,7 +23,7 @@ class CameraMessage(Message):
 
 
 class LimitsMessage(Message):
-    """From where on a page must say that something is old."""
+    """Ages from which data count as stale."""
 
     pose_stale_after_ms: float
     video_stale_after_ms: float
@@ -31,7 +31,7 @@ class LimitsMessage(Message):
 
 
 class PathsMessage(Message):
-    """Where everything else is."""
+    """Addresses of the other services."""
 
     live: str
     """WebSocket with one `LiveMessage` for each instant."""
@@ -42,24 +42,24 @@ class PathsMessage(Message):
 
 
 class DashboardMessage(Message):
-    """What the page has to know when it is loaded; nothing in it changes while the server runs."""
+    """Start-up data of the page, constant while the server runs."""
 
     product: str
     version: str
     notice: str
-    """To be shown on every page."""
+    """Notice for every page."""
     cameras: list[CameraMessage]
     limits: LimitsMessage
     scene_available: bool
     paths: PathsMessage
     sounds: list[SoundMessage]
-    """Of the alarms, the highest first."""
+    """Alarm sounds, highest priority first."""
     armed_every_s: float
-    """How often a screen says whether its sound is armed."""
+    """Period of the sound reports of a screen."""
 
 
 def product_version() -> str:
-    """The version of what is installed; "unknown" for a bare copy of the code."""
+    """Return the installed version; "unknown" if the package is not installed."""
     try:
         return version("coaxial")
     except PackageNotFoundError:
@@ -67,7 +67,7 @@ def product_version() -> str:
 
 
 def dashboard_message(config: Config, *, scene_available: bool) -> DashboardMessage:
-    """The message for this configuration."""
+    """Return the start-up data for these settings."""
     name = config.camera.name
     limits = config.limits
     return DashboardMessage(
@@ -96,12 +96,12 @@ def dashboard_message(config: Config, *, scene_available: bool) -> DashboardMess
 
 
 def dashboard_router(message: DashboardMessage) -> APIRouter:
-    """`GET /api/dashboard`."""
+    """Return the router of `GET /api/dashboard`."""
     router = APIRouter(prefix="/api", tags=["page"])
 
     @router.get("/dashboard")
     async def dashboard() -> DashboardMessage:
-        """What the page has to know when it is loaded: names, limits, addresses."""
+        """Return the start-up data of the page: names, limits and addresses."""
         return message
 
     return router

@@ -1,7 +1,7 @@
-"""`/api/docs`: the API in words, made from its OpenAPI document here, without any script.
+"""`/api/docs`: HTML documentation of the API, rendered from its OpenAPI document without scripts.
 
-The usual viewers load their scripts from a stranger's server, and need scripts written into the page, which
-this server's pages forbid.
+Swagger UI and ReDoc load scripts from a CDN and need inline scripts, which the Content-Security-Policy of
+this server forbids.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -11,18 +11,18 @@ from typing import Any
 from fastapi import APIRouter, FastAPI
 from fastapi.responses import HTMLResponse
 
-from server.api.errors import REJECTED_WORDS
+from server.api.errors import STATUS_TEXTS
 
 Schema = Mapping[str, Any]
 
-FRAMEWORKS_SHAPE = "HTTPValidationError"
-FRAMEWORKS_SCHEMAS = (FRAMEWORKS_SHAPE, "ValidationError")
-OUR_SHAPE = {"application/json": {"schema": {"$ref": "#/components/schemas/ProblemMessage"}}}
-OUR_422 = {"description": REJECTED_WORDS[422], "content": OUR_SHAPE}
-# Whatever has a body can be too slow with it.
-OUR_408 = {"description": REJECTED_WORDS[408], "content": OUR_SHAPE}
-# Whatever changes something is written into the audit log before it is answered.
-OUR_507 = {"description": REJECTED_WORDS[507], "content": OUR_SHAPE}
+FRAMEWORK_ERROR_SCHEMA = "HTTPValidationError"
+FRAMEWORK_SCHEMAS = (FRAMEWORK_ERROR_SCHEMA, "ValidationError")
+PROBLEM_CONTENT = {"application/json": {"schema": {"$ref": "#/components/schemas/ProblemMessage"}}}
+PROBLEM_422 = {"description": STATUS_TEXTS[422], "content": PROBLEM_CONTENT}
+# Every request with a body can time out.
+PROBLEM_408 = {"description": STATUS_TEXTS[408], "content": PROBLEM_CONTENT}
+# Every change is written to the audit log before the response.
+PROBLEM_507 = {"description": STATUS_TEXTS[507], "content": PROBLEM_CONTENT}
 
 STYLE = """
 :root { color-scheme: light dark; font: 16px/1.5 system-ui, sans-serif; }
@@ -37,10 +37,10 @@ p.notice { font-weight: 700; }
 
 
 class DocumentedApi(FastAPI):
-    """The application, whose OpenAPI document tells every refusal in the shape that it has."""
+    """Application whose OpenAPI document describes error responses as `ProblemMessage`."""
 
     def openapi(self) -> dict[str, Any]:
-        """The framework's document, in which its own shape of a refusal is replaced by ours."""
+        """Return the OpenAPI document with the validation error of FastAPI replaced by `ProblemMessage`."""
         if self.openapi_schema is None:
             document = super().openapi()
             for method, operation in (
@@ -48,19 +48,19 @@ class DocumentedApi(FastAPI):
             ):
                 answers = operation["responses"]
                 if method != "get":
-                    answers.setdefault("507", OUR_507)
+                    answers.setdefault("507", PROBLEM_507)
                 if "requestBody" in operation:
-                    answers.setdefault("408", OUR_408)
-                if FRAMEWORKS_SHAPE in str(answers.get("422")):
-                    answers["422"] = OUR_422
-            for name in FRAMEWORKS_SCHEMAS:
+                    answers.setdefault("408", PROBLEM_408)
+                if FRAMEWORK_ERROR_SCHEMA in str(answers.get("422")):
+                    answers["422"] = PROBLEM_422
+            for name in FRAMEWORK_SCHEMAS:
                 document["components"]["schemas"].pop(name, None)
             self.openapi_schema = document
         return self.openapi_schema
 
 
 def documentation_router(openapi: Callable[[], dict[str, Any]], *, openapi_path: str) -> APIRouter:
-    """`GET /api/docs`, from the application's OpenAPI document."""
+    """Return the router of `GET /api/docs`."""
     router = APIRouter(prefix="/api", tags=["page"])
 
     @router.get("/docs", response_class=HTMLResponse, include_in_schema=False)
@@ -71,7 +71,7 @@ def documentation_router(openapi: Callable[[], dict[str, Any]], *, openapi_path:
 
 
 def documentation_page(document: Mapping[str, Any], *, openapi_path: str) -> str:
-    """The whole page (HTML) of an OpenAPI document."""
+    """Return the HTML page of an OpenAPI document."""
     title = f"{document['info']['title']} {document['info']['version']}"
     schemas: Mapping[str, Schema] = document.get("components", {}).get("schemas", {})
     parts = [
@@ -145,7 +145,7 @@ def _schema(name: str, schema: Schema) -> str:
 
 
 def _type(schema: Schema) -> str:
-    """A schema's type in a few words, with a link where it has a name."""
+    """Return a short description of the type of a schema, with a link if it is named."""
     if "$ref" in schema:
         name = escape(schema["$ref"].rsplit("/", 1)[-1])
         return f'<a href="#{name}"><code>{name}</code></a>'

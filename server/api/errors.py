@@ -1,4 +1,4 @@
-"""Every refusal has one shape: code, message, remedy, context."""
+"""Error responses: every error has the fields code, message, remedy and context."""
 
 from typing import Any
 
@@ -12,10 +12,10 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from server.errors import CaptureError, SetupOrderError
 from server.jobs import JobUnknown
 from server.security import rejections as door
-from server.store import NotStored, OutOfDateError, StoreConflict, StoreError
+from server.store import NotFound, OutOfDateError, StoreConflict, StoreError
 from server.stream.errors import CameraUnknown, TooManyViewers
-from server.stream.fitting.sizes import SizeUnknown
 from server.stream.messages import ProblemMessage
+from server.stream.scaling.sizes import SizeUnknown
 from tracker.errors import CalibrationError, InvalidInput, NavigationError, PlanError, RegistrationError
 
 _log = structlog.get_logger(__name__)
@@ -30,94 +30,96 @@ STATUS_OF: dict[type[NavigationError], int] = {
     CalibrationError: 409,
     PlanError: 409,
     RegistrationError: 409,
-    NotStored: 404,
+    NotFound: 404,
     StoreConflict: 409,
     OutOfDateError: 409,
     StoreError: 503,
     JobUnknown: 404,
     **door.STATUS_OF,
 }
-# Where HTTP has a word of its own for what the code says.
+# Codes with a specific HTTP status.
 STATUS_OF_CODE = {"STORE_FULL": 507, "UPLOAD_TOO_LARGE": 413, "BODY_TOO_LARGE": 413, "BODY_TOO_SLOW": 408}
 
-# Of what did not come in time nothing more is waited for, and the line is cut.
+# After a timeout the connection is closed.
 TIMEOUT = 408
-# Whose refusals say how long to wait.
-AGAIN_LATER = 429
+# Its response carries Retry-After.
+TOO_MANY_REQUESTS = 429
 
-REJECTED_WORDS = {
-    401: "Nobody is signed in, or no longer.",
-    403: "Who is signed in may not do this, or a page that is none of this server asks for it.",
-    404: "There is no such thing.",
-    408: "It was not sent in time.",
-    409: "It cannot be done as things stand.",
-    413: "It is larger than is taken.",
-    421: "This server does not answer to the name in `Host`.",
-    422: "What was asked cannot be used.",
-    429: "Too many wrong links or sessions came from there, or one link signed in too often; `Retry-After` "
-    "says how long to wait.",
-    500: "The server made a mistake.",
-    503: "Not now.",
-    507: "The disk is full, or what was done could not be written into the audit log.",
+STATUS_TEXTS = {
+    401: "Not signed in, or the session has ended.",
+    403: "The role does not permit this, or the request comes from a page of another origin.",
+    404: "Not found.",
+    408: "The request was not received in time.",
+    409: "Not possible in the present state.",
+    413: "The request is too large.",
+    421: "The host name in `Host` is not a name of this server.",
+    422: "The request is invalid.",
+    429: "Too many failed logins from this address, or too many logins with one link; `Retry-After` is the "
+    "waiting time in s.",
+    500: "Internal server error.",
+    503: "Temporarily unavailable.",
+    507: "The disk is full, or the action could not be written to the audit log.",
 }
-TOLD = {
-    404: ("NOT_FOUND", "there is nothing at {path}", "Look at /api/docs for what can be asked."),
+HTTP_ERROR_TEXTS = {
+    404: ("NOT_FOUND", "{path} does not exist", "See /api/docs for the available addresses."),
     405: (
         "METHOD_NOT_ALLOWED",
-        "{method} is not possible at {path}",
-        "Look at /api/docs for what can be asked.",
+        "{path} does not support {method}",
+        "See /api/docs for the available addresses.",
     ),
 }
 INTERNAL = ProblemMessage(
     code="INTERNAL",
-    message="the server made a mistake while answering",
-    remedy="Try again; if it comes back, send the server's log to the maintainer.",
+    message="an internal error occurred in the server",
+    remedy="Try again; if the error persists, send the server log to the maintainer.",
     context={},
 )
 
 
-class NothingYet(NavigationError):
-    """What was asked for is not there yet, and will be."""
+class NotYetAvailable(NavigationError):
+    """The requested data are not available yet."""
 
 
-STATUS_OF[NothingYet] = 503
+STATUS_OF[NotYetAvailable] = 503
 
 
 def rejections(*statuses: int) -> dict[int | str, dict[str, Any]]:
-    """What OpenAPI says of a route's refusals."""
-    return {status: {"model": ProblemMessage, "description": REJECTED_WORDS[status]} for status in statuses}
+    """Return the OpenAPI responses for these error statuses of a route."""
+    return {status: {"model": ProblemMessage, "description": STATUS_TEXTS[status]} for status in statuses}
 
 
 def status_of(error: NavigationError) -> int:
-    """The HTTP status of an error: of its code, of its class, or of the nearest class above it."""
+    """Return the HTTP status of an error: by its code, its class, or its nearest base class."""
     if error.code in STATUS_OF_CODE:
         return STATUS_OF_CODE[error.code]
     return next((STATUS_OF[kind] for kind in type(error).__mro__ if kind in STATUS_OF), 500)
 
 
 def install_errors(app: FastAPI) -> None:
-    """Give every error of the application the one shape."""
+    """Register the handlers that turn every error into a `ProblemMessage`."""
     app.add_exception_handler(NavigationError, _navigation)
     app.add_exception_handler(HTTPException, _http)
     app.add_exception_handler(RequestValidationError, _invalid)
-    app.add_middleware(InternalErrors)
+    app.add_middleware(InternalErrorMiddleware)
 
 
 def _answer(status: int, problem: ProblemMessage, headers: dict[str, str] | None = None) -> JSONResponse:
-    kept = {"Cache-Control": "no-store", **(headers or {})}
-    return JSONResponse(problem.model_dump(mode="json"), status_code=status, headers=kept)
+    all_headers = {"Cache-Control": "no-store", **(headers or {})}
+    return JSONResponse(problem.model_dump(mode="json"), status_code=status, headers=all_headers)
 
 
 async def _navigation(_request: Request, error: Exception) -> JSONResponse:
     if not isinstance(error, NavigationError):
         raise error
-    told = ProblemMessage(code=error.code, message=error.message, remedy=error.remedy, context=error.context)
+    problem = ProblemMessage(
+        code=error.code, message=error.message, remedy=error.remedy, context=error.context
+    )
     status = status_of(error)
     headers = {
         TIMEOUT: {"Connection": "close"},
-        AGAIN_LATER: {"Retry-After": str(error.context.get("wait_s"))},
+        TOO_MANY_REQUESTS: {"Retry-After": str(error.context.get("wait_s"))},
     }
-    return _answer(status, told, headers.get(status))
+    return _answer(status, problem, headers.get(status))
 
 
 async def _http(request: Request, error: Exception) -> JSONResponse:
@@ -125,29 +127,31 @@ async def _http(request: Request, error: Exception) -> JSONResponse:
         raise error
     path = request.url.path[:200]
     if isinstance(error.__cause__, NavigationError):
-        # FastAPI's own 400 for whatever happened while it read the body.
+        # FastAPI answers 400 for any exception that is raised while it reads the body.
         return await _navigation(request, error.__cause__)
     if isinstance(error.__cause__, ValueError | RecursionError):
-        # FastAPI's own 400 for a body that is no text; a body that is no JSON is 422 everywhere else.
-        told = ProblemMessage(
+        # FastAPI answers 400 for a body that is not text; invalid JSON is 422 everywhere else.
+        problem = ProblemMessage(
             code="REQUEST_INVALID",
-            message="the body of the request is no JSON: it is no text in UTF-8, is nested too deeply, or "
-            "has a number that is too long",
-            remedy="Send JSON; /api/docs tells what this request takes.",
+            message="the request body is not valid JSON: it is not UTF-8 text, is nested too deeply, or "
+            "contains a number that is too long",
+            remedy="Send JSON as described in /api/docs.",
             context={"path": path},
         )
-        return _answer(422, told)
-    code, message, remedy = TOLD.get(
+        return _answer(422, problem)
+    code, message, remedy = HTTP_ERROR_TEXTS.get(
         error.status_code,
-        (f"HTTP_{error.status_code}", str(error.detail), "Look at /api/docs for what can be asked."),
+        (f"HTTP_{error.status_code}", str(error.detail), "See /api/docs for the available addresses."),
     )
-    told = ProblemMessage(
+    problem = ProblemMessage(
         code=code,
-        message=message.format(path=path, method=request.method) if error.status_code in TOLD else message,
+        message=message.format(path=path, method=request.method)
+        if error.status_code in HTTP_ERROR_TEXTS
+        else message,
         remedy=remedy,
         context={"path": path},
     )
-    return _answer(error.status_code, told, dict(error.headers or {}))
+    return _answer(error.status_code, problem, dict(error.headers or {}))
 
 
 async def _invalid(request: Request, error: Exception) -> JSONResponse:
@@ -156,15 +160,15 @@ async def _invalid(request: Request, error: Exception) -> JSONResponse:
     found = error.errors()
     first = found[0]
     where = ".".join(str(part) for part in first["loc"])
-    # curl -d says that it sends a form, and the framework then says only that a text is no object.
+    # curl -d sends the content type of a form, for which the message of the framework is misleading.
     sent = request.headers.get("content-type", "").partition(";")[0].strip().lower()
     is_form = sent in ("application/x-www-form-urlencoded", "text/plain")
-    told = ProblemMessage(
+    problem = ProblemMessage(
         code="REQUEST_INVALID",
         message=f"{where}: {first['msg']}" + (f" (and {len(found) - 1} more)" if len(found) > 1 else ""),
-        remedy=f"Send JSON and say so, with 'Content-Type: application/json' in place of {sent}."
+        remedy=f"Send JSON with 'Content-Type: application/json' instead of {sent}."
         if is_form
-        else "Look at /api/docs for what this request takes.",
+        else "See /api/docs for the fields of this request.",
         context={
             "path": request.url.path[:200],
             "problems": [
@@ -172,32 +176,32 @@ async def _invalid(request: Request, error: Exception) -> JSONResponse:
             ],
         },
     )
-    return _answer(422, told)
+    return _answer(422, problem)
 
 
-class InternalErrors:
-    """ASGI middleware: logs what nobody expected, once, and answers without telling a stranger what."""
+class InternalErrorMiddleware:
+    """ASGI middleware: log an unexpected exception once and answer 500 without its details."""
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass on; answer 500 for an answer that did not begin."""
+        """Run the application; answer 500 if it fails before its response starts."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
         started = False
 
-        async def note(message: Message) -> None:
+        async def track_start(message: Message) -> None:
             nonlocal started
             started = started or message["type"] == "http.response.start"
             await send(message)
 
         try:
-            await self._app(scope, receive, note)
+            await self._app(scope, receive, track_start)
         except Exception:
             if started:
-                # The answer is broken in the middle; only the server below can end it, and it logs.
+                # The response has started; uvicorn closes the connection and logs the exception.
                 raise
             _log.exception("request_failed", method=scope["method"], path=scope["path"])
             await _answer(500, INTERNAL)(scope, receive, send)

@@ -1,4 +1,4 @@
-"""The gates: what a marker, a calibration, a tool and a registration must reach, as the settings have it."""
+"""Acceptance limits (gates) of marker, calibration, tool and registration from the settings."""
 
 from fastapi import APIRouter
 
@@ -10,21 +10,21 @@ from server.config import (
     TrackerConfig,
 )
 from server.stream.messages import Message
-from tracker.camera.collecting import CollectingSettings
+from tracker.camera.board_collector import BoardCollectorSettings
 
 
 class CollectingMessage(Message):
-    """When there are enough views of a board."""
+    """Requirements for the views of a calibration board."""
 
     min_views: int
     min_coverage_ratio: float
-    """How much of the image the board must have been in."""
+    """Fraction of the image that the views must cover."""
     min_tilt_deg: float
-    """To every side."""
+    """In every direction."""
 
 
 class GatesMessage(Message):
-    """Every limit that a step is held against; nothing in it changes while the server runs."""
+    """Acceptance limits of all steps, constant while the server runs."""
 
     tracker: TrackerConfig
     collecting: CollectingMessage
@@ -34,9 +34,9 @@ class GatesMessage(Message):
 
 
 def gates_router(config: Config) -> APIRouter:
-    """`GET /api/gates`."""
+    """Return the router of `GET /api/gates`."""
     router = APIRouter(prefix="/api/gates", tags=["procedure"])
-    wanted = CollectingSettings()
+    wanted = BoardCollectorSettings()
     message = GatesMessage(
         tracker=config.tracker,
         collecting=CollectingMessage(
@@ -51,7 +51,7 @@ def gates_router(config: Config) -> APIRouter:
 
     @router.get("")
     def gates() -> GatesMessage:
-        """What each step is held against."""
+        """Return the acceptance limits of all steps."""
         return message
 
     return router

@@ -1,8 +1,8 @@
-"""The user guide at `/docs/`: the files that `make docs` builds, or a sentence that says how to build them.
+"""The user guide at `/docs/`: the files built by `make docs`, or instructions to build them.
 
-The guide says nothing of a patient, so it is open to everybody, like the page's own files. The theme of its
-generator has a few inline scripts in each page (colour scheme, scope of its storage). They are allowed by
-their hashes, each page its own and under `/docs/` alone; everything else stays without inline scripts.
+The guide contains no patient data and needs no sign-in, like the files of the page. Each of its pages has a
+few inline scripts of the theme (colour scheme, storage scope). The Content-Security-Policy allows them by
+their hashes, per page and only under `/docs/`.
 """
 
 import base64
@@ -32,15 +32,15 @@ NOT_BUILT = """<!doctype html><html lang="en"><head><meta charset="utf-8"><title
 <body><h1>The user guide is not built</h1>
 <p>Run <code>make docs</code> in the checkout, start the server again, and load this page again. Meanwhile the
 guide can be read as text in the folder <code>docs/guide</code>.</p>
-<p>The interface for machines is documented at <a href="/api/docs">/api/docs</a>.</p></body></html>
+<p>The API is documented at <a href="/api/docs">/api/docs</a>.</p></body></html>
 """
 
 
 class GuideFiles(StaticFiles):
-    """The built guide; browsers revalidate every file, because it is built anew under the same names."""
+    """Static files of the guide; browsers revalidate them, because a new build keeps the file names."""
 
     def lookup_path(self, path: str) -> tuple[str, os.stat_result | None]:
-        """Not the generator's 404 page, which looks for its own files at the root of the server."""
+        """Look up a file, except the 404 page of the generator, whose links expect the server root."""
         return ("", None) if path == "404.html" else super().lookup_path(path)
 
     def file_response(
@@ -50,7 +50,7 @@ class GuideFiles(StaticFiles):
         scope: Scope,
         status_code: int = 200,
     ) -> Response:
-        """The file, or 304; an HTML page with a policy that allows its own inline scripts."""
+        """Return the file or 304; HTML pages carry a policy that allows their inline scripts."""
         response = super().file_response(full_path, stat_result, scope, status_code)
         response.headers["Cache-Control"] = "no-cache"
         if os.fspath(full_path).endswith(".html"):
@@ -63,19 +63,19 @@ class GuideFiles(StaticFiles):
 
 @lru_cache(maxsize=64)
 def inline_script_hashes(path: str, _mtime_ns: int) -> tuple[str, ...]:
-    """Sources of a Content-Security-Policy, `'sha256-...'`, of the inline scripts in an HTML file."""
+    """Return the CSP sources `'sha256-...'` of the inline scripts in an HTML file."""
     scripts = INLINE_SCRIPT.findall(Path(path).read_bytes())
     digests = {base64.b64encode(hashlib.sha256(script).digest()).decode() for script in scripts}
     return tuple(f"'sha256-{digest}'" for digest in sorted(digests))
 
 
 def guide_folder(folders: tuple[Path, ...] = GUIDE_FOLDERS) -> Path | None:
-    """Where the built guide is, None when it is not built."""
+    """Return the folder of the built guide; None if it is not built."""
     return next((folder for folder in folders if (folder / "index.html").is_file()), None)
 
 
 def is_guide(path: str) -> bool:
-    """Whether a path is of the guide."""
+    """Return whether a path belongs to the guide."""
     return path == ADDRESS or (path.startswith(f"{ADDRESS}/") and not {".", ".."} & set(path.split("/")))
 
 

@@ -1,4 +1,4 @@
-"""Whether all is well, for a container's health check and for a person."""
+"""Health of the server, for container health checks and for people."""
 
 import time
 from enum import StrEnum
@@ -6,12 +6,12 @@ from enum import StrEnum
 from fastapi import APIRouter, Request, Response
 
 from server.live import Instant, LiveHub, ProcessState, SourceState
-from server.security import NOBODY, person_of
+from server.security import ANONYMOUS, person_of
 from server.stream.messages import Message, ProcessMessage, SourceMessage, process_message, source_message
 
 
 class HealthState(StrEnum):
-    """In one word."""
+    """Overall health."""
 
     OK = "ok"  # images come and are tracked
     DEGRADED = "degraded"  # not now, but the server goes on trying, or a file has come to its end
@@ -19,18 +19,18 @@ class HealthState(StrEnum):
 
 
 class HealthMessage(Message):
-    """Whether all is well, and what is not."""
+    """Health of the server, with the state of tracking process and image source."""
 
     status: HealthState
     process: ProcessMessage | None
-    """Null before the tracking process has said anything."""
+    """null before the first message of the tracking process."""
     source: SourceMessage | None
     image_age_ms: float | None
-    """Age of the newest image; null when there is none."""
+    """Age of the newest image; null if there is none."""
 
 
 def health_message(instant: Instant | None, *, now_s: float, stale_after_ms: float) -> HealthMessage:
-    """Health at monotonic time `now_s`; images older than `stale_after_ms` are not well."""
+    """Return the health at monotonic time `now_s`; images older than `stale_after_ms` degrade it."""
     if instant is None:
         return HealthMessage(status=HealthState.DEGRADED, process=None, source=None, image_age_ms=None)
     snapshot = instant.snapshot
@@ -55,7 +55,7 @@ def health_message(instant: Instant | None, *, now_s: float, stale_after_ms: flo
 
 
 def health_router(hub: LiveHub, *, stale_after_ms: float) -> APIRouter:
-    """`GET /health`."""
+    """Return the router of `GET /health`."""
     router = APIRouter(tags=["health"])
 
     @router.get(
@@ -63,16 +63,16 @@ def health_router(hub: LiveHub, *, stale_after_ms: float) -> APIRouter:
         responses={503: {"model": HealthMessage, "description": "Tracking has been given up."}},
     )
     async def health(request: Request, response: Response) -> HealthMessage:
-        """Whether all is well: `ok`, `degraded` (it goes on trying) or `failed`.
+        """Return the health: `ok`, `degraded` (the server keeps trying) or `failed`.
 
-        Answers 200 as long as the server works and the tracking process lives or is being restarted: a
-        camera that is unplugged is not mended by restarting the container. 503 when it was given up.
-        Who is not signed in is told the one word alone.
+        200 while the tracking process runs or is being restarted, because a restart of the container does not
+        repair an unplugged camera; 503 after the restarts have failed. Without sign-in only the status is
+        returned.
         """
         message = health_message(hub.newest, now_s=time.monotonic(), stale_after_ms=stale_after_ms)
         response.status_code = 503 if message.status is HealthState.FAILED else 200
         response.headers["Cache-Control"] = "no-store"
-        if person_of(request.scope) == NOBODY:
+        if person_of(request.scope) == ANONYMOUS:
             return HealthMessage(status=message.status, process=None, source=None, image_age_ms=None)
         return message
 

@@ -1,4 +1,4 @@
-"""Long work: how far it is, what came out, and its end."""
+"""Background jobs: progress, result and cancellation."""
 
 from fastapi import APIRouter
 
@@ -8,30 +8,30 @@ from server.stream.messages import Message, ProblemMessage, problem_message
 
 
 class JobMessage(Message):
-    """Long work at one moment."""
+    """State of a background job."""
 
     id: str
     title: str
     state: JobState
-    """done, failed and cancelled are ends; concluding is too late to cancel."""
+    """done, failed and cancelled are final; a job that is concluding cannot be cancelled."""
     progress_ratio: float
-    """0 to 1; never goes back."""
+    """0 to 1, never decreasing."""
     doing: str
-    """What is done just now, in words."""
+    """The present activity."""
     result: object
-    """What came out; null until it is done."""
+    """The result; null until the job is done."""
     problem: ProblemMessage | None
-    """Why it failed; null if it did not."""
+    """Why it failed; null otherwise."""
 
 
 class JobsMessage(Message):
-    """All jobs that are remembered, the newest first."""
+    """All remembered jobs, newest first."""
 
     jobs: list[JobMessage]
 
 
 def job_message(job: Job) -> JobMessage:
-    """A job, as it is told."""
+    """Return the message of a job."""
     return JobMessage(
         id=job.id,
         title=job.title,
@@ -44,22 +44,22 @@ def job_message(job: Job) -> JobMessage:
 
 
 def jobs_router(jobs: Jobs) -> APIRouter:
-    """Everything under `/api/jobs`. Plain functions: they may wait for a process that is being started."""
+    """Return the router of `/api/jobs`. Its routes are synchronous because they may wait for a process."""
     router = APIRouter(prefix="/api/jobs", tags=["jobs"])
 
     @router.get("")
     def all_jobs() -> JobsMessage:
-        """All jobs that are remembered, the newest first."""
+        """All remembered jobs, newest first."""
         return JobsMessage(jobs=[job_message(job) for job in jobs.list()])
 
     @router.get("/{job_id}", responses=rejections(404))
     def job(job_id: str) -> JobMessage:
-        """How far a job is, and what came out of it."""
+        """Return the progress and the result of a job."""
         return job_message(jobs.get(job_id))
 
     @router.delete("/{job_id}", responses=rejections(404))
     def cancel(job_id: str) -> JobMessage:
-        """Cancel a job. One that is over, or whose result is just being kept, stays as it is."""
+        """Cancel a job. A finished job, or one whose result is being stored, is not changed."""
         return job_message(jobs.cancel(job_id))
 
     return router

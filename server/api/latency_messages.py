@@ -1,10 +1,10 @@
-"""What is asked and answered about the latency from light to page."""
+"""Messages of the latency measurement."""
 
 from typing import Annotated, TypeAlias
 
 from pydantic import Field
 
-from server.api.doing import MadeBy
+from server.api.requester import MadeBy
 from server.latency import (
     CELLS,
     ClockComparison,
@@ -32,72 +32,71 @@ class LatencyCodesRequest(Message):
 
 
 class LatencyCodesMessage(Message):
-    """What the page is to show, once the camera looks at the screen."""
+    """Codes that the page has to show."""
 
     cells: int
-    """Cells along a side, without the black border, which is one cell wide."""
+    """Cells per side, without the black border of one cell."""
     patterns: list[str]
-    """The cells of each code, row by row from the top left: 1 is white. Shown in this order, again and
-    again."""
+    """The cells of each code, row by row from the top left: 1 is white. Shown cyclically in this order."""
     codes: int
-    """How many to paint after the first has been read."""
+    """Number of codes to show after the first one was read."""
     min_code_ms: float
-    """Each stands for a random time between this ..."""
+    """Minimum random duration of a code."""
     max_code_ms: float
-    """... and this."""
+    """Maximum random duration of a code."""
     min_timed: int
-    """How many must be timed."""
+    """Minimum number of timed codes."""
 
 
 class LatencyReadingMessage(Message):
-    """How reading goes; a page that does not ask for 5 s has left."""
+    """Progress of the reading; it ends after 5 s without a request."""
 
     running: bool
-    looked_images: int
+    examined_images: int
     read_images: int
-    """In how many of them a code was read."""
+    """Images in which a code was read."""
     server_s: float
-    """Monotonic clock of the server as it answers, to compare the page's with."""
+    """Monotonic clock of the server at the response, for clock synchronisation."""
     problem: ProblemMessage | None
     """Why reading ended."""
 
 
 class PaintedCodeMessage(Message):
-    """A code on the screen."""
+    """A displayed code."""
 
     code: Annotated[int, Field(ge=0, le=249)]
     painted_at_ms: PageMs
 
 
 class ShownImageMessage(Message):
-    """An image on the page."""
+    """A displayed image."""
 
     image_number: Annotated[int, Field(ge=0, le=2**53)]
     sent_at_s: ServerS
-    """As its message says."""
+    """From its message."""
     received_at_ms: PageMs
     shown_at_ms: PageMs
 
 
 class ClockComparisonMessage(Message):
-    """A question with the server's time in its answer."""
+    """A round trip with the server time in the response (as in NTP)."""
 
-    asked_at_ms: PageMs
-    answered_at_ms: PageMs
+    requested_at_ms: PageMs
+    responded_at_ms: PageMs
     server_s: ServerS
 
 
 class LatencyScreenMessage(Message):
-    """The screen that showed the codes."""
+    """The screen with the codes."""
 
     width_px: Annotated[int, Field(ge=1, le=100_000)]
     height_px: Annotated[int, Field(ge=1, le=100_000)]
     period_ms: Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False)]
-    """From one screen image to the next."""
+    """Refresh period of the screen."""
 
 
 class LatencyConclusionRequest(Message):
-    """What the page saw, by its own clock, in the order in which it did."""
+    """Events recorded by the page with its own clock, in order."""
 
     made_by: MadeBy
     painted: Annotated[list[PaintedCodeMessage], Field(max_length=MAX_CODES)]
@@ -107,27 +106,27 @@ class LatencyConclusionRequest(Message):
 
 
 class LatencyReportMessage(Message):
-    """Latency from light to page. The screen's own delay is in it once."""
+    """Latency from exposure to display; includes the delay of the screen once."""
 
     samples: int
-    """How many codes were timed."""
+    """Number of timed codes."""
     median_ms: float
     p99_ms: float
     stage_ms: dict[str, float]
-    """Median of each stage; they need not add up to the median of the whole."""
+    """Median of each stage; they need not add up to the median of the total."""
     image_period_ms: float
     """The resolution of one sample."""
     late_on_average_ms: float
-    """Half of it: so much later than it appeared a code is seen on average; that is in the latency."""
+    """Half the image period: average delay until a code is captured, included in the latency."""
     clock_error_ms: float
-    """By how much the clocks may be off: it moves time between the stages, and leaves their sum."""
+    """Bound of the clock error; it shifts time between the stages but not their sum."""
     images: int
     read_images: int
     skipped_images: int
 
 
 class LatencyResultMessage(Message):
-    """A measured latency with what it belongs to."""
+    """A latency measurement with its camera and screen."""
 
     at: str
     """UTC, ISO 8601."""
@@ -141,15 +140,15 @@ class LatencyResultMessage(Message):
 
 
 class LatencyMessage(Message):
-    """What is known of the latency."""
+    """State of the latency measurement."""
 
     measuring: bool
     result: LatencyResultMessage | None
-    """The newest of this camera; null where it was never measured."""
+    """The newest result of this camera; null if never measured."""
 
 
 def codes_message(measurement: LatencyMeasurement) -> LatencyCodesMessage:
-    """What the page is to show."""
+    """Return the codes to show."""
     plan = measurement.plan
     return LatencyCodesMessage(
         cells=CELLS,
@@ -162,27 +161,27 @@ def codes_message(measurement: LatencyMeasurement) -> LatencyCodesMessage:
 
 
 def reading_message(measurement: LatencyMeasurement, *, now_s: float) -> LatencyReadingMessage:
-    """How reading goes, as answered at monotonic time `now_s`."""
+    """Return the progress at monotonic time `now_s`."""
     status = measurement.status()
     return LatencyReadingMessage(
         running=status.running,
-        looked_images=status.looked_images,
+        examined_images=status.examined_images,
         read_images=status.read_images,
         server_s=now_s,
         problem=problem_message(status.problem),
     )
 
 
-def page_times(asked: LatencyConclusionRequest) -> PageTimes:
-    """What the page saw."""
+def page_times(requested: LatencyConclusionRequest) -> PageTimes:
+    """Return the events of the page."""
     return PageTimes(
-        painted=[PaintedCode(**one.model_dump()) for one in asked.painted],
-        shown=[ShownImage(**one.model_dump()) for one in asked.shown],
-        comparisons=[ClockComparison(**one.model_dump()) for one in asked.comparisons],
-        screen=Screen(**asked.screen.model_dump()),
+        painted=[PaintedCode(**one.model_dump()) for one in requested.painted],
+        shown=[ShownImage(**one.model_dump()) for one in requested.shown],
+        comparisons=[ClockComparison(**one.model_dump()) for one in requested.comparisons],
+        screen=Screen(**requested.screen.model_dump()),
     )
 
 
 def result_message(result: LatencyResult) -> LatencyResultMessage:
-    """A result as it is told."""
+    """Return the message of a result."""
     return LatencyResultMessage.model_validate(result, from_attributes=True)

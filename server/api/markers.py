@@ -1,4 +1,4 @@
-"""Markers: their pictures sent into the open case, listed, shown, and taken away again."""
+"""Markers of the open case: upload, list, show and remove."""
 
 from typing import Annotated
 
@@ -6,49 +6,49 @@ from anyio import to_thread
 from fastapi import APIRouter, Query, Request, Response
 
 from server.api.case_messages import ImportedMessage, imported_message
-from server.api.doing import MadeByQuery
 from server.api.errors import rejections
+from server.api.requester import MadeByQuery
 from server.api.uploads import received
 from server.config import Name
-from server.picture_file import png_bytes
+from server.image_file import png_bytes
 from server.procedure.markers import KnownMarker, MarkerStep
 from server.store import Home
 from server.stream.messages import Message
 
-LARGEST_PICTURE_BYTES = 32 * 2**20
+MAX_PICTURE_BYTES = 32 * 2**20
 PICTURE_TYPES: dict[str, dict[str, object]] = {"image/png": {}, "image/jpeg": {}, "image/bmp": {}}
 SideMm = Annotated[float, Query(gt=0.0, le=1000.0, allow_inf_nan=False)]
 
 
 class KnownMarkerMessage(Message):
-    """A marker that is looked for."""
+    """A marker of the tracker."""
 
     name: str
     side_mm: float
     """Outer side of the printed black square."""
     width_px: int
-    """Of its picture, which is at `/api/markers/{name}/picture`."""
+    """Size of its image, which is at `/api/markers/{name}/picture`."""
     height_px: int
     document_id: str | None
-    """What keeps it in the open case; null for one that the settings bring, which stays."""
+    """Its document in the open case; null for a marker of the settings."""
     made_at: str | None
     made_by: str | None
     imported: ImportedMessage | None
 
 
 class KnownMarkersMessage(Message):
-    """The markers that are looked for: of the settings first, then of the open case."""
+    """All markers of the tracker: first those of the settings, then those of the open case."""
 
     markers: list[KnownMarkerMessage]
 
 
 def markers_router(step: MarkerStep, home: Home) -> APIRouter:
-    """Everything under `/api/markers`."""
+    """Return the router of `/api/markers`."""
     router = APIRouter(prefix="/api/markers", tags=["markers"])
 
     @router.get("", responses=rejections(503))
     def markers() -> KnownMarkersMessage:
-        """The markers that are looked for now."""
+        """Return the markers that the tracker detects now."""
         return KnownMarkersMessage(markers=[_message(known) for known in step.known()])
 
     @router.post(
@@ -60,12 +60,12 @@ def markers_router(step: MarkerStep, home: Home) -> APIRouter:
     async def add(
         request: Request, name: Name, side_mm: SideMm, made_by: MadeByQuery, file: str = "sent"
     ) -> KnownMarkerMessage:
-        """Look for this marker from the next image on; its picture is the body (PNG, JPEG or BMP).
+        """Add a marker from its image in the request body (PNG, JPEG or BMP), from the next image on.
 
-        The black square must fill the picture edge to edge. One of the same name is replaced, and what was
-        calibrated behind that is out of date; a marker of the settings is not replaced.
+        The black square must fill the image edge to edge. A marker of the same name is replaced, and tools
+        calibrated with it become out of date; a marker of the settings is not replaced.
         """
-        async with received(request, home, max_bytes=LARGEST_PICTURE_BYTES) as path:
+        async with received(request, home, max_bytes=MAX_PICTURE_BYTES) as path:
 
             def kept() -> KnownMarkerMessage:
                 step.add(name, side_mm=side_mm, picture=path, named=file[:100], made_by=made_by)
@@ -79,12 +79,12 @@ def markers_router(step: MarkerStep, home: Home) -> APIRouter:
         responses={200: {"content": {"image/png": {}}}, **rejections(404, 503)},
     )
     def picture(name: str) -> Response:
-        """The marker's picture as it is looked for: grey, row 0 on top."""
+        """Return the greyscale image of the marker, row 0 at the top."""
         return Response(png_bytes(step.one(name).model.image), media_type="image/png")
 
     @router.delete("/{name}", status_code=204, responses=rejections(404, 409, 422, 503, 507))
     def remove(name: str, made_by: MadeByQuery) -> Response:
-        """Look for this marker of the open case no more; what was calibrated behind it is out of date."""
+        """Remove a marker from the open case; tools calibrated with it become out of date."""
         step.remove(name, by=made_by)
         return Response(status_code=204)
 
@@ -104,5 +104,5 @@ def _message(known: KnownMarker) -> KnownMarkerMessage:
         made_by=None if document is None else document.maker,
         imported=None
         if document is None
-        else imported_message(document.imported, said_maker=document.made_by),
+        else imported_message(document.imported, claimed_maker=document.made_by),
     )

@@ -1,6 +1,6 @@
-"""Numbers for Prometheus, from following the newest instant.
+"""Prometheus metrics, collected from the published instants.
 
-It requires a session (a script's), on loopback too: behind a proxy every client comes from loopback.
+The endpoint requires a session, also on loopback, because behind a proxy every client comes from loopback.
 """
 
 import time
@@ -13,8 +13,8 @@ from prometheus_client.exposition import CONTENT_TYPE_PLAIN_0_0_4
 from prometheus_client.registry import Collector
 
 from server.live import Instant, LiveHub, ProcessState, SourceState
-from server.stream.fitting.pictures import Pictures
-from server.stream.fitting.sizes import Size
+from server.stream.scaling.picture_cache import PictureCache
+from server.stream.scaling.sizes import PictureSize
 from server.stream.viewers import ViewerKind, Viewers
 from tracker.pose import Seen
 
@@ -22,13 +22,13 @@ STAGE_BUCKETS_S = (0.0005, 0.001, 0.002, 0.004, 0.006, 0.01, 0.015, 0.025, 0.05,
 
 
 class Metrics:
-    """The counters of one application, in a registry of its own.
+    """Metrics of one application in their own registry.
 
-    What the source and the process count themselves is passed on as they say it, so that a skipped instant
-    loses nothing. Stages and markers are counted once for each image that was followed.
+    Counters of source and process are exported as reported, so that skipped instants lose nothing. Stages and
+    markers are counted once per received image.
     """
 
-    def __init__(self, *, hub: LiveHub, viewers: Viewers, pictures: Pictures) -> None:
+    def __init__(self, *, hub: LiveHub, viewers: Viewers, pictures: PictureCache) -> None:
         self.registry = CollectorRegistry()
         self._hub = hub
         self._captured_at_s: float | None = None
@@ -54,7 +54,7 @@ class Metrics:
         self.registry.register(_Now(hub, viewers, pictures))
 
     async def follow(self) -> None:
-        """Count instants for ever."""
+        """Count instants until cancelled."""
         sequence = -1
         while True:
             instant = await self._hub.next_after(sequence)
@@ -62,7 +62,7 @@ class Metrics:
             self.count(instant)
 
     def count(self, instant: Instant) -> None:
-        """Count the image of this instant, unless it was counted already with an earlier instant."""
+        """Count the image of this instant, unless an earlier instant contained it."""
         snapshot = instant.snapshot
         if snapshot is None or snapshot.captured_at_s == self._captured_at_s:
             return
@@ -77,9 +77,9 @@ class Metrics:
 
 
 class _Now(Collector):
-    """What is read at the moment when it is asked for."""
+    """Collector of values that are read at scrape time."""
 
-    def __init__(self, hub: LiveHub, viewers: Viewers, pictures: Pictures) -> None:
+    def __init__(self, hub: LiveHub, viewers: Viewers, pictures: PictureCache) -> None:
         self._hub = hub
         self._viewers = viewers
         self._pictures = pictures
@@ -91,7 +91,7 @@ class _Now(Collector):
             "Pictures encoded for those who watch, by size; full ones count where they were asked for late.",
             labels=["size"],
         )
-        for size in Size:
+        for size in PictureSize:
             encoded.add_metric([size.value], self._pictures.encoded[size])
         yield encoded
         instant = self._hub.newest
@@ -110,7 +110,7 @@ def _viewer_metrics(viewers: Viewers) -> Iterable[Metric]:
     for kind in ViewerKind:
         watching.add_metric([kind.value], viewers.count(kind))
         dropped.add_metric([kind.value], viewers.dropped(kind))
-        let_go.add_metric([kind.value], viewers.let_go(kind))
+        let_go.add_metric([kind.value], viewers.disconnected(kind))
     return watching, dropped, let_go
 
 
@@ -158,7 +158,7 @@ def _one_of(
 
 
 def metrics_router(metrics: Metrics) -> APIRouter:
-    """`GET /metrics`."""
+    """Return the router of `GET /metrics`."""
     router = APIRouter(tags=["health"])
 
     @router.get(
@@ -167,7 +167,7 @@ def metrics_router(metrics: Metrics) -> APIRouter:
         responses={200: {"content": {"text/plain": {}}, "description": "Prometheus' text format."}},
     )
     async def prometheus() -> Response:
-        """Rates, times of each stage, drops and viewers, in Prometheus' text format."""
+        """Return rates, stage durations, drops and viewers in the Prometheus text format."""
         return Response(
             generate_latest(metrics.registry),
             media_type=CONTENT_TYPE_PLAIN_0_0_4,

@@ -1,4 +1,4 @@
-"""What is asked and answered about registration by needles."""
+"""Messages of registration by needles."""
 
 import math
 from collections.abc import Sequence
@@ -8,15 +8,21 @@ from typing import Annotated, Self, TypeAlias
 import numpy as np
 from pydantic import Field, model_validator
 
-from server.api.doing import MadeBy
 from server.api.registration_messages import LandmarkName, VertebraName
-from server.procedure.registered import Value
+from server.api.requester import MadeBy
 from server.procedure.registration.needle_picture import slice_in_image
-from server.procedure.registration.needle_records import LaidSlice, NeedleOrder, ProposedSlice
+from server.procedure.registration.needle_records import NeedleRequest, PlacedSlice, ProposedSlice
 from server.procedure.registration.needles import numbers_of
+from server.procedure.registration_record import Value
 from server.stream.messages import Message
 from tracker.plan import Volume
-from tracker.registration.needles import MeasuredView, NeedleSeen, SliceOverlay, Standing, clicked_needle
+from tracker.registration.needles import (
+    NeedleObservation,
+    PatientEnd,
+    RulerMeasurement,
+    SliceOverlay,
+    needle_from_clicks,
+)
 
 Pixel: TypeAlias = Annotated[float, Field(ge=-20_000.0, le=20_000.0, allow_inf_nan=False)]
 PixelPoint: TypeAlias = Annotated[list[Pixel], Field(min_length=2, max_length=2)]
@@ -25,52 +31,52 @@ Spread: TypeAlias = Annotated[float, Field(gt=0.0, le=500.0, allow_inf_nan=False
 
 
 class ViewMessage(Message):
-    """What a ruler tells of a camera above and beside a patient who lies prone."""
+    """Camera position relative to a prone patient, measured with a ruler."""
 
     vertical_mm: Measured
-    """V, how far the camera is above the vertebra."""
+    """V: vertical distance from the vertebra to the camera."""
     horizontal_mm: Measured
-    """H, how far it is beside it."""
+    """H: horizontal distance from the vertebra to the camera."""
     azimuth_deg: Annotated[float, Field(ge=-180.0, le=180.0)] = 0.0
-    """Seen from above: 0 in line with the spine, positive to the left side."""
-    standing: Standing = Standing.FEET
-    """At which end of the patient the camera stands."""
+    """Azimuth seen from above: 0 along the spine, positive to the left side of the patient."""
+    patient_end: PatientEnd = PatientEnd.FEET
+    """End of the patient at which the camera stands."""
     ruler_sd_mm: Spread = 10.0
     azimuth_sd_deg: Spread = 5.0
-    level_sd_deg: Spread = 3.0
-    lying_sd_deg: Spread = 5.0
+    roll_sd_deg: Spread = 3.0
+    prone_sd_deg: Spread = 5.0
 
 
 class NeedlesRequest(Message):
-    """Which needles, seen how."""
+    """Needles to register with, and the camera position."""
 
     view: ViewMessage
     vertebra: VertebraName | None = None
-    """Its name in the plan; the one that is to be drilled if left out."""
+    """Name in the plan; default: the vertebra of the active channel."""
     landmarks: Annotated[tuple[LandmarkName, ...], Field(max_length=6)] = ()
-    """Where the needles go in; none takes the three lines of the reference slice."""
+    """Landmarks at which the needles enter; default: the three lines of the reference slice."""
     radius_mm: Annotated[float, Field(gt=0.0, le=5.0)] = 0.8
     use_touched: bool = False
-    """Whether the landmarks that were touched so far tell the depth, too."""
+    """Whether captured landmarks are used for the depth as well."""
 
     @property
-    def order(self) -> NeedleOrder:
+    def order(self) -> NeedleRequest:
         """The same for the step."""
-        return NeedleOrder(
+        return NeedleRequest(
             vertebra=self.vertebra,
             landmarks=self.landmarks,
-            measured=MeasuredView(**self.view.model_dump()),
+            measured=RulerMeasurement(**self.view.model_dump()),
             radius_mm=self.radius_mm,
         )
 
 
 class OverlayMessage(Message):
-    """Where the slice is laid."""
+    """Placement of the slice overlay."""
 
     shift_px: PixelPoint
-    """Where in the image the middle of the needles lies."""
-    turn_deg: Annotated[float, Field(ge=-360.0, le=360.0)] = 0.0
-    """Clockwise in the image, from how the ruler has it."""
+    """Image position of the centre of the needles."""
+    rotation_deg: Annotated[float, Field(ge=-360.0, le=360.0)] = 0.0
+    """Rotation relative to the ruler's estimate, clockwise in the image."""
     scale_px_per_mm: Annotated[float, Field(ge=0.05, le=100.0)]
     fade_ratio: Annotated[float, Field(ge=0.0, le=1.0)] = 0.5
 
@@ -79,44 +85,44 @@ class OverlayMessage(Message):
         """The same for the step."""
         return SliceOverlay(
             shift_px=np.array(self.shift_px),
-            turn_deg=self.turn_deg,
+            rotation_deg=self.rotation_deg,
             scale_px_per_mm=self.scale_px_per_mm,
             fade_ratio=self.fade_ratio,
         )
 
 
 class MarkedNeedleMessage(Message):
-    """A needle that a person has marked in the image."""
+    """A needle marked in the image."""
 
     entry_px: PixelPoint
-    """Where it comes out of the bone."""
+    """Image point at which it enters the bone."""
     head_px: PixelPoint
     entry_is_seen: bool = True
     along_sd_px: Spread = 1.0
-    """How well the end at the bone is known along the needle: less well where the software found it."""
+    """Standard deviation of the bone end along the needle; larger for a detected needle."""
 
     @property
-    def record(self) -> NeedleSeen:
+    def record(self) -> NeedleObservation:
         """The same for the step; InvalidInput NEEDLE_SEEN_INVALID."""
-        clicked = clicked_needle(self.entry_px, self.head_px, entry_is_seen=self.entry_is_seen)
+        clicked = needle_from_clicks(self.entry_px, self.head_px, entry_is_seen=self.entry_is_seen)
         return replace(clicked, along_sd_px=self.along_sd_px)
 
 
 class LaidRequest(NeedlesRequest):
-    """The slice where a person has laid it."""
+    """Slice overlay placed by the user."""
 
     overlay: OverlayMessage | None = None
-    """Where the ruler has it, if left out."""
+    """Default: the estimate from the ruler."""
     marked: Annotated[tuple[MarkedNeedleMessage, ...], Field(max_length=6)] = ()
-    """Needles, in the plan's order; how each lies beside its line is told."""
+    """Marked needles in the order of the plan; the response contains their residuals."""
 
 
 class NeedlesConclusion(LaidRequest):
-    """How to register: by marked needles, or by the overlay."""
+    """Registration by marked needles or by the overlay."""
 
     made_by: MadeBy
     picked: bool = False
-    """Whether the marked needles are a proposal that somebody picked in the picture: their order is sure."""
+    """Whether the marked needles are a confirmed proposal, so that their assignment is known."""
 
     @model_validator(mode="after")
     def _one_way(self) -> Self:
@@ -130,57 +136,57 @@ class NeedlesConclusion(LaidRequest):
 
 
 class NeedleMessage(Message):
-    """One needle against the plan."""
+    """Residuals of one needle."""
 
     name: str
     line_px: list[list[float]]
-    """Where its planned line runs in the image, from the bone outwards."""
+    """Projection of its planned line, from the bone outwards."""
     offset_px: float | None
-    """From its place, after the fit; null where nothing was fitted."""
+    """Residual at its entry after the fit; null without a fit."""
     offset_mm: float | None
     lean_deg: float | None
     beside_px: float | None
-    """RMS distance of the needle from its line of the overlay; null where no needle was seen or marked."""
+    """RMS distance of the needle from its line of the overlay; null without a needle."""
     beside_mm: float | None
 
 
 class DirectionMessage(Message):
-    """How well the needles' middle, or the vertebra about it, is known in one direction."""
+    """Uncertainty of the registration in one direction."""
 
     name: str
     sd: float
     unit: str
     not_from_image_ratio: float
-    """Share of it that ruler and touched points gave."""
+    """Fraction of the information that comes from ruler and captured points."""
     is_weak: bool
 
 
 class SlicePlaceMessage(Message):
-    """Where the plan's picture of the reference slice lies in the image."""
+    """Placement of the image of the reference slice."""
 
     width_px: int
-    """Of that picture before it is enlarged: the CT's own pixels."""
+    """Size of the slice in CT pixels."""
     height_px: int
     image_from_slice: list[list[float]]
-    """3 rows of 3, a homography between pixels whose centres are whole numbers."""
+    """3x3 homography; pixel centres are integers."""
 
 
 class LaidMessage(Message):
-    """The slice over the image, and what the needles say."""
+    """Slice overlay and needle residuals."""
 
     vertebra: str
     image_number: int
     overlay: OverlayMessage
     slice: SlicePlaceMessage | None
-    """Null where needles stand on landmarks, and where nothing but the fit was asked for."""
+    """null for needles at landmarks, and if only the fit was requested."""
     needles: list[NeedleMessage]
     directions: list[DirectionMessage]
-    """Empty where nothing was fitted."""
+    """Empty without a fit."""
     numbers: dict[str, Value]
 
 
-def laid_message(laid: LaidSlice, volume: Volume | None = None) -> LaidMessage:
-    """The slice over the image, as it is told; with the CT, where its picture lies, too."""
+def laid_message(laid: PlacedSlice, volume: Volume | None = None) -> LaidMessage:
+    """Return the message of a slice overlay; with the CT it contains the placement of the slice."""
     lies = None if volume is None else slice_in_image(laid, volume)
     fit = laid.fit
     fitted = {} if fit is None else {one.name: one for one in fit.residuals}
@@ -200,14 +206,21 @@ def laid_message(laid: LaidSlice, volume: Volume | None = None) -> LaidMessage:
             )
         )
     directions = (
-        [] if fit is None else [fit.sureness.depth, fit.sureness.across, fit.sureness.tilt, fit.sureness.turn]
+        []
+        if fit is None
+        else [
+            fit.observability.depth,
+            fit.observability.across,
+            fit.observability.tilt,
+            fit.observability.turn,
+        ]
     )
     return LaidMessage(
-        vertebra=laid.scene.ground.vertebra.name,
+        vertebra=laid.scene.context.vertebra.name,
         image_number=laid.scene.snapshot.image_number,
         overlay=OverlayMessage(
             shift_px=laid.overlay.shift_px.tolist(),
-            turn_deg=laid.overlay.turn_deg,
+            rotation_deg=laid.overlay.rotation_deg,
             scale_px_per_mm=laid.overlay.scale_px_per_mm,
             fade_ratio=laid.overlay.fade_ratio,
         ),
@@ -230,29 +243,29 @@ def laid_message(laid: LaidSlice, volume: Volume | None = None) -> LaidMessage:
 
 
 class ProposalMessage(Message):
-    """One likely way of naming the needles that were found; its spreads hold if it is the right one."""
+    """A hypothesis for the assignment of detected needles; its uncertainties are conditional on it."""
 
     laid: LaidMessage
     marked: list[MarkedNeedleMessage]
-    """The needles in the image, in the plan's order: for the conclusion, where this one is picked."""
+    """Needles in the order of the plan, to be sent with the conclusion if this hypothesis is confirmed."""
     probability_ratio: float
-    """0..1, how likely this one is among those that are proposed."""
-    lead: float | None
-    """By how much the likeliest other one is worse in chi squared; null where there is no other."""
+    """Probability among the proposed hypotheses, 0 to 1."""
+    delta_chi2: float | None
+    """Delta chi-square to the best other hypothesis; null if there is no other."""
 
 
 class ProposalsMessage(Message):
-    """The likely ways of naming the needles that were found, the likeliest first; a person picks."""
+    """Assignment hypotheses, most probable first; the user selects one."""
 
     proposals: list[ProposalMessage]
 
 
 def proposals_message(proposed: Sequence[ProposedSlice]) -> ProposalsMessage:
-    """The proposals, as they are told."""
+    """Return the message of the hypotheses."""
     return ProposalsMessage(
         proposals=[
             ProposalMessage(
-                laid=laid_message(one.laid),
+                laid=laid_message(one.placed),
                 marked=[
                     MarkedNeedleMessage(
                         entry_px=seen.entry_px.tolist(),
@@ -263,7 +276,7 @@ def proposals_message(proposed: Sequence[ProposedSlice]) -> ProposalsMessage:
                     for seen in one.found
                 ],
                 probability_ratio=one.probability_ratio,
-                lead=one.lead if math.isfinite(one.lead) else None,
+                delta_chi2=one.delta_chi2 if math.isfinite(one.delta_chi2) else None,
             )
             for one in proposed
         ]

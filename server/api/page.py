@@ -1,4 +1,4 @@
-"""The web page's files: found where they are installed or built, sent with the right lifetime."""
+"""Static files of the web page, with cache lifetimes."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -20,43 +20,43 @@ CAMERA_VIEW = "camera"
 VIEWS = frozenset({"theatre", "operator", "supervisor", "enter", CAMERA_VIEW})
 # Vite writes the hash of the content into the names of these.
 FOREVER = "public, max-age=31536000, immutable"
-ASK_AGAIN = "no-cache"
+REVALIDATE = "no-cache"
 
 NOT_BUILT = """<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Coaxial</title></head>
 <body><h1>Coaxial is running, but its page is not built</h1>
 <p>Run <code>make run</code> in the checkout, or <code>npm ci</code> and then <code>npm run build</code> in
 its folder <code>web</code>, and load this page again.</p>
 <p>Meanwhile: <a href="/video/{camera}.mjpg">the video</a>, <a href="/scene/">the 3-D scene</a>,
-<a href="/api/docs">the interface for machines</a>.</p>
+<a href="/api/docs">the API documentation</a>.</p>
 <p>Research software, not a medical device.</p></body></html>
 """
 
 
 class PageFiles(StaticFiles):
-    """The built page: hashed assets are kept for ever, everything else is asked for again."""
+    """Static files of the page: hashed assets are immutable, all others are revalidated."""
 
     async def get_response(self, path: str, scope: Scope) -> Response:
-        """The file with its lifetime."""
+        """Return the file with its Cache-Control header."""
         view = path.split("/", 1)[0]
         if view in VIEWS:
             path = "index.html"
         response = await super().get_response(path, scope)
         hashed = path.startswith("assets/") and response.status_code < 400
-        response.headers["Cache-Control"] = FOREVER if hashed else ASK_AGAIN
+        response.headers["Cache-Control"] = FOREVER if hashed else REVALIDATE
         if view == CAMERA_VIEW:
             response.headers["Permissions-Policy"] = CAMERA_PAGE_PERMISSIONS
         return response
 
 
 def page_folder(folders: tuple[Path, ...] = PAGE_FOLDERS) -> Path | None:
-    """Where the built page is, None when it is not built."""
+    """Return the folder of the built page; None if it is not built."""
     return next((folder for folder in folders if (folder / "index.html").is_file()), None)
 
 
 def page_addresses(folder: Path | None) -> Callable[[str], bool]:
-    """Whether a path shows the page or a file of it; nothing in them is of a patient, so all may see them.
+    """Return a predicate for paths of the page, which contain no patient data and need no sign-in.
 
-    What is built anew while the server runs has new names under `assets`, and nothing else lies there.
+    Everything under `assets` counts, because a build while the server runs creates new names there.
     """
     files = () if folder is None else folder.rglob("*")
     known = {"/"} | {f"/{file.relative_to(folder or file).as_posix()}" for file in files if file.is_file()}
@@ -71,7 +71,7 @@ def page_addresses(folder: Path | None) -> Callable[[str], bool]:
 
 
 def mount_page(app: FastAPI, *, camera: str, folder: Path | None) -> None:
-    """Serve the page at `/`; the last of all routes, because it answers to every path."""
+    """Mount the page at `/`. Must be the last route, because it matches every path."""
     if folder is not None:
         app.mount("/", PageFiles(directory=folder, html=True), name="page")
         return

@@ -1,4 +1,4 @@
-"""What is asked and answered about the plan."""
+"""Messages about the plan."""
 
 from collections.abc import Mapping
 from typing import Annotated, TypeAlias
@@ -8,8 +8,8 @@ from pydantic import Field, StringConstraints
 
 from server.api.case_messages import HeadingMessage, heading_message
 from server.api.ct_messages import PointLps
-from server.api.doing import MadeBy
-from server.procedure.plan import Author, KeptPlan, Proposal
+from server.api.requester import MadeBy
+from server.procedure.plan import Author, Proposal, StoredPlan
 from server.stream.messages import Message
 from tracker.plan import Landmark, PlanDocument, plan_to_mapping
 from tracker.plan.document import plain
@@ -25,11 +25,11 @@ PositiveMm: TypeAlias = Annotated[float, Field(gt=0.0, le=200.0, allow_inf_nan=F
 
 
 class ChangeRequest(Message):
-    """Who changes the plan, and on which version."""
+    """Author of a change, and the version it is based on."""
 
     made_by: MadeBy
     expected_version: Version | None = None
-    """Of the plan that was looked at, 0 for none; another one in between is a conflict. Null: the newest."""
+    """Version the change is based on, 0 for none; a newer version is a conflict. null: the newest."""
 
     @property
     def author(self) -> Author:
@@ -38,28 +38,28 @@ class ChangeRequest(Message):
 
 
 class PlanRequest(ChangeRequest):
-    """A whole plan, as `GET /api/plan` answers it."""
+    """A complete plan as returned by `GET /api/plan`."""
 
     plan: dict[str, object]
 
 
 class VertebraRequest(ChangeRequest):
-    """A vertebra to be planned."""
+    """A vertebra to plan."""
 
     name: VertebraName
 
 
 class SeedRequest(ChangeRequest):
-    """A click into a pedicle."""
+    """A seed point in a pedicle."""
 
     seed_lps_mm: PointLps
 
 
 class CorrectionsRequest(ChangeRequest):
-    """Numbers in place of those that were measured."""
+    """Corrections of measured values."""
 
     corrected: Annotated[dict[str, Finite], Field(max_length=10)]
-    """Of width_mm, height_mm, transverse_deg, sagittal_deg, length_mm; empty takes all corrections back."""
+    """Keys: width_mm, height_mm, transverse_deg, sagittal_deg, length_mm; empty removes all corrections."""
 
 
 class ChannelByHand(Message):
@@ -77,25 +77,25 @@ class ChannelRequest(ChangeRequest):
 
 
 class ScrewRequest(ChangeRequest):
-    """A screw of the catalogue; the proposed one if both are left out."""
+    """A screw of the catalogue; default: the proposed one."""
 
     diameter_mm: PositiveMm | None = None
     length_mm: PositiveMm | None = None
 
 
 class ReferenceRequest(ChangeRequest):
-    """The slice that stands for a vertebra."""
+    """The reference slice of a vertebra."""
 
     slice_index: Annotated[int, Field(ge=0, le=100_000)] | None = None
-    """From 0; the proposed one if left out."""
+    """From 0; default: the proposed one."""
     middle_lps_mm: PointLps | None = None
-    """Where the middle line runs; half-way between the isthmuses if left out."""
+    """A point on the middle line; default: midpoint between the isthmuses."""
     apart_mm: Annotated[float, Field(gt=0.0, le=100.0, allow_inf_nan=False)]
-    """Distance of the outer lines from the middle one, as measured."""
+    """Measured distance of the outer lines from the middle line."""
 
 
 class LandmarkMessage(Message):
-    """A point on the bone that is set on the CT and found again on the patient."""
+    """An anatomical landmark on the CT."""
 
     name: Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=60)]
     point_lps_mm: PointLps
@@ -113,7 +113,7 @@ class LandmarksRequest(ChangeRequest):
 
 
 class ActiveChannelRequest(Message):
-    """The channel that is to be drilled now."""
+    """The active channel."""
 
     made_by: MadeBy
     vertebra: VertebraName
@@ -121,7 +121,7 @@ class ActiveChannelRequest(Message):
 
 
 class ActiveChannelMessage(Message):
-    """The channel that is to be drilled now, as the plan has it."""
+    """The active channel with its planned geometry."""
 
     vertebra: str
     side: Side
@@ -132,47 +132,47 @@ class PlanMessage(Message):
     """The plan of the open case."""
 
     heading: HeadingMessage
-    """Whether it holds is told here."""
+    """Includes its validity."""
     plan: dict[str, object]
     """Vertebrae with their reference slices, pedicles as measured and as corrected, channels and screws."""
     used: dict[str, dict[str, dict[str, object]]]
-    """By vertebra and side: the pedicle with its corrections worked in."""
+    """By vertebra and side: the pedicle with corrections applied."""
     active_channel: ActiveChannelMessage | None
 
 
 class SliceProposalMessage(Message):
-    """The slice that may stand for a vertebra."""
+    """A proposed reference slice."""
 
     slice_index: int
     at_mm: float
-    """Of the axial slice in the middle of it."""
+    """Position of the axial slice, at its centre."""
     middle_lps_mm: list[float] | None
-    """Half-way between the isthmuses; null while one of them is not measured."""
+    """Midpoint between the isthmuses; null until both are measured."""
 
 
 class ScrewProposalMessage(Message):
-    """The screw that fits."""
+    """The proposed screw."""
 
     diameter_mm: float
     length_mm: float
 
 
 class CatalogueMessage(Message):
-    """What the settings give for planning: every diameter of screw in every length."""
+    """Screw catalogue of the settings: every diameter in every length."""
 
     diameters_mm: list[float]
     lengths_mm: list[float]
     min_landmarks: int
-    """That a registration by touched points needs."""
+    """Minimum number for a registration by landmarks."""
 
 
-def plan_message(kept: KeptPlan) -> PlanMessage:
-    """The plan, as it is told."""
-    active = kept.active
+def plan_message(stored: StoredPlan) -> PlanMessage:
+    """Return the message of a plan."""
+    active = stored.active
     return PlanMessage(
-        heading=heading_message(kept.document, kept.standing),
-        plan=plan_to_mapping(kept.plan),
-        used=_used(kept.plan),
+        heading=heading_message(stored.document, stored.validity),
+        plan=plan_to_mapping(stored.plan),
+        used=_used(stored.plan),
         active_channel=None
         if active is None
         else ActiveChannelMessage(
@@ -182,7 +182,7 @@ def plan_message(kept: KeptPlan) -> PlanMessage:
 
 
 def proposal_message(proposal: Proposal) -> SliceProposalMessage:
-    """A proposed slice, as it is told."""
+    """Return the message of a proposed slice."""
     middle = proposal.middle_lps_mm
     return SliceProposalMessage(
         slice_index=proposal.slice_index,

@@ -1,4 +1,4 @@
-"""The state of the procedure: its steps in their order, what each lacks, and what may follow."""
+"""State of the procedure: its steps, what is missing, and which step is next."""
 
 from typing import Annotated
 
@@ -6,18 +6,18 @@ from fastapi import APIRouter, Request
 from pydantic import Field
 
 from server.api.errors import rejections
-from server.procedure.confirm import ConfirmStep
-from server.procedure.confirmed import ConfirmationNeeded
+from server.procedure.confirmation import ConfirmationPrompt
+from server.procedure.confirmation_step import ConfirmStep
 from server.procedure.state import Procedure, ProcedureState, StepName, StepState
 from server.security.person import person_of
-from server.setup import Unconfirmed
+from server.setup import ConfirmationReason
 from server.stream.messages import Message
 
 
-class LackMessage(Message):
-    """What a step that is done still lacks before anybody may navigate by it."""
+class MissingSignatureMessage(Message):
+    """What a completed step still lacks before navigation may start."""
 
-    said: str
+    message: str
     remedy: str
 
 
@@ -26,85 +26,85 @@ class StepMessage(Message):
 
     step: StepName
     state: StepState
-    """missing, out_of_date, failed, due (it holds, and shall be done again), done."""
-    said: str
-    """Why, in a sentence."""
+    """missing, out_of_date, failed, due (valid, but to be repeated), done."""
+    message: str
+    """The reason."""
     remedy: str
-    """What to do; empty where there is nothing to do."""
+    """What to do; empty if nothing."""
     numbers: dict[str, float | int | bool | str | None]
-    """Of its gate."""
+    """Values compared with its limits."""
     document_id: str | None
-    """What was made in it; null where nothing was."""
+    """Its result; null if there is none."""
     allowed: bool
-    """Whether it may be done now, because all that it stands on holds."""
-    lacks: LackMessage | None
-    """The co-signature that is required of it and not there; null where nothing is lacking."""
+    """Whether it may be done now, because all its dependencies are valid."""
+    missing_cosignature: MissingSignatureMessage | None
+    """The required co-signature that is missing; null if none is."""
 
 
 class ConfirmationMessage(Message):
-    """What a person is asked before navigation goes on after a start."""
+    """Confirmation that is required before navigation continues after a start."""
 
-    because: Unconfirmed
-    """server_started, or tracking_started: where no marker is on the patient, nobody watched the camera."""
-    said: str
-    """Why, in a sentence."""
+    because: ConfirmationReason
+    """server_started, or tracking_started (no patient marker: the camera was not monitored meanwhile)."""
+    message: str
+    """The reason."""
     remedy: str
-    """What to look at before it is confirmed."""
+    """What to verify before the confirmation."""
     registration_id: str
-    """What is confirmed; `POST /api/procedure/confirmation` takes it."""
+    """Registration to confirm with `POST /api/procedure/confirmation`."""
     vertebra: str
     registered_at: str
     """UTC, ISO 8601."""
     registered_by: str
     reference: str | None
-    """The marker on the patient that it is fixed to; null where it is fixed to the camera."""
+    """The patient marker that it is relative to; null if it is relative to the camera."""
 
 
 class ConfirmationRequest(Message):
-    """A person's word that what they were shown still holds."""
+    """Confirmation that the registration is still valid."""
 
     registration_id: Annotated[str, Field(min_length=1, max_length=64)]
 
 
 class ProcedureMessage(Message):
-    """The whole procedure."""
+    """State of the procedure."""
 
     case_id: str | None
-    """The open case; null where none is open."""
+    """The open case; null if none is open."""
     case_name: str | None
-    """As people call it, so that a screen in theatre can say whose plan it shows."""
+    """Its name, to be displayed in theatre."""
     steps: list[StepMessage]
-    """In the order in which they follow each other."""
+    """In order."""
     next_step: StepName
-    """What is to be done now."""
+    """The next step."""
     may_navigate: bool
     confirmation: ConfirmationMessage | None
-    """What is to be confirmed first; null where nothing is."""
+    """The required confirmation; null if none is."""
 
 
 def procedure_router(procedure: Procedure, confirm: ConfirmStep) -> APIRouter:
-    """`GET /api/procedure`, and the confirmation after a start."""
+    """Return the router of `/api/procedure`."""
     router = APIRouter(prefix="/api/procedure", tags=["procedure"])
 
     @router.get("", responses=rejections(503))
     def state() -> ProcedureMessage:
-        """How every step of the open case stands: done, missing, failed, out of date or due again."""
+        """Return the state of each step of the open case."""
         return procedure_message(procedure.state())
 
     @router.post("/confirmation", responses=rejections(409, 422, 503, 507))
-    def confirmation(asked: ConfirmationRequest, request: Request) -> ProcedureMessage:
-        """Say, after a start, that patient, marker and camera stand as they did: navigation goes on.
+    def confirmation(requested: ConfirmationRequest, request: Request) -> ProcedureMessage:
+        """Confirm after a start that patient, marker and camera have not moved, so that navigation continues.
 
-        It is kept in the case, with who said it. Where nothing is asked any more, nothing is kept.
+        The confirmation is stored in the case with its author, unless it is no longer required.
         """
-        confirm.confirm(asked.registration_id, made_by=person_of(request.scope).name)
+        confirm.confirm(requested.registration_id, made_by=person_of(request.scope).name)
         return procedure_message(procedure.state())
 
     return router
 
 
 def procedure_message(state: ProcedureState) -> ProcedureMessage:
-    """The state, as it is told."""
+    """Return the message of the procedure."""
     return ProcedureMessage(
         case_id=state.case_id or None,
         case_name=state.case_name or None,
@@ -112,14 +112,16 @@ def procedure_message(state: ProcedureState) -> ProcedureMessage:
             StepMessage(
                 step=one.step,
                 state=one.finding.state,
-                said=one.finding.said,
+                message=one.finding.message,
                 remedy=one.finding.remedy,
                 numbers=dict(one.finding.numbers),
                 document_id=one.finding.document_id or None,
                 allowed=one.allowed,
-                lacks=None
-                if one.lacks is None
-                else LackMessage(said=one.lacks.said, remedy=one.lacks.remedy),
+                missing_cosignature=None
+                if one.missing_cosignature is None
+                else MissingSignatureMessage(
+                    message=one.missing_cosignature.message, remedy=one.missing_cosignature.remedy
+                ),
             )
             for one in state.steps
         ],
@@ -129,11 +131,11 @@ def procedure_message(state: ProcedureState) -> ProcedureMessage:
     )
 
 
-def confirmation_message(needed: ConfirmationNeeded) -> ConfirmationMessage:
-    """What is asked, as it is told."""
+def confirmation_message(needed: ConfirmationPrompt) -> ConfirmationMessage:
+    """Return the message of a required confirmation."""
     return ConfirmationMessage(
         because=needed.because,
-        said=needed.said,
+        message=needed.message,
         remedy=needed.remedy,
         registration_id=needed.registration.id,
         vertebra=needed.vertebra,

@@ -1,4 +1,4 @@
-"""The readout time of the camera's rows: measured with a moving board, or stated."""
+"""Readout time of a rolling shutter: measured with a moving board, or taken from the data sheet."""
 
 from typing import Annotated
 
@@ -6,42 +6,42 @@ from fastapi import APIRouter, Response
 from pydantic import Field
 
 from server.api.camera_messages import BoardMessage, board_message, board_of
-from server.api.doing import MadeBy
 from server.api.errors import rejections
 from server.api.jobs import JobMessage, job_message
-from server.camera_file import LONGEST_READOUT_MS
-from server.procedure.readout import FoundBy, ReadoutStep
+from server.api.requester import MadeBy
+from server.camera_file import MAX_READOUT_MS
+from server.procedure.readout import ReadoutSource, ReadoutStep
 from server.procedure.readout_collection import BURST_IMAGES, BurstStage, BurstStatus
 from server.stream.messages import Message, ProblemMessage, problem_message
 
 
 class ReadoutMessage(Message):
-    """What is known of the readout, and whether a burst is held."""
+    """Known readout time, and whether a burst of images exists."""
 
     collecting: bool
     readout_ms: float | None
-    """Tracked with; 0 of a global shutter. Null where the calibration has none: the settings' then counts."""
+    """Value in use; 0 for a global shutter. null if the calibration has none: the settings apply."""
     sd_ms: float | None
     """Standard deviation of the measurement."""
-    found_by: FoundBy | None
+    found_by: ReadoutSource | None
 
 
 class StatedReadoutRequest(Message):
-    """What a person says of the readout."""
+    """Readout time from the data sheet."""
 
-    readout_ms: Annotated[float, Field(ge=0.0, le=LONGEST_READOUT_MS, allow_inf_nan=False)] | None
-    """Out of the data sheet; 0 of a global shutter, null for not known."""
+    readout_ms: Annotated[float, Field(ge=0.0, le=MAX_READOUT_MS, allow_inf_nan=False)] | None
+    """0 for a global shutter, null for unknown."""
     made_by: MadeBy
 
 
 class BurstRequest(Message):
-    """The board that will be moved."""
+    """The board to be moved."""
 
     board: BoardMessage
 
 
 class BurstMessage(Message):
-    """How far a burst has come."""
+    """Progress of a burst."""
 
     board: BoardMessage
     stage: BurstStage
@@ -49,7 +49,7 @@ class BurstMessage(Message):
     read_images: int
     found_images: int
     images: int
-    """That a burst has."""
+    """Number of images of a burst."""
     problem: ProblemMessage | None
 
 
@@ -60,57 +60,57 @@ class ReadoutMeasureRequest(Message):
 
 
 def readout_router(step: ReadoutStep) -> APIRouter:
-    """Everything under `/api/camera/readout`."""
+    """Return the router of `/api/camera/readout`."""
     router = APIRouter(prefix="/api/camera/readout", tags=["camera"])
 
     @router.get("", responses=rejections(422, 503))
     def readout() -> ReadoutMessage:
-        """What the calibration of the open case says of it."""
+        """Return the readout time of the calibration in the open case."""
         return _message(step)
 
     @router.put("", responses=rejections(409, 422, 503, 507))
-    def state(asked: StatedReadoutRequest) -> ReadoutMessage:
-        """Keep a readout time out of the data sheet with the calibration, or that it is not known.
+    def state(requested: StatedReadoutRequest) -> ReadoutMessage:
+        """Store a readout time from the data sheet, or that it is unknown, with the calibration.
 
-        This is a new version of the calibration: what stands on the one before is out of date.
+        This creates a version of the calibration; documents depending on the previous one become out of date.
         """
-        step.state(asked.readout_ms, made_by=asked.made_by)
+        step.state(requested.readout_ms, made_by=requested.made_by)
         return _message(step)
 
     @router.post("/collection", status_code=201, responses=rejections(409, 422, 503))
-    def begin(asked: BurstRequest) -> BurstMessage:
-        """Wait for this board to be moved quickly, take a burst of images, and look for the board in them."""
-        return _burst(step.begin(board_of(asked.board)).status)
+    def begin(requested: BurstRequest) -> BurstMessage:
+        """Wait for quick motion of this board, record a burst of images, and detect the board in them."""
+        return _burst(step.begin(board_of(requested.board)).status)
 
     @router.get("/collection", responses=rejections(409))
     def progress() -> BurstMessage:
-        """How far it has come."""
+        """Return the progress of the burst."""
         return _burst(step.collection.status)
 
     @router.delete("/collection", status_code=204)
     def end() -> Response:
-        """Take no more; what was taken is thrown away."""
+        """Stop and discard the burst."""
         step.end()
         return Response(status_code=204)
 
     @router.post("/measurement", status_code=202, responses=rejections(409, 422, 503))
-    def measure(asked: ReadoutMeasureRequest) -> JobMessage:
-        """Fit the readout to the burst, and keep it with the calibration where the motion determines it.
+    def measure(requested: ReadoutMeasureRequest) -> JobMessage:
+        """Fit the readout time to the burst and store it with the calibration if the motion determines it.
 
-        Answers the job; its result is the readout with its standard deviation.
+        Returns the job; its result is the readout time with its standard deviation.
         """
-        return job_message(step.measure(made_by=asked.made_by))
+        return job_message(step.measure(made_by=requested.made_by))
 
     return router
 
 
 def _message(step: ReadoutStep) -> ReadoutMessage:
-    kept = step.kept()
+    stored = step.stored_readout()
     return ReadoutMessage(
         collecting=step.is_collecting,
-        readout_ms=None if kept is None else kept.readout_ms,
-        sd_ms=None if kept is None else kept.sd_ms,
-        found_by=None if kept is None else kept.found_by,
+        readout_ms=None if stored is None else stored.readout_ms,
+        sd_ms=None if stored is None else stored.sd_ms,
+        found_by=None if stored is None else stored.found_by,
     )
 
 

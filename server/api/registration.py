@@ -1,11 +1,10 @@
-"""Finding the plan's vertebra on the patient: points, and the check on anatomy."""
+"""Registration by landmarks, manual correction, and the check on anatomy."""
 
 from typing import Annotated
 
 from fastapi import APIRouter, Query, Response
 
 from server.api.case_messages import DocumentMessage, document_message
-from server.api.doing import MadeByQuery
 from server.api.errors import rejections
 from server.api.registration_messages import (
     ByRequest,
@@ -25,6 +24,7 @@ from server.api.registration_messages import (
     points_message,
     registration_message,
 )
+from server.api.requester import MadeByQuery
 from server.config import RegistrationConfig
 from server.live import Problem
 from server.procedure.registration import (
@@ -39,11 +39,11 @@ from server.stream.messages import ProblemMessage
 from tracker.errors import RegistrationError
 from tracker.registration.nudge import Nudge
 
-KEPT = rejections(409, 422, 503, 507)
+STORE_ERRORS = rejections(409, 422, 503, 507)
 
 
 def registration_router(steps: RegistrationSteps) -> APIRouter:
-    """Everything under `/api/registration`. Plain functions: they wait for the disk, in threads."""
+    """Return the router of `/api/registration`. Its routes are synchronous because they wait for the disk."""
     router = APIRouter(prefix="/api/registration", tags=["registration"])
     _add_whole(router, steps.repository, steps.points.gate)
     _add_running(router, steps)
@@ -58,109 +58,112 @@ def _add_whole(router: APIRouter, repository: RegistrationRepository, gate: Regi
     def registration(
         vertebra: Annotated[VertebraName | None, Query()] = None,
     ) -> RegistrationMessage:
-        """The newest registration of a vertebra, by default of the one that is to be drilled."""
+        """Return the newest registration of a vertebra; default: that of the active channel."""
         return registration_message(repository.newest(vertebra), gate)
 
 
 def _add_running(router: APIRouter, steps: RegistrationSteps) -> None:
     @router.get("/running")
     def running() -> RunningMessage:
-        """Which ways to register, and whether a check, somebody has begun: a page goes on with them."""
+        """Return the registrations and checks in progress, so that a page can continue them."""
         return RunningMessage(
             points=steps.points.running, sweep=steps.sweep.running, check=steps.check.running
         )
 
 
 def _add_points(router: APIRouter, step: PointsStep) -> None:
-    @router.post("/points", status_code=201, responses=KEPT)
-    def begin(asked: PointsRequest) -> PointsMessage:
-        """Begin to touch the landmarks of a vertebra; what was touched before is thrown away."""
-        step.begin(tool=asked.tool, vertebra=asked.vertebra)
+    @router.post("/points", status_code=201, responses=STORE_ERRORS)
+    def begin(requested: PointsRequest) -> PointsMessage:
+        """Start a registration by landmarks; previously captured points are discarded."""
+        step.begin(tool=requested.tool, vertebra=requested.vertebra)
         return _points(step)
 
     @router.get("/points", responses=rejections(409))
     def progress() -> PointsMessage:
-        """The points so far with their residuals, the errors to expect, and what is missing."""
+        """Return the captured points with residuals, expected errors, and what is missing."""
         return _points(step)
 
     @router.delete("/points", status_code=204)
     def end() -> Response:
-        """Look no more; what was touched is thrown away."""
+        """Stop and discard the captured points."""
         step.end()
         return Response(status_code=204)
 
     @router.post("/points/captures", status_code=202, responses=rejections(409, 422))
-    def capture(asked: LandmarkRequest) -> PointsMessage:
-        """Take the tip at rest on this landmark from the next images; again, to touch it anew."""
-        step.session.capture(asked.landmark)
+    def capture(requested: LandmarkRequest) -> PointsMessage:
+        """Capture the tip at rest on this landmark from the next images; a repetition replaces the point."""
+        step.session.capture(requested.landmark)
         return _points(step)
 
     @router.put("/points/use", responses=rejections(409, 422))
-    def use(asked: UseRequest) -> PointsMessage:
-        """Let a landmark that was touched have a say in the fit, or not."""
-        step.session.use(asked.landmark, used=asked.used)
+    def use(requested: UseRequest) -> PointsMessage:
+        """Include a captured landmark in the fit, or exclude it."""
+        step.session.use(requested.landmark, used=requested.used)
         return _points(step)
 
     @router.delete("/points/captures", responses=rejections(409, 422))
     def forget(landmark: Annotated[str, Query(min_length=1, max_length=60)]) -> PointsMessage:
-        """Throw the point of a landmark away."""
+        """Discard the captured point of a landmark."""
         step.session.forget(landmark)
         return _points(step)
 
-    @router.post("/points/conclusion", status_code=201, responses=KEPT)
-    def conclude(asked: ByRequest) -> DocumentMessage:
-        """Keep the registration, if it passes its gate; it is used once it was checked."""
-        return document_message(step.conclude(made_by=asked.made_by), Current())
+    @router.post("/points/conclusion", status_code=201, responses=STORE_ERRORS)
+    def conclude(requested: ByRequest) -> DocumentMessage:
+        """Store the registration if it passes its limits; it is used after its check."""
+        return document_message(step.conclude(made_by=requested.made_by), Current())
 
 
 def _add_check(router: APIRouter, step: CheckStep) -> None:
-    @router.post("/check", status_code=201, responses=KEPT)
-    def begin(asked: CheckRequest) -> CheckMessage:
-        """Hold the tip still on a landmark that the registration was not fitted to."""
-        return check_message(step.begin(asked.landmark, tool=asked.tool).status)
+    @router.post("/check", status_code=201, responses=STORE_ERRORS)
+    def begin(requested: CheckRequest) -> CheckMessage:
+        """Start a check: hold the tip still on a landmark that was not used for the fit."""
+        return check_message(step.begin(requested.landmark, tool=requested.tool).status)
 
     @router.get("/check", responses=rejections(409))
     def progress() -> CheckMessage:
-        """Whether the tip was captured, and how far it is from where the plan has the landmark."""
+        """Return the progress of the check and the distance of the tip from the planned landmark."""
         return check_message(step.session.status)
 
     @router.delete("/check", status_code=204)
     def end() -> Response:
-        """Look no more."""
+        """Stop the check."""
         step.end()
         return Response(status_code=204)
 
-    @router.post("/check/conclusion", status_code=201, responses=KEPT)
-    def conclude(asked: ByRequest) -> DocumentMessage:
-        """Keep the check, passed or failed: its distance decides whether anybody may navigate."""
-        return document_message(step.conclude(made_by=asked.made_by), Current())
+    @router.post("/check/conclusion", status_code=201, responses=STORE_ERRORS)
+    def conclude(requested: ByRequest) -> DocumentMessage:
+        """Store the check, passed or failed; navigation requires a passed check."""
+        return document_message(step.conclude(made_by=requested.made_by), Current())
 
 
 def _add_nudges(router: APIRouter, step: NudgeStep) -> None:
     @router.get("/nudges", responses=rejections(409, 422, 503))
     def nudges() -> NudgesMessage:
-        """What was nudged by hand, by whom and when, and how far all of it leads."""
+        """Return the manual corrections with author and time, and their total."""
         return nudges_message(step.status())
 
-    @router.post("/nudges", status_code=201, responses=KEPT)
-    def apply(asked: NudgeRequest) -> NudgesMessage:
-        """Nudge the vertebra that is drawn on the patient; it has to be checked again then."""
-        step.apply(Nudge(kind=asked.kind, axis=asked.axis, amount=asked.amount), made_by=asked.made_by)
+    @router.post("/nudges", status_code=201, responses=STORE_ERRORS)
+    def apply(requested: NudgeRequest) -> NudgesMessage:
+        """Correct the registration by one manual step; it then has to be checked again."""
+        step.apply(
+            Nudge(kind=requested.kind, axis=requested.axis, amount=requested.amount),
+            made_by=requested.made_by,
+        )
         return nudges_message(step.status())
 
-    @router.delete("/nudges/last", responses=KEPT)
+    @router.delete("/nudges/last", responses=STORE_ERRORS)
     def undo(made_by: MadeByQuery) -> NudgesMessage:
-        """Take the last nudge back; undone, its uncertainty is gone too."""
+        """Undo the last manual step, including its uncertainty."""
         step.undo(made_by=made_by)
         return nudges_message(step.status())
 
 
 def _points(step: PointsStep) -> PointsMessage:
     status = step.session.status
-    return points_message(status, [_told(error) for error in step.failures(status)], step.gate)
+    return points_message(status, [_problem_message(error) for error in step.failures(status)], step.gate)
 
 
-def _told(error: RegistrationError) -> ProblemMessage:
+def _problem_message(error: RegistrationError) -> ProblemMessage:
     problem = Problem.from_error(error)
     return ProblemMessage(
         code=problem.code, message=problem.message, remedy=problem.remedy, context=problem.context

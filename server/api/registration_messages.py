@@ -1,4 +1,4 @@
-"""What is asked and answered about registration."""
+"""Messages about registration."""
 
 from typing import Annotated, TypeAlias
 
@@ -6,19 +6,19 @@ import numpy as np
 from pydantic import Field
 
 from server.api.case_messages import HeadingMessage, heading_message
-from server.api.doing import MadeBy
+from server.api.requester import MadeBy
 from server.config import Name, RegistrationConfig
-from server.procedure.registered import KeptCheck, KeptNudge, KeptRegistration, Value
 from server.procedure.registration import (
+    CaptureState,
+    CaptureStatus,
     CheckStatus,
-    NudgesStatus,
+    NudgeStatus,
     PointsStatus,
-    ShelvedRegistration,
-    TouchState,
-    TouchStatus,
+    StoredRegistration,
     residuals_mm,
     target_errors,
 )
+from server.procedure.registration_record import CheckRecord, NudgeRecord, RegistrationRecord, Value
 from server.stream.messages import Message, ProblemMessage, problem_message
 from tracker.plan.remark import Remark
 from tracker.registration import AnchoredTo, Method
@@ -29,16 +29,16 @@ VertebraName: TypeAlias = Annotated[str, Field(min_length=1, max_length=60)]
 
 
 class ToolRequest(Message):
-    """Which tool touches."""
+    """The tool to capture with."""
 
     tool: Name
 
 
 class PointsRequest(ToolRequest):
-    """Which tool touches which vertebra."""
+    """The tool and the vertebra to register."""
 
     vertebra: VertebraName | None = None
-    """Its name in the plan; the one that is to be drilled if left out."""
+    """Name in the plan; default: the vertebra of the active channel."""
 
 
 class LandmarkRequest(Message):
@@ -48,70 +48,70 @@ class LandmarkRequest(Message):
 
 
 class UseRequest(LandmarkRequest):
-    """Whether a landmark has a say in the fit."""
+    """Whether a landmark is used in the fit."""
 
     used: bool
 
 
 class CheckRequest(LandmarkRequest):
-    """On which landmark the tip of which tool is held."""
+    """Landmark and tool of a check."""
 
     tool: Name
 
 
 class ByRequest(Message):
-    """Who does it."""
+    """The person who acts."""
 
     made_by: MadeBy
 
 
 class NudgeRequest(Message):
-    """One small step by hand."""
+    """One manual correction step."""
 
     made_by: MadeBy
     kind: NudgeKind
-    """shift: along the axis, in mm; turn: about it, in degrees, right-handed."""
+    """shift: along the axis in mm; turn: rotation about it in degrees, right-handed."""
     axis: NudgeAxis
-    """Of the patient, named for the way that is positive."""
+    """Patient axis, named after its positive direction."""
     amount: Annotated[float, Field(ge=-1.0, le=1.0)]
-    """0.1, 0.5 or 1, or the same with a minus."""
+    """0.1, 0.5 or 1, positive or negative."""
 
 
 class NudgesMessage(Message):
-    """The nudges that hold."""
+    """The manual corrections in use."""
 
     vertebra: str
     version: int
-    """Of the registration with them."""
-    nudges: list[KeptNudge]
-    """The oldest first."""
+    """Version of the registration that includes them."""
+    nudges: list[NudgeRecord]
+    """Oldest first."""
     shift_mm: float
-    """How far all of them lead, between the entry points."""
-    turn_deg: float
+    """Total shift, measured between the entry points."""
+    rotation_deg: float
     max_mm: float
     max_deg: float
 
 
-class TouchMessage(Message):
+class CaptureMessage(Message):
     """A capture of the tip on a landmark."""
 
     landmark: str
-    state: TouchState
+    state: CaptureState
     images: int
-    """In which the tip was seen so far."""
+    """Images with the tip so far."""
     wanted: int
     rate_hz: float | None
-    """Images/s that were tracked so far; null before the second one."""
+    """Tracked images per second; null before the second image."""
     left_s: float | None
-    """How long the tip is still to be held at this rate; null before the second image."""
+    """Remaining time at this rate; null before the second image."""
     spread_mm: list[float] | None
-    """Standard deviation of the tip along the anchor's axes; null until it is taken."""
+    """Standard deviation of the tip along the anchor axes; null until captured."""
     problem: ProblemMessage | None
-    """Why it was refused."""
+    """Why it was rejected."""
 
 
 class TouchedLandmarkMessage(Message):
-    """A landmark, and the tip on it."""
+    """A landmark with its captured tip position."""
 
     name: str
     point_lps_mm: list[float]
@@ -120,27 +120,27 @@ class TouchedLandmarkMessage(Message):
     tip_in_anchor_mm: list[float] | None
     spread_mm: list[float] | None
     tip_sd_mm: float | None
-    """How sure the tip is (root of the sum of variances)."""
+    """Standard deviation of the tip (root of the sum of variances)."""
     residual_mm: float | None
-    """How far the tip comes to lie from the landmark; null while there is no fit."""
-    left_out_mm: float | None
-    """The same when all others alone are fitted; null where those are too few."""
+    """Residual after the fit; null without a fit."""
+    leave_one_out_mm: float | None
+    """Leave-one-out residual; null if the other points are too few."""
 
 
 class TargetMessage(Message):
-    """The error to expect at one point of a channel."""
+    """Target registration error (TRE) at one point of a channel."""
 
     side: str
     depth_mm: float
-    """From the entry point; 0 is the entry point itself."""
+    """Depth from the entry point."""
     expected_mm: float
-    """3-D RMS by Fitzpatrick's formula."""
+    """Expected TRE (3-D RMS, Fitzpatrick 1998)."""
     stated_mm: float
-    """3-D RMS as stated and gated."""
+    """Stated TRE (3-D RMS), compared with the limit."""
 
 
 class RemarkMessage(Message):
-    """Something that should be known."""
+    """A remark on the registration."""
 
     code: str
     message: str
@@ -148,51 +148,51 @@ class RemarkMessage(Message):
 
 
 class PointLimitsMessage(Message):
-    """What points must reach."""
+    """Limits of a registration by landmarks."""
 
     min_points: int
     max_spread_mm: float
-    """Standard deviation of the tip held on a landmark, along its worst axis."""
+    """Standard deviation of the tip on a landmark, along its worst axis."""
     max_fre_mm: float
     max_left_out_mm: float
     max_tre_mm: float
-    """Stated error (3-D RMS) at the entry points."""
+    """Stated TRE (3-D RMS) at the entry points."""
 
 
 class PointsMessage(Message):
-    """How far registration by points has come."""
+    """Progress of a registration by landmarks."""
 
     vertebra: str
     tool: str
     anchored_to: AnchoredTo
     landmarks: list[TouchedLandmarkMessage]
-    capture: TouchMessage | None
-    """The one that runs, or the last one; null before the first."""
+    capture: CaptureMessage | None
+    """The present or last capture; null before the first."""
     fre_rms_mm: float | None
     targets: list[TargetMessage]
-    """Along every channel of the vertebra."""
+    """TRE along every channel of the vertebra."""
     limits: PointLimitsMessage
     remarks: list[RemarkMessage]
     missing: list[ProblemMessage]
-    """What keeps it from being concluded; empty when it passes its gate."""
+    """Unmet requirements; empty if it passes its limits."""
 
 
 class CheckMessage(Message):
-    """How far a check on anatomy has come."""
+    """Progress of a check on anatomy."""
 
     vertebra: str
     tool: str
-    capture: TouchMessage
+    capture: CaptureMessage
     max_mm: float
-    """How far the tip may be from where the plan has the landmark."""
+    """Maximum distance of the tip from the planned landmark."""
     max_spread_mm: float
-    """Standard deviation of the tip held on it, along its worst axis."""
-    outcome: KeptCheck | None
-    """What would be kept; null until the tip was captured."""
+    """Standard deviation of the tip, along its worst axis."""
+    outcome: CheckRecord | None
+    """Result to be stored; null until the tip was captured."""
 
 
 class RunningMessage(Message):
-    """What was begun, and neither kept nor thrown away yet."""
+    """Registrations and checks in progress."""
 
     points: bool
     sweep: bool
@@ -200,12 +200,12 @@ class RunningMessage(Message):
 
 
 class CheckRuleMessage(Message):
-    """What a check must reach, and how long it lasts."""
+    """Limit of a check and its period of validity."""
 
     required: bool
     max_mm: float
     again_after_min: float
-    """From then on it is asked for again; navigation goes on."""
+    """The check is due again after this time; navigation continues."""
 
 
 class RegistrationMessage(Message):
@@ -217,9 +217,9 @@ class RegistrationMessage(Message):
     anchored_to: AnchoredTo
     reference: str | None
     anchor_from_vertebra: list[list[float]]
-    """4 rows of 4: `x_anchor = rotation @ x_lps + translation`."""
+    """4x4 matrix: `x_anchor = rotation @ x_lps + translation`."""
     covariance: list[list[float]]
-    """6 rows of 6 [mm, rad], translation first."""
+    """6x6 matrix [mm, rad], translation first."""
     numbers: dict[str, Value]
     made_from: dict[str, object]
     check: CheckRuleMessage
@@ -228,14 +228,16 @@ class RegistrationMessage(Message):
 def points_message(
     status: PointsStatus, missing: list[ProblemMessage], gate: RegistrationConfig
 ) -> PointsMessage:
-    """The points so far, as they are told."""
+    """Return the message of a registration by landmarks."""
     fit = status.fit
     off = residuals_mm(status)
-    left_out = {} if fit is None else {fit.pairs.labels[index]: far for index, far in fit.left_out_mm.items()}
+    left_out = (
+        {} if fit is None else {fit.pairs.labels[index]: far for index, far in fit.leave_one_out_mm.items()}
+    )
     return PointsMessage(
-        vertebra=status.ground.vertebra.name,
-        tool=status.ground.tool,
-        anchored_to=status.ground.anchored_to,
+        vertebra=status.context.vertebra.name,
+        tool=status.context.tool,
+        anchored_to=status.context.anchored_to,
         landmarks=[
             TouchedLandmarkMessage(
                 name=one.name,
@@ -248,11 +250,11 @@ def points_message(
                 if one.touched is None
                 else float(np.sqrt(np.trace(one.touched.covariance_mm2))),
                 residual_mm=off.get(one.name),
-                left_out_mm=left_out.get(one.name),
+                leave_one_out_mm=left_out.get(one.name),
             )
             for one in status.landmarks
         ],
-        capture=None if status.capture is None else touch_message(status.capture),
+        capture=None if status.capture is None else capture_message(status.capture),
         fre_rms_mm=None if fit is None else fit.fre_rms_mm,
         targets=[]
         if fit is None
@@ -263,7 +265,7 @@ def points_message(
                 expected_mm=error.expected_mm,
                 stated_mm=error.stated_mm,
             )
-            for error in target_errors(status.ground, fit)
+            for error in target_errors(status.context, fit)
         ],
         limits=PointLimitsMessage(
             min_points=gate.min_points,
@@ -278,13 +280,13 @@ def points_message(
 
 
 def remark_message(remark: Remark) -> RemarkMessage:
-    """A remark, as it is told."""
+    """Return the message of a remark."""
     return RemarkMessage(code=remark.code, message=remark.message, remedy=remark.remedy)
 
 
-def touch_message(status: TouchStatus) -> TouchMessage:
-    """A capture, as it is told."""
-    return TouchMessage(
+def capture_message(status: CaptureStatus) -> CaptureMessage:
+    """Return the message of a capture."""
+    return CaptureMessage(
         landmark=status.landmark,
         state=status.state,
         images=status.images,
@@ -297,35 +299,35 @@ def touch_message(status: TouchStatus) -> TouchMessage:
 
 
 def check_message(status: CheckStatus) -> CheckMessage:
-    """A check, as it is told."""
+    """Return the message of a check."""
     return CheckMessage(
         vertebra=status.vertebra,
         tool=status.tool,
-        capture=touch_message(status.capture),
+        capture=capture_message(status.capture),
         max_mm=status.max_mm,
         max_spread_mm=status.max_spread_mm,
         outcome=status.outcome,
     )
 
 
-def nudges_message(status: NudgesStatus) -> NudgesMessage:
-    """The nudges, as they are told."""
+def nudges_message(status: NudgeStatus) -> NudgesMessage:
+    """Return the message of the manual corrections."""
     return NudgesMessage(
-        vertebra=status.shelved.kept.vertebra,
-        version=status.shelved.document.version,
+        vertebra=status.stored.record.vertebra,
+        version=status.stored.document.version,
         nudges=list(status.nudges),
         shift_mm=status.shift_mm,
-        turn_deg=status.turn_deg,
+        rotation_deg=status.rotation_deg,
         max_mm=status.limits.max_mm,
         max_deg=status.limits.max_deg,
     )
 
 
-def registration_message(shelved: ShelvedRegistration, gate: RegistrationConfig) -> RegistrationMessage:
-    """A registration, as it is told."""
-    kept: KeptRegistration = shelved.kept
+def registration_message(stored: StoredRegistration, gate: RegistrationConfig) -> RegistrationMessage:
+    """Return the message of a registration."""
+    kept: RegistrationRecord = stored.record
     return RegistrationMessage(
-        heading=heading_message(shelved.document, shelved.standing),
+        heading=heading_message(stored.document, stored.validity),
         vertebra=kept.vertebra,
         method=kept.method,
         anchored_to=kept.anchored_to,

@@ -1,4 +1,4 @@
-"""The rehearsal: which scene is played, another one while it runs, its truth, and the CT of its vertebra."""
+"""The rehearsal: select a scene, read its ground truth, and download the CT of its vertebra."""
 
 from functools import cache
 
@@ -16,17 +16,17 @@ from server.capture.address import source_from_text
 from server.config import CameraConfig
 from server.errors import SetupOrderError
 from server.live import LiveHub
-from server.loop.rehearsed import Rehearsed
+from server.loop.rehearsal_control import RehearsalControl
 
 NIFTI = "application/gzip"
 
 
-def rehearsal_router(rehearsed: Rehearsed | None, hub: LiveHub, camera: CameraConfig) -> APIRouter:
-    """Everything under `/api/rehearsal`; refused where the camera is not the rehearsal's."""
+def rehearsal_router(rehearsed: RehearsalControl | None, hub: LiveHub, camera: CameraConfig) -> APIRouter:
+    """Return the router of `/api/rehearsal`; requests are rejected if the source is not the rehearsal."""
     source = source_from_text(camera.source).name
     router = APIRouter(prefix="/api/rehearsal", tags=["rehearsal"])
 
-    def running() -> Rehearsed:
+    def running() -> RehearsalControl:
         if rehearsed is None:
             raise SetupOrderError(
                 "NOT_A_REHEARSAL",
@@ -38,21 +38,21 @@ def rehearsal_router(rehearsed: Rehearsed | None, hub: LiveHub, camera: CameraCo
 
     @router.get("", responses=rejections(409))
     def rehearsal(*, truth: bool = False) -> RehearsalMessage:
-        """What is rehearsed. With `truth=1` also what is true, for tests and teaching."""
+        """Return the scene of the rehearsal; with `truth=1` also its ground truth, for tests and teaching."""
         return _message(running(), hub, with_truth=truth)
 
     @router.put("", responses=rejections(409, 422))
-    def play(asked: SceneRequest) -> RehearsalMessage:
-        """Play another scene in the same theatre, from its beginning, without a restart.
+    def play(requested: SceneRequest) -> RehearsalMessage:
+        """Start another scene in the same theatre, without a restart of the server.
 
-        It is there a moment later: see `begun`.
+        It starts with a short delay: see `begun`.
         """
         known = running()
         changed = {
-            "scene": asked.scene,
-            "skill": asked.skill or known.settings.skill,
-            "board": asked.board or known.settings.board,
-            "events": asked.events,
+            "scene": requested.scene,
+            "skill": requested.skill or known.settings.skill,
+            "board": requested.board or known.settings.board,
+            "events": requested.events,
         }
         known.play(known.settings.model_copy(update=changed))
         return _message(known, hub, with_truth=False)
@@ -63,7 +63,7 @@ def rehearsal_router(rehearsed: Rehearsed | None, hub: LiveHub, camera: CameraCo
         responses={200: {"content": {NIFTI: {}}}, **rejections(409)},
     )
     def ct() -> Response:
-        """The CT of the rehearsal's vertebra, as .nii.gz; its LPS is the theatre's own vertebra frame."""
+        """Return the CT of the simulated vertebra as .nii.gz, in the vertebra frame of the theatre (LPS)."""
         running()
         headers = {"Content-Disposition": 'attachment; filename="rehearsal.nii.gz"'}
         return Response(_ct_bytes(), media_type=NIFTI, headers=headers)
@@ -71,13 +71,13 @@ def rehearsal_router(rehearsed: Rehearsed | None, hub: LiveHub, camera: CameraCo
     return router
 
 
-def _message(rehearsed: Rehearsed, hub: LiveHub, *, with_truth: bool) -> RehearsalMessage:
+def _message(rehearsed: RehearsalControl, hub: LiveHub, *, with_truth: bool) -> RehearsalMessage:
     settings, first = rehearsed.settings, rehearsed.first_number
     return RehearsalMessage(
         seed=settings.seed,
         rate_hz=settings.rate_hz,
         reference=settings.reference,
-        brings_setup=settings.brings_setup,
+        provides_setup=settings.provides_setup,
         scene=settings.scene,
         skill=settings.skill,
         board=settings.board,
@@ -88,7 +88,7 @@ def _message(rehearsed: Rehearsed, hub: LiveHub, *, with_truth: bool) -> Rehears
     )
 
 
-def _moment(rehearsed: Rehearsed, hub: LiveHub) -> MomentMessage | None:
+def _moment(rehearsed: RehearsalControl, hub: LiveHub) -> MomentMessage | None:
     instant = hub.newest
     snapshot = None if instant is None else instant.snapshot
     if snapshot is None:
@@ -99,7 +99,7 @@ def _moment(rehearsed: Rehearsed, hub: LiveHub) -> MomentMessage | None:
 
 @cache
 def _ct_bytes() -> bytes:
-    # Loaded when asked for: nobody else needs a scanner in software.
+    # Imported on demand, because only this route needs the CT simulation.
     from server.imaging.nifti import nifti_bytes  # noqa: PLC0415
     from tracker.rehearsal.ct import rehearsal_ct  # noqa: PLC0415
 

@@ -1,4 +1,4 @@
-"""What is asked of the rehearsal, and what it tells of itself."""
+"""Messages of the rehearsal."""
 
 from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
 
@@ -18,13 +18,13 @@ From = TypeVar("From")
 
 
 class SceneRequest(Message):
-    """Another scene in the same theatre; what is left out stays as it is, but for the events."""
+    """Another scene in the same theatre; omitted values except events stay unchanged."""
 
     scene: Literal["operation", "pivot", "spin", "board", "landmarks", "sweep", "check"]
     skill: Literal["wandering", "good", "breaching"] | None = None
     board: Literal["dots", "checkerboard", "charuco"] | None = None
     events: Annotated[list[RehearsalEventConfig], Field(default_factory=list, max_length=20)]
-    """Their times count from the beginning of the scene."""
+    """Times are relative to the start of the scene."""
 
 
 class TheatreLandmarkMessage(Message):
@@ -51,31 +51,31 @@ class TheatreChannelMessage(Message):
 
 
 class MomentMessage(Message):
-    """What is true of one image. Matrices are 4x4, mm."""
+    """Ground truth of one image. Matrices are 4x4, mm."""
 
     image_number: int
     at_s: float
-    """Since the scene began."""
+    """Time since the start of the scene."""
     phase: str
-    """What the hand is doing."""
+    """Phase of the simulated hand motion."""
     touched: str
-    """The landmark that the tip rests on; empty if it rests on none."""
+    """The landmark at which the tip rests; empty if none."""
     marker_in_view: bool
     reference_in_view: bool
     camera_from_marker: Matrix
     camera_from_tool: Matrix
     camera_from_vertebra: Matrix
-    """The registration to the camera; it changes when patient or camera moves."""
+    """Registration to the camera; changes when patient or camera moves."""
     camera_from_reference: Matrix | None
 
 
 class TheatreMessage(Message):
-    """What is true as long as the theatre stands, whatever is played in it."""
+    """Ground truth of the theatre, independent of the scene."""
 
     landmarks: list[TheatreLandmarkMessage]
-    """Touched in the scene `landmarks`, in this order."""
+    """Captured in the scene `landmarks`, in this order."""
     check_landmark: TheatreLandmarkMessage
-    """Touched in the scene `check`."""
+    """Captured in the scene `check`."""
     needles: list[TheatreNeedleMessage]
     channels: list[TheatreChannelMessage]
     camera_matrix: Matrix
@@ -83,32 +83,32 @@ class TheatreMessage(Message):
     tip_in_marker_mm: Point
     axis_in_marker: Point
     reference_from_vertebra: Matrix | None
-    """The registration to the marker on the patient, whatever moves."""
+    """Registration to the patient marker."""
     moment: MomentMessage | None
-    """Of the newest image; null while there is none of this scene."""
+    """Ground truth of the newest image; null before the first image of this scene."""
 
 
 class RehearsalMessage(Message):
-    """What is rehearsed."""
+    """State of the rehearsal."""
 
     seed: int
     rate_hz: float
     reference: bool
-    brings_setup: bool
+    provides_setup: bool
     scene: str
     skill: str
     board: str
     events: list[RehearsalEventConfig]
     begun: bool
-    """Whether images of this scene come already."""
+    """Whether images of this scene are available."""
     first_number: int | None
-    """Of the image that showed its beginning; `number = first_number + at_s * rate_hz`."""
+    """Number of its first image; `number = first_number + at_s * rate_hz`."""
     truth: TheatreMessage | None
-    """Only where it was asked for: it belongs to tests and teaching, never to a procedure."""
+    """Only on request, for tests and teaching."""
 
 
 def theatre_message(theatre: "Theatre", moment: MomentMessage | None) -> TheatreMessage:
-    """What is true of a theatre."""
+    """Return the ground truth of a theatre."""
     marker_from_tool = theatre.tool.marker_from_tool
     reference = None if theatre.reference is None else _matrix(theatre.reference_from_vertebra)
     check = theatre.check_landmark
@@ -145,7 +145,7 @@ def theatre_message(theatre: "Theatre", moment: MomentMessage | None) -> Theatre
 
 
 def moment_message(truth: "Truth", image_number: int) -> MomentMessage:
-    """What is true of one image."""
+    """Return the ground truth of one image."""
     reference = truth.camera_from_reference
     return MomentMessage(
         image_number=image_number,

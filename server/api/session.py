@@ -1,4 +1,4 @@
-"""Signing in and out, and who one is."""
+"""Sign-in, sign-out and the current session."""
 
 from fastapi import APIRouter, Request, Response
 
@@ -7,28 +7,28 @@ from server.api.session_messages import EnteredMessage, EnterRequest, SessionMes
 from server.security.audit import note
 from server.security.cookies import cookie_header
 from server.security.guard import SECURE_KEY, SESSION_KEY
-from server.security.people import PeopleDesk, Session
-from server.security.person import ANYBODY
+from server.security.people import PeopleService, Session
+from server.security.person import LOCAL_USER
 from server.security.rejections import SignInOff
 
 
 def session_of(request: Request) -> Session | None:
-    """The session that asks; None where nobody has to sign in."""
+    """Return the session of a request; None if sign-in is off."""
     found = request.scope.get("state", {}).get(SESSION_KEY)
     return found if isinstance(found, Session) else None
 
 
-def session_router(people: PeopleDesk | None) -> APIRouter:
-    """Everything under `/api/session`."""
+def session_router(people: PeopleService | None) -> APIRouter:
+    """Return the router of `/api/session`."""
     router = APIRouter(prefix="/api/session", tags=["people"])
 
     @router.get("")
     async def who(request: Request) -> SessionMessage:
-        """Who is signed in here: name, role, and until when."""
+        """Return name, role and expiry of the session."""
         session = session_of(request)
         if session is None:
             return SessionMessage(
-                name=ANYBODY.name, role=ANYBODY.role, expires_at=None, sign_in_required=False
+                name=LOCAL_USER.name, role=LOCAL_USER.role, expires_at=None, sign_in_required=False
             )
         return SessionMessage(
             name=session.person.name,
@@ -38,18 +38,18 @@ def session_router(people: PeopleDesk | None) -> APIRouter:
         )
 
     @router.post("", responses=rejections(408, 409, 422, 503))
-    def enter(asked: EnterRequest, request: Request, response: Response) -> EnteredMessage:
+    def enter(requested: EnterRequest, request: Request, response: Response) -> EnteredMessage:
         """Sign in with an invitation: the part of its link after the #.
 
-        A browser gets a cookie. An invitation for a machine sets none; its answer has the session's token.
+        A browser receives a cookie. For a machine invitation the response contains the session token instead.
         """
         if people is None or not people.required:
-            raise SignInOff.told()
+            raise SignInOff.error()
         address = request.client.host if request.client else ""
-        session, token = people.enter(asked.invitation, address=address)
+        session, token = people.sign_in(requested.invitation, address=address)
         left = session_of(request)
         if left is not None and not session.for_machine:
-            people.end(left.id)
+            people.end_session(left.id)
         secure = bool(request.scope["state"][SECURE_KEY])
         note({"what": "session", "name": session.person.name, "from": None, "to": session.person.role.value})
         if not session.for_machine:
@@ -66,11 +66,11 @@ def session_router(people: PeopleDesk | None) -> APIRouter:
 
     @router.delete("", status_code=204, responses=rejections(409, 503))
     def leave(request: Request) -> Response:
-        """Sign out: the session ends, and with it every picture and socket that it has open."""
+        """Sign out: end the session and close its streams and sockets."""
         session = session_of(request)
         if people is None or session is None:
-            raise SignInOff.told()
-        people.end(session.id)
+            raise SignInOff.error()
+        people.end_session(session.id)
         note({"what": "session", "name": session.person.name, "from": session.person.role.value, "to": None})
         secure = bool(request.scope["state"][SECURE_KEY])
         cookie = cookie_header(request.scope, "", secure=secure, lasts_s=0)

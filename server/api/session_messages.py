@@ -1,4 +1,4 @@
-"""What is said of who is signed in, who is invited, and what was written down."""
+"""Messages about sessions, invitations and the audit log."""
 
 from datetime import UTC, datetime
 from typing import Annotated
@@ -7,13 +7,13 @@ from pydantic import AfterValidator, Field, StringConstraints
 
 from server.security.people.records import Invitation, InvitationState, Session
 from server.security.person import Role
-from server.store.checks import checked_name
+from server.store.validation import validate_name
 from server.stream.message import Message
 
 
 def _storable(name: str) -> str:
-    """What the store takes as the name of who did it: else nothing that they do could be kept."""
-    return checked_name(name, of="name")
+    """Check that the store accepts the name as an author."""
+    return validate_name(name, of="name")
 
 
 PersonName = Annotated[
@@ -21,31 +21,31 @@ PersonName = Annotated[
     StringConstraints(strip_whitespace=True, min_length=1, max_length=80, pattern=r"^[^\x00-\x1f\x7f]+$"),
     AfterValidator(_storable),
 ]
-# Three minutes: one that is over before it is used is no session.
-SHORTEST_SESSION_H = 0.05
+# Three minutes; a shorter session could end before it is used.
+MIN_SESSION_H = 0.05
 
 
 class SessionMessage(Message):
-    """Who is signed in."""
+    """The current session."""
 
     name: str
     role: Role
     expires_at: datetime | None
-    """None where nobody has to sign in."""
+    """null if sign-in is off."""
     sign_in_required: bool
 
 
 class EnterRequest(Message):
-    """What opens the door: the part of the link after its #."""
+    """Invitation token: the part of the link after the #."""
 
     invitation: Annotated[str, StringConstraints(min_length=1, max_length=200)]
 
 
 class EnteredMessage(SessionMessage):
-    """Who is signed in now."""
+    """The new session."""
 
     token: str | None
-    """For a machine alone, to be sent as `Authorization: Bearer`; a browser has a cookie."""
+    """For machines only, to be sent as `Authorization: Bearer`; browsers use a cookie."""
 
 
 class SignedInMessage(Message):
@@ -58,11 +58,11 @@ class SignedInMessage(Message):
     expires_at: datetime
     for_machine: bool
     is_own: bool
-    """It is the one that asks."""
+    """It is the session of this request."""
 
 
 class InvitationMessage(Message):
-    """One invitation, without what opens the door."""
+    """An invitation without its token."""
 
     id: str
     name: str
@@ -77,60 +77,60 @@ class InvitationMessage(Message):
 
 
 class PeopleMessage(Message):
-    """Who is signed in, and who is invited."""
+    """Sessions and invitations."""
 
     sign_in_required: bool
     sessions: list[SignedInMessage]
     """The newest first."""
     invitations: list[InvitationMessage]
-    """The newest first; those that ended two days ago are forgotten."""
+    """Newest first; invitations that ended more than two days ago are omitted."""
 
 
 class InviteRequest(Message):
-    """Somebody is to be invited."""
+    """A new invitation."""
 
     name: PersonName
-    """As they are called in the log."""
+    """Name in the audit log."""
     role: Role
     lasts_h: Annotated[float, Field(gt=0.0, le=720.0)] = 24.0
-    """How long the link lets in."""
+    """Lifetime of the link in hours."""
     single_use: bool = True
     for_machine: bool = False
-    """Its session is for a script: its token is told, and it sets no cookie."""
-    session_lasts_h: Annotated[float, Field(ge=SHORTEST_SESSION_H, le=2160.0)] | None = None
-    """How long they stay signed in; what the settings say if left out."""
+    """The session is for a script: it receives a token instead of a cookie."""
+    session_lasts_h: Annotated[float, Field(ge=MIN_SESSION_H, le=2160.0)] | None = None
+    """Length of the session; default: from the settings."""
 
 
 class InvitedMessage(Message):
-    """A new invitation. Its link is told once, here."""
+    """A new invitation. Its link is only returned here."""
 
     invitation: InvitationMessage
     link: str
-    """To be opened in a browser; the part after # opens the door, and browsers send it to nobody."""
+    """To be opened in a browser; the token after # is not sent to servers by browsers."""
     qr_svg: str
     """The link as a QR code (SVG)."""
     is_reachable: bool
-    """false: the link leads to this computer alone, because the server listens for nobody else."""
+    """false: the link only works on this computer, because the server listens on loopback."""
 
 
 class AuditMessage(Message):
     """A part of the audit log."""
 
     lines: list[dict[str, object]]
-    """The oldest first, with `number`, `at`, `who`, `what`, and where there are such: `of`, `status`, `code`,
-    `changes` (each with `from` and `to`), `address`; `before` is the SHA-256 of the line before."""
+    """Oldest first, with `number`, `at`, `who`, `what`, and optionally `of`, `status`, `code`, `changes`
+    (each with `from` and `to`) and `address`; `before` is the SHA-256 of the previous line."""
     count: int
-    """Of all lines."""
+    """Total number of lines."""
     sum: str
-    """SHA-256 of the last line: whoever has it written down can tell later whether lines are missing."""
-    is_whole: bool
+    """SHA-256 of the last line; recorded elsewhere, it allows missing lines to be detected later."""
+    is_intact: bool
     fault: str
-    """What is wrong with the log; empty while it is whole."""
+    """Description of the first fault; empty if the log is intact."""
     fault_line: int | None
 
 
 def signed_in_message(session: Session, *, own: Session | None) -> SignedInMessage:
-    """The message of a session."""
+    """Return the message of a session."""
     return SignedInMessage(
         id=session.id,
         name=session.person.name,
@@ -143,7 +143,7 @@ def signed_in_message(session: Session, *, own: Session | None) -> SignedInMessa
 
 
 def invitation_message(invitation: Invitation, state: InvitationState) -> InvitationMessage:
-    """The message of an invitation."""
+    """Return the message of an invitation."""
     return InvitationMessage(
         id=invitation.id,
         name=invitation.person.name,

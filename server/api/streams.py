@@ -1,46 +1,44 @@
-"""The addresses of the streams."""
+"""Routes of the video and data streams."""
 
 from fastapi import APIRouter, WebSocket
 from starlette.responses import Response
 
 from server.api.errors import rejections
 from server.stream.errors import CameraUnknown
-from server.stream.fitting.sizes import Choice, choice_from_text
 from server.stream.live_socket import watch_live
 from server.stream.mjpeg import Video
-from server.stream.phone.socket import PhoneDoor, receive_phone
-from server.stream.socket import LONGEST_REASON, REJECTED
-from server.stream.view_socket import View, watch_view
+from server.stream.phone.socket import PhoneEndpoint, receive_phone
+from server.stream.scaling.sizes import SizeChoice, choice_from_text
+from server.stream.socket import MAX_REASON_BYTES, REJECTED
+from server.stream.view_socket import ViewContext, watch_view
 from tracker.errors import NavigationError
 
-SOCKETS_IN_WORDS = """
-`WS /ws/live`: one `LiveMessage` as JSON text for each instant, the newest at once. A slow client skips
-instants (gaps in `sequence`); one that takes nothing for 2 s is cut off. The client sends nothing.
+SOCKETS_DESCRIPTION = """
+`WS /ws/live`: one `LiveMessage` as JSON text for each instant, starting with the newest. A slow client skips
+instants (gaps in `sequence`); a client that reads nothing for 2 s is disconnected. The client sends nothing.
 
-`WS /ws/view?camera=main&size=auto`: the client sends `{"next": true}` and gets one binary message: 4 bytes
-length of the header (unsigned, little endian), the header (a `LiveMessage` as JSON), and the JPEG of that
-same instant, empty when there is no image. Then it may ask again: one image is on the way at a time. The
-size is full, half or quarter, or auto for the one that the line carries; `{"size": "half"}` changes it while
-the line stands, and `shown_scale_ratio` in the header says in which one the picture came. A client may say
-how long it needed to show an image, `{"next": true, "showing_ms": 12}`, so that this does not count against
-its line, and that it cannot show a larger one, `{"largest": "half"}`.
+`WS /ws/view?camera=main&size=auto`: the client sends `{"next": true}` and receives one binary message: the
+length of the header (4 bytes, unsigned, little endian), the header (a `LiveMessage` as JSON), and the JPEG of
+the same instant, empty if there is no image. One image is in flight at a time. The size is full, half or
+quarter, or auto to match the bandwidth; `{"size": "half"}` changes it, and `shown_scale_ratio` in the header
+is the size of the image. A client may report its display time, `{"next": true, "showing_ms": 12}`, so that it
+is not counted as network delay, and its largest displayable size, `{"largest": "half"}`.
 
 `WS /ws/camera`: the page `/camera` sends the images of its device's camera, where `camera.source` is `phone`.
-Text messages are JSON with one key. The page says `hello` with a key of its own, and is told `welcome` (size,
-rate, quality, largest part) or `refused` (an error). `note` comes for each image and twice a second: the page
-answers its `ping` at once with `pong` and its clock in ms, and may send as many images as its `credit` says,
-from the beginning. Each is an `image` message (bytes, capture time, whose clock) and the JPEG in binary
-parts; `camera` before it says what the browser granted. One page sends at a time; one that is silent for 3 s
-is gone.
+Text messages are JSON with one key. The page sends `hello` with its key and receives `welcome`
+(size, rate, quality, largest part) or `refused` (an error). `note` is sent for each image and twice a second:
+the page answers its `ping` with `pong` and its clock in ms. `credit` is the total number of images that the
+page may send. Each image is an `image` message (bytes, capture time, clock) and the JPEG in binary parts,
+preceded by `camera` with the settings of the browser. One page sends at a time; after 3 s of silence it
+counts as disconnected.
 
-The first two are open to pages of this server and to programs that send no Origin. A client that sends
-anything else is closed with code 1008 or 1009 and the reason in words; one that is too many
-(`video.max_viewers`, eight of one person, and an eighth of all is kept for operators and screens), with
-1013. The 3-D scene at `/scene/` has as many places of its own, given in the same way.
+The first two accept pages of this server and programs without an Origin header. Invalid messages close the
+connection with code 1008 or 1009 and a reason; too many viewers with 1013 (`video.max_viewers`, eight per
+person; an eighth is reserved for operators and screens). The 3-D scene at `/scene/` has the same limits.
 """
 
 
-def streams_router(*, camera_name: str, video: Video, view: View, phone: PhoneDoor) -> APIRouter:
+def streams_router(*, camera_name: str, video: Video, view: ViewContext, phone: PhoneEndpoint) -> APIRouter:
     """`GET /video/{camera}.mjpg`, `WS /ws/live`, `WS /ws/view` and `WS /ws/camera`."""
     router = APIRouter(tags=["streams"])
 
@@ -55,12 +53,12 @@ def streams_router(*, camera_name: str, video: Video, view: View, phone: PhoneDo
             **rejections(404, 422, 503),
         },
     )
-    async def video_of(camera: str, size: Choice = Choice.AUTO) -> Response:
-        """The camera's picture with the overlay burned in, as MJPEG.
+    async def video_of(camera: str, size: SizeChoice = SizeChoice.AUTO) -> Response:
+        """Return the video with overlay as MJPEG.
 
-        Always the newest image; a slow viewer gets fewer, and with `size=auto` smaller ones. When
-        there is none, or it is too old, a picture
-        that says NO VIDEO with the reason and the time, once a second. Each JPEG has a comment with
+        Each frame is the newest image; a slow viewer receives fewer and, with `size=auto`, smaller ones.
+        Without a recent image, a card NO VIDEO with reason and time is sent once a second. Each JPEG has
+        a comment with
         `image_number` (null for that picture), `captured_at_s` (monotonic clock of the server), `age_ms`
         (at sending) and `shown_scale_ratio` (1, 0.5 or 0.25) as JSON.
         """
@@ -74,11 +72,11 @@ def streams_router(*, camera_name: str, video: Video, view: View, phone: PhoneDo
 
     @router.websocket("/ws/view")
     async def watched(websocket: WebSocket) -> None:
-        asked = websocket.query_params.get("camera", camera_name)
+        requested = websocket.query_params.get("camera", camera_name)
         try:
-            if asked != camera_name:
-                raise CameraUnknown(asked, [camera_name])
-            choice = choice_from_text(websocket.query_params.get("size", Choice.AUTO))
+            if requested != camera_name:
+                raise CameraUnknown(requested, [camera_name])
+            choice = choice_from_text(websocket.query_params.get("size", SizeChoice.AUTO))
         except NavigationError as error:
             await _reject(websocket, error)
             return
@@ -92,6 +90,6 @@ def streams_router(*, camera_name: str, video: Video, view: View, phone: PhoneDo
 
 
 async def _reject(websocket: WebSocket, error: NavigationError) -> None:
-    """Say why, which a browser shows to no page before the socket is accepted."""
+    """Accept and close with a reason, because browsers hide the reason of a rejected handshake."""
     await websocket.accept()
-    await websocket.close(REJECTED, error.message[:LONGEST_REASON])
+    await websocket.close(REJECTED, error.message[:MAX_REASON_BYTES])

@@ -1,4 +1,4 @@
-"""Who watches, what they mark and sign: the room's socket, and the requests beside it."""
+"""Remote supervision: the room socket (people, pointers, drawings) and co-signatures."""
 
 from fastapi import APIRouter, Request, WebSocket
 
@@ -10,67 +10,69 @@ from server.api.supervision_messages import (
     room_message,
     signable_message,
 )
-from server.api.supervision_socket import sit_in_room
+from server.api.supervision_socket import serve_room
 from server.security import person_of
 from server.stream.viewers import Viewers
-from server.supervision import Lobby, SignatureDesk, View
-from server.supervision.budget import Budget
-from server.supervision.people import Seat
+from server.supervision import RoomHub, SignatureService, View
+from server.supervision.participants import RoomSession
+from server.supervision.room_updates import SentState
 from server.supervision.signatures import Signable
-from server.supervision.told import Told
+from server.supervision.token_bucket import TokenBucket
 
-KEPT = rejections(404, 409, 422, 503, 507)
+STORE_ERRORS = rejections(404, 409, 422, 503, 507)
 
-ROOM_IN_WORDS = """
-`WS /ws/room?view=theatre|operator|supervisor`: the client sends `{"next": true}` and gets one `RoomMessage`
-as JSON text, when something is new and at least once a second: who is here, pointers and drawings on the
-picture, who asks to hold, what is co-signed. What was told is not told again. Supervisors and the operator
+ROOM_DESCRIPTION = """
+`WS /ws/room?view=theatre|operator|supervisor`: the client sends `{"next": true}` and receives one
+`RoomMessage` as JSON text after each change and at least once a second: people present, pointers and drawings
+on the image, hold requests, and co-signatures. Unchanged parts are not repeated. Supervisors and the operator
 point and draw over the same socket.
 """
 
 
-def room_router(lobby: Lobby, viewers: Viewers) -> APIRouter:
-    """`WS /ws/room`, and the same once by `GET /api/supervision/room`."""
+def room_router(room_hub: RoomHub, viewers: Viewers) -> APIRouter:
+    """Return the router of `WS /ws/room` and `GET /api/supervision/room`."""
     router = APIRouter(tags=["supervision"])
 
     @router.get("/api/supervision/room")
     async def room(request: Request) -> RoomMessage:
-        """Who is here, and what they mark, now; the same comes over `WS /ws/room` whenever it changes."""
-        person, now_s = person_of(request.scope), lobby.now_s
-        nobodys = Seat(
+        """Return the state of the room; `WS /ws/room` sends the same on each change."""
+        person, now_s = person_of(request.scope), room_hub.now_s
+        nobodys = RoomSession(
             number=0,
             person=person,
             view=View.SUPERVISOR,
             since="",
-            budget=Budget.full(rate_hz=0.0, most=0.0, now_s=now_s),
+            bucket=TokenBucket.full(rate_hz=0.0, capacity=0.0, now_s=now_s),
         )
-        return room_message(Told().news(lobby.picture()), seat=nobodys)
+        return room_message(SentState().update(room_hub.state()), session=nobodys)
 
     @router.websocket("/ws/room")
     async def sit(websocket: WebSocket) -> None:
-        await sit_in_room(websocket, lobby=lobby, viewers=viewers)
+        await serve_room(websocket, room_hub=room_hub, viewers=viewers)
 
     return router
 
 
-def signatures_router(desk: SignatureDesk) -> APIRouter:
-    """Everything under `/api/supervision/signatures`. Plain functions: they wait for the disk, in threads."""
+def signatures_router(service: SignatureService) -> APIRouter:
+    """Return the router of `/api/supervision/signatures`; synchronous: it waits for the disk."""
     router = APIRouter(prefix="/api/supervision/signatures", tags=["supervision"])
 
     @router.get("", responses=rejections(503))
     def signatures(request: Request) -> SignaturesMessage:
-        """The plan and the registration that are to be drilled by, with the signatures of these versions."""
-        return _message(request, desk.overview())
+        """Return the plan and the registration in use with the signatures of these versions."""
+        return _message(request, service.overview())
 
-    @router.post("", status_code=201, responses=KEPT)
-    def sign(request: Request, asked: SignatureRequest) -> SignaturesMessage:
-        """Co-sign exactly this version; it must be the newest one, and somebody else must have made it."""
-        return _message(request, desk.sign(asked.what, asked.document_id, person_of(request.scope)))
+    @router.post("", status_code=201, responses=STORE_ERRORS)
+    def sign(request: Request, requested: SignatureRequest) -> SignaturesMessage:
+        """Co-sign this version. It must be the newest one and made by another person."""
+        return _message(
+            request, service.sign(requested.what, requested.document_id, person_of(request.scope))
+        )
 
-    @router.delete("/{signature_id}", responses=KEPT)
+    @router.delete("/{signature_id}", responses=STORE_ERRORS)
     def take_back(request: Request, signature_id: str) -> SignaturesMessage:
-        """Take back your own signature; the operator, anybody's."""
-        return _message(request, desk.take_back(signature_id, person_of(request.scope)))
+        """Withdraw your own signature; the operator may withdraw any."""
+        return _message(request, service.withdraw(signature_id, person_of(request.scope)))
 
     return router
 

@@ -1,18 +1,18 @@
-"""What is told of the room and of signatures, and what a page may say in the room."""
+"""Messages of the room and of signatures, and commands of a client in the room."""
 
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
 from server.api.case_messages import ImportedMessage, imported_message
-from server.procedure.state.cosigned import Signed
+from server.procedure.state.cosignatures import CosignTarget
 from server.security import Role
 from server.stream.message import Message
-from server.supervision.asked import Asked
+from server.supervision.hold_storage import HoldRequest
 from server.supervision.marks import Drawing, Pointer, Shape
-from server.supervision.people import LineState, Present, Seat, View
+from server.supervision.participants import ConnectionState, Participant, RoomSession, View
+from server.supervision.room_updates import DrawingExtension, RoomUpdate
 from server.supervision.signatures import Requirement, Signable
-from server.supervision.told import Grown, News
 
 Coordinate = Annotated[float, Field(ge=-1.0, le=8192.0, allow_inf_nan=False)]
 PixelMessage = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
@@ -23,36 +23,36 @@ Points = Annotated[list[PixelMessage], Field(min_length=1, max_length=MAX_POINTS
 
 
 class PersonMessage(Message):
-    """Somebody who is here, once, however many pages they have open."""
+    """A person in the room, listed once for all their pages."""
 
     name: str
     role: Role
     views: list[View]
     since: str
     """UTC, ISO 8601."""
-    line: LineState
+    line: ConnectionState
     """slow: answers take more than 0.5 s; silent: more than 2 s."""
     is_you: bool
 
 
 class PointerMessage(Message):
-    """Where somebody points; 2 s after its last move it is gone."""
+    """A pointer; it disappears 2 s after its last move."""
 
     seat: int
-    """The page that it comes from."""
+    """Number of the page that it comes from."""
     name: str
     role: Role
     at_px: list[float]
-    """x, y in pixels of the whole image."""
+    """x, y in pixels of the full-size image."""
     image_number: int
-    """Of the image that they saw."""
+    """Number of the image it refers to."""
     captured_at_s: float
     still_ms: float
-    """Since its last move."""
+    """Time since its last move."""
 
 
 class DrawingMessage(Message):
-    """What is new of a drawing."""
+    """New points of a drawing."""
 
     key: str
     seat: int
@@ -61,53 +61,53 @@ class DrawingMessage(Message):
     is_yours: bool
     shape: Shape
     image_number: int
-    """Of the image that it was begun on."""
+    """Number of the image on which it was started."""
     captured_at_s: float
     left_s: float
-    """How long it still stays."""
+    """Remaining display time."""
     from_point: int
-    """The first of its points that is in this message; the ones before were told."""
+    """Index of the first point in this message; earlier ones were sent before."""
     points_px: list[list[float]]
-    """x, y in pixels of the whole image."""
+    """x, y in pixels of the full-size image."""
 
 
 class SignatureMessage(Message):
-    """One signature that holds."""
+    """A valid signature."""
 
     id: str
     by: str
     at: str
     is_yours: bool
     second_person: bool
-    """Whether it is known that somebody else made what was signed; false where nobody signs in."""
+    """Whether author and signer are known to differ; false if sign-in is off."""
     invited_by: str
-    """Who had invited the signer; empty where that is not known."""
+    """Who invited the signer; empty if unknown."""
     invited_by_maker: bool
-    """Who made what was signed had invited the signer, and may have invited themselves."""
+    """The author of the document invited the signer, and may be the same person."""
 
 
 class SignableMessage(Message):
-    """The plan, or the registration of the vertebra that is to be drilled, with its signatures."""
+    """The plan, or the registration of the active vertebra, with its signatures."""
 
-    what: Signed
+    what: CosignTarget
     requirement: Requirement
     document_id: str | None
-    """Of the newest version; null where there is none."""
+    """Id of the newest version; null if there is none."""
     title: str
     made_by: str
-    """Who made it; of what came in with an archive, in words that say so."""
+    """Author; for imported documents a text that states the import."""
     made_at: str
     imported: ImportedMessage | None
-    """That it came in with an archive; null where it was made here."""
+    """Import of the document; null if it was made on this server."""
     sha256: str
-    """Of the content that a signature is bound to."""
+    """SHA-256 of the signed content."""
     out_of_date: str
-    """Why it does not hold; empty where it does."""
+    """Why it is not valid; empty if it is."""
     signatures: list[SignatureMessage]
-    """Of exactly this version."""
+    """Signatures of exactly this version."""
     is_cosigned: bool
     was_signed: bool
-    """An earlier version was signed, this one is not."""
+    """An earlier version was signed, but not this one."""
 
 
 class SignaturesMessage(Message):
@@ -117,86 +117,86 @@ class SignaturesMessage(Message):
 
 
 class HoldMessage(Message):
-    """Who asks to hold."""
+    """Hold requests."""
 
-    asked_by: list[str]
+    requested_by: list[str]
     since: str | None
-    """When the first of them asked, UTC, ISO 8601; null where nobody does, or it is not known."""
+    """Time of the first request, UTC, ISO 8601; null if there is none or it is unknown."""
     is_yours: bool
     """You are one of them."""
 
 
 class YouMessage(Message):
-    """Who you are in the room."""
+    """The identity of the receiver in the room."""
 
     seat: int
-    """0 where you have none."""
+    """0 without a page."""
     name: str
     role: Role
 
 
 class RoomMessage(Message):
-    """The room, or what is new of it since the message before."""
+    """State of the room, or the changes since the previous message."""
 
     you: YouMessage
     fades_after_s: float
-    """How long drawings stay, counted from the image that they were made on."""
+    """Display time of drawings, from the capture time of their image."""
     people: list[PersonMessage] | None
-    """Null: as told before."""
+    """null: unchanged."""
     pointers: list[PointerMessage]
     """All of them."""
     drawings: list[str]
-    """The keys of all drawings that are there."""
+    """Keys of all present drawings."""
     grown: list[DrawingMessage]
-    """What is new of them."""
+    """New points of drawings."""
     hold: HoldMessage
     signable: list[SignableMessage] | None
-    """Null: as told before, or nothing is kept here."""
+    """null: unchanged, or without a case store."""
 
 
 class SignatureRequest(Message):
-    """Which version is signed."""
+    """The version to sign."""
 
-    what: Signed
+    what: CosignTarget
     document_id: Annotated[str, Field(min_length=1, max_length=64)]
 
 
-class PointSaid(Message):
-    """Where you point."""
+class PointCommand(Message):
+    """Move your pointer."""
 
     at_px: PixelMessage
     image_number: Number
     captured_at_s: Seconds
 
 
-class DrawSaid(Message):
-    """A drawing that you begin."""
+class DrawCommand(Message):
+    """Start a drawing."""
 
     key: Number
-    """Chosen by you, another one for each drawing."""
+    """Chosen by the client, unique for each drawing."""
     shape: Shape
     points_px: Points
     image_number: Number
     captured_at_s: Seconds
 
 
-class ExtendSaid(Message):
-    """More points of the pen."""
+class ExtendCommand(Message):
+    """Add points to a drawing."""
 
     key: Number
     points_px: Points
 
 
-class Said(Message):
-    """One thing that a page says in the room."""
+class ClientMessage(Message):
+    """One command of a client in the room."""
 
     next: Literal[True] | None = None
-    """The last message is dealt with: more may come."""
-    point: PointSaid | None = None
+    """The last message was processed; the next one may be sent."""
+    point: PointCommand | None = None
     lift: Literal[True] | None = None
-    """You point at nothing any more."""
-    draw: DrawSaid | None = None
-    extend: ExtendSaid | None = None
+    """Remove your pointer."""
+    draw: DrawCommand | None = None
+    extend: ExtendCommand | None = None
     undo: Literal[True] | None = None
     clear: Literal["own", "all"] | None = None
 
@@ -207,23 +207,25 @@ class Said(Message):
         return self
 
 
-def room_message(news: News, *, seat: Seat) -> RoomMessage:
-    """What a page is told next."""
-    picture, you = news.picture, seat.person
+def room_message(update: RoomUpdate, *, session: RoomSession) -> RoomMessage:
+    """Return the next message to a page."""
+    picture, you = update.state, session.person
     return RoomMessage(
-        you=YouMessage(seat=seat.number, name=you.name, role=you.role),
+        you=YouMessage(seat=session.number, name=you.name, role=you.role),
         fades_after_s=picture.fades_after_s,
-        people=None if news.people is None else [_person(one, you.id) for one in news.people],
+        people=None if update.people is None else [_person(one, you.id) for one in update.people],
         pointers=[_pointer(one, picture.now_s) for one in picture.pointers],
         drawings=[one.key for one in picture.drawings],
-        grown=[_drawing(one, you.id, left_s=_left_s(one.drawing, news)) for one in news.grown],
-        hold=_hold(picture.holding, you.id),
-        signable=None if news.signable is None else [signable_message(one, you.id) for one in news.signable],
+        grown=[_drawing(one, you.id, left_s=_left_s(one.drawing, update)) for one in update.extensions],
+        hold=_hold(picture.holds, you.id),
+        signable=None
+        if update.signable is None
+        else [signable_message(one, you.id) for one in update.signable],
     )
 
 
 def signable_message(signable: Signable, your_id: str) -> SignableMessage:
-    """Plan or registration with its signatures, as it is told."""
+    """Return the message of a plan or registration with its signatures."""
     return SignableMessage(
         what=signable.what,
         requirement=signable.requirement,
@@ -231,7 +233,7 @@ def signable_message(signable: Signable, your_id: str) -> SignableMessage:
         title=signable.title,
         made_by=signable.made_by,
         made_at=signable.made_at,
-        imported=imported_message(signable.imported, said_maker=signable.said_maker),
+        imported=imported_message(signable.imported, claimed_maker=signable.claimed_maker),
         sha256=signable.sha256,
         out_of_date=signable.out_of_date,
         signatures=[
@@ -251,28 +253,28 @@ def signable_message(signable: Signable, your_id: str) -> SignableMessage:
     )
 
 
-def _hold(asking: tuple[Asked, ...], your_id: str) -> HoldMessage:
+def _hold(asking: tuple[HoldRequest, ...], your_id: str) -> HoldMessage:
     return HoldMessage(
-        asked_by=[one.name for one in asking],
+        requested_by=[one.name for one in asking],
         since=asking[0].at or None if asking else None,
         is_yours=any(one.person_id == your_id for one in asking),
     )
 
 
-def _person(one: Present, your_id: str) -> PersonMessage:
+def _person(one: Participant, your_id: str) -> PersonMessage:
     return PersonMessage(
         name=one.name,
         role=one.role,
         views=list(one.views),
         since=one.since,
-        line=one.line,
+        line=one.connection,
         is_you=one.person_id == your_id,
     )
 
 
 def _pointer(one: Pointer, now_s: float) -> PointerMessage:
     return PointerMessage(
-        seat=one.seat,
+        seat=one.session,
         name=one.person.name,
         role=one.person.role,
         at_px=list(one.at_px),
@@ -282,15 +284,15 @@ def _pointer(one: Pointer, now_s: float) -> PointerMessage:
     )
 
 
-def _left_s(drawing: Drawing, news: News) -> float:
-    return drawing.moment.captured_at_s + news.picture.fades_after_s - news.picture.now_s
+def _left_s(drawing: Drawing, update: RoomUpdate) -> float:
+    return drawing.moment.captured_at_s + update.state.fades_after_s - update.state.now_s
 
 
-def _drawing(grown: Grown, your_id: str, *, left_s: float) -> DrawingMessage:
+def _drawing(grown: DrawingExtension, your_id: str, *, left_s: float) -> DrawingMessage:
     one = grown.drawing
     return DrawingMessage(
         key=one.key,
-        seat=one.seat,
+        seat=one.session,
         name=one.person.name,
         role=one.person.role,
         is_yours=one.person.id == your_id,

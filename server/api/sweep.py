@@ -1,4 +1,4 @@
-"""Refining a registration by a sweep of the tip over bare bone."""
+"""Refine a registration by a sweep of the tip over exposed bone."""
 
 from fastapi import APIRouter, Response
 
@@ -6,83 +6,83 @@ from server.api.case_messages import DocumentMessage, document_message
 from server.api.errors import rejections
 from server.api.registration_messages import ByRequest, RemarkMessage, ToolRequest, remark_message
 from server.live import Problem
-from server.procedure.registered import Value
 from server.procedure.registration import SweepStep
 from server.procedure.registration.sweep import SweepStatus
+from server.procedure.registration_record import Value
 from server.store import Current
 from server.stream.messages import Message, ProblemMessage, problem_message
 from tracker.registration import AnchoredTo
 
-KEPT = rejections(409, 422, 503, 507)
+STORE_ERRORS = rejections(409, 422, 503, 507)
 
 
 class TakingRequest(Message):
-    """Whether the tip is on bare bone now."""
+    """Whether the tip is on exposed bone now."""
 
     taking: bool
 
 
 class SweepMessage(Message):
-    """How far a sweep has come."""
+    """Progress of a sweep."""
 
     vertebra: str
     tool: str
     anchored_to: AnchoredTo
     start_version: int
-    """Of the registration that it refines."""
+    """Version of the registration that it refines."""
     taking: bool
     points: int
     unseen: int
-    """Images in which the tip was not known."""
+    """Images without the tip."""
     reach_mm: list[float]
-    """From end to end along the sweep's three axes, the longest first."""
+    """Extent along the principal axes of the sweep, largest first."""
     problem: ProblemMessage | None
 
 
 class SweepFitMessage(Message):
-    """What a sweep gives."""
+    """Result of a sweep."""
 
     numbers: dict[str, Value]
     weakest: str
-    """The way in which the sweep alone holds the bone least, in words."""
+    """The least determined direction."""
     remarks: list[RemarkMessage]
     missing: list[ProblemMessage]
-    """What keeps it from being concluded; empty when it passes its gate."""
+    """Unmet requirements; empty if it passes its limits."""
 
 
 def sweep_router(step: SweepStep) -> APIRouter:
-    """Everything under `/api/registration/sweep`. Plain functions: they wait for the fit, in threads."""
+    """Return the router of `/api/registration/sweep`; synchronous, because its routes wait for the fit."""
     router = APIRouter(prefix="/api/registration/sweep", tags=["registration"])
 
-    @router.post("", status_code=201, responses=KEPT)
-    def begin(asked: ToolRequest) -> SweepMessage:
-        """Take the tip's places from the live images while it is swept over the vertebra's bare bone."""
-        return _message(step.begin(tool=asked.tool).status)
+    @router.post("", status_code=201, responses=STORE_ERRORS)
+    def begin(requested: ToolRequest) -> SweepMessage:
+        """Start recording tip positions while the tip sweeps over the exposed bone of the vertebra."""
+        return _message(step.begin(tool=requested.tool).status)
 
     @router.get("", responses=rejections(409))
     def progress() -> SweepMessage:
-        """How much was swept."""
+        """Return the progress of the sweep."""
         return _message(step.session.status)
 
     @router.put("", responses=rejections(409))
-    def take(asked: TakingRequest) -> SweepMessage:
-        """Leave the tip out while it is lifted off the bone, or take it again."""
-        step.session.take(taking=asked.taking)
+    def take(requested: TakingRequest) -> SweepMessage:
+        """Pause or resume recording, for example while the tip is lifted off the bone."""
+        step.session.take(taking=requested.taking)
         return _message(step.session.status)
 
     @router.delete("", status_code=204)
     def end() -> Response:
-        """Take no more; what was swept is thrown away."""
+        """Stop and discard the sweep."""
         step.end()
         return Response(status_code=204)
 
-    @router.post("/fit", responses=KEPT)
+    @router.post("/fit", responses=STORE_ERRORS)
     def fit() -> SweepFitMessage:
-        """Lay what was swept so far on the bone; nothing is kept. Refused where the sweep slides."""
+        """Fit the sweep to the bone without storing it. Rejected if a direction is undetermined."""
         found, failures, _ = step.fit()
         return SweepFitMessage(
             numbers=step.numbers(step.session.status, found),
-            weakest=found.weakest.in_words,
+            weakest=found.least_observable.description,
             remarks=[remark_message(remark) for remark in found.remarks],
             missing=[
                 message
@@ -91,19 +91,19 @@ def sweep_router(step: SweepStep) -> APIRouter:
             ],
         )
 
-    @router.post("/conclusion", status_code=201, responses=KEPT)
-    def conclude(asked: ByRequest) -> DocumentMessage:
-        """Keep the refined registration, if it passes its gate; it is to be checked again then."""
-        return document_message(step.conclude(made_by=asked.made_by), Current())
+    @router.post("/conclusion", status_code=201, responses=STORE_ERRORS)
+    def conclude(requested: ByRequest) -> DocumentMessage:
+        """Store the refined registration if it passes its limits; it then has to be checked again."""
+        return document_message(step.conclude(made_by=requested.made_by), Current())
 
     return router
 
 
 def _message(status: SweepStatus) -> SweepMessage:
     return SweepMessage(
-        vertebra=status.ground.vertebra.name,
-        tool=status.ground.tool,
-        anchored_to=status.ground.anchored_to,
+        vertebra=status.context.vertebra.name,
+        tool=status.context.tool,
+        anchored_to=status.context.anchored_to,
         start_version=status.start.document.version,
         taking=status.taking,
         points=status.points,

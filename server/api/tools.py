@@ -1,4 +1,4 @@
-"""Calibrating tools: poses gathered while somebody tilts or turns one, then its tip or axis kept."""
+"""Tool calibration: collect poses, then store tip or axis."""
 
 from typing import Annotated
 
@@ -6,12 +6,12 @@ from fastapi import APIRouter, Response
 from pydantic import Field
 
 from server.api.case_messages import DocumentMessage, document_message
-from server.api.doing import MadeBy
 from server.api.errors import rejections
+from server.api.requester import MadeBy
 from server.config import Name, Point
 from server.live import Problem
 from server.procedure.tool import KnownTool, ToolStep
-from server.procedure.tool_collection import GatheringStatus
+from server.procedure.tool_collection import ToolCollectionStatus
 from server.store import Current
 from server.stream.messages import Message, ProblemMessage, problem_message
 from tracker.errors import CalibrationError
@@ -19,40 +19,40 @@ from tracker.pose.tool import PivotCalibration, SpinCalibration, TipCheck
 from tracker.pose.tool.collector import Missing, Need, Outcome, Purpose, Taking
 
 
-class GatheringRequest(Message):
-    """Which tool, and what for."""
+class PoseCollectionRequest(Message):
+    """Tool and purpose of a pose collection."""
 
     tool: Name
     purpose: Purpose
     marker: Name | None = None
-    """That it carries; left out where the case or the settings know it, or where there is but one."""
+    """Its marker; optional if known from case or settings, or if there is only one."""
 
 
 class KnownToolMessage(Message):
-    """A tool that the settings describe or that the open case keeps."""
+    """A tool of the settings or of the open case."""
 
     name: str
-    of_settings: bool
-    """Whether the settings describe it; what the case keeps counts before them."""
+    from_settings: bool
+    """Whether the settings define it; the case has precedence."""
     marker: str | None
     radius_mm: float | None
     length_mm: float | None
     kept: DocumentMessage | None
-    """Its newest calibration in the open case, whether or not it holds."""
+    """Its newest calibration in the open case, valid or not."""
     check: DocumentMessage | None
-    """The newest check of its tip."""
+    """Its newest tip check."""
 
 
 class KnownToolsMessage(Message):
     """All tools, by name."""
 
     collecting: bool
-    """Whether poses of one are gathered: see `/api/tools/collection`."""
+    """Whether poses are being collected: see `/api/tools/collection`."""
     tools: list[KnownToolMessage]
 
 
 class MissingMessage(Message):
-    """One thing that is missing."""
+    """An unmet requirement."""
 
     need: Need
     there: float
@@ -61,7 +61,7 @@ class MissingMessage(Message):
 
 
 class OutcomeMessage(Message):
-    """What the poses give now."""
+    """Result of the poses so far."""
 
     rms_3d_mm: float | None
     """3-D RMS of the tip about the pivot; null for a spin."""
@@ -71,36 +71,36 @@ class OutcomeMessage(Message):
     axis_sd_deg: float | None
     wobble_deg: float | None
     max_mm: float | None
-    """The largest distance of the tip from the pivot, in a check."""
+    """Maximum distance of the tip from the pivot, in a check."""
 
 
-class GatheringMessage(Message):
-    """How far gathering poses has come."""
+class PoseCollectionMessage(Message):
+    """Progress of a pose collection."""
 
     tool: str
     marker: str
     purpose: Purpose
     running: bool
     taken: int
-    passed_over: dict[Taking, int]
-    """How many images were not taken, by reason."""
+    rejected_images: dict[Taking, int]
+    """Number of skipped images by reason."""
     newest: Taking
-    """What became of the newest image."""
+    """Result for the newest image."""
     tilt_range_deg: float | None
-    """From end to end, in the way in which it was tilted most; null while that is not known."""
+    """Tilt range in the direction of the largest tilt; null if unknown."""
     tilt_range_across_deg: float | None
-    """At right angles to it."""
+    """Tilt range perpendicular to it."""
     spin_range_deg: float | None
     outcome: OutcomeMessage | None
     outcome_problem: ProblemMessage | None
-    """Why the poses give nothing yet."""
+    """Why there is no result yet."""
     missing: list[MissingMessage]
-    """Empty when it is enough."""
+    """Empty if the poses suffice."""
     problem: ProblemMessage | None
 
 
 class ConclusionRequest(Message):
-    """Keep the result; what is left out stays as it was, or comes from the settings."""
+    """Store the result; omitted values are unchanged or come from the settings."""
 
     made_by: MadeBy
     radius_mm: Annotated[float, Field(gt=0.0, le=50.0)] | None = None
@@ -109,43 +109,43 @@ class ConclusionRequest(Message):
 
 
 def tools_router(step: ToolStep) -> APIRouter:
-    """Everything under `/api/tools`."""
+    """Return the router of `/api/tools`."""
     router = APIRouter(prefix="/api/tools", tags=["tools"])
 
     @router.get("", responses=rejections(503))
     def tools() -> KnownToolsMessage:
-        """The tools that are known, with their newest calibrations."""
+        """Return the known tools with their newest calibrations."""
         return KnownToolsMessage(
             collecting=step.is_collecting, tools=[_known(one, step) for one in step.all()]
         )
 
     @router.post("/collection", status_code=201, responses=rejections(409, 422, 503))
-    def begin(asked: GatheringRequest) -> GatheringMessage:
-        """Gather poses of a tool from the live images: to pivot it, to spin it, or to check its tip.
+    def begin(requested: PoseCollectionRequest) -> PoseCollectionMessage:
+        """Start collecting poses of a tool from the live images, for pivot, spin or tip check.
 
-        What was gathered before is thrown away.
+        Poses collected before are discarded.
         """
-        return _message(step.begin(asked.tool, marker=asked.marker, purpose=asked.purpose).status)
+        return _message(step.begin(requested.tool, marker=requested.marker, purpose=requested.purpose).status)
 
     @router.get("/collection", responses=rejections(409))
-    def progress() -> GatheringMessage:
-        """How far it has come, what the poses give now, and what is missing."""
+    def progress() -> PoseCollectionMessage:
+        """Return the progress, the present result, and what is missing."""
         return _message(step.collection.status)
 
     @router.delete("/collection", status_code=204)
     def end() -> Response:
-        """Gather no more; what was gathered is thrown away."""
+        """Stop and discard the poses."""
         step.end()
         return Response(status_code=204)
 
     @router.post("/collection/conclusion", status_code=201, responses=rejections(409, 422, 503, 507))
-    def conclude(asked: ConclusionRequest) -> DocumentMessage:
-        """Keep what the poses give in the open case, if it passes its gate; it is used from then on."""
+    def conclude(requested: ConclusionRequest) -> DocumentMessage:
+        """Store the result in the open case if it passes its limits; it is used from then on."""
         document = step.conclude(
-            made_by=asked.made_by,
-            radius_mm=asked.radius_mm,
-            length_mm=asked.length_mm,
-            axis_in_marker=asked.axis_in_marker,
+            made_by=requested.made_by,
+            radius_mm=requested.radius_mm,
+            length_mm=requested.length_mm,
+            axis_in_marker=requested.axis_in_marker,
         )
         return document_message(document, Current())
 
@@ -153,29 +153,29 @@ def tools_router(step: ToolStep) -> APIRouter:
 
 
 def _known(tool: KnownTool, step: ToolStep) -> KnownToolMessage:
-    settled, document = tool.settled, tool.document
+    configured, document = tool.configured, tool.document
     return KnownToolMessage(
         name=tool.name,
-        of_settings=settled is not None,
-        marker=None if settled is None else settled.marker,
-        radius_mm=None if settled is None else settled.radius_mm,
-        length_mm=None if settled is None else settled.length_mm,
-        kept=None if document is None else document_message(document, step.standing(document)),
-        check=None if tool.check is None else document_message(tool.check, step.standing(tool.check)),
+        from_settings=configured is not None,
+        marker=None if configured is None else configured.marker,
+        radius_mm=None if configured is None else configured.radius_mm,
+        length_mm=None if configured is None else configured.length_mm,
+        kept=None if document is None else document_message(document, step.validity(document)),
+        check=None if tool.check is None else document_message(tool.check, step.validity(tool.check)),
     )
 
 
-def _message(status: GatheringStatus) -> GatheringMessage:
+def _message(status: ToolCollectionStatus) -> PoseCollectionMessage:
     progress = status.progress
-    turning = None if isinstance(progress.turning, CalibrationError) else progress.turning
+    turning = None if isinstance(progress.motion_range, CalibrationError) else progress.motion_range
     outcome = progress.outcome
-    return GatheringMessage(
+    return PoseCollectionMessage(
         tool=status.tool,
         marker=status.marker,
         purpose=status.purpose,
         running=status.running,
         taken=progress.taken,
-        passed_over=dict(progress.passed_over),
+        rejected_images=dict(progress.rejected_images),
         newest=status.newest,
         tilt_range_deg=None if turning is None else turning.tilt_range_deg,
         tilt_range_across_deg=None if turning is None else turning.tilt_range_across_deg,

@@ -1,4 +1,4 @@
-"""What is sent up: written to the disk as it comes, never held in memory."""
+"""Uploads: request bodies streamed to a temporary file."""
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -8,7 +8,7 @@ from anyio import to_thread
 from fastapi import Request
 from starlette.requests import ClientDisconnect
 
-from server.store import Home, told
+from server.store import Home, translate_errors
 from tracker.errors import InvalidInput
 
 # Handed to the disk in pieces of this size.
@@ -17,7 +17,7 @@ PIECE_BYTES = 2**20
 
 @asynccontextmanager
 async def received(request: Request, home: Home, *, max_bytes: int) -> AsyncIterator[Path]:
-    """The body of a request as a file, which is gone at the end of the block, unless it was moved away.
+    """Yield the request body as a file, which is deleted at the end of the block unless it was moved.
 
     Raises:
         InvalidInput: UPLOAD_TOO_LARGE (HTTP 413), UPLOAD_EMPTY, UPLOAD_CUT.
@@ -25,7 +25,7 @@ async def received(request: Request, home: Home, *, max_bytes: int) -> AsyncIter
     """
     announced_bytes = _announced_bytes(request)
     _reject_above(announced_bytes, max_bytes)
-    home.reject_without_room(announced_bytes)
+    home.reject_without_space(announced_bytes)
     path = home.new_temporary()
     try:
         await _write(request, path, home, max_bytes=max_bytes)
@@ -36,7 +36,7 @@ async def received(request: Request, home: Home, *, max_bytes: int) -> AsyncIter
 
 async def _write(request: Request, path: Path, home: Home, *, max_bytes: int) -> None:
     taken_bytes, waiting = 0, bytearray()
-    with told(home.folder, known_only=True):
+    with translate_errors(home.folder, known_only=True):
         stream = await to_thread.run_sync(lambda: path.open("xb"))
         try:
             async for chunk in request.stream():

@@ -1,4 +1,4 @@
-"""What a calibration of the camera is told as, values and pictures: on the command line and in cases."""
+"""Reports of a camera calibration as values and plots, for the command line and for cases."""
 
 from server.calibration.accuracy import ROW_COLUMNS, accuracy_rows, accuracy_values
 from server.calibration.plots import coverage_svg, residuals_svg

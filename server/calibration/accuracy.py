@@ -1,4 +1,4 @@
-"""An accuracy check as values that JSON can say, in the form of the paper's Table 2."""
+"""Accuracy check as JSON-serialisable values, in the form of the paper's Table 2."""
 
 from tracker.camera.accuracy import AccuracyReport
 
@@ -6,7 +6,7 @@ ROW_COLUMNS = ("x1_mm", "y1_mm", "x2_mm", "y2_mm", "u1_px", "v1_px", "u2_px", "v
 
 
 def accuracy_values(report: AccuracyReport, *, limit_mm: float) -> dict[str, object]:
-    """The whole check, and whether it keeps its limit."""
+    """Return the check, and whether it is within its limit."""
     seen = ("pixel_distance_px", "pixels_per_mm", "measured_mm", "error_mm")
     names = (*ROW_COLUMNS[:4], "known_mm", *ROW_COLUMNS[4:], *seen)
     return {

@@ -1,4 +1,4 @@
-"""Two pictures of a calibration as SVG: where points lie off, and where the image was covered."""
+"""Plots of a calibration as SVG: residuals, and coverage of the image."""
 
 from collections.abc import Iterator
 
@@ -13,7 +13,7 @@ INK, DOT, CELL = "#1d2430", "#c2410c", "#93c5fd"
 
 
 def residuals_svg(report: CalibrationReport) -> str:
-    """Of each point an arrow from where it was expected to where it was seen, many times enlarged."""
+    """Plot the residual of each point as a magnified arrow from the projected to the detected point."""
     used = [view for view in report.views if view.used]
     lengths = np.concatenate([np.linalg.norm(view.residuals_px, axis=1) for view in used])
     usual = max(float(np.percentile(lengths, 95)), 1e-6)
@@ -32,7 +32,7 @@ def residuals_svg(report: CalibrationReport) -> str:
 
 
 def coverage_svg(report: CalibrationReport) -> str:
-    """All points, and the image's cells that hold any."""
+    """Plot all points, and the cells of the image that contain any."""
     used = [view for view in report.views if view.used]
     points = np.concatenate([view.image_points_px for view in used])
     size = np.array(report.camera.size_wh_px, dtype=np.float64)

@@ -1,4 +1,4 @@
-"""A calibration's report as values that JSON can say: on the command line, and in a case."""
+"""Calibration report as JSON-serialisable values."""
 
 import math
 
@@ -6,14 +6,14 @@ from tracker.camera.calibration import CalibrationReport, ViewReport
 
 
 def report_values(report: CalibrationReport) -> dict[str, object]:
-    """Everything that the report says but of single views; what is not known is null."""
+    """Return the report without its views; unknown values are None."""
     return {
         "rms_px": report.rms_px,
         "matrix": report.camera.matrix.tolist(),
         "distortion": report.camera.distortion.tolist(),
         "size_wh_px": list(report.camera.size_wh_px),
         "noise_px": report.noise_px,
-        "noise_is_alike": report.is_noise_alike,
+        "noise_is_alike": report.is_noise_correlated,
         "pixel_aspect_ratio": report.pixel_aspect_ratio,
         "parameters": [
             {
@@ -44,7 +44,7 @@ def report_values(report: CalibrationReport) -> dict[str, object]:
 
 
 def view_values(view: ViewReport) -> dict[str, object]:
-    """What became of one view of the board."""
+    """Return the result of one view of the board."""
     return {
         "image": view.name,
         "used": view.used,

@@ -1,1 +1,1 @@
-"""Sources of images: local camera, video file, network stream, folder, rehearsal; the newest image wins."""
+"""Image sources: cameras, phone, video file, network stream, folder, rehearsal; the newest image wins."""

@@ -1,4 +1,4 @@
-"""What kind of source a text names, without opening it."""
+"""Kind of a source, from its text alone; nothing is opened."""
 
 import re
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ STREAM_SCHEMES = ("rtsp", "rtsps", "rtmp", "http", "https", "udp", "tcp")
 
 
 class SourceKind(StrEnum):
-    """The kinds of sources that can be told apart by their text alone."""
+    """Kinds of sources."""
 
     REHEARSAL = "rehearsal"
     PHONE = "phone"  # or a tablet: a page there sends its camera's images
@@ -22,12 +22,12 @@ class SourceKind(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SourceAddress:
-    """A source of images as it was asked for.
+    """A requested source of images.
 
     Attributes:
-        kind: what it is.
-        text: the text itself, with any password; never shown.
-        name: what may be shown: the same with passwords masked.
+        kind: its kind.
+        text: the text with any password; never displayed.
+        name: display name: the text with passwords masked.
     """
 
     kind: SourceKind
@@ -36,7 +36,7 @@ class SourceAddress:
 
 
 def source_from_text(text: str | int) -> SourceAddress:
-    """Tell what a source is: rehearsal, phone, a camera by number, device or serial, a stream, or a path."""
+    """Parse a source: rehearsal, phone, camera (number, device or serial), stream, or path."""
     plain = str(text).strip()
     if plain.lower() == "rehearsal":
         return SourceAddress(kind=SourceKind.REHEARSAL, text="rehearsal", name="rehearsal")
@@ -52,15 +52,15 @@ def source_from_text(text: str | int) -> SourceAddress:
         return SourceAddress(kind=SourceKind.INDUSTRIAL_CAMERA, text=text, name=text)
     scheme = plain.partition("://")[0].lower()
     if "://" in plain and scheme in STREAM_SCHEMES:
-        return SourceAddress(kind=SourceKind.STREAM, text=plain, name=masked(plain))
+        return SourceAddress(kind=SourceKind.STREAM, text=plain, name=mask_secrets(plain))
     return SourceAddress(kind=SourceKind.PATH, text=plain, name=plain)
 
 
-def masked(address: str) -> str:
-    """An address with its login, and whatever in its query may be a secret, replaced by ***.
+def mask_secrets(address: str) -> str:
+    """Return an address with its credentials and secret query parameters replaced by ***.
 
-    Of a login only a user's name with a password behind it is shown: alone it may be the secret itself. A
-    password with / ? or # in it ends the host's part of the address early; then all before the @ is hidden.
+    A user name is shown only if a password follows: alone it may be the secret itself. A password with / ? or
+    # in it ends the host part of the address early; then all before the @ is masked.
     """
     try:
         parts = urlsplit(address)

@@ -1,30 +1,30 @@
-"""Images of a stream that waited on their way, told by the rhythm in which images arrive.
+"""Detects delayed images of a stream by their arrival rhythm.
 
-A stream has no time of its own that could be believed: after a pause of the network or of this machine, what
-was held back arrives all at once, and by its arrival it would look new.
+A stream has no reliable timestamps of its own: after a pause of the network or of this machine, buffered
+images arrive all at once, and would look new by their arrival time.
 
-The price is one image after each pause. Bursts closer than a quarter of a second look like the rhythm
-itself and are not noticed.
+The cost is one image after each pause. Bursts closer than a quarter of a second look like the rhythm itself
+and are not detected.
 """
 
-# From one image to the next: more periods than this, and more time than this, is a pause.
+# A gap longer than both is a pause.
 PAUSE_PERIODS = 3.0
 MIN_PAUSE_S = 0.25
-# Sooner after the one before than this share of a period: it had been waiting.
+# An image that arrives earlier than this share of a period was buffered.
 RHYTHM_RATIO = 0.5
-# Before the rhythm is known. Many servers begin with what they have kept since the last whole image.
+# Before the rhythm is known. Many servers start with what they have buffered since the last key frame.
 MIN_PERIOD_S = 0.02
 LEARNING_RATE = 0.1
 
 
 class Backlog:
-    """Judges each image by when it arrived; times are passed in."""
+    """Classifies each image by its arrival time; times are passed in."""
 
     def __init__(self) -> None:
         self.restart()
 
     def restart(self) -> None:
-        """The stream was opened: nothing is known of its rhythm."""
+        """Reset after the stream was opened."""
         self._last_s: float | None = None
         self._period_s = MIN_PERIOD_S
         self._is_learnt = False
@@ -33,10 +33,10 @@ class Backlog:
         self._live_at_s = 0.0
 
     def is_old(self, arrived_s: float) -> bool:
-        """Whether an image waited somewhere before it arrived.
+        """Return whether an image was buffered before it arrived.
 
-        The first one after a pause may have been taken at its beginning, so it counts as old, and so do those
-        that come upon its heels. The first one in rhythm is live.
+        The first image after a pause may have been taken at its beginning, so it counts as old, like those
+        that follow closely. The first one in rhythm is live.
         """
         if self._last_s is None:
             self._last_s = self._live_at_s = arrived_s
@@ -49,7 +49,7 @@ class Backlog:
             return True
         if self._catching_up and interval_s < RHYTHM_RATIO * self._period_s:
             return True
-        # Of two pauses in a row nothing was held back between: the camera has become slow.
+        # Two pauses in a row: nothing was buffered, the camera has become slow.
         self._catching_up = False
         rate = LEARNING_RATE if self._is_learnt else 1.0
         self._period_s += rate * (interval_s - self._period_s)
@@ -58,5 +58,5 @@ class Backlog:
         return False
 
     def old_for_s(self, arrived_s: float) -> float:
-        """For how long no image was live."""
+        """Return the time since the last live image."""
         return arrived_s - self._live_at_s

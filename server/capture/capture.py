@@ -1,4 +1,4 @@
-"""Keeps a source running in a thread of its own, and holds its newest image."""
+"""Runs a source in its own thread, and provides its newest image."""
 
 import threading
 import time
@@ -6,15 +6,15 @@ from collections import deque
 
 import structlog
 
-from server.capture.frozen import SameImage
+from server.capture.frozen_image import FrozenImageDetector
 from server.capture.shot import Shot, Source
 from server.errors import CaptureError
 from server.live import Problem, SourceState, SourceStatus
 
-# Half a second to knock and this to wait: a source that is back is found within a second.
+# Half a second to connect and this to wait: a source that is back is found within a second.
 RETRY_AFTER_S = 0.3
 STALLED_AFTER_S = 2.0
-# A card may give each image of a slower camera more than once; the same one for longer is no live image.
+# A capture card may repeat each image of a slower camera; a repetition for longer is no live image.
 FROZEN_AFTER_S = 0.25
 RATE_WINDOW_S = 1.0
 
@@ -22,10 +22,10 @@ log = structlog.get_logger(__name__)
 
 
 class Capture:
-    """The newest image of a source, which is opened again by itself whenever it fails.
+    """The newest image of a source, which is reopened automatically when it fails.
 
-    Nothing is queued: an image that was not taken before the next one came is skipped, and counted. Of a
-    camera that gives the same image again and again, nothing is handed on after `FROZEN_AFTER_S`.
+    Nothing is queued: an image that was not taken before the next one is skipped, and counted. If a camera
+    repeats the same image, nothing is passed on after `FROZEN_AFTER_S`.
     """
 
     def __init__(self, source: Source, *, stop: threading.Event, taken_before: int = 0) -> None:
@@ -35,8 +35,8 @@ class Capture:
         self._newest: Shot | None = None
         self._state = SourceState.OPENING
         self._problem: Problem | None = None
-        self._same = SameImage()
-        self._told: tuple[str, str] | None = None
+        self._same = FrozenImageDetector()
+        self._last_logged: tuple[str, str] | None = None
         self._failed_at_s: float | None = None
         self._is_open = False
         self._images = 0
@@ -48,7 +48,7 @@ class Capture:
         self._thread = threading.Thread(target=self._run, name="capture", daemon=True)
 
     def start(self) -> None:
-        """Begin to capture."""
+        """Start capturing."""
         self._thread.start()
 
     def close(self, timeout_s: float = 1.0) -> None:
@@ -58,10 +58,10 @@ class Capture:
         self._thread.join(timeout_s)
 
     def take(self, timeout_s: float) -> Shot | None:
-        """The newest image that was not taken yet; None when the status changed or the time is up.
+        """Return the newest image not taken yet; None when the status changed or after the timeout.
 
         Raises:
-            BaseException: what ended the capturing thread, if it was no CaptureError.
+            BaseException: any error other than CaptureError that ended the capture thread.
         """
         deadline_s = time.monotonic() + timeout_s
         with self._change:
@@ -80,7 +80,7 @@ class Capture:
             return shot
 
     def status(self) -> SourceStatus:
-        """What the source is doing."""
+        """Return the status of the source."""
         now_s = time.monotonic()
         with self._change:
             state, problem = self._state, self._problem
@@ -104,15 +104,15 @@ class Capture:
         if camera is not None and camera.trigger:
             return Problem(
                 code="CAMERA_NOT_TRIGGERED",
-                message=f"{self._source.name} waits for a pulse on {camera.trigger}, and none came for "
+                message=f"{self._source.name} waits for a pulse on {camera.trigger}, and got none for "
                 f"{STALLED_AFTER_S:g} s",
-                remedy="Start what triggers it, and check its cable; or set camera.trigger to null.",
+                remedy="Start the trigger source, and check its cable; or set camera.trigger to null.",
                 context={"source": self._source.name, "trigger": camera.trigger, "limit_s": STALLED_AFTER_S},
             )
         return Problem(
             code="SOURCE_STALLED",
             message=f"the source {self._source.name} is open, but gave no image for {STALLED_AFTER_S:g} s",
-            remedy="Check the camera, its power and its cable; it is tried again by itself.",
+            remedy="Check the camera, its power and its cable; it is retried automatically.",
             context={"source": self._source.name, "limit_s": STALLED_AFTER_S},
         )
 
@@ -144,15 +144,15 @@ class Capture:
                 self._end()
                 return
             if not self._is_frozen(shot):
-                self._hand_over(shot)
+                self._publish(shot)
 
     def _is_frozen(self, shot: Shot) -> bool:
-        """Whether the source gives an old image as if it were live.
+        """Return whether the source repeats an old image as if it were live.
 
         Raises:
-            CaptureError: SOURCE_FROZEN: for so long that it is opened again.
+            CaptureError: SOURCE_FROZEN: for so long that the source is reopened.
         """
-        if not self._source.stalls or self._same.for_s(shot) <= FROZEN_AFTER_S:
+        if not self._source.stalls or self._same.repeated_for_s(shot) <= FROZEN_AFTER_S:
             return False
         with self._change:
             silent_s = shot.captured_at_s - self._alive_at_s
@@ -160,13 +160,13 @@ class Capture:
             raise CaptureError(
                 "SOURCE_FROZEN",
                 f"the source {self._source.name} gave the same image for {STALLED_AFTER_S:g} s",
-                "Uncover its lens; else restart the camera, or what stands between it and this machine, and "
-                "check its cable. It is opened again by itself.",
+                "Uncover its lens; else restart the camera, or the device between it and this machine, and "
+                "check its cable. It is reopened automatically.",
                 {"source": self._source.name, "limit_s": STALLED_AFTER_S},
             )
         return True
 
-    def _hand_over(self, shot: Shot) -> None:
+    def _publish(self, shot: Shot) -> None:
         defect = self._source.defect
         with self._change:
             started = self._state is not SourceState.RUNNING
@@ -178,18 +178,18 @@ class Capture:
             self._problem = None if defect is None else Problem.from_error(defect)
             self._change.notify_all()
         if started:
-            self._tell_running(shot)
+            self._log_running(shot)
         if defect is not None:
-            self._tell_problem(defect)
+            self._log_problem(defect)
         elif started:
-            self._told = None
-        if self._source.waits_for_taker:
+            self._last_logged = None
+        if self._source.waits_for_consumer:
             with self._change:
                 self._change.wait_for(lambda: self._newest is not shot or self._stop.is_set())
 
     def _end(self) -> None:
         if self._source.defect is not None:
-            self._tell_problem(self._source.defect)
+            self._log_problem(self._source.defect)
         with self._change:
             self._state = SourceState.ENDED
             self._is_open = False
@@ -205,15 +205,15 @@ class Capture:
             self._state = SourceState.RECONNECTING
             self._problem = Problem.from_error(error)
             self._times.clear()
-            # An image from before the failure must not be looked at as if it were live.
+            # An image from before the failure must not be used as live.
             self._newest = None
             self._status_changed = True
             if self._failed_at_s is None:
                 self._failed_at_s = time.monotonic()
             self._change.notify_all()
-        self._tell_problem(error)
+        self._log_problem(error)
 
-    def _tell_running(self, shot: Shot) -> None:
+    def _log_running(self, shot: Shot) -> None:
         height, width = shot.image.shape[:2]
         size = f"{width}x{height}"
         if self._failed_at_s is None:
@@ -223,16 +223,16 @@ class Capture:
             log.info("source is back", source=self._source.name, size_px=size, away_s=away_s)
         self._failed_at_s = None
 
-    def _tell_problem(self, error: CaptureError) -> None:
-        """Log it once, not at every attempt."""
+    def _log_problem(self, error: CaptureError) -> None:
+        """Log an error once, not at every attempt."""
         sentence = (error.code, error.message)
-        if sentence != self._told:
-            self._told = sentence
+        if sentence != self._last_logged:
+            self._last_logged = sentence
             log.warning(error.message, code=error.code, remedy=error.remedy)
 
 
 def _rate_hz(times: list[float]) -> float:
-    """Images a second between the first and the last of these times."""
+    """Return the images per second between the first and last of these times."""
     if len(times) < 2 or times[-1] <= times[0]:
         return 0.0
     return (len(times) - 1) / (times[-1] - times[0])

@@ -1,4 +1,4 @@
-"""OpenCV's video door: quiet, and with time limits."""
+"""OpenCV video capture, silent and with timeouts."""
 
 import contextlib
 import os
@@ -10,9 +10,9 @@ import cv2
 OPTIONS_VARIABLE = "OPENCV_FFMPEG_CAPTURE_OPTIONS"
 OPEN_TIMEOUT_MS = 3000
 READ_TIMEOUT_MS = 2000
-# TCP, because a lost UDP packet smears half an image; no buffer and little probing, because an old image is
-# worse than none; one decoding thread, because each further one holds an image back. No sound, because beside
-# it FFmpeg moves the times of both by the sender reports, and at the first of these they jump.
+# TCP, because a lost UDP packet corrupts half an image; no buffer and short probing, because an old image is
+# worse than none; one decoding thread, because each further one delays by an image. No audio, because with it
+# FFmpeg shifts all timestamps by the sender reports, and they jump at the first of these.
 STREAM_OPTIONS = (
     "rtsp_transport;tcp|allowed_media_types;video|fflags;nobuffer|flags;low_delay|analyzeduration;200000|"
     "fpsprobesize;0"
@@ -20,20 +20,20 @@ STREAM_OPTIONS = (
 
 
 def silence_codecs() -> None:
-    """Keep OpenCV, FFmpeg and V4L from writing to the terminal; what matters becomes a CaptureError."""
+    """Keep OpenCV, FFmpeg and V4L from writing to the terminal; relevant errors become a CaptureError."""
     os.environ.setdefault("OPENCV_FFMPEG_LOGLEVEL", "-8")
     os.environ.setdefault("OPENCV_VIDEOIO_V4L_SELECT_TIMEOUT", "2")
     cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
 
 
 def open_file(path: str) -> cv2.VideoCapture:
-    """A video file; ask `isOpened`."""
+    """Open a video file; check `isOpened`."""
     silence_codecs()
     return cv2.VideoCapture(path, cv2.CAP_FFMPEG)
 
 
 def open_stream(address: str) -> cv2.VideoCapture:
-    """A network stream, given up after 3 s; a read from it is given up after 2 s. Ask `isOpened`."""
+    """Open a network stream with a timeout of 3 s, and of 2 s for each read; check `isOpened`."""
     silence_codecs()
     limits = [
         cv2.CAP_PROP_OPEN_TIMEOUT_MSEC,
@@ -49,7 +49,7 @@ def open_stream(address: str) -> cv2.VideoCapture:
 
 @contextlib.contextmanager
 def _stream_options() -> Iterator[None]:
-    """OpenCV takes these from the environment only; taken back, because they cost a file its first image."""
+    """Set OpenCV's environment options for a stream; restored, because they cost a file its first image."""
     given = os.environ.get(OPTIONS_VARIABLE)
     os.environ[OPTIONS_VARIABLE] = given or STREAM_OPTIONS
     try:
@@ -60,10 +60,10 @@ def _stream_options() -> Iterator[None]:
 
 
 def open_device(device: str) -> cv2.VideoCapture:
-    """A local camera by number or path, holding back as few images as its rate allows; ask `isOpened`."""
+    """Open a local camera by number or path, with as few buffers as its rate allows; check `isOpened`."""
     silence_codecs()
     backend = cv2.CAP_V4L2 if sys.platform == "linux" else cv2.CAP_ANY
     camera = cv2.VideoCapture(int(device) if device.isdecimal() else device, backend)
-    # With a single buffer the driver has none to fill while its image is decoded: every second one is lost.
+    # With a single buffer the driver has none to fill while an image is decoded: every second one is lost.
     camera.set(cv2.CAP_PROP_BUFFERSIZE, 2)
     return camera

@@ -1,8 +1,8 @@
 """A camera's focus, exposure, gain and white balance: locked at the start, and read once a second.
 
 Values are stored with the calibration, set when the camera is opened or a calibration is adopted, and read
-once a second. They are compared in the tracking process, so that picture, numbers and alarm agree.
-Exposure, gain and white balance void nothing: each pose fits brightness for itself.
+once a second. They are compared in the tracking process, so that picture, numbers and alarm agree. A change
+of exposure, gain or white balance invalidates nothing: each pose estimates brightness itself.
 """
 
 from collections.abc import Iterable, Mapping
@@ -15,9 +15,9 @@ from server.capture.v4l2.structs import EXPOSURE_MANUAL
 from tracker.camera import GEOMETRIC, CameraControl
 
 READ_EVERY_S = 1.0
-# Automatic focus, exposure and white balance need this long to find what suits the room.
+# Settling time of automatic focus, exposure and white balance.
 SETTLES_S = 3.0
-# What automatic control sets, and the value that switches it off.
+# Automatic control, the value that switches it off, and the control that it sets.
 LIGHT_LOCKS = (
     (CameraControl.AUTO_EXPOSURE, EXPOSURE_MANUAL, CameraControl.EXPOSURE),
     (CameraControl.AUTO_WHITE_BALANCE, 0, CameraControl.WHITE_BALANCE),
@@ -27,28 +27,28 @@ log = structlog.get_logger(__name__)
 
 
 class Controls(Protocol):
-    """The controls of one camera."""
+    """Controls of one camera."""
 
     def control(self, control: CameraControl) -> ControlReading | None:
-        """A control's value; None when the camera does not have it. Raises OSError when it is gone."""
+        """Return a control's value; None if the camera lacks it. Raises OSError for a removed camera."""
 
     def set_control(self, control: CameraControl, value: int) -> None:
-        """Set a control. Raises OSError when the camera refuses."""
+        """Set a control. Raises OSError if the camera rejects it."""
 
 
-class ControlKeeper:
-    """Sets a camera's controls once, and reads them from then on. Without a clock: times are passed in.
+class ControlLock:
+    """Sets a camera's controls once, and monitors them from then on. Times are passed in.
 
-    What somebody changes later is read and told, and not set back: a focus that moves twice helps nobody.
+    A later change by somebody is reported, and not reverted: a focus that moves twice helps nobody.
 
     Args:
         device: the camera.
         name: of the camera.
-        lock_focus: switch automatic focus off: at once where the calibration has a focus, which is then set
+        lock_focus: switch autofocus off: at once where the calibration has a focus, which is then set
             together with its zoom, pan and tilt; else once it has settled.
         lock_light: switch automatic exposure and white balance off once they have settled.
-        calibrated: the values at the calibration in use; empty where none is known.
-        at_s: the time now.
+        calibrated: values at the calibration in use; empty where unknown.
+        at_s: present time.
     """
 
     def __init__(
@@ -74,11 +74,11 @@ class ControlKeeper:
 
     @property
     def values(self) -> Mapping[CameraControl, int]:
-        """As they were last read; never changed in place, so it may be taken from any thread."""
+        """Last read values; immutable, so readable from any thread."""
         return self._values
 
     def restore(self, calibrated: Mapping[CameraControl, int]) -> None:
-        """Set focus, zoom, pan and tilt to what they were at a calibration, as far as that is known."""
+        """Set focus, zoom, pan and tilt to their values at a calibration, where known."""
         if not self._lock_focus:
             return
         for control in GEOMETRIC:
@@ -89,7 +89,7 @@ class ControlKeeper:
         self._values = self._read(self._values)
 
     def _fix_focus(self, value: int) -> None:
-        """Switch automatic focus off, and set the focus."""
+        """Switch autofocus off, and set the focus."""
         self._focus_locked = True
         if self._values.get(CameraControl.AUTOFOCUS):
             self._set(CameraControl.AUTOFOCUS, 0)
@@ -97,7 +97,7 @@ class ControlKeeper:
             self._set(CameraControl.FOCUS, value)
 
     def poll(self, at_s: float) -> None:
-        """Read the values, if it is time to; and lock what has settled, once, when it is."""
+        """Read the values when due; lock the controls once they have settled."""
         if at_s - self._began_s >= SETTLES_S:
             self._lock_settled()
         if at_s - self._read_at_s >= READ_EVERY_S:
@@ -109,8 +109,8 @@ class ControlKeeper:
             return
         self._values = self._read(self._values)
         if not self._focus_locked:
-            # Set also to what it is: the lens may stand elsewhere than the value says, and what is kept with
-            # a calibration must be where the lens stands.
+            # Set even to its present value: the lens may be elsewhere than the value, and the value stored
+            # with a calibration must be that of the lens.
             self._fix_focus(self._values.get(CameraControl.FOCUS, 0))
         if not self._light_locked:
             self._light_locked = True
@@ -125,7 +125,7 @@ class ControlKeeper:
                     self._set(setting, values[setting])
 
     def _read(self, controls: Iterable[CameraControl]) -> dict[CameraControl, int]:
-        """The values of those that the camera has; of a camera that is gone, those that were known."""
+        """Return the values of the camera's controls; for a removed camera, the last known ones."""
         values: dict[CameraControl, int] = {}
         for control in controls:
             try:

@@ -1,30 +1,30 @@
-"""A device's own clock, mapped to this machine's monotonic clock.
+"""Maps a device's clock to this machine's monotonic clock.
 
-Its beginning is any, and its rate a little off: a crystal gains or loses up to 0.1 ms a second. Where the
-device can be asked for its time, the offset between the clocks is known. Where it cannot, the offset is the
-least difference between arrival and device time of late: some image always arrives nearly undelayed, so the
-lower envelope of the delays is that of the way at its best, and what an image took longer is its own delay.
-Exposure, transfer and encoding at their best stay unknown, so an image looks younger by them, never older.
+Its origin is arbitrary, and its rate slightly off: a crystal drifts by up to 0.1 ms a second. Where the
+device's time can be read, the offset between the clocks is known. Otherwise the offset is the minimum
+difference between arrival and device time within a window: some image always arrives nearly undelayed, so the
+lower envelope of the delays is the minimum delay, and any excess of an image is its own delay. The minimum of
+exposure, transfer and encoding stays unknown, so an image looks younger by it, never older.
 """
 
 import math
 
 from server.capture.driver_clock import MAX_AHEAD_S
 
-# The least difference is looked for in this time: long enough for one undelayed image, and short enough that
-# a crystal drifts by no more than a millisecond.
+# Window of the minimum: long enough for one undelayed image, and short enough that a crystal drifts by no
+# more than a millisecond.
 WINDOW_S = 10.0
 BUCKETS = 10
-# An image can make up for the delay of the one before, of which only the known part is counted: a device's
-# time that gains so much more on the arrivals was set forward.
+# An image can catch up the delay of the one before, of which only the known part is counted: a device time
+# that gains more than this on the arrivals was set forward.
 MAX_GAIN_S = 0.5
 
 
 class DeviceClock:
-    """Times of one device. Without a clock of its own: times are passed in.
+    """Clock of one device. Times are passed in.
 
     Attributes:
-        jumps: how often the device's clock was set anew.
+        jumps: number of jumps of the device's clock.
     """
 
     def __init__(self) -> None:
@@ -32,7 +32,7 @@ class DeviceClock:
         self.restart()
 
     def restart(self) -> None:
-        """The device was opened again: its clock may be another."""
+        """Reset after the device was reopened: its clock may differ."""
         self._last_device_s = -math.inf
         self._last_arrived_s = -math.inf
         self._delay_s = 0.0
@@ -40,15 +40,15 @@ class DeviceClock:
         self._min_s: dict[int, float] = {}
 
     def latch(self, device_s: float, *, monotonic_s: float) -> None:
-        """Both clocks were read at one moment: from here on no lower envelope is needed."""
+        """Set the offset from a simultaneous reading of both clocks, in place of the lower envelope."""
         self._latched_s = monotonic_s - device_s
 
     def monotonic_s(self, device_s: float, *, arrived_s: float) -> float:
-        """When an image was taken, by the monotonic clock; 0 where the device's clock did not go on.
+        """Return the capture time by the monotonic clock; 0 if the device's clock did not advance.
 
         Args:
-            device_s: its time by the device.
-            arrived_s: when it arrived.
+            device_s: capture time by the device.
+            arrived_s: arrival time.
         """
         is_first = math.isinf(self._last_device_s)
         went_on = device_s > self._last_device_s
@@ -56,7 +56,7 @@ class DeviceClock:
         self._last_device_s, self._last_arrived_s = device_s, arrived_s
         is_ahead = self._latched_s is not None and device_s + self._latched_s > arrived_s + MAX_AHEAD_S
         if not is_first and (not went_on or is_ahead or gain_s > self._delay_s + MAX_GAIN_S):
-            # Nothing that was known of it holds.
+            # All earlier differences are invalid.
             self.jumps += 1
             self._latched_s = None
             self._min_s.clear()
@@ -66,7 +66,7 @@ class DeviceClock:
 
     @property
     def is_latched(self) -> bool:
-        """Whether the offset is known by reading both clocks."""
+        """Whether the offset comes from reading both clocks."""
         return self._latched_s is not None
 
     def _offset_s(self, difference_s: float, arrived_s: float) -> float:

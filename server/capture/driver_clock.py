@@ -1,28 +1,28 @@
-"""When an image was taken: by the driver's clock where that is plausible, else when the image arrived.
+"""Capture times: the driver's where plausible, else the arrival time.
 
 OpenCV's V4L2 backend reports the buffer's time as `CAP_PROP_POS_MSEC`. A time in the future, not after the
-last one or older than a second is replaced by the arrival; after 15 of those the clock is not used again.
-An image that waited while the machine was suspended keeps its age.
+last one, or older than a second is replaced by the arrival; after 15 of those the clock is not used again. An
+image that waited while the machine was suspended keeps its age.
 """
 
 import math
 
 from server.live import ImageClock
 
-# What two readings of one clock may differ by, because the driver computes its time from the camera's.
+# Tolerance: the driver computes its time from the camera's.
 MAX_AHEAD_S = 0.005
-# Of an image that came straight from the camera: exposure, transfer and a few buffers of a slow camera.
+# Maximum age of an undelayed image: exposure, transfer and a few buffers of a slow camera.
 MAX_AGE_S = 1.0
-# From so many plausible times in a row on, an old image is old and no mistake of the clock.
+# After this many plausible times in a row, an old image is old and no clock error.
 TRUSTED_AFTER = 30
-# So many more implausible times than plausible ones: this clock is not used any more.
+# Excess of implausible over plausible times at which the clock is abandoned.
 GIVEN_UP_AFTER = 15
-# Times of images grow; by this at least, also where the clock is changed between two of them.
+# Minimum increment of capture times, also when the clock is changed between two images.
 MIN_STEP_S = 1e-6
 
 
 class DriverClock:
-    """Judges the driver's times image by image. Both clocks are monotonic, in seconds."""
+    """Checks the driver's times image by image. Both clocks are monotonic, in seconds."""
 
     def __init__(self) -> None:
         self._last_driver_s = -math.inf
@@ -34,7 +34,7 @@ class DriverClock:
 
     @property
     def clock(self) -> ImageClock:
-        """Which clock stamped the last image; before the first one, the driver's."""
+        """The clock of the last image's time; before the first one, the driver's."""
         return ImageClock.DRIVER if self._is_used else ImageClock.ARRIVAL
 
     @property
@@ -43,15 +43,15 @@ class DriverClock:
         return self._gave_up
 
     def restart(self) -> None:
-        """The device was opened again: its first time is held against none before."""
+        """Reset after the device was reopened: its first time is not compared with earlier ones."""
         self._last_driver_s = -math.inf
 
     def captured_at_s(self, driver_s: float, *, arrived_s: float) -> float:
-        """When an image was taken; never later than it arrived, and always later than the one before.
+        """Return the capture time; never later than the arrival, and strictly increasing.
 
         Args:
-            driver_s: what the driver says; 0 where it says nothing.
-            arrived_s: when the image arrived.
+            driver_s: time of the driver; 0 without one.
+            arrived_s: arrival time.
         """
         is_plausible = self._judge(driver_s, arrived_s)
         self._is_used = is_plausible and not self._gave_up
@@ -68,7 +68,7 @@ class DriverClock:
             self._plausible_in_row += 1
             self._implausible = max(0, self._implausible - 1)
             return True
-        # An image that waited in a buffer while this machine was busy: its arrival would make it look new.
+        # An image that was buffered while this machine was busy: by its arrival it would look new.
         is_late = grows and age_s > MAX_AGE_S and self._plausible_in_row >= TRUSTED_AFTER
         self._implausible += 1
         if not is_late:

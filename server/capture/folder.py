@@ -1,4 +1,4 @@
-"""A folder of images as a source, in the order that a person would sort them."""
+"""A folder of images as a source, in natural sort order."""
 
 import itertools
 import re
@@ -11,11 +11,11 @@ import numpy as np
 import numpy.typing as npt
 
 from server.capture.codecs import silence_codecs
-from server.capture.pace import Pace
+from server.capture.pacer import Pacer
 from server.capture.shot import Shot
 from server.errors import CaptureError
+from server.image_file import decoded
 from server.live import CameraStatus
-from server.picture_file import decoded
 
 IMAGE_SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp", ".pgm", ".ppm")
 DEFAULT_RATE_HZ = 30.0
@@ -23,7 +23,7 @@ MAX_NAMED = 3
 
 
 class FolderSource:
-    """Images of a folder at a steady rate; read again at each repeat, so that it may grow."""
+    """Images of a folder at a constant rate; listed again at each repeat, so it may grow."""
 
     def __init__(
         self,
@@ -36,14 +36,14 @@ class FolderSource:
         first_number: int = 0,
     ) -> None:
         self.name = str(folder)
-        self.waits_for_taker = fast
+        self.waits_for_consumer = fast
         self.stalls = False
         self.camera: CameraStatus | None = None
         self._folder = folder
         self._loop = loop
         self._period_s = 1.0 / (rate_hz or DEFAULT_RATE_HZ)
         self._number = first_number
-        self._pace = None if fast else Pace(stop=stop)
+        self._pacer = None if fast else Pacer(stop=stop)
         self._files: list[Path] = []
         self._reason_from_unusable: dict[Path, str] = {}
         self._next = 0
@@ -52,18 +52,18 @@ class FolderSource:
 
     @property
     def defect(self) -> CaptureError | None:
-        """Which images cannot be used, and why; None while all can."""
+        """Which images are unusable, and why; None without any."""
         return _unreadable(self._reason_from_unusable) if self._reason_from_unusable else None
 
     def open(self) -> None:
         """List the folder."""
         self._list()
         self._given = 0
-        if self._pace is not None:
-            self._pace.restart()
+        if self._pacer is not None:
+            self._pacer.restart()
 
     def read(self) -> Shot | None:
-        """The next image that can be decoded, when it is due."""
+        """Return the next decodable image when it is due."""
         while True:
             if self._next >= len(self._files):
                 if self._files and self._given_in_pass == 0:
@@ -76,12 +76,12 @@ class FolderSource:
             image = self._decode(file)
             if image is not None:
                 break
-            # It keeps its number and its time: those after it are as late as they are.
+            # A skipped image keeps its number and time slot.
             self._number += 1
             self._given += 1
         source_time_s = self._given * self._period_s
-        if self._pace is not None:
-            self._pace.wait_until_due(source_time_s)
+        if self._pacer is not None:
+            self._pacer.wait_until_due(source_time_s)
         shot = Shot(
             image=image,
             number=self._number,
@@ -95,7 +95,7 @@ class FolderSource:
         return shot
 
     def close(self) -> None:
-        """Nothing is held open."""
+        """Do nothing: no file stays open."""
 
     def _list(self) -> None:
         try:
@@ -108,7 +108,7 @@ class FolderSource:
             raise CaptureError(
                 "SOURCE_NOT_FOUND",
                 f"the folder {self.name} cannot be listed: {(error.strerror or '').lower()}",
-                "Check the path in camera.source or --source; it is tried again by itself.",
+                "Check the path in camera.source or --source; it is retried automatically.",
                 {"folder": self.name},
             ) from error
         if not files:
@@ -120,19 +120,19 @@ class FolderSource:
         self._given_in_pass = 0
 
     def _decode(self, file: Path) -> npt.NDArray[np.uint8] | None:
-        """The image in a file; None, and the reason noted, when it has none."""
+        """Return the image of a file; None for an unusable one, whose reason is stored."""
         silence_codecs()
         image = None
         try:
             content = file.read_bytes()
             image = decoded(content)
-            reason = f"its {len(content)} bytes are no picture that can be decoded"
+            reason = f"its {len(content)} bytes are no decodable image"
         except OSError as error:
             reason = (error.strerror or "it cannot be read").lower()
         if image is None:
             self._reason_from_unusable[file] = reason
         else:
-            # It may have been replaced since the last time.
+            # The file may have been replaced since.
             self._reason_from_unusable.pop(file, None)
         return image
 
@@ -140,13 +140,13 @@ class FolderSource:
         return CaptureError(
             "FOLDER_WITHOUT_IMAGES",
             f"the folder {self.name} has 0 images ({', '.join(IMAGE_SUFFIXES)})",
-            "Put images into the folder, or name another one; it is tried again by itself.",
+            "Put images into the folder, or name another one; it is retried automatically.",
             {"folder": self.name, "images": 0},
         )
 
 
 def _unreadable(reason_from_file: Mapping[Path, str]) -> CaptureError:
-    """One sentence for all of them, the first ones by name."""
+    """Return one error for all of them; the first ones by name."""
     first = list(itertools.islice(reason_from_file.items(), MAX_NAMED))
     context = {"file": str(first[0][0]), "files": [str(file) for file, _ in first]}
     count = len(reason_from_file)
@@ -167,6 +167,6 @@ def _unreadable(reason_from_file: Mapping[Path, str]) -> CaptureError:
 
 
 def natural_order(path: Path) -> list[tuple[int, int, str]]:
-    """Sorts image2 before image10."""
+    """Sort key that puts image2 before image10."""
     parts = re.split(r"(\d+)", path.name.lower())
     return [(0, int(part), "") if part.isdecimal() else (1, 0, part) for part in parts if part]

@@ -1,15 +1,15 @@
-"""The size that a JPEG states, read before it is decoded: a small file may state an image of gigabytes."""
+"""Size in a JPEG's header, read before decoding: a small file may declare an image of gigabytes."""
 
 START, END = b"\xff\xd8", b"\xff\xd9"
-# Baseline, extended and progressive frames by Huffman coding: what browsers write.
+# Baseline, extended and progressive Huffman-coded frames, as browsers write them.
 FRAME_MARKERS = frozenset({0xC0, 0xC1, 0xC2})
-# Markers without a length behind them: fill, TEM, restarts.
+# Markers without a length field: fill, TEM, restarts.
 BARE_MARKERS = frozenset({0xFF, 0x01, *range(0xD0, 0xD8)})
 START_OF_SCAN = 0xDA
 
 
 def jpeg_size_wh_px(content: bytes) -> tuple[int, int] | None:
-    """Width and height that a whole JPEG states; None of what is none, is cut off, or states no size."""
+    """Return width and height of a complete JPEG; None for a truncated or other file, or without a size."""
     if not content.startswith(START) or not content.endswith(END):
         return None
     at = len(START)

@@ -1,4 +1,4 @@
-"""A camera at this machine as a source."""
+"""A camera of this machine as a source."""
 
 import contextlib
 import time
@@ -12,12 +12,12 @@ import structlog
 
 from server.capture.address import SourceAddress
 from server.capture.codecs import open_device
-from server.capture.controls import ControlKeeper
+from server.capture.controls import ControlLock
 from server.capture.driver_clock import DriverClock
 from server.capture.mode_check import ModeCheck
 from server.capture.modes import WantedMode, choose_mode
 from server.capture.shot import Shot
-from server.capture.v4l2 import VideoDevice, VideoDevices, devices_here
+from server.capture.v4l2 import VideoDevice, VideoDevices, system_devices
 from server.capture.v4l2.structs import fourcc_text
 from server.errors import CaptureError
 from server.live import CameraMode, CameraStatus, ImageClock
@@ -27,7 +27,7 @@ log = structlog.get_logger(__name__)
 
 
 class Video(Protocol):
-    """What is used of `cv2.VideoCapture`."""
+    """The used part of `cv2.VideoCapture`."""
 
     def isOpened(self) -> bool: ...  # noqa: D102, N802  OpenCV's name
 
@@ -44,11 +44,11 @@ class Video(Protocol):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CalibratedCamera:
-    """What a calibration in use says of the camera beside its model.
+    """Camera settings of a calibration in use.
 
     Attributes:
-        size_wh_px: of the images that it was made with.
-        controls: their values then; empty where they were not kept.
+        size_wh_px: image size of the calibration.
+        controls: control values of the calibration; empty where not stored.
     """
 
     size_wh_px: tuple[int, int]
@@ -56,17 +56,17 @@ class CalibratedCamera:
 
 
 class LocalCameraSource:
-    """Images of a local camera, the moment they arrive, stamped by its driver where that can be believed.
+    """Images of a local camera at their arrival, with the driver's capture times where plausible.
 
     Args:
         address: number or path of the device.
-        wanted: what the settings ask for.
-        calibration: that is in use at the start; None while there is none.
-        lock_controls: switch automatic focus off, and set what the calibration has.
+        wanted: mode of the settings.
+        calibration: calibration in use at the start; None without one.
+        lock_controls: switch autofocus off, and set the controls of the calibration.
         lock_light: switch automatic exposure and white balance off once they have settled.
         first_number: number of its first image.
-        devices: asked for what the camera offers.
-        open_video: opens it in OpenCV.
+        devices: provides the camera's modes and controls.
+        open_video: opens the camera in OpenCV.
         clock: monotonic.
     """
 
@@ -84,7 +84,7 @@ class LocalCameraSource:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.name = address.name
-        self.waits_for_taker = False
+        self.waits_for_consumer = False
         self.stalls = True
         self._text = address.text
         self._wanted = wanted or WantedMode()
@@ -93,42 +93,42 @@ class LocalCameraSource:
         self._lock_controls = lock_controls
         self._lock_light = lock_light
         self._number = first_number
-        self._devices = devices or devices_here()
+        self._devices = devices or system_devices()
         self._open_video = open_video
         self._clock = clock
-        self._stamps = DriverClock()
+        self._timestamps = DriverClock()
         self._camera: Video | None = None
         self._device: VideoDevice | None = None
-        self._asked: CameraMode | None = None
+        self._requested: CameraMode | None = None
         self._check: ModeCheck | None = None
-        self._keeper: ControlKeeper | None = None
-        self._lamps = FlickerMonitor()
+        self._control_lock: ControlLock | None = None
+        self._flicker_monitor = FlickerMonitor()
 
     @property
     def defect(self) -> CaptureError | None:
-        """In what its images are others than was asked for; None where they are not."""
+        """Difference between its images and the requested mode; None without one."""
         return None if self._check is None else self._check.problem
 
     @property
     def camera(self) -> CameraStatus:
-        """What is known of the camera."""
+        """Status of the camera."""
         return CameraStatus(
-            clock=self._stamps.clock if self._device is not None else ImageClock.ARRIVAL,
-            asked=self._asked,
+            clock=self._timestamps.clock if self._device is not None else ImageClock.ARRIVAL,
+            requested=self._requested,
             granted=None if self._check is None else self._check.granted,
-            controls={} if self._keeper is None else self._keeper.values,
-            flicker=self._lamps.flicker,
+            controls={} if self._control_lock is None else self._control_lock.values,
+            flicker=self._flicker_monitor.flicker,
         )
 
     def adopt(self, calibration: CalibratedCamera | None) -> None:
-        """From the next image on give what this calibration was made with. From any thread.
+        """Use the camera settings of this calibration from the next image on. From any thread.
 
-        Where the settings name no size, the camera is opened again in the calibration's.
+        Where the settings name no size, the camera is reopened in the calibration's.
         """
         self._adopted = calibration
 
     def open(self) -> None:
-        """Open the device, and ask it for format, size and rate."""
+        """Open the device, and request format, size and rate."""
         self.close()
         camera = self._open_video(self._text)
         if not camera.isOpened():
@@ -136,19 +136,19 @@ class LocalCameraSource:
             raise CaptureError(
                 "CAMERA_NOT_OPENED",
                 f"{self.name} cannot be opened",
-                "Check its cable, that no other program holds it, and the right to read it (group 'video'); "
-                "it is tried again by itself.",
+                "Check its cable, that no other program uses it, and the read permission (group 'video'); "
+                "it is retried automatically.",
                 {"camera": self.name},
             )
         self._camera = camera
         self._device = self._opened_device()
-        self._stamps.restart()
-        self._lamps = FlickerMonitor()
+        self._timestamps.restart()
+        self._flicker_monitor = FlickerMonitor()
         self._ask(camera)
-        self._keep_controls()
+        self._lock_controls_now()
 
     def read(self) -> Shot | None:
-        """The next image."""
+        """Return the next image."""
         self._use_adopted()
         camera, image = self._camera, None
         captured_at_s = 0.0
@@ -159,15 +159,15 @@ class LocalCameraSource:
             raise CaptureError(
                 "CAMERA_STOPPED",
                 f"{self.name} gave no image",
-                "Check its cable and power; it is tried again by itself.",
+                "Check its cable and power; it is retried automatically.",
                 {"camera": self.name},
             )
         if self._check is not None:
             height, width = image.shape[:2]
             self._check.take((width, height), captured_at_s)
-        if self._keeper is not None:
-            self._keeper.poll(self._clock())
-        self._look_at_light(image, captured_at_s)
+        if self._control_lock is not None:
+            self._control_lock.poll(self._clock())
+        self._detect_flicker(image, captured_at_s)
         shot = Shot(
             image=np.asarray(image, dtype=np.uint8),
             number=self._number,
@@ -178,20 +178,20 @@ class LocalCameraSource:
         return shot
 
     def close(self) -> None:
-        """Let go of the device."""
+        """Release the device."""
         if self._camera is not None:
             self._camera.release()
             self._camera = None
         if self._device is not None:
             self._device.close()
             self._device = None
-        self._keeper = None
+        self._control_lock = None
 
-    def _look_at_light(self, image: np.ndarray, at_s: float) -> None:
-        """Look for lamps that flicker, and log when they begin to or end."""
-        before = self._lamps.flicker
-        self._lamps.take(np.asarray(image, dtype=np.uint8), at_s)
-        flicker = self._lamps.flicker
+    def _detect_flicker(self, image: np.ndarray, at_s: float) -> None:
+        """Detect flicker of lamps, and log its start and end."""
+        before = self._flicker_monitor.flicker
+        self._flicker_monitor.take(np.asarray(image, dtype=np.uint8), at_s)
+        flicker = self._flicker_monitor.flicker
         if flicker is not None and before is None:
             log.warning(
                 "lamps flicker in the images",
@@ -199,27 +199,27 @@ class LocalCameraSource:
                 camera=self.name,
                 mains_hz=flicker.mains_hz,
                 depth_percent=round(100.0 * flicker.depth_ratio, 1),
-                remedy="The page says which exposures even it out.",
+                remedy="The page lists exposure times that cancel it.",
             )
         elif flicker is None and before is not None:
             log.info("lamps do not flicker any more", camera=self.name)
 
     def _use_adopted(self) -> None:
-        """Take up the calibration that was adopted last, if it is another one."""
+        """Apply the calibration that was adopted last, if it differs."""
         adopted, self._adopted = self._adopted, None
         if adopted is None or adopted == self._calibration:
             return
-        before, self._calibration = self._asked, adopted
+        before, self._calibration = self._requested, adopted
         if self._camera is None:
             return
         if before is not None and self._wanted.size_wh_px is None and before != self._chosen():
             self.open()
-        elif self._keeper is not None:
-            self._keeper.restore(adopted.controls)
+        elif self._control_lock is not None:
+            self._control_lock.restore(adopted.controls)
 
-    def _keep_controls(self) -> None:
+    def _lock_controls_now(self) -> None:
         if self._device is not None:
-            self._keeper = ControlKeeper(
+            self._control_lock = ControlLock(
                 self._device,
                 name=self.name,
                 lock_focus=self._lock_controls,
@@ -232,11 +232,11 @@ class LocalCameraSource:
         arrived_s = self._clock()
         if self._device is None:
             return arrived_s
-        had_given_up = self._stamps.gave_up
-        # OpenCV's V4L2 backend has the buffer's own time there, which drivers take from the monotonic clock.
+        had_given_up = self._timestamps.gave_up
+        # OpenCV's V4L2 backend has the buffer's timestamp there, from the monotonic clock with most drivers.
         driver_s = camera.get(cv2.CAP_PROP_POS_MSEC) / 1000.0
-        captured_at_s = self._stamps.captured_at_s(driver_s, arrived_s=arrived_s)
-        if self._stamps.gave_up and not had_given_up:
+        captured_at_s = self._timestamps.captured_at_s(driver_s, arrived_s=arrived_s)
+        if self._timestamps.gave_up and not had_given_up:
             log.warning(
                 "the times of the camera's driver are implausible; images count from their arrival",
                 code="CAMERA_CLOCK_IMPLAUSIBLE",
@@ -248,7 +248,7 @@ class LocalCameraSource:
         return captured_at_s
 
     def _opened_device(self) -> VideoDevice | None:
-        """The device beside OpenCV; None where this system or this device does not answer."""
+        """Open the device beside OpenCV; None where system or device do not support it."""
         path = f"/dev/video{int(self._text)}" if self._text.isdecimal() else self._text
         with contextlib.suppress(OSError):
             device = self._devices.open(path)
@@ -261,26 +261,31 @@ class LocalCameraSource:
         return None
 
     def _ask(self, camera: Video) -> None:
-        """Ask for a mode, and keep what was granted."""
+        """Request a mode, and store the granted one."""
         calibrated = None if self._calibration is None else self._calibration.size_wh_px
-        asked = self._chosen()
-        # Where it is not known what is offered, what the settings want is asked for as it stands.
-        size = self._wanted.size_wh_px or calibrated if asked is None else asked.size_wh_px
-        rate_hz = self._wanted.rate_hz if asked is None else asked.rate_hz
-        if asked is not None:
-            camera.set(cv2.CAP_PROP_FOURCC, cv2.VideoWriter.fourcc(*asked.fourcc.ljust(4)))
+        requested = self._chosen()
+        # Without a list of modes the wanted values are requested directly.
+        size = self._wanted.size_wh_px or calibrated if requested is None else requested.size_wh_px
+        rate_hz = self._wanted.rate_hz if requested is None else requested.rate_hz
+        if requested is not None:
+            camera.set(cv2.CAP_PROP_FOURCC, cv2.VideoWriter.fourcc(*requested.fourcc.ljust(4)))
         if size is not None:
             camera.set(cv2.CAP_PROP_FRAME_WIDTH, size[0])
             camera.set(cv2.CAP_PROP_FRAME_HEIGHT, size[1])
         if rate_hz:
             camera.set(cv2.CAP_PROP_FPS, rate_hz)
-        self._asked = asked
-        granted = self._granted(camera)
-        self._check = ModeCheck(self.name, wanted=self._wanted, asked=asked, granted=granted)
-        log.info("camera asked", camera=self.name, asked=str(asked or "its own mode"), granted=str(granted))
+        self._requested = requested
+        granted = self._granted_mode(camera)
+        self._check = ModeCheck(self.name, wanted=self._wanted, requested=requested, granted=granted)
+        log.info(
+            "camera mode requested",
+            camera=self.name,
+            requested=str(requested or "its own mode"),
+            granted=str(granted),
+        )
 
     def _chosen(self) -> CameraMode | None:
-        """Of what the device offers; None where that is not known."""
+        """Return the best offered mode; None where the modes are unknown."""
         calibrated = None if self._calibration is None else self._calibration.size_wh_px
         offered: tuple[CameraMode, ...] = ()
         if self._device is not None:
@@ -288,8 +293,8 @@ class LocalCameraSource:
                 offered = self._device.modes()
         return choose_mode(offered, self._wanted, calibrated_size_wh_px=calibrated)
 
-    def _granted(self, camera: Video) -> CameraMode:
-        """The mode that is set now: as the device says, else as OpenCV does."""
+    def _granted_mode(self, camera: Video) -> CameraMode:
+        """Return the present mode, by the device, else by OpenCV."""
         if self._device is not None:
             with contextlib.suppress(OSError):
                 return self._device.mode()

@@ -1,4 +1,4 @@
-"""Whether a camera gives what it was asked for: size, format and rate, as granted and as they really come."""
+"""Checks a camera's mode: requested against granted and measured size, format and rate."""
 
 from collections import deque
 
@@ -6,10 +6,10 @@ from server.capture.modes import WantedMode, is_same_rate
 from server.errors import CaptureError
 from server.live import CameraMode
 
-# The rate is measured over this time, again and again, and not before the camera has settled.
+# Window of the repeated rate measurement, which starts after the camera has settled.
 SETTLE_S = 2.0
 MEASURED_OVER_S = 4.0
-# Of the rate; a rate that differs is told until it is nearer than the second one.
+# Relative tolerance; a deviation is cleared below the second one (hysteresis).
 RATE_TOLERANCE_RATIO = 0.15
 CLEARS_AT_RATIO = 0.10
 
@@ -21,46 +21,46 @@ FASTER = (
 
 
 class ModeCheck:
-    """Compares asked, granted and measured. Without a clock: the times are those of the images.
+    """Compares requested, granted and measured mode. The times are those of the images.
 
     Args:
         name: of the camera.
-        wanted: by the settings.
-        asked: of what is offered, what the camera was asked for; None where it is not known what is offered.
-        granted: by the driver.
+        wanted: mode of the settings.
+        requested: the offered mode that was requested; None where the modes are unknown.
+        granted: mode granted by the driver.
     """
 
     def __init__(
-        self, name: str, *, wanted: WantedMode, asked: CameraMode | None, granted: CameraMode
+        self, name: str, *, wanted: WantedMode, requested: CameraMode | None, granted: CameraMode
     ) -> None:
         self._name = name
         self._wanted = wanted
-        self._asked = asked
+        self._requested = requested
         self._granted = granted
         self._size_wh_px = granted.size_wh_px
         self._began_s: float | None = None
         self._times: deque[float] = deque()
         self._measured_hz: float | None = None
         self._is_off_rate = False
-        self._problem = self._judged()
+        self._problem = self._find_problem()
 
     @property
     def granted(self) -> CameraMode:
-        """What the driver granted."""
+        """Mode granted by the driver."""
         return self._granted
 
     @property
     def problem(self) -> CaptureError | None:
-        """What differs, with all numbers; None where nothing does."""
+        """The difference, with all numbers; None without one."""
         return self._problem
 
     def take(self, size_wh_px: tuple[int, int], at_s: float) -> None:
-        """One more image, of this size and captured at this time."""
+        """Add one image of this size and capture time."""
         if self._began_s is None:
             self._began_s = at_s
         if size_wh_px != self._size_wh_px:
             self._size_wh_px = size_wh_px
-            self._problem = self._judged()
+            self._problem = self._find_problem()
         if at_s - self._began_s < SETTLE_S:
             return
         self._times.append(at_s)
@@ -75,19 +75,24 @@ class ModeCheck:
         was_off, self._is_off_rate = self._is_off_rate, False
         if expected_hz > 0.0:
             self._is_off_rate = abs(rate_hz - expected_hz) > limit * expected_hz
-        # The sentence that stands is not told anew for every tenth of a hertz.
-        told_hz = self._measured_hz
-        if was_off and self._is_off_rate and told_hz and abs(rate_hz - told_hz) <= limit * told_hz:
+        # An open problem is not reported again for every tenth of a hertz.
+        reported_hz = self._measured_hz
+        if (
+            was_off
+            and self._is_off_rate
+            and reported_hz
+            and abs(rate_hz - reported_hz) <= limit * reported_hz
+        ):
             return
         self._measured_hz = rate_hz
-        self._problem = self._judged()
+        self._problem = self._find_problem()
 
     def _expected_hz(self) -> float:
-        """What the settings or the choice ask for, not what was granted: a granted 5 Hz is told, too."""
-        asked_hz = 0.0 if self._asked is None else self._asked.rate_hz
-        return self._wanted.rate_hz or asked_hz or self._granted.rate_hz
+        """Return the requested rate, not the granted one: a granted 5 Hz is a problem, too."""
+        requested_hz = 0.0 if self._requested is None else self._requested.rate_hz
+        return self._wanted.rate_hz or requested_hz or self._granted.rate_hz
 
-    def _judged(self) -> CaptureError | None:
+    def _find_problem(self) -> CaptureError | None:
         if self._is_other_than_wanted():
             return self._error("CAMERA_MODE_NOT_OFFERED", CHOOSE)
         if self._is_other_than_granted():
@@ -95,52 +100,54 @@ class ModeCheck:
         return self._error("CAMERA_RATE_DIFFERS", FASTER) if self._is_off_rate else None
 
     def _is_other_than_wanted(self) -> bool:
-        """Whether the settings ask for what the camera does not offer."""
-        asked, wanted = self._asked, self._wanted
-        if asked is None:
+        """Return whether the camera does not offer the settings' mode."""
+        requested, wanted = self._requested, self._wanted
+        if requested is None:
             return False
-        is_other_size = wanted.size_wh_px is not None and wanted.size_wh_px != asked.size_wh_px
+        is_other_size = wanted.size_wh_px is not None and wanted.size_wh_px != requested.size_wh_px
         is_other_rate = (
             wanted.rate_hz is not None
-            and asked.rate_hz > 0.0
-            and not is_same_rate(wanted.rate_hz, asked.rate_hz)
+            and requested.rate_hz > 0.0
+            and not is_same_rate(wanted.rate_hz, requested.rate_hz)
         )
         return is_other_size or is_other_rate
 
     def _is_other_than_granted(self) -> bool:
-        """Whether the driver granted something else than it was asked for, or gives another size."""
-        granted, wanted, asked = self._granted, self._wanted, self._asked
-        size_wh_px = wanted.size_wh_px if asked is None else asked.size_wh_px
+        """Return whether the driver granted another mode than requested, or delivers another size."""
+        granted, wanted, requested = self._granted, self._wanted, self._requested
+        size_wh_px = wanted.size_wh_px if requested is None else requested.size_wh_px
         sizes = {self._size_wh_px} | ({granted.size_wh_px} if granted.size_wh_px != (0, 0) else set())
         if size_wh_px is not None and sizes != {size_wh_px}:
             return True
-        if asked is not None and granted.fourcc and granted.fourcc != asked.fourcc:
+        if requested is not None and granted.fourcc and granted.fourcc != requested.fourcc:
             return True
-        asked_hz = wanted.rate_hz if asked is None else asked.rate_hz
-        return bool(asked_hz and granted.rate_hz) and not is_same_rate(asked_hz or 0.0, granted.rate_hz)
+        requested_hz = wanted.rate_hz if requested is None else requested.rate_hz
+        return bool(requested_hz and granted.rate_hz) and not is_same_rate(
+            requested_hz or 0.0, granted.rate_hz
+        )
 
     def _error(self, code: str, remedy: str) -> CaptureError:
-        wanted, asked, granted = self._wanted, self._asked, self._granted
-        told = []
+        wanted, requested, granted = self._wanted, self._requested, self._granted
+        parts = []
         if wanted.size_wh_px is not None or wanted.rate_hz is not None:
-            told.append(f"the settings ask for {_wanted_text(wanted)}")
-        if asked is not None:
-            told.append(f"{asked} was asked of the camera")
+            parts.append(f"the settings ask for {_wanted_text(wanted)}")
+        if requested is not None:
+            parts.append(f"{requested} was requested")
         if granted.size_wh_px != (0, 0):
-            told.append(f"{granted} was granted")
+            parts.append(f"{granted} was granted")
         width, height = self._size_wh_px
         if self._measured_hz is not None:
-            told.append(f"images come as {width}x{height} at {self._measured_hz:.1f} Hz")
+            parts.append(f"images come as {width}x{height} at {self._measured_hz:.1f} Hz")
         elif self._size_wh_px != granted.size_wh_px:
-            told.append(f"images come as {width}x{height}")
+            parts.append(f"images come as {width}x{height}")
         context: dict[str, object] = {
             "camera": self._name,
-            "asked": None if asked is None else str(asked),
+            "requested": None if requested is None else str(requested),
             "granted": str(granted),
             "measured_hz": self._measured_hz,
         }
         return CaptureError(
-            code, f"{self._name} gives other images than asked: {', '.join(told)}", remedy, context
+            code, f"{self._name} gives other images than requested: {', '.join(parts)}", remedy, context
         )
 
 

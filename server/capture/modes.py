@@ -1,17 +1,17 @@
-"""Which format, size and rate a camera is asked for, of those that it offers."""
+"""Selection of a camera's format, size and rate from its offered modes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from server.live import CameraMode
 
-# What the tracker uses: more images cost time and tell it little, fewer make markers jump between images.
+# Rate for the tracker: more images cost time for little gain, with fewer the markers jump between images.
 WANTED_RATE_HZ = 30.0
 MIN_RATE_HZ = 25.0
 MAX_SIZE_WH_PX = (1920, 1080)
-# Without loss, so at the same size and rate better than MJPG, whose blocks lie over the marker's edges.
+# Lossless, so at equal size and rate better than MJPG, whose block artefacts lie on the marker's edges.
 UNCOMPRESSED = ("YUYV", "UYVY", "NV12", "NV21", "YU12", "YV12", "BGR3", "RGB3", "GREY")
-# Of those that OpenCV's V4L2 backend turns into BGR.
+# Formats that OpenCV's V4L2 backend converts to BGR.
 DECODED = (*UNCOMPRESSED, "MJPG", "JPEG")
 # 29.97 and 30, 59.94 and 60 are the same rate.
 SAME_RATE_RATIO = 0.01
@@ -19,11 +19,11 @@ SAME_RATE_RATIO = 0.01
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WantedMode:
-    """What the settings ask of a camera.
+    """Camera mode of the settings.
 
     Attributes:
-        size_wh_px: width and height; None leaves it to what is offered.
-        rate_hz: images a second; None leaves it to what is offered.
+        size_wh_px: width and height; None for the default choice.
+        rate_hz: images per second; None for the default choice.
     """
 
     size_wh_px: tuple[int, int] | None = None
@@ -33,15 +33,15 @@ class WantedMode:
 def choose_mode(
     offered: Sequence[CameraMode], wanted: WantedMode, *, calibrated_size_wh_px: tuple[int, int] | None = None
 ) -> CameraMode | None:
-    """The mode to ask for; None where the camera offers none that can be decoded.
+    """Return the mode to request; None where the camera offers none that can be decoded.
 
-    What is wanted is taken where it is offered, else what is nearest to it. Where nothing is wanted: the
-    calibration's size, else the largest one up to full HD that gives at least 25 images a second.
+    The wanted mode is taken where offered, else the nearest one. By default: the calibration's size, else the
+    largest one up to full HD with at least 25 images per second.
 
     Args:
-        offered: by the camera.
-        wanted: by the settings.
-        calibrated_size_wh_px: of the calibration in use; None where there is none.
+        offered: modes of the camera.
+        wanted: mode of the settings.
+        calibrated_size_wh_px: size of the calibration in use; None without one.
     """
     usable = [mode for mode in offered if mode.fourcc in DECODED]
     if not usable:
@@ -57,7 +57,7 @@ def choose_mode(
 
 
 def is_same_rate(rate_hz: float, other_hz: float) -> bool:
-    """Whether two rates are one, but for how they are written down."""
+    """Return whether two rates are equal up to rounding."""
     return abs(rate_hz - other_hz) <= SAME_RATE_RATIO * max(rate_hz, other_hz)
 
 
@@ -66,7 +66,7 @@ def _size_offered(usable: Sequence[CameraMode], size: tuple[int, int] | None) ->
 
 
 def _best_size(usable: Sequence[CameraMode], rate_hz: float | None) -> tuple[int, int]:
-    """The largest size up to full HD that is fast enough; where none is, the largest of the fastest."""
+    """Return the largest size up to full HD that is fast enough; else the largest of the fastest."""
     max_width, max_height = MAX_SIZE_WH_PX
     small = [
         mode for mode in usable if mode.size_wh_px[0] <= max_width and mode.size_wh_px[1] <= max_height
@@ -80,12 +80,12 @@ def _best_size(usable: Sequence[CameraMode], rate_hz: float | None) -> tuple[int
 
 
 def _difference(size: tuple[int, int], wanted: tuple[int, int]) -> tuple[int, int]:
-    """How far a size is from the wanted one; of two that are as far, the smaller one comes first."""
+    """Return the distance of a size from the wanted one; of two equal ones the smaller comes first."""
     return (abs(size[0] - wanted[0]) + abs(size[1] - wanted[1]), size[0] * size[1])
 
 
 def _rate_rank(rate_hz: float, wanted_hz: float | None) -> tuple[int, float]:
-    """What is wanted, else what is nearest to it; where nothing is, 30 Hz, then more, then less."""
+    """Rank: the wanted rate, else the nearest; by default 30 Hz, then higher, then lower ones."""
     if is_same_rate(rate_hz, wanted_hz or WANTED_RATE_HZ):
         return (0, 0.0)
     if wanted_hz is not None:

@@ -1,8 +1,8 @@
-"""A phone, tablet or other computer as a source: a page there sends its camera's images over a WebSocket.
+"""A phone, tablet or other computer as a source: a page on it sends its camera's images over a WebSocket.
 
 The web process receives them, the tracking process reads them through an inbox in shared memory. Each image
-comes with the time at which the browser says that it was captured, on this machine's monotonic clock; the
-conversion is the receiver's (`server.stream.phone.page_clock`).
+has the browser's capture time, converted to this machine's monotonic clock by the receiver
+(`server.stream.phone.page_clock`).
 """
 
 import threading
@@ -22,31 +22,31 @@ from server.live import CameraMode, CameraStatus, ImageClock, Problem
 from tracker.camera import CameraControl
 
 NAME = "phone"
-# How long `open` waits for a sender, and `read` for an image before it looks whether it shall stop.
+# Timeout of `open` for a sender, and interval of the stop check in `read`.
 WAIT_S = 0.5
-# Below capture.STALLED_AFTER_S, so that this reason is told and not the one of a camera with a cable.
+# Below capture.STALLED_AFTER_S, so that this reason is reported and not the one of a wired camera.
 SILENT_AFTER_S = 1.5
 
 
 class Focus(StrEnum):
-    """What is known of a phone's focus."""
+    """Focus mode of a phone."""
 
     LOCKED = "locked"
     AUTOMATIC = "automatic"
-    UNKNOWN = "unknown"  # the browser neither sets it nor says how it is set
+    UNKNOWN = "unknown"  # the browser neither sets nor reports it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PhoneCamera:
-    """What a browser says of its camera.
+    """Camera settings reported by a browser.
 
     Attributes:
-        label: as the browser names it; empty where it does not.
+        label: the browser's name of it; empty without one.
         size_wh_px: granted.
-        rate_hz: granted; 0 where it is not known.
-        focus: locked, or not.
-        focus_mm: distance that it is focused at; None where that is not known.
-        zoom_percent: 100 is none; None where that is not known.
+        rate_hz: granted; 0 where unknown.
+        focus: focus mode.
+        focus_mm: focus distance; None where unknown.
+        zoom_percent: 100 is no zoom; None where unknown.
     """
 
     label: str
@@ -58,7 +58,7 @@ class PhoneCamera:
 
     @property
     def controls(self) -> Mapping[CameraControl, int]:
-        """As the controls of a local camera are, so that a change since the calibration is told."""
+        """The same as controls of a local camera, so that a change since the calibration is reported."""
         values = {CameraControl.FOCUS: self.focus_mm, CameraControl.ZOOM: self.zoom_percent}
         if self.focus is not Focus.UNKNOWN:
             values[CameraControl.AUTOFOCUS] = int(self.focus is Focus.AUTOMATIC)
@@ -67,14 +67,14 @@ class PhoneCamera:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PhoneImage:
-    """One image as it was received.
+    """One received image.
 
     Attributes:
-        jpeg: whole, and of a size that is allowed.
+        jpeg: complete, and of an allowed size.
         number: counts the images of all senders, from 0.
-        captured_at_s: this machine's monotonic clock; never later than the capture.
-        clock: whose time that is.
-        camera: that took it.
+        captured_at_s: this machine's monotonic clock; never later than the true capture.
+        clock: clock of the capture time.
+        camera: its camera.
     """
 
     jpeg: bytes
@@ -85,13 +85,13 @@ class PhoneImage:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Inbound:
-    """What the receiver tells the source.
+class PhoneUpdate:
+    """One update from the receiver to the source.
 
     Attributes:
-        sender: who sends; empty when nobody does.
-        image: the newest one; None where something else is told.
-        problem: why the last image could not be used; None where it could.
+        sender: name of the sender; empty without one.
+        image: the newest image; None in other updates.
+        problem: why the last image was unusable; None where it was usable.
     """
 
     sender: str
@@ -100,21 +100,21 @@ class Inbound:
 
 
 class Inbox(Protocol):
-    """What the receiver last told; newest wins."""
+    """Last update of the receiver; newest wins."""
 
-    def newest(self) -> tuple[int, Inbound] | None:
-        """The last entry and its number; None before the first."""
+    def newest(self) -> tuple[int, PhoneUpdate] | None:
+        """Return the last entry and its number; None before the first."""
 
-    def next_after(self, sequence: int, timeout_s: float) -> tuple[int, Inbound] | None:
-        """The last entry, if its number is above `sequence`, now or within this time."""
+    def next_after(self, sequence: int, timeout_s: float) -> tuple[int, PhoneUpdate] | None:
+        """Return the last entry if its number is above `sequence`; wait up to the timeout."""
 
 
 class PhoneSource:
-    """Images of the phone that sends them, decoded here; an image that was replaced before is skipped.
+    """Images of the sending phone, decoded here; images replaced before they were read count as skipped.
 
     Args:
-        inbox: where they come from.
-        stop: set when the source shall wait no longer.
+        inbox: updates of the receiver.
+        stop: ends all waits.
         first_number: number of its first image.
         clock: monotonic.
     """
@@ -128,7 +128,7 @@ class PhoneSource:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.name = NAME
-        self.waits_for_taker = False
+        self.waits_for_consumer = False
         self.stalls = True
         self._inbox = inbox
         self._stop = stop
@@ -140,13 +140,13 @@ class PhoneSource:
 
     @property
     def defect(self) -> CaptureError | None:
-        """That the focus may move without a word, and with it the calibration; None where it is locked."""
+        """An unlocked focus, which may move unnoticed and invalidate the calibration; else None."""
         camera = None if self._last is None else self._last.camera
         return None if camera is None or camera.focus is Focus.LOCKED else _focus_not_locked(camera)
 
     @property
     def camera(self) -> CameraStatus:
-        """What the browser says of the camera."""
+        """Status of the camera, as the browser reports it."""
         last = self._last
         if last is None:
             return CameraStatus(clock=ImageClock.ARRIVAL)
@@ -155,18 +155,18 @@ class PhoneSource:
         return CameraStatus(clock=last.clock, granted=granted, controls=camera.controls)
 
     def open(self) -> None:
-        """Wait for a sender. What was sent before is old, and is not read."""
+        """Wait for a sender. Images sent before are old, and not read."""
         entry = self._inbox.newest()
         if entry is None or not entry[1].sender:
             entry = self._inbox.next_after(0 if entry is None else entry[0], WAIT_S)
         if entry is None or not entry[1].sender:
             raise _absent()
-        self._sequence, told = entry
-        if told.image is not None:
-            self._received = told.image.number
+        self._sequence, update = entry
+        if update.image is not None:
+            self._received = update.image.number
 
     def read(self) -> Shot | None:
-        """The next image."""
+        """Return the next image."""
         began_s, problem = self._clock(), None
         while not self._stop.is_set():
             if self._clock() - began_s >= SILENT_AFTER_S:
@@ -174,21 +174,21 @@ class PhoneSource:
             entry = self._inbox.next_after(self._sequence, WAIT_S)
             if entry is None:
                 continue
-            self._sequence, told = entry
-            if not told.sender:
+            self._sequence, update = entry
+            if not update.sender:
                 raise _gone()
-            problem = told.problem or problem
-            if told.image is None:
+            problem = update.problem or problem
+            if update.image is None:
                 continue
-            image = _decoded(told.image.jpeg)
+            image = _decoded(update.image.jpeg)
             if image is None:
                 problem = broken_image()
                 continue
-            return self._shot(image, told.image)
+            return self._shot(image, update.image)
         return None
 
     def close(self) -> None:
-        """What was said of a camera that is gone is not said of the next one."""
+        """Discard the camera's status, which does not apply to the next one."""
         self._last = None
 
     def _shot(self, image: npt.NDArray[np.uint8], received: PhoneImage) -> Shot:
@@ -212,10 +212,10 @@ def _decoded(jpeg: bytes) -> npt.NDArray[np.uint8] | None:
 
 
 def broken_image() -> Problem:
-    """An image is no JPEG, or is cut off."""
+    """Return the problem of an incomplete or invalid JPEG."""
     return Problem(
         code="PHONE_IMAGE_BROKEN",
-        message="an image that the phone sent is no whole JPEG",
+        message="an image of the phone is no complete JPEG",
         remedy="Reload the page on the phone; if it happens again, use another browser there.",
     )
 
@@ -232,8 +232,8 @@ def _absent() -> CaptureError:
 def _gone() -> CaptureError:
     return CaptureError(
         "PHONE_GONE",
-        "the phone that sent images is gone: its page was closed or stopped, or its network is lost",
-        "Look at the phone: its page /camera must be open, in front and started, and its network must stand.",
+        "the phone that sent images has disconnected: its page was closed or stopped, or its network is down",
+        "Look at the phone: its page /camera must be open, in front and started, and its network must work.",
         {"source": NAME},
     )
 
@@ -242,7 +242,7 @@ def _silent() -> CaptureError:
     return CaptureError(
         "PHONE_SILENT",
         f"the phone is connected, but sent no image for {SILENT_AFTER_S:g} s",
-        "Look at the phone: its page must be in front, its screen on, and its camera in no other use.",
+        "Look at the phone: its page must be in front, its screen on, and its camera not used elsewhere.",
         {"source": NAME, "limit_s": SILENT_AFTER_S},
     )
 
@@ -255,8 +255,8 @@ def _focus_not_locked(camera: PhoneCamera) -> CaptureError:
     how = "is automatic" if camera.focus is Focus.AUTOMATIC else "cannot be locked or read in its browser"
     return CaptureError(
         "PHONE_FOCUS_NOT_LOCKED",
-        f"the focus of the phone's camera {how}: when it moves, the calibration does not hold any more, "
-        "and nothing may tell",
+        f"the focus of the phone's camera {how}: when it changes, the calibration is invalid, "
+        "and the change may go unnoticed",
         "Keep the distance from phone to field as it was at the calibration, and check on a landmark often; "
         "Chrome on Android locks the focus of most phones.",
         {"focus": camera.focus.value},

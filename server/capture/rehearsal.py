@@ -1,4 +1,4 @@
-"""The rehearsal theatre as a source: rendered just before it is due, so that its hand moves in real time."""
+"""The rehearsal theatre as a source: each image is rendered just before it is due, in real time."""
 
 import math
 import threading
@@ -15,40 +15,41 @@ from server.errors import CaptureError
 from server.live import CameraStatus
 
 STOPS, STALLS = "camera_stops", "camera_stalls"
-LOOK_AGAIN_S = 0.05
-# Of the slowest recent rendering; one that begins earlier competes with the image that is tracked meanwhile.
+POLL_INTERVAL_S = 0.05
+# Factor of the slowest recent rendering time; an earlier start competes with the tracking of the previous
+# image.
 RENDER_LEAD_RATIO = 1.5
-SLOWEST_FADES_RATIO = 0.95
+SLOWEST_DECAY_RATIO = 0.95
 
 
 class Renderer(Protocol):
-    """Draws the theatre at a time of its own clock."""
+    """Renders the theatre at a time of its own clock."""
 
     def image_at(self, at_s: float) -> npt.NDArray[np.uint8]:
-        """The image (h, w, 3), BGR."""
+        """Return the image (h, w, 3), BGR."""
 
 
-class Silence(Protocol):
-    """A time in which the theatre's camera may give no image, as its kind says."""
+class CameraOutage(Protocol):
+    """A time at which the theatre's camera gives no image."""
 
     @property
     def kind(self) -> str:
-        """What happens."""
+        """Kind of the event."""
 
     def is_on(self, at_s: float) -> bool:
-        """Whether it is there at this time."""
+        """Return whether the event is active."""
 
     def over_at_s(self, at_s: float) -> float:
-        """When it is over, once it is there."""
+        """Return when an active event ends."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Begun:
-    """A scene that is played.
+class PlayedScene:
+    """A scene that is being played.
 
     Attributes:
-        scene_number: counts what was ordered while the server runs; 0 is what the settings say.
-        first_number: of the image that showed its beginning.
+        scene_number: number of the order in this run of the server; 0 for the settings' scene.
+        first_number: number of its first image.
     """
 
     scene_number: int = 0
@@ -56,11 +57,11 @@ class Begun:
 
 
 class RehearsalSource:
-    """Images of a theatre in software.
+    """Images of a simulated theatre.
 
     Image `number` always shows the theatre at `(number - first_number) / rate_hz` seconds of its own clock,
-    where the first number is that of the scene's beginning, so that the truth of an image follows from its
-    number. A machine too slow for the rate leaves numbers out (they count as skipped); the hand keeps its
+    where the first number is that of the scene's beginning, so that the ground truth of an image follows from
+    its number. A machine too slow for the rate skips numbers (they count as skipped); the motion keeps its
     speed.
     """
 
@@ -73,18 +74,18 @@ class RehearsalSource:
         fast: bool = False,
         first_number: int = 0,
         last_number: int | None = None,
-        begun: Begun | None = None,
-        silences: Sequence[Silence] = (),
+        played_scene: PlayedScene | None = None,
+        outages: Sequence[CameraOutage] = (),
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.name = "rehearsal"
-        self.waits_for_taker = fast
+        self.waits_for_consumer = fast
         self.defect: CaptureError | None = None
         self.camera: CameraStatus | None = None
         self._lock = threading.Lock()
         self._renderer = renderer
-        self._silences = tuple(silences)
-        self._begun = begun or Begun()
+        self._outages = tuple(outages)
+        self._played_scene = played_scene or PlayedScene()
         self._rate_hz = rate_hz
         self._stop = stop
         self._clock = clock
@@ -96,29 +97,29 @@ class RehearsalSource:
 
     @property
     def stalls(self) -> bool:
-        """Whether silence means that something is wrong."""
-        return any(silence.kind == STALLS for silence in self._silences)
+        """Whether missing images mean an error."""
+        return any(outage.kind == STALLS for outage in self._outages)
 
     @property
-    def begun(self) -> Begun:
-        """What is played."""
-        return self._begun
+    def played_scene(self) -> PlayedScene:
+        """The played scene."""
+        return self._played_scene
 
-    def play(self, renderer: Renderer, *, scene_number: int, silences: Sequence[Silence]) -> None:
+    def play(self, renderer: Renderer, *, scene_number: int, outages: Sequence[CameraOutage]) -> None:
         """Play another scene from its beginning, with the next image. From any thread."""
         with self._lock:
             self._renderer = renderer
-            self._silences = tuple(silences)
-            # The one that is due may be on its way already.
-            self._begun = Begun(scene_number=scene_number, first_number=self._due() + 1)
+            self._outages = tuple(outages)
+            # The next image may be in rendering already.
+            self._played_scene = PlayedScene(scene_number=scene_number, first_number=self._due() + 1)
 
     def open(self) -> None:
-        """The next image is due now; the theatre's clock goes on while its camera is silent."""
+        """Start the clock; the theatre's clock continues while its camera is silent."""
         if self._epoch_s is None:
             self._epoch_s = self._clock() - self._number / self._rate_hz
 
     def read(self) -> Shot | None:
-        """The next image when it is due.
+        """Return the next image when it is due.
 
         Raises:
             CaptureError: REHEARSAL_CAMERA_STOPPED, as the events say.
@@ -127,21 +128,21 @@ class RehearsalSource:
             if self._last_number is not None and self._number > self._last_number:
                 return None
             with self._lock:
-                renderer, first = self._renderer, self._begun.first_number
+                renderer, first = self._renderer, self._played_scene.first_number
                 self._number = max(self._due(), first)
                 at_s = (self._number - first) / self._rate_hz
-                silence = next((one for one in self._silences if _is_silent(one, at_s)), None)
-            if silence is None:
+                outage = next((one for one in self._outages if _is_outage(one, at_s)), None)
+            if outage is None:
                 return self._shot(renderer, at_s)
-            if not self._pass_over(silence, first, at_s):
+            if not self._wait_out(outage, first, at_s):
                 return None
         return None
 
     def close(self) -> None:
-        """Nothing is held open."""
+        """Do nothing: nothing is open."""
 
     def _due(self) -> int:
-        """The number of the image that is due next."""
+        """Return the number of the next image."""
         if self._fast or self._epoch_s is None:
             return self._number
         return max(self._number, math.ceil((self._clock() - self._epoch_s) * self._rate_hz))
@@ -151,13 +152,13 @@ class RehearsalSource:
             captured_at_s = self._clock()
             image = renderer.image_at(at_s)
         else:
-            # A camera's image is there at once: this one is rendered before it is due, and given when it is.
-            # One that takes longer has its age from when it was due, not from the end of its rendering.
+            # Like a camera's image it is available at once: rendered before it is due, and returned then. A
+            # slower one has its age from its due time, not from the end of the rendering.
             captured_at_s = self._epoch_s + self._number / self._rate_hz
             self._wait_until(captured_at_s - RENDER_LEAD_RATIO * self._slowest_s)
             started_s = self._clock()
             image = renderer.image_at(at_s)
-            self._slowest_s = max(self._clock() - started_s, SLOWEST_FADES_RATIO * self._slowest_s)
+            self._slowest_s = max(self._clock() - started_s, SLOWEST_DECAY_RATIO * self._slowest_s)
             self._wait_until(captured_at_s)
         shot = Shot(image=image, number=self._number, captured_at_s=captured_at_s, source_time_s=at_s)
         self._number += 1
@@ -166,24 +167,24 @@ class RehearsalSource:
     def _wait_until(self, at_s: float) -> None:
         self._stop.wait(max(0.0, at_s - self._clock()))
 
-    def _pass_over(self, silence: Silence, first: int, at_s: float) -> bool:
-        """Be silent; False where images are taken as fast as they come, and none comes any more."""
+    def _wait_out(self, outage: CameraOutage, first: int, at_s: float) -> bool:
+        """Wait during an outage; return False without real-time pacing if it never ends."""
         if self._fast:
-            over_at_s = silence.over_at_s(at_s)
+            over_at_s = outage.over_at_s(at_s)
             if math.isinf(over_at_s):
                 return False
             self._number = max(self._number + 1, first + math.ceil(over_at_s * self._rate_hz - 1e-6))
             return True
-        if silence.kind == STOPS:
+        if outage.kind == STOPS:
             raise CaptureError(
                 "REHEARSAL_CAMERA_STOPPED",
                 f"the rehearsal's camera gives no images since {at_s:.1f} s, as its events say",
                 "Wait until the event is over, or play a scene without it.",
                 {"at_s": at_s},
             )
-        self._stop.wait(LOOK_AGAIN_S)
+        self._stop.wait(POLL_INTERVAL_S)
         return True
 
 
-def _is_silent(silence: Silence, at_s: float) -> bool:
-    return silence.kind in (STOPS, STALLS) and silence.is_on(at_s)
+def _is_outage(outage: CameraOutage, at_s: float) -> bool:
+    return outage.kind in (STOPS, STALLS) and outage.is_on(at_s)

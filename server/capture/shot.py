@@ -1,4 +1,4 @@
-"""One image from a source, and what every source can do."""
+"""One image from a source, and the interface of all sources."""
 
 from dataclasses import dataclass
 from typing import Protocol
@@ -12,12 +12,12 @@ from server.live import CameraStatus
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Shot:
-    """One image as the source gave it.
+    """One image of a source.
 
     Attributes:
         image: (h, w, 3), BGR.
-        number: counts every image that the source gave; grows over repeats of a file and reconnections.
-        captured_at_s: monotonic time at the grab.
+        number: counts all images of the source; grows over repeats of a file and reconnections.
+        captured_at_s: monotonic time of the capture.
         source_time_s: the source's own time: a file's timestamp, the theatre's clock; for a live source
             the same as captured_at_s.
         file: name of the image's own file; None where it has none.
@@ -31,46 +31,46 @@ class Shot:
 
 
 class Source(Protocol):
-    """Something that gives images, at its own pace: `read` returns when the next one is there.
+    """A source of images; `read` blocks until the next image.
 
     Attributes:
-        name: what may be shown; passwords are masked.
-        waits_for_taker: whether each image must be taken before the next is read (as fast as possible, none
-            skipped); otherwise images come when they come, and the newest wins.
-        stalls: whether silence means that something is wrong (a camera), not that the next image is not due.
-        defect: what is wrong with the source although it gives images (a cut file, one bad image in a
-            folder); None while nothing is.
-        camera: what is known of the camera; None where images come from files or are rendered.
+        name: display name, with passwords masked.
+        waits_for_consumer: whether each image must be taken before the next is read (as fast as possible,
+            none skipped); otherwise the newest image wins.
+        stalls: whether missing images mean an error (a camera), not that the next image is not due.
+        defect: problem of a source that still gives images (a truncated file, an unreadable image in a
+            folder); None without one.
+        camera: status of the camera; None for files and rendered images.
     """
 
     name: str
-    waits_for_taker: bool
+    waits_for_consumer: bool
 
     @property
     def stalls(self) -> bool:
-        """Whether silence means that something is wrong."""
+        """Whether missing images mean an error."""
 
     @property
     def defect(self) -> CaptureError | None:
-        """What is wrong with it although it gives images."""
+        """Problem of a source that still gives images."""
 
     @property
     def camera(self) -> CameraStatus | None:
-        """What is known of the camera."""
+        """Status of the camera."""
 
     def open(self) -> None:
-        """Make ready to read. May block for some seconds.
+        """Open the source. May block for some seconds.
 
         Raises:
             CaptureError: it cannot be opened.
         """
 
     def read(self) -> Shot | None:
-        """The next image; None at the end of a file that is not looped.
+        """Return the next image; None at the end of a file that is not looped.
 
         Raises:
             CaptureError: it gives no more images.
         """
 
     def close(self) -> None:
-        """Let go of the device or file; harmless when it is not open."""
+        """Release the device or file; harmless when it is not open."""

@@ -1,4 +1,4 @@
-"""A video file as a source: at its own rate or as fast as its images are taken, once or again and again."""
+"""A video file as a source: at its own rate or as fast as possible, once or looped."""
 
 import threading
 import time
@@ -8,19 +8,19 @@ import cv2
 import numpy as np
 
 from server.capture.codecs import open_file
-from server.capture.pace import Pace
+from server.capture.pacer import Pacer
 from server.capture.shot import Shot
 from server.errors import CaptureError
 from server.live import CameraStatus
 
 FALLBACK_RATE_HZ = 30.0
-# The number of images that a container claims may be an estimate; from here on the file was cut.
+# A container's number of images may be an estimate; a file that lacks more than this is truncated.
 CUT_RATIO = 0.05
 CUT_IMAGES = 2
 
 
 class VideoFileSource:
-    """Images of a video file, at the times that are written in it."""
+    """Images of a video file, at its timestamps."""
 
     def __init__(
         self,
@@ -33,7 +33,7 @@ class VideoFileSource:
         first_number: int = 0,
     ) -> None:
         self.name = str(path)
-        self.waits_for_taker = fast
+        self.waits_for_consumer = fast
         self.stalls = False
         self.defect: CaptureError | None = None
         self.camera: CameraStatus | None = None
@@ -41,7 +41,7 @@ class VideoFileSource:
         self._loop = loop
         self._rate_hz = rate_hz
         self._number = first_number
-        self._pace = None if fast else Pace(stop=stop)
+        self._pacer = None if fast else Pacer(stop=stop)
         self._video: cv2.VideoCapture | None = None
         self._claimed = 0
         self._read_in_pass = 0
@@ -52,11 +52,11 @@ class VideoFileSource:
         """Open the file at its first image."""
         self._start_pass()
         self._offset_s = 0.0
-        if self._pace is not None:
-            self._pace.restart()
+        if self._pacer is not None:
+            self._pacer.restart()
 
     def read(self) -> Shot | None:
-        """The next image when it is due."""
+        """Return the next image when it is due."""
         image, time_s = self._decode()
         if image is None:
             if self._read_in_pass == 0:
@@ -69,8 +69,8 @@ class VideoFileSource:
             image, time_s = self._decode()
             if image is None:
                 raise self._no_video("it has no image that can be decoded")
-        if self._pace is not None:
-            self._pace.wait_until_due(self._offset_s + time_s)
+        if self._pacer is not None:
+            self._pacer.wait_until_due(self._offset_s + time_s)
         shot = Shot(
             image=image,
             number=self._number,
@@ -93,7 +93,7 @@ class VideoFileSource:
         if not good or image is None:
             return None, 0.0
         time_s = float(self._video.get(cv2.CAP_PROP_POS_MSEC)) / 1000.0
-        # Some files carry no timestamps, or ones that stand still: then the rate has to do.
+        # Some files have no or constant timestamps: then the rate is used.
         if self._read_in_pass > 0 and not time_s > self._last_s:
             time_s = self._last_s + self._period_s()
         self._read_in_pass += 1
@@ -101,8 +101,8 @@ class VideoFileSource:
         return np.asarray(image, dtype=np.uint8), time_s
 
     def _start_pass(self) -> None:
-        # Opened anew at each repeat, because seeking to the first image is not exact in every container,
-        # and because the file may have been replaced meanwhile.
+        # Reopened at each repeat, because seeking to the first image is not exact in every container, and the
+        # file may have been replaced.
         self.close()
         _check_readable(self._path)
         video = open_file(str(self._path))
@@ -136,19 +136,19 @@ class VideoFileSource:
         return CaptureError(
             "VIDEO_FILE_UNREADABLE",
             f"{self.name} ({size} bytes) is no usable video file: {reason}",
-            "Give a whole video file (MP4, MOV, AVI or MKV); one that was cut while being written has to be "
+            "Give a complete video file (MP4, MOV, AVI or MKV); one that was truncated must be "
             "copied or exported again.",
             {"file": self.name, "bytes": size},
         )
 
 
 def _check_readable(path: Path) -> None:
-    """Tell the plain reasons before the decoder fails without one."""
+    """Check for simple errors before the decoder fails without a reason."""
     reason = ""
     if not path.exists():
         reason = "it does not exist"
     elif not path.is_file():
-        # Opening a pipe that nobody writes into would wait for ever.
+        # Opening a pipe without a writer would block forever.
         reason = "it is a pipe, a socket or a device, not a file"
     else:
         try:
@@ -161,6 +161,6 @@ def _check_readable(path: Path) -> None:
         raise CaptureError(
             "SOURCE_NOT_FOUND" if "exist" in reason else "VIDEO_FILE_UNREADABLE",
             f"the source {path} cannot be opened: {reason}",
-            "Check the path in camera.source or --source; it is tried again by itself.",
+            "Check the path in camera.source or --source; it is retried automatically.",
             {"file": str(path)},
         )

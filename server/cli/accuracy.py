@@ -1,4 +1,4 @@
-"""`coaxial accuracy` and `coaxial ruler`: known displacements against measured ones, as in Table 2."""
+"""`coaxial accuracy` and `coaxial ruler`: compare known and measured displacements, as in Table 2."""
 
 import json
 from pathlib import Path
@@ -13,7 +13,7 @@ from server.camera_file import load_camera_file
 from server.cli.board_names import BoardOptions
 from server.cli.board_options import boards_of
 from server.cli.point_rows import read_columns
-from server.picture_file import decoded
+from server.image_file import decoded
 from tracker.camera.accuracy import (
     AccuracyReport,
     accuracy_left_out,
@@ -35,34 +35,36 @@ FAILED = 1
 
 
 def check_rows(rows: Path | None, *, camera: Path, plane: Path | None, limit_mm: float, as_json: bool) -> int:
-    """Tell the errors of a calibrated camera, and give the exit status: 0, or 1 above the limit.
+    """Print the errors of a calibrated camera. Return the exit status: 0, or 1 above the limit.
 
     Raises:
-        NavigationError: a file cannot be used, or the plane's place cannot be told.
+        NavigationError: a file cannot be used, or the pose of the plane is undetermined.
     """
     if rows is None:
         raise InvalidInput(
             "ACCURACY_WITHOUT_POINTS",
-            "there is nothing to check the camera with",
+            "neither displacements nor an image of a board are given",
             "Give a CSV of displacements, or an image of a board with --image, --pattern and --size.",
         )
     model = load_camera_file(camera)
     displacements = _displacements(rows)
     if plane is None:
         report = accuracy_left_out(model, displacements)
-        how = "each displacement was left out of the fit that it is measured with"
+        how = "each displacement was excluded from the fit that measures it"
     else:
         points = read_columns(plane, PLANE_COLUMNS)
         report = accuracy_on_plane(model, displacements, fit_mm=points[:, :2], fit_px=points[:, 2:])
         how = f"the plane was fitted to the {report.fit_points} points of {plane}"
-    return _told(report, limit_mm, how, held_out_by="rows" if plane is None else "plane", as_json=as_json)
+    return _print_report(
+        report, limit_mm, how, held_out_by="rows" if plane is None else "plane", as_json=as_json
+    )
 
 
 def check_on_board(image: Path, given: BoardOptions, *, camera: Path, limit_mm: float, as_json: bool) -> int:
-    """The same on a calibration board in an image.
+    """Check the camera on a calibration board in an image; see `check_rows`.
 
     Raises:
-        NavigationError: a file cannot be used, or the board is not seen.
+        NavigationError: a file cannot be used, or the board is not found.
     """
     board = boards_of(given)[0]
     model = load_camera_file(camera)
@@ -72,12 +74,12 @@ def check_on_board(image: Path, given: BoardOptions, *, camera: Path, limit_mm: 
         raise InvalidInput(
             "BOARD_NOT_SEEN",
             f"the board is not found in {image}: {seen.sentence}",
-            "Count the board again, and take an image in which it is sharp and whole.",
+            "Check --size, and use an image that shows the whole board in focus.",
             {"file": str(image), "reason": seen.reason.value, "seen_points": seen.seen_points},
         )
     report = accuracy_of_grid(model, seen.object_points_mm[:, :2], seen.image_points_px)
-    how = f"it was fitted to {report.fit_points} of {seen.ids.size} points, and others were measured"
-    return _told(report, limit_mm, how, held_out_by="every other point", as_json=as_json)
+    how = f"fitted to {report.fit_points} of {seen.ids.size} points, the others were measured"
+    return _print_report(report, limit_mm, how, held_out_by="every other point", as_json=as_json)
 
 
 def _picture(path: Path, size_wh_px: tuple[int, int]) -> npt.NDArray[np.uint8]:
@@ -88,7 +90,7 @@ def _picture(path: Path, size_wh_px: tuple[int, int]) -> npt.NDArray[np.uint8]:
     if picture is None:
         raise InvalidInput(
             "IMAGE_UNREADABLE",
-            f"{path} is no image that can be read",
+            f"{path} is not a readable image",
             "Give a PNG, JPEG or BMP file.",
             {"file": str(path)},
         )
@@ -97,19 +99,21 @@ def _picture(path: Path, size_wh_px: tuple[int, int]) -> npt.NDArray[np.uint8]:
         raise InvalidInput(
             "IMAGE_SIZE_DIFFERS",
             f"{path} is {width}x{height} px, the camera was calibrated at {size_wh_px[0]}x{size_wh_px[1]}",
-            "Use images of the size that the camera was calibrated with.",
+            "Use images of the calibrated size.",
             {"size_wh_px": [width, height], "camera_size_wh_px": list(size_wh_px)},
         )
     return picture
 
 
-def _told(report: AccuracyReport, limit_mm: float, how: str, *, held_out_by: str, as_json: bool) -> int:
+def _print_report(
+    report: AccuracyReport, limit_mm: float, how: str, *, held_out_by: str, as_json: bool
+) -> int:
     if as_json:
         typer.echo(json.dumps(accuracy_values(report, limit_mm=limit_mm) | {"held_out_by": held_out_by}))
     else:
         typer.echo(_table(report))
         typer.echo(
-            f"The plane is {report.plane_distance_mm:.1f} mm away: compare it with a tape measure. "
+            f"Distance of the plane: {report.plane_distance_mm:.1f} mm; compare it with a tape measure. "
             f"Its fit has {report.fit_rms_px:.2f} px RMS; {how}."
         )
         typer.echo(_verdict(report, limit_mm))
@@ -125,10 +129,10 @@ def measure_with_ruler(
     limit_mm: float,
     as_json: bool,
 ) -> int:
-    """Tell what the paper's ruler gives, and the exit status: 0, or 1 above the limit.
+    """Print the result of the ruler method of the paper. Return the exit status: 0, or 1 above the limit.
 
     Raises:
-        NavigationError: V, H or f cannot be, or the file cannot be used.
+        NavigationError: V, H or f is invalid, or the file cannot be used.
     """
     geometry: dict[str, Any] = {
         "axial_distance_mm": axial_distance_mm(vertical_mm, horizontal_mm),
@@ -138,7 +142,7 @@ def measure_with_ruler(
     displacements = None if rows is None else _displacements(rows)
     if focal_length_px is None and displacements is not None:
         displacements, ruler = _from_first(displacements, vertical_mm, horizontal_mm)
-        sentence += f", f = {ruler.focal_length_px:.1f} px from the first row, which is not checked"
+        sentence += f", f = {ruler.focal_length_px:.1f} px from the first row, which is not checked itself"
     elif focal_length_px is not None:
         ruler = Ruler(vertical_mm=vertical_mm, horizontal_mm=horizontal_mm, focal_length_px=focal_length_px)
         sentence += f", f = {focal_length_px:.1f} px, Pd/Rd = {ruler.pixels_per_mm:.3f} px/mm"
@@ -160,14 +164,14 @@ def measure_with_ruler(
 def _from_first(
     displacements: Displacements, vertical_mm: float, horizontal_mm: float
 ) -> tuple[Displacements, Ruler]:
-    """The ruler that the first row gives, and the rows that it is checked with."""
+    """Return the ruler that follows from the first row, and the remaining rows to check it."""
     known = distances(displacements.first_mm, displacements.second_mm)
     seen = distances(displacements.first_px, displacements.second_px)
     if known.size < 2:
         raise InvalidInput(
             "RULER_UNCHECKED",
-            "one row gives the focal length, and there is no other to check it with",
-            "Give two rows or more, or the focal length with --focal-length-px.",
+            "the only row determines the focal length, so that none is left for a check",
+            "Give at least two rows, or the focal length with --focal-length-px.",
             {"rows": int(known.size)},
         )
     ratio = pixels_per_mm(float(seen[0]), float(known[0]))

@@ -1,12 +1,11 @@
-"""`coaxial accuracy` and `coaxial ruler` as they are typed."""
+"""The commands `coaxial accuracy` and `coaxial ruler`."""
 
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from server.cli.board_names import BoardOptions
-from server.cli.board_typed import (
+from server.cli.board_arguments import (
     DictionaryOption,
     FiducialsOption,
     LayoutOption,
@@ -16,9 +15,10 @@ from server.cli.board_typed import (
     SizeOption,
     SquareOption,
 )
+from server.cli.board_names import BoardOptions
 
 LimitOption = Annotated[
-    float, typer.Option("--limit-mm", help="The largest error that passes.", metavar="MM", min=0.0)
+    float, typer.Option("--limit-mm", help="Largest permitted error.", metavar="MM", min=0.0)
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Write the figures as JSON.", show_default=False)]
 
@@ -30,7 +30,7 @@ def accuracy(
     rows: Annotated[
         Path | None,
         typer.Argument(
-            help="CSV of displacements: x1_mm,y1_mm,x2_mm,y2_mm on a plane, and where they were seen: "
+            help="CSV of displacements on a plane, x1_mm,y1_mm,x2_mm,y2_mm, and of their image points, "
             "u1_px,v1_px,u2_px,v2_px.",
             metavar="ROWS",
         ),
@@ -38,15 +38,15 @@ def accuracy(
     plane: Annotated[
         Path | None,
         typer.Option(
-            help="CSV of other points of the plane, to which its place is fitted: x_mm,y_mm,u_px,v_px. "
-            "Without it each displacement is left out of a fit to all the others.",
+            help="CSV of other points that define the pose of the plane: x_mm,y_mm,u_px,v_px. "
+            "Without it each displacement is measured with a fit to all others (leave-one-out).",
             metavar="CSV",
         ),
     ] = None,
     image: Annotated[
         Path | None,
         typer.Option(
-            help="In place of ROWS: an image of a calibration board; every other point fits the plane.",
+            help="Image of a calibration board instead of ROWS; every second point defines the plane.",
             metavar="IMAGE",
         ),
     ] = None,
@@ -61,9 +61,9 @@ def accuracy(
     limit_mm: LimitOption = 0.5,
     json: JsonOption = False,
 ) -> None:
-    """Check a calibrated camera: known displacements on a grid against measured ones.
+    """Check a camera calibration: compare known displacements on a grid with measured ones.
 
-    Points must come from an image that the camera was not calibrated with. Exit status 1 above the limit.
+    Use points of an image that was not used for the calibration. Exit status 1 above the limit.
     """
     from server.cli.accuracy import check_on_board, check_rows  # noqa: PLC0415  loaded when needed
 
@@ -85,10 +85,16 @@ def accuracy(
 
 def ruler(
     vertical_mm: Annotated[
-        float, typer.Option("--vertical-mm", help="V: how far the camera is above the object.", metavar="MM")
+        float,
+        typer.Option(
+            "--vertical-mm", help="V: vertical distance from the object to the camera.", metavar="MM"
+        ),
     ],
     horizontal_mm: Annotated[
-        float, typer.Option("--horizontal-mm", help="H: how far the camera is beside it.", metavar="MM")
+        float,
+        typer.Option(
+            "--horizontal-mm", help="H: horizontal distance from the object to the camera.", metavar="MM"
+        ),
     ],
     rows: Annotated[
         Path | None,
@@ -97,13 +103,13 @@ def ruler(
     focal_length_px: Annotated[
         float | None,
         typer.Option(
-            "--focal-length-px", help="f; left out, it follows from the first row alone.", metavar="PX"
+            "--focal-length-px", help="Focal length f; default: computed from the first row.", metavar="PX"
         ),
     ] = None,
     limit_mm: LimitOption = 0.5,
     json: JsonOption = False,
 ) -> None:
-    """Measure by hand: D, theta, Pd/Rd, f and displacements from V and H alone, as the paper's 2.2 does.
+    """Compute D, theta, Pd/Rd, f and displacements from V and H (section 2.2 of the paper).
 
     Exit status 1 above the limit.
     """

@@ -1,4 +1,4 @@
-"""`coaxial audit`: whether the audit log is whole."""
+"""`coaxial audit verify`: check the hash chain of the audit log."""
 
 from pathlib import Path
 from typing import Annotated
@@ -10,36 +10,34 @@ NOT_READ = 2
 
 audit_app = typer.Typer(
     name="audit",
-    help="The audit log: who did what, when, from which version to which.",
+    help="Check the audit log of all changes (who, what, when).",
     no_args_is_help=True,
 )
 
 
 @audit_app.callback()
 def audit() -> None:
-    """The audit log: who did what, when, from which version to which."""
+    """Check the audit log of all changes (who, what, when)."""
 
 
 @audit_app.command()
 def verify(
     file: Annotated[
         Path | None,
-        typer.Argument(help="An exported log; left out: the one of COAXIAL_HOME.", metavar="FILE"),
+        typer.Argument(help="Exported log; default: the log in COAXIAL_HOME.", metavar="FILE"),
     ] = None,
     sum_of_last: Annotated[
         str | None,
-        typer.Option(
-            "--sum", help="What the last line's SHA-256 was when it was exported.", metavar="SHA256"
-        ),
+        typer.Option("--sum", help="SHA-256 of the last line at the time of the export.", metavar="SHA256"),
     ] = None,
 ) -> None:
-    """Tell the first line that was changed, is missing or stands elsewhere; exit status 1 where there is one.
+    """Report the first line that was changed, removed or moved. Exit status 1 if there is one.
 
-    Of an exported file alone nobody can tell whether lines are missing at its end: give --sum for that.
-    Who may write the server's folder can write a whole new log with its end beside it, and this command
-    calls it whole: write down the SHA-256 elsewhere, and give it with --sum for an export of that time.
+    Lines missing at the end of an exported file can only be detected with --sum. Anyone with write access to
+    the server's folder can replace the whole log with a consistent one. To detect this, record the SHA-256
+    elsewhere and pass it with --sum for an export of that time.
     """
-    from server.security.audit.whole import verify_files  # noqa: PLC0415  loaded when needed
+    from server.security.audit.files import verify_files  # noqa: PLC0415  loaded when needed
     from server.store import home_folder  # noqa: PLC0415
 
     room = home_folder() / "security"
@@ -50,12 +48,12 @@ def verify(
         typer.echo(
             f"Error: the audit log {log} cannot be read: {(error.strerror or str(error)).lower()}.", err=True
         )
-        typer.echo("Name an exported log, or the folder of the server with COAXIAL_HOME.", err=True)
+        typer.echo("Give an exported log, or set COAXIAL_HOME to the folder of the server.", err=True)
         raise typer.Exit(NOT_READ) from None
     if verdict.fault is not None:
-        typer.echo(f"Line {verdict.fault.line}: {verdict.fault.said}.")
+        typer.echo(f"Line {verdict.fault.line}: {verdict.fault.reason}.")
         raise typer.Exit(BROKEN)
     if sum_of_last is not None and sum_of_last.strip().lower() != verdict.head.sum:
-        typer.echo(f"Line {verdict.head.count + 1}: the last line is not the one with this SHA-256.")
+        typer.echo(f"Line {verdict.head.count + 1}: the SHA-256 of the last line differs from --sum.")
         raise typer.Exit(BROKEN)
-    typer.echo(f"{verdict.head.count} lines, whole. SHA-256 of the last one: {verdict.head.sum}")
+    typer.echo(f"{verdict.head.count} lines, unchanged. SHA-256 of the last line: {verdict.head.sum}")

@@ -1,4 +1,4 @@
-"""A video, a folder of images or the rehearsal as the background of a marker."""
+"""Background images for marker design, from a video, a folder of images or the rehearsal."""
 
 import threading
 from collections.abc import Iterator
@@ -9,25 +9,25 @@ import numpy as np
 import typer
 
 from server.capture.address import SourceKind, source_from_text
-from server.capture.choose import source_from_config
 from server.capture.shot import Source
+from server.capture.source_factory import source_from_config
 from server.cli.progress import Steps
 from server.config import CameraConfig, Config
 from server.errors import CaptureError
 from server.setup import build_setup, nominal_camera
-from tracker.design import Background, joined, places_in
+from tracker.design import Background, concatenated, places_in
 from tracker.edges import GreyImage
 from tracker.errors import InvalidInput
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Film:
-    """A background, and which images of its source it is made of.
+class BackgroundImages:
+    """Background images of a source.
 
     Attributes:
-        name: of the source.
-        numbers: of each image, as the source counts them from 0.
-        background: the images and their squares.
+        name: Name of the source.
+        numbers: Index of each image in the source, from 0.
+        background: The images and the squares found in them.
     """
 
     name: str
@@ -35,8 +35,8 @@ class Film:
     background: Background
 
 
-def film_of(text: str, *, images: int, steps: Steps) -> Film:
-    """Images of a source that has an end, at most so many and evenly spread over it.
+def background_from(text: str, *, images: int, steps: Steps) -> BackgroundImages:
+    """Read at most `images` evenly spaced images of a finite source.
 
     Raises:
         InvalidInput: BACKGROUND_WITHOUT_END, or as the source's own error where it gives no image.
@@ -55,45 +55,45 @@ def film_of(text: str, *, images: int, steps: Steps) -> Film:
     cycle = None if theatre is None else round(theatre.cycle_s * config.rehearsal.rate_hz)
     try:
         source.open()
-        kept = evenly_spread(_greys(source, cycle, steps), count=images)
+        stored = evenly_spaced(_greys(source, cycle, steps), count=images)
     except CaptureError as error:
-        # Nothing is tried again here, and it was no setting.
-        remedy = "Give a whole video file or a folder of images with --background."
+        # A file is not reopened, and the error is in the input, not in the settings.
+        remedy = "Give a readable video file or a folder of images with --background."
         raise InvalidInput(error.code, error.message, remedy, error.context) from error
     finally:
         source.close()
     if source.defect is not None:
         typer.echo(f"Note: {source.defect.message}. {source.defect.remedy}", err=True)
     places = []
-    for index, (_, grey) in enumerate(kept):
-        steps.advance("looking for squares", len(kept))
+    for index, (_, grey) in enumerate(stored):
+        steps.advance("finding squares", len(stored))
         places.append(places_in(grey, image_index=index))
-    return Film(
+    return BackgroundImages(
         name=address.name,
-        numbers=tuple(number for number, _ in kept),
+        numbers=tuple(number for number, _ in stored),
         background=Background(
-            images=tuple(grey for _, grey in kept), places=joined(places), camera_of=nominal_camera
+            images=tuple(grey for _, grey in stored), places=concatenated(places), camera_of=nominal_camera
         ),
     )
 
 
-def evenly_spread(images: Iterator[tuple[int, GreyImage]], *, count: int) -> list[tuple[int, GreyImage]]:
-    """So many of a stream of unknown length, evenly spread over it; at most twice as many are held."""
-    kept: list[tuple[int, GreyImage]] = []
+def evenly_spaced(images: Iterator[tuple[int, GreyImage]], *, count: int) -> list[tuple[int, GreyImage]]:
+    """Return `count` evenly spaced images of a stream of unknown length; at most 2 * count are in memory."""
+    stored: list[tuple[int, GreyImage]] = []
     stride = 1
     for index, image in enumerate(images):
         if index % stride:
             continue
-        kept.append(image)
-        if len(kept) >= 2 * count:
-            kept, stride = kept[::2], 2 * stride
-    chosen = np.unique(np.linspace(0, len(kept) - 1, min(count, len(kept))).round().astype(int))
-    return [kept[int(index)] for index in chosen]
+        stored.append(image)
+        if len(stored) >= 2 * count:
+            stored, stride = stored[::2], 2 * stride
+    chosen = np.unique(np.linspace(0, len(stored) - 1, min(count, len(stored))).round().astype(int))
+    return [stored[int(index)] for index in chosen]
 
 
-def _greys(source: Source, most: int | None, steps: Steps) -> Iterator[tuple[int, GreyImage]]:
+def _greys(source: Source, maximum: int | None, steps: Steps) -> Iterator[tuple[int, GreyImage]]:
     given = 0
-    while (most is None or given < most) and (shot := source.read()) is not None:
+    while (maximum is None or given < maximum) and (shot := source.read()) is not None:
         given += 1
-        steps.advance("reading images", most)
+        steps.advance("reading images", maximum)
         yield shot.number, np.asarray(cv2.cvtColor(shot.image, cv2.COLOR_BGR2GRAY), dtype=np.uint8)

@@ -1,4 +1,4 @@
-"""What can be typed after `coaxial board`: a calibration board to print."""
+"""The commands `coaxial board dots`, `checkerboard` and `charuco`."""
 
 from enum import StrEnum
 from pathlib import Path
@@ -14,7 +14,7 @@ board_app = typer.Typer(
 
 
 class Paper(StrEnum):
-    """Sizes of paper."""
+    """Paper sizes."""
 
     A4 = "A4"
     A3 = "A3"
@@ -22,7 +22,7 @@ class Paper(StrEnum):
 
 
 class DotLayoutName(StrEnum):
-    """How dots stand to each other."""
+    """Arrangement of the dots."""
 
     SYMMETRIC = "symmetric"
     ASYMMETRIC = "asymmetric"
@@ -38,7 +38,7 @@ class CharucoLayoutName(StrEnum):
 OutputOption = Annotated[
     Path, typer.Option("--output", "-o", help="File to write; .pdf or .svg.", metavar="FILE")
 ]
-PaperOption = Annotated[Paper, typer.Option(help="Size of the paper; it lies as the board needs it.")]
+PaperOption = Annotated[Paper, typer.Option(help="Paper size; the orientation follows the board.")]
 
 
 @board_app.command()
@@ -49,29 +49,27 @@ def dots(
         float,
         typer.Option(
             "--pitch-mm",
-            help="From a dot to the next one; if asymmetric, from row to row.",
+            help="Distance between neighbouring dots; asymmetric: between rows.",
             metavar="MM",
         ),
     ] = 10.0,
     layout: Annotated[
-        DotLayoutName, typer.Option(help="Asymmetric: each second row is shifted.")
+        DotLayoutName, typer.Option(help="Asymmetric: every second row is shifted by half a pitch.")
     ] = DotLayoutName.SYMMETRIC,
     fiducials: Annotated[
         str,
         typer.Option(
-            help="Dots that are larger, to tell the way up: indexes row by row from 0, with commas between.",
+            help="Larger dots that define the orientation: comma-separated indexes, row by row from 0.",
             metavar="INDEXES",
         ),
     ] = "",
     dot_mm: Annotated[
         float | None,
-        typer.Option(
-            "--dot-mm", help="Width of a dot; half of the way to the next if left out.", metavar="MM"
-        ),
+        typer.Option("--dot-mm", help="Diameter of a dot; default: half the pitch.", metavar="MM"),
     ] = None,
     paper: PaperOption = Paper.A4,
 ) -> None:
-    """A grid of dots."""
+    """Make a grid of dots."""
     from server.cli.board import write_board  # noqa: PLC0415  loaded when needed
     from server.cli.board_options import indexes_of, size_of  # noqa: PLC0415
     from tracker.camera.boards import DotBoard, DotLayout  # noqa: PLC0415
@@ -94,7 +92,7 @@ def checkerboard(
     square_mm: Annotated[float, typer.Option("--square-mm", help="Side of a square.", metavar="MM")] = 25.0,
     paper: PaperOption = Paper.A4,
 ) -> None:
-    """A checkerboard, counted by its inner corners."""
+    """Make a checkerboard; its size is given in inner corners."""
     from server.cli.board import write_board  # noqa: PLC0415  loaded when needed
     from server.cli.board_options import size_of  # noqa: PLC0415
     from tracker.camera.boards import CheckerBoard  # noqa: PLC0415
@@ -109,17 +107,17 @@ def charuco(
     size: Annotated[str, typer.Option(help="Columns x rows of squares.", metavar="CxR")] = "8x5",
     square_mm: Annotated[float, typer.Option("--square-mm", help="Side of a square.", metavar="MM")] = 30.0,
     marker_mm: Annotated[
-        float, typer.Option("--marker-mm", help="Side of a marker, black rim included.", metavar="MM")
+        float, typer.Option("--marker-mm", help="Side of a marker, including its black border.", metavar="MM")
     ] = 22.0,
     dictionary: Annotated[
-        str, typer.Option(help="OpenCV's name of the markers.", metavar="NAME")
+        str, typer.Option(help="ArUco dictionary (OpenCV name).", metavar="NAME")
     ] = "DICT_6X6_250",
     layout: Annotated[
-        CharucoLayoutName, typer.Option(help="Older: as OpenCV before 4.6 drew boards with even rows.")
+        CharucoLayoutName, typer.Option(help="Older: as drawn by OpenCV before 4.6 for even numbers of rows.")
     ] = CharucoLayoutName.NEWER,
     paper: PaperOption = Paper.A4,
 ) -> None:
-    """A checkerboard with an ArUco marker in each white square."""
+    """Make a ChArUco board: a checkerboard with an ArUco marker in each white square."""
     from server.cli.board import write_board  # noqa: PLC0415  loaded when needed
     from server.cli.board_options import size_of  # noqa: PLC0415
     from tracker.camera.boards import CharucoBoard, CharucoLayout  # noqa: PLC0415

@@ -1,11 +1,11 @@
-"""The words that describe a board on the command line; light, so that `--help` answers at once."""
+"""Board options of the command line. No heavy imports, so that `--help` is fast."""
 
 from dataclasses import dataclass
 from enum import StrEnum
 
 
 class Pattern(StrEnum):
-    """What is printed on the board."""
+    """Calibration pattern."""
 
     DOTS = "dots"
     CHECKERBOARD = "checkerboard"
@@ -23,7 +23,7 @@ class Layout(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoardOptions:
-    """The options that describe a board, None where they were left out."""
+    """Options that describe a board; None if not given."""
 
     pattern: Pattern
     size: str

@@ -1,4 +1,4 @@
-"""The board that was described on the command line."""
+"""Calibration board from command-line options."""
 
 import re
 
@@ -8,7 +8,7 @@ from tracker.errors import InvalidInput
 
 
 def boards_of(given: BoardOptions) -> tuple[Board, ...]:
-    """The board, and the checkerboard that is set into it if there is one.
+    """Return the board and, with --inset, the checkerboard inside it.
 
     Raises:
         InvalidInput: BOARD_OPTION_MISSING, BOARD_OPTION_UNUSED, BOARD_OPTION_INVALID or BOARD_INVALID.
@@ -49,7 +49,7 @@ def boards_of(given: BoardOptions) -> tuple[Board, ...]:
 
 
 def described(board: Board) -> dict[str, object]:
-    """The board as a camera file keeps it."""
+    """Return the board as stored in a camera file."""
     size = [board.columns, board.rows]
     if isinstance(board, DotBoard):
         return {
@@ -72,7 +72,7 @@ def described(board: Board) -> dict[str, object]:
 
 
 def size_of(option: str, text: str) -> tuple[int, int]:
-    """Columns and rows as a person types them after an option: "14x16".
+    """Parse "14x16" into columns and rows.
 
     Raises:
         InvalidInput: BOARD_OPTION_INVALID.
@@ -81,14 +81,14 @@ def size_of(option: str, text: str) -> tuple[int, int]:
     if not found:
         raise InvalidInput(
             "BOARD_OPTION_INVALID",
-            f"{option} {text} is no size, allowed is COLUMNSxROWS",
+            f"{option} {text} is not a size, expected COLUMNSxROWS",
             f"Write it as {option} 14x16: dots, inner corners of a checkerboard, squares of a ChArUco board.",
         )
     return int(found[1]), int(found[2])
 
 
 def indexes_of(text: str | None) -> tuple[int, ...]:
-    """Indexes with commas between; none where nothing was typed.
+    """Parse comma-separated indexes; an empty text gives none.
 
     Raises:
         InvalidInput: BOARD_OPTION_INVALID.
@@ -99,8 +99,8 @@ def indexes_of(text: str | None) -> tuple[int, ...]:
     if not all(part.isascii() and part.isdigit() for part in parts):
         raise InvalidInput(
             "BOARD_OPTION_INVALID",
-            f"--fiducials {text} is no list of indexes",
-            "Count the dots row by row from 0 at the top left, and write the larger ones as 69,74,149,154.",
+            f"--fiducials {text} is not a list of indexes",
+            "Number the dots row by row from 0 at the top left, and list the larger ones as 69,74,149,154.",
         )
     return tuple(int(part) for part in parts)
 
@@ -109,9 +109,9 @@ def _layout(given: BoardOptions, *allowed: Layout) -> str | None:
     if given.layout is not None and given.layout not in allowed:
         raise InvalidInput(
             "BOARD_OPTION_INVALID",
-            f"--layout {given.layout.value} is none of {given.pattern.value}, allowed: "
+            f"--layout {given.layout.value} is not a layout of {given.pattern.value}, allowed: "
             + ", ".join(one.value for one in allowed),
-            "Leave it out, or give the layout of the board.",
+            "Omit it, or give the layout of the board.",
         )
     return None if given.layout is None else given.layout.value
 
@@ -127,7 +127,7 @@ def _missing(given: BoardOptions, name: str) -> InvalidInput:
     option = "--" + name.replace("_", "-")
     return InvalidInput(
         "BOARD_OPTION_MISSING",
-        f"a {given.pattern.value} board is not described whole: {option} is missing",
+        f"a {given.pattern.value} board needs {option}",
         f"Measure the print and give {option}.",
         {"option": option},
     )
@@ -139,7 +139,7 @@ def _reject_unused(given: BoardOptions, *names: str) -> None:
             option = "--" + name.replace("_", "-")
             raise InvalidInput(
                 "BOARD_OPTION_UNUSED",
-                f"{option} says nothing about a {given.pattern.value} board",
-                f"Leave {option} out, or give another --pattern.",
+                f"{option} does not apply to a {given.pattern.value} board",
+                f"Omit {option}, or give another --pattern.",
                 {"option": option},
             )

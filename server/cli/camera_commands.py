@@ -1,4 +1,4 @@
-"""What can be typed for the cameras at this machine: `coaxial cameras`."""
+"""The command `coaxial cameras`."""
 
 from pathlib import Path
 from typing import Annotated
@@ -9,16 +9,14 @@ import typer
 def cameras(
     config: Annotated[
         Path | None,
-        typer.Option(
-            "--config", help="Settings file; ./config.yaml is taken if it is there.", metavar="FILE"
-        ),
+        typer.Option("--config", help="Settings file; default: ./config.yaml if it exists.", metavar="FILE"),
     ] = None,
     json: Annotated[bool, typer.Option("--json", help="Write the list as JSON.", show_default=False)] = False,
 ) -> None:
-    """List the cameras at this machine, what each offers, and which mode Coaxial takes of it.
+    """List the cameras of this computer, their modes, and the mode that Coaxial selects.
 
-    The mode depends on camera.width, height, rate_hz and calibration of the settings.
-    Exit status 1 if there is no camera.
+    The mode depends on camera.width, height, rate_hz and calibration in the settings.
+    Exit status 1 if no camera is found.
     """
     from server.cli.cameras import list_cameras  # noqa: PLC0415  loaded when needed
 

@@ -1,4 +1,4 @@
-"""`coaxial cameras`: the cameras at this machine, with what they offer."""
+"""`coaxial cameras`: list the cameras of this computer with their modes and controls."""
 
 import contextlib
 import json
@@ -11,13 +11,13 @@ from pathlib import Path
 import typer
 
 from server.camera_file import load_camera_file
-from server.capture.choose import wanted_mode
 from server.capture.modes import WantedMode, choose_mode
+from server.capture.source_factory import wanted_mode
 from server.capture.v4l2 import (
     ControlReading,
     DeviceDescription,
     VideoDevices,
-    devices_here,
+    system_devices,
 )
 from server.cli.industrial_cameras import (
     control_values,
@@ -33,29 +33,29 @@ from tracker.camera import CameraControl
 
 NO_CAMERA = 1
 NONE_FOUND = (
-    "no camera is found at this machine",
-    "Plug one in and see that it is listed in /dev as video0 or so (ls /dev/video*); in a container, hand it "
-    "in with --device /dev/video0. Network cameras are not listed: give their address with --source. A phone "
-    "can be the camera, too: --source phone. Industrial cameras need pip install 'coaxial[basler]', or "
-    "'coaxial[genicam]' and a GenTL producer.",
+    "no camera was found on this computer",
+    "Connect a camera and check that it appears as /dev/video0 or similar (ls /dev/video*); pass it to a "
+    "container with --device /dev/video0. Network cameras are not listed: give their address with --source. "
+    "A phone can be the camera as well: --source phone. Industrial cameras need pip install "
+    "'coaxial[basler]', or 'coaxial[genicam]' and a GenTL producer.",
 )
 NONE_KNOWN = (
-    "cameras are listed on Linux alone",
-    "Try them by their numbers: coaxial run --source 0, then 1.",
+    "cameras can only be listed on Linux",
+    "Try them by number: coaxial run --source 0, then 1.",
 )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FoundCamera:
-    """One camera, or a device that could not be asked.
+    """A camera, or a video device that could not be queried.
 
     Attributes:
-        path: its device file.
-        description: None when it could not be asked.
-        modes: that it offers.
-        chosen: the mode that Coaxial takes; None where it offers none that it can decode.
-        controls: that it has, with their values now.
-        problem: why it could not be asked; empty where it could.
+        path: Device file.
+        description: None if the query failed.
+        modes: Supported modes.
+        chosen: The mode that Coaxial selects; None if it can decode none of them.
+        controls: Supported controls with their present values.
+        problem: Why the query failed; empty if it succeeded.
     """
 
     path: str
@@ -76,7 +76,7 @@ def list_cameras(config_file: Path | None, *, as_json: bool) -> int:
     calibration = config.camera.calibration
     size_wh_px = None if calibration is None else load_camera_file(calibration).size_wh_px
     wanted = wanted_mode(config.camera)
-    found = find_cameras(devices_here(), wanted, calibrated_size_wh_px=size_wh_px)
+    found = find_cameras(system_devices(), wanted, calibrated_size_wh_px=size_wh_px)
     industrial = find_industrial_cameras(
         installed_libraries(),
         wanted,
@@ -100,7 +100,7 @@ def list_cameras(config_file: Path | None, *, as_json: bool) -> int:
 def find_cameras(
     devices: VideoDevices, wanted: WantedMode, *, calibrated_size_wh_px: tuple[int, int] | None
 ) -> list[FoundCamera]:
-    """All devices that give images, and those that could not be asked."""
+    """Return the devices that capture images, and those that could not be queried."""
     found: list[FoundCamera] = []
     for path in devices.paths():
         try:
@@ -128,7 +128,7 @@ def find_cameras(
 
 
 def camera_values(camera: FoundCamera) -> dict[str, object]:
-    """A camera as JSON has it."""
+    """Return a camera as a JSON object."""
     description = camera.description
     if description is None:
         return {"path": camera.path, "problem": camera.problem}
@@ -147,8 +147,8 @@ def _lines(camera: FoundCamera) -> list[str]:
     description = camera.description
     if description is None:
         return [
-            f"{camera.path}  cannot be asked: {camera.problem}",
-            "    Check the right to read it (group 'video'), and its cable.",
+            f"{camera.path}  cannot be opened: {camera.problem}",
+            "    Check the read permission (group 'video') and the cable.",
         ]
     lines = [f"{camera.path}  {description.name}  ({description.bus}, {description.driver})"]
     for (fourcc, (width, height)), modes in groupby(
@@ -160,8 +160,8 @@ def _lines(camera: FoundCamera) -> list[str]:
     if controls:
         lines.append(f"    controls: {', '.join(controls)}")
     lines.append(
-        "    Coaxial takes none of them: it reads none of these formats"
+        "    Coaxial cannot decode any of these formats"
         if camera.chosen is None
-        else f"    Coaxial takes {camera.chosen}"
+        else f"    Coaxial uses {camera.chosen}"
     )
     return lines

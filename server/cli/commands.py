@@ -1,4 +1,4 @@
-"""What can be typed: each command's options, and how a mistake is told."""
+"""The command line: commands, their options, and the report of an error."""
 
 import sys
 from enum import StrEnum
@@ -19,7 +19,7 @@ from server.cli.plan_commands import plan_app
 from server.cli.register_commands import register_app
 from server.cli.time_offset_commands import time_offset
 from server.cli.tool_commands import pivot, spin, tip_check
-from server.cli.track_words import TRACK_HELP
+from server.cli.track_help import TRACK_HELP
 from server.cli.verify_commands import verify
 
 BAD_INPUT = 2
@@ -51,7 +51,7 @@ app.command()(verify)
 
 
 class Rate(StrEnum):
-    """How fast a file's images come."""
+    """Playback rate of a file."""
 
     OWN = "own"
     FAST = "fast"
@@ -59,36 +59,40 @@ class Rate(StrEnum):
 
 ConfigOption = Annotated[
     Path | None,
-    typer.Option("--config", help="Settings file; ./config.yaml is taken if it is there.", metavar="FILE"),
+    typer.Option("--config", help="Settings file; default: ./config.yaml if it exists.", metavar="FILE"),
 ]
 MarkerOption = Annotated[
     list[Path] | None,
     typer.Option(
         "--marker",
-        help="Picture of a marker, filled edge to edge by its black square; may repeat.",
+        help="Image of a marker whose black square fills it edge to edge; repeatable.",
         metavar="PNG",
     ),
 ]
 SideOption = Annotated[
     list[float] | None,
-    typer.Option("--side-mm", help="Side of the marker in mm; one for all, or one each.", metavar="MM"),
+    typer.Option(
+        "--side-mm",
+        help="Side of the marker in mm: one value for all markers, or one per marker.",
+        metavar="MM",
+    ),
 ]
 NameOption = Annotated[
     list[str] | None,
-    typer.Option("--name", help="Name of the marker; its file's name if left out.", metavar="NAME"),
+    typer.Option("--name", help="Name of the marker; default: the file name.", metavar="NAME"),
 ]
 CameraOption = Annotated[
     Path | None,
     typer.Option(
         "--camera",
-        help="Camera file (matrix, distortion, size_wh_px); without one no mm are given.",
+        help="Camera file (matrix, distortion, size_wh_px); without it no result is in mm.",
         metavar="FILE",
     ),
 ]
 LogJsonOption = Annotated[
-    bool, typer.Option("--log-json", help="Log JSON lines, also on a terminal.", show_default=False)
+    bool, typer.Option("--log-json", help="Log as JSON lines even on a terminal.", show_default=False)
 ]
-DebugOption = Annotated[bool, typer.Option("--debug", help="Log more.", show_default=False)]
+DebugOption = Annotated[bool, typer.Option("--debug", help="Log debug messages.", show_default=False)]
 
 
 @app.callback(invoke_without_command=True)
@@ -109,7 +113,7 @@ def run(
     source: Annotated[
         str | None,
         typer.Option(
-            help="rehearsal, a camera's number or path, a video, a stream's address, a folder of images.",
+            help="rehearsal, a camera number or path, a video file, a stream URL, or a folder of images.",
             metavar="SOURCE",
         ),
     ] = None,
@@ -117,33 +121,37 @@ def run(
     side_mm: SideOption = None,
     name: NameOption = None,
     camera: CameraOption = None,
-    port: Annotated[int | None, typer.Option(help="Port to listen on; 0 takes a free one.")] = None,
+    port: Annotated[int | None, typer.Option(help="Port to listen on; 0 selects a free port.")] = None,
     loop: Annotated[
         bool | None,
         typer.Option(
-            "--loop/--no-loop", " /--once", help="A file starts again at its end, or not.", show_default=False
+            "--loop/--no-loop",
+            " /--once",
+            help="Restart a file at its end, or stop there.",
+            show_default=False,
         ),
     ] = None,
     rate: Annotated[
-        Rate | None, typer.Option(help="A file at its own rate, or as fast as possible.", show_default=False)
+        Rate | None,
+        typer.Option(help="Play a file at its own rate, or as fast as possible.", show_default=False),
     ] = None,
     new_operator_link: Annotated[
         bool,
         typer.Option(
-            "--new-operator-link", help="Print a new link to sign in as operator.", show_default=False
+            "--new-operator-link", help="Print a new sign-in link for the operator.", show_default=False
         ),
     ] = False,
     log_json: LogJsonOption = False,
     debug: DebugOption = False,
 ) -> None:
-    """Start the dashboard: track the images of a source, and show them in a browser.
+    """Start the dashboard: track the images of a source and show the result in a browser.
 
-    Without options: the rehearsal, a theatre that exists only in software.
+    Without options it starts the rehearsal, a simulated operating theatre.
     """
-    from server.cli.options import Given  # noqa: PLC0415  loaded when needed, see above
+    from server.cli.options import SettingOptions  # noqa: PLC0415  loaded when needed, see above
     from server.cli.run import run_dashboard  # noqa: PLC0415
 
-    given = Given(
+    given = SettingOptions(
         config=config,
         source=source,
         markers=tuple(marker or ()),
@@ -169,24 +177,24 @@ def track(
     json: Annotated[
         str | None,
         typer.Option(
-            help="Write a JSON line for each image and marker, see above; '-' is standard output.",
+            help="Write one JSON line per image and marker (format above); '-' is standard output.",
             metavar="FILE",
         ),
     ] = None,
     replace: Annotated[
         bool,
-        typer.Option("--replace", help="Write over a JSON file of the same name.", show_default=False),
+        typer.Option("--replace", help="Overwrite an existing JSON file.", show_default=False),
     ] = False,
-    images: Annotated[int | None, typer.Option(help="Stop after so many images.", min=1)] = None,
+    images: Annotated[int | None, typer.Option(help="Stop after this number of images.", min=1)] = None,
     config: ConfigOption = None,
     log_json: LogJsonOption = False,
     debug: DebugOption = False,
 ) -> None:
-    """Track every image of a video, as fast as possible and none skipped."""
-    from server.cli.options import Given  # noqa: PLC0415  loaded when needed, see above
+    """Track every image of a video as fast as possible, without skipping any."""
+    from server.cli.options import SettingOptions  # noqa: PLC0415  loaded when needed, see above
     from server.cli.track import track_video  # noqa: PLC0415
 
-    given = Given(
+    given = SettingOptions(
         config=config,
         source=video,
         markers=tuple(marker or ()),
@@ -211,7 +219,7 @@ def coaxial_version() -> str:
 
 
 def main() -> None:
-    """The command `coaxial`: tells a mistake in one sentence with its remedy, and exits with status 2."""
+    """Run `coaxial`. Print a `NavigationError` as one sentence with its remedy and exit with status 2."""
     try:
         app(prog_name="coaxial")
     except Exception as error:

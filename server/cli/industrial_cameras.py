@@ -1,4 +1,4 @@
-"""The industrial cameras in `coaxial cameras`: of each library that is installed, what its cameras offer."""
+"""Industrial cameras in `coaxial cameras`: modes and controls, for each installed vendor library."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from server.capture.industrial import (
     BaslerCameras,
     Bounds,
+    CameraCapabilities,
     GenTLCameras,
     IndustrialCameras,
     IndustrialControls,
     IndustrialDescription,
-    Offer,
-    chosen_mode,
-    offer_of,
+    choose_industrial_mode,
     producers,
+    read_capabilities,
 )
 from server.capture.modes import WantedMode
 from server.capture.v4l2 import ControlReading
@@ -23,7 +23,7 @@ from tracker.camera import CameraControl
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FoundIndustrialCamera:
-    """One industrial camera, or one that could not be asked.
+    """An industrial camera, or one that could not be opened.
 
     Attributes:
         description: which one.
@@ -34,14 +34,14 @@ class FoundIndustrialCamera:
     """
 
     description: IndustrialDescription
-    offer: Offer | None = None
+    offer: CameraCapabilities | None = None
     chosen: CameraMode | None = None
     controls: Mapping[CameraControl, ControlReading]
     problem: str = ""
 
 
 def installed_libraries() -> tuple[IndustrialCameras, ...]:
-    """Those that can be asked; harvesters finds nothing without a vendor's producer."""
+    """Return the installed vendor libraries; harvesters needs a GenTL producer of the vendor."""
     return (BaslerCameras(), GenTLCameras()) if producers() else (BaslerCameras(),)
 
 
@@ -52,7 +52,7 @@ def find_industrial_cameras(
     calibrated_size_wh_px: tuple[int, int] | None,
     is_triggered: bool,
 ) -> list[FoundIndustrialCamera]:
-    """All cameras of all libraries; of a library that is missing or does not answer, none."""
+    """Return the cameras of all libraries; a library that is missing or fails contributes none."""
     found: list[FoundIndustrialCamera] = []
     for library in libraries:
         try:
@@ -66,9 +66,9 @@ def find_industrial_cameras(
                 found.append(FoundIndustrialCamera(description=description, controls={}, problem=str(error)))
                 continue
             try:
-                offer = offer_of(camera)
+                offer = read_capabilities(camera)
                 reading = IndustrialControls(camera).control
-                chosen = chosen_mode(
+                chosen = choose_industrial_mode(
                     offer, wanted, calibrated_size_wh_px=calibrated_size_wh_px, is_triggered=is_triggered
                 )
                 controls = {one: at for one in CameraControl if (at := reading(one)) is not None}
@@ -85,7 +85,7 @@ def find_industrial_cameras(
 
 
 def industrial_values(camera: FoundIndustrialCamera) -> dict[str, object]:
-    """A camera as JSON has it."""
+    """Return a camera as a JSON object."""
     description, offer = camera.description, camera.offer
     values: dict[str, object] = {
         "path": description.address,
@@ -107,13 +107,13 @@ def industrial_values(camera: FoundIndustrialCamera) -> dict[str, object]:
 
 
 def mode_values(mode: CameraMode) -> dict[str, object]:
-    """A mode as JSON has it."""
+    """Return a mode as a JSON object."""
     width, height = mode.size_wh_px
     return {"fourcc": mode.fourcc, "width_px": width, "height_px": height, "rate_hz": mode.rate_hz}
 
 
 def control_values(controls: Mapping[CameraControl, ControlReading]) -> dict[str, object]:
-    """Controls as JSON has them."""
+    """Return controls as a JSON object."""
     return {
         control.value: {"value": one.value, "min": one.min_value, "max": one.max_value}
         for control, one in controls.items()
@@ -121,12 +121,12 @@ def control_values(controls: Mapping[CameraControl, ControlReading]) -> dict[str
 
 
 def industrial_lines(camera: FoundIndustrialCamera) -> list[str]:
-    """A camera as a person reads it."""
+    """Return the printed lines of a camera."""
     description, offer = camera.description, camera.offer
     if offer is None:
         return [
-            f"{description.address}  cannot be asked: {camera.problem}",
-            "    See that no other program has it.",
+            f"{description.address}  cannot be opened: {camera.problem}",
+            "    Check that no other program uses it.",
         ]
     width, height, rate = offer.width_px, offer.height_px, offer.rate_hz
     lines = [
@@ -138,12 +138,12 @@ def industrial_lines(camera: FoundIndustrialCamera) -> list[str]:
     if offer.triggers:
         lines.append(f"    triggers: {', '.join(offer.triggers)}")
     if camera.controls:
-        told = (f"{control.value} {reading.value}" for control, reading in camera.controls.items())
-        lines.append(f"    controls: {', '.join(told)}")
+        values = (f"{control.value} {reading.value}" for control, reading in camera.controls.items())
+        lines.append(f"    controls: {', '.join(values)}")
     lines.append(
-        "    Coaxial takes none of them: it reads none of these formats"
+        "    Coaxial cannot decode any of these formats"
         if camera.chosen is None
-        else f"    Coaxial takes {camera.chosen}"
+        else f"    Coaxial uses {camera.chosen}"
     )
     return lines
 

@@ -1,8 +1,8 @@
-"""Points from a text file, a point a line: with or without header, names, comments, in any usual form.
+"""Read points from a text file with one point per line, with or without header, names and comments.
 
-The first three numbers of a line, in mm, are x, y and z, or those under the headings x, y and z. What else is
-on the line is a name: a word, or a column of counting numbers. Between them stand commas, semicolons, tabs or
-blanks; where semicolons, tabs or blanks part the numbers, a comma in a number is its decimal point.
+The first three numbers of a line are x, y and z in mm, unless a header names the columns. A further word or
+a column of consecutive numbers is the name. Separators are commas, semicolons, tabs or blanks; if the
+separator is not a comma, a comma inside a number is the decimal point.
 """
 
 import math
@@ -17,7 +17,7 @@ from tracker.geometry import Array
 
 MAX_BYTES = 20 * 2**20
 COMMENT = ("#", "%", "//")
-REMEDY = "Give a text file with a point a line, as x,y,z in mm, or with a header that names x, y and z."
+REMEDY = "Give a text file with one point per line, as x,y,z in mm, or with a header that names x, y and z."
 AXES = ("x", "y", "z")
 NAMED = ("label", "name", "id", "landmark", "point", "no", "nr", "index")
 # "x_mm", "X (mm)", "x [mm]", "pos_x" and "l" of LPS are all x.
@@ -26,7 +26,7 @@ HEADING = re.compile(r"^(?:pos_?|p_?|coord_?)?([xyz])(?:[_ ]?[(\[]?mm[)\]]?)?$")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LandmarkRows:
-    """What a file says: points (n, 3) in mm, and a name for each, or none for any."""
+    """Points (n, 3) of a file in mm, and their names; no names if not every point has one."""
 
     path: Path
     points_mm: Array
@@ -40,14 +40,14 @@ class _Line:
 
 
 def read_landmarks(path: Path) -> LandmarkRows:
-    """The points of a file.
+    """Read the points of a file.
 
     Raises:
         InvalidInput: POINTS_UNREADABLE, POINTS_INCOMPLETE or POINTS_INVALID; the line is named.
     """
     lines = _lines(_text(path))
     columns = _columns_of_header(lines[0].words) if lines else None
-    # A header that names no x, y and z is passed over.
+    # A header without x, y and z is skipped.
     if lines and (columns is not None or not _numbers_in(lines[0].words)):
         lines = lines[1:]
     if columns is None:
@@ -66,7 +66,7 @@ def read_landmarks(path: Path) -> LandmarkRows:
         raise InvalidInput(
             "POINTS_INVALID",
             f"{path} has two points named '{twice}'",
-            "Give each landmark a name of its own, or none to any.",
+            "Give each landmark a different name, or no names at all.",
             {"file": str(path), "name": twice},
         )
     return LandmarkRows(
@@ -77,11 +77,11 @@ def read_landmarks(path: Path) -> LandmarkRows:
 def _text(path: Path) -> str:
     try:
         if path.stat().st_size > MAX_BYTES:
-            message = f"{path} has more than {MAX_BYTES / 2**20:.0f} MB, which is no list of points"
+            message = f"{path} has more than {MAX_BYTES / 2**20:.0f} MB, too large for a list of points"
             raise InvalidInput("POINTS_UNREADABLE", message, REMEDY, {"file": str(path)})
         content = path.read_bytes()
     except OSError as error:
-        message = f"the points {path} cannot be read: {(error.strerror or str(error)).lower()}"
+        message = f"the points file {path} cannot be read: {(error.strerror or str(error)).lower()}"
         raise InvalidInput("POINTS_UNREADABLE", message, REMEDY, {"file": str(path)}) from error
     encoding = "utf-16" if content[:2] in {b"\xff\xfe", b"\xfe\xff"} else "utf-8-sig"
     try:
@@ -89,7 +89,7 @@ def _text(path: Path) -> str:
     except UnicodeDecodeError:
         text = ""
     if (not text and content) or "\0" in text:
-        message = f"the points {path} are no text"
+        message = f"the points file {path} is not a text file"
         raise InvalidInput("POINTS_UNREADABLE", message, REMEDY, {"file": str(path)})
     return text
 
@@ -154,7 +154,7 @@ def _columns_of_numbers(lines: list[_Line], path: Path) -> tuple[list[int], int 
     if len(numeric) != 3 and not (len(numeric) < 3 and len(words) <= 3):
         raise InvalidInput(
             "POINTS_INVALID",
-            f"line {lines[0].number} of {path} has {len(numeric)} numbers, needed three",
+            f"line {lines[0].number} of {path} has {len(numeric)} numbers, expected three",
             REMEDY,
             {"file": str(path), "line": lines[0].number},
         )
@@ -175,7 +175,7 @@ def _number(line: _Line, place: int, path: Path) -> float:
     if not math.isfinite(value):
         raise InvalidInput(
             "POINTS_INVALID",
-            f"line {line.number} of {path} has '{word}' where a number is needed",
+            f"line {line.number} of {path} has '{word}' where a number is expected",
             REMEDY,
             {"file": str(path), "line": line.number},
         )

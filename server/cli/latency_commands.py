@@ -1,4 +1,4 @@
-"""`coaxial latency`: the measured latency from light to page."""
+"""`coaxial latency`: print the measured latency from exposure to display."""
 
 import json as json_text
 from dataclasses import asdict
@@ -8,20 +8,22 @@ import typer
 
 NOT_MEASURED = 1
 HOW_TO_MEASURE = """\
-The latency is measured by a page, which shows codes that the camera looks at; a terminal cannot show them:
+The latency is measured in the browser: the page shows codes and the camera records them.
 
 1. Start the server with your camera:  coaxial run --source 0
-2. Open the address that it prints on the screen to be measured, sign in as operator, go to /operator/camera.
-3. Touch "Measure" on the card "Latency", and point the camera at the screen for some 20 s."""
+2. Open the printed address on the screen to be measured, sign in as operator, and go to /operator/camera.
+3. Select "Measure" on the card "Latency", and point the camera at the screen for about 20 s."""
 
 latency_app = typer.Typer(
-    name="latency", help="The latency from light to page, as a page measured it.", no_args_is_help=True
+    name="latency",
+    help="Latency from the exposure of an image to its display on the page.",
+    no_args_is_help=True,
 )
 
 
 @latency_app.callback()
 def latency() -> None:
-    """The latency from light to page, as a page measured it."""
+    """Latency from the exposure of an image to its display on the page."""
 
 
 @latency_app.command()
@@ -30,7 +32,7 @@ def show(
         bool, typer.Option("--json", help="Write the results as JSON.", show_default=False)
     ] = False,
 ) -> None:
-    """Print what was measured last with each camera; exit status 1 where nothing was."""
+    """Print the last measurement of each camera. Exit status 1 if there is none."""
     from server.store import home_folder  # noqa: PLC0415  loaded when needed
     from server.store.latency_file import LatencyFile  # noqa: PLC0415
 
@@ -42,25 +44,25 @@ def show(
         typer.echo(
             f"{one.camera}, {one.width_px}x{one.height_px} px, {one.rate_hz:g} images/s, "
             f"measured {one.at} by {one.made_by}\n"
-            f"  light to page {report.median_ms:g} ms median, {report.p99_ms:g} ms p99, "
+            f"  exposure to display {report.median_ms:g} ms median, {report.p99_ms:g} ms p99, "
             f"{report.samples} codes"
         )
         for stage, stage_ms in report.stage_ms.items():
             typer.echo(f"  {stage:<18}{stage_ms:8.1f} ms median")
         typer.echo(
-            f"  Resolution: one image each {report.image_period_ms:g} ms; a code is seen "
-            f"{report.late_on_average_ms:g} ms late on average, which is in the numbers, as is the delay of "
-            f"the screen ({one.screen.width_px}x{one.screen.height_px} px, one image each "
+            f"  Resolution: one image every {report.image_period_ms:g} ms. A code is read "
+            f"{report.late_on_average_ms:g} ms late on average; the numbers include this and the delay of "
+            f"the screen ({one.screen.width_px}x{one.screen.height_px} px, one frame every "
             f"{one.screen.period_ms:.1f} ms).\n"
-            f"  Clocks of page and server agree within {report.clock_error_ms:g} ms; "
+            f"  The clocks of page and server agree within {report.clock_error_ms:g} ms; "
             f"{report.skipped_images} of {report.images + report.skipped_images} images were skipped."
         )
     if not results:
-        typer.echo(f"No latency is measured yet.\n\n{HOW_TO_MEASURE}", err=json)
+        typer.echo(f"No latency has been measured yet.\n\n{HOW_TO_MEASURE}", err=json)
         raise typer.Exit(NOT_MEASURED)
 
 
 @latency_app.command()
 def measure() -> None:
-    """Say how to measure: it takes a page, because a terminal shows no codes."""
+    """Print how to measure the latency in the browser."""
     typer.echo(HOW_TO_MEASURE)

@@ -1,4 +1,4 @@
-"""`coaxial marker`: a marker designed for a background, or an existing one checked against it."""
+"""`coaxial marker`: design a marker for a background, or check an existing one."""
 
 import itertools
 import re
@@ -12,13 +12,13 @@ import numpy as np
 import numpy.typing as npt
 import typer
 
-from server.cli.background import Film, film_of
-from server.cli.marker_report import Report, closest_picture, json_of, told
-from server.cli.output import reject_unwritable, write_whole
+from server.cli.background import BackgroundImages, background_from
+from server.cli.marker_report import Report, closest_picture, print_report, report_json
+from server.cli.output import reject_unwritable, write_atomically
 from server.cli.progress import Steps, shown_steps
 from server.marker_file import load_marker_image
 from server.printing import marker_sheet, pdf_from_sheet, svg_from_sheet
-from tracker.design import SEARCHED, Design, Shape, best_design, judgement_of, proposed_shapes
+from tracker.design import MAX_SEARCHED, Design, Shape, assess_marker, best_design, proposed_shapes
 from tracker.errors import InvalidInput
 from tracker.marker import MarkerModel, ScoreSettings
 
@@ -27,11 +27,11 @@ NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DesignOrder:
-    """What was asked for; see the options of `coaxial marker design`.
+class DesignOptions:
+    """Options of `coaxial marker design`.
 
     Attributes:
-        seed: None for the one of the name.
+        seed: None derives it from the name.
     """
 
     background: str | None
@@ -50,59 +50,61 @@ class DesignOrder:
         return svg, pdf, png
 
     @property
-    def drawn_from(self) -> int:
-        """The seed; where none was typed that of the name, because two markers of one shape are mistaken."""
+    def shape_seed(self) -> int:
+        """Return the seed; by default a hash of the name, so that markers of different names differ."""
         return zlib.crc32(self.name.encode()) if self.seed is None else self.seed
 
 
-def design_marker(order: DesignOrder, *, as_json: bool) -> int:
-    """Write the best of many proposals, tell its figures, and give the exit status: 0, or 1 if not unique.
+def design_marker(options: DesignOptions, *, as_json: bool) -> int:
+    """Write the best of many shapes and print its figures. Return the exit status: 0, or 1 if not unique.
 
     Raises:
         NavigationError: an option or the background cannot be used, or a file cannot be written.
     """
-    if not NAME.fullmatch(order.name):
+    if not NAME.fullmatch(options.name):
         raise InvalidInput(
             "MARKER_NAME_INVALID",
-            f"'{order.name}' is no name for a marker",
-            "Use letters, digits, - and _ with --name, at most 40, a letter or digit first.",
-            {"name": order.name},
+            f"'{options.name}' is not a valid marker name",
+            "Use 1 to 40 letters, digits, - and _ for --name, starting with a letter or digit.",
+            {"name": options.name},
         )
-    _reject_output(order)
+    _reject_output(options)
     settings = ScoreSettings()
     with shown_steps() as steps:
         film = (
-            None if order.background is None else film_of(order.background, images=order.images, steps=steps)
+            None
+            if options.background is None
+            else background_from(options.background, images=options.images, steps=steps)
         )
-        design = _designed(order, film, settings, steps)
-    _write(design, order)
+        design = _designed(options, film, settings, steps)
+    _write(design, options)
     report = Report(
-        name=order.name,
-        side_mm=order.side_mm,
-        judgement=design.judgement,
+        name=options.name,
+        side_mm=options.side_mm,
+        assessment=design.assessment,
         settings=settings,
         film=film,
-        files=tuple(map(str, order.files)),
-        made={"seed": order.drawn_from, "proposals": order.proposals},
+        files=tuple(map(str, options.files)),
+        made={"seed": options.shape_seed, "proposals": options.proposals},
     )
     if as_json:
-        typer.echo(json_of(report))
+        typer.echo(report_json(report))
     else:
-        told(report)
+        print_report(report)
         typer.echo(
             f"Wrote {', '.join(report.files)}.\n"
             "Print the PDF at 100 %, measure its rulers and the square, and track it with\n"
-            f"  --marker {report.files[2]} --side-mm {order.side_mm:g}   (or the side that you measured)"
+            f"  --marker {report.files[2]} --side-mm {options.side_mm:g}   (or the measured side)"
         )
-        if not design.judgement.unique:
-            typer.echo("Try more --proposals or another --seed: something still comes too close.")
-    return 0 if design.judgement.unique else FAILED
+        if not design.assessment.unique:
+            typer.echo("A false detection remains possible. Try more --proposals or another --seed.")
+    return 0 if design.assessment.unique else FAILED
 
 
 def check_marker(
     image: Path, *, background: str | None, side_mm: float, output: Path, images: int, as_json: bool
 ) -> int:
-    """Tell the figures of a marker, and give the exit status: 0, or 1 if something comes too close.
+    """Print the figures of a marker. Return the exit status: 0, or 1 if a false detection is possible.
 
     Raises:
         NavigationError: the picture or the background cannot be used, or a file cannot be written.
@@ -110,78 +112,80 @@ def check_marker(
     settings = ScoreSettings()
     model = MarkerModel.from_image(load_marker_image(image), side_mm=side_mm, name=image.stem)
     with shown_steps() as steps:
-        film = None if background is None else film_of(background, images=images, steps=steps)
-        judgement = judgement_of(
+        film = None if background is None else background_from(background, images=images, steps=steps)
+        assessment = assess_marker(
             model,
             None if film is None else film.background,
             settings,
             advance=lambda: steps.advance("searching images", None if film is None else len(film.numbers)),
         )
     files: tuple[str, ...] = ()
-    picture = None if film is None else closest_picture(model, judgement, film)
+    picture = None if film is None else closest_picture(model, assessment, film)
     if picture is not None:
         file = output / f"{image.stem}-closest.png"
-        write_whole(file, _png(picture))
+        write_atomically(file, _png(picture))
         files = (str(file),)
     report = Report(
         name=image.stem,
         side_mm=side_mm,
-        judgement=judgement,
+        assessment=assessment,
         settings=settings,
         film=film,
         files=files,
         made={},
     )
     if as_json:
-        typer.echo(json_of(report))
+        typer.echo(report_json(report))
     else:
-        told(report)
+        print_report(report)
         if files:
-            typer.echo(f"Wrote {files[0]}: the closest place, its inside, and the marker.")
-    return 0 if judgement.unique else FAILED
+            typer.echo(f"Wrote {files[0]}: the most similar place, its rectified image, and the marker.")
+    return 0 if assessment.unique else FAILED
 
 
-def _reject_output(order: DesignOrder) -> None:
-    """Before the work: a printed marker must stay the one that is tracked, and files need a place."""
-    there = [str(file) for file in order.files if file.exists()]
-    if there and not order.replace:
+def _reject_output(options: DesignOptions) -> None:
+    """Check the output files before the computation; an existing marker may already be printed."""
+    existing = [str(file) for file in options.files if file.exists()]
+    if existing and not options.replace:
         raise InvalidInput(
             "MARKER_FILES_EXIST",
-            f"there is a marker '{order.name}' already: {', '.join(there)}",
-            "Give another --name or --output, or --replace if no print of it is used.",
-            {"files": there},
+            f"the marker '{options.name}' exists already: {', '.join(existing)}",
+            "Give another --name or --output, or --replace if no print of this marker is in use.",
+            {"files": existing},
         )
-    for file in order.files:
+    for file in options.files:
         reject_unwritable(file)
 
 
-def _designed(order: DesignOrder, film: Film | None, settings: ScoreSettings, steps: Steps) -> Design:
-    # First the page: a side that cannot be printed must not cost a minute.
-    first = next(proposed_shapes(order.drawn_from))
-    marker_sheet(first, side_mm=order.side_mm, name=order.name)
-    searches = 0 if film is None else SEARCHED * len(film.numbers)
+def _designed(
+    options: DesignOptions, film: BackgroundImages | None, settings: ScoreSettings, steps: Steps
+) -> Design:
+    # Checks the printed size first, because the search takes a minute.
+    first = next(proposed_shapes(options.shape_seed))
+    marker_sheet(first, side_mm=options.side_mm, name=options.name)
+    searches = 0 if film is None else MAX_SEARCHED * len(film.numbers)
     return best_design(
-        list(_proposed(order, steps)),
+        list(_proposed(options, steps)),
         None if film is None else film.background,
         settings,
-        side_mm=order.side_mm,
-        name=order.name,
+        side_mm=options.side_mm,
+        name=options.name,
         advance=lambda: steps.advance("searching images", searches),
     )
 
 
-def _proposed(order: DesignOrder, steps: Steps) -> Iterator[Shape]:
-    for shape in itertools.islice(proposed_shapes(order.drawn_from), order.proposals):
-        steps.advance("proposing shapes", order.proposals)
+def _proposed(options: DesignOptions, steps: Steps) -> Iterator[Shape]:
+    for shape in itertools.islice(proposed_shapes(options.shape_seed), options.proposals):
+        steps.advance("proposing shapes", options.proposals)
         yield shape
 
 
-def _write(design: Design, order: DesignOrder) -> None:
-    sheet = marker_sheet(design.shape, side_mm=order.side_mm, name=order.name)
-    svg, pdf, png = order.files
-    write_whole(svg, svg_from_sheet(sheet).encode())
-    write_whole(pdf, pdf_from_sheet(sheet))
-    write_whole(png, _png(design.model.image))
+def _write(design: Design, options: DesignOptions) -> None:
+    sheet = marker_sheet(design.shape, side_mm=options.side_mm, name=options.name)
+    svg, pdf, png = options.files
+    write_atomically(svg, svg_from_sheet(sheet).encode())
+    write_atomically(pdf, pdf_from_sheet(sheet))
+    write_atomically(png, _png(design.model.image))
 
 
 def _png(image: npt.NDArray[np.uint8]) -> bytes:

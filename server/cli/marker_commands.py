@@ -1,4 +1,4 @@
-"""What can be typed after `coaxial marker`: design a marker, or check one."""
+"""The commands `coaxial marker design` and `coaxial marker check`."""
 
 from pathlib import Path
 from typing import Annotated
@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 marker_app = typer.Typer(
-    help="Design a marker that nothing in a background imitates, or check one.",
+    help="Design a marker that cannot be confused with a given background, or check an existing one.",
     no_args_is_help=True,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
@@ -14,14 +14,14 @@ marker_app = typer.Typer(
 BackgroundOption = Annotated[
     str | None,
     typer.Option(
-        help="What the marker must not be mistaken in: a video, a folder of images, or 'rehearsal'.",
+        help="Scene without the marker: a video, a folder of images, or 'rehearsal'.",
         metavar="VIDEO",
     ),
 ]
 SideOption = Annotated[float, typer.Option("--side-mm", help="Side of the black square in mm.", metavar="MM")]
-OutputOption = Annotated[Path, typer.Option(help="Folder that files are written into.", metavar="FOLDER")]
+OutputOption = Annotated[Path, typer.Option(help="Output folder.", metavar="FOLDER")]
 ImagesOption = Annotated[
-    int, typer.Option(help="Images of the background that are looked at, evenly spread over it.", min=1)
+    int, typer.Option(help="Number of background images to search, evenly spaced.", min=1)
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Write the figures as JSON.", show_default=False)]
 
@@ -31,30 +31,30 @@ def design(
     background: BackgroundOption = None,
     side_mm: SideOption = 25.0,
     output: OutputOption = Path(),
-    name: Annotated[str, typer.Option(help="Name of the marker, and of its files.")] = "marker",
+    name: Annotated[str, typer.Option(help="Name of the marker and of its files.")] = "marker",
     seed: Annotated[
         int | None,
         typer.Option(
-            help="Another seed proposes other shapes; it comes from the name if left out, so that "
-            "another name has another shape.",
+            help="Seed of the random shapes; default: derived from the name, so that markers of different "
+            "names differ.",
             min=0,
         ),
     ] = None,
-    proposals: Annotated[int, typer.Option(help="Shapes that are compared.", min=4, max=20_000)] = 300,
+    proposals: Annotated[int, typer.Option(help="Number of candidate shapes.", min=4, max=20_000)] = 300,
     images: ImagesOption = 120,
     replace: Annotated[
-        bool, typer.Option("--replace", help="Write over a marker of the same name.", show_default=False)
+        bool, typer.Option("--replace", help="Overwrite a marker of the same name.", show_default=False)
     ] = False,
     json: JsonOption = False,
 ) -> None:
-    """Propose a square marker, and write it as SVG and PDF at true size and as the picture that is tracked.
+    """Design a square marker; write it as SVG and PDF at true size, and as the PNG that the tracker reads.
 
-    Without a background it is only compared with itself, turned and mirrored.
-    Exit status 1 if something still comes too close; the files are written all the same.
+    Without a background the marker is only compared with its own rotations and mirror image.
+    Exit status 1 if a false detection remains possible; the files are written anyway.
     """
-    from server.cli.marker import DesignOrder, design_marker  # noqa: PLC0415  loaded when needed
+    from server.cli.marker import DesignOptions, design_marker  # noqa: PLC0415  loaded when needed
 
-    order = DesignOrder(
+    options = DesignOptions(
         background=background,
         side_mm=side_mm,
         output=output,
@@ -64,13 +64,13 @@ def design(
         images=images,
         replace=replace,
     )
-    raise typer.Exit(design_marker(order, as_json=json))
+    raise typer.Exit(design_marker(options, as_json=json))
 
 
 @marker_app.command()
 def check(
     image: Annotated[
-        Path, typer.Argument(help="Picture of the marker, filled edge to edge by its black square.")
+        Path, typer.Argument(help="Image of the marker whose black square fills it edge to edge.")
     ],
     background: BackgroundOption = None,
     side_mm: SideOption = 25.0,
@@ -78,10 +78,10 @@ def check(
     images: ImagesOption = 120,
     json: JsonOption = False,
 ) -> None:
-    """Measure an existing marker the same way, and write a picture of where the background comes closest.
+    """Check an existing marker, and write an image of the most similar place in the background.
 
-    Without a background it is only compared with itself, turned and mirrored.
-    Exit status 1 if something comes too close.
+    Without a background the marker is only compared with its own rotations and mirror image.
+    Exit status 1 if a false detection is possible.
     """
     from server.cli.marker import check_marker  # noqa: PLC0415  loaded when needed
 

@@ -1,4 +1,4 @@
-"""The figures of a marker: as a table, as JSON, and as a picture of where the background comes closest."""
+"""Report of a marker as table and JSON, and an image of the most similar place in the background."""
 
 import json
 import sys
@@ -12,8 +12,8 @@ import numpy.typing as npt
 from rich.console import Console
 from rich.table import Table
 
-from server.cli.background import Film
-from tracker.design import FalseScore, Judgement, flattened
+from server.cli.background import BackgroundImages
+from tracker.design import FalseScore, MarkerAssessment, rectified
 from tracker.geometry import Array
 from tracker.marker import MarkerModel, ScoreSettings
 
@@ -24,46 +24,46 @@ ORANGE_BGR = (0, 140, 255)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Report:
-    """What is told of a marker.
+    """Report of a marker.
 
     Attributes:
-        name: of the marker.
-        side_mm: its side.
-        judgement: its figures.
-        settings: what the tracker accepts.
-        film: the background, None without one.
-        files: that were written.
-        made: what it was made from, by the option's name.
+        name: Name of the marker.
+        side_mm: Its side.
+        assessment: Its scores.
+        settings: Acceptance thresholds of the tracker.
+        film: Background images; None without a background.
+        files: Files that were written.
+        made: Design parameters by option name.
     """
 
     name: str
     side_mm: float
-    judgement: Judgement
+    assessment: MarkerAssessment
     settings: ScoreSettings
-    film: Film | None
+    film: BackgroundImages | None
     files: tuple[str, ...]
     made: Mapping[str, int]
 
 
-def told(report: Report) -> None:
-    """Print the table, and in a sentence each: the verdict, the pose, and what was not measured."""
-    judgement, settings, film = report.judgement, report.settings, report.film
+def print_report(report: Report) -> None:
+    """Print the table, the verdict, the pose accuracy, and what was not measured."""
+    assessment, settings, film = report.assessment, report.settings, report.film
     console = Console(file=sys.stdout, width=None if sys.stdout.isatty() else WIDTH_WITHOUT_TERMINAL)
     table = Table(title=f"marker {report.name}, {report.side_mm:g} mm", title_justify="left")
-    table.add_column("where the marker is not")
+    table.add_column("place without the marker")
     table.add_column(f"score\n(accepted from {settings.accept_score_ratio:.2f})", justify="right")
     table.add_column(f"edges inside\n(from {settings.accept_inner_coverage_ratio:.2f})", justify="right")
     table.add_column(f"target score\n(from {settings.accept_target_score_ratio:.2f})", justify="right")
     table.add_column("")
-    table.add_row("itself turned, 27 px wide", *_columns(judgement.turned))
-    table.add_row("its mirror image, 27 px wide", *_columns(judgement.mirrored))
+    table.add_row("rotated by 90, 180, 270°, 27 px", *_columns(assessment.rotated))
+    table.add_row("mirrored, 27 px", *_columns(assessment.mirrored))
     if film is not None:
-        for place in judgement.nearest[:1]:
+        for place in assessment.nearest[:1]:
             table.add_row(f"closest square, image {film.numbers[place.image_index]}", *_columns(place.score))
-        found = judgement.search
-        verdict = f"CLAIMED in {len(found.claims)}" if found.claims else "claimed in none"
+        found = assessment.search
+        verdict = f"DETECTED in {len(found.claims)}" if found.claims else "detected in none"
         table.add_row(
-            f"search of {judgement.images} images",
+            f"search of {assessment.images} images",
             f"{found.best_score_ratio:.2f}",
             "-",
             "-",
@@ -74,22 +74,22 @@ def told(report: Report) -> None:
         console.print(sentence, highlight=False, markup=False)
 
 
-def json_of(report: Report) -> str:
-    """The figures as one JSON object."""
-    judgement, film = report.judgement, report.film
-    precision = judgement.precision
-    whole: dict[str, Any] = {
+def report_json(report: Report) -> str:
+    """Return the figures as one JSON object."""
+    assessment, film = report.assessment, report.film
+    precision = assessment.precision
+    values: dict[str, Any] = {
         "name": report.name,
         "side_mm": report.side_mm,
         **report.made,
-        "unique": judgement.unique,
-        "best_false_score_ratio": judgement.best_false_score_ratio,
+        "unique": assessment.unique,
+        "best_false_score_ratio": assessment.best_false_score_ratio,
         "accept_score_ratio": report.settings.accept_score_ratio,
         "accept_inner_coverage_ratio": report.settings.accept_inner_coverage_ratio,
         "accept_target_score_ratio": report.settings.accept_target_score_ratio,
-        "turned": _score(judgement.turned),
-        "mirrored": _score(judgement.mirrored),
-        "own_correlation": judgement.own_correlation,
+        "turned": _score(assessment.rotated),
+        "mirrored": _score(assessment.mirrored),
+        "own_correlation": assessment.own_correlation,
         "tilt_sd_deg": precision.tilt_sd_deg,
         "plain_tilt_sd_deg": precision.plain_tilt_sd_deg,
         "distance_sd_ratio": precision.distance_sd_ratio,
@@ -98,17 +98,17 @@ def json_of(report: Report) -> str:
         "files": list(report.files),
     }
     if film is not None:
-        whole["background"] = {
+        values["background"] = {
             "name": film.name,
-            "images": judgement.images,
-            "best_search_score_ratio": judgement.search.best_score_ratio,
+            "images": assessment.images,
+            "best_search_score_ratio": assessment.search.best_score_ratio,
             "claims": [
                 {
                     "image_number": film.numbers[claim.image_index],
                     "corners_px": claim.corners_px.tolist(),
                     "score_ratio": claim.score_ratio,
                 }
-                for claim in judgement.search.claims
+                for claim in assessment.search.claims
             ],
             "closest": [
                 {
@@ -117,70 +117,72 @@ def json_of(report: Report) -> str:
                     "correlation": place.correlation,
                     **_score(place.score),
                 }
-                for place in judgement.nearest
+                for place in assessment.nearest
             ],
         }
-    return json.dumps(whole, allow_nan=False)
+    return json.dumps(values, allow_nan=False)
 
 
-def closest_picture(model: MarkerModel, judgement: Judgement, film: Film) -> npt.NDArray[np.uint8] | None:
-    """Where the background comes closest, outlined in its image; beside it the same flattened, and the model.
+def closest_picture(
+    model: MarkerModel, assessment: MarkerAssessment, film: BackgroundImages
+) -> npt.NDArray[np.uint8] | None:
+    """Draw the most similar place of the background, its rectified image, and the marker.
 
-    A place that the tracker claims comes before any other. None where the background has no square at all.
+    False detections of the tracker come first. Returns None if the background has no square.
     """
     place: tuple[int, Array] | None = None
-    if judgement.search.claims:
-        place = judgement.search.claims[0].image_index, judgement.search.claims[0].corners_px
-    elif judgement.nearest:
-        place = judgement.nearest[0].image_index, judgement.nearest[0].corners_px
+    if assessment.search.claims:
+        place = assessment.search.claims[0].image_index, assessment.search.claims[0].corners_px
+    elif assessment.nearest:
+        place = assessment.nearest[0].image_index, assessment.nearest[0].corners_px
     if place is None:
         return None
     image, corners = film.background.images[place[0]], place[1]
     drawn = np.asarray(cv2.cvtColor(image, cv2.COLOR_GRAY2BGR), dtype=np.uint8)
     outline = np.rint(corners * 16.0).astype(np.int32)
     cv2.polylines(drawn, [outline], True, ORANGE_BGR, 2, cv2.LINE_AA, shift=4)
-    # The first side is the marker's upper one.
+    # The first side is the upper side of the marker.
     cv2.polylines(drawn, [outline[:2]], False, ORANGE_BGR, 5, cv2.LINE_AA, shift=4)
-    inside = flattened(image, corners, side_px=INSET_PX)
+    inside = rectified(image, corners, side_px=INSET_PX)
     marker = cv2.resize(model.square, (INSET_PX, INSET_PX), interpolation=cv2.INTER_AREA)
     height = max(drawn.shape[0], 2 * INSET_PX + 3 * GAP_PX)
-    whole = np.full((height, drawn.shape[1] + INSET_PX + 2 * GAP_PX, 3), 255, np.uint8)
-    whole[: drawn.shape[0], : drawn.shape[1]] = drawn
+    canvas = np.full((height, drawn.shape[1] + INSET_PX + 2 * GAP_PX, 3), 255, np.uint8)
+    canvas[: drawn.shape[0], : drawn.shape[1]] = drawn
     left = drawn.shape[1] + GAP_PX
     for row, part in enumerate((inside, marker)):
         top = GAP_PX + row * (INSET_PX + GAP_PX)
-        whole[top : top + INSET_PX, left : left + INSET_PX] = part[..., None]
-    return whole
+        canvas[top : top + INSET_PX, left : left + INSET_PX] = part[..., None]
+    return canvas
 
 
 def _sentences(report: Report) -> list[str]:
-    judgement, precision = report.judgement, report.judgement.precision
+    assessment, precision = report.assessment, report.assessment.precision
     sentences = [
-        f"Best false score {judgement.best_false_score_ratio:.2f}, "
+        f"Best false score {assessment.best_false_score_ratio:.2f}, "
         + (
-            "but nothing reaches all that is accepted: score, edges inside and target score together."
-            if judgement.unique
-            else "SOMETHING REACHES ALL THAT IS ACCEPTED."
+            "but no place reaches all thresholds: score, inner edges and target score."
+            if assessment.unique
+            else "A FALSE DETECTION REACHES ALL THRESHOLDS."
         ),
-        "Pose where it is 27 px wide, tilted by 30°, the best any method can do at ordinary noise: "
-        f"tilt {precision.tilt_sd_deg:.2f}° ({precision.tilt_gain:.1f} times surer than a plain square), "
+        "Lower bound of the pose error at 27 px width, 30° tilt and usual noise: "
+        f"tilt {precision.tilt_sd_deg:.2f}° ({precision.tilt_gain:.1f} times better than a plain square), "
         f"distance {100 * precision.distance_sd_ratio:.2f} % ({precision.distance_gain:.1f} times).",
     ]
-    if judgement.search.claims:
+    if assessment.search.claims:
         sentences.append(
-            "The tracker claims the marker in the background: either it is in those images itself, or they "
-            "show something that cannot be told from it."
+            "The tracker detects the marker in the background: either the images contain the marker, or an "
+            "object that cannot be distinguished from it."
         )
     if report.film is None:
-        sentences.append("No background was given: it was compared with itself alone.")
+        sentences.append("No background was given: the marker was only compared with itself.")
     return sentences
 
 
 def _columns(score: FalseScore) -> tuple[str, str, str, str]:
-    reached = "TAKEN FOR IT" if score.accepted else ""
+    reached = "FALSE MATCH" if score.accepted else ""
     ratios = (score.score_ratio, score.inner_coverage_ratio, score.target_score_ratio)
-    whole, inner, target = (f"{ratio:.2f}" for ratio in ratios)
-    return whole, inner, target, reached
+    total, inner, target = (f"{ratio:.2f}" for ratio in ratios)
+    return total, inner, target, reached
 
 
 def _score(score: FalseScore) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""From the options of a command to the settings that it runs with."""
+"""Settings from the options of a command."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,8 +10,8 @@ from tracker.errors import InvalidInput
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Given:
-    """What was typed; None or empty where nothing was."""
+class SettingOptions:
+    """Options that override settings; None or empty if not given."""
 
     config: Path | None = None
     source: str | None = None
@@ -24,8 +24,8 @@ class Given:
     rate: str | None = None
 
 
-def config_from_options(given: Given) -> Config:
-    """The settings file with what was typed put over it.
+def config_from_options(given: SettingOptions) -> Config:
+    """Return the settings file with the options applied.
 
     Raises:
         ConfigError: a setting cannot be used.
@@ -44,34 +44,34 @@ def config_from_options(given: Given) -> Config:
     if given.source is not None:
         put(("camera", "source"), given.source, "--source")
         if source_from_text(given.source).kind is SourceKind.REHEARSAL:
-            # The theatre brings its own.
+            # The simulated theatre has its own calibration.
             overrides.setdefault(("camera", "calibration"), Override(value=None, origin="--source"))
     for name, picture, side_mm in _markers(given):
         put(("markers", name), {"image": str(picture), "side_mm": side_mm}, f"--marker {picture}")
     return load_config(given.config, overrides=overrides)
 
 
-def _markers(given: Given) -> list[tuple[str, Path, float]]:
-    """Name, picture and side of each --marker."""
+def _markers(given: SettingOptions) -> list[tuple[str, Path, float]]:
+    """Return name, image and side of each --marker."""
     count = len(given.markers)
     sides = given.sides_mm * count if len(given.sides_mm) == 1 else given.sides_mm
     names = given.names or tuple(_name_from_file(picture) for picture in given.markers)
     if len(sides) != count or len(names) != count or len(set(names)) != count:
         raise InvalidInput(
             "MARKER_OPTIONS_UNEVEN",
-            f"--marker is there {count} times, --side-mm {len(given.sides_mm)} times, "
+            f"--marker is given {count} times, --side-mm {len(given.sides_mm)} times, "
             f"--name {len(given.names)} times"
             + (" (two markers have the same name)" if len(set(names)) != len(names) else ""),
-            "Give each --marker its --side-mm (or one for all), and one --name each or none, all different.",
+            "Give one --side-mm per --marker or one for all, and a different --name for each or none.",
             {"markers": count, "sides": len(given.sides_mm), "names": len(given.names)},
         )
     return list(zip(names, given.markers, sides, strict=True))
 
 
 def _name_from_file(picture: Path) -> str:
-    """A name that the settings allow, from a file's name."""
-    kept = "".join(
+    """Return a valid marker name from a file name."""
+    stored = "".join(
         letter if letter.isascii() and (letter.isalnum() or letter in "_-") else "-"
         for letter in picture.stem
     )
-    return kept.strip("-_")[:40] or "marker"
+    return stored.strip("-_")[:40] or "marker"

@@ -1,4 +1,4 @@
-"""Where a command's lines go: a file that is whole or is not there, a device, or standard output."""
+"""Output of commands: files that are replaced atomically, devices, and standard output."""
 
 import contextlib
 import os
@@ -12,8 +12,8 @@ from tracker.errors import InvalidInput
 PART = ".part"
 
 
-class Lines:
-    """Writes lines, and says in one sentence when they cannot be written."""
+class LineWriter:
+    """Write lines to a stream; I/O errors become `InvalidInput`."""
 
     def __init__(self, file: IO[str], *, name: str, on_disk: bool) -> None:
         self._file = file
@@ -25,20 +25,20 @@ class Lines:
 
         Raises:
             InvalidInput: OUTPUT_NOT_WRITTEN, the disk is full or gone.
-            BrokenPipeError: nobody reads standard output any more.
+            BrokenPipeError: the reader of standard output has closed it.
         """
-        with self._told():
+        with self._converted_errors():
             self._file.write(line + "\n")
 
     def finish(self) -> None:
-        """See that all lines have arrived. Raises as `write`."""
-        with self._told():
+        """Flush all lines to the disk. Raises the same errors as `write`."""
+        with self._converted_errors():
             self._file.flush()
             if self._on_disk:
                 os.fsync(self._file.fileno())
 
     @contextlib.contextmanager
-    def _told(self) -> Iterator[None]:
+    def _converted_errors(self) -> Iterator[None]:
         try:
             yield
         except BrokenPipeError:
@@ -46,23 +46,25 @@ class Lines:
         except OSError as error:
             raise InvalidInput(
                 "OUTPUT_NOT_WRITTEN",
-                f"{self._name} cannot be written to its end: {(error.strerror or str(error)).lower()}",
-                "Make room, or name a file on another disk; what was written so far is no whole result.",
+                f"{self._name} was not written completely: {(error.strerror or str(error)).lower()}",
+                "Free space, or give a file on another disk. The output so far is incomplete.",
                 {"file": self._name},
             ) from error
 
 
 @contextlib.contextmanager
-def lines_to(json_file: str | None, *, inputs: Iterable[Path], replace: bool) -> Iterator[Lines | None]:
-    """Where lines go; None where none are wanted.
+def line_writer(
+    json_file: str | None, *, inputs: Iterable[Path], replace: bool
+) -> Iterator[LineWriter | None]:
+    """Yield the writer for the output; None if no output is requested.
 
-    A file has its name only once it is complete, until then it ends in .part. What is no ordinary file (a
-    device, a pipe) is written into and never replaced.
+    A file is written under a name ending in .part and renamed when it is complete. Devices and pipes are
+    written to directly.
 
     Args:
-        json_file: a path, "-" for standard output, or None.
-        inputs: what is read meanwhile, and must not be written over.
-        replace: whether a file of that name may be written over. An empty one always may.
+        json_file: A path, "-" for standard output, or None.
+        inputs: Files that are being read and must not be overwritten.
+        replace: Whether an existing file may be overwritten. An empty file always may.
 
     Raises:
         InvalidInput: OUTPUT_IS_INPUT, OUTPUT_EXISTS, OUTPUT_NOT_WRITABLE, or OUTPUT_NOT_WRITTEN.
@@ -71,11 +73,11 @@ def lines_to(json_file: str | None, *, inputs: Iterable[Path], replace: bool) ->
         yield None
         return
     if json_file == "-":
-        lines = Lines(sys.stdout, name="standard output", on_disk=False)
+        lines = LineWriter(sys.stdout, name="standard output", on_disk=False)
         yield lines
         lines.finish()
         return
-    # A link stays a link: what it names is written.
+    # A symbolic link is kept; its target is written.
     path = Path(json_file).resolve()
     replaced = path.is_file() or not path.exists()
     written = path.with_name(path.name + PART) if replaced else path
@@ -83,20 +85,20 @@ def lines_to(json_file: str | None, *, inputs: Iterable[Path], replace: bool) ->
     if replaced and not replace:
         _reject_older(json_file, path)
     file = _opened(written)
-    lines = Lines(file, name=str(written), on_disk=replaced)
+    lines = LineWriter(file, name=str(written), on_disk=replaced)
     try:
         yield lines
         lines.finish()
     finally:
-        # What could not be written cannot be written now either, and is told already.
+        # A failed write was already reported; closing the file fails for the same reason.
         with contextlib.suppress(OSError):
             file.close()
     if replaced:
         written.replace(path)
 
 
-def write_whole(path: Path, content: bytes) -> None:
-    """Write a file that is whole or is not there; its folder is made where it is missing.
+def write_atomically(path: Path, content: bytes) -> None:
+    """Write a file atomically; create its folder if it is missing.
 
     Raises:
         InvalidInput: OUTPUT_NOT_WRITABLE.
@@ -110,19 +112,19 @@ def write_whole(path: Path, content: bytes) -> None:
         raise InvalidInput(
             "OUTPUT_NOT_WRITABLE",
             f"{path} cannot be written: {(error.strerror or str(error)).lower()}",
-            "Give a folder that may be written, on a disk with room, with --output.",
+            "Give a writable folder on a disk with free space with --output.",
             {"file": str(path)},
         ) from error
 
 
 def reject_unwritable(path: Path) -> None:
-    """See that a file can be written before the work for it; its folder is made where it is missing.
+    """Check that a file can be written; create its folder if it is missing.
 
     Raises:
         InvalidInput: OUTPUT_NOT_WRITABLE.
     """
     part = path.with_name(path.name + PART)
-    write_whole(part, b"")
+    write_atomically(part, b"")
     part.unlink()
 
 
@@ -133,7 +135,7 @@ def _opened(path: Path) -> IO[str]:
         raise InvalidInput(
             "OUTPUT_NOT_WRITABLE",
             f"{path} cannot be written: {(error.strerror or '').lower()}",
-            "Give a file in a folder that exists and may be written, or - for standard output.",
+            "Give a file in an existing writable folder, or - for standard output.",
             {"file": str(path)},
         ) from error
 
@@ -143,8 +145,8 @@ def _reject_older(json_file: str, path: Path) -> None:
     if size:
         raise InvalidInput(
             "OUTPUT_EXISTS",
-            f"there is a file {json_file} already, of {size} bytes",
-            "Give another one with --json, or --replace if it is not used any more.",
+            f"the file {json_file} exists already ({size} bytes)",
+            "Give another file with --json, or overwrite this one with --replace.",
             {"file": json_file, "bytes": size},
         )
 
@@ -156,7 +158,7 @@ def _reject_input(json_file: str, outputs: Iterable[Path], inputs: Iterable[Path
                 if output.samefile(source):
                     raise InvalidInput(
                         "OUTPUT_IS_INPUT",
-                        f"--json {json_file} would write over {source}, which is read",
-                        "Give the lines a file of their own.",
+                        f"--json {json_file} would overwrite the input {source}",
+                        "Give another output file with --json.",
                         {"file": json_file, "input": str(source)},
                     )

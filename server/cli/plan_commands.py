@@ -1,4 +1,4 @@
-"""What can be typed after `coaxial plan`."""
+"""The commands `coaxial plan measure` and `coaxial plan series`."""
 
 from pathlib import Path
 from typing import Annotated
@@ -24,30 +24,31 @@ def measure(
     seed_lps_mm: Annotated[
         str,
         typer.Option(
-            help="A point in the pedicle, x,y,z in mm: x to the patient's left, y backwards, z up.",
+            help="A point inside the pedicle, x,y,z in mm (LPS: x to the left, y posterior, z superior).",
             metavar="X,Y,Z",
         ),
     ],
     series: Annotated[
-        str | None, typer.Option(help="Which series, where the folder holds several.", metavar="ID")
+        str | None,
+        typer.Option(help="Series to read if CT contains several; see 'coaxial plan series'.", metavar="ID"),
     ] = None,
     config: Annotated[
         Path | None,
-        typer.Option(help="Settings file; ./config.yaml is taken if it is there.", metavar="FILE"),
+        typer.Option(help="Settings file; default: ./config.yaml if it exists.", metavar="FILE"),
     ] = None,
     json: Annotated[
         bool, typer.Option("--json", help="Write the figures as JSON.", show_default=False)
     ] = False,
 ) -> None:
-    """Measure a pedicle from one point in it: width, height, angles, length, and the screw that fits.
+    """Measure a pedicle from one point inside it: width, height, angles, length, and the screw that fits.
 
-    Angles stand against the patient's axes: transverse_deg on an axial slice, positive to the middle;
-    sagittal_deg on a sagittal slice, positive to the head; both going forwards.
+    Angles are relative to the patient axes, looking anteriorly: transverse_deg in the axial plane, positive
+    towards medial; sagittal_deg in the sagittal plane, positive towards cranial.
     """
-    from server.cli.plan import MeasureOrder, measure_in_file  # noqa: PLC0415  loaded when needed
+    from server.cli.plan import MeasureOptions, measure_in_file  # noqa: PLC0415  loaded when needed
 
-    order = MeasureOrder(ct=ct, side=side, seed_lps_mm=seed_lps_mm, series=series, config=config)
-    measure_in_file(order, as_json=json)
+    options = MeasureOptions(ct=ct, side=side, seed_lps_mm=seed_lps_mm, series=series, config=config)
+    measure_in_file(options, as_json=json)
 
 
 @plan_app.command()
@@ -57,7 +58,7 @@ def series(
         bool, typer.Option("--json", help="Write the series as JSON.", show_default=False)
     ] = False,
 ) -> None:
-    """List the series of a CT: slices, size and spacing; the first word of a line is what --series takes."""
-    from server.cli.plan_series import tell_series  # noqa: PLC0415  loaded when needed
+    """List the series of a CT: ID (for --series), number of slices, size and spacing."""
+    from server.cli.plan_series import print_series  # noqa: PLC0415  loaded when needed
 
-    tell_series(ct, as_json=json)
+    print_series(ct, as_json=json)

@@ -1,4 +1,4 @@
-"""`coaxial plan series`: which series a CT's folder, zip or file holds, without the patient's name."""
+"""`coaxial plan series`: list the series of a CT folder, zip or file, without the patient name."""
 
 import dataclasses
 import json
@@ -9,8 +9,8 @@ import typer
 from server.imaging import SeriesDescription, list_series
 
 
-def tell_series(ct: Path, *, as_json: bool) -> None:
-    """Write the series to standard output, one a line, or as JSON.
+def print_series(ct: Path, *, as_json: bool) -> None:
+    """Print the series, one per line or as JSON.
 
     Raises:
         InvalidInput: a code beginning with CT_.
@@ -33,6 +33,6 @@ def _line(one: SeriesDescription) -> str:
         f"{across:g} x {down:g} mm",
         f"{one.thickness_mm:g} mm thick" if one.thickness_mm > 0.0 else "",
         one.words,
-        f"not to plan on: {one.problem}" if one.problem else "",
+        f"not usable for planning: {one.problem}" if one.problem else "",
     ]
     return ", ".join(part for part in parts if part)

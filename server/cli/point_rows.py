@@ -1,4 +1,4 @@
-"""Tables of points in CSV files, with a name and a unit over each column."""
+"""Read named columns of points from CSV files."""
 
 import csv
 import math
@@ -14,7 +14,7 @@ MAX_ROWS = 100_000
 
 
 def read_columns(path: Path, columns: Sequence[str]) -> Array:
-    """The named columns (rows, columns) of a CSV file, whose other columns are let be.
+    """Return the named columns (rows, columns) of a CSV file; other columns are ignored.
 
     Raises:
         InvalidInput: POINTS_UNREADABLE, POINTS_INCOMPLETE, POINTS_INVALID; the line is named.
@@ -24,10 +24,10 @@ def read_columns(path: Path, columns: Sequence[str]) -> Array:
         text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
-        message = f"the points {path} cannot be read: {reason}"
+        message = f"the points file {path} cannot be read: {reason}"
         raise InvalidInput("POINTS_UNREADABLE", message, remedy, {"file": str(path)}) from error
     except UnicodeDecodeError as error:
-        message = f"the points {path} are no text"
+        message = f"the points file {path} is not a text file"
         raise InvalidInput("POINTS_UNREADABLE", message, remedy, {"file": str(path)}) from error
     lines = text.splitlines()
     first = lines[0] if lines else ""
@@ -37,7 +37,7 @@ def read_columns(path: Path, columns: Sequence[str]) -> Array:
     if missing:
         raise InvalidInput(
             "POINTS_INCOMPLETE",
-            f"the points {path} lack the column {', '.join(missing)}",
+            f"the points file {path} lacks the column {', '.join(missing)}",
             remedy,
             {"file": str(path), "missing": missing},
         )
@@ -50,7 +50,7 @@ def read_columns(path: Path, columns: Sequence[str]) -> Array:
     if not 0 < len(rows) <= MAX_ROWS:
         raise InvalidInput(
             "POINTS_INCOMPLETE",
-            f"the points {path} have {len(rows)} rows, needed 1 to {MAX_ROWS}",
+            f"the points file {path} has {len(rows)} rows, expected 1 to {MAX_ROWS}",
             remedy,
             {"file": str(path), "rows": len(rows)},
         )
@@ -68,7 +68,7 @@ def _numbers(words: list[str], places: list[int], path: Path, line: int, remedy:
         if not math.isfinite(value):
             raise InvalidInput(
                 "POINTS_INVALID",
-                f"line {line} of {path} has '{word}' where a number is needed",
+                f"line {line} of {path} has '{word}' where a number is expected",
                 remedy,
                 {"file": str(path), "line": line},
             )

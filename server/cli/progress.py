@@ -1,4 +1,4 @@
-"""A bar for each step of a command, on standard error if that is a terminal."""
+"""Progress bars for the steps of a command, on standard error if it is a terminal."""
 
 import contextlib
 from collections.abc import Iterator
@@ -8,14 +8,14 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextC
 
 
 class Steps:
-    """Moves the bar of the step that is being done; without a terminal nothing is shown."""
+    """Progress bars by step name; without a terminal nothing is shown."""
 
     def __init__(self, progress: Progress | None) -> None:
         self._progress = progress
         self._tasks: dict[str, TaskID] = {}
 
     def advance(self, step: str, total: int | None) -> None:
-        """One more of this step is done; `total` is how many there will be, if that can be told."""
+        """Advance this step by one; `total` is its expected length, None if unknown."""
         if self._progress is None:
             return
         if step not in self._tasks:
@@ -25,7 +25,7 @@ class Steps:
 
 @contextlib.contextmanager
 def shown_steps() -> Iterator[Steps]:
-    """Bars while the block runs; they are gone at its end."""
+    """Show progress bars while the block runs and remove them at its end."""
     console = Console(stderr=True)
     if not console.is_terminal:
         yield Steps(None)

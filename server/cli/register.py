@@ -1,4 +1,4 @@
-"""`coaxial register points`: two lists of landmarks, and the motion that lays one on the other."""
+"""`coaxial register points`: paired-point registration of two landmark files."""
 
 import json
 from collections.abc import Sequence
@@ -14,8 +14,8 @@ from tracker.errors import InvalidInput, RegistrationError
 from tracker.geometry import Array
 from tracker.plan.remark import Remark
 from tracker.registration.points import (
-    PairedPoints,
     PointGate,
+    PointPairs,
     PointRegistration,
     PointSettings,
     register_points,
@@ -25,8 +25,8 @@ FAILED = 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PointsOrder:
-    """What was typed; see the options of `coaxial register points`."""
+class PointsOptions:
+    """Options of `coaxial register points`."""
 
     fixed: Path
     moving: Path
@@ -37,20 +37,20 @@ class PointsOrder:
     max_tre_mm: float | None
 
 
-def register_from_files(order: PointsOrder, *, as_json: bool) -> int:
-    """Fit, tell it, and give the exit status: 0, or 1 above a limit that was asked for.
+def register_from_files(options: PointsOptions, *, as_json: bool) -> int:
+    """Register and print the result. Return the exit status: 0, or 1 if a given limit is exceeded.
 
     Raises:
-        NavigationError: a file cannot be used, or the points say no motion.
+        NavigationError: a file cannot be used, or the points do not determine a transform.
     """
-    targets = [target_from_text(text) for text in order.targets]
-    pairs = pairs_of_files(read_landmarks(order.fixed), read_landmarks(order.moving))
-    settings = PointSettings(min_fle_mm=order.min_fle_mm)
-    found = register_points(pairs, excluded=_excluded(order.excluded, pairs), settings=settings)
+    targets = [target_from_text(text) for text in options.targets]
+    pairs = pairs_of_files(read_landmarks(options.fixed), read_landmarks(options.moving))
+    settings = PointSettings(min_fle_mm=options.min_fle_mm)
+    found = register_points(pairs, excluded=_excluded(options.excluded, pairs), settings=settings)
     failures = found.failures(
         PointGate(
-            max_fre_mm=np.inf if order.max_fre_mm is None else order.max_fre_mm,
-            max_tre_mm=np.inf if order.max_tre_mm is None else order.max_tre_mm,
+            max_fre_mm=np.inf if options.max_fre_mm is None else options.max_fre_mm,
+            max_tre_mm=np.inf if options.max_tre_mm is None else options.max_tre_mm,
         ),
         targets,
     )
@@ -66,7 +66,7 @@ def register_from_files(order: PointsOrder, *, as_json: bool) -> int:
 
 
 def target_from_text(text: str) -> Array:
-    """The point of `x,y,z`, with commas or blanks.
+    """Parse `x,y,z`, separated by commas or blanks.
 
     Raises:
         InvalidInput: TARGET_INVALID.
@@ -78,40 +78,38 @@ def target_from_text(text: str) -> Array:
     if target.shape != (3,) or not np.isfinite(target).all():
         raise InvalidInput(
             "TARGET_INVALID",
-            f"--target-mm is '{text}', needed three numbers",
+            f"--target-mm is '{text}', expected three numbers",
             "Give x,y,z in mm in the frame of the fixed points, as --target-mm=-12.5,40,-803.",
             {"target_mm": text},
         )
     return target
 
 
-def pairs_of_files(fixed: LandmarkRows, moving: LandmarkRows) -> PairedPoints:
-    """The points of both files in one order: by their names, where both have some."""
+def pairs_of_files(fixed: LandmarkRows, moving: LandmarkRows) -> PointPairs:
+    """Pair the points of both files, by name if both have names, otherwise by order."""
     if not (fixed.labels and moving.labels):
         labels = fixed.labels or moving.labels
         same = len(fixed.points_mm) == len(moving.points_mm)
-        return PairedPoints(
-            fixed_mm=fixed.points_mm, moving_mm=moving.points_mm, labels=labels if same else ()
-        )
+        return PointPairs(fixed_mm=fixed.points_mm, moving_mm=moving.points_mm, labels=labels if same else ())
     alone = sorted(set(fixed.labels) ^ set(moving.labels))
     if alone:
         raise RegistrationError(
             "POINTS_NAMES_DIFFER",
-            f"the points {', '.join(alone[:6])} are in one of the two files alone",
-            "Give each landmark the same name in both files, or leave it out of both.",
+            f"the points {', '.join(alone[:6])} are in only one of the two files",
+            "Give each landmark the same name in both files, or remove it from both.",
             {"alone": alone, "fixed": len(fixed.labels), "moving": len(moving.labels)},
         )
     order = [moving.labels.index(label) for label in fixed.labels]
-    return PairedPoints(fixed_mm=fixed.points_mm, moving_mm=moving.points_mm[order], labels=fixed.labels)
+    return PointPairs(fixed_mm=fixed.points_mm, moving_mm=moving.points_mm[order], labels=fixed.labels)
 
 
-def _excluded(names: Sequence[str], pairs: PairedPoints) -> list[int]:
+def _excluded(names: Sequence[str], pairs: PointPairs) -> list[int]:
     unknown = [name for name in names if name not in pairs.labels]
     if unknown:
         raise InvalidInput(
             "POINTS_NAME_UNKNOWN",
-            f"there is no point '{unknown[0]}', there are {', '.join(pairs.labels)}",
-            "Name a point as the files do, or by its number where they have no names.",
+            f"there is no point '{unknown[0]}', known points are {', '.join(pairs.labels)}",
+            "Give a name from the files, or the number of the point if they have no names.",
         )
     return [pairs.labels.index(name) for name in names]
 
@@ -120,12 +118,12 @@ def _mapping(
     found: PointRegistration, targets: Sequence[Array], failures: Sequence[RegistrationError]
 ) -> dict[str, Any]:
     tre = [found.tre_expected_mm(target) for target in targets]
-    left_out = found.left_out_mm
+    left_out = found.leave_one_out_mm
     return {
         "fixed_from_moving": found.fixed_from_moving.matrix.tolist(),
         "fre_rms_mm": found.fre_rms_mm,
         "residuals_mm": found.distances_mm.tolist(),
-        # One target, one number; of several a list, and nothing where nobody asked.
+        # A number for one target, a list for several, null without a target.
         "tre_expected_mm": tre[0] if len(tre) == 1 else (tre or None),
         "targets": [
             {
@@ -141,7 +139,7 @@ def _mapping(
                 "used": bool(found.used[index]),
                 "residual_xyz_mm": found.residuals_mm[index].tolist(),
                 "residual_mm": float(found.distances_mm[index]),
-                "left_out_mm": left_out.get(index),
+                "leave_one_out_mm": left_out.get(index),
             }
             for index, label in enumerate(found.pairs.labels)
         ],
@@ -149,17 +147,17 @@ def _mapping(
         "scale_ratio": found.scale_ratio,
         "covariance": found.covariance.tolist(),
         "covariance_of": "fixed_from_moving [mm, rad]: translation, then a small left-multiplied rotation",
-        "warnings": [_told(remark) for remark in found.remarks],
-        "gate": {"passed": not failures, "failures": [_told(failure) for failure in failures]},
+        "warnings": [_failure_value(remark) for remark in found.remarks],
+        "gate": {"passed": not failures, "failures": [_failure_value(failure) for failure in failures]},
     }
 
 
-def _told(said: Remark | RegistrationError) -> dict[str, str]:
-    return {"code": said.code, "message": said.message, "remedy": said.remedy}
+def _failure_value(failure: Remark | RegistrationError) -> dict[str, str]:
+    return {"code": failure.code, "message": failure.message, "remedy": failure.remedy}
 
 
 def _lines(found: PointRegistration, targets: Sequence[Array]) -> list[str]:
-    left_out = found.left_out_mm
+    left_out = found.leave_one_out_mm
     width = max(5, *(len(label) for label in found.pairs.labels))
     lines = [f"{'point':<{width}}   off mm   x       y       z    left out mm"]
     for index, label in enumerate(found.pairs.labels):
@@ -170,14 +168,14 @@ def _lines(found: PointRegistration, targets: Sequence[Array]) -> list[str]:
             f"{label:<{width}}   {found.distances_mm[index]:6.2f} {x:7.2f} {y:7.2f} {z:7.2f}   {alone}{note}"
         )
     lines += [
-        f"Landmarks fit to {found.fre_rms_mm:.2f} mm RMS (FRE); one landmark errs by about "
-        f"{found.fle_mm:.2f} mm (FLE). Neither says how true it is at the target.",
+        f"Landmarks fit to {found.fre_rms_mm:.2f} mm RMS (FRE); error of a single landmark about "
+        f"{found.fle_mm:.2f} mm (FLE). Neither is the error at the target.",
     ]
     for target in targets:
         at = ", ".join(f"{number:g}" for number in target)
         lines.append(
             f"At the target {at} mm: {found.tre_expected_mm(target):.2f} mm expected (TRE, RMS), "
-            f"{found.tre_stated_mm(target):.2f} mm stated with what few points leave open"
+            f"{found.tre_stated_mm(target):.2f} mm stated (includes the uncertainty from few points)"
         )
     lines.append("fixed_from_moving:")
     lines += ["  " + " ".join(f"{number:12.6f}" for number in row) for row in found.fixed_from_moving.matrix]

@@ -1,4 +1,4 @@
-"""What can be typed after `coaxial register`."""
+"""The commands `coaxial register points` and `coaxial register surface`."""
 
 from pathlib import Path
 from typing import Annotated
@@ -6,38 +6,42 @@ from typing import Annotated
 import typer
 
 register_app = typer.Typer(
-    help="Register plan and patient: by points, or by a swept surface.",
+    help="Register the plan to the patient by landmarks or by a swept surface.",
     no_args_is_help=True,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
 FixedOption = Annotated[
-    Path, typer.Option("--fixed", help="Landmarks on the CT, a point a line: x,y,z in mm.", metavar="CSV")
+    Path, typer.Option("--fixed", help="Landmarks on the CT, one per line: x,y,z in mm.", metavar="CSV")
 ]
 MovingOption = Annotated[
     Path,
-    typer.Option("--moving", help="The tip on the same landmarks, in the same order.", metavar="CSV"),
+    typer.Option(
+        "--moving",
+        help="The tip on the same landmarks, in the same order or with the same names.",
+        metavar="CSV",
+    ),
 ]
 TargetOption = Annotated[
     list[str] | None,
     typer.Option(
         "--target-mm",
-        help="Where the error is to be expected, as the entry point: x,y,z on the CT (frame of --fixed); "
-        "may repeat.",
+        help="Target at which the error (TRE) is estimated, such as the entry point: x,y,z in the frame of "
+        "--fixed; repeatable.",
         metavar="X,Y,Z",
     ),
 ]
 ExcludedOption = Annotated[
     list[str] | None,
     typer.Option(
-        "--exclude", help="A point that has no say, by name or number; may repeat.", metavar="POINT"
+        "--exclude", help="Exclude a point from the fit, by name or number; repeatable.", metavar="POINT"
     ),
 ]
-LeastFleOption = Annotated[
+MinFleOption = Annotated[
     float,
     typer.Option(
         "--min-fle-mm",
-        help="How well a landmark can be found at best (3-D RMS); what is stated is never narrower.",
+        help="Lower bound of the fiducial localisation error (FLE, 3-D RMS) used for the stated error.",
         metavar="MM",
         min=0.01,
         max=20.0,
@@ -48,7 +52,7 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Write the figures as J
 
 @register_app.callback()
 def register() -> None:
-    """Register plan and patient: by points, or by a swept surface."""
+    """Register the plan to the patient by landmarks or by a swept surface."""
 
 
 @register_app.command()
@@ -57,27 +61,29 @@ def points(
     moving: MovingOption,
     target_mm: TargetOption = None,
     exclude: ExcludedOption = None,
-    min_fle_mm: LeastFleOption = 0.5,
+    min_fle_mm: MinFleOption = 0.5,
     max_fre_mm: Annotated[
         float | None,
-        typer.Option("--max-fre-mm", help="Exit status 1 if landmarks fit worse (RMS).", metavar="MM"),
+        typer.Option("--max-fre-mm", help="Exit status 1 if the FRE (RMS) exceeds this.", metavar="MM"),
     ] = None,
     max_tre_mm: Annotated[
         float | None,
         typer.Option(
-            "--max-tre-mm", help="Exit status 1 if a target is stated less sure (3-D RMS).", metavar="MM"
+            "--max-tre-mm",
+            help="Exit status 1 if the stated TRE (3-D RMS) of a target exceeds this.",
+            metavar="MM",
         ),
     ] = None,
     json: JsonOption = False,
 ) -> None:
-    """Fit touched landmarks to those marked on the CT: the motion, how each fits, the error at targets.
+    """Register by landmarks: print the transform, the residual of each point, and the error at targets.
 
-    Lines belong together by their order, or by their names where both files have some. Exit status 2 where
-    points are too few, a line, mirrored, or fit better in another order.
+    Points are paired by name if both files have names, otherwise by order. Exit status 2 if the points are
+    too few, collinear or mirrored, or if another order fits better.
     """
-    from server.cli.register import PointsOrder, register_from_files  # noqa: PLC0415  loaded when needed
+    from server.cli.register import PointsOptions, register_from_files  # noqa: PLC0415  loaded when needed
 
-    order = PointsOrder(
+    options = PointsOptions(
         fixed=fixed,
         moving=moving,
         targets=tuple(target_mm or ()),
@@ -86,19 +92,26 @@ def points(
         max_fre_mm=max_fre_mm,
         max_tre_mm=max_tre_mm,
     )
-    raise typer.Exit(register_from_files(order, as_json=json))
+    raise typer.Exit(register_from_files(options, as_json=json))
 
 
 @register_app.command()
 def surface(
     surface: Annotated[
-        Path, typer.Option("--surface", help="The bone's mesh: STL, OBJ or PLY, as the CT.", metavar="MESH")
+        Path,
+        typer.Option(
+            "--surface", help="Mesh of the bone in the frame of the CT: STL, OBJ or PLY.", metavar="MESH"
+        ),
     ],
     points: Annotated[
-        Path, typer.Option("--points", help="The swept tip, a point a line: x,y,z in mm.", metavar="CSV")
+        Path,
+        typer.Option(
+            "--points", help="Positions of the swept tip, one per line: x,y,z in mm.", metavar="CSV"
+        ),
     ],
     fixed: Annotated[
-        Path | None, typer.Option("--fixed", help="Landmarks on the CT: the start.", metavar="CSV")
+        Path | None,
+        typer.Option("--fixed", help="Landmarks on the CT, for the initial transform.", metavar="CSV"),
     ] = None,
     moving: Annotated[
         Path | None, typer.Option("--moving", help="The tip on the same landmarks.", metavar="CSV")
@@ -106,26 +119,30 @@ def surface(
     start: Annotated[
         Path | None,
         typer.Option(
-            "--start", help="In place of landmarks: JSON with a 4x4 fixed_from_moving.", metavar="JSON"
+            "--start",
+            help="Initial transform instead of landmarks: JSON with a 4x4 fixed_from_moving.",
+            metavar="JSON",
         ),
     ] = None,
     unit: Annotated[
-        str | None, typer.Option("--unit", help="Of the mesh: mm, cm, m, inch.", metavar="UNIT")
+        str | None, typer.Option("--unit", help="Unit of the mesh: mm, cm, m or inch.", metavar="UNIT")
     ] = None,
     target_mm: TargetOption = None,
     tip_radius_mm: Annotated[
         float,
-        typer.Option("--tip-radius-mm", help="Of a ball whose middle is tracked.", min=0.0, max=20.0),
+        typer.Option(
+            "--tip-radius-mm", help="Radius of a ball tip whose centre is tracked.", min=0.0, max=20.0
+        ),
     ] = 0.0,
     json: JsonOption = False,
 ) -> None:
-    """Lay points swept over the bone on its mesh, from a fit by landmarks.
+    """Register points swept over the bone to its mesh, starting from a registration by landmarks.
 
-    Exit status 2 where the sweep slides (a direction that it does not hold), fits in two places, or lies off.
+    Exit status 2 if the sweep leaves a direction undetermined, fits in two places, or does not fit the mesh.
     """
-    from server.cli.register_surface import SurfaceOrder, register_sweep  # noqa: PLC0415  loaded when needed
+    from server.cli.register_surface import SurfaceOptions, register_sweep  # noqa: PLC0415  loaded when needed
 
-    order = SurfaceOrder(
+    options = SurfaceOptions(
         surface=surface,
         unit=unit,
         points=points,
@@ -135,4 +152,4 @@ def surface(
         targets=tuple(target_mm or ()),
         tip_radius_mm=tip_radius_mm,
     )
-    register_sweep(order, as_json=json)
+    register_sweep(options, as_json=json)

@@ -1,4 +1,4 @@
-"""`coaxial register surface`: a sweep of the tip, laid on the mesh of the bone."""
+"""`coaxial register surface`: register a swept point cloud to the mesh of the bone."""
 
 import json
 from collections.abc import Sequence
@@ -15,23 +15,23 @@ from server.imaging.meshes import read_mesh
 from tracker.errors import InvalidInput
 from tracker.geometry import Anchor, Array, Rigid, Vertebra
 from tracker.plan.remark import Remark
-from tracker.registration.points import PairedPoints, register_points
+from tracker.registration.points import PointPairs, register_points
 from tracker.registration.surface import (
-    NearestOnSurface,
+    ClosestPointQuery,
     SurfaceRegistration,
     SurfaceSettings,
     register_surface,
 )
 
 START_REMEDY = (
-    "Give landmarks with --fixed and --moving, or with --start a JSON file with a 4x4 matrix: what "
-    "'coaxial register points --json' wrote will do."
+    "Give landmarks with --fixed and --moving, or a JSON file with a 4x4 matrix with --start, such as the "
+    "output of 'coaxial register points --json'."
 )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class SurfaceOrder:
-    """What was typed; see the options of `coaxial register surface`."""
+class SurfaceOptions:
+    """Options of `coaxial register surface`."""
 
     surface: Path
     unit: str | None
@@ -43,22 +43,22 @@ class SurfaceOrder:
     tip_radius_mm: float
 
 
-def register_sweep(order: SurfaceOrder, *, as_json: bool) -> None:
-    """Lay the sweep on the surface and tell it.
+def register_sweep(options: SurfaceOptions, *, as_json: bool) -> None:
+    """Register the sweep to the surface and print the result.
 
     Raises:
-        NavigationError: a file cannot be used, or the sweep does not say where the bone is.
+        NavigationError: a file cannot be used, or the sweep does not determine the registration.
     """
-    targets = [target_from_text(text) for text in order.targets]
-    start, landmarks = _start(order)
-    mesh = read_mesh(order.surface, unit=order.unit)
+    targets = [target_from_text(text) for text in options.targets]
+    start, landmarks = _start(options)
+    mesh = read_mesh(options.surface, unit=options.unit)
     found = register_surface(
-        NearestOnSurface(mesh.surface),
-        read_landmarks(order.points).points_mm,
+        ClosestPointQuery(mesh.surface),
+        read_landmarks(options.points).points_mm,
         start,
         targets_mm=targets,
         landmarks=landmarks,
-        settings=SurfaceSettings(tip_radius_mm=order.tip_radius_mm),
+        settings=SurfaceSettings(tip_radius_mm=options.tip_radius_mm),
     )
     remarks = (*mesh.remarks, *found.remarks)
     if as_json:
@@ -69,19 +69,17 @@ def register_sweep(order: SurfaceOrder, *, as_json: bool) -> None:
         typer.echo(f"Note: {remark.message}.\n{remark.remedy}", err=True)
 
 
-def _start(order: SurfaceOrder) -> tuple[Rigid[Vertebra, Anchor], PairedPoints | None]:
-    """Where to begin, and the landmarks that pull too; a start from a file pulls no more."""
-    if order.start is not None and order.fixed is None and order.moving is None:
-        return _matrix(order.start), None
-    if order.start is not None or order.fixed is None or order.moving is None:
+def _start(options: SurfaceOptions) -> tuple[Rigid[Vertebra, Anchor], PointPairs | None]:
+    """Return the initial transform, and the landmarks that also enter the fit; none with --start."""
+    if options.start is not None and options.fixed is None and options.moving is None:
+        return _matrix(options.start), None
+    if options.start is not None or options.fixed is None or options.moving is None:
         raise InvalidInput(
             "REGISTRATION_START_MISSING",
-            "where the bone is roughly is said twice"
-            if order.start
-            else "nothing says where the bone is roughly",
+            "two initial transforms are given" if options.start else "no initial transform is given",
             START_REMEDY,
         )
-    pairs = pairs_of_files(read_landmarks(order.fixed), read_landmarks(order.moving))
+    pairs = pairs_of_files(read_landmarks(options.fixed), read_landmarks(options.moving))
     return register_points(pairs).fixed_from_moving, pairs
 
 
@@ -92,14 +90,14 @@ def _matrix(path: Path) -> Rigid[Vertebra, Anchor]:
     except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
         raise InvalidInput(
             "REGISTRATION_START_INVALID",
-            f"{path} has no 4x4 matrix that can be read",
+            f"{path} contains no readable 4x4 matrix",
             START_REMEDY,
             {"file": str(path)},
         ) from error
     if matrix.shape != (4, 4) or not np.allclose(matrix[3], [0.0, 0.0, 0.0, 1.0]):
         raise InvalidInput(
             "REGISTRATION_START_INVALID",
-            f"{path} has a matrix of shape {matrix.shape}, needed (4, 4) with 0 0 0 1 in the last row",
+            f"{path} has a matrix of shape {matrix.shape}, expected (4, 4) with 0 0 0 1 in the last row",
             START_REMEDY,
             {"file": str(path)},
         )
@@ -119,7 +117,10 @@ def _mapping(
         "moved_mm": found.moved_mm,
         "moved_deg": found.moved_deg,
         "tre_expected_mm": stated[0] if len(stated) == 1 else (stated or None),
-        "weakest": {"direction": found.weakest.in_words, "sd_mm": min(found.weakest.sd_mm, 1000.0)},
+        "weakest": {
+            "direction": found.least_observable.description,
+            "sd_mm": min(found.least_observable.sd_mm, 1000.0),
+        },
         "covariance": found.covariance.tolist(),
         "warnings": [{"code": one.code, "message": one.message, "remedy": one.remedy} for one in remarks],
     }
@@ -129,8 +130,8 @@ def _lines(found: SurfaceRegistration, targets: Sequence[Array]) -> list[str]:
     lines = [
         f"{found.used_ratio:.0%} of {len(found.used)} swept points lie on the bone, "
         f"to {found.rms_mm:.2f} mm RMS",
-        f"It moved by {found.moved_mm:.1f} mm and {found.moved_deg:.1f} deg from its start",
-        f"Least sure: {found.weakest.in_words}",
+        f"Moved by {found.moved_mm:.1f} mm and {found.moved_deg:.1f} deg from the initial transform",
+        f"Least certain direction: {found.least_observable.description}",
     ]
     for target in targets:
         at = ", ".join(f"{number:g}" for number in target)

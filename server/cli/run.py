@@ -1,4 +1,4 @@
-"""`coaxial run`: the server from start to stop."""
+"""`coaxial run`: start the server, serve until a stop signal, and shut down."""
 
 import errno
 import socket
@@ -11,33 +11,35 @@ import structlog
 import typer
 
 from server.cli.commands import coaxial_version
-from server.cli.options import Given, config_from_options
-from server.cli.stopping import Stopping
+from server.cli.options import SettingOptions, config_from_options
+from server.cli.stop_signal import StopSignal
 from server.config import Config
 from server.errors import ConfigError
 from server.logs import LogSettings, configure_logging
-from server.security.reach import shown_name
+from server.security.addresses import link_name
 from server.security.tls import reject_unsafe
 
 if TYPE_CHECKING:
-    from server.loop.rehearsed import Rehearsed
-    from server.loop.tracked import Tracked
+    from server.loop.rehearsal_control import RehearsalControl
+    from server.loop.tracking_system import TrackingSystem
     from server.setup import CaseSetup, Preparation
     from server.stream.phone.receiver import Receiver
 
 BACKLOG = 128
-PORT_REMEDY = "Stop the program that uses this port, or choose another one with --port or COAXIAL_PORT."
-HOST_REMEDY = "Give an address of this machine as server.host in the settings; 127.0.0.1 is always one."
+PORT_REMEDY = "Stop the program that uses this port, or choose another port with --port or COAXIAL_PORT."
+HOST_REMEDY = "Set server.host to an address of this computer, for example 127.0.0.1."
 log = structlog.get_logger(__name__)
 
 
-def run_dashboard(given: Given, *, log_json: bool, debug: bool, new_operator_link: bool = False) -> None:
+def run_dashboard(
+    given: SettingOptions, *, log_json: bool, debug: bool, new_operator_link: bool = False
+) -> None:
     """Start everything, serve until Ctrl+C or SIGTERM, and stop everything.
 
     Raises:
         NavigationError: a setting cannot be used, the port is taken, or cases cannot be kept.
     """
-    with Stopping().caught() as stopping:
+    with StopSignal().caught() as stopping:
         config = config_from_options(given)
         settings = LogSettings.for_terminal(as_json=True if log_json else None, debug=debug)
         configure_logging(settings)
@@ -49,76 +51,82 @@ def _serve(
     config: Config,
     settings: LogSettings,
     listener: socket.socket,
-    stopping: Stopping,
+    stopping: StopSignal,
     *,
     new_operator_link: bool,
 ) -> None:
-    # The tracking process loads while the web server does: its supervisor is started between the imports.
-    from server.cli.door import Door  # noqa: PLC0415
-    from server.cli.kept import Kept  # noqa: PLC0415
-    from server.loop.tracked import Tracked  # noqa: PLC0415
+    # The tracking process is started between the imports, so that it loads in parallel with the web server.
+    from server.cli.access_control import AccessControl  # noqa: PLC0415
+    from server.cli.storage import Storage  # noqa: PLC0415
+    from server.loop.tracking_system import TrackingSystem  # noqa: PLC0415
     from server.setup import build_setup  # noqa: PLC0415
 
     with ExitStack() as ending:
-        tracked = Tracked(config, log=settings)
+        tracked = TrackingSystem(config, log=settings)
         tracked.start()
         ending.callback(tracked.stop)
-        kept = Kept.opened(ending, settings)
-        door = Door.of(config, kept.store, new_operator_link=new_operator_link)
+        storage = Storage.opened(ending, settings)
+        access = AccessControl.of(config, storage.store, new_operator_link=new_operator_link)
         preparation = build_setup(config)
-        _warn_of_markers(preparation)
-        from server.alarms import AlarmDesk, StoredAlarmLog  # noqa: PLC0415
+        _warn_about_markers(preparation)
+        from server.alarms import AlarmService, StoredAlarmLog  # noqa: PLC0415
         from server.app import AppParts, create_app, picture_of  # noqa: PLC0415
         from server.cli.web import serve_until  # noqa: PLC0415
         from server.procedure import Steps  # noqa: PLC0415
 
         phone = _phone(config, preparation, tracked)
-        alarm_log = StoredAlarmLog(kept.store)
+        alarm_log = StoredAlarmLog(storage.store)
         ending.callback(alarm_log.stop)
-        alarms = AlarmDesk(config, log=alarm_log)
-        alarms.tell = tracked.wake
+        alarms = AlarmService(config, log=alarm_log)
+        alarms.on_change = tracked.wake
         steps = Steps.of(
             hub=tracked.hub,
-            store=kept.store,
-            jobs=kept.jobs,
+            store=storage.store,
+            jobs=storage.jobs,
             config=config,
             markers=preparation.models,
-            adopt=_adopting(tracked, preparation, phone),
-            know=alarms.know,
+            publish_setup=_case_callback(tracked, preparation, phone),
+            publish_facts=alarms.set_facts,
             tracked_from_s=lambda: tracked.tracks_from_s,
         )
         app = create_app(
             AppParts(
                 hub=tracked.hub,
                 config=config,
-                store=kept.store,
-                jobs=kept.jobs,
+                store=storage.store,
+                jobs=storage.jobs,
                 steps=steps,
                 setup=preparation.setup,
                 surface=preparation.surface,
                 alarms=alarms,
-                people=door.people,
+                people=access.people,
                 phone=phone,
                 rehearsed=_rehearsed(config, preparation, tracked),
             )
         )
-        tracked.publish(picture_of(app), look=alarms.look)
-        serve_until(app, listener, stopping, on_ready=lambda: _greet(listener, door.words), tls=door.tls)
-
-
-def _warn_of_markers(preparation: "Preparation") -> None:
-    from server.marker_remarks import warn_of_markers  # noqa: PLC0415
-
-    warn_of_markers(preparation.models)
-    if not preparation.models:
-        log.warning(
-            "no marker is named, so nothing is tracked",
-            code="NO_MARKER",
-            remedy="Give its picture with --marker and its side with --side-mm, or in the settings.",
+        tracked.publish(picture_of(app), check_alarms=alarms.observe)
+        serve_until(
+            app,
+            listener,
+            stopping,
+            on_ready=lambda: _print_addresses(listener, access.startup_lines),
+            tls=access.tls,
         )
 
 
-def _phone(config: Config, preparation: "Preparation", tracked: "Tracked") -> "Receiver | None":
+def _warn_about_markers(preparation: "Preparation") -> None:
+    from server.marker_remarks import warn_of_ambiguous_markers  # noqa: PLC0415
+
+    warn_of_ambiguous_markers(preparation.models)
+    if not preparation.models:
+        log.warning(
+            "no marker is configured, so nothing is tracked",
+            code="NO_MARKER",
+            remedy="Give its image with --marker and its side with --side-mm, or add it to the settings.",
+        )
+
+
+def _phone(config: Config, preparation: "Preparation", tracked: "TrackingSystem") -> "Receiver | None":
     from server.stream.phone.receiver import Receiver  # noqa: PLC0415
 
     if tracked.inbox is None:
@@ -128,10 +136,10 @@ def _phone(config: Config, preparation: "Preparation", tracked: "Tracked") -> "R
     return receiver
 
 
-def _adopting(
-    tracked: "Tracked", preparation: "Preparation", phone: "Receiver | None"
+def _case_callback(
+    tracked: "TrackingSystem", preparation: "Preparation", phone: "Receiver | None"
 ) -> "Callable[[CaseSetup], None]":
-    """Work with what a case knows; a phone that begins to send is asked for its calibration's size."""
+    """Return the callback that applies the setup of a case to the tracker and to a connected phone."""
 
     def adopt(case: "CaseSetup") -> None:
         if phone is not None:
@@ -141,26 +149,28 @@ def _adopting(
     return adopt
 
 
-def _rehearsed(config: Config, preparation: "Preparation", tracked: "Tracked") -> "Rehearsed | None":
-    from server.loop.rehearsed import Rehearsed  # noqa: PLC0415
+def _rehearsed(
+    config: Config, preparation: "Preparation", tracked: "TrackingSystem"
+) -> "RehearsalControl | None":
+    from server.loop.rehearsal_control import RehearsalControl  # noqa: PLC0415
 
     if preparation.theatre is None:
         return None
-    return Rehearsed(config.rehearsal, play=tracked.play, begun=lambda: tracked.begun)
+    return RehearsalControl(config.rehearsal, play=tracked.play, played_scene=lambda: tracked.played_scene)
 
 
-def _greet(listener: socket.socket, words: Callable[[str], list[str]]) -> None:
-    """Say where the server is, and how to get in."""
+def _print_addresses(listener: socket.socket, lines_for: Callable[[str], list[str]]) -> None:
+    """Print the addresses of the server and how to sign in."""
     typer.echo(f"Coaxial {coaxial_version()} · research software, not a medical device")
     host, port = listener.getsockname()[:2]
-    for line in words(f"{shown_name(host)}:{port}"):
+    for line in lines_for(f"{link_name(host)}:{port}"):
         typer.echo(line)
-    typer.echo("Ctrl+C stops it")
+    typer.echo("Press Ctrl+C to stop")
     sys.stdout.flush()
 
 
 def _listener(config: Config) -> socket.socket:
-    """The socket that is served, taken before anything is started, so that a taken port costs nothing."""
+    """Return the listening socket. It is bound first, so that a port in use is reported at once."""
     host, port = config.server.host, config.server.port
     try:
         family, kind, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]

@@ -1,10 +1,10 @@
-"""`coaxial time-offset`: from two files of poses to the offset between their clocks."""
+"""`coaxial time-offset`: estimate the offset between the clocks of two pose files."""
 
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from server.cli.tool_report import Report, told
+from server.cli.tool_report import Report, print_report
 from server.pose_file import PoseFiles, Unit, read_poses
 from tracker.errors import CalibrationError
 from tracker.pose.temporal_calibration import (
@@ -20,8 +20,8 @@ VARIATION_KEY = {Motion.ROTATION: "variation_deg_s", Motion.TRANSLATION: "variat
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TimeOffsetOrder:
-    """What was typed; see the options of `coaxial time-offset`. Pairs are of first and second."""
+class TimeOffsetOptions:
+    """Options of `coaxial time-offset`; pairs are (first, second)."""
 
     files: tuple[Path, Path]
     markers: tuple[str | None, str | None]
@@ -30,35 +30,35 @@ class TimeOffsetOrder:
     max_offset_s: float
 
 
-def calibrate(order: TimeOffsetOrder, *, as_json: bool) -> int:
+def calibrate(options: TimeOffsetOptions, *, as_json: bool) -> int:
     """Find the offset, print it, and return the exit status: 0, or 1 if the recordings do not determine it.
 
     Raises:
-        InvalidInput: a file cannot be read or gives no times.
+        InvalidInput: a file cannot be read or contains no times.
     """
-    limits = TimeOffsetLimits(max_offset_s=order.max_offset_s)
-    motion = Motion(order.motion)
+    limits = TimeOffsetLimits(max_offset_s=options.max_offset_s)
+    motion = Motion(options.motion)
     first, second = (
         read_poses(path, unit=Unit(unit), marker=marker)
-        for path, unit, marker in zip(order.files, order.units, order.markers, strict=True)
+        for path, unit, marker in zip(options.files, options.units, options.markers, strict=True)
     )
     try:
         found = calibrate_time_offset(
-            first.series(str(order.files[0])),
-            second.series(str(order.files[1])),
+            first.series(str(options.files[0])),
+            second.series(str(options.files[1])),
             motion=motion,
             limits=limits,
         )
     except CalibrationError as error:
-        report = _report(order, (first, second), limits, None, error)
+        report = _report(options, (first, second), limits, None, error)
     else:
-        report = _report(order, (first, second), limits, found, None)
-    told(report, as_json=as_json)
+        report = _report(options, (first, second), limits, found, None)
+    print_report(report, as_json=as_json)
     return FAILED if report.failures else 0
 
 
 def _report(
-    order: TimeOffsetOrder,
+    options: TimeOffsetOptions,
     files: tuple[PoseFiles, PoseFiles],
     limits: TimeOffsetLimits,
     found: TimeOffset | None,
@@ -66,7 +66,7 @@ def _report(
 ) -> Report:
     sources: list[dict[str, Any]] = [
         {"file": str(path), "poses": len(one.records), "unseen_images": one.unseen}
-        for path, one in zip(order.files, files, strict=True)
+        for path, one in zip(options.files, files, strict=True)
     ]
     lines = []
     if found is not None:
@@ -85,7 +85,7 @@ def _report(
         "second_peak_ratio": None if found is None else found.second_peak_ratio,
         "change_s": None if found is None else found.change_s,
         "overlap_s": None if found is None else found.overlap_s,
-        "motion": order.motion,
+        "motion": options.motion,
         "first": sources[0],
         "second": sources[1],
         "gate": asdict(limits),
@@ -99,15 +99,15 @@ def _lines(found: TimeOffset, sources: list[dict[str, Any]]) -> list[str]:
     unit = UNIT[found.motion]
     return [
         f"Offset: {found.offset_s * 1000.0:+.2f} ms (sd {found.sd_s * 1000.0:.2f} ms): "
-        f"{later} stamps one moment later than {earlier}",
-        f"Add {found.offset_s:+.5f} s to the times of {second} to have those of {first}",
+        f"time stamps of {later} are later than those of {earlier}",
+        f"Add {found.offset_s:+.5f} s to the times of {second} to convert them to those of {first}",
         f"Correlation of the {found.motion.value} rates: {found.correlation_ratio:.3f}, at the next peak "
         f"{found.second_peak_ratio:.2f} of it; the second half of the recording differs by "
         f"{found.change_s * 1000.0:+.2f} ms",
-        f"Both saw {found.overlap_s:.1f} s of it",
+        f"Overlap of the recordings: {found.overlap_s:.1f} s",
         *(
             f"Used {source['used']} of {source['poses']} poses of {source['file']} at "
-            f"{source['rate_hz']:.1f} Hz, stretches without a gap: {source['segments']}, "
+            f"{source['rate_hz']:.1f} Hz, segments without gaps: {source['segments']}, "
             f"varying by {variation:.0f} {unit} (RMS)"
             for source, variation in zip(sources, found.variation, strict=True)
         ),

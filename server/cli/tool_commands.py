@@ -1,4 +1,4 @@
-"""What can be typed to calibrate a tool: its tip by pivoting, its axis by spinning, and to check it."""
+"""The commands `coaxial pivot`, `coaxial spin` and `coaxial tip-check`."""
 
 from enum import StrEnum
 from pathlib import Path
@@ -8,7 +8,7 @@ import typer
 
 
 class LengthUnit(StrEnum):
-    """In which unit translations are written."""
+    """Unit of translations."""
 
     MM = "mm"
     CM = "cm"
@@ -18,8 +18,8 @@ class LengthUnit(StrEnum):
 PosesArgument = Annotated[
     Path,
     typer.Argument(
-        help="Folder of files with a 4x4 matrix each, or one file: text, CSV, JSON, .npy, or the lines that "
-        "'coaxial track --json' writes. Each takes the marker's points to the camera.",
+        help="Poses camera_from_marker: a folder with one 4x4 matrix per file, one text, CSV, JSON or .npy "
+        "file, or the output of 'coaxial track --json'.",
         metavar="POSES",
     ),
 ]
@@ -30,13 +30,13 @@ MarkerOption = Annotated[
 ]
 ConfigOption = Annotated[
     Path | None,
-    typer.Option("--config", help="Settings file; ./config.yaml is taken if it is there.", metavar="FILE"),
+    typer.Option("--config", help="Settings file; default: ./config.yaml if it exists.", metavar="FILE"),
 ]
 ToolOption = Annotated[
-    Path | None, typer.Option("--tool", help="Tool file that 'coaxial pivot' wrote.", metavar="FILE")
+    Path | None, typer.Option("--tool", help="Tool file written by 'coaxial pivot'.", metavar="FILE")
 ]
 TipOption = Annotated[
-    str | None, typer.Option("--tip-mm", help="The tip in the marker's frame, as x,y,z.", metavar="X,Y,Z")
+    str | None, typer.Option("--tip-mm", help="Tip in the marker frame, x,y,z in mm.", metavar="X,Y,Z")
 ]
 
 
@@ -47,24 +47,24 @@ def pivot(
     marker: MarkerOption = None,
     side_mm: Annotated[
         float | None,
-        typer.Option("--side-mm", help="Side of that marker; else from the settings.", metavar="MM"),
+        typer.Option("--side-mm", help="Side of the marker; default: from the settings.", metavar="MM"),
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option(help="Write a tool file for the settings, if the gate is passed.", metavar="FILE"),
+        typer.Option(help="Write a tool file if the calibration passes its limits.", metavar="FILE"),
     ] = None,
     config: ConfigOption = None,
 ) -> None:
-    """Find a tool's tip from poses of its marker, taken while it was tilted with its tip in one divot.
+    """Pivot calibration: estimate the tip from poses recorded while the tool tilts about a fixed divot.
 
-    Exit status 1 if the tip stays farther from the pivot, or is less sure, than the settings allow.
+    Exit status 1 if the RMS error or the standard deviation of the tip exceeds its limit in the settings.
     """
-    from server.cli.tool import PivotOrder, calibrate_tip  # noqa: PLC0415  loaded when needed
+    from server.cli.tool import PivotOptions, calibrate_tip  # noqa: PLC0415  loaded when needed
 
-    order = PivotOrder(
+    options = PivotOptions(
         poses=poses, unit=unit.value, marker=marker, side_mm=side_mm, output=output, config=config
     )
-    raise typer.Exit(calibrate_tip(order, as_json=json))
+    raise typer.Exit(calibrate_tip(options, as_json=json))
 
 
 def spin(
@@ -76,21 +76,21 @@ def spin(
     tip_mm: TipOption = None,
     output: Annotated[
         Path | None,
-        typer.Option(help="Write the tool file with the axis in it; may be the one that was read."),
+        typer.Option(help="Write the tool file with the axis; may be the file given with --tool."),
     ] = None,
     config: ConfigOption = None,
 ) -> None:
-    """Find a tool's axis from poses of its marker, taken while it was spun about that axis.
+    """Spin calibration: estimate the axis from poses recorded while the tool rotates about it.
 
-    The tip (--tool or --tip-mm) decides which way along the axis is drilling.
-    Exit status 1 if the axis is less sure than the settings allow.
+    The tip (--tool or --tip-mm) defines the sign of the axis: it points from the marker to the tip.
+    Exit status 1 if the standard deviation of the axis exceeds its limit in the settings.
     """
-    from server.cli.tool import TipOrder, calibrate_axis  # noqa: PLC0415  loaded when needed
+    from server.cli.tool import TipOptions, calibrate_axis  # noqa: PLC0415  loaded when needed
 
-    order = TipOrder(
+    options = TipOptions(
         poses=poses, unit=unit.value, marker=marker, tool=tool, tip_mm=tip_mm, output=output, config=config
     )
-    raise typer.Exit(calibrate_axis(order, as_json=json))
+    raise typer.Exit(calibrate_axis(options, as_json=json))
 
 
 def tip_check(
@@ -102,13 +102,13 @@ def tip_check(
     tip_mm: TipOption = None,
     config: ConfigOption = None,
 ) -> None:
-    """Say how far a known tip seems to wander while it is held in one divot and the tool is tilted.
+    """Measure how far a known tip moves while it rests in one divot and the tool tilts.
 
-    Exit status 1 if that is more than the settings allow.
+    Exit status 1 if the RMS motion exceeds its limit in the settings.
     """
-    from server.cli.tool import TipOrder, check_tool_tip  # noqa: PLC0415  loaded when needed
+    from server.cli.tool import TipOptions, check_tool_tip  # noqa: PLC0415  loaded when needed
 
-    order = TipOrder(
+    options = TipOptions(
         poses=poses, unit=unit.value, marker=marker, tool=tool, tip_mm=tip_mm, output=None, config=config
     )
-    raise typer.Exit(check_tool_tip(order, as_json=json))
+    raise typer.Exit(check_tool_tip(options, as_json=json))

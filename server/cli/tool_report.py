@@ -1,4 +1,4 @@
-"""How a calibration of a tool is told: to a person in words, to a machine as JSON."""
+"""Reports of tool calibrations as text and as JSON."""
 
 import json
 from collections.abc import Sequence
@@ -10,19 +10,26 @@ import typer
 
 from server.pose_file import PoseFiles
 from tracker.errors import CalibrationError
-from tracker.pose.tool import PivotCalibration, RejectedPose, SpinCalibration, TipCheck, ToolGate, Turning
+from tracker.pose.tool import (
+    PivotCalibration,
+    RejectedPose,
+    SpinCalibration,
+    TipCheck,
+    ToolGate,
+    ToolMotionRange,
+)
 
-MAX_TOLD = 12
+MAX_LISTED = 12
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Report:
-    """What a command says.
+    """The output of a calibration command.
 
     Attributes:
-        lines: for a person.
-        values: for a machine.
-        failures: why the gate is not passed.
+        lines: Printed text.
+        values: JSON object.
+        failures: Limits that are exceeded.
     """
 
     lines: Sequence[str]
@@ -30,8 +37,8 @@ class Report:
     failures: Sequence[CalibrationError] = field(default_factory=tuple)
 
 
-def told(report: Report, *, as_json: bool) -> None:
-    """Write a report to standard output, and why the gate failed to standard error."""
+def print_report(report: Report, *, as_json: bool) -> None:
+    """Print a report to standard output, and its failures to standard error."""
     passed = not report.failures
     if as_json:
         gate = {
@@ -55,15 +62,15 @@ def pivot_report(
     written: Path | None,
     gate: ToolGate,
 ) -> Report:
-    """What `coaxial pivot` says."""
+    """Return the report of `coaxial pivot`."""
     sd_mm = [float(v) ** 0.5 for v in found.tip_covariance_mm2.diagonal()]
-    turning = found.turning
+    turning = found.motion_range
     lines = [
         f"Tip in the marker's frame: {_point(found.tip_in_marker_mm)} mm (sd {_point(sd_mm, 3)})",
         f"Pivot in the camera's frame: {_point(found.pivot_in_camera_mm)} mm",
         f"3-D RMS of the tip about the pivot: {found.rms_3d_mm:.3f} mm, allowed {gate.max_rms_3d_mm:g} mm",
         _used_line(int(found.used.sum()), found.rejected, files, "mm from the pivot"),
-        _turning_line(turning),
+        _motion_range_line(turning),
         *_written_line(written),
     ]
     values = {
@@ -76,7 +83,7 @@ def pivot_report(
         "tilt_range_deg": turning.tilt_range_deg,
         "tilt_range_across_deg": turning.tilt_range_across_deg,
         "spin_range_deg": turning.spin_range_deg,
-        "min_turn_deg": turning.min_turn_deg,
+        "min_rotation_deg": turning.min_rotation_deg,
         "rms_3d_of_all_mm": found.rms_3d_of_all_mm,
         "pivot_covariance_mm2": found.pivot_covariance_mm2.tolist(),
         "tip_sd_mm": found.tip_sd_mm,
@@ -95,12 +102,12 @@ def spin_report(
     written: Path | None,
     gate: ToolGate,
 ) -> Report:
-    """What `coaxial spin` says."""
-    sign = "towards the tip" if found.points_to_tip else "its sign is open: give --tool or --tip-mm"
+    """Return the report of `coaxial spin`."""
+    sign = "towards the tip" if found.points_to_tip else "sign unknown: give --tool or --tip-mm"
     lines = [
         f"Axis in the marker's frame: {_point(found.axis_in_marker, 4)} ({sign}), "
         f"sd {found.axis_sd_deg:.3f} deg, allowed {gate.max_axis_sd_deg:g} deg",
-        f"Spun by {found.spin_range_deg:.0f} deg, the axis itself moved by {found.wobble_deg:.2f} deg (RMS)",
+        f"Spun by {found.spin_range_deg:.0f} deg, wobble of the axis {found.wobble_deg:.2f} deg (RMS)",
         _used_line(int(found.used.sum()), found.rejected, files, "deg off the axis"),
         *_written_line(written),
     ]
@@ -124,12 +131,12 @@ def spin_report(
 def check_report(
     found: TipCheck, failures: Sequence[CalibrationError], files: PoseFiles, gate: ToolGate
 ) -> Report:
-    """What `coaxial tip-check` says."""
+    """Return the report of `coaxial tip-check`."""
     lines = [
-        f"The tip wanders by {found.rms_3d_mm:.3f} mm (3-D RMS, allowed {gate.max_rms_3d_mm:g}), "
+        f"The tip moves by {found.rms_3d_mm:.3f} mm (3-D RMS, allowed {gate.max_rms_3d_mm:g}), "
         f"{found.max_mm:.3f} mm at most, by axis {_point(found.rms_by_axis_mm, 3)} mm, "
         f"in {found.poses} poses",
-        _turning_line(found.turning),
+        _motion_range_line(found.motion_range),
     ]
     values = {
         "rms_3d_mm": found.rms_3d_mm,
@@ -137,9 +144,9 @@ def check_report(
         "rms_by_axis_mm": found.rms_by_axis_mm.tolist(),
         "pivot_mm": found.pivot_in_camera_mm.tolist(),
         "used": found.poses,
-        "tilt_range_deg": found.turning.tilt_range_deg,
-        "tilt_range_across_deg": found.turning.tilt_range_across_deg,
-        "spin_range_deg": found.turning.spin_range_deg,
+        "tilt_range_deg": found.motion_range.tilt_range_deg,
+        "tilt_range_across_deg": found.motion_range.tilt_range_across_deg,
+        "spin_range_deg": found.motion_range.spin_range_deg,
         **_files(files),
         "gate": {"max_rms_3d_mm": gate.max_rms_3d_mm},
     }
@@ -169,14 +176,14 @@ def _used_line(used: int, rejected: Sequence[RejectedPose], files: PoseFiles, of
     if rejected:
         named = [
             f"{files.records[one.index].place} ({one.reason.value}, {one.off:.2f} {off})"
-            for one in rejected[:MAX_TOLD]
+            for one in rejected[:MAX_LISTED]
         ]
-        more = f" and {len(rejected) - MAX_TOLD} more" if len(rejected) > MAX_TOLD else ""
-        line += "; not " + ", ".join(named) + more
+        more = f" and {len(rejected) - MAX_LISTED} more" if len(rejected) > MAX_LISTED else ""
+        line += "; rejected: " + ", ".join(named) + more
     return line
 
 
-def _turning_line(turning: Turning) -> str:
+def _motion_range_line(turning: ToolMotionRange) -> str:
     return (
         f"Tilted by {turning.tilt_range_deg:.0f} deg and by {turning.tilt_range_across_deg:.0f} deg across, "
         f"spun by {turning.spin_range_deg:.0f} deg"
@@ -184,7 +191,7 @@ def _turning_line(turning: Turning) -> str:
 
 
 def _written_line(written: Path | None) -> list[str]:
-    return [] if written is None else [f"Wrote {written}: name it under tools: NAME: calibration:"]
+    return [] if written is None else [f"Wrote {written}. Add it to the settings as tools.NAME.calibration."]
 
 
 def _point(numbers: Any, digits: int = 2) -> str:  # noqa: ANN401  any three numbers

@@ -1,7 +1,7 @@
-"""`coaxial track`: every image of a video through the tracker, and what it says as JSON lines.
+"""`coaxial track`: track every image of a video and write the results as JSON lines.
 
-The output file gets its name when every image was processed; images that cannot be read are listed, with
-exit status 2, since no further image would come. Only an interrupted run leaves a `.part` file.
+The output file is renamed from `.part` when every image was processed. Images that cannot be read are
+reported, with exit status 2. Only an interrupted run leaves a `.part` file.
 """
 
 import contextlib
@@ -22,16 +22,16 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from server.capture.address import SourceKind, source_from_text
-from server.capture.choose import source_from_config
 from server.capture.codecs import open_file
 from server.capture.shot import Shot, Source
-from server.cli.options import Given, config_from_options
-from server.cli.output import lines_to
-from server.cli.stopping import Stopping
+from server.capture.source_factory import source_from_config
+from server.cli.options import SettingOptions, config_from_options
+from server.cli.output import line_writer
+from server.cli.stop_signal import StopSignal
 from server.config import Config
 from server.errors import CaptureError
 from server.logs import LogSettings, configure_logging
-from server.marker_remarks import warn_of_markers
+from server.marker_remarks import warn_of_ambiguous_markers
 from server.setup import Preparation, build_setup
 from tracker.errors import InvalidInput
 from tracker.navigation import Setup
@@ -44,7 +44,7 @@ log = structlog.get_logger(__name__)
 
 
 def track_video(
-    given: Given,
+    given: SettingOptions,
     *,
     json_file: str | None,
     replace: bool,
@@ -52,7 +52,7 @@ def track_video(
     log_json: bool,
     debug: bool,
 ) -> int:
-    """Track every image, and give the exit status: 0, 2 when some cannot be read, 130 when stopped.
+    """Track every image. Return the exit status: 0, 2 if images cannot be read, 130 if stopped.
 
     Raises:
         NavigationError: an option, the video, a marker or the camera file cannot be used.
@@ -66,21 +66,21 @@ def track_video(
             f"'{address.name}' is a {address.kind.value}, which has no end",
             "Give a video file, a folder of images or 'rehearsal'; for a live source use 'coaxial run'.",
         )
-    preparation = _with_a_marker(build_setup(config))
-    warn_of_markers(preparation.models)
+    preparation = _require_marker(build_setup(config))
+    warn_of_ambiguous_markers(preparation.models)
     theatre = preparation.theatre
     if theatre is not None:
         cycle = round(theatre.cycle_s * config.rehearsal.rate_hz)
         images = cycle if images is None else images
     renderer = None if theatre is None else theatre.renderer()
     silences = () if theatre is None else theatre.settings.events
-    source = source_from_config(config, stop=threading.Event(), renderer=renderer, silences=silences)
+    source = source_from_config(config, stop=threading.Event(), renderer=renderer, outages=silences)
     summary = _Summary()
-    output = lines_to(json_file, inputs=_read_files(given, config), replace=replace)
+    output = line_writer(json_file, inputs=_read_files(given, config), replace=replace)
     try:
-        with Stopping().caught() as stopping:
+        with StopSignal().caught() as stopping:
             # A signal waits for the end of the image: inside a compiled loop it would end in a traceback.
-            stopping.call_when_asked(_let_a_second_one_end_it)
+            stopping.on_stop(_exit_on_second_signal)
             source.open()
             with output as lines, _progress(_count(config, images)) as advance:
                 for shot, read_ms in _shots(source, images, stopping):
@@ -89,8 +89,8 @@ def track_video(
                             lines.write(json.dumps(line, allow_nan=False))
                     advance()
     except CaptureError as error:
-        # Nothing is tried again here, and it was no setting.
-        remedy = "Give a video file that plays, or a folder of images."
+        # A file is not reopened, and the error is in the input, not in the settings.
+        remedy = "Give a readable video file or a folder of images."
         raise InvalidInput(error.code, error.message, remedy, error.context) from error
     except _StoppedError:
         typer.echo(f"Stopped: {summary.sentence()}", err=True)
@@ -104,29 +104,29 @@ def track_video(
     return 0
 
 
-def _with_a_marker(preparation: Preparation) -> Preparation:
+def _require_marker(preparation: Preparation) -> Preparation:
     if not preparation.models:
         raise InvalidInput(
             "NO_MARKER",
-            "there is no marker to look for",
-            "Give its picture with --marker PNG and its side with --side-mm, or put it into the settings.",
+            "no marker is configured",
+            "Give its image with --marker PNG and its side with --side-mm, or add it to the settings.",
         )
     return preparation
 
 
 class _StoppedError(Exception):
-    """Somebody pressed Ctrl+C: leaves the lines as they are, so that a cut file keeps its .part."""
+    """Raised after Ctrl+C; the incomplete output file keeps its .part suffix."""
 
 
-def _let_a_second_one_end_it() -> None:
+def _exit_on_second_signal() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
-def _shots(source: Source, images: int | None, stopping: Stopping) -> Iterator[tuple[Shot, float]]:
-    """Each image of the source, with the time it took to read."""
+def _shots(source: Source, images: int | None, stopping: StopSignal) -> Iterator[tuple[Shot, float]]:
+    """Yield each image of the source and its read time in ms."""
     count = 0
     while images is None or count < images:
-        if stopping.asked:
+        if stopping.count:
             raise _StoppedError
         started_s = time.monotonic()
         shot = source.read()
@@ -137,27 +137,27 @@ def _shots(source: Source, images: int | None, stopping: Stopping) -> Iterator[t
 
 
 class _Summary:
-    """Tracks, and remembers what the last line of the output says."""
+    """Tracker of one run, with the statistics for its summary."""
 
     def __init__(self) -> None:
         self._images = 0
         self._seen: dict[str, int] = {}
         self._reasons: dict[str, Counter[str]] = defaultdict(Counter)
-        self._whole_ms: list[float] = []
+        self._total_ms: list[float] = []
         self._times: dict[str, list[float]] = defaultdict(list)
         self._setup: Setup | None = None
         self._tracker: Tracker | None = None
 
     def lines_of(self, shot: Shot, read_ms: float, preparation: Preparation) -> list[dict[str, Any]]:
-        """What is written of one image: a line a marker."""
+        """Track one image; return one output line per marker."""
         height, width = shot.image.shape[:2]
         if self._tracker is None or self._setup is None or self._setup.camera.size_wh_px != (width, height):
             self._setup = preparation.setup_for((width, height), image=_named(shot))
             self._tracker = preparation.tracker_for(self._setup)
-        sightings = self._tracker.step(shot.image, captured_at_s=shot.source_time_s, whole=True)
+        sightings = self._tracker.step(shot.image, captured_at_s=shot.source_time_s, full_search=True)
         stage_ms = {"reading": read_ms, **self._tracker.stage_ms}
         self._images += 1
-        self._whole_ms.append(sum(stage_ms.values()))
+        self._total_ms.append(sum(stage_ms.values()))
         for stage, took_ms in stage_ms.items():
             self._times[stage].append(took_ms)
         for name, sighting in sightings.items():
@@ -179,31 +179,33 @@ class _Summary:
         ]
 
     def sentence(self) -> str:
-        """Images, how many of them show each marker, why others do not, and the median times."""
-        seen = ", ".join(f"{name} seen in {count}{self._why_not(name)}" for name, count in self._seen.items())
-        whole = f"{statistics.median(self._whole_ms):.1f} an image" if self._whole_ms else "-"
-        # A stage that an image could do without is no part of that image's time.
+        """Return the summary: detections and misses per marker, and median times per stage."""
+        seen = ", ".join(
+            f"{name} seen in {count}{self._miss_reasons(name)}" for name, count in self._seen.items()
+        )
+        total = f"{statistics.median(self._total_ms):.1f} per image" if self._total_ms else "-"
+        # A stage that was skipped in an image does not count towards the time of that image.
         times = "".join(
             f", {stage} {statistics.median(ms):.1f}{'' if len(ms) == self._images else f' in {len(ms)}'}"
             for stage, ms in self._times.items()
         )
         calibrated = self._setup is None or self._setup.camera_calibrated
-        blind = "" if calibrated else "; no millimetres, as no camera file was given (--camera)"
+        uncalibrated = "" if calibrated else "; no result in mm without a camera file (--camera)"
         images = f"{self._images} image{'' if self._images == 1 else 's'}"
-        return f"{images}: {seen or 'nothing'}; median ms: {whole}{times}{blind}"
+        return f"{images}: {seen or 'nothing'}; median ms: {total}{times}{uncalibrated}"
 
-    def _why_not(self, name: str) -> str:
+    def _miss_reasons(self, name: str) -> str:
         reasons = ", ".join(f"{reason} {count}" for reason, count in self._reasons[name].most_common())
-        return f" (not in the others: {reasons})" if reasons else ""
+        return f" (missed: {reasons})" if reasons else ""
 
 
 def _named(shot: Shot) -> str:
-    """The image by the number that its line has, and by its file."""
+    """Return the number and the file of an image, for messages."""
     return f"image {shot.number}" + ("" if shot.file is None else f" ({shot.file})")
 
 
 def _sighting(sighting: Sighting, *, calibrated: bool) -> dict[str, Any]:
-    """One marker in one image; millimetres only from a calibrated camera."""
+    """Return the output fields of one marker. Poses are null without a calibrated camera."""
     if not isinstance(sighting, Seen):
         return {
             "seen": False,
@@ -242,14 +244,14 @@ SEEN_KEYS = (
 )
 
 
-def _read_files(given: Given, config: Config) -> list[Path]:
-    """What is read, and must not be written over."""
+def _read_files(given: SettingOptions, config: Config) -> list[Path]:
+    """Return the input files, which must not be overwritten."""
     files = [Path(str(config.camera.source)), *(marker.image for marker in config.markers.values())]
     return files + [file for file in (config.camera.calibration, given.config) if file is not None]
 
 
 def _count(config: Config, images: int | None) -> int | None:
-    """How many images there will be, if that can be told."""
+    """Return the expected number of images; None if unknown."""
     path = Path(str(config.camera.source))
     if images is not None or not path.is_file():
         return images
@@ -261,7 +263,7 @@ def _count(config: Config, images: int | None) -> int | None:
 
 @contextlib.contextmanager
 def _progress(total: int | None) -> Iterator[Any]:
-    """A progress bar on standard error if that is a terminal; gives the function that moves it on."""
+    """Show a progress bar if standard error is a terminal; yield the function that advances it."""
     console = Console(stderr=True)
     if not console.is_terminal:
         yield lambda: None

@@ -1,4 +1,4 @@
-"""Verifies many theatres in several processes, and tells what came of it."""
+"""Verify simulated theatres in several processes and report the results."""
 
 import json
 import multiprocessing
@@ -18,7 +18,7 @@ from tracker.errors import InvalidInput
 from tracker.verification import (
     TheatreRows,
     VerificationSettings,
-    figures_of,
+    drill_figures,
     theatre_seeds,
     verify_theatre,
 )
@@ -30,24 +30,24 @@ MAX_SEED = 2**63
 def verify_theatres(
     count: int, *, seed: int, jobs: int | None, as_json: bool, with_rows: bool, plots: Path | None
 ) -> int:
-    """Tell errors and coverage, and give the exit status: 0, or 1 where something does not hold.
+    """Print errors and coverage. Return the exit status: 0, or 1 if a requirement fails.
 
     Raises:
-        InvalidInput: VERIFY_SEED_INVALID, or OUTPUT_NOT_WRITABLE, the folder of the plots cannot be made.
+        InvalidInput: VERIFY_SEED_INVALID, or OUTPUT_NOT_WRITABLE for the folder of the plots.
     """
     if seed >= MAX_SEED:
         raise InvalidInput(
-            "VERIFY_SEED_INVALID", f"the seed is {seed}, allowed below 2^63", "Give a smaller seed."
+            "VERIFY_SEED_INVALID", f"the seed is {seed}, the maximum is 2^63 - 1", "Give a smaller seed."
         )
     if plots is not None:
-        _make(plots)
+        _create(plots)
     settings = VerificationSettings()
     found = []
     with shown_steps() as steps:
         for theatre in _verified(theatre_seeds(seed, count), jobs or os.cpu_count() or 1):
             found.append(theatre)
             steps.advance("theatres", count)
-    figures = figures_of(found, noticed_within_s=settings.noticed_within_s)
+    figures = drill_figures(found, noticed_within_s=settings.noticed_within_s)
     if plots is not None:
         for name, picture in plots_of(found, figures).items():
             (plots / f"{name}.svg").write_text(picture, encoding="utf-8")
@@ -61,32 +61,32 @@ def verify_theatres(
         for table in tables_of(figures, settings):
             console.print(table)
         for failure in figures.failures:
-            console.print(f"does not hold: {failure}", style="bold", highlight=False)
+            console.print(f"failed: {failure}", style="bold", highlight=False)
     return FAILED if figures.failures else 0
 
 
 def _verified(seeds: tuple[int, ...], jobs: int) -> Iterator[TheatreRows]:
-    """All theatres in the order of their seeds, whatever process they were made in."""
+    """Yield the theatres in the order of their seeds."""
     if jobs == 1 or len(seeds) == 1:
         yield from map(verify_theatre, seeds)
         return
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(min(jobs, len(seeds)), mp_context=context, initializer=_alone) as pool:
+    with ProcessPoolExecutor(min(jobs, len(seeds)), mp_context=context, initializer=_single_threaded) as pool:
         yield from pool.map(verify_theatre, seeds)
 
 
-def _alone() -> None:
-    """One process for each core: none shall spread over others' cores."""
+def _single_threaded() -> None:
+    """Limit OpenCV to one thread, because there is one process per core."""
     cv2.setNumThreads(1)
 
 
-def _make(folder: Path) -> None:
+def _create(folder: Path) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InvalidInput(
             "OUTPUT_NOT_WRITABLE",
-            f"the folder {folder} cannot be made: {(error.strerror or str(error)).lower()}",
-            "Name a folder on a disk that can be written to.",
+            f"the folder {folder} cannot be created: {(error.strerror or str(error)).lower()}",
+            "Give a folder on a writable disk.",
             {"folder": str(folder)},
         ) from error

@@ -9,7 +9,7 @@ from scipy.stats import chi2
 from tracker.geometry import Array
 from tracker.verification import Figures, TheatreRows, Variant, name_of
 from tracker.verification.figures import MAX_COVERED, MIN_COVERED, QUANTITIES
-from tracker.verification.held import Held
+from tracker.verification.tool_errors import ErrorSample
 
 WIDE, HIGH, LEFT, TOP, GAP, LINE = 260, 190, 46, 40, 40, 15
 COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#000000", "#999933", "#882255")
@@ -19,33 +19,33 @@ FEWEST, MOST = 0.01, 100.0
 def plots_of(theatres: Sequence[TheatreRows], figures: Figures) -> dict[str, str]:
     """Pictures by name: `errors`, a curve for each variant; `coverage`, stated against held."""
     variants = [one.variant for one in figures.variants if one.quantities]
-    held = {variant: _held_of(theatres, variant) for variant in variants}
+    tool_errors = {variant: _errors_of(theatres, variant) for variant in variants}
     return {
         "errors": _page(
             "Share of images (up) with at most this error (across)",
             variants,
-            [_errors_panel(name, variants, held) for name in QUANTITIES],
+            [_errors_panel(name, variants, tool_errors) for name in QUANTITIES],
         ),
         "coverage": _page(
             "Share of images whose truth is held (up) by the region stated for this share (across)",
             variants,
-            [_coverage_panel(name, variants, held) for name in QUANTITIES],
+            [_coverage_panel(name, variants, tool_errors) for name in QUANTITIES],
         ),
     }
 
 
-def _held_of(theatres: Sequence[TheatreRows], variant: Variant) -> Mapping[str, list[Held]]:
+def _errors_of(theatres: Sequence[TheatreRows], variant: Variant) -> Mapping[str, list[ErrorSample]]:
     shown = [
-        row.held
+        row.tool_errors
         for theatre in theatres
         for row in theatre.images
-        if row.variant == variant and row.counts and row.held is not None
+        if row.variant == variant and row.counts and row.tool_errors is not None
     ]
     return {name: [getattr(one, name) for one in shown] for name in QUANTITIES}
 
 
 def _errors_panel(
-    name: str, variants: Sequence[Variant], held: Mapping[Variant, Mapping[str, list[Held]]]
+    name: str, variants: Sequence[Variant], tool_errors: Mapping[Variant, Mapping[str, list[ErrorSample]]]
 ) -> list[str]:
     span = np.log10(MOST / FEWEST)
     lines = _frame(f"{name}, {QUANTITIES[name]}")
@@ -53,7 +53,7 @@ def _errors_panel(
         x = WIDE * (power - np.log10(FEWEST)) / span
         lines += _tick_across(x, f"{10.0**power:g}")
     for number, variant in enumerate(variants):
-        errors = np.sort([one.error for one in held[variant][name]])
+        errors = np.sort([one.error for one in tool_errors[variant][name]])
         if len(errors):
             across = WIDE * np.clip(np.log10(np.maximum(errors, FEWEST) / FEWEST) / span, 0.0, 1.0)
             lines.append(_curve(across, np.arange(1, len(errors) + 1) / len(errors), number))
@@ -61,7 +61,7 @@ def _errors_panel(
 
 
 def _coverage_panel(
-    name: str, variants: Sequence[Variant], held: Mapping[Variant, Mapping[str, list[Held]]]
+    name: str, variants: Sequence[Variant], tool_errors: Mapping[Variant, Mapping[str, list[ErrorSample]]]
 ) -> list[str]:
     lines = _frame(name)
     low, high = HIGH * (1.0 - MAX_COVERED), HIGH * (1.0 - MIN_COVERED)
@@ -71,11 +71,11 @@ def _coverage_panel(
     for share in (0.0, 0.25, 0.5, 0.75, 1.0):
         lines += _tick_across(WIDE * share, f"{share:.0%}")
     for number, variant in enumerate(variants):
-        each = held[variant][name]
+        each = tool_errors[variant][name]
         if each:
             # The least region around what is shown that holds the truth, as a share.
-            least = np.sort(chi2.cdf([one.surprise for one in each], each[0].numbers))
-            lines.append(_curve(WIDE * least, np.arange(1, len(least) + 1) / len(least), number))
+            minimum = np.sort(chi2.cdf([one.mahalanobis_squared for one in each], each[0].dof))
+            lines.append(_curve(WIDE * minimum, np.arange(1, len(minimum) + 1) / len(minimum), number))
     return lines
 
 

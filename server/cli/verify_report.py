@@ -1,4 +1,4 @@
-"""What a verification gives, as tables and as JSON."""
+"""Report of a verification as tables and JSON."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -9,33 +9,35 @@ from rich.table import Table
 from tracker.registration import AnchoredTo
 from tracker.verification import Figures, TheatreRows, Variant, VariantFigures, VerificationSettings, name_of
 from tracker.verification.figures import QUANTITIES, QuantityFigures, RegistrationFigures, Share
-from tracker.verification.held import Held
+from tracker.verification.tool_errors import ErrorSample
 
 
 def tables_of(figures: Figures, settings: VerificationSettings) -> Iterator[Table]:
-    """Errors with their coverage, registrations, and what a moved camera does."""
+    """Yield the tables of errors and coverage, registrations, and camera moves."""
     yield _errors(figures)
     yield _registrations(figures)
     yield _moves(figures, settings)
 
 
 def _errors(figures: Figures) -> Table:
-    table = Table(title=f"Shown against true, {figures.theatres} theatres: median / p95 / worst; covered")
+    table = Table(
+        title=f"Errors in {figures.theatres} theatres: median / p95 / max; coverage of the 95 % bounds"
+    )
     table.add_column("variant")
     table.add_column("shown", justify="right")
     for name, unit in QUANTITIES.items():
         table.add_column(f"{name} {unit}", justify="right")
-        table.add_column("within 95 %", justify="right")
+        table.add_column("coverage %", justify="right")
     for one in figures.variants:
         if not one.quantities:
             continue
         cells = []
         for quantity in one.quantities.values():
             cells += [
-                f"{quantity.median:.2f} / {quantity.p95:.2f} / {quantity.most:.2f}",
+                f"{quantity.median:.2f} / {quantity.p95:.2f} / {quantity.max_error:.2f}",
                 _covered(quantity.covered),
             ]
-        table.add_row(name_of(one.variant), f"{one.shown}/{one.looks}", *cells)
+        table.add_row(name_of(one.variant), f"{one.shown}/{one.observations}", *cells)
     return table
 
 
@@ -46,12 +48,12 @@ def _covered(share: Share) -> str:
 
 def _registrations(figures: Figures) -> Table:
     table = Table(title="Registrations")
-    for heading in ("way", "anchored to", "rejected", "check passed", "check, median mm"):
+    for heading in ("method", "anchored to", "rejected", "check passed", "check, median mm"):
         table.add_column(heading)
     for one in figures.registrations:
         rejected = ", ".join(f"{count} {code}" for code, count in sorted(one.rejected.items())) or "none"
         table.add_row(
-            one.way.value,
+            one.method.value,
             one.anchored_to.value,
             rejected,
             f"{one.check_passed}/{one.theatres - sum(one.rejected.values())}",
@@ -61,14 +63,20 @@ def _registrations(figures: Figures) -> Table:
 
 
 def _moves(figures: Figures, settings: VerificationSettings) -> Table:
-    table = Table(title=f"Camera moved, no reference: noticed within {settings.noticed_within_s:g} s?")
-    for heading in ("way", "noticed after s, median / worst", "wrong until then", "wrong after", "absent as"):
+    table = Table(title=f"Camera moved, no reference: detected within {settings.noticed_within_s:g} s?")
+    for heading in (
+        "method",
+        "detected after s, median / max",
+        "wrong before",
+        "wrong after",
+        "reason shown",
+    ):
         table.add_column(heading)
     for one in figures.variants:
         if not one.noticed_s:
             continue
         table.add_row(
-            one.variant.way.value,
+            one.variant.method.value,
             f"{np.median(one.noticed_s):.2f} / {max(one.noticed_s):.2f}",
             f"{one.wrong_before} images",
             f"{one.shown_wrong} images",
@@ -78,7 +86,7 @@ def _moves(figures: Figures, settings: VerificationSettings) -> Table:
 
 
 def figures_value(figures: Figures, settings: VerificationSettings) -> dict[str, object]:
-    """The same as JSON has it; what is no number is null."""
+    """Return the figures as a JSON object; NaN becomes null."""
     return {
         "theatres": figures.theatres,
         "passed": not figures.failures,
@@ -91,7 +99,7 @@ def figures_value(figures: Figures, settings: VerificationSettings) -> dict[str,
 
 def _registration_value(one: RegistrationFigures) -> dict[str, object]:
     return {
-        "way": one.way.value,
+        "method": one.method.value,
         "anchored_to": one.anchored_to.value,
         "theatres": one.theatres,
         "rejected": dict(sorted(one.rejected.items())),
@@ -104,7 +112,7 @@ def _variant_value(one: VariantFigures) -> dict[str, object]:
     return {
         **_variant_names(one.variant),
         "theatres": one.theatres,
-        "looks": one.looks,
+        "observations": one.observations,
         "shown": one.shown,
         "absent": dict(sorted(one.absent.items())),
         "errors": {name: _quantity_value(quantity) for name, quantity in one.quantities.items()},
@@ -118,7 +126,7 @@ def _variant_value(one: VariantFigures) -> dict[str, object]:
 
 def _variant_names(variant: Variant) -> dict[str, object]:
     return {
-        "way": variant.way.value,
+        "method": variant.method.value,
         "reference": variant.anchored_to is AnchoredTo.REFERENCE,
         "camera_moves": variant.camera_moves,
     }
@@ -129,8 +137,8 @@ def _quantity_value(one: QuantityFigures) -> dict[str, object]:
         "unit": one.unit,
         "median": one.median,
         "p95": one.p95,
-        "most": one.most,
-        "stated": one.stated,
+        "max_error": one.max_error,
+        "stated_sd": one.stated_sd,
         "covered": one.covered.count,
         "of": one.covered.of,
         "covered_ratio": one.covered.ratio,
@@ -139,10 +147,10 @@ def _quantity_value(one: QuantityFigures) -> dict[str, object]:
 
 
 def row_values(theatre: TheatreRows) -> Iterator[dict[str, object]]:
-    """Every image of a theatre."""
+    """Yield one row per image of a theatre."""
     for one in theatre.images:
-        held: Mapping[str, Held] = (
-            {} if one.held is None else {name: getattr(one.held, name) for name in QUANTITIES}
+        tool_errors: Mapping[str, ErrorSample] = (
+            {} if one.tool_errors is None else {name: getattr(one.tool_errors, name) for name in QUANTITIES}
         )
         yield {
             "seed": one.seed,
@@ -154,12 +162,12 @@ def row_values(theatre: TheatreRows) -> Iterator[dict[str, object]]:
             "absent": one.absent or None,
             **{
                 f"{name}_{key}": value
-                for name, each in held.items()
+                for name, each in tool_errors.items()
                 for key, value in (
                     (f"error_{QUANTITIES[name]}", each.error),
-                    (f"stated_{QUANTITIES[name]}", each.stated),
-                    ("surprise", each.surprise),
-                    ("is_covered", each.is_covered),
+                    (f"stated_{QUANTITIES[name]}", each.stated_sd),
+                    ("mahalanobis_squared", each.mahalanobis_squared),
+                    ("is_within_95", each.is_within_95),
                 )
             },
             "is_through": one.is_through,

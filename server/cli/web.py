@@ -1,6 +1,6 @@
-"""Serves the web application on a socket that is already listening.
+"""Serve the web application on a socket that is already listening.
 
-uvloop is not used: it saves under a fifth of a server that takes a sixth of a core.
+uvloop is not used: it saves less than a fifth of the load, and the server needs a sixth of a core.
 """
 
 import logging
@@ -11,13 +11,13 @@ from contextlib import contextmanager
 import uvicorn
 from starlette.types import ASGIApp
 
-from server.cli.stopping import Stopping
+from server.cli.stop_signal import StopSignal
 from server.security.tls import Tls
 from server.stream.connection import uvicorn_config
 
 
 class WebServer(uvicorn.Server):
-    """uvicorn that leaves the signals to us, and says when it answers."""
+    """uvicorn server without its own signal handlers, with a callback when it is ready."""
 
     def __init__(self, config: uvicorn.Config, *, on_ready: Callable[[], None]) -> None:
         super().__init__(config)
@@ -25,21 +25,21 @@ class WebServer(uvicorn.Server):
 
     @contextmanager
     def capture_signals(self) -> Iterator[None]:
-        """They are caught outside, from the program's first line to its last."""
+        """Leave the signals to `StopSignal`, which handles them from program start to exit."""
         yield
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """As uvicorn does, then tell."""
+        """Start uvicorn, then call `on_ready`."""
         await super().startup(sockets)
         self._on_ready()
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """As uvicorn does, without a traceback for each stream that is cut off, which is what we want."""
+        """Shut uvicorn down without a traceback for each stream that is closed."""
         logging.getLogger("uvicorn.error").setLevel(logging.CRITICAL)
         await super().shutdown(sockets)
 
-    def ask_to_stop(self) -> None:
-        """Once: finish; twice: drop everything."""
+    def request_stop(self) -> None:
+        """Finish open requests; on the second call close all connections at once."""
         self.force_exit = self.should_exit
         self.should_exit = True
 
@@ -47,16 +47,16 @@ class WebServer(uvicorn.Server):
 def serve_until(
     app: ASGIApp,
     listener: socket.socket,
-    stopping: Stopping,
+    stopping: StopSignal,
     *,
     on_ready: Callable[[], None],
     tls: Tls | None = None,
 ) -> None:
-    """Serve until asked to stop."""
+    """Serve until a stop signal."""
     host, port = listener.getsockname()[:2]
     config = uvicorn_config(app, host=host, port=port)
     if tls is not None:
         config.ssl_certfile, config.ssl_keyfile = str(tls.certificate), str(tls.key)
     server = WebServer(config, on_ready=on_ready)
-    stopping.call_when_asked(server.ask_to_stop)
+    stopping.on_stop(server.request_stop)
     server.run(sockets=[listener])

@@ -1,9 +1,7 @@
-"""What a surgeon hands in: a folder, a zip or a single file, opened as a list of entries.
+"""Containers of image files: a folder, a zip or a single file as a list of entries.
 
-Nothing is ever unpacked onto the disk, and no name inside is used as a path or told to anybody: folders on
-discs from a hospital are often named after the patient.
-
-Messages count files and never quote their names; which file is at fault is therefore not named.
+Nothing is unpacked onto the disk, and names inside are neither used as paths nor reported, because folders on
+hospital discs are often named after the patient. Messages therefore count files and do not name them.
 """
 
 import lzma
@@ -18,12 +16,12 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import BinaryIO, cast
 
-from server.imaging.ct import LeftOut
+from server.imaging.ct import ExcludedFiles
 from tracker.errors import InvalidInput
 
 MAX_FILES = 50_000
 MAX_BYTES = 8 * 2**30
-# What reading a damaged archive, or one packed in an unknown way, leads to.
+# Exceptions from a damaged archive, or an unsupported compression.
 BAD_ARCHIVE = (
     zipfile.BadZipFile,
     NotImplementedError,
@@ -39,38 +37,40 @@ HEAD_BYTES = 4096
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Entry:
-    """One file, wherever it lies.
+    """One file of a container.
 
     Attributes:
-        size: in bytes.
-        open: opens it for reading from its beginning.
+        size: size in bytes.
+        open: opens the file for reading.
     """
 
     size: int
     open: Callable[[], BinaryIO]
 
     def head(self) -> bytes:
-        """Its first bytes, by which its kind is known."""
+        """Return its first bytes, for the detection of its format."""
         with self.open() as file:
             return file.read(HEAD_BYTES)
 
 
 @dataclass(slots=True, kw_only=True)
 class Container:
-    """The files that were handed in, and what was left out of them so far."""
+    """The files of an upload, with the reasons for those excluded so far."""
 
     entries: list[Entry]
     reasons: Counter[str] = field(default_factory=Counter)
 
     @property
-    def left_out(self) -> tuple[LeftOut, ...]:
-        """What takes no part, the most frequent reason first."""
-        return tuple(LeftOut(count=count, reason=reason) for reason, count in self.reasons.most_common())
+    def left_out(self) -> tuple[ExcludedFiles, ...]:
+        """Excluded files by reason, the most frequent first."""
+        return tuple(
+            ExcludedFiles(count=count, reason=reason) for reason, count in self.reasons.most_common()
+        )
 
 
 @contextmanager
-def opened(path: Path) -> Iterator[Container]:
-    """The files in a folder or zip, or a single file; closed when the block ends.
+def open_container(path: Path) -> Iterator[Container]:
+    """Context manager for the files in a folder or zip, or a single file.
 
     Raises:
         InvalidInput: CT_NOT_THERE, CT_UNREADABLE, CT_EMPTY, CT_TOO_MANY_FILES, or what `zip_entries` raises.
@@ -218,7 +218,7 @@ def _check_archive(members: list[zipfile.ZipInfo]) -> None:
 
 
 def _leaves(name: str) -> bool:
-    """Whether a name would lie outside of the folder into which it is unpacked."""
+    """Return whether a member's path leads outside of the archive."""
     parts = PurePosixPath(name.replace("\\", "/")).parts
     return ".." in parts or name.startswith(("/", "\\")) or (len(name) > 1 and name[1] == ":")
 

@@ -1,4 +1,4 @@
-"""What a CT is told as: its voxels, what it is, what to know about it, and what was left out."""
+"""Records of a CT: voxels, description, warnings, and excluded files."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,23 +11,23 @@ from tracker.geometry import Array
 from tracker.plan import Volume
 from tracker.plan.slices import Slice
 
-# Called with how much is done and of how much, as often as something was done.
+# Progress callback: number done, and total.
 Progress: TypeAlias = Callable[[int, int], None]
 
 
-# Called once with a slice from the middle of the CT, as soon as it is read and long before the others are.
+# Called once with a slice from the middle of the CT, before the others are read.
 FirstSlice: TypeAlias = Callable[[Slice], None]
 
 
-def unheard(_done: int, _of: int) -> None:
-    """The progress that nobody asked for."""
+def no_progress(_done: int, _of: int) -> None:
+    """Ignore progress."""
 
 
-def unseen(_slice: Slice) -> None:
-    """The first slice that nobody asked for."""
+def no_preview(_slice: Slice) -> None:
+    """Ignore the preview slice."""
 
 
-def scanned_slice(hu: npt.NDArray[np.int16], lps_from_ijk: Array, k: int) -> Slice:
+def slice_as_scanned(hu: npt.NDArray[np.int16], lps_from_ijk: Array, k: int) -> Slice:
     """A slice as it was scanned, hu (rows, columns), before the volume is complete."""
     affine = np.column_stack([lps_from_ijk[:3, 0], lps_from_ijk[:3, 1], (lps_from_ijk @ [0, 0, k, 1])[:3]])
     return Slice(hu=hu.copy(), lps_from_px=affine)
@@ -69,8 +69,8 @@ class SeriesDescription:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LeftOut:
-    """Files or images that take no part, and why."""
+class ExcludedFiles:
+    """Number of excluded files or images, with the reason."""
 
     count: int
     reason: str
@@ -78,16 +78,16 @@ class LeftOut:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ct:
-    """A CT that was read whole.
+    """A completely read CT.
 
     Attributes:
-        volume: Hounsfield units and their place in LPS mm.
-        series: what it is, without the patient's name.
-        warnings: what to know before planning on it, each a sentence.
-        left_out: what lay beside it and takes no part.
+        volume: Hounsfield units with their affine in LPS mm.
+        series: description, without patient data.
+        warnings: warnings for the planning, each a sentence.
+        left_out: excluded files.
     """
 
     volume: Volume
     series: SeriesDescription
     warnings: tuple[str, ...]
-    left_out: tuple[LeftOut, ...]
+    left_out: tuple[ExcludedFiles, ...]

@@ -1,7 +1,7 @@
-"""Meshes in and out: STL, OBJ and PLY files as surfaces of the plan.
+"""Reading and writing of surfaces as STL, OBJ and PLY.
 
-trimesh reads and writes them, from bytes alone: it is given no folder and no address, so that a file's
-references to materials, textures or other files lead nowhere.
+trimesh parses bytes only and gets no resolver, so that references to materials, textures or other files are
+not followed.
 """
 
 import io
@@ -21,7 +21,7 @@ FORMATS = ("stl", "obj", "ply")
 # A parser of text takes up to twenty times the length of its file.
 MAX_BYTES = 100 * 2**20
 MAX_FACES = 2_000_000
-AS_TRIANGLES = "Export the bone's surface again as triangles in STL, OBJ or PLY."
+EXPORT_TRIANGLES = "Export the bone's surface again as triangles in STL, OBJ or PLY."
 # 3D Slicer writes this into the first lines of what it exports.
 SPACE = re.compile(rb"SPACE\s*=\s*(LPS|RAS)", re.IGNORECASE)
 WHERE_SPACE_IS = 4096
@@ -39,7 +39,7 @@ def read_mesh(path: Path, *, unit: str | None = None, space: Space | None = None
         content = path.read_bytes()
     except OSError as error:
         message = f"the mesh cannot be read: {(error.strerror or str(error)).lower()}"
-        raise InvalidInput("MESH_UNREADABLE", message, AS_TRIANGLES) from error
+        raise InvalidInput("MESH_UNREADABLE", message, EXPORT_TRIANGLES) from error
     return mesh_from_bytes(content, file_format=path.suffix[1:], unit=unit, space=space)
 
 
@@ -64,11 +64,11 @@ def mesh_from_bytes(
         raise InvalidInput(
             "MESH_FORMAT_UNKNOWN",
             f"'{file_format}' is no format of a mesh that is read, those are {', '.join(FORMATS)}",
-            AS_TRIANGLES,
+            EXPORT_TRIANGLES,
             {"allowed": list(FORMATS)},
         )
-    said = SPACE.search(content[:WHERE_SPACE_IS])
-    stated = None if said is None else Space(said[1].decode().upper())
+    space_match = SPACE.search(content[:WHERE_SPACE_IS])
+    stated = None if space_match is None else Space(space_match[1].decode().upper())
     mesh = _parsed(checked_content(content, file_format), file_format)
     faces = np.asarray(mesh.faces)
     if faces.shape[0] > MAX_FACES:
@@ -112,7 +112,7 @@ def _reject_large(size: int) -> None:
 
 
 def _parsed(content: bytes, file_format: str) -> trimesh.Trimesh:
-    """What trimesh makes of the bytes, with each of its many errors told in one way."""
+    """Parse the bytes with trimesh; any of its exceptions becomes MESH_UNREADABLE."""
     try:
         # Coordinates that are no numbers are refused by name, not warned of in passing.
         with np.errstate(all="ignore"):
@@ -127,7 +127,7 @@ def _parsed(content: bytes, file_format: str) -> trimesh.Trimesh:
         raise InvalidInput(
             "MESH_UNREADABLE",
             f"the mesh is no {file_format.upper()} file that can be read: {type(error).__name__}",
-            AS_TRIANGLES,
+            EXPORT_TRIANGLES,
             {"reason": str(error)[:200]},
         ) from error
     return mesh

@@ -1,4 +1,4 @@
-"""Where the voxels are written: into memory, or into a file that is there whole or not at all."""
+"""Buffer for the voxels of a CT: in memory, or a memory-mapped file that is written atomically."""
 
 import os
 import uuid
@@ -10,12 +10,12 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from server.disk import reject_without_room, take_room
+from server.disk import reject_without_space, reserve_space
 from tracker.errors import InvalidInput
 
 MAX_VOXELS = 2**30
-# What stands where the scanner measured nothing: air.
-NOTHING_HU = -1024
+# Value of padding voxels without a measurement: air.
+PADDING_HU = -1024
 MIN_HU, MAX_HU = -32768, 32767
 
 
@@ -27,7 +27,7 @@ class Voxels:
 
 
 def check_voxels(shape: tuple[int, int, int]) -> None:
-    """Refuses a volume before any memory is taken for it.
+    """Reject a volume that is too large, before memory is allocated.
 
     Raises:
         InvalidInput: CT_TOO_LARGE.
@@ -45,7 +45,7 @@ def check_voxels(shape: tuple[int, int, int]) -> None:
 
 @contextmanager
 def voxels_to_fill(shape: tuple[int, int, int], into: Path | None) -> Iterator[Voxels]:
-    """An array to fill; when the block ends without an error it is complete, and mapped from `into` if given.
+    """Context manager for an array to fill; after the block it is complete, and mapped from `into` if given.
 
     Args:
         shape: slices, rows, columns.
@@ -62,10 +62,10 @@ def voxels_to_fill(shape: tuple[int, int, int], into: Path | None) -> Iterator[V
         voxels.hu.setflags(write=False)
         return
     partial = into.with_name(f".{into.name}.{uuid.uuid4().hex}.partial")
-    reject_without_room(into.parent, shape[0] * shape[1] * shape[2] * np.dtype(np.int16).itemsize)
+    reject_without_space(into.parent, shape[0] * shape[1] * shape[2] * np.dtype(np.int16).itemsize)
     try:
         mapped = np.lib.format.open_memmap(partial, mode="w+", dtype=np.int16, shape=shape)
-        take_room(partial)
+        reserve_space(partial)
         voxels = Voxels(hu=mapped)
         yield voxels
         mapped.flush()
@@ -78,7 +78,7 @@ def voxels_to_fill(shape: tuple[int, int, int], into: Path | None) -> Iterator[V
 
 
 def _sync(path: Path) -> None:
-    """What was written to this file or folder is on the disk."""
+    """Sync a file or folder to the disk."""
     descriptor = os.open(path, os.O_RDONLY)
     try:
         os.fsync(descriptor)

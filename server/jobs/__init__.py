@@ -1,4 +1,4 @@
-"""Long work in processes of their own, so that neither pose nor video waits for it.
+"""Background jobs in separate processes, so that they delay neither tracking nor video.
 
 jobs = Jobs(log=settings)                      # in the main thread
 job = jobs.start("reading the CT", read_ct, {"folder": str(folder)}, conclude=keep)
@@ -11,6 +11,6 @@ report(0.1, "sorting slices")
 
 from server.jobs.jobs import Jobs, JobUnknown
 from server.jobs.records import Job, JobState
-from server.jobs.work import Report, Work
+from server.jobs.worker import Report, Work
 
 __all__ = ["Job", "JobState", "JobUnknown", "Jobs", "Report", "Work"]

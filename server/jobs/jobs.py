@@ -1,7 +1,7 @@
-"""Long work: started, watched, cancelled, and remembered by its id.
+"""Background jobs: started, monitored and cancelled by their id.
 
-The result comes back to the web process, which stores it: the database then has a single writer. Large
-results go through a file in the job's folder.
+The result is returned to the web process, which stores it, so the database has a single writer. Large
+results are passed as a file in the job's folder.
 """
 
 import secrets
@@ -18,28 +18,28 @@ from typing import TypeAlias
 import structlog
 
 from server.jobs.records import Job, JobState
-from server.jobs.work import Progress, Result, Work, as_told, run_work
+from server.jobs.worker import Progress, Result, Work, run_work, to_json_value
 from server.live import Problem
 from server.logs import LogSettings
-from server.loop.forks import ending_words, forking_context
+from server.loop.forks import exit_text, forking_context
 from tracker.errors import NavigationError
 
-# Ended jobs that are remembered, for those who ask late.
-REMEMBERED = 50
-END_WITHIN_S = 5.0
+# Number of finished jobs whose state stays available.
+MAX_FINISHED_JOBS = 50
+END_TIMEOUT_S = 5.0
 
-# Runs in the server with what the work gave, and keeps it; what it answers is the job's result.
+# Called in the server with the return value of the work, to store it; returns the result of the job.
 Conclude: TypeAlias = Callable[[object], object]
 log = structlog.get_logger(__name__)
 
 
 class JobUnknown(NavigationError):
-    """There is no such job."""
+    """The job does not exist."""
 
 
 @dataclass(slots=True, kw_only=True)
-class _Watched:
-    """A job with the process that does it; changed under the lock of `Jobs` alone."""
+class _JobProcess:
+    """A job with its process; modified only under the lock of `Jobs`."""
 
     job: Job
     work: Work
@@ -51,20 +51,20 @@ class _Watched:
 
 
 class Jobs:
-    """Does long work in processes of their own, a few at a time; safe to use from any thread.
+    """Runs jobs in separate processes, at most `max_at_once` at a time. Thread-safe.
 
-    Make it in the main thread: the process that forks the others ends with the thread that started it.
+    Create it in the main thread: the fork server ends with the thread that started it.
     """
 
     def __init__(self, *, log: LogSettings, max_at_once: int = 1) -> None:
         self._log = log
         self._context = forking_context()
-        # One thread starts them all and stays: if the process that forks has to be started again, it ends
-        # with the thread that did it, and everything that it forked with it.
+        # One permanent thread starts all processes: a fork server ends, with all its children, when the
+        # thread that started it ends.
         self._starter = ThreadPoolExecutor(max_workers=1, thread_name_prefix="job starter")
         self._lock = threading.Lock()
         self._turns = threading.Semaphore(max_at_once)
-        self._watched: dict[str, _Watched] = {}
+        self._entries: dict[str, _JobProcess] = {}
         self._threads: dict[str, threading.Thread] = {}
         self._closed = False
 
@@ -77,32 +77,32 @@ class Jobs:
         folder: Path | None = None,
         conclude: Conclude | None = None,
     ) -> Job:
-        """Begin long work.
+        """Start a job.
 
         Args:
-            title: what is done, in words, without the patient's name.
-            work: a function at the top of a module, called as work(report, **arguments) in another process;
-                it answers what JSON can say, or raises a NavigationError.
-            arguments: by name; they must be picklable.
-            folder: the work's temporary files; taken away when the job is over, however it ended.
-            conclude: called here with what the work answered, to keep it; its answer is the job's result.
+            title: description of the job, without the patient's name.
+            work: a module-level function, called as work(report, **arguments) in another process. It returns
+                a JSON-serialisable value, or any picklable one with `conclude`; it may raise NavigationError.
+            arguments: keyword arguments; they must be picklable.
+            folder: folder of temporary files; deleted at the end of the job in every case.
+            conclude: called in this process with the return value, to store it; returns the job's result.
         """
         job = Job(id=secrets.token_hex(8), title=title)
-        watched = _Watched(
+        entry = _JobProcess(
             job=job, work=work, arguments=dict(arguments or {}), folder=folder, conclude=conclude
         )
-        thread = threading.Thread(target=self._run, args=(watched,), name=f"job {job.id}", daemon=True)
+        thread = threading.Thread(target=self._run, args=(entry,), name=f"job {job.id}", daemon=True)
         with self._lock:
             if self._closed:
-                watched.cancelled.set()
+                entry.cancelled.set()
             self._forget_old()
-            self._watched[job.id] = watched
+            self._entries[job.id] = entry
             self._threads[job.id] = thread
         thread.start()
         return job
 
     def get(self, job_id: str) -> Job:
-        """How far a job is.
+        """Return the state of a job.
 
         Raises:
             JobUnknown: JOB_UNKNOWN.
@@ -111,27 +111,27 @@ class Jobs:
             return self._find(job_id).job
 
     def list(self) -> tuple[Job, ...]:
-        """All jobs that are remembered, the newest first."""
+        """Return the available jobs, newest first."""
         with self._lock:
-            return tuple(watched.job for watched in reversed(self._watched.values()))
+            return tuple(entry.job for entry in reversed(self._entries.values()))
 
     def cancel(self, job_id: str) -> Job:
-        """End a job; one that is over, or whose result is being kept, stays as it is.
+        """Cancel a job; without effect if it is finished, or its result is being stored.
 
         Raises:
             JobUnknown: JOB_UNKNOWN.
         """
         with self._lock:
-            watched = self._find(job_id)
-            if watched.job.state in (JobState.WAITING, JobState.RUNNING):
-                watched.cancelled.set()
-                watched.job = replace(watched.job, state=JobState.CANCELLED)
-                if watched.process is not None:
-                    watched.process.kill()
-            return watched.job
+            entry = self._find(job_id)
+            if entry.job.state in (JobState.WAITING, JobState.RUNNING):
+                entry.cancelled.set()
+                entry.job = replace(entry.job, state=JobState.CANCELLED)
+                if entry.process is not None:
+                    entry.process.kill()
+            return entry.job
 
     def wait_for(self, job_id: str, *, timeout_s: float | None = None) -> Job:
-        """The job when it is over and its temporary files are gone, or as it is after `timeout_s`."""
+        """Wait until a job is finished and its temporary files are deleted, at most `timeout_s`."""
         with self._lock:
             thread = self._threads.get(job_id)
         if thread is not None:
@@ -139,118 +139,120 @@ class Jobs:
         return self.get(job_id)
 
     def close(self) -> None:
-        """Cancel everything, and wait until it has ended."""
+        """Cancel all jobs, and wait until they have ended."""
         with self._lock:
             self._closed = True
-            ids = list(self._watched)
+            ids = list(self._entries)
         for job_id in ids:
             self.cancel(job_id)
         for thread in list(self._threads.values()):
-            thread.join(END_WITHIN_S)
+            thread.join(END_TIMEOUT_S)
         self._starter.shutdown(wait=False)
 
-    def _run(self, watched: _Watched) -> None:
+    def _run(self, entry: _JobProcess) -> None:
         try:
             with self._turns:
-                if not watched.cancelled.is_set():
-                    self._work(watched)
+                if not entry.cancelled.is_set():
+                    self._work(entry)
         except Exception:
-            log.exception("a job could not be watched", job=watched.job.id)
-            self._end(watched, _crashed("could not be watched"))
+            log.exception("a job could not be monitored", job=entry.job.id)
+            self._end(entry, _crashed("could not be monitored"))
         finally:
-            if watched.folder is not None:
-                shutil.rmtree(watched.folder, ignore_errors=True)
+            if entry.folder is not None:
+                shutil.rmtree(entry.folder, ignore_errors=True)
             with self._lock:
-                self._threads.pop(watched.job.id, None)
+                self._threads.pop(entry.job.id, None)
 
-    def _work(self, watched: _Watched) -> None:
-        """Start the process, listen to it until it ends, and keep what came out."""
+    def _work(self, entry: _JobProcess) -> None:
+        """Start the process, receive its messages until it ends, and store its result."""
         ours, theirs = self._context.Pipe(duplex=False)
         process = self._context.Process(
             target=run_work,
-            args=(watched.work, watched.arguments, theirs, self._log),
-            kwargs={"is_answer": watched.conclude is None},
-            name=f"job {watched.job.id}",
+            args=(entry.work, entry.arguments, theirs, self._log),
+            kwargs={"is_answer": entry.conclude is None},
+            name=f"job {entry.job.id}",
             daemon=True,
         )
         with ours:
             with theirs, self._lock:
-                if watched.cancelled.is_set():
+                if entry.cancelled.is_set():
                     return
                 self._starter.submit(process.start).result()
-                watched.process = process
-                watched.job = replace(watched.job, state=JobState.RUNNING)
-            told = self._listen(watched, process, ours)
-        process.join(END_WITHIN_S)
-        ended = ending_words(process.exitcode)
+                entry.process = process
+                entry.job = replace(entry.job, state=JobState.RUNNING)
+            outcome = self._listen(entry, process, ours)
+        process.join(END_TIMEOUT_S)
+        ended = exit_text(process.exitcode)
         with self._lock:
-            watched.process = None
-        # It has said its last word; if it hangs on its way out, nobody waits for it.
+            entry.process = None
+        # The outcome has been received; do not wait for a process that hangs while exiting.
         process.kill()
-        process.join(END_WITHIN_S)
+        process.join(END_TIMEOUT_S)
         process.close()
-        self._end(watched, told if told is not None else _crashed(f"ended {ended}"))
+        self._end(entry, outcome if outcome is not None else _crashed(f"ended {ended}"))
 
     def _listen(
-        self, watched: _Watched, process: ForkServerProcess, ours: Connection
+        self, entry: _JobProcess, process: ForkServerProcess, ours: Connection
     ) -> Result | Problem | None:
-        """The last word of the process; None if it ended without one."""
+        """Return the outcome that the process sent; None if it ended without one."""
         while True:
             wait([ours, process.sentinel])
             if not ours.poll():
                 return None
             try:
-                told = ours.recv()
+                outcome = ours.recv()
             except (EOFError, OSError):
                 return None
-            if not isinstance(told, Progress):
-                return told if isinstance(told, Result | Problem) else None
+            if not isinstance(outcome, Progress):
+                return outcome if isinstance(outcome, Result | Problem) else None
             with self._lock:
-                ratio = min(1.0, max(watched.job.progress_ratio, told.ratio))
-                watched.job = replace(watched.job, progress_ratio=ratio, doing=told.doing)
+                ratio = min(1.0, max(entry.job.progress_ratio, outcome.ratio))
+                entry.job = replace(entry.job, progress_ratio=ratio, doing=outcome.doing)
 
-    def _end(self, watched: _Watched, told: Result | Problem) -> None:
+    def _end(self, entry: _JobProcess, outcome: Result | Problem) -> None:
         with self._lock:
-            if watched.job.state.is_over:
+            if entry.job.state.is_finished:
                 return
-            if isinstance(told, Result):
-                watched.job = replace(watched.job, state=JobState.CONCLUDING)
-        if isinstance(told, Result):
-            told = self._concluded(watched, told)
+            if isinstance(outcome, Result):
+                entry.job = replace(entry.job, state=JobState.CONCLUDING)
+        if isinstance(outcome, Result):
+            outcome = self._store_result(entry, outcome)
         with self._lock:
-            if isinstance(told, Result):
-                watched.job = replace(
-                    watched.job, state=JobState.DONE, progress_ratio=1.0, doing="", result=told.value
+            if isinstance(outcome, Result):
+                entry.job = replace(
+                    entry.job, state=JobState.DONE, progress_ratio=1.0, doing="", result=outcome.value
                 )
             else:
-                watched.job = replace(watched.job, state=JobState.FAILED, doing="", problem=told)
-        log.info("job over", job=watched.job.id, state=watched.job.state.value)
+                entry.job = replace(entry.job, state=JobState.FAILED, doing="", problem=outcome)
+        log.info("job over", job=entry.job.id, state=entry.job.state.value)
 
-    def _concluded(self, watched: _Watched, result: Result) -> Result | Problem:
+    def _store_result(self, entry: _JobProcess, result: Result) -> Result | Problem:
         try:
             return (
-                result if watched.conclude is None else Result(value=as_told(watched.conclude(result.value)))
+                result
+                if entry.conclude is None
+                else Result(value=to_json_value(entry.conclude(result.value)))
             )
         except NavigationError as error:
             return Problem.from_error(error)
         except Exception:
-            log.exception("the result of a job could not be kept", job=watched.job.id)
-            return _crashed("gave a result that could not be kept")
+            log.exception("the result of a job could not be stored", job=entry.job.id)
+            return _crashed("returned a result that could not be stored")
 
-    def _find(self, job_id: str) -> _Watched:
-        if job_id not in self._watched:
+    def _find(self, job_id: str) -> _JobProcess:
+        if job_id not in self._entries:
             raise JobUnknown(
                 "JOB_UNKNOWN",
                 f"there is no job {job_id[:40]}",
-                "Start it again; the server forgets jobs when it is started anew.",
+                "Start it again; jobs do not survive a restart of the server.",
                 {"job_id": job_id[:40]},
             )
-        return self._watched[job_id]
+        return self._entries[job_id]
 
     def _forget_old(self) -> None:
-        over = [job_id for job_id, watched in self._watched.items() if watched.job.state.is_over]
-        for job_id in over[: max(0, len(over) - REMEMBERED + 1)]:
-            del self._watched[job_id]
+        over = [job_id for job_id, entry in self._entries.items() if entry.job.state.is_finished]
+        for job_id in over[: max(0, len(over) - MAX_FINISHED_JOBS + 1)]:
+            del self._entries[job_id]
 
 
 def _crashed(how: str) -> Problem:

@@ -1,4 +1,4 @@
-"""What is told of long work."""
+"""Records of background jobs."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -7,33 +7,33 @@ from server.live import Problem
 
 
 class JobState(StrEnum):
-    """How far long work is."""
+    """State of a job."""
 
-    WAITING = "waiting"  # for its turn
+    WAITING = "waiting"  # in the queue
     RUNNING = "running"
-    CONCLUDING = "concluding"  # its result is being kept; too late to cancel
+    CONCLUDING = "concluding"  # its result is being stored; too late to cancel
     DONE = "done"
     FAILED = "failed"
     CANCELLED = "cancelled"
 
     @property
-    def is_over(self) -> bool:
-        """Whether nothing changes any more."""
+    def is_finished(self) -> bool:
+        """Whether the state is final."""
         return self in (JobState.DONE, JobState.FAILED, JobState.CANCELLED)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Job:
-    """Long work at one moment.
+    """Snapshot of a job.
 
     Attributes:
         id: 16 hexadecimal digits.
-        title: what is done, in words.
-        state: how far it is.
-        progress_ratio: how much is done, 0 to 1; never goes back.
-        doing: what is done just now, in words.
-        result: what came out, as JSON has it, once it is done.
-        trouble: why it failed, if it did.
+        title: description of the job.
+        state: its state.
+        progress_ratio: progress, 0 to 1; never decreases.
+        doing: description of the current activity.
+        result: JSON-serialisable result, when it is done.
+        problem: why it failed.
     """
 
     id: str

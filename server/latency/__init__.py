@@ -1,4 +1,4 @@
-"""Latency from light to page, measured with codes on a screen that the camera looks at.
+"""Latency from the scene to the page, measured with codes on a screen in view of the camera.
 
 codes.py        the codes: the bit patterns that a page draws, and how long each of them stays
 reading.py      the code in an image
@@ -8,8 +8,8 @@ record.py       a result as it is kept
 """
 
 from server.latency.clocks import ClockComparison
+from server.latency.code_reader import CodeReader
 from server.latency.codes import CELLS, CodePlan, code_patterns, plan_codes
-from server.latency.reading import CodeReader
 from server.latency.record import LatencyReport, LatencyResult, Screen
 from server.latency.statistics import PaintedCode, ReadImage, ShownImage, Stage, latency_report
 

@@ -18,18 +18,18 @@ class ClockComparison:
     """A question of the page with the server's time in the answer.
 
     Attributes:
-        asked_at_ms, answered_at_ms: by the page's clock.
+        requested_at_ms, responded_at_ms: by the page's clock.
         server_s: monotonic clock of the server, in between.
     """
 
-    asked_at_ms: float
-    answered_at_ms: float
+    requested_at_ms: float
+    responded_at_ms: float
     server_s: float
 
     @property
     def round_trip_ms(self) -> float:
         """How long the answer took."""
-        return self.answered_at_ms - self.asked_at_ms
+        return self.responded_at_ms - self.requested_at_ms
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,7 +53,7 @@ class ServerClock:
         fastest_ms = min(one.round_trip_ms for one in comparisons)
         used = [one for one in comparisons if one.round_trip_ms <= fastest_ms + MAX_EXTRA_MS]
         server_ms = np.array([one.server_s for one in used]) * 1000.0
-        page_ms = np.array([0.5 * (one.asked_at_ms + one.answered_at_ms) for one in used])
+        page_ms = np.array([0.5 * (one.requested_at_ms + one.responded_at_ms) for one in used])
         ahead_ms = page_ms - server_ms
         zero_ms = float(server_ms.mean())
         drift = 0.0

@@ -1,4 +1,4 @@
-"""A measured latency as it is kept: of one camera, with one screen."""
+"""Record of a measured latency, of one camera and one screen."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

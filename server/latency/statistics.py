@@ -1,4 +1,4 @@
-"""Latency from the times at which codes were painted, captured and shown. Pure: no clock is read here."""
+"""Latency from the times at which codes were painted, captured and shown. Pure functions."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ AIM = "Point the camera at the screen, darken the room, or move closer until the
 
 
 class Stage(StrEnum):
-    """The way of the light, part by part."""
+    """Stages of the latency, in order."""
 
     SCREEN_AND_CAMERA = "screen and camera"  # painted -> stamped as captured
     TRACKING = "tracking"  # captured -> concluded
@@ -62,7 +62,7 @@ class ReadImage:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ShownImage:
-    """An image that stood on the page.
+    """An image that was shown on the page.
 
     Attributes:
         image_number: of the image.
@@ -122,22 +122,22 @@ def latency_report(
     Raises:
         CalibrationError: LATENCY_CODE_NOT_READ, LATENCY_IMAGES_SKIPPED.
     """
-    read_by_number = {one.image_number: one for one in read}
+    images_by_number = {one.image_number: one for one in read}
     once = _first_shown(shown)
     read_images = sum(
-        one.image_number in read_by_number and read_by_number[one.image_number].code is not None
+        one.image_number in images_by_number and images_by_number[one.image_number].code is not None
         for one in once
     )
     if read_images < MIN_READ_RATIO * max(len(once), 1):
         raise _code_not_read(f"the code was read in {read_images} of {len(once)} images", min_timed)
-    skipped = _reject_skipped(once, read_by_number)
-    samples = _samples(painted, once, read_by_number)
+    skipped = _count_skipped(once, images_by_number)
+    samples = _samples(painted, once, images_by_number)
     if len(samples) < min_timed:
         raise _code_not_read(f"{len(samples)} of {len(painted)} codes could be timed", min_timed)
     clock = ServerClock.of(comparisons)
     latency_ms = np.array([one.latency_ms for one in samples])
     stages = [one.stage_ms(clock) for one in samples]
-    period_ms = _image_period_ms(once, read_by_number)
+    period_ms = _image_period_ms(once, images_by_number)
     return LatencyReport(
         samples=len(samples),
         median_ms=_rounded(np.median(latency_ms)),
@@ -197,7 +197,7 @@ def _place_of(code: int | None, painted: Sequence[PaintedCode], shown_at_ms: flo
     return None
 
 
-def _reject_skipped(shown: Sequence[ShownImage], read: Mapping[int, ReadImage]) -> int:
+def _count_skipped(shown: Sequence[ShownImage], read: Mapping[int, ReadImage]) -> int:
     """How many images were skipped.
 
     Raises:
@@ -219,7 +219,7 @@ def _reject_skipped(shown: Sequence[ShownImage], read: Mapping[int, ReadImage]) 
         "LATENCY_IMAGES_SKIPPED",
         f"{what}, allowed {allowed}",
         "Close other pages, choose a smaller picture or lower camera.rate_hz, and measure again.",
-        {"skipped_images": skipped, "unlooked_images": unlooked, "images": given, "max_images": allowed},
+        {"skipped_images": skipped, "unprocessed_images": unlooked, "images": given, "max_images": allowed},
     )
 
 

@@ -1,1 +1,1 @@
-"""The tracking process: tracks the newest image, is watched, and is started again when it dies."""
+"""The tracking process: tracks the newest image, supervised by the server and restarted when it dies."""

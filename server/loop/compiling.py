@@ -1,11 +1,11 @@
-"""Compiles the tracker for this machine, on two of its cores: `python -m server.loop.compiling`.
+"""Compiles the tracker for this machine, on two cores: `python -m server.loop.compiling`.
 
-Numba keeps what is compiled beside the source (or in NUMBA_CACHE_DIR), so this is needed once after an
-installation or an update. Several processes may ask for it at the same time: one does it, the others wait.
+Numba stores compiled code beside the source (or in NUMBA_CACHE_DIR), so this is needed once after an
+installation or update. Several processes may start it at the same time: one compiles, the others wait.
 
-Numba keys its cache by the file of the called function, not by the files of the functions that it calls in
-turn; after a change of sources old machine code would go on running. So `make` deletes the cache before it
-compiles again, which costs a minute after each update.
+Numba keys its cache by the file of the called function, not by the files of its callees; after a source
+change stale machine code would run. So `make` deletes the cache before it compiles again, which costs a
+minute after each update.
 """
 
 import subprocess
@@ -18,12 +18,12 @@ from pathlib import Path
 import filelock
 
 from server.loop.parent import die_with_parent
-from tracker.compiled import LOOPS
+from tracker.compiled import DISPATCHERS
 from tracker.warm_up import Part, warm_up
 
-# Both take about as long. Each finds compiled what the other one has reached before it.
-SHARES = ((Part.SEARCH,), (Part.FIT, Part.REST))
-LOOK_EVERY_S = 0.5
+# Both parts take about equally long. Each process reuses what the other has compiled before it.
+PARTS_PER_PROCESS = ((Part.SEARCH,), (Part.FIT, Part.REST))
+POLL_INTERVAL_S = 0.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,35 +45,35 @@ class Progress:
 
 
 def progress() -> Progress:
-    """How much of the tracker is compiled, judged by the files of Numba's cache. Costs some milliseconds."""
-    return Progress(done=sum(_is_compiled(loop) for loop in LOOPS), total=len(LOOPS))
+    """Return how much of the tracker is compiled, by the files of Numba's cache. Takes a few milliseconds."""
+    return Progress(done=sum(_is_compiled(loop) for loop in DISPATCHERS), total=len(DISPATCHERS))
 
 
-def compile_tracker(tell: Callable[[Progress], None] = lambda _: None) -> None:
-    """Compile what is not compiled yet, and return when all is; a second caller waits for the first.
+def compile_tracker(on_progress: Callable[[Progress], None] = lambda _: None) -> None:
+    """Compile what is not compiled yet, and return when done; a second caller waits for the first.
 
     Args:
-        tell: is told about twice a second how far it is.
+        on_progress: called about twice a second.
     """
     if not progress().is_complete:
         with filelock.FileLock(_folder() / "coaxial-compiling.lock"):
-            _compile(tell)
-    # What two processes wrote to the same index at once may have lost an entry; a fault is raised here.
+            _compile(on_progress)
+    # An index entry may be lost when two processes write it at once; errors are raised here.
     warm_up()
 
 
-def _compile(tell: Callable[[Progress], None]) -> None:
-    """Compile side by side; nothing is left where somebody else did it meanwhile."""
+def _compile(on_progress: Callable[[Progress], None]) -> None:
+    """Compile in two processes; do nothing if another process did it meanwhile."""
     if not progress().is_complete:
-        children = [_child(share) for share in SHARES]
+        children = [_child(share) for share in PARTS_PER_PROCESS]
         while any(child.poll() is None for child in children):
-            tell(progress())
-            time.sleep(LOOK_EVERY_S)
-    tell(progress())
+            on_progress(progress())
+            time.sleep(POLL_INTERVAL_S)
+    on_progress(progress())
 
 
 def compile_parts(*names: str) -> None:
-    """Compile these parts in this process, which ends with the one that started it."""
+    """Compile these parts in this process, which ends with its parent."""
     die_with_parent()
     warm_up(*(Part(name) for name in names))
 
@@ -84,14 +84,14 @@ def _child(parts: tuple[Part, ...]) -> subprocess.Popen[bytes]:
 
 
 def _folder() -> Path:
-    """Where the cache of one loop lies; there this process may write."""
-    folder = Path(LOOPS[0].stats.cache_path)
+    """Return a cache folder, which this process may write to."""
+    folder = Path(DISPATCHERS[0].stats.cache_path)
     folder.mkdir(parents=True, exist_ok=True)
     return folder
 
 
 def _is_compiled(loop: object) -> bool:
-    """Whether the cache has an index for this loop that is as new as its source."""
+    """Return whether the cache has an index for this function that is as new as its source."""
     function = loop.py_func  # type: ignore[attr-defined]  # Numba's dispatcher
     source = Path(function.__code__.co_filename)
     name = f"{function.__module__.rpartition('.')[2]}.{function.__qualname__}-*.nbi"

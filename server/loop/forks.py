@@ -1,7 +1,7 @@
-"""The process from which all others are forked, with everything loaded that takes time to load.
+"""The fork server: all other processes are forked from it, with slow imports loaded once.
 
-Jobs are forked from the same process as tracking, at a lower priority: what takes seconds to load is loaded
-already, and pose and video keep the cores.
+Jobs are forked from the same process as tracking, at a lower priority, so they start at once while pose and
+video keep the cores.
 """
 
 import multiprocessing
@@ -13,16 +13,16 @@ PRELOAD = ["server.loop.preload", "server.planning.ct"]
 
 
 def forking_context() -> ForkServerContext:
-    """How processes are made; the process that forks is started if it is not there.
+    """Return the multiprocessing context; start the fork server if it is not running.
 
-    Call it from the main thread, whose end shall end the process that forks.
+    Call it from the main thread: the fork server ends with that thread.
     """
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(PRELOAD)
-    # First by itself: whoever starts it unblocks these signals.
+    # Started first: its start unblocks these signals.
     resource_tracker.ensure_running()
-    # Blocked in everything started here: Ctrl+C in a terminal and the end that a service manager asks for
-    # reach the whole process group, and only the server may act on them.
+    # Blocked in all child processes: Ctrl+C and a service manager's stop signal reach the whole process
+    # group, and only the server may act on them.
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
     try:
         forkserver.ensure_running()
@@ -31,8 +31,8 @@ def forking_context() -> ForkServerContext:
     return context
 
 
-def ending_words(exitcode: int | None) -> str:
-    """How a process ended."""
+def exit_text(exitcode: int | None) -> str:
+    """Return a text for an exit code."""
     if exitcode is None:
         return "in an unknown way"
     if exitcode < 0:

@@ -1,4 +1,4 @@
-"""Ties a process to the one that started it, so that none is left behind."""
+"""Ties a child process to its parent, so that none is left behind."""
 
 import ctypes
 import os
@@ -9,11 +9,11 @@ PR_SET_PDEATHSIG = 1
 
 
 def die_with_parent() -> None:
-    """Have the system kill this process when its parent ends, however it ends; Linux only."""
+    """Have the kernel kill this process when its parent ends; Linux only."""
     if not sys.platform.startswith("linux"):
         return
     parent = os.getppid()
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
-    # It may have ended between the two lines.
+    # The parent may have ended before the call.
     if os.getppid() != parent:
         os._exit(1)

@@ -1,8 +1,8 @@
-"""Loaded once into the process that all tracking processes are forked from, so that a restart is quick.
+"""Loaded once into the fork server, so that a restart of tracking is fast.
 
-Importing it loads the tracker and runs every compiled loop once; where they were never compiled on this
-machine, they are now.
-No thread may be left running here: a forked child would lack it, and wait for it for ever.
+The import loads the tracker and runs every compiled function once; functions that were never compiled on this
+machine are compiled now. No thread may be left running here: a forked child would lack it, and wait for it
+forever.
 """
 
 import signal
@@ -23,7 +23,7 @@ from server.loop.compiling import compile_tracker  # noqa: E402
 
 threads = cv2.getNumThreads()
 cv2.setNumThreads(1)
-# A fault of the tracker is told by the first tracking process, with its traceback, not by this silent one.
+# An error of the tracker is reported by the first tracking process, with its traceback.
 with contextlib.suppress(Exception):
     compile_tracker()
 cv2.setNumThreads(threads)

@@ -1,6 +1,6 @@
-"""What the tracking process tells the server, and how it is packed.
+"""Reports of the tracking process, and their serialisation.
 
-The setup (camera, tools, plan) is the same for thousands of images: it is packed once, and unpacked to the
+The setup (camera, tools, plan) is the same for thousands of images: it is pickled once, and unpickled to the
 same object as long as it does not change.
 """
 
@@ -9,7 +9,7 @@ import pickle
 import struct
 from dataclasses import dataclass
 
-from server.capture.rehearsal import Begun
+from server.capture.rehearsal import PlayedScene
 from server.live import Problem, SourceStatus
 from tracker.navigation import NavigationSnapshot, Setup
 
@@ -22,29 +22,29 @@ class Report:
     """One message of the tracking process.
 
     Attributes:
-        source: the source of images.
-        snapshot: what the image says that goes with it; None when there is no image.
-        trouble: why it cannot track, although it runs.
-        tracked_images: how many images this process has reported.
-        begun: what of the rehearsal is played; None for every other source.
+        source: status of the source of images.
+        snapshot: result for the image that is sent with it; None without an image.
+        problem: why it cannot track although it runs; None otherwise.
+        tracked_images: number of images that this process has reported.
+        played_scene: scene of the rehearsal; None for every other source.
     """
 
     source: SourceStatus
     snapshot: NavigationSnapshot | None = None
     problem: Problem | None = None
     tracked_images: int = 0
-    begun: Begun | None = None
+    played_scene: PlayedScene | None = None
 
 
 class ReportPacker:
-    """From reports to bytes."""
+    """Serialises reports."""
 
     def __init__(self) -> None:
         self._setup: Setup | None = None
         self._setup_bytes = b""
 
     def pack(self, report: Report) -> bytes:
-        """The report as bytes."""
+        """Return the report as bytes."""
         setup = None if report.snapshot is None else report.snapshot.setup
         if setup is not None and setup is not self._setup:
             self._setup, self._setup_bytes = setup, pickle.dumps(setup, protocol=5)
@@ -54,14 +54,14 @@ class ReportPacker:
 
 
 class ReportUnpacker:
-    """From the bytes of a process that this server started back to reports."""
+    """Deserialises reports of a process that this server started."""
 
     def __init__(self) -> None:
         self._setup: Setup | None = None
         self._setup_bytes = b""
 
     def unpack(self, content: bytes) -> Report:
-        """The report; its setup is the same object as in the last one if it is the same setup."""
+        """Return the report; an unchanged setup is the same object as before."""
         (length,) = LENGTH.unpack_from(content)
         setup_bytes = content[LENGTH.size : LENGTH.size + length]
         if setup_bytes and setup_bytes != self._setup_bytes:

@@ -1,9 +1,9 @@
-"""What of the rehearsal is played in the tracking process, and how another scene takes its place.
+"""Scene of the rehearsal in the tracking process, and its replacement by another one.
 
-The next scene is prepared beside the running one in the same process, so a whole procedure is rehearsed
-with one camera, patient and store. Still scenery is rendered once for all scenes. The truth of an image
-follows from its number and the first number of its scene. On a busy machine a scene takes seconds to
-appear.
+The next scene is prepared while the present one is played, in the same process, so that a whole procedure is
+rehearsed with one camera, patient and store. The static background is rendered once for all scenes. The
+ground truth of an image follows from its number and the first number of its scene. On a busy machine a scene
+takes seconds to appear.
 """
 
 import threading
@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 
 import structlog
 
-from server.capture.rehearsal import Begun, RehearsalSource
+from server.capture.rehearsal import PlayedScene, RehearsalSource
 from server.config import RehearsalConfig
-from server.theatre import theatre_of
+from server.theatre import theatre_from_config
 
 if TYPE_CHECKING:
     from tracker.rehearsal import Renderer
@@ -26,31 +26,31 @@ log = structlog.get_logger(__name__)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SceneOrder:
-    """A scene that shall be played.
+    """An ordered scene.
 
     Attributes:
-        number: counts such orders while the server runs, from 1.
-        rehearsal: the settings, whose scene, skill, board and events are new.
-        first_number: of the image that showed its beginning; None while it has not begun.
+        number: number of the order in this run of the server, from 1.
+        rehearsal: settings with the new scene, skill, board and events.
+        first_number: number of its first image; None while it has not started.
     """
 
     number: int
     rehearsal: RehearsalConfig
     first_number: int | None = None
 
-    def begun(self, next_number: int) -> Begun:
-        """Where a new process goes on with it, or begins it with the image of this number."""
+    def played_scene(self, next_number: int) -> PlayedScene:
+        """Return the scene as a new process plays it: continued, or started with `next_number`."""
         first = next_number if self.first_number is None else self.first_number
-        return Begun(scene_number=self.number, first_number=first)
+        return PlayedScene(scene_number=self.number, first_number=first)
 
 
 class Staging:
-    """Makes the next scene ready in a thread, while the one before goes on.
+    """Prepares the next scene in a thread, while the present one is played.
 
     Args:
-        source: what plays.
-        renderer: that it plays with now; what stands still is kept for the next one.
-        store: what keeps it over starts, if anything does.
+        source: the source that plays the scenes.
+        renderer: its present renderer, whose static background is reused.
+        store: stores the background over restarts; None without one.
     """
 
     def __init__(
@@ -67,12 +67,12 @@ class Staging:
         self._working = False
 
     @property
-    def begun(self) -> Begun:
-        """What is played now."""
-        return self._source.begun
+    def played_scene(self) -> PlayedScene:
+        """The played scene."""
+        return self._source.played_scene
 
     def order(self, order: SceneOrder) -> None:
-        """Play this as soon as it is ready; newest wins."""
+        """Play this scene as soon as it is ready; the newest order wins."""
         with self._lock:
             self._ordered = order
             if self._working:
@@ -90,13 +90,13 @@ class Staging:
             try:
                 self._play(order)
             except Exception:
-                # The scene before goes on; a thread that ends here would never make another one ready.
+                # The present scene continues; if this thread ended, no other scene could be prepared.
                 log.exception("a scene of the rehearsal could not be made ready")
 
     def _play(self, order: SceneOrder) -> None:
-        theatre = theatre_of(order.rehearsal)
+        theatre = theatre_from_config(order.rehearsal)
         renderer = theatre.renderer(after=self._renderer, store=self._store)
         renderer.prepare()
         self._renderer = renderer
-        self._source.play(renderer, scene_number=order.number, silences=theatre.settings.events)
+        self._source.play(renderer, scene_number=order.number, outages=theatre.settings.events)
         log.info("the rehearsal plays another scene", scene=order.rehearsal.scene)

@@ -1,6 +1,6 @@
-"""The still scenery of the rehearsal in files, so that the next start need not render it.
+"""Cache files of the rehearsal's static background, so that the next start need not render it.
 
-The next start shows its first image a second sooner. At most 8 files of up to 32 MB are kept.
+The next start shows its first image a second sooner. At most 8 files of up to 32 MB are stored.
 """
 
 import contextlib
@@ -17,7 +17,7 @@ import numpy as np
 import structlog
 
 import tracker
-from server.disk import DiskFull, reject_without_room
+from server.disk import DiskFull, reject_without_space
 
 if TYPE_CHECKING:
     from tracker.rehearsal.backdrop import Still
@@ -30,20 +30,20 @@ log = structlog.get_logger(__name__)
 
 
 class StillFiles:
-    """Files in a folder of the home. Whatever is wrong with them, the scenery is rendered instead.
+    """Cache files in a folder of the home. On any error the background is rendered instead.
 
-    The key goes into a file's name together with a hash of the tracker's source and its libraries' versions:
-    a changed program never shows what another one has rendered.
+    The key is hashed together with the tracker's source and its libraries' versions: a changed program never
+    uses files of another version.
 
     Args:
-        home: the folder that holds theirs; where it is not there, nothing is kept.
+        home: the folder that holds theirs; if it is missing, nothing is stored.
     """
 
     def __init__(self, home: Path) -> None:
         self._home = home
 
     def load(self, key: bytes) -> "Still | None":
-        """What was saved under this key; None if there is nothing, or nothing that can be read."""
+        """Return what was saved under this key; None without a readable file."""
         from tracker.rehearsal.backdrop import Still  # noqa: PLC0415  only the rehearsal needs it
 
         try:
@@ -59,7 +59,7 @@ class StillFiles:
         return Still(picture=picture, depth_mm=depth_mm, points_mm=points_mm)
 
     def save(self, key: bytes, still: "Still") -> None:
-        """Write it in a thread of its own: the first image does not wait for the disk."""
+        """Write in a separate thread: the first image does not wait for the disk."""
         arrays = {name: getattr(still, name) for name in DTYPES}
         if sum(array.nbytes for array in arrays.values()) <= MAX_BYTES:
             threading.Thread(
@@ -71,7 +71,7 @@ class StillFiles:
     ) -> None:
         part = path.with_suffix(f".{os.getpid()}.part")
         try:
-            reject_without_room(self._home, MAX_BYTES)
+            reject_without_space(self._home, MAX_BYTES)
             path.parent.mkdir(mode=0o700, exist_ok=True)
             with part.open("wb") as file:
                 np.savez(file, **arrays)  # type: ignore[arg-type]  # its stub takes the last one for allow_pickle
@@ -79,7 +79,7 @@ class StillFiles:
             for old in sorted(path.parent.glob("*.npz"), key=_written_at_s)[:-MAX_FILES]:
                 old.unlink(missing_ok=True)
         except (OSError, DiskFull) as error:
-            log.debug("the rehearsal's scenery could not be kept", reason=str(error))
+            log.debug("the rehearsal's background could not be stored", reason=str(error))
             with contextlib.suppress(OSError):
                 part.unlink(missing_ok=True)
 
@@ -97,7 +97,7 @@ def _written_at_s(path: Path) -> float:
 
 @lru_cache(maxsize=1)
 def _program() -> bytes:
-    """A hash of all that decides what is rendered."""
+    """Return a hash of all sources that determine the rendering."""
     found = hashlib.sha256(f"{np.__version__} {cv2.__version__}".encode())
     for path in sorted(Path(tracker.__file__).parent.rglob("*.py")):
         found.update(path.read_bytes())

@@ -1,4 +1,4 @@
-"""From one image to the snapshot of its instant: the tracker, then the navigation, each timed."""
+"""From one image to its navigation snapshot: tracker, then navigation, each timed."""
 
 import dataclasses
 import time
@@ -14,12 +14,12 @@ from tracker.camera import CameraControl, ControlChange, control_changes
 from tracker.errors import CalibrationError
 from tracker.navigation import (
     Absent,
-    Guide,
-    Lagging,
+    DrillReference,
+    LagEstimator,
+    MotionMonitor,
     NavigationSnapshot,
     Setup,
-    Steadying,
-    Watching,
+    ToolSmoothing,
     navigate,
 )
 from tracker.pipeline import Tracker
@@ -30,37 +30,37 @@ log = structlog.get_logger(__name__)
 
 
 class Tracking:
-    """The tracker for the size of image that comes, made anew when the size changes."""
+    """Tracker for the present image size; rebuilt when the size changes."""
 
     def __init__(self, preparation: Preparation) -> None:
-        self._settled = preparation
+        self._base_preparation = preparation
         self._preparation = preparation
         self._setup: Setup | None = None
         self._tracker: Tracker | None = None
-        self._steadying = Steadying(preparation.smoothing)
-        self._watching = Watching()
-        self._lagging = Lagging()
+        self._steadying = ToolSmoothing(preparation.smoothing)
+        self._watching = MotionMonitor()
+        self._lagging = LagEstimator()
         self._watched_registration: tuple[bytes, float | None] | None = None
-        self._guide: Guide | None = None
+        self._guide: DrillReference | None = None
         self._size_problem: Problem | None = None
         self._changes: tuple[ControlChange, ...] = ()
 
     @property
     def problem(self) -> Problem | None:
-        """Why no millimetre is claimed although images come; None while nothing is in the way."""
+        """Why no measurement is given although images arrive; None otherwise."""
         return self._size_problem or (_changed_problem(self._changes[0]) if self._changes else None)
 
     @property
     def calibrated_camera(self) -> CalibratedCamera | None:
-        """What the camera is set to so that the calibration in use holds of it; None where there is none."""
+        """Camera settings for which the calibration in use is valid; None without a calibration."""
         return self._preparation.calibrated_camera
 
     def adopt(self, case: CaseSetup) -> None:
-        """From the next image on work with what this case knows; nothing of the one before is kept."""
-        self._preparation = self._settled.with_case(case)
+        """Use the data of this case from the next image on; all state of the one before is discarded."""
+        self._preparation = self._base_preparation.with_case(case)
         self._setup = None
 
-    def conclude(
+    def process(
         self,
         shot: Shot,
         *,
@@ -68,10 +68,10 @@ class Tracking:
         controls: Mapping[CameraControl, int] | None = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> NavigationSnapshot:
-        """What this image says, of a camera whose controls have these values; None where none is known.
+        """Return the navigation snapshot of an image; `controls` are the camera's present control values.
 
-        A camera file for another size is told as `trouble`; the marker is then found without it, and no
-        millimetre is claimed.
+        A camera file for another size is reported as `problem`; the marker is then tracked without
+        calibration, and no measurement is given.
 
         Raises:
             NavigationError: the tracker cannot work on this image.
@@ -85,9 +85,9 @@ class Tracking:
             raise RuntimeError("no setup was made")
         sightings = tracker.step(shot.image, captured_at_s=shot.captured_at_s)
         tracked_s = clock()
-        watched = self._watching.take(setup, shot.image, sightings, at_s=shot.captured_at_s)
+        motion = self._watching.take(setup, shot.image, sightings, at_s=shot.captured_at_s)
         self._note_controls(setup, controls or {})
-        watched = dataclasses.replace(watched, camera_changes=self._changes)
+        motion = dataclasses.replace(motion, camera_changes=self._changes)
         watched_s = clock()
         snapshot = navigate(
             setup=setup,
@@ -98,8 +98,8 @@ class Tracking:
             stage_ms={},
             skipped_images=skipped_images,
             steadied=self._steadying.steadied(setup, sightings, captured_at_s=shot.captured_at_s),
-            guide=self._guide,
-            watched=watched,
+            drill_reference=self._guide,
+            motion=motion,
         )
         snapshot = self._lagging.take(snapshot, latency_ms=self._preparation.latency_ms)
         stage_ms = {
@@ -115,19 +115,19 @@ class Tracking:
         try:
             setup = self._preparation.setup_for(size_wh_px)
         except CalibrationError as error:
-            # Told here and shown on the page; the picture goes on without millimetres.
+            # Logged here and shown on the page; the video continues without measurements.
             log.warning(error.message, code=error.code, remedy=error.remedy)
             self._size_problem = Problem.from_error(error)
             setup = self._preparation.uncalibrated_setup_for(size_wh_px)
         self._tracker = self._preparation.tracker_for(setup)
-        self._steadying, self._lagging = Steadying(self._preparation.smoothing), Lagging()
+        self._steadying, self._lagging = ToolSmoothing(self._preparation.smoothing), LagEstimator()
         channel = setup.channel
-        self._guide = self._preparation.guide_along(channel) if isinstance(channel, Channel) else None
-        self._watch_registration(setup, at_s)
+        self._guide = self._preparation.drill_reference_for(channel) if isinstance(channel, Channel) else None
+        self._monitor_registration(setup, at_s)
         self._setup = setup
 
     def _note_controls(self, setup: Setup, controls: Mapping[CameraControl, int]) -> None:
-        """Compare the camera's controls with those at the calibration in use, and log what changed, once."""
+        """Compare the camera's controls with those of the calibration in use, and log changes once."""
         calibrated = self._preparation.camera_controls if setup.camera_calibrated else {}
         changes = control_changes(calibrated, controls)
         if changes != self._changes:
@@ -136,8 +136,8 @@ class Tracking:
                 problem = _changed_problem(change)
                 log.warning(problem.message, code=problem.code, remedy=problem.remedy)
 
-    def _watch_registration(self, setup: Setup, at_s: float) -> None:
-        """Begin to watch another registration; one that stays, or was checked, is watched on."""
+    def _monitor_registration(self, setup: Setup, at_s: float) -> None:
+        """Restart the motion monitor for a new registration; an unchanged or checked one continues."""
         now = (_identity(setup.registration), self._preparation.registered_from_s)
         if now != self._watched_registration:
             self._watched_registration = now
@@ -149,7 +149,7 @@ def _changed_problem(change: ControlChange) -> Problem:
     return Problem(
         code="CAMERA_CHANGED",
         message=f"{control} of the camera changed from {calibrated} to {now} since the calibration in use, "
-        "which does not hold any more",
+        "which is invalid now",
         remedy=f"Set {control} back to {calibrated} (a new start does, unless camera.lock_controls is false) "
         "or calibrate the camera again.",
         context={"control": control, "calibrated": calibrated, "now": now},
@@ -157,7 +157,7 @@ def _changed_problem(change: ControlChange) -> Problem:
 
 
 def _identity(registration: Registration | Absent) -> bytes:
-    """Equal for registrations that are the same: each order of the server brings a copy of its own."""
+    """Return equal bytes for equal registrations: each order of the server has its own copy."""
     if isinstance(registration, Absent):
         return b""
     return registration.anchored_to.encode() + registration.anchor_from_vertebra.matrix.tobytes()

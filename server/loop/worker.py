@@ -1,7 +1,7 @@
-"""The tracking process itself: newest image in, report and image out.
+"""The tracking process: newest image in, report and image out.
 
-Two threads do the work: one captures, the main one tracks. A third only listens to the server: for what the
-open case knows, and for the end, which is when the server lets go of its end of the pipe (also by dying).
+Two threads do the work: one captures, the main one tracks. A third listens to the server, for case data and
+for the end of the process: that is when the server closes its end of the pipe, also by dying.
 """
 
 import contextlib
@@ -18,11 +18,11 @@ import cv2
 import structlog
 
 from server.capture.capture import Capture
-from server.capture.choose import source_from_config
 from server.capture.industrial import IndustrialCameraSource
 from server.capture.local_camera import LocalCameraSource
 from server.capture.rehearsal import RehearsalSource
 from server.capture.shot import Shot, Source
+from server.capture.source_factory import source_from_config
 from server.config import Config
 from server.live import Problem
 from server.logs import LogSettings, configure_logging
@@ -37,27 +37,27 @@ from server.setup import CaseSetup, Preparation, build_setup
 from server.store.home import home_folder
 from tracker.errors import NavigationError
 
-# A sign of life when no image comes.
+# Report interval when no image comes.
 HEARTBEAT_S = 0.5
 STOP_GRACE_S = 0.7
 
-Told = TypeVar("Told")
+Value = TypeVar("Value")
 
 log = structlog.get_logger(__name__)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorkerOrder:
-    """What a tracking process is told when it is started.
+    """Start parameters of a tracking process.
 
     Attributes:
-        config: the settings.
-        log: how to log.
-        case: what the open case knows; later changes come through `WorkerLink.orders`.
+        config: settings.
+        log: log settings.
+        case: data of the open case; later changes come through `WorkerLink.orders`.
         first_number: the number of its first image, above all that were reported before.
-        skipped_before: images that were skipped before.
-        scene: of the rehearsal, in place of what the settings say; None while no other one was ordered.
-        inbox: where the images of a phone come in; None for every other source.
+        skipped_before: number of images skipped before.
+        scene: scene of the rehearsal in place of the settings'; None if no other was ordered.
+        inbox: images of a phone; None for every other source.
     """
 
     config: Config
@@ -71,13 +71,13 @@ class WorkerOrder:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorkerLink:
-    """The ends of a tracking process that the server holds the other ends of.
+    """The tracking process's ends of its connections to the server.
 
     Attributes:
-        ring: where reports and images go.
-        notice: one byte in here says that something was written; never blocks.
-        orders: from the server: a `CaseSetup` when the open case changes, a `SceneOrder` when another scene
-            is rehearsed; closed when the process shall end.
+        ring: reports and images to the server.
+        notice: one byte per report wakes the server; never blocks.
+        orders: from the server: a `CaseSetup` when the open case changes, a `SceneOrder` for another scene;
+            closed to end the process.
     """
 
     ring: ImageRing
@@ -88,44 +88,44 @@ class WorkerLink:
     def send(self, report: Report, shot: Shot | None = None) -> None:
         """Write a report, and wake the server."""
         self.ring.write(self._packer.pack(report), None if shot is None else shot.image)
-        # A full pipe has woken it already.
+        # A full pipe wakes the server anyway.
         with contextlib.suppress(BlockingIOError):
             os.write(self.notice.fileno(), b".")
 
 
-class Newest(Generic[Told]):
-    """What the server told, handed from the thread that listens to the one that tracks; newest wins."""
+class LatestValue(Generic[Value]):
+    """Passes the newest value from the listening thread to the tracking thread; older ones are replaced."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._told: Told | None = None
+        self._value: Value | None = None
 
-    def put(self, told: Told) -> None:
-        """Replace what has not been taken yet."""
+    def put(self, value: Value) -> None:
+        """Replace a value that was not taken yet."""
         with self._lock:
-            self._told = told
+            self._value = value
 
-    def take(self) -> Told | None:
-        """What changed since it was last taken; None if nothing did."""
+    def take(self) -> Value | None:
+        """Return a new value; None without one."""
         with self._lock:
-            told, self._told = self._told, None
-        return told
+            value, self._value = self._value, None
+        return value
 
 
-NewestCase: TypeAlias = Newest[CaseSetup]
-NewestScene: TypeAlias = Newest[SceneOrder]
+LatestCase: TypeAlias = LatestValue[CaseSetup]
+LatestScene: TypeAlias = LatestValue[SceneOrder]
 
 
 def run_worker(order: WorkerOrder, link: WorkerLink) -> None:
-    """The tracking process, from start to end."""
+    """Run the tracking process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     die_with_parent()
     configure_logging(order.log, process="tracking")
     os.set_blocking(link.notice.fileno(), False)
-    # Two: one core is left to the server, and the tracker's images are small.
+    # Two threads: one core is left to the server, and the tracker's images are small.
     cv2.setNumThreads(2)
     stop = threading.Event()
-    newest, scenes = NewestCase(), NewestScene()
+    newest, scenes = LatestCase(), LatestScene()
     listening = (link.orders, newest, scenes, stop)
     threading.Thread(target=_listen, args=listening, name="orders", daemon=True).start()
     try:
@@ -143,7 +143,7 @@ def run_worker(order: WorkerOrder, link: WorkerLink) -> None:
 
 
 def _config_of(order: WorkerOrder) -> Config:
-    """The settings, with the scene that was ordered last."""
+    """Return the settings, with the scene that was ordered last."""
     if order.scene is None:
         return order.config
     return order.config.model_copy(update={"rehearsal": order.scene.rehearsal})
@@ -152,7 +152,7 @@ def _config_of(order: WorkerOrder) -> Config:
 def _staged(
     order: WorkerOrder, preparation: Preparation, stop: threading.Event
 ) -> tuple[Source, Staging | None]:
-    """The source of images, and what changes its scene where it is the rehearsal."""
+    """Return the source of images, and the scene preparation of a rehearsal."""
     theatre = preparation.theatre
     if theatre is None:
         calibration = preparation.with_case(order.case).calibrated_camera
@@ -173,8 +173,8 @@ def _staged(
         stop=stop,
         renderer=renderer,
         first_number=order.first_number,
-        begun=None if order.scene is None else order.scene.begun(order.first_number),
-        silences=theatre.settings.events,
+        played_scene=None if order.scene is None else order.scene.played_scene(order.first_number),
+        outages=theatre.settings.events,
     )
     return source, Staging(source, renderer, store) if isinstance(source, RehearsalSource) else None
 
@@ -186,8 +186,8 @@ def work(
     source: Source,
     tracking: Tracking,
     *,
-    newest: NewestCase,
-    scenes: NewestScene | None = None,
+    newest: LatestCase,
+    scenes: LatestScene | None = None,
     staging: Staging | None = None,
     clock: Callable[[], float] = time.monotonic,
 ) -> None:
@@ -207,39 +207,41 @@ def work(
         scene = None if scenes is None else scenes.take()
         if scene is not None and staging is not None:
             staging.order(scene)
-        told = Report(source=capture.status(), begun=None if staging is None else staging.begun)
+        report = Report(
+            source=capture.status(), played_scene=None if staging is None else staging.played_scene
+        )
         if shot is None:
-            link.send(replace(told, problem=problem, tracked_images=tracked))
+            link.send(replace(report, problem=problem, tracked_images=tracked))
             continue
         try:
-            camera = told.source.camera
-            snapshot = tracking.conclude(
+            camera = report.source.camera
+            snapshot = tracking.process(
                 shot,
-                skipped_images=told.source.skipped_images,
+                skipped_images=report.source.skipped_images,
                 controls=None if camera is None else camera.controls,
                 clock=clock,
             )
             problem = tracking.problem
-            link.send(replace(told, snapshot=snapshot, problem=problem, tracked_images=tracked + 1), shot)
+            link.send(replace(report, snapshot=snapshot, problem=problem, tracked_images=tracked + 1), shot)
             tracked += 1
         except NavigationError as error:
             if problem is None or problem.code != error.code:
                 log.warning(error.message, code=error.code, remedy=error.remedy)
             problem = Problem.from_error(error)
-            link.send(replace(told, problem=problem, tracked_images=tracked))
+            link.send(replace(report, problem=problem, tracked_images=tracked))
     capture.close(STOP_GRACE_S)
 
 
-def _listen(orders: Connection, newest: NewestCase, scenes: NewestScene, stop: threading.Event) -> None:
-    """Hands on what the server says, and ends this process when it lets go of its end of the pipe."""
+def _listen(orders: Connection, newest: LatestCase, scenes: LatestScene, stop: threading.Event) -> None:
+    """Pass on the server's messages; end this process when the server closes its end of the pipe."""
     with contextlib.suppress(EOFError, OSError):
         while True:
-            told = orders.recv()
-            if isinstance(told, SceneOrder):
-                scenes.put(told)
+            message = orders.recv()
+            if isinstance(message, SceneOrder):
+                scenes.put(message)
             else:
-                newest.put(told)
+                newest.put(message)
     stop.set()
     time.sleep(STOP_GRACE_S)
-    # Whatever still hangs (a driver, a stream that does not answer) is not worth waiting for.
+    # A hanging driver or stream is not waited for.
     os._exit(0)

@@ -2,9 +2,9 @@
 
 from collections.abc import Mapping
 
-from server.overlay.ink import REGULAR, SEMIBOLD, WHITE, Box, Image, ground, text, text_width_px
+from server.overlay.primitives import REGULAR, SEMIBOLD, WHITE, Box, Image, darken_box, text, text_width_px
 from server.texts import Language, Text, alarm_text
-from tracker.navigation.alarms import AlarmPicture, AlarmState, Priority, Showing
+from tracker.navigation.alarms import AlarmSnapshot, AlarmState, Presence, Priority
 
 # BGR; the words say the same, because colour alone says nothing to one man in twelve.
 COLOURS = {Priority.HIGH: (110, 110, 255), Priority.MEDIUM: (77, 216, 255), Priority.LOW: (242, 211, 111)}
@@ -24,7 +24,7 @@ PADDING_PX = 14.0
 
 def draw_alarm_band(
     image: Image,
-    alarms: AlarmPicture,
+    alarms: AlarmSnapshot,
     *,
     scale: float,
     language: Language = "en",
@@ -46,7 +46,7 @@ def draw_alarm_band(
     words = alarm_text(top, unix_offset_s=alarms.unix_offset_s)
     more = f"  +{len(alarms.alarms) - 1}" if len(alarms.alarms) > 1 else ""
     # What was over and shows again is not over.
-    is_over = top.state is AlarmState.LATCHED and top.presence is not Showing.YES
+    is_over = top.state is AlarmState.LATCHED and top.presence is not Presence.YES
     has_state = is_over or top.state is AlarmState.ACKNOWLEDGED
     known = f" ({STATES[top.state][language]})" if has_state else ""
     # What is over is no alarm any more: it has no marks, and no colour.
@@ -63,7 +63,7 @@ def draw_alarm_band(
     widths = [text_width_px(line, size_px=size * scale, weight=weight) for line, size, weight in rows]
     width = min(max(widths), room)
     middle = max(image.shape[1] / 2.0, left_most + pad + width / 2.0)
-    ground(image, middle - width / 2.0 - pad, above, middle + width / 2.0 + pad, below)
+    darken_box(image, middle - width / 2.0 - pad, above, middle + width / 2.0 + pad, below)
     for index, ((line, size, weight), wide) in enumerate(zip(rows, widths, strict=True)):
         fitting = size * scale * min(1.0, room / max(wide, 1.0))
         base = above + (FIRST_BASE_PX + SENTENCE_BASE_PX * index) * scale

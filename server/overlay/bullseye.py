@@ -5,28 +5,28 @@ from dataclasses import dataclass, replace
 import cv2
 import numpy as np
 
-from server.overlay.ink import (
+from server.overlay.primitives import (
     DRILL_ORANGE,
     PLAN_BLUE,
     QUIET,
     REGULAR,
     WHITE,
     Image,
+    darken_box,
     dot,
-    ground,
     stroke,
     text,
     text_width_px,
 )
 from tracker.geometry import Array
-from tracker.navigation import AlongChannel, half_axes_95_mm
+from tracker.navigation import BullseyeView, half_axes_95_mm
 from tracker.plan import Channel
 
 # From the middle to the border: this, or twice the channel; what lies beyond is an arrow at the border.
-MIN_REACH_MM = 7.0
+MIN_EXTENT_MM = 7.0
 CROSS_MM, SQUARE_MM = 0.8, 0.45
 LETTER_PX = 17.0
-LETTER_ROOM_PX = 18.0
+LETTER_MARGIN_PX = 18.0
 # BGR; a border that nobody needs to read.
 DIM = (120, 120, 120)
 TURN = np.linspace(0.0, 2.0 * np.pi, 49)
@@ -36,7 +36,7 @@ SQUARE = SQUARE_MM * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0
 
 def reach_of(channel: Channel) -> float:
     """How many mm a bull's-eye shows from its middle to its border, burned in or drawn by the page."""
-    return max(MIN_REACH_MM, 2.0 * channel.radius_mm)
+    return max(MIN_EXTENT_MM, 2.0 * channel.radius_mm)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,19 +45,19 @@ class Inset:
 
     Attributes:
         left_px: of the square; likewise top_px and side_px.
-        reach_mm: from its middle to the border.
+        extent_mm: from its middle to the border.
         scale: of all that is drawn, 1 for an image 720 px high.
     """
 
     left_px: float
     top_px: float
     side_px: float
-    reach_mm: float
+    extent_mm: float
     scale: float
 
     def px(self, view_mm: Array) -> Array:
         """Pixels (..., 2) of places (..., 2) of the view, right and up in mm."""
-        per_mm = (self.side_px / 2.0 - LETTER_ROOM_PX * self.scale) / self.reach_mm
+        per_mm = (self.side_px / 2.0 - LETTER_MARGIN_PX * self.scale) / self.extent_mm
         middle = np.array([self.left_px, self.top_px]) + self.side_px / 2.0
         return np.asarray(middle + np.asarray(view_mm) * [per_mm, -per_mm])
 
@@ -73,7 +73,7 @@ class Target:
         tip_covariance_mm2: (2, 2) of the tip in the view; None where it is not known.
     """
 
-    seen: AlongChannel
+    seen: BullseyeView
     channel_radius_mm: float
     drill_radius_mm: float
     tip_covariance_mm2: Array | None = None
@@ -87,56 +87,58 @@ def draw_bullseye(image: Image, inset: Inset, target: Target) -> None:
     parallel drill is a point, and one that is off in angle a line. A thin white ellipse holds the tip with
     95 in 100.
     """
-    scale, seen, reach_mm = inset.scale, target.seen, inset.reach_mm
+    scale, seen, extent_mm = inset.scale, target.seen, inset.extent_mm
     left, top, side = (max(round(px), 0) for px in (inset.left_px, inset.top_px, inset.side_px))
     # In a window of its own, so that nothing reaches over its border.
     image = image[top : top + side, left : left + side]
     inset = replace(inset, left_px=0.0, top_px=0.0)
-    ground(image, 0, 0, side, side)
-    cv2.polylines(image, [np.round(inset.px(reach_mm * CIRCLE)).astype(np.int32)], True, DIM, 1, cv2.LINE_AA)
+    darken_box(image, 0, 0, side, side)
+    cv2.polylines(image, [np.round(inset.px(extent_mm * CIRCLE)).astype(np.int32)], True, DIM, 1, cv2.LINE_AA)
     stroke(image, [inset.px(target.channel_radius_mm * CIRCLE)], PLAN_BLUE, width_px=2.4 * scale)
     arms = CROSS_MM * np.array([[[-1.0, 0.0], [1.0, 0.0]], [[0.0, -1.0], [0.0, 1.0]]])
     stroke(image, [inset.px(arm) for arm in arms], PLAN_BLUE, width_px=1.6 * scale)
     _letters(image, inset)
-    if float(np.hypot(*seen.tip_mm)) > reach_mm:
+    if float(np.hypot(*seen.tip_mm)) > extent_mm:
         _arrow(image, inset, seen.tip_mm)
         return
-    way = np.stack([_held(place, seen.tip_mm, reach_mm) for place in (seen.at_entry_mm, seen.at_target_mm)])
+    way = np.stack(
+        [_clamped(place, seen.tip_mm, extent_mm) for place in (seen.at_entry_mm, seen.at_target_mm)]
+    )
     stroke(image, [inset.px(way)], DRILL_ORANGE, width_px=2.0 * scale)
-    if float(np.hypot(*seen.at_target_mm)) <= reach_mm:
+    if float(np.hypot(*seen.at_target_mm)) <= extent_mm:
         stroke(image, [inset.px(seen.at_target_mm + SQUARE)], DRILL_ORANGE, width_px=2.0 * scale)
     if target.tip_covariance_mm2 is not None:
         ring = CIRCLE @ half_axes_95_mm(target.tip_covariance_mm2)
-        stroke(image, [inset.px(_inside(seen.tip_mm + ring, reach_mm))], WHITE, width_px=1.0 * scale)
+        stroke(image, [inset.px(_inside(seen.tip_mm + ring, extent_mm))], WHITE, width_px=1.0 * scale)
     stroke(
         image, [inset.px(seen.tip_mm + target.drill_radius_mm * CIRCLE)], DRILL_ORANGE, width_px=2.6 * scale
     )
     dot(image, inset.px(seen.tip_mm), WHITE, radius_px=3.0 * scale)
 
 
-def _held(place_mm: Array, tip_mm: Array, reach_mm: float) -> Array:
+def _clamped(place_mm: Array, tip_mm: Array, extent_mm: float) -> Array:
     """A place held within reach, along its line from the tip; the tip itself where there is none."""
     if not np.isfinite(place_mm).all():
         return tip_mm
     way = place_mm - tip_mm
-    a, b, c = float(way @ way), float(way @ tip_mm), float(tip_mm @ tip_mm) - reach_mm**2
+    a, b, c = float(way @ way), float(way @ tip_mm), float(tip_mm @ tip_mm) - extent_mm**2
     if a < 1e-12:
         return place_mm
     farthest = (-b + np.sqrt(max(b * b - a * c, 0.0))) / a
     return np.asarray(tip_mm + min(1.0, farthest) * way)
 
 
-def _inside(ring_mm: Array, reach_mm: float) -> Array:
+def _inside(ring_mm: Array, extent_mm: float) -> Array:
     """A ring with what lies beyond reach put onto the border."""
     away = np.linalg.norm(ring_mm, axis=1, keepdims=True)
-    return np.asarray(ring_mm * np.minimum(1.0, reach_mm / np.maximum(away, 1e-9)))
+    return np.asarray(ring_mm * np.minimum(1.0, extent_mm / np.maximum(away, 1e-9)))
 
 
 def _arrow(image: Image, inset: Inset, tip_mm: Array) -> None:
     way = tip_mm / np.hypot(*tip_mm)
-    across = 0.13 * inset.reach_mm * np.array([-way[1], way[0]])
-    back = 0.78 * inset.reach_mm * way
-    head = np.stack([back + across, inset.reach_mm * way, back - across])
+    across = 0.13 * inset.extent_mm * np.array([-way[1], way[0]])
+    back = 0.78 * inset.extent_mm * way
+    head = np.stack([back + across, inset.extent_mm * way, back - across])
     stroke(image, [inset.px(head)], DRILL_ORANGE, width_px=3.0 * inset.scale)
 
 

@@ -2,23 +2,32 @@
 
 import numpy as np
 
-from server.overlay.ink import DRILL_ORANGE, QUIET, REGULAR, SEMIBOLD, WHITE, Image, text, text_width_px
-from server.overlay.words import RESEARCH_SOFTWARE
+from server.overlay.panel_readings import RESEARCH_SOFTWARE
+from server.overlay.primitives import (
+    DRILL_ORANGE,
+    QUIET,
+    REGULAR,
+    SEMIBOLD,
+    WHITE,
+    Image,
+    text,
+    text_width_px,
+)
 
-GROUND = 28
+BACKGROUND = 28
 TITLE_PX = 60.0
 LINE_PX = 30.0
 NOTICE_PX = 17.0
-LINES_AT_MOST = 5
+MAX_LINES = 5
 
 
 def draw_card(*, size_wh_px: tuple[int, int], title: str, lines: tuple[str, ...]) -> Image:
     """A dark picture with a title and sentences below it, wrapped at words, at most five rows of them."""
     width, height = size_wh_px
-    card: Image = np.full((height, width, 3), GROUND, dtype=np.uint8)
+    card: Image = np.full((height, width, 3), BACKGROUND, dtype=np.uint8)
     scale = min(height / 720.0, width / 1000.0)
     room = width - 80.0 * scale
-    rows = [row for line in lines for row in _wrapped(line, room, LINE_PX * scale)][:LINES_AT_MOST]
+    rows = [row for line in lines for row in _wrapped(line, room, LINE_PX * scale)][:MAX_LINES]
     base = height / 2.0 - (len(rows) * 44.0 - 40.0) / 2.0 * scale
     title_size = _fitting(title, TITLE_PX * scale, room)
     _centred(card, title, base, title_size, SEMIBOLD, DRILL_ORANGE)

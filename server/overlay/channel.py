@@ -1,6 +1,6 @@
 """The planned channel: a cylinder with its rings and its dashed axis."""
 
-from server.overlay.ink import PLAN_BLUE, Image, stroke
+from server.overlay.primitives import PLAN_BLUE, Image, stroke
 from server.overlay.view import View, dashes, straight
 from tracker.geometry import Camera, Rigid, Vertebra, cylinder_ring_mm, cylinder_silhouette_mm
 from tracker.plan import Channel
@@ -14,7 +14,7 @@ def draw_channel(
     """Draw the channel into the image: outline, ring at entry (heavier) and at target, axis."""
     entry = camera_from_vertebra.move_points(channel.entry_in_vertebra_mm)
     target = camera_from_vertebra.move_points(channel.target_in_vertebra_mm)
-    axis = camera_from_vertebra.turn_directions(channel.axis_in_vertebra)
+    axis = camera_from_vertebra.rotate_directions(channel.axis_in_vertebra)
     axis_dashes = view.runs_of(dashes(entry, target, dash_mm=DASH_MM))
     stroke(image, axis_dashes, PLAN_BLUE, width_px=1.8 * scale)
     outline = [

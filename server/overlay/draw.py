@@ -9,14 +9,14 @@ from server.overlay.bullseye import Inset, Target, draw_bullseye, reach_of
 from server.overlay.channel import draw_channel
 from server.overlay.drill import draw_drill, draw_marker
 from server.overlay.headline import draw_headline
-from server.overlay.ink import Image
 from server.overlay.panel import MARGIN_PX, WIDTH_PX, draw_panel, draw_small_print
+from server.overlay.panel_readings import panel_of
+from server.overlay.primitives import Image
 from server.overlay.view import View
-from server.overlay.words import panel_of
 from server.texts import Language
 from tracker.errors import InvalidInput
-from tracker.navigation import Absent, Deviation, NavigationSnapshot, seen_along
-from tracker.navigation.alarms import QUIET, AlarmPicture
+from tracker.navigation import Absent, Deviation, NavigationSnapshot, bullseye_view
+from tracker.navigation.alarms import QUIET, AlarmSnapshot
 from tracker.pose import Seen
 
 BASE_HEIGHT_PX = 720.0
@@ -31,7 +31,7 @@ FARTHEST_AHEAD_MM = 150.0
 def draw_overlay(
     image: npt.NDArray[np.uint8],
     snapshot: NavigationSnapshot,
-    alarms: AlarmPicture = QUIET,
+    alarms: AlarmSnapshot = QUIET,
     *,
     language: Language = "en",
 ) -> Image:
@@ -68,7 +68,7 @@ def draw_overlay(
     top_px = draw_panel(drawn, panel, scale=scale)
     beside = None
     if panel.readings:
-        top_px = _draw_inset(drawn, snapshot, snapshot.shown_tool, below_px=top_px, scale=scale)
+        top_px = _draw_inset(drawn, snapshot, snapshot.displayed_tool, below_px=top_px, scale=scale)
         left_px, bottom_px = MARGIN_PX * scale, top_px - GAP_PX * scale
         beside = draw_headline(
             drawn, panel.headline, language, left_px=left_px, bottom_px=bottom_px, scale=scale
@@ -105,14 +105,14 @@ def _draw_inset(
         return below_px
     side = WIDTH_PX * scale
     top_px = below_px - GAP_PX * scale - side
-    seen, judged = seen_along(placed, channel, snapshot.setup.side), snapshot.judgements[tool]
+    seen, judged = bullseye_view(placed, channel, snapshot.setup.side), snapshot.analyses[tool]
     draw_bullseye(
         image,
         Inset(
             left_px=MARGIN_PX * scale,
             top_px=top_px,
             side_px=side,
-            reach_mm=reach_of(channel),
+            extent_mm=reach_of(channel),
             scale=scale,
         ),
         Target(

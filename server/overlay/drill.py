@@ -2,21 +2,21 @@
 
 import numpy as np
 
-from server.overlay.ink import (
+from server.number_format import format_number
+from server.overlay.primitives import (
     DRILL_ORANGE,
     REGULAR,
     WHITE,
     Image,
+    darken_box,
     dot,
-    ground,
     stroke,
     text,
     text_width_px,
 )
 from server.overlay.view import View, dashes, straight
-from server.shown import shown_number
 from tracker.geometry import Array
-from tracker.navigation import ToolInView
+from tracker.navigation import ToolPose
 from tracker.pose import Seen, ToolModel
 
 TICK_MM = 5.0
@@ -28,7 +28,7 @@ MIN_TICK_GAP_PX = 4.0
 
 
 def draw_drill(
-    image: Image, view: View, tool: ToolModel, in_view: ToolInView, *, ahead_mm: float, scale: float
+    image: Image, view: View, tool: ToolModel, in_view: ToolPose, *, ahead_mm: float, scale: float
 ) -> None:
     """Draw the drill's line into the image: solid up to the tip, dashed for `ahead_mm` beyond it.
 
@@ -37,7 +37,7 @@ def draw_drill(
     """
     pose = in_view.camera_from_tool
     tip = pose.translation_mm
-    direction = pose.turn_directions([0.0, 0.0, 1.0])
+    direction = pose.rotate_directions([0.0, 0.0, 1.0])
     ahead = dashes(tip, tip + ahead_mm * direction, dash_mm=DASH_MM)
     stroke(image, view.runs_of(ahead), DRILL_ORANGE, width_px=1.6 * scale)
     shaft = view.runs(straight(tip, tip - tool.length_mm * direction, count=65))
@@ -74,7 +74,7 @@ def draw_marker(image: Image, name: str, seen: Seen, *, scale: float) -> None:
     if not np.isfinite(corners).all():
         return
     stroke(image, [np.vstack([corners, corners[:1]])], WHITE, width_px=1.6 * scale)
-    words = f"{name}  {shown_number(seen.score_ratio, decimals=2)}"
+    words = f"{name}  {format_number(seen.score_ratio, decimals=2)}"
     size = 20.0 * scale
     width = text_width_px(words, size_px=size, weight=REGULAR)
     height_px, width_px = image.shape[:2]
@@ -82,5 +82,5 @@ def draw_marker(image: Image, name: str, seen: Seen, *, scale: float) -> None:
     above = corners[:, 1].min() - 10 * scale
     top_room = 56 * scale
     base = float(np.clip(above, top_room, max(top_room, height_px - 24 * scale)))
-    ground(image, left - 4 * scale, base - size, left + width + 6 * scale, base + 6 * scale)
+    darken_box(image, left - 4 * scale, base - size, left + width + 6 * scale, base + 6 * scale)
     text(image, words, (left + 1, base), WHITE, size_px=size, weight=REGULAR)

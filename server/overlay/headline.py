@@ -3,7 +3,7 @@
 import cv2
 import numpy as np
 
-from server.overlay.ink import (
+from server.overlay.primitives import (
     GREEN,
     RED,
     REGULAR,
@@ -13,7 +13,7 @@ from server.overlay.ink import (
     Box,
     Colour,
     Image,
-    ground,
+    darken_box,
     stroke,
     text,
     text_width_px,
@@ -66,7 +66,7 @@ def draw_headline(
     room = min(MAX_WIDTH_PX * scale, image.shape[1] - 2.0 * left_px)
     width = min(max(MIN_WIDTH_PX * scale, *needed), room)
     top = bottom_px - (ROW_PX + DETAIL_ROW_PX * len(rows)) * scale
-    ground(image, left_px, top, left_px + width, bottom_px)
+    darken_box(image, left_px, top, left_px + width, bottom_px)
     colour = COLOURS[headline.tone]
     middle = np.array([left_px + pad + half, top + ROW_PX * scale / 2.0])
     _symbol(image, headline.tone, middle, half, colour)

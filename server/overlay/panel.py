@@ -1,6 +1,7 @@
 """The panel of numbers in its fixed place, and the small print."""
 
-from server.overlay.ink import (
+from server.overlay.panel_readings import RESEARCH_SOFTWARE, Panel, Reading
+from server.overlay.primitives import (
     DRILL_ORANGE,
     QUIET,
     RED,
@@ -9,11 +10,10 @@ from server.overlay.ink import (
     WHITE,
     YELLOW,
     Image,
-    ground,
+    darken_box,
     text,
     text_width_px,
 )
-from server.overlay.words import RESEARCH_SOFTWARE, Panel, Reading
 from tracker.navigation import Absent, NavigationSnapshot, Status
 
 # For an image 720 px high; all of it grows with the image.
@@ -43,7 +43,7 @@ def draw_panel(image: Image, panel: Panel, *, scale: float) -> float:
     if panel.readings:
         note_px = NOTE_PX if panel.note else 0.0
         top = float(bottom - (ROW_PX * len(panel.readings) + 6.0 + note_px) * scale)
-        ground(image, left, top, left + WIDTH_PX * scale, bottom)
+        darken_box(image, left, top, left + WIDTH_PX * scale, bottom)
         if panel.note:
             at = (left + PADDING_PX * scale, bottom - 9.0 * scale)
             text(image, panel.note, at, QUIET, size_px=SMALL_PX * scale, weight=REGULAR)
@@ -56,7 +56,7 @@ def draw_panel(image: Image, panel: Panel, *, scale: float) -> float:
     rows += [(words, DETAIL_PX * scale, REGULAR, WHITE) for words in details]
     width = max(text_width_px(words, size_px=size, weight=weight) for words, size, weight, _ in rows)
     top = float(bottom - (62.0 + 34.0 * len(details)) * scale)
-    ground(image, left, top, left + width + 2.0 * PADDING_PX * scale, bottom)
+    darken_box(image, left, top, left + width + 2.0 * PADDING_PX * scale, bottom)
     base = top + 46.0 * scale
     for words, size, weight, colour in rows:
         text(image, words, (left + PADDING_PX * scale, base), colour, size_px=size, weight=weight)
@@ -106,5 +106,5 @@ def draw_small_print(image: Image, snapshot: NavigationSnapshot, *, scale: float
 def _small(image: Image, words: str, left: float, base: float, size: float, scale: float) -> None:
     width = text_width_px(words, size_px=size, weight=REGULAR)
     pad = 6.0 * scale
-    ground(image, left - pad, base - size - pad * 0.3, left + width + pad, base + pad)
+    darken_box(image, left - pad, base - size - pad * 0.3, left + width + pad, base + pad)
     text(image, words, (left, base), QUIET, size_px=size, weight=REGULAR)

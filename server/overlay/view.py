@@ -9,10 +9,10 @@ import numpy.typing as npt
 from tracker.camera import CameraModel
 from tracker.geometry import Array
 
-NEAREST_MM = 1.0
+MIN_DEPTH_MM = 1.0
 # A lens polynomial is only true inside the image; far outside it folds back and would draw lines that are
 # not there.
-BEYOND_CORNER = 1.1
+FIELD_OF_VIEW_MARGIN = 1.1
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +20,7 @@ class View:
     """The camera of one image, with how far from its axis its lens may be trusted (as x/z)."""
 
     camera: CameraModel
-    reach: float
+    max_tangent: float
 
     @classmethod
     def of(cls, camera: CameraModel) -> "View":
@@ -36,15 +36,15 @@ class View:
             [0, h],
             [0, h / 2],
         ]
-        reach = float(np.linalg.norm(camera.normalised_from_px(border), axis=1).max())
-        return cls(camera, reach * BEYOND_CORNER if np.isfinite(reach) else 1.0)
+        max_tangent = float(np.linalg.norm(camera.normalised_from_px(border), axis=1).max())
+        return cls(camera, max_tangent * FIELD_OF_VIEW_MARGIN if np.isfinite(max_tangent) else 1.0)
 
     def project(self, points_mm: npt.ArrayLike) -> tuple[Array, npt.NDArray[np.bool_]]:
         """Pixels (n, 2) of points (n, 3) of the camera's frame, and which of them (n,) may be drawn."""
         points = np.asarray(points_mm, dtype=np.float64).reshape(-1, 3)
-        shown = np.isfinite(points).all(axis=1) & (points[:, 2] > NEAREST_MM)
+        shown = np.isfinite(points).all(axis=1) & (points[:, 2] > MIN_DEPTH_MM)
         safe = np.where(shown[:, None], points, [0.0, 0.0, 1.0])
-        shown &= np.hypot(safe[:, 0], safe[:, 1]) <= self.reach * safe[:, 2]
+        shown &= np.hypot(safe[:, 0], safe[:, 1]) <= self.max_tangent * safe[:, 2]
         px = self.camera.px_from_camera(np.where(shown[:, None], safe, [0.0, 0.0, 1.0]))
         shown &= np.isfinite(px).all(axis=1)
         return px, shown

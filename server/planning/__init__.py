@@ -1,1 +1,1 @@
-"""What is worked out from CTs and meshes in processes of their own; it loads neither store nor web."""
+"""Job functions for CTs and meshes, which run in separate processes and import neither store nor web."""

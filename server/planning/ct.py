@@ -1,4 +1,4 @@
-"""What reads an upload, in a process of its own: a first slice to look at, then the voxels in a file."""
+"""Job function that reads an uploaded CT: a preview slice first, then the voxels into a file."""
 
 import dataclasses
 from collections.abc import Mapping
@@ -12,22 +12,22 @@ from tracker.errors import InvalidInput
 from tracker.plan.slices import WINDOWS, Slice, shown
 
 VOXELS, PREVIEW = "voxels.npy", "preview.png"
-# The least that a series is told by; its identifier is in no document.
-TOLD_OF_SERIES = tuple(
+# Fields of a series in the document of a CT; its UID is left out.
+SERIES_FIELDS = tuple(
     field.name for field in dataclasses.fields(SeriesDescription) if field.name not in {"series", "patient"}
 )
 
 
 def read_upload(report: Report, *, path: str, folder: str, series: str | None) -> dict[str, object]:
-    """Read what was sent; gives the CT's content, or the series to choose from where there are several.
+    """Read an upload; return the content of the CT, or the list of series if there are several.
 
     Args:
-        report: told how far it is.
-        path: of the upload.
-        folder: takes the voxels, and the first slice as a picture.
-        series: the one that was chosen, if one was.
+        report: progress callback.
+        path: path of the upload.
+        folder: output folder for the voxels and the preview.
+        series: the chosen series, if any.
     """
-    report(0.0, "looking at what was sent")
+    report(0.0, "reading the upload")
 
     def slices_read(done: int, of: int) -> None:
         report(done / of, f"{done} of {of} slices are read")
@@ -48,19 +48,19 @@ def read_upload(report: Report, *, path: str, folder: str, series: str | None) -
 
 
 def ct_content(ct: Ct) -> dict[str, object]:
-    """A CT as its document says it, without its voxels and without anything that names the patient."""
-    told: Mapping[str, object] = dataclasses.asdict(ct.series)
+    """Return the content of a CT document, without voxels and patient data."""
+    description: Mapping[str, object] = dataclasses.asdict(ct.series)
     return {
         "shape_ijk": list(ct.volume.shape_ijk),
         "lps_from_ijk": ct.volume.lps_from_ijk.tolist(),
-        "description": {name: told[name] for name in TOLD_OF_SERIES},
+        "description": {name: description[name] for name in SERIES_FIELDS},
         "warnings": list(ct.warnings),
         "left_out": [dataclasses.asdict(one) for one in ct.left_out],
     }
 
 
 def _show(one: Slice, folder: Path) -> None:
-    """Write the slice as a picture that is there whole or not at all."""
+    """Write the preview image atomically."""
     part = folder / f"part-{PREVIEW}"  # its ending tells the format
     if cv2.imwrite(str(part), shown(one.hu, WINDOWS["bone"])):
         part.replace(folder / PREVIEW)

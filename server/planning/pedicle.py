@@ -1,7 +1,7 @@
-"""A pedicle measured from a click, in a process of its own: it takes seconds of a core."""
+"""Job function that measures a pedicle from a seed point."""
 
 from server.jobs import Report
-from server.planning.volume import volume_of
+from server.planning.volume import load_volume
 from tracker.plan import measure_pedicle
 from tracker.plan.document import plain
 
@@ -9,6 +9,6 @@ from tracker.plan.document import plain
 def measure_in_ct(
     report: Report, *, path: str, lps_from_ijk: list[list[float]], seed_lps_mm: list[float], side: str
 ) -> object:
-    """The pedicle's numbers, as `plain` says them."""
+    """Return the measured pedicle as JSON-serialisable values."""
     report(0.1, "looking for the pedicle")
-    return plain(measure_pedicle(volume_of(path, lps_from_ijk), seed_lps_mm, side))
+    return plain(measure_pedicle(load_volume(path, lps_from_ijk), seed_lps_mm, side))

@@ -1,4 +1,4 @@
-"""The surface of the bone, out of a CT or a file, in a process of its own."""
+"""Job functions that create the bone surface from a CT or a mesh file."""
 
 import dataclasses
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from pathlib import Path
 
 from server.imaging.meshes import mesh_from_bytes, ply_from_surface
 from server.jobs import Report
-from server.planning.volume import volume_of
+from server.planning.volume import load_volume
 from tracker.errors import InvalidInput
 from tracker.plan.bone import BoneSettings, BoneSurface, bone_surface
 from tracker.plan.document import plain
@@ -15,18 +15,18 @@ from tracker.plan.mesh.intake import Space
 
 MESH, PLY = "mesh", "surface.ply"
 STL_HEADER_BYTES, STL_FACE_BYTES = 84, 50
-# What programs write before a binary STL: words, filled up with nothing.
+# Bytes in the header of a binary STL: printable text, padded with zeros.
 PLAIN, HEAD_BYTES = frozenset((0, *range(32, 127))), 4096
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class MeshOrder:
-    """How a file of triangles shall be read.
+class MeshRequest:
+    """Options for reading a mesh file.
 
     Attributes:
-        file_format: "stl", "obj" or "ply"; told by its first bytes if None.
-        unit: of its numbers; None where they have to show by themselves that they are mm.
-        space: LPS or RAS; None takes what the file says.
+        file_format: "stl", "obj" or "ply"; None detects it from the content.
+        unit: unit of the coordinates; None accepts only a mesh whose size is plausible in mm.
+        space: LPS or RAS; None takes what the file states.
     """
 
     file_format: str | None = None
@@ -37,26 +37,26 @@ class MeshOrder:
 def surface_of_ct(
     report: Report, *, path: str, lps_from_ijk: list[list[float]], settings: BoneSettings, folder: str
 ) -> dict[str, object]:
-    """The work itself, in a process of its own: the surface as a file, and what was done."""
-    report(0.1, "looking for the bone")
-    found = bone_surface(volume_of(path, lps_from_ijk), settings)
+    """Extract the surface from a CT, write it to a file, and return its properties."""
+    report(0.1, "extracting the bone")
+    found = bone_surface(load_volume(path, lps_from_ijk), settings)
     (Path(folder) / PLY).write_bytes(ply_from_surface(found.surface))
-    return {"source": "ct", **_told_of(found)}
+    return {"source": "ct", **_summary(found)}
 
 
-def surface_of_file(report: Report, *, order: MeshOrder, folder: str) -> dict[str, object]:
-    """The same for a file."""
+def surface_of_file(report: Report, *, order: MeshRequest, folder: str) -> dict[str, object]:
+    """Import the surface from a mesh file, write it to a file, and return its properties."""
     report(0.1, "reading the triangles")
     content = (Path(folder) / MESH).read_bytes()
     found = mesh_from_bytes(
         content, file_format=order.file_format or format_of(content), unit=order.unit, space=order.space
     )
     (Path(folder) / PLY).write_bytes(ply_from_surface(found.surface))
-    return {"source": "file", **_told_of(found)}
+    return {"source": "file", **_summary(found)}
 
 
 def format_of(content: bytes) -> str:
-    """The format of a file of triangles, told by its bytes.
+    """Detect the format of a mesh file from its content.
 
     Raises:
         InvalidInput: MESH_FORMAT_UNKNOWN.
@@ -66,7 +66,7 @@ def format_of(content: bytes) -> str:
         return "ply"
     faces = int.from_bytes(content[80:STL_HEADER_BYTES], "little")
     is_binary = len(content) == STL_HEADER_BYTES + STL_FACE_BYTES * faces
-    # One that was cut off is told as such, by what it announces and has.
+    # A truncated binary STL is recognised by its header, so that the reader can report the truncation.
     is_cut = (
         len(content) > STL_HEADER_BYTES and b"\0" in content[:HEAD_BYTES] and not set(content[:80]) - PLAIN
     )
@@ -84,10 +84,10 @@ def format_of(content: bytes) -> str:
     )
 
 
-def _told_of(found: BoneSurface | MeshSurface) -> dict[str, object]:
-    """Everything but the triangles themselves, and how many there are."""
+def _summary(found: BoneSurface | MeshSurface) -> dict[str, object]:
+    """Return the properties of a surface without its triangles."""
     surface = found.surface
-    told_of = {
+    values = {
         field.name: plain(getattr(found, field.name))
         for field in dataclasses.fields(found)
         if field.name != "surface"
@@ -97,5 +97,5 @@ def _told_of(found: BoneSurface | MeshSurface) -> dict[str, object]:
         "faces": int(surface.faces.shape[0]),
         "low_lps_mm": surface.vertices_mm.min(axis=0).tolist(),
         "high_lps_mm": surface.vertices_mm.max(axis=0).tolist(),
-        **told_of,
+        **values,
     }

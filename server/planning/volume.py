@@ -1,4 +1,4 @@
-"""The CT of a case, mapped from its file."""
+"""Loading of the CT of a case from its file."""
 
 import numpy as np
 
@@ -6,8 +6,8 @@ from tracker.errors import InvalidInput, PlanError
 from tracker.plan import Volume
 
 
-def volume_of(path: str, lps_from_ijk: object, *, title: str = "the CT") -> Volume:
-    """The voxels of a CT's file with the place that its document tells, its axes in the patient's order.
+def load_volume(path: str, lps_from_ijk: object, *, title: str = "the CT") -> Volume:
+    """Return the memory-mapped voxels with the affine of the document; axes in the patient's order.
 
     Raises:
         InvalidInput: CT_DOCUMENT_INVALID.

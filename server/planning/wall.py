@@ -1,18 +1,18 @@
-"""The distances to the bone around one channel, in a process of its own: worth seconds of work, once."""
+"""Job function that measures the distances to the bone around one channel."""
 
 from pathlib import Path
 
 from server.imaging.meshes import mesh_from_bytes
 from server.jobs import Report
-from tracker.navigation.clearance import ChosenWall, choose_wall
+from tracker.navigation.clearance import WallSelection, select_wall
 from tracker.plan import Channel, PedicleMeasure
 from tracker.plan.mesh.intake import Space
 
 
-def wall_of(
+def measure_wall(
     report: Report, *, path: str, channel: Channel, measure: PedicleMeasure | None, radius_mm: float
-) -> ChosenWall:
-    """The work itself: the surface as a case stores it (mm, LPS), and what a drill meets in it."""
+) -> WallSelection:
+    """Choose the wall around a channel from a stored bone surface (PLY, mm, LPS)."""
     report(0.1, "measuring the distances to the bone")
     found = mesh_from_bytes(Path(path).read_bytes(), file_format="ply", unit="mm", space=Space.LPS)
-    return choose_wall(channel, found.surface, measure, radius_mm=radius_mm)
+    return select_wall(channel, found.surface, measure, radius_mm=radius_mm)

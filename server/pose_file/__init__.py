@@ -1,6 +1,6 @@
-"""Poses of a marker from files: folders of matrices, text, CSV, NumPy, JSON, and `coaxial track`."""
+"""Reading of marker poses from files: folders of matrices, text, CSV, NumPy, JSON, `coaxial track`."""
 
-from server.pose_file.read import PoseFiles, read_poses
+from server.pose_file.reader import PoseFiles, read_poses
 from server.pose_file.record import PoseRecord
 from server.pose_file.unit import Unit
 

@@ -1,4 +1,4 @@
-"""One pose as a file tells it, and how a mistake in a file is told."""
+"""Record of one pose in a file, and errors with the place in the file."""
 
 from dataclasses import dataclass
 
@@ -18,15 +18,15 @@ TIME_NAMES = ("time_s", "time", "t", "timestamp", "stamp", "sec", "seconds")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PoseRecord:
-    """A pose, and where it stands.
+    """A pose and its place in the file.
 
     Attributes:
-        place: file, line or number, as a person finds it.
+        place: file with line or number, for messages.
         pose: camera from marker, in mm.
-        covariance: (6, 6) [mm, rad] where it is stated.
-        marker: which marker, where that is told.
-        side_mm: the side that it was tracked with, where that is told.
-        time_s: on the source's clock, where that is told.
+        covariance: (6, 6) [mm, rad], if given.
+        marker: name of the marker, if given.
+        side_mm: side of the marker that it was tracked with, if given.
+        time_s: time on the source's clock, if given.
     """
 
     place: str
@@ -38,12 +38,12 @@ class PoseRecord:
 
 
 def unreadable(place: str, what: str) -> InvalidInput:
-    """The error for a file, or a line of it, that holds no pose."""
+    """Return the error for a file, or a line of it, without a valid pose."""
     return InvalidInput("POSES_UNREADABLE", f"{place}: {what}", FORMATS_REMEDY, {"place": place})
 
 
 def at_place(place: str, error: InvalidInput) -> InvalidInput:
-    """The same error, saying where."""
+    """Return the error with its place added."""
     return InvalidInput(
         error.code, f"{place}: {error.message}", error.remedy, {**error.context, "place": place}
     )

@@ -9,22 +9,22 @@ import numpy as np
 from server.pose_file.record import TIME_NAMES, PoseRecord, at_place, unreadable
 from server.pose_file.unit import Unit
 from tracker.errors import InvalidInput
-from tracker.pose.tool import rigid_from_written
+from tracker.pose.tool import rigid_from_matrix
 
 MATRIX_KEYS = ("camera_from_marker", "matrix", "pose", "transform")
 LIST_KEYS = ("poses", "camera_from_marker", "matrices", "transforms")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Told:
-    """What a file told: its poses, and how many images did not show the marker."""
+class PoseFileContent:
+    """Poses of a file, and the number of images without the marker."""
 
     poses: list[PoseRecord]
     unseen: int = 0
 
 
-def poses_from_json(text: str, *, name: str, unit: Unit) -> Told:
-    """All poses in a JSON text, or in one with a JSON value on each line.
+def poses_from_json(text: str, *, name: str, unit: Unit) -> PoseFileContent:
+    """Parse all poses in a JSON text or in JSON lines.
 
     Raises:
         InvalidInput: POSES_UNREADABLE, POSES_NOT_CALIBRATED or POSE_MATRIX_INVALID, with the place.
@@ -45,11 +45,11 @@ def poses_from_json(text: str, *, name: str, unit: Unit) -> Told:
         return _from_values(
             [(f"{name}, pose {number}", one) for number, one in enumerate(value, start=1)], unit=unit
         )
-    return Told(poses=poses_from_array(_numbers(value), name=name, unit=unit))
+    return PoseFileContent(poses=poses_from_array(_numbers(value), name=name, unit=unit))
 
 
 def poses_from_array(array: np.ndarray, *, name: str, unit: Unit) -> list[PoseRecord]:
-    """All poses in an array (4, 4), (n, 4, 4), (n, 3, 4), (n, 16) or (n, 12).
+    """Convert an array (4, 4), (n, 4, 4), (n, 3, 4), (n, 16) or (n, 12) to poses.
 
     Raises:
         InvalidInput: POSES_UNREADABLE or POSE_MATRIX_INVALID, with the place.
@@ -78,7 +78,7 @@ def _lines(text: str, name: str) -> list[tuple[str, Any]]:
     return values
 
 
-def _from_values(values: list[tuple[str, Any]], *, unit: Unit) -> Told:
+def _from_values(values: list[tuple[str, Any]], *, unit: Unit) -> PoseFileContent:
     poses: list[PoseRecord] = []
     unseen = 0
     for place, value in values:
@@ -86,7 +86,7 @@ def _from_values(values: list[tuple[str, Any]], *, unit: Unit) -> Told:
             unseen += 1
         else:
             poses.append(_from_value(place, value, unit))
-    return Told(poses=poses, unseen=unseen)
+    return PoseFileContent(poses=poses, unseen=unseen)
 
 
 def _from_value(place: str, value: Any, unit: Unit) -> PoseRecord:  # noqa: ANN401  JSON may be anything
@@ -136,7 +136,7 @@ def _pose(
     if matrix.dtype.kind not in "fiu" or matrix.shape not in {(4, 4), (3, 4)}:
         raise unreadable(place, "it holds no 4x4 matrix of numbers")
     try:
-        pose = rigid_from_written(matrix, unit_mm=unit.in_mm)
+        pose = rigid_from_matrix(matrix, unit_mm=unit.in_mm)
     except InvalidInput as error:
         raise at_place(place, error) from None
     return PoseRecord(

@@ -6,10 +6,10 @@ from math import isnan
 import numpy as np
 
 from server.pose_file.record import TIME_NAMES, PoseRecord, at_place, unreadable
-from server.pose_file.structured import Told
+from server.pose_file.structured import PoseFileContent
 from server.pose_file.unit import Unit
 from tracker.errors import InvalidInput
-from tracker.pose.tool import rigid_from_quaternion, rigid_from_written
+from tracker.pose.tool import rigid_from_matrix, rigid_from_quaternion
 
 NO_NUMBERS = re.compile(r"[\[\](){},;|]")
 COMMENT = re.compile(r"(#|%|//).*$")
@@ -29,8 +29,8 @@ QUATERNION_ROW = 7
 Row = tuple[int, list[float]]
 
 
-def poses_from_text(text: str, *, name: str, unit: Unit) -> Told:
-    """All poses in a text; a row of nothing but NaN is an image that does not show the marker.
+def poses_from_text(text: str, *, name: str, unit: Unit) -> PoseFileContent:
+    """Parse all poses in a text; a row of NaN only is an image without the marker.
 
     Raises:
         InvalidInput: POSES_UNREADABLE or POSE_MATRIX_INVALID, with the file and its line.
@@ -57,7 +57,7 @@ def poses_from_text(text: str, *, name: str, unit: Unit) -> Told:
             rows.append((number, numbers))
     widths = {len(numbers) for _, numbers in rows}
     if len(widths) > 1 and "[" in text:
-        # A printed array breaks its rows where the line is full.
+        # A printed NumPy array wraps its rows.
         flat = [number for _, numbers in rows for number in numbers]
         if len(flat) % 16 == 0:
             blocks = [flat[at : at + 16] for at in range(0, len(flat), 16)]
@@ -65,11 +65,11 @@ def poses_from_text(text: str, *, name: str, unit: Unit) -> Told:
     if len(widths) != 1:
         shown = ", ".join(str(width) for width in sorted(widths))
         raise unreadable(name, f"its rows have different lengths ({shown or 'no rows'})")
-    return Told(poses=_from_rows(rows, header, name=name, unit=unit), unseen=unseen)
+    return PoseFileContent(poses=_from_rows(rows, header, name=name, unit=unit), unseen=unseen)
 
 
-def holds_numbers(text: str) -> bool:
-    """Whether any line of a text is a row of at least three numbers: what is not is no pose, but a note."""
+def contains_numbers(text: str) -> bool:
+    """Return whether any line has at least three numbers; a text without such a line is a note."""
     return any(len(_numbers(line) or []) >= 3 for line in text.splitlines())
 
 
@@ -91,8 +91,8 @@ def _from_rows(rows: list[Row], header: list[str], *, name: str, unit: Unit) -> 
         rows = [(number, numbers[1:]) for number, numbers in rows]
         width -= 1
     if width not in {12, 16}:
-        told = "; the order of a quaternion's parts must be named by a header" if width in {7, 8} else ""
-        raise unreadable(name, f"its rows have {width} numbers, needed 4, 12 or 16{told}")
+        hint = "; the order of a quaternion's parts must be named by a header" if width in {7, 8} else ""
+        raise unreadable(name, f"its rows have {width} numbers, needed 4, 12 or 16{hint}")
     return [
         _pose(np.array(numbers).reshape(-1, 4), f"{name}, line {number}", unit, time_s=time_s)
         for (number, numbers), time_s in zip(rows, times_s, strict=True)
@@ -138,7 +138,7 @@ def _from_quaternions(rows: list[Row], header: list[str], *, name: str, unit: Un
 
 def _pose(matrix: np.ndarray, place: str, unit: Unit, *, time_s: float | None = None) -> PoseRecord:
     try:
-        return PoseRecord(place=place, pose=rigid_from_written(matrix, unit_mm=unit.in_mm), time_s=time_s)
+        return PoseRecord(place=place, pose=rigid_from_matrix(matrix, unit_mm=unit.in_mm), time_s=time_s)
     except InvalidInput as error:
         raise at_place(place, error) from None
 
@@ -149,7 +149,7 @@ def _split(line: str) -> list[str]:
 
 
 def _is_unseen(numbers: list[float]) -> bool:
-    """Whether a row says that the marker was not seen: nothing but NaN after the time."""
+    """Return whether the marker was not detected: only NaN after the time."""
     return all(isnan(number) for number in numbers[-QUATERNION_ROW:])
 
 

@@ -4,7 +4,7 @@ from enum import StrEnum
 
 
 class Unit(StrEnum):
-    """In which unit translations are written."""
+    """Unit of the translations in a pose file."""
 
     MM = "mm"
     CM = "cm"
@@ -12,5 +12,5 @@ class Unit(StrEnum):
 
     @property
     def in_mm(self) -> float:
-        """How many millimetres one is."""
+        """Length of the unit in mm."""
         return {Unit.MM: 1.0, Unit.CM: 10.0, Unit.M: 1000.0}[self]

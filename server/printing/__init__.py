@@ -1,8 +1,7 @@
-"""A sheet of paper in millimetres, and the two kinds of file that a printer takes.
+"""Printable sheets in millimetres, as PDF and SVG.
 
-Both are written from one list of marks in millimetres. A page of polygons, lines and Helvetica takes 60
-lines; a library would add an imaging library to every installation. Tests read both files back. Fonts are
-not embedded.
+Both formats are written from one list of marks. The PDF writer needs 60 lines for polygons, lines and
+Helvetica; a library would add an imaging dependency to every installation. Fonts are not embedded.
 """
 
 from server.printing.board_sheet import board_sheet

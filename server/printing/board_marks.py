@@ -11,7 +11,7 @@ from tracker.camera.boards import Board, CharucoBoard, CheckerBoard, DotBoard, D
 from tracker.errors import InvalidInput
 
 # Of the distance to the nearest other dot.
-DOT_RATIO, FIDUCIAL_RATIO, WIDEST_DOT_RATIO = 0.5, 0.75, 0.85
+DOT_RATIO, FIDUCIAL_RATIO, MAX_DOT_RATIO = 0.5, 0.75, 0.85
 
 
 def marks_of_board(board: Board, *, dot_mm: float | None = None) -> tuple[Mark, ...]:
@@ -32,7 +32,7 @@ def marks_of_board(board: Board, *, dot_mm: float | None = None) -> tuple[Mark, 
     return tuple(_charuco(board))
 
 
-def box_of(marks: tuple[Mark, ...]) -> tuple[Point, Point]:
+def bounding_box(marks: tuple[Mark, ...]) -> tuple[Point, Point]:
     """The corner with the smallest and that with the largest coordinates of the ink."""
     low, high = [], []
     for mark in marks:
@@ -48,7 +48,7 @@ def box_of(marks: tuple[Mark, ...]) -> tuple[Point, Point]:
     )
 
 
-def moved(mark: Mark, by_mm: Point) -> Mark:
+def translated(mark: Mark, by_mm: Point) -> Mark:
     """The same ink elsewhere on the page."""
     dx, dy = by_mm
     if isinstance(mark, Disc):
@@ -65,11 +65,11 @@ def _dots(board: DotBoard, dot_mm: float | None) -> Iterator[Disc]:
     dot_mm = DOT_RATIO * nearest_mm if dot_mm is None else dot_mm
     large_mm = dot_mm * FIDUCIAL_RATIO / DOT_RATIO
     widest_mm = large_mm if board.fiducials else dot_mm
-    if not 0.0 < widest_mm <= WIDEST_DOT_RATIO * nearest_mm:
+    if not 0.0 < widest_mm <= MAX_DOT_RATIO * nearest_mm:
         raise InvalidInput(
             "BOARD_DOTS_UNPRINTABLE",
             f"dots {widest_mm:g} mm wide with {nearest_mm:.3g} mm from one to the next cannot be told apart, "
-            f"allowed above 0 to {WIDEST_DOT_RATIO * nearest_mm:.3g} mm",
+            f"allowed above 0 to {MAX_DOT_RATIO * nearest_mm:.3g} mm",
             "Give a smaller --dot-mm, or a larger --pitch-mm; larger dots are half as wide again.",
             {"dot_mm": dot_mm, "nearest_mm": float(nearest_mm)},
         )

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
-from server.printing.board_marks import box_of, marks_of_board, moved
+from server.printing.board_marks import bounding_box, marks_of_board, translated
 from server.printing.paper import PAPER_MM
-from server.printing.rulers import millimetre_ruler, standing_ruler
+from server.printing.rulers import millimetre_ruler, vertical_ruler
 from server.printing.sheet import Fill, Label, Point, Sheet, rectangle
 from tracker.camera.boards import Board, CharucoLayout, CheckerBoard, DotBoard, DotLayout
 from tracker.errors import InvalidInput
@@ -35,7 +35,7 @@ def board_sheet(board: Board, *, paper: str = "A4", dot_mm: float | None = None)
             {"paper": paper, "allowed": list(PAPER_MM)},
         )
     ink = marks_of_board(board, dot_mm=dot_mm)
-    (low_x, low_y), (high_x, high_y) = box_of(ink)
+    (low_x, low_y), (high_x, high_y) = bounding_box(ink)
     needed = (high_x - low_x + 2.0 * QUIET_MM, high_y - low_y + 2.0 * QUIET_MM)
     page = _page(needed, paper)
     free = _free(page)
@@ -49,10 +49,10 @@ def board_sheet(board: Board, *, paper: str = "A4", dot_mm: float | None = None)
         marks=(
             # A viewer with a dark ground must not show the margin dark.
             Fill(corners_mm=rectangle(0.0, 0.0, *page), white=True),
-            *_words(board),
-            *(moved(mark, by) for mark in ink),
+            *_labels(board),
+            *(translated(mark, by) for mark in ink),
             *millimetre_ruler((LEFT_MM, page[1] - 5.0), length_mm=RULER_MM),
-            *standing_ruler((8.0, (page[1] - RULER_MM) / 2.0), length_mm=RULER_MM),
+            *vertical_ruler((8.0, (page[1] - RULER_MM) / 2.0), length_mm=RULER_MM),
         ),
     )
 
@@ -94,7 +94,7 @@ def _free(page_mm: Point) -> Point:
     return page_mm[0] - LEFT_MM - RIGHT_MM, page_mm[1] - TOP_MM - FOOT_MM
 
 
-def _words(board: Board) -> Iterator[Label]:
+def _labels(board: Board) -> Iterator[Label]:
     lines = (
         (6.5, 3.5, f"Coaxial: {description_of(board)}"),
         (
@@ -103,5 +103,5 @@ def _words(board: Board) -> Iterator[Label]:
             "Print at 100 %, glue it flat. Where 100 mm of both rulers are not 100 mm, measure the board.",
         ),
     )
-    for base_mm, size_mm, words in lines:
-        yield Label(words=words, at_mm=(LEFT_MM, base_mm), size_mm=size_mm)
+    for base_mm, size_mm, text in lines:
+        yield Label(text=text, at_mm=(LEFT_MM, base_mm), size_mm=size_mm)

@@ -11,8 +11,8 @@ from tracker.errors import InvalidInput
 EDGE_MM = 20.0
 # White paper around the square, in sides; the cut is made outside of it.
 QUIET_RATIO = 0.25
-CROP_MARK_MM, CROP_GAP_MM = 6.0, 1.0
-SMALLEST_SIDE_MM, LARGEST_SIDE_MM = 5.0, 100.0
+CROP_MARK_MM, CROP_OFFSET_MM = 6.0, 1.0
+MIN_SIDE_MM, MAX_SIDE_MM = 5.0, 100.0
 
 
 def marker_sheet(shape: Shape, *, side_mm: float, name: str) -> Sheet:
@@ -21,11 +21,11 @@ def marker_sheet(shape: Shape, *, side_mm: float, name: str) -> Sheet:
     Raises:
         InvalidInput: MARKER_SIDE_UNPRINTABLE, the square does not fit the page or is too small to cut.
     """
-    if not SMALLEST_SIDE_MM <= side_mm <= LARGEST_SIDE_MM:
+    if not MIN_SIDE_MM <= side_mm <= MAX_SIDE_MM:
         raise InvalidInput(
             "MARKER_SIDE_UNPRINTABLE",
             f"a marker of {side_mm:g} mm cannot be printed on A4 with its white margin, "
-            f"allowed {SMALLEST_SIDE_MM:g} to {LARGEST_SIDE_MM:g} mm",
+            f"allowed {MIN_SIDE_MM:g} to {MAX_SIDE_MM:g} mm",
             "Give another side with --side-mm.",
             {"side_mm": side_mm},
         )
@@ -38,7 +38,7 @@ def marker_sheet(shape: Shape, *, side_mm: float, name: str) -> Sheet:
         marks=(
             # A viewer with a dark ground must not show the margin dark.
             Fill(corners_mm=rectangle(0.0, 0.0, *A4_MM), white=True),
-            *_words(name, side_mm),
+            *_labels(name, side_mm),
             Fill(corners_mm=rectangle(left, top, side_mm, side_mm)),
             *(
                 Fill(
@@ -54,7 +54,7 @@ def marker_sheet(shape: Shape, *, side_mm: float, name: str) -> Sheet:
     )
 
 
-def _words(name: str, side_mm: float) -> Iterator[Label]:
+def _labels(name: str, side_mm: float) -> Iterator[Label]:
     lines = (
         (f"Coaxial marker: {name}", 6.0),
         (f"Side of the black square: {side_mm:g} mm ({side_mm / MM_PER_INCH:.4g} in)", 4.0),
@@ -62,13 +62,13 @@ def _words(name: str, side_mm: float) -> Iterator[Label]:
         ("Then measure the rulers below and the square. Tell Coaxial the side that you measured.", 4.0),
         ("Cut along the marks: the white margin belongs to the marker. Keep it flat. This side is up.", 4.0),
     )
-    for row, (words, size) in enumerate(lines):
-        yield Label(words=words, at_mm=(EDGE_MM, EDGE_MM + 8.0 + 8.0 * row), size_mm=size)
+    for row, (text, size) in enumerate(lines):
+        yield Label(text=text, at_mm=(EDGE_MM, EDGE_MM + 8.0 + 8.0 * row), size_mm=size)
 
 
 def _crop_marks(corner_mm: Point, side_mm: float) -> Iterator[Line]:
     """Two short lines outside each corner of what is cut out."""
-    (left, top), gap, end = corner_mm, CROP_GAP_MM, CROP_GAP_MM + CROP_MARK_MM
+    (left, top), gap, end = corner_mm, CROP_OFFSET_MM, CROP_OFFSET_MM + CROP_MARK_MM
     for x, outward_x in ((left, -1.0), (left + side_mm, 1.0)):
         for y, outward_y in ((top, -1.0), (top + side_mm, 1.0)):
             yield Line(start_mm=(x + outward_x * gap, y), end_mm=(x + outward_x * end, y))

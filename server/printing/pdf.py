@@ -63,7 +63,7 @@ def _operators(mark: Mark) -> str:
         return f"{mark.width_mm:g} w 0 G {x1:.4f} {y1:.4f} m {x2:.4f} {y2:.4f} l S"
     x, y = mark.at_mm
     # The page's y runs down here, and letters would stand on their heads.
-    return f"BT 0 g /F {mark.size_mm:g} Tf 1 0 0 -1 {x:.4f} {y:.4f} Tm {_string(mark.words)} Tj ET"
+    return f"BT 0 g /F {mark.size_mm:g} Tf 1 0 0 -1 {x:.4f} {y:.4f} Tm {_string(mark.text)} Tj ET"
 
 
 def _circle(disc: Disc) -> str:
@@ -79,6 +79,6 @@ def _circle(disc: Disc) -> str:
     return f"0 g {first} m {curves} h f"
 
 
-def _string(words: str) -> str:
-    escaped = words.replace("\\", r"\\").replace("(", r"\(").replace(")", r"\)")
+def _string(text: str) -> str:
+    escaped = text.replace("\\", r"\\").replace("(", r"\(").replace(")", r"\)")
     return f"({escaped})"

@@ -6,7 +6,7 @@ from server.printing.sheet import Label, Line, Point
 
 MM_PER_INCH = 25.4
 RULER_MM, RULER_INCHES = 50, 2
-LONGEST_TICK_MM = 5.0
+MAX_TICK_MM = 5.0
 
 
 def millimetre_ruler(at_mm: Point, *, length_mm: int = RULER_MM) -> Iterator[Line | Label]:
@@ -19,7 +19,7 @@ def inch_ruler(at_mm: Point, *, inches: int = RULER_INCHES) -> Iterator[Line | L
     return _ruler(at_mm, unit_mm=MM_PER_INCH / 8.0, units=inches * 8, long_each=8, word="in")
 
 
-def standing_ruler(at_mm: Point, *, length_mm: int = RULER_MM) -> Iterator[Line]:
+def vertical_ruler(at_mm: Point, *, length_mm: int = RULER_MM) -> Iterator[Line]:
     """A ruler in mm down the page from this point, ticks to the right, without numbers.
 
     Some printers stretch the way of the paper alone.
@@ -27,7 +27,7 @@ def standing_ruler(at_mm: Point, *, length_mm: int = RULER_MM) -> Iterator[Line]
     x, top = at_mm
     yield Line(start_mm=(x, top), end_mm=(x, top + length_mm), width_mm=0.15)
     for tick in range(length_mm + 1):
-        long = LONGEST_TICK_MM if tick % 10 == 0 else 3.5 if tick % 5 == 0 else 2.0
+        long = MAX_TICK_MM if tick % 10 == 0 else 3.5 if tick % 5 == 0 else 2.0
         yield Line(start_mm=(x, top + tick), end_mm=(x + long, top + tick), width_mm=0.15)
 
 
@@ -42,5 +42,5 @@ def _ruler(at_mm: Point, *, unit_mm: float, units: int, long_each: int, word: st
         yield Line(start_mm=(x, base), end_mm=(x, base - height), width_mm=0.15)
         if numbered:
             number = tick if long_each == 10 else tick // long_each
-            yield Label(words=f"{number}", at_mm=(x - 1.0, base - 6.0), size_mm=3.0)
-    yield Label(words=word, at_mm=(left + units * unit_mm + 3.0, base), size_mm=3.5)
+            yield Label(text=f"{number}", at_mm=(x - 1.0, base - 6.0), size_mm=3.0)
+    yield Label(text=word, at_mm=(left + units * unit_mm + 3.0, base), size_mm=3.5)

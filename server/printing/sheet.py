@@ -35,7 +35,7 @@ class Line:
 class Label:
     """A line of text that begins at a point of its base line."""
 
-    words: str
+    text: str
     at_mm: Point
     size_mm: float = 3.5
 

@@ -34,5 +34,5 @@ def _element(mark: Mark) -> str:
     x, y = mark.at_mm
     return (
         f'<text x="{x:.4f}" y="{y:.4f}" font-family="Helvetica, Arial, sans-serif" '
-        f'font-size="{mark.size_mm:g}">{escape(mark.words)}</text>'
+        f'font-size="{mark.size_mm:g}">{escape(mark.text)}</text>'
     )

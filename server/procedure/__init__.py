@@ -1,4 +1,4 @@
-"""The steps before the theatre, each with its gate: camera, tool, plan; and what they made, in use."""
+"""The steps of the procedure, each with its acceptance limits: camera, tool, plan, registration, check."""
 
 from server.procedure.steps import Steps
 

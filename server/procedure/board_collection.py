@@ -1,4 +1,4 @@
-"""Views of a calibration board, taken by themselves from the live images while somebody moves it."""
+"""Automatic collection of views of a calibration board from the live images."""
 
 import threading
 from collections.abc import Mapping
@@ -8,26 +8,26 @@ import numpy as np
 import numpy.typing as npt
 
 from server.live import Instant, LiveHub, Problem, SourceState, SourceStatus
-from server.procedure.following import Follower
+from server.procedure.live_listener import LiveListener
 from tracker.camera import Board, CameraControl, control_changes
-from tracker.camera.collecting import BoardCollector, CollectingProgress, Judgement
+from tracker.camera.board_collector import BoardCollector, BoardCollectorProgress, ViewVerdict
 from tracker.camera.detection import BoardNotFound, BoardView, find_board
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.geometry import Array
 
-# Each look costs a good part of a core; the video needs the rest.
-REST_S = 0.1
+# Board detection is expensive; the video needs the rest of the processor.
+MIN_PAUSE_S = 0.1
 MAX_VIEWS = 60
 NO_POINTS: Array = np.zeros((0, 2))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TakenView:
-    """A view that is kept.
+class CollectedView:
+    """A collected view.
 
     Attributes:
-        name: what the report calls it.
-        view: the board's points in it.
+        name: its name in the report.
+        view: the detected points of the board.
     """
 
     name: str
@@ -36,82 +36,84 @@ class TakenView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CollectionStatus:
-    """How far it has come.
+    """Progress of the collection.
 
     Attributes:
-        board: that is looked for.
-        running: whether more is taken by itself.
-        size_wh_px: of the images; zeros before the first.
-        progress: what is taken and what is missing; None before the first image.
-        image_number: of the newest image that was looked at; -1 before the first.
-        said: what became of that image, in a sentence.
-        points_px: (n, 2) of the board in that image, for drawing.
-        trouble: why nothing is taken any more.
+        board: the calibration board.
+        running: whether views are still collected.
+        size_wh_px: size of the images; zeros before the first.
+        progress: what is collected and what is missing; None before the first image.
+        image_number: newest processed image; -1 before the first.
+        message: result for that image.
+        points_px: (n, 2) detected points in that image, for display.
+        problem: why the collection ended.
     """
 
     board: Board
     running: bool
     size_wh_px: tuple[int, int]
-    progress: CollectingProgress | None
+    progress: BoardCollectorProgress | None
     image_number: int
-    said: str
+    message: str
     points_px: Array
     problem: Problem | None
 
 
-SAID = {
-    Judgement.TAKEN: "taken",
-    Judgement.TOO_FEW_POINTS: "too little of the board is seen",
-    Judgement.FIRST_SIGHT: "the board is seen: hold it still",
-    Judgement.MOVING: "the board moves: hold it still",
-    Judgement.NOTHING_NEW: "such a view is taken already: move or tilt the board",
+MESSAGES = {
+    ViewVerdict.TAKEN: "taken",
+    ViewVerdict.TOO_FEW_POINTS: "too little of the board is seen",
+    ViewVerdict.FIRST_SIGHT: "the board is seen: hold it still",
+    ViewVerdict.MOVING: "the board moves: hold it still",
+    ViewVerdict.NOTHING_NEW: "such a view is taken already: move or tilt the board",
 }
 
 
 class BoardCollection:
-    """Collects from the live images until it is stopped; may be asked from any thread."""
+    """Collects views from the live images until it is stopped. Thread-safe."""
 
     def __init__(self, hub: LiveHub, board: Board) -> None:
         self._board = board
         self._lock = threading.Lock()
         self._collector: BoardCollector | None = None
-        self._taken: list[TakenView] = []
+        self._taken: list[CollectedView] = []
         self._controls: Mapping[CameraControl, int] = {}
         self._image_number = -1
-        self._said = "waiting for an image"
+        self._message = "waiting for an image"
         self._points_px = NO_POINTS
-        self._follower = Follower(hub, self._look, name="collecting views of the board", rest_s=REST_S)
+        self._listener = LiveListener(
+            hub, self._process, name="collecting views of the board", min_pause_s=MIN_PAUSE_S
+        )
 
     @property
     def status(self) -> CollectionStatus:
-        """How far it has come."""
+        """Progress of the collection."""
         with self._lock:
             collector = self._collector
             return CollectionStatus(
                 board=self._board,
-                running=self._follower.running,
+                running=self._listener.running,
                 size_wh_px=(0, 0) if collector is None else collector.size_wh_px,
                 progress=None if collector is None else collector.progress,
                 image_number=self._image_number,
-                said=self._said,
+                message=self._message,
                 points_px=self._points_px,
-                problem=self._follower.problem,
+                problem=self._listener.problem,
             )
 
     @property
-    def taken(self) -> tuple[TakenView, ...]:
-        """The views that are kept."""
+    def taken(self) -> tuple[CollectedView, ...]:
+        """The collected views."""
         with self._lock:
             return tuple(self._taken)
 
     @property
     def controls(self) -> Mapping[CameraControl, int]:
-        """Of the live camera, when views were last taken of it; empty where none is known."""
+        """Camera controls at the last collected view; empty if unknown."""
         with self._lock:
             return self._controls
 
     def add(self, image: npt.NDArray[np.uint8], *, name: str) -> None:
-        """Keep the board's view in an image that was taken by hand, whether or not it adds something new.
+        """Add the view of an image that was taken manually, without testing whether it adds information.
 
         Raises:
             InvalidInput: BOARD_NOT_FOUND, IMAGE_SIZE_CHANGED, VIEWS_ENOUGH.
@@ -126,39 +128,39 @@ class BoardCollection:
             )
         with self._lock:
             self._reject_more()
-            self._collector_for(image).keep(found.object_points_mm, found.image_points_px)
-            self._taken.append(TakenView(name=name, view=found))
+            self._collector_for(image).add(found.object_points_mm, found.image_points_px)
+            self._taken.append(CollectedView(name=name, view=found))
 
     def stop(self) -> None:
-        """Take no more."""
-        self._follower.stop()
+        """Stop collecting."""
+        self._listener.stop()
 
-    def _look(self, instant: Instant) -> None:
+    def _process(self, instant: Instant) -> None:
         if instant.image is None or instant.snapshot is None:
-            self._note_absence(_no_picture(instant), -1)
+            self._record_absence(_no_picture(instant), -1)
             return
         found = find_board(instant.image, self._board)
         number = instant.snapshot.image_number
         if isinstance(found, BoardNotFound):
-            self._note_absence(found.sentence, number)
+            self._record_absence(found.sentence, number)
             return
         with self._lock:
             self._reject_more()
             collector = self._collector_for(instant.image)
-            judgement = collector.judge(
+            judgement = collector.offer(
                 ids=found.ids,
                 object_points_mm=found.object_points_mm,
                 image_points_px=found.image_points_px,
                 captured_at_s=instant.snapshot.captured_at_s,
             )
-            if judgement is Judgement.TAKEN:
-                self._note_controls(instant.source)
-                self._taken.append(TakenView(name=f"image {number}", view=found))
+            if judgement is ViewVerdict.TAKEN:
+                self._record_controls(instant.source)
+                self._taken.append(CollectedView(name=f"image {number}", view=found))
             self._image_number, self._points_px = number, found.image_points_px
-            self._said = SAID[judgement]
+            self._message = MESSAGES[judgement]
 
-    def _note_controls(self, source: SourceStatus) -> None:
-        """Refuse views of a camera that was changed since the first one: they are of two cameras."""
+    def _record_controls(self, source: SourceStatus) -> None:
+        """Reject views after a change of the camera controls: the intrinsics may have changed."""
         now = {} if source.camera is None else source.camera.controls
         changes = control_changes(self._controls, now)
         if changes:
@@ -181,11 +183,11 @@ class BoardCollection:
                 {"views": MAX_VIEWS},
             )
 
-    def _note_absence(self, said: str, image_number: int) -> None:
+    def _record_absence(self, message: str, image_number: int) -> None:
         with self._lock:
             if self._collector is not None:
-                self._collector.lose()
-            self._image_number, self._said, self._points_px = image_number, said, NO_POINTS
+                self._collector.reset_motion()
+            self._image_number, self._message, self._points_px = image_number, message, NO_POINTS
 
     def _collector_for(self, image: npt.NDArray[np.uint8]) -> BoardCollector:
         height, width = image.shape[:2]
@@ -203,7 +205,7 @@ class BoardCollection:
 
 
 def _no_picture(instant: Instant) -> str:
-    """That there is none, and why, as far as camera or tracking say."""
+    """Return the message for a missing image, with its reason if that is known."""
     problem = instant.source.problem or instant.process.problem
     if problem is not None:
         return f"there is no picture: {problem.message}"

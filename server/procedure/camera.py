@@ -1,4 +1,4 @@
-"""The step in which the camera is calibrated: views collected, the camera fitted, the result kept."""
+"""The camera calibration step: views are collected, the camera is fitted, the result is stored."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -9,33 +9,33 @@ from server.config import CalibrationConfig
 from server.errors import CaptureError, SetupOrderError
 from server.jobs import Job, Jobs, Report
 from server.live import LiveHub
-from server.procedure.board_collection import BoardCollection, TakenView
-from server.procedure.held import Held
-from server.procedure.opened import opened_case
+from server.procedure.active_collection import ActiveCollection
+from server.procedure.board_collection import BoardCollection, CollectedView
+from server.procedure.open_case import require_open_case
 from server.setup import camera_for_size
-from server.store import Case, CaseStore, Document, DocumentKind, Standing
+from server.store import Case, CaseStore, Document, DocumentKind, Validity
 from tracker.camera import Board, CameraControl, CameraModel
 from tracker.camera.accuracy import accuracy_of_grid
-from tracker.camera.calibration import calibrate, with_board_judged
+from tracker.camera.calibration import calibrate, with_board_size_warning
 from tracker.camera.detection import BoardNotFound, find_board
 from tracker.errors import CalibrationError, InvalidInput
 
-# There is one camera yet; its document has the name that it has in addresses.
+# Name of the camera's document; so far there is one camera.
 MAIN_CAMERA = "main"
 ACCURACY = "accuracy of the camera"
 READOUT_KEYS = ("readout_ms", "readout_sd_ms", "readout_found_by")
 
 
 class CameraStep:
-    """Calibrates the camera from live views; one collection at a time. Safe to use from any thread.
+    """Calibrates the camera from live views; one collection at a time. Thread-safe.
 
     Args:
         hub: the live images.
-        store: where the result is kept.
-        jobs: where it is computed.
-        gate: what calibration and accuracy check must reach.
-        source: the camera's source in words, kept with the result.
-        same_sensor_area: images of all sizes show the same area of the sensor.
+        store: where the result is stored.
+        jobs: runs the computation.
+        gate: acceptance limits of calibration and accuracy check.
+        source: name of the camera source, stored with the result.
+        same_sensor_area: whether images of all sizes show the same area of the sensor.
     """
 
     def __init__(
@@ -54,40 +54,40 @@ class CameraStep:
         self._gate = gate
         self._source = source
         self._same_sensor_area = same_sensor_area
-        self._held: Held[BoardCollection] = Held(
+        self._active: ActiveCollection[BoardCollection] = ActiveCollection(
             "views of a calibration board are",
             remedy="Start collecting, and say what board it is.",
         )
 
     def begin(self, board: Board) -> BoardCollection:
-        """Collect views of this board; a collection that was there is thrown away."""
-        return self._held.begin(lambda: BoardCollection(self._hub, board))
+        """Start to collect views of this board; a previous collection is discarded."""
+        return self._active.begin(lambda: BoardCollection(self._hub, board))
 
     @property
     def collection(self) -> BoardCollection:
-        """The views so far.
+        """The active collection.
 
         Raises:
             SetupOrderError: COLLECTION_MISSING.
         """
-        return self._held.get()
+        return self._active.get()
 
     @property
     def is_collecting(self) -> bool:
-        """Whether views are held."""
-        return self._held.is_there
+        """Whether there is an active collection."""
+        return self._active.is_active
 
     def end(self) -> None:
-        """Collect no more, and throw away what was collected."""
-        self._held.end()
+        """Stop the collection and discard its views."""
+        self._active.end()
 
     def calibrate(self, *, made_by: str) -> Job:
-        """Fit the camera to the collected views, and keep it in the open case if it passes the gate.
+        """Fit the camera to the collected views, and store it in the open case if it is accepted.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, COLLECTION_MISSING, COLLECTION_EMPTY.
         """
-        case = opened_case(self._store)
+        case = require_open_case(self._store)
         collection = self.collection
         taken, status, controls = collection.taken, collection.status, collection.controls
         if not taken:
@@ -109,7 +109,7 @@ class CameraStep:
         )
 
     def check_accuracy(self, board: Board, *, made_by: str) -> Document:
-        """Measure known displacements on a board in the newest image, and keep what came out.
+        """Measure known displacements on a board in the newest image, and store the result.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN.
@@ -118,9 +118,9 @@ class CameraStep:
             InvalidInput: BOARD_NOT_FOUND, or as `accuracy_of_grid`.
             CalibrationError: ACCURACY_PLANE_UNKNOWN, CAMERA_SIZE_MISMATCH.
         """
-        case = opened_case(self._store)
+        case = require_open_case(self._store)
         document = self._store.current(case.id, DocumentKind.CAMERA, MAIN_CAMERA)
-        calibrated = kept_camera(document, source=self._source).model
+        calibrated = camera_from_document(document, source=self._source).model
         newest = self._hub.newest
         if newest is None or newest.image is None:
             raise CaptureError(
@@ -145,23 +145,23 @@ class CameraStep:
             ACCURACY,
             accuracy_values(report, limit_mm=self._gate.max_error_mm),
             made_by=made_by,
-            stands_on=[document.id],
+            depends_on=[document.id],
         )
 
-    def kept(self) -> Document:
-        """The calibration of the open case.
+    def calibration(self) -> Document:
+        """Return the calibration of the open case.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN.
             OutOfDateError: DOCUMENT_MISSING or DOCUMENT_OUT_OF_DATE.
         """
-        return self._store.current(opened_case(self._store).id, DocumentKind.CAMERA, MAIN_CAMERA)
+        return self._store.current(require_open_case(self._store).id, DocumentKind.CAMERA, MAIN_CAMERA)
 
-    def newest(self, kind: DocumentKind, name: str) -> tuple[Document, Standing] | None:
-        """A document of the open case with whether it holds; None where there is none."""
-        case = self._store.opened()
+    def newest(self, kind: DocumentKind, name: str) -> tuple[Document, Validity] | None:
+        """Return a document of the open case with its validity; None if there is none."""
+        case = self._store.get_open_case()
         document = None if case is None else self._store.latest(case.id, kind, name)
-        return None if document is None else (document, self._store.standing(document))
+        return None if document is None else (document, self._store.validity(document))
 
     def _keep(
         self,
@@ -172,7 +172,7 @@ class CameraStep:
         *,
         controls: Mapping[CameraControl, int],
     ) -> Document:
-        """Keep a calibration that passes its gate, with its pictures."""
+        """Store an accepted calibration with its plots."""
         rms_px = float(report["rms_px"])
         if not rms_px <= self._gate.max_rms_px:
             raise CalibrationError(
@@ -200,7 +200,7 @@ class CameraStep:
         )
 
     def _readout_so_far(self, case: Case, size_wh_px: Sequence[int]) -> dict[str, object]:
-        """The readout that is kept with the calibration before: it belongs to the mode, not to the lens."""
+        """Return the readout time of the previous calibration: it depends on the mode, not on the lens."""
         before = self._store.latest(case.id, DocumentKind.CAMERA, MAIN_CAMERA)
         camera = None if before is None else before.content.get("camera")
         if not isinstance(camera, Mapping) or camera.get("source") != self._source:
@@ -211,21 +211,21 @@ class CameraStep:
 
 
 def calibrate_views(
-    report: Report, *, taken: tuple[TakenView, ...], size_wh_px: tuple[int, int], board: Board
+    report: Report, *, taken: tuple[CollectedView, ...], size_wh_px: tuple[int, int], board: Board
 ) -> dict[str, object]:
-    """The work itself, in a process of its own: the camera's values with its report, and its pictures."""
+    """Job: calibrate the camera; return its parameters with the report, and the plots."""
     report(0.1, f"fitting the camera to {len(taken)} views")
     views = [one.view for one in taken]
     fitted = calibrate(views, size_wh_px=size_wh_px, names=[one.name for one in taken])
-    found = with_board_judged(fitted, views, board)
+    found = with_board_size_warning(fitted, views, board)
     return {
         "report": {**report_values(found), "views": [view_values(view) for view in found.views]},
         "plots": {"residuals": residuals_svg(found), "coverage": coverage_svg(found)},
     }
 
 
-def kept_camera(document: Document, *, source: str) -> CameraFile:
-    """The camera in a document of a case, with its controls at the calibration as far as they were kept.
+def camera_from_document(document: Document, *, source: str) -> CameraFile:
+    """Parse the camera in a case document, with its controls at the calibration if they were stored.
 
     Raises:
         CalibrationError: CAMERA_DIFFERS, it was calibrated from another source than this one.

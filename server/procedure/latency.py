@@ -1,4 +1,4 @@
-"""Measuring the latency from light to page: codes read in the live images, then timed and kept."""
+"""Measurement of the latency from the scene to the page: codes are read in the live images and timed."""
 
 import threading
 import time
@@ -20,29 +20,29 @@ from server.latency import (
     plan_codes,
 )
 from server.live import Instant, LiveHub, Problem
-from server.procedure.following import Follower
-from server.procedure.held import Held
+from server.procedure.active_collection import ActiveCollection
+from server.procedure.live_listener import LiveListener
 from server.store import CaseStore
 from server.store.latency_file import LatencyFile
 from tracker.errors import InvalidInput, NavigationError
 
-# A page that measures asks twice a second; one that was closed does not say so.
-LEFT_AFTER_S = 5.0
+# A measuring page polls twice a second; a closed page sends no message.
+MAX_SILENCE_S = 5.0
 # Of 60 images/s for two minutes.
 MAX_IMAGES = 7200
-# Of the time of one look: images come faster than a step of the set-up needs them, and each must be read.
-REST_RATIO = 0.25
+# Pause relative to the processing time; short, because every image must be read.
+PAUSE_RATIO = 0.25
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PageTimes:
-    """What the page saw, by its own clock.
+    """Times measured by the page, on its own clock.
 
     Attributes:
         painted: codes in the order in which they were painted.
         shown: images in the order in which they were shown.
-        comparisons: of its clock with the server's.
-        screen: on which this was.
+        comparisons: comparisons of its clock with the server's.
+        screen: the screen of the page.
     """
 
     painted: Sequence[PaintedCode]
@@ -53,77 +53,77 @@ class PageTimes:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReadingStatus:
-    """How reading goes.
+    """Progress of the measurement.
 
     Attributes:
-        running: whether images are still read.
-        looked_images: how many were looked at.
-        read_images: in how many of them a code was read.
-        trouble: why none is looked at any more.
+        running: whether images are still processed.
+        examined_images: number of processed images.
+        read_images: number of images in which a code was read.
+        problem: why the measurement ended.
     """
 
     running: bool
-    looked_images: int
+    examined_images: int
     read_images: int
     problem: Problem | None
 
 
 class LatencyMeasurement:
-    """Reads the code in every live image until it is stopped, nobody asks after it, or the case changes.
+    """Reads the code in every live image until it is stopped, the page stops polling, or the case changes.
 
     Args:
         hub: the live images.
-        plan: of the codes that the page shows.
-        clock: monotonic, for how long nobody asked.
+        plan: the codes that the page shows.
+        clock: monotonic clock, for the timeout of the page.
     """
 
     def __init__(self, hub: LiveHub, plan: CodePlan, *, clock: Callable[[], float] = time.monotonic) -> None:
         self.plan = plan
         self._clock = clock
-        self._asked_at_s = clock()
+        self._polled_at_s = clock()
         self._lock = threading.Lock()
         self._reader = CodeReader()
         self._read: dict[int, ReadImage] = {}
         self._size_wh_px = (0, 0)
         self._ended: NavigationError | None = None
-        self._follower = Follower(
-            hub, self._look, name="reading codes for the latency", rest_ratio=REST_RATIO
+        self._listener = LiveListener(
+            hub, self._process, name="reading codes for the latency", pause_ratio=PAUSE_RATIO
         )
 
     @property
     def read(self) -> tuple[ReadImage, ...]:
-        """What was read, image by image."""
+        """The processed images with their codes."""
         with self._lock:
             return tuple(self._read.values())
 
     @property
     def size_wh_px(self) -> tuple[int, int]:
-        """Of the images; zeros before the first."""
+        """Size of the images; zeros before the first."""
         with self._lock:
             return self._size_wh_px
 
     def status(self) -> ReadingStatus:
-        """How reading goes; whoever asks is still there."""
+        """Return the progress. A call also resets the timeout of the page."""
         with self._lock:
-            self._asked_at_s = self._clock()
+            self._polled_at_s = self._clock()
             return ReadingStatus(
-                running=self._follower.running,
-                looked_images=len(self._read),
+                running=self._listener.running,
+                examined_images=len(self._read),
                 read_images=sum(one.code is not None for one in self._read.values()),
-                problem=self._follower.problem,
+                problem=self._listener.problem,
             )
 
     def end_for(self, error: NavigationError) -> None:
-        """End with the next image, for this reason."""
+        """End the measurement with this error at the next image."""
         with self._lock:
             self._ended = error
 
     def stop(self) -> None:
-        """Read no more."""
-        self._follower.stop()
+        """Stop reading."""
+        self._listener.stop()
 
-    def _look(self, instant: Instant) -> None:
-        self._reject_to_go_on()
+    def _process(self, instant: Instant) -> None:
+        self._reject_if_over()
         snapshot = instant.snapshot
         if instant.image is None or snapshot is None:
             return
@@ -147,17 +147,17 @@ class LatencyMeasurement:
             self._size_wh_px = snapshot.size_wh_px
             self._read.setdefault(one.image_number, one)
 
-    def _reject_to_go_on(self) -> None:
+    def _reject_if_over(self) -> None:
         with self._lock:
-            silent_s, images, ended = self._clock() - self._asked_at_s, len(self._read), self._ended
+            silent_s, images, ended = self._clock() - self._polled_at_s, len(self._read), self._ended
         if ended is not None:
             raise ended
-        if silent_s > LEFT_AFTER_S:
+        if silent_s > MAX_SILENCE_S:
             raise SetupOrderError(
                 "LATENCY_PAGE_LEFT",
-                f"the page that shows the codes was silent for {silent_s:.1f} s, allowed {LEFT_AFTER_S:g} s",
+                f"the page that shows the codes was silent for {silent_s:.1f} s, allowed {MAX_SILENCE_S:g} s",
                 "Leave that page open and in view, and measure again.",
-                {"silent_s": silent_s, "max_silent_s": LEFT_AFTER_S},
+                {"silent_s": silent_s, "max_silent_s": MAX_SILENCE_S},
             )
         if images >= MAX_IMAGES:
             raise SetupOrderError(
@@ -169,16 +169,16 @@ class LatencyMeasurement:
 
 
 class LatencyStep:
-    """Measures the latency of the camera and a page; one measurement at a time. Safe to use from any thread.
+    """Measures the latency of the camera and a page; one measurement at a time. Thread-safe.
 
     Args:
         hub: the live images.
-        store: whose open case ends a measurement when it is closed or another is opened.
-        file: where results are kept.
-        camera: the source in words, as its results name it.
-        clock: monotonic.
-        wall: the wall clock, for the date of a result.
-        tell: called when another result is kept.
+        store: the case store; a measurement ends when the open case changes.
+        file: where results are stored.
+        camera: name of the camera source, stored with its results.
+        clock: monotonic clock.
+        wall: wall clock, for the date of a result.
+        on_result: called when a result is stored.
     """
 
     def __init__(
@@ -190,7 +190,7 @@ class LatencyStep:
         camera: str,
         clock: Callable[[], float] = time.monotonic,
         wall: Clock = utc_now,
-        tell: Callable[[], None] = lambda: None,
+        on_result: Callable[[], None] = lambda: None,
     ) -> None:
         self._hub = hub
         self._store = store
@@ -198,15 +198,15 @@ class LatencyStep:
         self._camera = camera
         self._clock = clock
         self._wall = wall
-        self._tell = tell
+        self._on_result = on_result
         self._case_id: str | None = None
-        self._held: Held[LatencyMeasurement] = Held(
+        self._active: ActiveCollection[LatencyMeasurement] = ActiveCollection(
             "codes for the latency are", remedy="Begin a measurement on the camera's page."
         )
-        store.call_after_writing(self._follow_case)
+        store.add_commit_listener(self._follow_case)
 
     def begin(self, codes: int) -> LatencyMeasurement:
-        """Read codes in the live images from now on; a measurement that was there is thrown away.
+        """Start to read codes in the live images; a previous measurement is discarded.
 
         Raises:
             CaptureError: NO_PICTURE.
@@ -221,33 +221,33 @@ class LatencyStep:
             )
         self._case_id = self._opened_id()
         plan = plan_codes(codes, rate_hz=rate_hz)
-        return self._held.begin(lambda: LatencyMeasurement(self._hub, plan, clock=self._clock))
+        return self._active.begin(lambda: LatencyMeasurement(self._hub, plan, clock=self._clock))
 
     @property
     def measurement(self) -> LatencyMeasurement:
-        """The one that runs.
+        """The active measurement.
 
         Raises:
             SetupOrderError: COLLECTION_MISSING.
         """
-        return self._held.get()
+        return self._active.get()
 
     @property
     def is_measuring(self) -> bool:
-        """Whether one runs."""
-        return self._held.is_there
+        """Whether there is an active measurement."""
+        return self._active.is_active
 
     def end(self) -> None:
-        """Read no more, and throw away what was read."""
-        self._held.end()
+        """Stop the measurement and discard its data."""
+        self._active.end()
 
     def conclude(self, times: PageTimes, *, made_by: str) -> LatencyResult:
-        """Time the codes, and keep the result; the measurement ends, also where it is refused.
+        """Compute the latencies and store the result; the measurement ends even if it is rejected.
 
         Raises:
             SetupOrderError: COLLECTION_MISSING, or why reading had ended before.
             CalibrationError: as `latency_report`.
-            StoreError: it cannot be kept.
+            StoreError: it cannot be stored.
         """
         measurement = self.measurement
         self.end()
@@ -273,11 +273,11 @@ class LatencyStep:
             report=report,
         )
         self._file.put(result)
-        self._tell()
+        self._on_result()
         return result
 
     def newest(self) -> LatencyResult | None:
-        """What was measured last with this camera; None where nothing was.
+        """Return the last result for this camera; None if there is none.
 
         Raises:
             StoreError: it cannot be read.
@@ -285,11 +285,11 @@ class LatencyStep:
         return self._file.of(self._camera)
 
     def _opened_id(self) -> str | None:
-        case = self._store.opened()
+        case = self._store.get_open_case()
         return None if case is None else case.id
 
     def _follow_case(self) -> None:
-        """After each change of the store: a measurement does not outlast its case."""
+        """End the measurement if the open case has changed; called after each change of the store."""
         if not self.is_measuring or self._opened_id() == self._case_id:
             return
         self.measurement.end_for(

@@ -1,8 +1,8 @@
-"""The markers that are looked for: those of the settings, and those whose picture was sent into the case.
+"""The tracked markers: those of the settings, and those whose image was uploaded to the open case.
 
-A case adds markers to those of the settings and never replaces them. A picture is a document with its file,
-so a tool behind a changed marker goes out of date by the rule that applies to every document. The marker on
-the patient is named in the settings only.
+A case adds markers to those of the settings and never replaces them. A marker image is a document with a
+file, so a tool on a changed marker becomes out of date by the rule that applies to every document. The
+reference marker on the patient is named in the settings only.
 """
 
 from collections.abc import Sequence
@@ -17,11 +17,11 @@ from pydantic import Field
 from server.config import Section
 from server.errors import SetupOrderError
 from server.marker_file import load_marker_image, marker_image
-from server.procedure.opened import opened_case
-from server.procedure.read import read_document
-from server.store import CaseStore, Document, DocumentKind, NotStored
+from server.procedure.documents import parse_document
+from server.procedure.open_case import require_open_case
+from server.store import CaseStore, Document, DocumentKind, NotFound
 from tracker.errors import InvalidInput, NavigationError
-from tracker.marker import MarkerModel, reject_alike
+from tracker.marker import MarkerModel, reject_similar
 
 # Each one costs search time in every image.
 MAX_MARKERS = 8
@@ -29,19 +29,19 @@ MAX_MARKERS = 8
 log = structlog.get_logger(__name__)
 
 
-class KeptMarker(Section):
-    """A marker as a case keeps it; its picture is the document's file."""
+class MarkerRecord(Section):
+    """A marker as stored in a case; its image is the file of the document."""
 
     side_mm: Annotated[float, Field(gt=0.0, le=1000.0)]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class KnownMarker:
-    """A marker that is looked for.
+    """A tracked marker.
 
     Attributes:
-        model: what is looked for.
-        document: that keeps it; None for one that the settings bring.
+        model: model of the marker.
+        document: its document in the open case; None for a configured marker.
     """
 
     model: MarkerModel
@@ -49,29 +49,29 @@ class KnownMarker:
 
 
 class MarkerStep:
-    """Takes pictures of markers into the open case. Safe to use from any thread.
+    """Stores marker images in the open case. Thread-safe.
 
     Args:
-        store: where they are kept.
-        brought: by the settings; these stay, and no marker of a case takes their names.
+        store: where they are stored.
+        defaults: the configured markers; no marker of a case may use their names.
     """
 
-    def __init__(self, *, store: CaseStore, brought: Sequence[MarkerModel]) -> None:
+    def __init__(self, *, store: CaseStore, defaults: Sequence[MarkerModel]) -> None:
         self._store = store
-        self._brought = {model.name: model for model in brought}
+        self._defaults = {model.name: model for model in defaults}
 
     def known(self) -> tuple[KnownMarker, ...]:
-        """All that are looked for: of the settings first, then of the open case."""
-        known = [KnownMarker(model=model, document=None) for model in self._brought.values()]
-        case = self._store.opened()
+        """Return all tracked markers: of the settings first, then of the open case."""
+        known = [KnownMarker(model=model, document=None) for model in self._defaults.values()]
+        case = self._store.get_open_case()
         for document in () if case is None else self._store.all(case.id, DocumentKind.MARKER):
-            if document.name in self._brought:
+            if document.name in self._defaults:
                 continue
             try:
                 model = self._model_of(document)
-                reject_alike([*(one.model for one in known), model])
+                reject_similar([*(one.model for one in known), model])
             except NavigationError as error:
-                # It is not looked for; the others are.
+                # It is not tracked; the others are.
                 log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
                 continue
             known.append(KnownMarker(model=model, document=document))
@@ -79,18 +79,18 @@ class MarkerStep:
 
     @property
     def of_case(self) -> tuple[MarkerModel, ...]:
-        """Those that the open case adds to the ones of the settings."""
+        """The markers that the open case adds to those of the settings."""
         return tuple(one.model for one in self.known() if one.document is not None)
 
     def one(self, name: str) -> KnownMarker:
-        """One of them.
+        """Return a tracked marker by name.
 
         Raises:
-            NotStored: MARKER_UNKNOWN.
+            NotFound: MARKER_UNKNOWN.
         """
         found = next((known for known in self.known() if known.model.name == name), None)
         if found is None:
-            raise NotStored(
+            raise NotFound(
                 "MARKER_UNKNOWN",
                 f"no marker '{name}' is looked for",
                 "Look at the list of markers.",
@@ -99,23 +99,23 @@ class MarkerStep:
         return found
 
     def add(self, name: str, *, side_mm: float, picture: Path, named: str, made_by: str) -> Document:
-        """Keep a marker's picture in the open case; it is looked for from the next image on.
+        """Store a marker's image in the open case; the marker is tracked from the next image on.
 
-        One of the same name is replaced by it, and what was calibrated behind that one is out of date.
+        It replaces a marker of the same name; tools that were calibrated on that one become out of date.
 
         Args:
-            name: of the marker.
-            side_mm: of its printed black square.
-            picture: the file that was sent.
-            named: how that is called where it was sent from.
-            made_by: who sends it.
+            name: name of the marker.
+            side_mm: side of its printed black square.
+            picture: the uploaded file.
+            named: original name of the file.
+            made_by: name of the person.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, MARKER_OF_SETTINGS.
-            InvalidInput: what cannot be a marker's picture, MARKERS_ALIKE, MARKERS_ENOUGH.
+            InvalidInput: the image is not a valid marker, MARKERS_TOO_SIMILAR, MARKERS_ENOUGH.
         """
-        case = opened_case(self._store)
-        self._reject_settled(name)
+        case = require_open_case(self._store)
+        self._reject_configured(name)
         content = picture.read_bytes()
         model = MarkerModel.from_image(marker_image(content, named=named), side_mm=side_mm, name=name)
         self._reject_among_others(model)
@@ -125,34 +125,34 @@ class MarkerStep:
             case.id,
             DocumentKind.MARKER,
             name,
-            KeptMarker(side_mm=side_mm).model_dump(mode="json"),
+            MarkerRecord(side_mm=side_mm).model_dump(mode="json"),
             made_by=made_by,
             files=[new.stored.id],
         )
 
     def remove(self, name: str, *, by: str) -> None:
-        """Look for this marker of the open case no more; what was calibrated behind it is out of date.
+        """Stop to track a marker of the open case; tools that were calibrated on it become out of date.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, MARKER_OF_SETTINGS.
-            NotStored: MARKER_UNKNOWN.
+            NotFound: MARKER_UNKNOWN.
         """
-        case = opened_case(self._store)
-        self._reject_settled(name)
-        # Also one whose picture cannot be read any more.
+        case = require_open_case(self._store)
+        self._reject_configured(name)
+        # Also a marker whose image is unreadable.
         document = self._store.latest(case.id, DocumentKind.MARKER, name) or self.one(name).document
         if document is not None:
             self._store.withdraw(document, by=by, reason="it is not to be looked for any more")
 
     def _model_of(self, document: Document) -> MarkerModel:
-        kept = read_document(
-            KeptMarker, document, code="MARKER_DOCUMENT_INVALID", remedy="Send the marker's picture again."
+        record = parse_document(
+            MarkerRecord, document, code="MARKER_DOCUMENT_INVALID", remedy="Send the marker's picture again."
         )
         path = self._store.file(document.case_id, document.files[0]).path
-        return _model(path, document.name, kept.side_mm)
+        return _model(path, document.name, record.side_mm)
 
-    def _reject_settled(self, name: str) -> None:
-        if name in self._brought:
+    def _reject_configured(self, name: str) -> None:
+        if name in self._defaults:
             raise SetupOrderError(
                 "MARKER_OF_SETTINGS",
                 f"the marker '{name}' comes from the settings, and stays as they have it",
@@ -161,9 +161,9 @@ class MarkerStep:
             )
 
     def _reject_among_others(self, model: MarkerModel) -> None:
-        """Two markers that look the same would be taken for each other; too many cost too much time."""
+        """Reject a marker that could be confused with another, and too many markers (search time)."""
         others = [known.model for known in self.known() if known.model.name != model.name]
-        reject_alike([*others, model])
+        reject_similar([*others, model])
         if len(others) >= MAX_MARKERS:
             raise InvalidInput(
                 "MARKERS_ENOUGH",
@@ -175,5 +175,5 @@ class MarkerStep:
 
 @lru_cache(maxsize=32)
 def _model(path: Path, name: str, side_mm: float) -> MarkerModel:
-    """Files of a case are never changed, so what was made of one stays true."""
+    """Load a marker model. Cached, because files of a case never change."""
     return MarkerModel.from_image(load_marker_image(path), side_mm=side_mm, name=name)

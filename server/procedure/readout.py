@@ -1,4 +1,4 @@
-"""The readout time of the camera's rows: measured or stated, and kept with its calibration."""
+"""The rolling-shutter readout time of the camera: measured or entered, stored with its calibration."""
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
@@ -9,48 +9,48 @@ from server.camera_file import readout_in
 from server.errors import SetupOrderError
 from server.jobs import Job, Jobs, Report
 from server.live import LiveHub
-from server.procedure.camera import MAIN_CAMERA, READOUT_KEYS, kept_camera
-from server.procedure.held import Held
-from server.procedure.opened import opened_case
+from server.procedure.active_collection import ActiveCollection
+from server.procedure.camera import MAIN_CAMERA, READOUT_KEYS, camera_from_document
+from server.procedure.open_case import require_open_case
 from server.procedure.readout_collection import BurstStage, ReadoutCollection
 from server.store import Case, CaseStore, Document, DocumentKind
 from tracker.camera import Board, CameraModel
-from tracker.camera.readout import TimedView, estimate_readout
+from tracker.camera.readout_time import TimedView, estimate_readout
 
 
-class FoundBy(StrEnum):
-    """Where a readout time comes from."""
+class ReadoutSource(StrEnum):
+    """Source of a readout time."""
 
     MEASURED = "measured"  # with a moving board
-    STATED = "stated"  # by a person, out of the data sheet
+    STATED = "stated"  # entered by a person, from the data sheet
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class KeptReadout:
-    """A readout time as it is kept.
+class ReadoutRecord:
+    """A stored readout time.
 
     Attributes:
-        readout_ms: what is tracked with; 0 of a global shutter.
-        sd_ms: of the measurement; None where it was stated.
-        found_by: where it comes from.
+        readout_ms: readout time for tracking; 0 for a global shutter.
+        sd_ms: standard deviation of the measurement; None if it was entered.
+        found_by: its source.
     """
 
     readout_ms: float
     sd_ms: float | None
-    found_by: FoundBy
+    found_by: ReadoutSource
 
 
 class ReadoutStep:
-    """Measures or takes the readout time; one burst at a time. Safe to use from any thread.
+    """Measures or stores the readout time; one burst at a time. Thread-safe.
 
-    It is kept as a new version of the calibration: what stands on the one before is out of date, because
-    poses of what moves change with it.
+    It is stored as a new version of the calibration. Documents that depend on the previous version become
+    out of date, because poses of moving objects change with the readout time.
 
     Args:
         hub: the live images.
-        store: where the result is kept.
-        jobs: where it is computed.
-        source: the camera's source in words, as its calibration names it.
+        store: where the result is stored.
+        jobs: runs the computation.
+        source: name of the camera source, as in its calibration.
     """
 
     def __init__(self, *, hub: LiveHub, store: CaseStore, jobs: Jobs, source: str) -> None:
@@ -58,62 +58,62 @@ class ReadoutStep:
         self._store = store
         self._jobs = jobs
         self._source = source
-        self._held: Held[ReadoutCollection] = Held(
+        self._active: ActiveCollection[ReadoutCollection] = ActiveCollection(
             "images of a moving board are", remedy="Begin a measurement of the readout."
         )
 
     def begin(self, board: Board) -> ReadoutCollection:
-        """Wait for this board to move, and take a burst; what was taken before is thrown away.
+        """Wait for this board to move, and take a burst; a previous burst is discarded.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN.
             OutOfDateError: DOCUMENT_MISSING or DOCUMENT_OUT_OF_DATE, the camera has to be calibrated first.
         """
-        self._calibration(opened_case(self._store))
-        return self._held.begin(lambda: ReadoutCollection(self._hub, board))
+        self._calibration(require_open_case(self._store))
+        return self._active.begin(lambda: ReadoutCollection(self._hub, board))
 
     @property
     def collection(self) -> ReadoutCollection:
-        """The burst so far.
+        """The active burst.
 
         Raises:
             SetupOrderError: COLLECTION_MISSING.
         """
-        return self._held.get()
+        return self._active.get()
 
     @property
     def is_collecting(self) -> bool:
-        """Whether a burst is held."""
-        return self._held.is_there
+        """Whether there is an active burst."""
+        return self._active.is_active
 
     def end(self) -> None:
-        """Take no more, and throw away what was taken."""
-        self._held.end()
+        """Stop the burst and discard its images."""
+        self._active.end()
 
-    def kept(self) -> KeptReadout | None:
-        """What the newest calibration of the open case has; None where it is not known."""
-        case = self._store.opened()
+    def stored_readout(self) -> ReadoutRecord | None:
+        """Return the readout time of the newest calibration of the open case; None if it is unknown."""
+        case = self._store.get_open_case()
         document = None if case is None else self._store.latest(case.id, DocumentKind.CAMERA, MAIN_CAMERA)
         camera = {} if document is None else _camera_in(document)
         readout_ms = readout_in(camera)
         if readout_ms is None:
             return None
         sd_ms = camera.get("readout_sd_ms")
-        return KeptReadout(
+        return ReadoutRecord(
             readout_ms=readout_ms,
             sd_ms=float(sd_ms) if isinstance(sd_ms, int | float) else None,
-            found_by=FoundBy(str(camera.get("readout_found_by", FoundBy.STATED))),
+            found_by=ReadoutSource(str(camera.get("readout_found_by", ReadoutSource.STATED))),
         )
 
     def measure(self, *, made_by: str) -> Job:
-        """Fit the readout to the burst, and keep it with the calibration.
+        """Estimate the readout time from the burst, and store it with the calibration.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, COLLECTION_MISSING, COLLECTION_UNREADY.
             OutOfDateError: DOCUMENT_MISSING or DOCUMENT_OUT_OF_DATE.
             CalibrationError: CAMERA_DIFFERS.
         """
-        case = opened_case(self._store)
+        case = require_open_case(self._store)
         collection = self.collection
         status, views = collection.status, collection.views
         if status.stage is not BurstStage.READY:
@@ -122,10 +122,12 @@ class ReadoutStep:
                 f"{status.read_images} of the burst's images are read yet",
                 "Move the board until all images are taken and read.",
             )
-        camera = kept_camera(self._calibration(case), source=self._source).model
+        camera = camera_from_document(self._calibration(case), source=self._source).model
 
         def keep(values: Any) -> object:  # noqa: ANN401  what JSON made of the answer of `fit_readout`
-            self._keep(case, _values(values["used_ms"], values["sd_ms"], FoundBy.MEASURED), made_by=made_by)
+            self._keep(
+                case, _values(values["used_ms"], values["sd_ms"], ReadoutSource.MEASURED), made_by=made_by
+            )
             self.end()
             return values
 
@@ -134,14 +136,14 @@ class ReadoutStep:
         )
 
     def state(self, readout_ms: float | None, *, made_by: str) -> Document:
-        """Keep what a person says: out of the data sheet, 0 for a global shutter, None for not known.
+        """Store a readout time from the data sheet; 0 for a global shutter, None for unknown.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN.
             OutOfDateError: DOCUMENT_MISSING or DOCUMENT_OUT_OF_DATE.
         """
-        values = {} if readout_ms is None else _values(readout_ms, None, FoundBy.STATED)
-        return self._keep(opened_case(self._store), values, made_by=made_by)
+        values = {} if readout_ms is None else _values(readout_ms, None, ReadoutSource.STATED)
+        return self._keep(require_open_case(self._store), values, made_by=made_by)
 
     def _calibration(self, case: Case) -> Document:
         return self._store.current(case.id, DocumentKind.CAMERA, MAIN_CAMERA)
@@ -161,13 +163,13 @@ class ReadoutStep:
 
 
 def fit_readout(report: Report, *, views: tuple[TimedView, ...], camera: CameraModel) -> dict[str, object]:
-    """The work itself, in a process of its own."""
+    """Job: estimate the readout time."""
     report(0.1, f"fitting the readout to {len(views)} images")
     found = estimate_readout(views, camera)
     return {**asdict(found), "used_ms": found.used_ms}
 
 
-def _values(readout_ms: float, sd_ms: float | None, found_by: FoundBy) -> dict[str, object]:
+def _values(readout_ms: float, sd_ms: float | None, found_by: ReadoutSource) -> dict[str, object]:
     values: dict[str, object] = {"readout_ms": round(readout_ms, 2), "readout_found_by": found_by.value}
     return values if sd_ms is None else {**values, "readout_sd_ms": round(sd_ms, 2)}
 

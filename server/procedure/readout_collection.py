@@ -1,4 +1,4 @@
-"""A burst of live images of a board that is shaken, and the board found in each of them."""
+"""A burst of live images of a moving board, with the board detected in each."""
 
 import threading
 from dataclasses import dataclass
@@ -9,24 +9,24 @@ import numpy as np
 import numpy.typing as npt
 
 from server.live import Instant, LiveHub, Problem
-from server.procedure.following import Follower
+from server.procedure.live_listener import LiveListener
 from tracker.camera import Board
 from tracker.camera.detection import BoardNotFound, find_board
-from tracker.camera.readout import TimedView
+from tracker.camera.readout_time import TimedView
 from tracker.errors import CalibrationError
 
-# Two seconds at 30 Hz: some to-and-fro; in memory 125 MB of full HD.
+# Two seconds at 30 Hz, several reversals of the motion; 125 MB of memory for full HD.
 BURST_IMAGES = 60
-# An image that came later than this after the one before belongs to no burst.
+# Maximum time between two images of a burst.
 MAX_PAUSE_S = 0.5
-# Between two looks, of the image's width: the hand has begun to move the board.
-BEGINS_AT_RATIO = 0.02
-# Of the time of a look: while a burst is taken, each image is needed.
-REST_RATIO = 0.3
+# Motion of the board between two images, relative to the image width, from which the burst starts.
+MIN_MOTION_RATIO = 0.02
+# Pause relative to the processing time: during a burst every image is needed.
+PAUSE_RATIO = 0.3
 
 
 class BurstStage(StrEnum):
-    """What the person is to do, or waits for."""
+    """Stage of a burst."""
 
     SHOW = "show"  # the board to the camera
     MOVE = "move"  # it quickly to and fro
@@ -37,15 +37,15 @@ class BurstStage(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BurstStatus:
-    """How far a burst has come.
+    """Progress of a burst.
 
     Attributes:
-        board: that is looked for.
-        stage: what is done now.
-        taken_images: of `BURST_IMAGES`.
-        read_images: in how many of them the board was looked for.
-        found_images: in how many it was found.
-        trouble: why nothing more is taken.
+        board: the calibration board.
+        stage: current stage.
+        taken_images: images taken, of `BURST_IMAGES`.
+        read_images: images in which the detection has run.
+        found_images: images in which the board was detected.
+        problem: why the burst ended.
     """
 
     board: Board
@@ -57,7 +57,7 @@ class BurstStatus:
 
 
 class ReadoutCollection:
-    """Takes one burst as soon as the board moves, then looks for it; may be asked from any thread."""
+    """Takes one burst when the board starts to move, then detects the board in it. Thread-safe."""
 
     def __init__(self, hub: LiveHub, board: Board) -> None:
         self._board = board
@@ -68,11 +68,13 @@ class ReadoutCollection:
         self._read = 0
         self._views: list[TimedView] = []
         self._middle_px: npt.NDArray[np.float64] | None = None
-        self._follower = Follower(hub, self._look, name="watching the moving board", rest_ratio=REST_RATIO)
+        self._listener = LiveListener(
+            hub, self._process, name="watching the moving board", pause_ratio=PAUSE_RATIO
+        )
 
     @property
     def status(self) -> BurstStatus:
-        """How far it has come."""
+        """Progress of the burst."""
         with self._lock:
             return BurstStatus(
                 board=self._board,
@@ -80,20 +82,20 @@ class ReadoutCollection:
                 taken_images=self._taken,
                 read_images=self._read,
                 found_images=len(self._views),
-                problem=self._follower.problem,
+                problem=self._listener.problem,
             )
 
     @property
     def views(self) -> tuple[TimedView, ...]:
-        """The board in the images that are read."""
+        """The detected board in the processed images."""
         with self._lock:
             return tuple(self._views)
 
     def stop(self) -> None:
-        """Take no more."""
-        self._follower.stop()
+        """Stop the burst."""
+        self._listener.stop()
 
-    def _look(self, instant: Instant) -> None:
+    def _process(self, instant: Instant) -> None:
         if self._stage is BurstStage.READING:
             self._read_next()
         elif (
@@ -110,14 +112,14 @@ class ReadoutCollection:
         with self._lock:
             before = self._middle_px
             if isinstance(found, BoardNotFound):
-                # A board that is quick is seldom found: what was in view and is gone has begun to move.
+                # A fast board is rarely detected: a board that disappears has started to move.
                 self._stage = BurstStage.SHOW if before is None else BurstStage.TAKING
                 return
             self._middle_px = found.image_points_px.mean(axis=0)
             self._stage = BurstStage.MOVE
             if before is not None:
                 moved_px = float(np.hypot(*(self._middle_px - before)))
-                if moved_px > BEGINS_AT_RATIO * image.shape[1]:
+                if moved_px > MIN_MOTION_RATIO * image.shape[1]:
                     self._stage = BurstStage.TAKING
 
     def _take(self, image: npt.NDArray[np.uint8], at_s: float) -> None:

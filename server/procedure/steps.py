@@ -1,4 +1,4 @@
-"""All steps of the set-up, made for one server."""
+"""All steps of the procedure, created together for one server."""
 
 import math
 import secrets
@@ -13,16 +13,16 @@ from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
 from server.procedure.camera import CameraStep
-from server.procedure.confirm import ConfirmStep
-from server.procedure.ct import CtStep, OpenedCt
-from server.procedure.guiding import Guiding
-from server.procedure.in_use import CaseInUse
+from server.procedure.confirmation_step import ConfirmStep
+from server.procedure.ct import CtProvider, CtStep
+from server.procedure.drill_reference import DrillReferenceBuilder
 from server.procedure.latency import LatencyStep
 from server.procedure.markers import MarkerStep
 from server.procedure.plan import PlanStep
 from server.procedure.readout import ReadoutStep
 from server.procedure.registration import RegistrationSteps
-from server.procedure.state import Brought, Procedure
+from server.procedure.setup_publisher import SetupPublisher
+from server.procedure.state import Procedure, SetupDefaults
 from server.procedure.surface import SurfaceStep
 from server.procedure.tool import ToolStep
 from server.setup import CaseSetup
@@ -31,7 +31,7 @@ from server.store.latency_file import LatencyFile
 from tracker.marker import MarkerModel
 from tracker.pose.tool import ToolGate
 
-# As the rehearsal's theatre calls them; to load the theatre for a name takes time.
+# Names in the rehearsal's simulated theatre; repeated here because importing the theatre is slow.
 REHEARSED_TOOL, REHEARSED_REFERENCE = "drill", "reference"
 
 log = structlog.get_logger(__name__)
@@ -39,20 +39,21 @@ log = structlog.get_logger(__name__)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Steps:
-    """The steps of the set-up, which hold what is being collected just now.
+    """The steps of the procedure, with their active collections.
 
     Attributes:
         camera: calibrates the camera.
-        latency: measures the latency from light to page.
-        markers: takes pictures of markers in.
+        readout: measures the readout time of the camera.
+        latency: measures the latency from the scene to the page.
+        markers: stores images of markers.
         tool: calibrates tools.
-        ct: takes a CT in.
-        opened_ct: the CT that the others look at and plan on.
-        plan: measures pedicles, lays channels, chooses screws.
-        surface: makes the surface of the bone.
-        procedure: what may follow what.
-        registration: finds the vertebra on the patient.
-        confirm: takes a person's word after a start.
+        ct: imports a CT.
+        ct_provider: the CT of the open case.
+        plan: measures pedicles, plans channels, chooses screws.
+        surface: computes the surface of the bone.
+        procedure: state of the procedure and order of its steps.
+        registration: registers the vertebra on the patient.
+        confirm: confirms a registration after a restart.
     """
 
     camera: CameraStep
@@ -61,7 +62,7 @@ class Steps:
     markers: MarkerStep
     tool: ToolStep
     ct: CtStep
-    opened_ct: OpenedCt
+    ct_provider: CtProvider
     plan: PlanStep
     surface: SurfaceStep
     procedure: Procedure
@@ -77,59 +78,63 @@ class Steps:
         jobs: Jobs,
         config: Config,
         markers: Sequence[MarkerModel],
-        adopt: Callable[[CaseSetup], None],
-        know: Callable[[ProcedureFacts], None] = lambda _: None,
+        publish_setup: Callable[[CaseSetup], None],
+        publish_facts: Callable[[ProcedureFacts], None] = lambda _: None,
         tracked_from_s: Callable[[], float] = lambda: -math.inf,
     ) -> "Steps":
-        """The steps; from here on `adopt` is told whenever the open case knows something else.
+        """Create the steps. From here on each change of the open case is published.
 
         Args:
             hub: the live images.
-            store: where results are kept.
-            jobs: where long work is done.
-            config: the gates, and the tools as the settings have them.
-            markers: that are looked for whatever the case has.
-            adopt: has the tracking process work with what a case knows.
-            know: told what the alarms shall know of the procedure.
-            tracked_from_s: since when the tracking process of now runs, by the images' clock.
+            store: where results are stored.
+            jobs: runs long computations.
+            config: acceptance limits, and the configured tools.
+            markers: markers that are tracked in every case.
+            publish_setup: sends the setup of the open case to the tracking process.
+            publish_facts: sends the facts of the procedure to the alarms.
+            tracked_from_s: start of the current tracking process, on the image clock.
         """
-        brought = brought_by(config)
-        marker_step = MarkerStep(store=store, brought=markers)
-        procedure = _procedure(store, config, brought, tracked_from_s)
+        defaults = defaults_from_config(config)
+        marker_step = MarkerStep(store=store, defaults=markers)
+        procedure = _procedure(store, config, defaults, tracked_from_s)
         latencies = LatencyFile(store.home.folder)
-        in_use = CaseInUse(
+        setup_publisher = SetupPublisher(
             store,
-            adopt,
+            publish_setup,
             procedure=procedure,
-            guiding=Guiding(store=store, jobs=jobs),
-            brought=brought,
+            drill_references=DrillReferenceBuilder(store=store, jobs=jobs),
+            defaults=defaults,
             markers=marker_step,
-            know=know,
-            latency_ms=lambda: _latency_ms(latencies, brought.source),
+            publish_facts=publish_facts,
+            latency_ms=lambda: _latency_ms(latencies, defaults.source),
         )
-        _keep_in_use(in_use, store)
-        opened_ct = OpenedCt(store)
-        surface = SurfaceStep(store=store, jobs=jobs, opened=opened_ct)
-        plan = PlanStep(store=store, jobs=jobs, opened=opened_ct, config=config.plan)
+        _publish_changes(setup_publisher, store)
+        ct_provider = CtProvider(store)
+        surface = SurfaceStep(store=store, jobs=jobs, ct_provider=ct_provider)
+        plan = PlanStep(store=store, jobs=jobs, ct_provider=ct_provider, config=config.plan)
         return cls(
-            camera=_camera_step(hub, store, jobs, config, brought),
-            readout=ReadoutStep(hub=hub, store=store, jobs=jobs, source=brought.source),
+            camera=_camera_step(hub, store, jobs, config, defaults),
+            readout=ReadoutStep(hub=hub, store=store, jobs=jobs, source=defaults.source),
             latency=LatencyStep(
-                hub=hub, store=store, file=latencies, camera=brought.source, tell=in_use.refresh
+                hub=hub,
+                store=store,
+                file=latencies,
+                camera=defaults.source,
+                on_result=setup_publisher.refresh,
             ),
             markers=marker_step,
             tool=_tool_step(hub, store, config, marker_step),
             ct=CtStep(store=store, jobs=jobs),
-            opened_ct=opened_ct,
+            ct_provider=ct_provider,
             plan=plan,
             surface=surface,
             procedure=procedure,
-            registration=_registration(hub, store, config, procedure, brought, plan=plan, surface=surface),
+            registration=_registration(hub, store, config, procedure, defaults, plan=plan, surface=surface),
             confirm=ConfirmStep(hub=hub, store=store, procedure=procedure),
         )
 
     def close(self) -> None:
-        """Collect no more."""
+        """Stop all active collections."""
         self.camera.end()
         self.readout.end()
         self.latency.end()
@@ -138,11 +143,11 @@ class Steps:
 
 
 def _procedure(
-    store: CaseStore, config: Config, brought: Brought, tracked_from_s: Callable[[], float]
+    store: CaseStore, config: Config, defaults: SetupDefaults, tracked_from_s: Callable[[], float]
 ) -> Procedure:
     return Procedure(
         store,
-        brought=brought,
+        defaults=defaults,
         gate=config.registration,
         run=new_run(),
         cosign=config.supervision.cosign,
@@ -155,7 +160,7 @@ def _registration(
     store: CaseStore,
     config: Config,
     procedure: Procedure,
-    brought: Brought,
+    defaults: SetupDefaults,
     *,
     plan: PlanStep,
     surface: SurfaceStep,
@@ -166,24 +171,26 @@ def _registration(
         plans=plan.repository,
         surfaces=surface,
         procedure=procedure,
-        brought=brought,
+        defaults=defaults,
         gate=config.registration,
     )
 
 
-def _camera_step(hub: LiveHub, store: CaseStore, jobs: Jobs, config: Config, brought: Brought) -> CameraStep:
+def _camera_step(
+    hub: LiveHub, store: CaseStore, jobs: Jobs, config: Config, defaults: SetupDefaults
+) -> CameraStep:
     return CameraStep(
         hub=hub,
         store=store,
         jobs=jobs,
         gate=config.calibration,
-        source=brought.source,
+        source=defaults.source,
         same_sensor_area=config.camera.same_sensor_area,
     )
 
 
 def _latency_ms(latencies: LatencyFile, camera: str) -> float | None:
-    """What 99 % of the latency measured last are within; None where there is none, or it cannot be read."""
+    """Return the 99th percentile of the last measurement; None if there is none, or it cannot be read."""
     try:
         result = latencies.of(camera)
     except StoreError as error:
@@ -202,19 +209,19 @@ def _tool_step(hub: LiveHub, store: CaseStore, config: Config, markers: MarkerSt
     )
 
 
-def _keep_in_use(in_use: CaseInUse, store: CaseStore) -> None:
-    """Hand on each change of the store, and what is there already: a case that was open is open again."""
-    store.call_after_writing(in_use.refresh)
-    in_use.refresh()
+def _publish_changes(setup_publisher: SetupPublisher, store: CaseStore) -> None:
+    """Publish each change of the store, and the present state: an open case stays open over a restart."""
+    store.add_commit_listener(setup_publisher.refresh)
+    setup_publisher.refresh()
 
 
-def brought_by(config: Config) -> Brought:
-    """What the settings bring, whatever the case has."""
+def defaults_from_config(config: Config) -> SetupDefaults:
+    """Return the part of the setup that the settings provide, independent of the case."""
     source = source_from_text(config.camera.source)
     is_rehearsal = source.kind is SourceKind.REHEARSAL
-    knows_itself = is_rehearsal and config.rehearsal.brings_setup
+    knows_itself = is_rehearsal and config.rehearsal.provides_setup
     rehearsed = REHEARSED_REFERENCE if is_rehearsal and config.rehearsal.reference else ""
-    return Brought(
+    return SetupDefaults(
         source=source.name,
         reference=config.reference.marker or rehearsed,
         has_camera=config.camera.calibration is not None or knows_itself,
@@ -223,5 +230,5 @@ def brought_by(config: Config) -> Brought:
 
 
 def new_run() -> str:
-    """A name of this run of the server that no other run has."""
+    """Return a unique name for this run of the server."""
     return secrets.token_hex(8)

@@ -1,4 +1,4 @@
-"""The step in which the bone's surface comes out of the CT, or from a file, into the open case."""
+"""The surface step: the bone surface is extracted from the CT or imported from a file."""
 
 import secrets
 import shutil
@@ -8,25 +8,25 @@ from pathlib import Path
 
 from server.errors import SetupOrderError
 from server.jobs import Job, Jobs, Work
-from server.planning.surface import MESH, PLY, MeshOrder, surface_of_ct, surface_of_file
-from server.procedure.ct import OpenedCt
-from server.procedure.opened import opened_case
-from server.store import CaseStore, Document, DocumentKind, StoredFile, told
+from server.planning.surface import MESH, PLY, MeshRequest, surface_of_ct, surface_of_file
+from server.procedure.ct import CtProvider
+from server.procedure.open_case import require_open_case
+from server.store import CaseStore, Document, DocumentKind, StoredFile, translate_errors
 from tracker.plan.bone import BoneSettings, Region
 
 MAIN_SURFACE = "main"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class BoneOrder:
-    """How a surface shall be made out of the CT; what is None is chosen by the program.
+class BoneSurfaceRequest:
+    """Settings of the extraction of a surface from the CT; None selects a value automatically.
 
     Attributes:
-        threshold_hu: from where on a voxel is bone.
-        region_lps_mm: two opposite corners of the part that is looked at.
-        largest_part_only: leave out what does not hang together with the largest piece.
-        smoothing_rounds: 0 for none.
-        max_faces: triangles of the result.
+        threshold_hu: threshold of bone.
+        region_lps_mm: two opposite corners of the region.
+        largest_part_only: keep only the largest connected component.
+        smoothing_rounds: iterations of the smoothing; 0 for none.
+        max_faces: maximum number of triangles.
     """
 
     threshold_hu: float | None = None
@@ -37,7 +37,7 @@ class BoneOrder:
 
     @property
     def settings(self) -> BoneSettings:
-        """For the tracker; PlanError REGION_INVALID, BONE_SETTINGS_INVALID."""
+        """Settings for the tracker; PlanError REGION_INVALID, BONE_SETTINGS_INVALID."""
         region = None if self.region_lps_mm is None else Region.between(*self.region_lps_mm)
         return BoneSettings(
             threshold_hu=self.threshold_hu,
@@ -49,25 +49,25 @@ class BoneOrder:
 
 
 class SurfaceStep:
-    """Makes surfaces; safe to use from any thread."""
+    """Creates bone surfaces. Thread-safe."""
 
-    def __init__(self, *, store: CaseStore, jobs: Jobs, opened: OpenedCt) -> None:
+    def __init__(self, *, store: CaseStore, jobs: Jobs, ct_provider: CtProvider) -> None:
         self._store = store
         self._jobs = jobs
-        self._opened = opened
+        self._ct_provider = ct_provider
 
     def reject_without_case(self) -> None:
-        """To be asked before much is sent; SetupOrderError NO_CASE_OPEN."""
-        opened_case(self._store)
+        """Raise if no case is open, before a large upload; SetupOrderError NO_CASE_OPEN."""
+        require_open_case(self._store)
 
-    def from_ct(self, order: BoneOrder, *, made_by: str) -> Job:
-        """The surface of the bone in the CT of the open case, in a job.
+    def from_ct(self, order: BoneSurfaceRequest, *, made_by: str) -> Job:
+        """Start a job that extracts the bone surface from the CT of the open case.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, CT_MISSING.
             PlanError: REGION_INVALID, BONE_SETTINGS_INVALID.
         """
-        ct = self._opened.current()
+        ct = self._ct_provider.current()
         settings = order.settings
         return self._start(
             "making the bone's surface",
@@ -79,19 +79,19 @@ class SurfaceStep:
             },
             folder=self._new_folder(),
             case_id=ct.document.case_id,
-            stands_on=[ct.document.id],
+            depends_on=[ct.document.id],
             made_by=made_by,
         )
 
-    def from_mesh(self, path: Path, order: MeshOrder, *, made_by: str) -> Job:
-        """The surface in a file, which is moved away from `path`, in a job.
+    def from_mesh(self, path: Path, order: MeshRequest, *, made_by: str) -> Job:
+        """Start a job that imports the surface in the file at `path`, which is moved.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN.
         """
-        case = opened_case(self._store)
+        case = require_open_case(self._store)
         folder = self._new_folder()
-        with told(self._store.home.folder):
+        with translate_errors(self._store.home.folder):
             path.replace(folder / MESH)
         return self._start(
             "reading the surface",
@@ -99,18 +99,18 @@ class SurfaceStep:
             {"order": order},
             folder=folder,
             case_id=case.id,
-            stands_on=[],
+            depends_on=[],
             made_by=made_by,
         )
 
     def latest(self) -> tuple[Document, StoredFile]:
-        """The newest surface of the open case, with its PLY file.
+        """Return the newest surface of the open case, with its PLY file.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, SURFACE_MISSING.
             StoreError: FILE_DAMAGED.
         """
-        case = opened_case(self._store)
+        case = require_open_case(self._store)
         document = self._store.latest(case.id, DocumentKind.SURFACE, MAIN_SURFACE)
         if document is None or not document.files:
             raise SetupOrderError(
@@ -123,7 +123,7 @@ class SurfaceStep:
 
     def _new_folder(self) -> Path:
         folder = self._store.home.temporary / f"{secrets.token_hex(8)}.surface"
-        with told(self._store.home.folder):
+        with translate_errors(self._store.home.folder):
             folder.mkdir()
         return folder
 
@@ -135,7 +135,7 @@ class SurfaceStep:
         *,
         folder: Path,
         case_id: str,
-        stands_on: Sequence[str],
+        depends_on: Sequence[str],
         made_by: str,
     ) -> Job:
         def keep(values: object) -> object:
@@ -149,7 +149,7 @@ class SurfaceStep:
                 MAIN_SURFACE,
                 values,
                 made_by=made_by,
-                stands_on=stands_on,
+                depends_on=depends_on,
                 files=[new.stored.id],
             )
             return {"document_id": document.id, "version": document.version, **values}

@@ -1,4 +1,4 @@
-"""The step in which a tool is calibrated: its tip by pivoting, its axis by spinning, the tip checked."""
+"""The tool calibration step: pivot calibration of the tip, spin calibration of the axis, tip check."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -9,13 +9,13 @@ from pydantic import Field
 
 from server.config import Point, ToolConfig
 from server.live import LiveHub
+from server.procedure.active_collection import ActiveCollection
 from server.procedure.camera import MAIN_CAMERA
-from server.procedure.held import Held
+from server.procedure.documents import parse_document
 from server.procedure.markers import MarkerStep
-from server.procedure.opened import opened_case
-from server.procedure.read import read_document
+from server.procedure.open_case import require_open_case
 from server.procedure.tool_collection import ToolCollection
-from server.store import CaseStore, Current, Document, DocumentKind, Standing
+from server.store import CaseStore, Current, Document, DocumentKind, Validity
 from server.tool_file import ToolFile, pivot_part, spin_part
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.pose import ToolModel
@@ -23,16 +23,16 @@ from tracker.pose.tool import PivotCalibration, SpinCalibration, TipCheck, ToolG
 from tracker.pose.tool.collector import Purpose
 
 
-class KeptTool(ToolFile):
-    """A tool as a case keeps it: what a tool file says, and its shape from the drawing."""
+class ToolRecord(ToolFile):
+    """A tool as stored in a case: the content of a tool file, and its shape from the drawing."""
 
     axis_in_marker: Point | None = None
-    """From the drawing; where it was spun, the spin's axis counts."""
+    """From the drawing; the axis of a spin calibration takes precedence."""
     radius_mm: Annotated[float, Field(gt=0.0, le=50.0)]
     length_mm: Annotated[float, Field(gt=0.0, le=1000.0)]
 
     def model(self, name: str) -> ToolModel | None:
-        """The tool for tracking; None while nobody knows which way it points."""
+        """Return the tool model for tracking; None while its axis is unknown."""
         axis = self.axis_in_marker if self.spin is None else self.spin.axis_in_marker
         if axis is None:
             return None
@@ -50,39 +50,41 @@ class KeptTool(ToolFile):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class KnownTool:
-    """A tool that somebody has described or calibrated.
+    """A tool from the settings or the open case.
 
     Attributes:
-        name: of the tool.
-        settled: as the settings have it; None where they do not.
-        document: as the open case keeps it, whether or not it holds; None where it does not.
-        check: the newest check of its tip there.
+        name: name of the tool.
+        configured: its entry in the settings; None if there is none.
+        document: its document in the open case, valid or not; None if there is none.
+        check: document of the newest tip check.
     """
 
     name: str
-    settled: ToolConfig | None
+    configured: ToolConfig | None
     document: Document | None
     check: Document | None
 
 
-def kept_tool(document: Document) -> KeptTool:
-    """The tool in a document of a case.
+def tool_from_document(document: Document) -> ToolRecord:
+    """Parse the tool in a case document.
 
     Raises:
         InvalidInput: TOOL_DOCUMENT_INVALID.
     """
-    return read_document(KeptTool, document, code="TOOL_DOCUMENT_INVALID", remedy="Calibrate the tool again.")
+    return parse_document(
+        ToolRecord, document, code="TOOL_DOCUMENT_INVALID", remedy="Calibrate the tool again."
+    )
 
 
 class ToolStep:
-    """Calibrates and checks tools from live poses; one collection at a time. Safe to use from any thread.
+    """Calibrates and checks tools from live poses; one collection at a time. Thread-safe.
 
     Args:
         hub: the live images.
-        store: where the results are kept.
-        gate: what they must reach.
-        markers: that are looked for.
-        tools: as the settings have them, for radius, length and axis.
+        store: where the results are stored.
+        gate: acceptance limits.
+        markers: the tracked markers.
+        tools: the configured tools, with radius, length and axis.
     """
 
     def __init__(
@@ -99,22 +101,24 @@ class ToolStep:
         self._gate = gate
         self._markers = markers
         self._tools = tools
-        self._held: Held[ToolCollection] = Held(
+        self._active: ActiveCollection[ToolCollection] = ActiveCollection(
             "poses of a tool are",
             remedy="Start collecting, and say which tool and what for.",
         )
 
     def begin(self, tool: str, *, marker: str | None, purpose: Purpose) -> ToolCollection:
-        """Gather poses of this tool; a collection that was there is thrown away.
+        """Start to collect poses of this tool; a previous collection is discarded.
 
         Raises:
             InvalidInput: MARKER_UNKNOWN, TOOL_MARKER_UNKNOWN.
             SetupOrderError: NO_CASE_OPEN.
             CalibrationError: TOOL_TIP_MISSING, a tip check or spin before the pivot.
         """
-        kept = self._kept(tool)
+        record = self._record(tool)
         known = {one.model.name: one.document for one in self._markers.known()}
-        marker = marker or (kept.marker if kept else None) or self._marker_in_settings(tool, sorted(known))
+        marker = (
+            marker or (record.marker if record else None) or self._marker_in_settings(tool, sorted(known))
+        )
         if marker not in known:
             raise InvalidInput(
                 "MARKER_UNKNOWN",
@@ -122,7 +126,7 @@ class ToolStep:
                 f"Known are: {', '.join(sorted(known)) or 'none'}; send its picture on the camera's page.",
                 {"marker": marker},
             )
-        if purpose is not Purpose.PIVOT and kept is None:
+        if purpose is not Purpose.PIVOT and record is None:
             raise CalibrationError(
                 "TOOL_TIP_MISSING",
                 f"the tip of '{tool}' is not known in this case",
@@ -130,8 +134,8 @@ class ToolStep:
                 {"tool": tool},
             )
         document = known[marker]
-        tip = None if kept is None or purpose is Purpose.PIVOT else np.array(kept.pivot.tip_in_marker_mm)
-        return self._held.begin(
+        tip = None if record is None or purpose is Purpose.PIVOT else np.array(record.pivot.tip_in_marker_mm)
+        return self._active.begin(
             lambda: ToolCollection(
                 self._hub,
                 tool=tool,
@@ -144,43 +148,43 @@ class ToolStep:
         )
 
     def all(self) -> "tuple[KnownTool, ...]":
-        """The tools that the settings describe and that the open case keeps, by name."""
-        case = self._store.opened()
-        kept = () if case is None else self._store.all(case.id, DocumentKind.TOOL)
-        document_from_name = {document.name: document for document in kept}
+        """Return the tools of the settings and of the open case, ordered by name."""
+        case = self._store.get_open_case()
+        record = () if case is None else self._store.all(case.id, DocumentKind.TOOL)
+        document_from_name = {document.name: document for document in record}
         checks = () if case is None else self._store.all(case.id, DocumentKind.CHECK)
         check_from_name = {document.name: document for document in checks}
         return tuple(
             KnownTool(
                 name=name,
-                settled=self._tools.get(name),
+                configured=self._tools.get(name),
                 document=document_from_name.get(name),
                 check=check_from_name.get(tip_check_name(name)),
             )
             for name in sorted({*self._tools, *document_from_name})
         )
 
-    def standing(self, document: Document) -> Standing:
-        """Whether a tool's calibration holds."""
-        return self._store.standing(document)
+    def validity(self, document: Document) -> Validity:
+        """Return whether a tool's calibration is valid."""
+        return self._store.validity(document)
 
     @property
     def collection(self) -> ToolCollection:
-        """The poses so far.
+        """The active collection.
 
         Raises:
             SetupOrderError: COLLECTION_MISSING.
         """
-        return self._held.get()
+        return self._active.get()
 
     @property
     def is_collecting(self) -> bool:
-        """Whether poses are held."""
-        return self._held.is_there
+        """Whether there is an active collection."""
+        return self._active.is_active
 
     def end(self) -> None:
-        """Gather no more, and throw away what was gathered."""
-        self._held.end()
+        """Stop the collection and discard its poses."""
+        self._active.end()
 
     def conclude(
         self,
@@ -190,9 +194,9 @@ class ToolStep:
         length_mm: float | None = None,
         axis_in_marker: Sequence[float] | None = None,
     ) -> Document:
-        """Keep what the poses give in the open case, if it passes its gate; the gathering ends.
+        """Store the result in the open case if it is accepted, and end the collection.
 
-        Radius, length and axis stay as they were, or come from the settings, where they are not given.
+        By default radius, length and axis are those stored before, or those of the settings.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, COLLECTION_MISSING.
@@ -217,7 +221,7 @@ class ToolStep:
         made_by: str,
         shape: tuple[float | None, float | None, Sequence[float] | None],
     ) -> Document:
-        case = opened_case(self._store)
+        case = require_open_case(self._store)
         tool = collection.tool
         before = self._store.latest(case.id, DocumentKind.TOOL, tool)
         if isinstance(outcome, TipCheck):
@@ -227,17 +231,17 @@ class ToolStep:
                 tip_check_name(tool),
                 {"tool": tool, **check_values(outcome)},
                 made_by=made_by,
-                stands_on=[] if before is None else [before.id],
+                depends_on=[] if before is None else [before.id],
             )
-        kept = self._kept(tool)
+        record = self._record(tool)
         if isinstance(outcome, SpinCalibration):
-            if kept is None:
+            if record is None:
                 raise CalibrationError(
                     "TOOL_TIP_MISSING", f"the tip of '{tool}' is gone", "Calibrate the tip by pivoting first."
                 )
-            whole = kept.model_copy(update={"spin": spin_part(outcome)})
+            whole = record.model_copy(update={"spin": spin_part(outcome)})
         else:
-            whole = self._pivoted(collection, outcome, kept, shape)
+            whole = self._pivoted(collection, outcome, record, shape)
         camera = self._store.latest(case.id, DocumentKind.CAMERA, MAIN_CAMERA)
         return self._store.put(
             case.id,
@@ -245,8 +249,8 @@ class ToolStep:
             tool,
             whole.model_dump(mode="json"),
             made_by=made_by,
-            # The marker as it was at the first pose: behind one that was changed since it does not hold.
-            stands_on=[
+            # The version of the marker at the first pose: a later change of the marker invalidates the tool.
+            depends_on=[
                 *([] if camera is None else [camera.id]),
                 *([collection.marker_document_id] if collection.marker_document_id else []),
             ],
@@ -256,10 +260,10 @@ class ToolStep:
         self,
         collection: ToolCollection,
         outcome: PivotCalibration,
-        kept: KeptTool | None,
+        record: ToolRecord | None,
         shape: tuple[float | None, float | None, Sequence[float] | None],
-    ) -> KeptTool:
-        drawn = kept or self._tools.get(collection.tool)
+    ) -> ToolRecord:
+        drawn = record or self._tools.get(collection.tool)
         radius_mm, length_mm, axis = shape
         radius_mm = radius_mm if radius_mm is not None or drawn is None else drawn.radius_mm
         length_mm = length_mm if length_mm is not None or drawn is None else drawn.length_mm
@@ -271,25 +275,25 @@ class ToolStep:
                 "Give radius_mm and length_mm of the drill or awl, measured or from its drawing.",
                 {"tool": collection.tool},
             )
-        same_marker = kept is not None and kept.marker == collection.marker
-        return KeptTool(
+        same_marker = record is not None and record.marker == collection.marker
+        return ToolRecord(
             marker=collection.marker,
             side_mm=self._markers.one(collection.marker).model.side_mm,
             pivot=pivot_part(outcome),
-            # The axis does not move when the tip is found anew, as long as the marker is the same.
-            spin=kept.spin if kept is not None and same_marker else None,
+            # A new pivot calibration does not change the axis, as long as the marker is the same.
+            spin=record.spin if record is not None and same_marker else None,
             axis_in_marker=None if axis is None else [float(v) for v in axis],
             radius_mm=radius_mm,
             length_mm=length_mm,
         )
 
-    def _kept(self, tool: str) -> KeptTool | None:
-        """What the open case knows of a tool now."""
-        case = opened_case(self._store)
+    def _record(self, tool: str) -> ToolRecord | None:
+        """Return the valid record of a tool in the open case, or None."""
+        case = require_open_case(self._store)
         document = self._store.latest(case.id, DocumentKind.TOOL, tool)
-        if document is None or not isinstance(self._store.standing(document), Current):
+        if document is None or not isinstance(self._store.validity(document), Current):
             return None
-        return kept_tool(document)
+        return tool_from_document(document)
 
     def _marker_in_settings(self, tool: str, known: Sequence[str]) -> str:
         if tool in self._tools:
@@ -298,24 +302,24 @@ class ToolStep:
             return known[0]
         raise InvalidInput(
             "TOOL_MARKER_UNKNOWN",
-            f"nobody said which marker the tool '{tool}' carries",
+            f"the marker of the tool '{tool}' is not specified",
             f"Name it; known are: {', '.join(known) or 'none'}.",
             {"tool": tool},
         )
 
 
 def tip_check_name(tool: str) -> str:
-    """The name of the document that keeps the check of a tool's tip."""
+    """Return the document name of a tool's tip check."""
     return f"tip of {tool}"
 
 
 def check_values(check: TipCheck) -> dict[str, object]:
-    """What a check of the tip found, as values that JSON can say."""
+    """Return the result of a tip check as JSON-serialisable values."""
     return {
         "rms_3d_mm": check.rms_3d_mm,
         "max_mm": check.max_mm,
         "rms_by_axis_mm": check.rms_by_axis_mm.tolist(),
         "poses": check.poses,
-        "tilt_range_deg": check.turning.tilt_range_deg,
-        "tilt_range_across_deg": check.turning.tilt_range_across_deg,
+        "tilt_range_deg": check.motion_range.tilt_range_deg,
+        "tilt_range_across_deg": check.motion_range.tilt_range_across_deg,
     }

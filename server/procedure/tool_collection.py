@@ -1,10 +1,10 @@
-"""Poses for calibrating a tool, gathered from the live images while somebody tilts or turns it."""
+"""Collection of marker poses from the live images for the calibration of a tool."""
 
 import threading
 from dataclasses import dataclass
 
 from server.live import Instant, LiveHub, Problem
-from server.procedure.following import Follower
+from server.procedure.live_listener import LiveListener
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.geometry import Array
 from tracker.pose.tool import ToolGate
@@ -12,17 +12,17 @@ from tracker.pose.tool.collector import PoseCollector, Progress, Purpose, Taking
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class GatheringStatus:
-    """How far it has come.
+class ToolCollectionStatus:
+    """Progress of the collection.
 
     Attributes:
         tool: name of the tool.
-        marker: that it carries.
+        marker: marker on the tool.
         purpose: what is calibrated or checked.
-        running: whether more poses are taken.
-        progress: what is taken, what it gives now, and what is missing.
-        newest: what became of the newest image.
-        trouble: why nothing is taken any more.
+        running: whether poses are still collected.
+        progress: collected poses, current result, and what is missing.
+        newest: result for the newest image.
+        problem: why the collection ended.
     """
 
     tool: str
@@ -35,16 +35,16 @@ class GatheringStatus:
 
 
 class ToolCollection:
-    """Gathers the poses of one tool's marker until it is stopped; may be asked from any thread.
+    """Collects the poses of one tool's marker until it is stopped. Thread-safe.
 
     Args:
         hub: the live images.
         tool: name of the tool.
-        marker: that it carries.
-        marker_document_id: what keeps that marker in the case; empty for one of the settings.
+        marker: marker on the tool.
+        marker_document_id: document of that marker in the case; empty for a configured marker.
         purpose: what is calibrated or checked.
-        tip_in_marker_mm: (3,) of the tool, if it is known.
-        gate: what must be reached.
+        tip_in_marker_mm: (3,) tip of the tool, if it is known.
+        gate: acceptance limits.
     """
 
     def __init__(
@@ -64,31 +64,31 @@ class ToolCollection:
         self._collector = PoseCollector(purpose, tip_in_marker_mm=tip_in_marker_mm, gate=gate)
         self._newest = Taking.NO_PICTURE
         self._image_number = -1
-        self._follower = Follower(hub, self._look, name=f"gathering poses of {tool}")
+        self._listener = LiveListener(hub, self._process, name=f"gathering poses of {tool}")
 
     @property
-    def status(self) -> GatheringStatus:
-        """How far it has come; a fit to all poses, so not to be asked for every image."""
+    def status(self) -> ToolCollectionStatus:
+        """Progress of the collection. Fits all poses: do not call it for every image."""
         with self._lock:
-            return GatheringStatus(
+            return ToolCollectionStatus(
                 tool=self.tool,
                 marker=self.marker,
                 purpose=self.purpose,
-                running=self._follower.running,
+                running=self._listener.running,
                 progress=self._collector.progress(),
                 newest=self._newest,
-                problem=self._follower.problem,
+                problem=self._listener.problem,
             )
 
     def stop(self) -> None:
-        """Take no more."""
-        self._follower.stop()
+        """Stop collecting."""
+        self._listener.stop()
 
-    def _look(self, instant: Instant) -> None:
+    def _process(self, instant: Instant) -> None:
         snapshot = instant.snapshot
         if instant.is_stopped:
             with self._lock:
-                # What became of the last image is no news any more.
+                # The result of the last image is outdated.
                 self._newest = Taking.NO_PICTURE
         if snapshot is None or snapshot.image_number == self._image_number:
             return

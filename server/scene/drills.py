@@ -8,7 +8,7 @@ import viser
 from server.scene.nodes import World, add_tool, quaternion, vector
 from server.scene.trace import Trace
 from tracker.geometry import Array, Rigid, Tool
-from tracker.navigation.certainty import Spread
+from tracker.navigation.uncertainty import DrillUncertainty
 from tracker.pose import ToolModel
 
 SPREAD = (190, 110, 255)
@@ -34,7 +34,7 @@ class DrillNow:
     """
 
     world_from_tool: Rigid[World, Tool]
-    spread: Spread | None
+    spread: DrillUncertainty | None
     leaves_trace: bool
     at_s: float
 

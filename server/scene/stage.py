@@ -190,7 +190,7 @@ def _drill_now(
     snapshot: NavigationSnapshot, name: str, world_from_camera: Rigid[World, Camera] | None
 ) -> DrillNow | None:
     """Where a drill is drawn; None where its place in the scene is not known."""
-    tool, judged = snapshot.tools[name], snapshot.judgements[name]
+    tool, judged = snapshot.tools[name], snapshot.analyses[name]
     if world_from_camera is None or isinstance(tool, Absent):
         return None
     return DrillNow(

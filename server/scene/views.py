@@ -107,5 +107,5 @@ def camera_view(world_from_camera: Rigid[World, Camera]) -> View:
     return View(
         position_mm=world_from_camera.move_points(np.array([0.0, 0.0, CAMERA_FRAME_MM])),
         look_at_mm=world_from_camera.move_points(np.array([0.0, 0.0, WORKING_MM])),
-        up=vector(world_from_camera.turn_directions(np.array([0.0, -1.0, 0.0]))),
+        up=vector(world_from_camera.rotate_directions(np.array([0.0, -1.0, 0.0]))),
     )

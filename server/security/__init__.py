@@ -1,27 +1,27 @@
-"""Who may talk to this server, and do what: hosts, people and their roles, what is written of what they did.
+"""Access control: hosts, people and their roles, and the audit log.
 
-`table.py` is the one table of who may do what; `guard.py` holds everything that is asked against it.
+`access_rules.py` is the one table of permissions; `guard.py` checks every request against it.
 """
 
 from server.security.audit import AuditLog
 from server.security.guard import SessionGuard
 from server.security.headers import SecurityHeaders, page_policy
 from server.security.hosts import HostGuard, KnownHosts
-from server.security.people import PeopleDesk
-from server.security.person import ANYBODY, NOBODY, Person, Role, acting, person_of
+from server.security.people import PeopleService
+from server.security.person import ANONYMOUS, LOCAL_USER, Person, Role, actor_name, person_of
 
 __all__ = [
-    "ANYBODY",
-    "NOBODY",
+    "ANONYMOUS",
+    "LOCAL_USER",
     "AuditLog",
     "HostGuard",
     "KnownHosts",
-    "PeopleDesk",
+    "PeopleService",
     "Person",
     "Role",
     "SecurityHeaders",
     "SessionGuard",
-    "acting",
+    "actor_name",
     "page_policy",
     "person_of",
 ]

@@ -1,4 +1,4 @@
-"""Where a session's token travels: in a cookie that no script reads, or in `Authorization` for machines."""
+"""Transport of a session's token: an HttpOnly cookie, or `Authorization: Bearer` for programs."""
 
 from urllib.parse import urlsplit
 
@@ -6,20 +6,20 @@ from starlette.datastructures import Headers
 from starlette.requests import cookie_parser
 from starlette.types import Scope
 
-DEFAULT_PORT = {"http": 80, "ws": 80, "https": 443, "wss": 443}
+DEFAULT_PORTS = {"http": 80, "ws": 80, "https": 443, "wss": 443}
 BEARER = "bearer "
 
 
 def is_under_tls(scope: Scope) -> bool:
-    """Whether this server itself speaks TLS here."""
+    """Return whether this server itself speaks TLS on the connection."""
     return scope.get("scheme") in {"https", "wss"}
 
 
 def cookie_name(scope: Scope, *, secure: bool) -> str:
-    """The name of the cookie at this address.
+    """Return the cookie's name at this address.
 
-    Browsers send a cookie to every port of its host, so that two servers on one machine would overwrite each
-    other's: the port is in the name. `__Host-` makes the browser itself hold it to TLS and to this host.
+    Browsers send a cookie to every port of its host, so two servers on one machine would overwrite each
+    other's: the port is in the name. `__Host-` makes the browser restrict the cookie to TLS and to this host.
     """
     host = Headers(scope=scope).get("host", "")
     try:
@@ -27,12 +27,12 @@ def cookie_name(scope: Scope, *, secure: bool) -> str:
     except ValueError:
         port = None
     if port is None:
-        port = 443 if secure else DEFAULT_PORT.get(scope.get("scheme", "http"), 80)
+        port = 443 if secure else DEFAULT_PORTS.get(scope.get("scheme", "http"), 80)
     return f"{'__Host-' if secure else ''}coaxial-{port}"
 
 
 def token_in_cookie(scope: Scope, *, secure: bool) -> str | None:
-    """What the browser brings along by itself."""
+    """Return the token of the cookie; None without one."""
     name = cookie_name(scope, secure=secure)
     for header in Headers(scope=scope).getlist("cookie"):
         found = cookie_parser(header).get(name)
@@ -42,13 +42,13 @@ def token_in_cookie(scope: Scope, *, secure: bool) -> str | None:
 
 
 def token_in_header(scope: Scope) -> str | None:
-    """What a program says of its own will."""
+    """Return the token of `Authorization: Bearer`; None without one."""
     said = Headers(scope=scope).get("authorization", "")
     return said[len(BEARER) :].strip() if said.lower().startswith(BEARER) else None
 
 
 def cookie_header(scope: Scope, token: str, *, secure: bool, lasts_s: int) -> str:
-    """The `Set-Cookie` that gives the browser this token; an empty one takes it away."""
+    """Return the `Set-Cookie` value for a token; an empty token deletes the cookie."""
     parts = [
         f"{cookie_name(scope, secure=secure)}={token}",
         "Path=/",

@@ -1,4 +1,4 @@
-"""The headers that tell a browser what this server's pages may do."""
+"""Security headers of all answers."""
 
 import re
 
@@ -7,8 +7,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 HOST_SHAPE = re.compile(r"[A-Za-z0-9.\-]+(:\d+)?|\[[0-9A-Fa-f:]+\](:\d+)?")
 
-# Nothing from outside, no script written into a page. Styles may be: the page's components set them.
-# A browser loads nothing that is not named here, so "no address outside the server" holds for it too.
+# No external sources and no inline scripts. Inline styles are needed by the page's components. A browser
+# loads nothing that is not named here.
 PAGE_POLICY = {
     "default-src": "'self'",
     "script-src": "'self'",
@@ -31,18 +31,18 @@ ALWAYS = {
     "Cross-Origin-Opener-Policy": "same-origin",
     "Permissions-Policy": "camera=(), microphone=(), geolocation=()",
 }
-# Of the one page that sends its device's camera.
+# For the page that sends its device's camera.
 CAMERA_PAGE_PERMISSIONS = "camera=(self), microphone=(), geolocation=()"
-# Once by TLS, by TLS for a year: nobody on the way turns it back. Not for other servers of this name.
+# HSTS for a year: prevents a downgrade. Not for other servers of this name.
 UNDER_TLS = {"Strict-Transport-Security": "max-age=31536000"}
 
 
 def page_policy(host: str, *, scripts: tuple[str, ...] = ()) -> str:
-    """The Content-Security-Policy of an answer that was asked for at this `Host`.
+    """Return the Content-Security-Policy of an answer for this `Host`.
 
-    `scripts`: sources of scripts beside the server's own files, such as `'sha256-...'`.
+    `scripts`: script sources beside the server's own files, such as `'sha256-...'`.
     """
-    # Older Safaris do not count a WebSocket of the same host as 'self'.
+    # Older Safari versions do not count a WebSocket of the same host as 'self'.
     sockets = f" ws://{host} wss://{host}" if HOST_SHAPE.fullmatch(host) else ""
     policy = PAGE_POLICY | {"connect-src": f"'self'{sockets}"}
     policy["script-src"] = " ".join((policy["script-src"], *scripts))
@@ -50,17 +50,17 @@ def page_policy(host: str, *, scripts: tuple[str, ...] = ()) -> str:
 
 
 class SecurityHeaders:
-    """ASGI middleware: adds them to every answer.
+    """ASGI middleware: adds security headers to every answer.
 
-    What an answer has set itself stays: the 3-D scene has scripts written into its page, and a policy of its
-    own; the page's files have their own lifetimes.
+    Headers that an answer has set itself stay: the 3-D scene has inline scripts and a policy of its own, and
+    the page's files have their own cache lifetimes.
     """
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass on, with the headers added to the start of the answer."""
+        """Pass on, and add the headers to the start of the answer."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return

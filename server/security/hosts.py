@@ -1,8 +1,8 @@
-"""Which names this server answers to, and which pages may open its sockets.
+"""Host and origin checks: protection against DNS rebinding and cross-site requests.
 
-A page of a stranger can make a browser inside the hospital's network talk to this server: by a name that it
-points at our address (DNS rebinding), or by opening a WebSocket, which browsers allow across origins. Both
-are refused by looking at what the browser itself writes: `Host` and `Origin`.
+A foreign page can make a browser inside the hospital's network send requests to this server: by a name that
+resolves to our address (DNS rebinding), or by opening a WebSocket, which browsers allow across origins. Both
+are rejected by the headers that the browser itself writes: `Host` and `Origin`.
 """
 
 import ipaddress
@@ -20,30 +20,30 @@ SAFE_METHODS = frozenset({"GET", "HEAD", "OPTIONS"})
 
 @dataclass(frozen=True, slots=True)
 class KnownHosts:
-    """The names that this server answers to, in lower case.
+    """The host names of this server, in lower case.
 
-    Beside them, every literal IP address is known: a rebinding attack needs a name of the attacker's own.
+    Every literal IP address is accepted too: a rebinding attack needs a name of the attacker's own.
     """
 
     names: frozenset[str]
 
     @classmethod
     def of(cls, configured: str) -> "KnownHosts":
-        """Loopback, this machine's own name, and the configured host."""
+        """Return loopback, the machine's own name, and the configured host."""
         own = socket.gethostname().lower()
         return cls(frozenset({"localhost", own, f"{own.split('.')[0]}.local", configured.lower()}))
 
     def has(self, host_header: str) -> bool:
-        """Whether a `Host` header names this server; with or without a port."""
+        """Return whether a `Host` header, with or without a port, names this server."""
         name = _hostname(f"//{host_header}")
         return name is not None and (name in self.names or name.endswith(".localhost") or _is_address(name))
 
 
 def is_same_origin(*, origin: str | None, host: str) -> bool:
-    """Whether a page from `origin` may open a socket at `host`.
+    """Return whether a page from `origin` may open a socket at `host`.
 
-    True where there is no Origin: browsers always send one with a WebSocket, other programs need not. The
-    scheme is left out, because a proxy may have taken TLS off.
+    True without an Origin: browsers always send one with a WebSocket, other programs need not. The scheme is
+    ignored, because a proxy may terminate TLS.
     """
     if origin is None:
         return True
@@ -62,14 +62,14 @@ def _host_and_port(address: str, default: int | None) -> tuple[str, int | None] 
 
 
 class HostGuard:
-    """ASGI middleware: refuses unknown hosts, sockets of strange pages, and changes asked for by them."""
+    """ASGI middleware: rejects unknown hosts, and cross-origin sockets and changes."""
 
     def __init__(self, app: ASGIApp, *, hosts: KnownHosts) -> None:
         self._app = app
         self._hosts = hosts
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass on what may pass, answer the rest."""
+        """Pass on an allowed request, answer any other with an error."""
         if scope["type"] not in {"http", "websocket"}:
             await self._app(scope, receive, send)
             return
@@ -80,7 +80,7 @@ class HostGuard:
             return
         changes = scope["type"] == "websocket" or scope["method"] not in SAFE_METHODS
         if changes and not is_same_origin(origin=origin, host=host):
-            await reject(scope, receive, send, status=403, body=_strange_page(origin, host))
+            await reject(scope, receive, send, status=403, body=_cross_origin(origin, host))
             return
         await self._app(scope, receive, send)
 
@@ -103,13 +103,13 @@ def _is_address(name: str) -> bool:
 def _unknown_host(host: str) -> dict[str, object]:
     return {
         "code": "HOST_UNKNOWN",
-        "message": f"this server does not answer to the name '{host[:80]}'",
+        "message": f"this server does not accept the host name '{host[:80]}'",
         "remedy": "Open it by its address or its own name, or set server.host to this name.",
         "context": {"host": host[:80]},
     }
 
 
-def _strange_page(origin: str | None, host: str) -> dict[str, object]:
+def _cross_origin(origin: str | None, host: str) -> dict[str, object]:
     shown = (origin or "")[:80]
     return {
         "code": "ORIGIN_REJECTED",
@@ -128,7 +128,7 @@ async def reject(
     body: dict[str, object],
     headers: dict[str, str] | None = None,
 ) -> None:
-    """Answer with this refusal; a socket is refused before it is accepted, with the answer of HTTP."""
+    """Send this error; a WebSocket is rejected before it is accepted, with an HTTP response."""
     response = JSONResponse(body, status_code=status, headers=headers)
     if scope["type"] == "http":
         await response(scope, receive, send)

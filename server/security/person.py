@@ -1,4 +1,4 @@
-"""Who it is that asks: a name and a role, put into each request by the session's guard."""
+"""Person and role of a request, set in its ASGI scope by `SessionGuard`."""
 
 from collections.abc import MutableMapping
 from dataclasses import dataclass
@@ -9,10 +9,10 @@ STATE_KEY = "coaxial_person"
 
 
 class Role(StrEnum):
-    """What somebody is here for; `server/security` has the table of what each may do."""
+    """Role of a person; `access_rules.py` has the permissions."""
 
     OPERATOR = "operator"  # sets up, registers, confirms
-    SUPERVISOR = "supervisor"  # sees all, points, co-signs, asks to hold; moves nothing
+    SUPERVISOR = "supervisor"  # sees all, points, co-signs, requests a hold; moves nothing
     VIEWER = "viewer"  # sees
     SCREEN = "screen"  # the screen in theatre: sees, sounds, acknowledges
     CAMERA = "camera"  # a phone or tablet that sends its camera's images; sees nothing
@@ -20,13 +20,13 @@ class Role(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Person:
-    """Somebody who is signed in.
+    """A signed-in person.
 
     Attributes:
-        id: of the session's owner, the same over all their sessions.
-        name: as they are called in the log.
+        id: the same over all their sessions.
+        name: display name, as in the log.
         role: what they may do.
-        invited_by: who invited them, by name; empty where that is not known, and where nobody did.
+        invited_by: name of who invited them; empty where unknown or not invited.
     """
 
     id: str
@@ -35,21 +35,21 @@ class Person:
     invited_by: str = ""
 
 
-# Where nobody has to sign in (a server on this computer alone, by its settings).
-ANYBODY = Person(id="anybody", name="this computer", role=Role.OPERATOR)
-# Who has not signed in where people have to, at what is open to all.
-NOBODY = Person(id="nobody", name="nobody", role=Role.VIEWER)
-# Who writes down what nobody asked for.
+# Person of all requests where sign-in is off (a server on this computer alone).
+LOCAL_USER = Person(id="anybody", name="this computer", role=Role.OPERATOR)
+# Person of a public request without a session.
+ANONYMOUS = Person(id="nobody", name="nobody", role=Role.VIEWER)
+# Person of the server's own audit entries.
 SERVER = Person(id="server", name="Coaxial", role=Role.OPERATOR)
 
 
 def person_of(scope: MutableMapping[str, Any]) -> Person:
-    """Who asks, of an ASGI scope; `ANYBODY` where nobody has to sign in."""
+    """Return the person of an ASGI scope; `LOCAL_USER` where sign-in is off."""
     person = scope.get("state", {}).get(STATE_KEY)
-    return person if isinstance(person, Person) else ANYBODY
+    return person if isinstance(person, Person) else LOCAL_USER
 
 
-def acting(scope: MutableMapping[str, Any], said: str | None) -> str:
-    """The name under which something is done: of who is signed in, else what was said."""
+def actor_name(scope: MutableMapping[str, Any], said: str | None) -> str:
+    """Return the name of who acts: of the signed-in person, else the name in the request."""
     person = person_of(scope)
-    return (said or ANYBODY.name) if person == ANYBODY else person.name
+    return (said or LOCAL_USER.name) if person == LOCAL_USER else person.name

@@ -1,16 +1,16 @@
-"""What can go wrong at the door.
+"""Errors of access control.
 
 NavigationError
-├── SessionRejected      nobody is signed in, or no longer               HTTP 401
-├── RoleRejected         somebody is, and may not do this                HTTP 403
-├── PageRejected         it is another page that asks for it             HTTP 403
-├── AddressUnknown      there is nothing at this address                HTTP 404
-├── MethodUnknown       it cannot be done at this address               HTTP 405
-├── InvitationRejected   an invitation that lets nobody in               HTTP 403
-├── PeopleRejected       there are too many of them                      HTTP 409
-├── TooManyTries        somebody guesses, or signs in again and again   HTTP 429
-├── PersonUnknown       there is no such session or invitation          HTTP 404
-└── SignInOff           nobody has to sign in, so nobody can be invited HTTP 409
+├── SessionRejected      no valid session                              HTTP 401
+├── RoleRejected         the role does not allow this                  HTTP 403
+├── PageRejected         a cross-site request                          HTTP 403
+├── AddressUnknown      no such address                               HTTP 404
+├── MethodUnknown       not possible at this address                  HTTP 405
+├── InvitationRejected   an invitation that cannot be used             HTTP 403
+├── PeopleRejected       too many records of people                    HTTP 409
+├── TooManyTries        rate limit of sign-ins                        HTTP 429
+├── PersonUnknown       no such session or invitation                 HTTP 404
+└── SignInOff           sign-in is off                                HTTP 409
 """
 
 import math
@@ -19,29 +19,33 @@ from server.security.person import Person, Role
 from tracker.errors import NavigationError
 
 SIGN_IN = "Sign in with the link that the server printed at its start, or ask the operator for an invitation."
-ASK_AGAIN = "Ask the operator for a new invitation; an operator starts the server with --new-operator-link."
+ASK_FOR_INVITATION = (
+    "Ask the operator for a new invitation; an operator starts the server with --new-operator-link."
+)
 
 
 class SessionRejected(NavigationError):
-    """Nobody is signed in."""
+    """No valid session."""
 
     @classmethod
     def needed(cls) -> "SessionRejected":
-        """Nothing was shown at the door."""
-        return cls("SESSION_NEEDED", "nobody is signed in here", SIGN_IN)
+        """No token was sent."""
+        return cls("SESSION_NEEDED", "sign-in is required", SIGN_IN)
 
     @classmethod
     def expired(cls) -> "SessionRejected":
-        """What was shown at the door does not open it, or no longer."""
-        return cls("SESSION_EXPIRED", "this session is over, was ended, or is none of this server", SIGN_IN)
+        """The token is unknown, or its session has ended."""
+        return cls(
+            "SESSION_EXPIRED", "this session has expired, was ended, or belongs to another server", SIGN_IN
+        )
 
 
 class RoleRejected(NavigationError):
-    """The role of who is signed in does not include this."""
+    """The person's role does not allow this."""
 
     @classmethod
     def of(cls, person: Person, roles: frozenset[Role]) -> "RoleRejected":
-        """Who may do it is told."""
+        """Names the allowed roles."""
         may = " or ".join(sorted(role.value for role in roles))
         return cls(
             "ROLE_REJECTED",
@@ -52,145 +56,145 @@ class RoleRejected(NavigationError):
 
 
 class PageRejected(NavigationError):
-    """A page that is none of ours uses what the browser brings along by itself."""
+    """A cross-site request with this server's cookie."""
 
     @classmethod
-    def told(cls) -> "PageRejected":
-        """In the words in which another origin is refused."""
+    def error(cls) -> "PageRejected":
+        """Same code as for a wrong origin."""
         return cls(
             "ORIGIN_REJECTED",
-            "the browser does not say that a page of this server asks for this",
+            "the browser does not state that this request comes from a page of this server",
             "Open the dashboard of this server itself; a program sends its token as "
             "'Authorization: Bearer' in place of a cookie.",
         )
 
 
 class AddressUnknown(NavigationError):
-    """There is nothing at this address."""
+    """No such address."""
 
     @classmethod
     def at(cls, path: str) -> "AddressUnknown":
-        """Which one."""
+        """Names the path."""
         return cls(
             "NOT_FOUND",
-            f"there is nothing at {path[:200]}",
-            "Look at /api/docs for what can be asked.",
+            f"no such address: {path[:200]}",
+            "See /api/docs for all addresses.",
             {"path": path[:200]},
         )
 
 
 class MethodUnknown(NavigationError):
-    """There is something at this address, and this cannot be done with it."""
+    """The address exists, but not with this method."""
 
     @classmethod
     def at(cls, method: str, path: str) -> "MethodUnknown":
-        """Which one."""
+        """Names the path."""
         return cls(
             "METHOD_NOT_ALLOWED",
             f"{method} is not possible at {path[:200]}",
-            "Look at /api/docs for what can be asked.",
+            "See /api/docs for all addresses.",
             {"path": path[:200]},
         )
 
 
 class InvitationRejected(NavigationError):
-    """An invitation that lets nobody in."""
+    """An invitation that cannot be used."""
 
     @classmethod
     def unknown(cls) -> "InvitationRejected":
-        """It was never made, or is forgotten since it ended."""
-        return cls("INVITATION_UNKNOWN", "this link is none of this server's invitations", ASK_AGAIN)
+        """It never existed, or its record was deleted after it ended."""
+        return cls("INVITATION_UNKNOWN", "this link is not an invitation of this server", ASK_FOR_INVITATION)
 
     @classmethod
     def used(cls) -> "InvitationRejected":
-        """It was for one sign-in."""
-        return cls("INVITATION_USED", "this link was for one sign-in, and has been used", ASK_AGAIN)
+        """It was single-use."""
+        return cls("INVITATION_USED", "this link was for one sign-in, and was used", ASK_FOR_INVITATION)
 
     @classmethod
     def expired(cls) -> "InvitationRejected":
-        """Its time is over."""
-        return cls("INVITATION_EXPIRED", "the time of this link is over", ASK_AGAIN)
+        """It has expired."""
+        return cls("INVITATION_EXPIRED", "this link has expired", ASK_FOR_INVITATION)
 
     @classmethod
     def revoked(cls) -> "InvitationRejected":
-        """Somebody took it back."""
-        return cls("INVITATION_REVOKED", "this link was taken back", ASK_AGAIN)
+        """It was revoked."""
+        return cls("INVITATION_REVOKED", "this link was revoked", ASK_FOR_INVITATION)
 
     @classmethod
     def full(cls, count: int) -> "InvitationRejected":
-        """So many are in by it; nobody who watches is sent away for somebody new."""
+        """It has its maximum number of sessions; an existing session is not ended for a new one."""
         return cls(
             "INVITATION_FULL",
-            f"{count} are signed in by this link now, more are not let in by it",
+            f"{count} sessions are signed in by this link, the maximum",
             "Sign out where it is not needed, or ask the operator to end sessions or for a link of your own.",
             {"sessions": count, "allowed": count},
         )
 
 
 class PeopleRejected(NavigationError):
-    """There are too many people."""
+    """Too many records of people."""
 
     @classmethod
     def too_many(cls, count: int, allowed: int) -> "PeopleRejected":
-        """All of them hold: what has ended makes room by itself."""
+        """All records are valid; ended ones are deleted automatically."""
         return cls(
             "TOO_MANY_PEOPLE",
-            f"{count} open invitations and sessions would be kept, allowed are {allowed}",
-            "Take back invitations and end sessions that nobody needs.",
+            f"{count} open invitations and sessions would be stored, allowed are {allowed}",
+            "Revoke invitations and end sessions that are not needed.",
             {"kept": count, "allowed": allowed},
         )
 
 
 class TooManyTries(NavigationError):
-    """Somebody guesses, or something is set up wrongly."""
+    """Rate limit of sign-ins."""
 
     @classmethod
     def wait(cls, seconds: float) -> "TooManyTries":
-        """For so long."""
-        whole = max(1, math.ceil(seconds))
+        """Too many unknown tokens."""
+        wait_s = max(1, math.ceil(seconds))
         return cls(
             "TOO_MANY_TRIES",
-            f"too many links or sessions were tried that do not exist; the next try counts in {whole} s",
-            f"Wait {whole} s, then open the link once more.",
-            {"wait_s": whole},
+            f"too many unknown links or sessions were tried; the next try counts in {wait_s} s",
+            f"Wait {wait_s} s, then open the link once more.",
+            {"wait_s": wait_s},
         )
 
     @classmethod
     def signing_in(cls, count: int, within_s: float, seconds: float) -> "TooManyTries":
-        """A right link, used again and again; who is in by it stays in."""
-        whole = max(1, math.ceil(seconds))
-        minutes, left = round(within_s / 60), math.ceil(whole / 60)
+        """One valid link was used too often; existing sessions stay."""
+        wait_s = max(1, math.ceil(seconds))
+        minutes, left = round(within_s / 60), math.ceil(wait_s / 60)
         return cls(
             "TOO_MANY_SIGN_INS",
             f"this link has signed in {count} times within {minutes} min, and signs in again in {left} min",
             "Stay signed in where you are, or ask the operator for a link of your own.",
-            {"wait_s": whole, "sign_ins": count, "within_s": within_s},
+            {"wait_s": wait_s, "sign_ins": count, "within_s": within_s},
         )
 
 
 class PersonUnknown(NavigationError):
-    """There is no such session or invitation."""
+    """No such session or invitation."""
 
     @classmethod
     def of(cls, kind: str, number: str) -> "PersonUnknown":
-        """Which one."""
+        """Names the kind and id."""
         return cls(
             f"{kind.upper()}_UNKNOWN",
             f"there is no {kind} {number[:40]}",
-            "Look at the list of people once more.",
+            "Reload the list of people.",
             {"id": number[:40]},
         )
 
 
 class SignInOff(NavigationError):
-    """Nobody has to sign in on this server."""
+    """Sign-in is off on this server."""
 
     @classmethod
-    def told(cls) -> "SignInOff":
+    def error(cls) -> "SignInOff":
         """By its settings."""
         return cls(
             "SIGN_IN_OFF",
-            "nobody has to sign in on this server, so nobody can",
+            "sign-in is off on this server",
             "Set security.sign_in to required in the settings, and start the server again.",
         )
 
@@ -210,12 +214,12 @@ STATUS_OF: dict[type[NavigationError], int] = {
 
 
 def status_of(rejection: NavigationError) -> int:
-    """The HTTP status of a refusal at the door; 507 for one that the disk makes."""
+    """Return the HTTP status of an access error; 507 for a disk error."""
     return next((STATUS_OF[kind] for kind in type(rejection).__mro__ if kind in STATUS_OF), 507)
 
 
 def body_of(rejection: NavigationError) -> dict[str, object]:
-    """A refusal in the one shape that refusals have."""
+    """Return an error in the common shape of all errors."""
     return {
         "code": rejection.code,
         "message": rejection.message,

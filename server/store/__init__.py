@@ -1,19 +1,19 @@
-"""What is kept: cases and all that set-up made for them. What was acknowledged is on disk.
+"""The case store: cases with their documents and files. Acknowledged changes are on the disk.
 
 with Home(home_folder()) as home, CaseStore(home) as store:
     case = store.create("L3, rehearsal")
     with store.new_file(case.id, ".npy") as new:
         numpy.save(new.path, volume)
     ct = store.put(case.id, DocumentKind.CT, "main", {...}, made_by="M. Ito", files=[new.stored.id])
-    plan = store.put(case.id, DocumentKind.PLAN, "L3", {...}, made_by="M. Ito", stands_on=[ct.id])
-    store.standing(plan)        # Current(), until the CT is replaced or withdrawn
+    plan = store.put(case.id, DocumentKind.PLAN, "L3", {...}, made_by="M. Ito", depends_on=[ct.id])
+    store.validity(plan)        # Current(), until the CT is replaced or withdrawn
 """
 
 from server.store.archive import Archive
 from server.store.case_store import CaseStore
 from server.store.changes import Change
 from server.store.documents import NewDocument
-from server.store.errors import NotStored, OutOfDateError, StoreConflict, StoreError, told
+from server.store.errors import NotFound, OutOfDateError, StoreConflict, StoreError, translate_errors
 from server.store.files import NewFile
 from server.store.home import Home, home_folder
 from server.store.records import (
@@ -24,10 +24,10 @@ from server.store.records import (
     DocumentKind,
     Entry,
     Heading,
-    Imported,
+    ImportRecord,
     OutOfDate,
-    Standing,
     StoredFile,
+    Validity,
     Withdrawal,
     says_archive,
 )
@@ -44,18 +44,18 @@ __all__ = [
     "Entry",
     "Heading",
     "Home",
-    "Imported",
+    "ImportRecord",
     "NewDocument",
     "NewFile",
-    "NotStored",
+    "NotFound",
     "OutOfDate",
     "OutOfDateError",
-    "Standing",
     "StoreConflict",
     "StoreError",
     "StoredFile",
+    "Validity",
     "Withdrawal",
     "home_folder",
     "says_archive",
-    "told",
+    "translate_errors",
 ]

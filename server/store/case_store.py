@@ -1,4 +1,4 @@
-"""Everything that is kept, behind one object."""
+"""The public interface of the store."""
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
@@ -9,12 +9,12 @@ from server.clock import Clock, utc_now
 from server.disk import FULL
 from server.store import cases, documents, files
 from server.store.archive import Archive, pack, unpack
+from server.store.case_database import CaseDatabase
 from server.store.changes import Change
-from server.store.checks import checked_name
+from server.store.cleanup import clean_up, remove_case
 from server.store.documents import NewDocument
 from server.store.errors import OutOfDateError, StoreError
 from server.store.home import Home
-from server.store.ledger import Ledger
 from server.store.records import (
     Case,
     Damage,
@@ -23,106 +23,106 @@ from server.store.records import (
     Entry,
     Heading,
     OutOfDate,
-    Standing,
     StoredFile,
+    Validity,
 )
-from server.store.standing import lineage_of
-from server.store.sweep import remove_case, sweep
+from server.store.validation import validate_name
+from server.store.validity import lineage_of
 
 
 class CaseStore:
-    """Cases with their documents and files. Whatever a method answers is on the disk.
+    """Cases with their documents and files. When a method returns, its change is on the disk.
 
-    Safe to use from any thread; methods wait for the disk, so never call them in an event loop.
+    Thread-safe. Methods block on the disk: do not call them in an event loop.
 
     Raises (every method):
         StoreError: STORE_FULL, STORE_READ_ONLY, STORE_BUSY, STORE_DAMAGED, STORE_FAILED; at the start also
             STORE_NEWER.
-        NotStored: CASE_UNKNOWN, DOCUMENT_UNKNOWN, FILE_UNKNOWN.
+        NotFound: CASE_UNKNOWN, DOCUMENT_UNKNOWN, FILE_UNKNOWN.
     """
 
     def __init__(self, home: Home, *, clock: Clock = utc_now) -> None:
         self.home = home
-        self._ledger = Ledger(home, clock=clock)
-        self._told: Callable[[Change], None] = lambda _: None
+        self._database = CaseDatabase(home, clock=clock)
+        self._on_change: Callable[[Change], None] = lambda _: None
         try:
-            sweep(self._ledger)
+            clean_up(self._database)
         except BaseException:
-            self._ledger.close()
+            self._database.close()
             raise
 
     # ------------------------------------------------------------ cases
 
     def create(self, name: str) -> Case:
-        """A new case; InvalidInput NAME_INVALID."""
-        with self._ledger.writing() as session:
-            made = cases.add_case(session, name=name, now=self._ledger.now)
-        self._told(Change(case_id=made.id, kind="case", before=None, after="here"))
+        """Create a case; InvalidInput NAME_INVALID."""
+        with self._database.write_session() as session:
+            made = cases.add_case(session, name=name, now=self._database.now)
+        self._on_change(Change(case_id=made.id, kind="case", before=None, after="here"))
         return made
 
     def list(self) -> tuple[Case, ...]:
-        """All cases, the newest first."""
-        with self._ledger.reading() as session:
+        """Return all cases, newest first."""
+        with self._database.read_session() as session:
             return cases.all_cases(session)
 
     def get(self, case_id: str) -> Case:
-        """One case."""
-        with self._ledger.reading() as session:
+        """Return a case."""
+        with self._database.read_session() as session:
             return cases.case_of(cases.case_row(session, case_id))
 
     def open(self, case_id: str) -> Case:
-        """Make this the case that is worked in; it stays so over a restart."""
-        before = self.opened()
-        with self._ledger.writing() as session:
+        """Make this the open case; it stays open over a restart."""
+        before = self.get_open_case()
+        with self._database.write_session() as session:
             opened = cases.open_case(session, case_id)
-        self._told(Change.opened(case_id, before=before))
+        self._on_change(Change.opened(case_id, before=before))
         return opened
 
     def close(self) -> None:
-        """Have no case open."""
-        before = self.opened()
-        with self._ledger.writing() as session:
+        """Close the open case."""
+        before = self.get_open_case()
+        with self._database.write_session() as session:
             cases.close_case(session)
         if before is not None:
-            self._told(Change(case_id=before.id, kind="open case", before=before.id, after=None))
+            self._on_change(Change(case_id=before.id, kind="open case", before=before.id, after=None))
 
-    def opened(self) -> Case | None:
-        """The case that is open."""
-        with self._ledger.reading() as session:
-            return cases.opened_case(session)
+    def get_open_case(self) -> Case | None:
+        """Return the open case; None if none is open."""
+        with self._database.read_session() as session:
+            return cases.find_open_case(session)
 
     def rename(self, case_id: str, name: str) -> Case:
-        """Give a case another name; InvalidInput NAME_INVALID."""
-        with self._ledger.writing() as session:
+        """Rename a case; InvalidInput NAME_INVALID."""
+        with self._database.write_session() as session:
             row = cases.case_row(session, case_id)
-            row.name, row.changed_at = checked_name(name, of="name of the case"), self._ledger.now
+            row.name, row.changed_at = validate_name(name, of="name of the case"), self._database.now
             renamed = cases.case_of(row)
-        self._told(Change(case_id=case_id, kind="case", before="here", after="here, with another name"))
+        self._on_change(Change(case_id=case_id, kind="case", before="here", after="here, with another name"))
         return renamed
 
     def delete(self, case_id: str, *, confirm: str) -> None:
-        """Take a case away for ever; `confirm` is its name.
+        """Delete a case permanently; `confirm` must be its name.
 
         Raises:
             InvalidInput: CONFIRMATION_WRONG.
             StoreConflict: CASE_OPEN, CASE_IN_USE.
         """
         try:
-            self._mark_leaving(case_id, confirm)
+            self._mark_deleting(case_id, confirm)
         except StoreError as error:
             if error.code != FULL:
                 raise
-            self.home.spend_reserve()
-            self._mark_leaving(case_id, confirm)
-        remove_case(self._ledger, case_id)
-        self.home.keep_reserve()
-        self._told(Change(case_id=case_id, kind="case", before="here", after=None))
+            self.home.release_reserve()
+            self._mark_deleting(case_id, confirm)
+        remove_case(self._database, case_id)
+        self.home.allocate_reserve()
+        self._on_change(Change(case_id=case_id, kind="case", before="here", after=None))
 
-    def _mark_leaving(self, case_id: str, confirm: str) -> None:
-        with self._ledger.writing() as session:
+    def _mark_deleting(self, case_id: str, confirm: str) -> None:
+        with self._database.write_session() as session:
             cases.reject_removal(session, case_id, confirm)
-            self._ledger.reject_held(case_id)
-            cases.mark_leaving(session, case_id)
+            self._database.reject_in_use(case_id)
+            cases.mark_deleting(session, case_id)
 
     # ------------------------------------------------------------ documents
 
@@ -134,103 +134,106 @@ class CaseStore:
         content: Mapping[str, object],
         *,
         made_by: str,
-        stands_on: Sequence[str] = (),
+        depends_on: Sequence[str] = (),
         files: Sequence[str] = (),
         expected_version: int | None = None,
-        with_it: Callable[[Document], Sequence[NewDocument]] = lambda _: (),
+        companions: Callable[[Document], Sequence[NewDocument]] = lambda _: (),
     ) -> Document:
-        """Store the next version of a document, and whatever belongs to it, in one transaction.
+        """Store the next version of a document, with its companions, in one transaction.
 
         Args:
             case_id: the case.
-            kind: what it is about; who the patient is goes into PATIENT and nowhere else.
-            name: tells it from others of its kind.
-            content: JSON: texts, finite numbers, true, false, None, lists and mappings of them.
-            made_by: who made it.
-            stands_on: ids of the documents that it was made from.
+            kind: kind of the document; only PATIENT may identify the patient.
+            name: unique among the documents of its kind.
+            content: JSON: strings, finite numbers, booleans, None, lists and mappings of them.
+            made_by: name of the author.
+            depends_on: ids of the documents that it was made from.
             files: ids of the files that belong to it.
-            expected_version: the version that the change was made on, 0 for none; checked if given.
-            with_it: returns further documents, given the stored one. No reader sees it without them, and a
-                crash leaves all of them or none.
+            expected_version: version that the change was based on, 0 for none; verified if given.
+            companions: given the stored document, returns further documents. They are stored in the same
+                transaction: all of them or none.
 
         Raises:
-            InvalidInput: NAME_INVALID, CONTENT_NOT_JSON, CONTENT_TOO_LARGE, STANDS_ON_IDENTITY.
+            InvalidInput: NAME_INVALID, CONTENT_NOT_JSON, CONTENT_TOO_LARGE, DEPENDS_ON_IDENTITY.
             StoreConflict: VERSION_CONFLICT.
         """
-        new = NewDocument.checked(
+        new = NewDocument.validated(
             kind,
             name,
             content,
             made_by=made_by,
-            stands_on=stands_on,
+            depends_on=depends_on,
             files=files,
             expected_version=expected_version,
         )
-        with self._ledger.writing() as session:
-            row, now = cases.case_row(session, case_id), self._ledger.now
+        with self._database.write_session() as session:
+            row, now = cases.case_row(session, case_id), self._database.now
             row.changed_at = now
             document = documents.add_document(session, case_id, new, now=now)
-            others = [documents.add_document(session, case_id, one, now=now) for one in with_it(document)]
+            others = [documents.add_document(session, case_id, one, now=now) for one in companions(document)]
         for one in (document, *others):
-            self._told(Change.added(one))
+            self._on_change(Change.added(one))
         return document
 
     def document(self, case_id: str, document_id: str) -> Document:
-        """One document."""
-        with self._ledger.reading() as session:
+        """Return a document."""
+        with self._database.read_session() as session:
             cases.case_row(session, case_id)
             return documents.find_document(session, case_id, document_id)
 
     def latest(self, case_id: str, kind: DocumentKind, name: str) -> Document | None:
-        """The newest version; None if there is none, or if it was withdrawn: no older one holds again."""
-        with self._ledger.reading() as session:
+        """Return the newest version; None if there is none or it is withdrawn. No older version is reused."""
+        with self._database.read_session() as session:
             cases.case_row(session, case_id)
             return next(iter(documents.newest(session, case_id, kind, name)), None)
 
     def history(self, case_id: str, kind: DocumentKind, name: str) -> tuple[Document, ...]:
-        """All versions, the first first, withdrawn ones too."""
-        with self._ledger.reading() as session:
+        """Return all versions in order, including withdrawn ones."""
+        with self._database.read_session() as session:
             cases.case_row(session, case_id)
             return documents.versions(session, case_id, kind, name)
 
     def all(self, case_id: str, kind: DocumentKind) -> tuple[Document, ...]:
-        """The newest version of each name, without those that were withdrawn, ordered by name."""
-        with self._ledger.reading() as session:
+        """Return the newest version of each name, without withdrawn ones, ordered by name."""
+        with self._database.read_session() as session:
             cases.case_row(session, case_id)
             return documents.newest(session, case_id, kind, None)
 
     def outline(self, case_id: str) -> tuple[Entry, ...]:
-        """Every version of every document without its content, with its standing, in the order of making."""
-        with self._ledger.reading() as session:
+        """Return the headings of all versions of all documents with their validity, in order of creation."""
+        with self._database.read_session() as session:
             cases.case_row(session, case_id)
             lineage = lineage_of(session, case_id)
         return tuple(
-            Entry(heading=heading, standing=lineage.standing(heading.id))
+            Entry(heading=heading, validity=lineage.validity(heading.id))
             for heading in lineage.headings.values()
         )
 
-    def standing(self, document: Heading) -> Standing:
-        """Whether a document holds: it and all that it stands on are the newest, and none was withdrawn."""
-        with self._ledger.reading() as session:
+    def validity(self, document: Heading) -> Validity:
+        """Return whether a document is valid.
+
+        It is valid if it and all documents that it depends on are the newest versions, and none is withdrawn.
+        """
+        with self._database.read_session() as session:
             cases.case_row(session, document.case_id)
             documents.document_row(session, document.case_id, document.id)
-            return lineage_of(session, document.case_id, document.id).standing(document.id)
+            return lineage_of(session, document.case_id, document.id).validity(document.id)
 
     def current(self, case_id: str, kind: DocumentKind, name: str) -> Document:
-        """The newest version, if it holds.
+        """Return the newest version, if it is valid.
 
         Raises:
             OutOfDateError: DOCUMENT_MISSING, DOCUMENT_OUT_OF_DATE.
         """
         document = self.latest(case_id, kind, name)
-        standing = (
+        validity = (
             OutOfDate(reason=f"there is no {kind.value} '{name}'")
             if document is None
-            else self.standing(document)
+            else self.validity(document)
         )
-        if document is not None and not isinstance(standing, OutOfDate):
+        if document is not None and not isinstance(validity, OutOfDate):
             return document
-        reason = standing.reason if isinstance(standing, OutOfDate) else ""
+        reason = validity.reason if isinstance(validity, OutOfDate) else ""
         missing = document is None
         raise OutOfDateError(
             "DOCUMENT_MISSING" if missing else "DOCUMENT_OUT_OF_DATE",
@@ -240,25 +243,25 @@ class CaseStore:
         )
 
     def withdraw(self, document: Heading, *, by: str, reason: str) -> Document:
-        """Say that a document no longer holds; a second time changes nothing."""
-        by, reason = checked_name(by, of="name of who withdraws it"), checked_name(reason, of="reason")
-        with self._ledger.writing() as session:
+        """Mark a document as withdrawn; withdrawing it again has no effect."""
+        by, reason = validate_name(by, of="name of who withdraws it"), validate_name(reason, of="reason")
+        with self._database.write_session() as session:
             case = cases.case_row(session, document.case_id)
             row = documents.document_row(session, document.case_id, document.id)
             is_news = row.withdrawn_at is None
             if is_news:
-                row.withdrawn_at, row.withdrawn_by, row.withdrawn_reason = self._ledger.now, by, reason
+                row.withdrawn_at, row.withdrawn_by, row.withdrawn_reason = self._database.now, by, reason
                 case.changed_at = row.withdrawn_at
                 session.flush()
             found = documents.find_document(session, document.case_id, document.id)
         if is_news:
-            self._told(Change.withdrawn(found, by=by))
+            self._on_change(Change.withdrawn(found, by=by))
         return found
 
     # ------------------------------------------------------------ files
 
     def new_file(self, case_id: str, suffix: str) -> AbstractContextManager[files.NewFile]:
-        """A file that is whole in the case when the block ends, or nowhere.
+        """Context manager for a new file, which is complete in the case after the block, or not at all.
 
             with store.new_file(case.id, ".npy") as new:
                 numpy.save(new.path, volume)
@@ -267,57 +270,57 @@ class CaseStore:
         Raises:
             InvalidInput: SUFFIX_INVALID.
         """
-        return files.new_file(self._ledger, case_id, suffix)
+        return files.new_file(self._database, case_id, suffix)
 
     def file(self, case_id: str, file_id: str) -> StoredFile:
-        """One file; StoreError FILE_DAMAGED if it is missing on the disk."""
-        with self._ledger.reading() as session:
-            return files.find_file(self._ledger, session, case_id, file_id)
+        """Return a file; StoreError FILE_DAMAGED if it is missing on the disk."""
+        with self._database.read_session() as session:
+            return files.find_file(self._database, session, case_id, file_id)
 
     def files(self, case_id: str) -> tuple[StoredFile, ...]:
-        """All files of a case, the oldest first."""
-        with self._ledger.reading() as session:
+        """Return all files of a case, oldest first."""
+        with self._database.read_session() as session:
             cases.case_row(session, case_id)
-            return files.all_files(self._ledger, session, case_id)
+            return files.all_files(self._database, session, case_id)
 
     def verify(self, case_id: str) -> tuple[Damage, ...]:
-        """Read every file of a case, and tell those that are missing or not as they were stored."""
-        return files.damages(self._ledger, case_id)
+        """Read every file of a case, and return those that are missing or damaged."""
+        return files.find_damage(self._database, case_id)
 
     # ------------------------------------------------------------ archives
 
-    def copy_out(self, case_id: str, *, with_identity: bool = False) -> Archive:
-        """A case as one file, without its name and without who the patient is unless asked for.
+    def export_case(self, case_id: str, *, with_identity: bool = False) -> Archive:
+        """Export a case as an archive; its name and the patient's identity are left out by default.
 
         Raises:
             StoreError: FILE_DAMAGED.
         """
-        return pack(self._ledger, case_id, with_identity=with_identity)
+        return pack(self._database, case_id, with_identity=with_identity)
 
-    def copy_in(self, archive: Path, *, by: str) -> Case:
-        """Take an archive in as a new case, whole or not at all; `by` is who does, and stands for it.
+    def import_archive(self, archive: Path, *, by: str) -> Case:
+        """Import an archive as a new case, completely or not at all; `by` is the person who is responsible.
 
         Raises:
             InvalidInput: NAME_INVALID, ARCHIVE_INVALID, ARCHIVE_NEWER.
         """
-        by = checked_name(by, of="name of who takes it in")
-        case = unpack(self._ledger, archive, by=by)
-        self._told(Change(case_id=case.id, kind="case", before=None, after="copied in", by=by))
+        by = validate_name(by, of="name of who takes it in")
+        case = unpack(self._database, archive, by=by)
+        self._on_change(Change(case_id=case.id, kind="case", before=None, after="copied in", by=by))
         return case
 
     # ------------------------------------------------------------ end
 
-    def call_after_writing(self, listener: Callable[[], None]) -> None:
-        """Have this called after each change, by the thread that made it; it may read the store."""
-        self._ledger.call_after_writing(listener)
+    def add_commit_listener(self, listener: Callable[[], None]) -> None:
+        """Register a function to be called after each change, in the thread that made it."""
+        self._database.add_commit_listener(listener)
 
-    def tell_changes(self, listener: Callable[[Change], None]) -> None:
-        """Have this one told what was changed, once it is on the disk, by the thread that changed it."""
-        self._told = listener
+    def set_change_listener(self, listener: Callable[[Change], None]) -> None:
+        """Set the function that receives each committed change, in the thread that made it."""
+        self._on_change = listener
 
-    def shut(self) -> None:
-        """Close the database. The home is closed by who opened it."""
-        self._ledger.close()
+    def dispose(self) -> None:
+        """Close the database. The caller that opened the home closes it."""
+        self._database.close()
 
     def __enter__(self) -> "CaseStore":
         return self
@@ -325,4 +328,4 @@ class CaseStore:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self.shut()
+        self.dispose()

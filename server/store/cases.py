@@ -1,24 +1,24 @@
-"""Cases themselves: made, found, opened, renamed, taken away."""
+"""Rows of cases: creation, lookup, opening and deletion."""
 
 import secrets
 
 from sqlalchemy import delete, select
 from sqlalchemy.orm import Session
 
-from server.store.checks import checked_name
-from server.store.errors import NotStored, StoreConflict
+from server.store.errors import NotFound, StoreConflict
 from server.store.records import Case
-from server.store.tables import HERE, LEAVING, CaseRow, OpenCaseRow
+from server.store.tables import DELETING, PRESENT, CaseRow, OpenCaseRow
+from server.store.validation import validate_name
 from tracker.errors import InvalidInput
 
 
 def new_id() -> str:
-    """16 hexadecimal digits that nobody can guess, and that say nothing."""
+    """Return a random id of 16 hexadecimal digits."""
     return secrets.token_hex(8)
 
 
 def case_of(row: CaseRow) -> Case:
-    """The record of a row."""
+    """Convert a row to a record."""
     return Case(
         id=row.id,
         name=row.name,
@@ -29,14 +29,14 @@ def case_of(row: CaseRow) -> Case:
 
 
 def case_row(session: Session, case_id: str) -> CaseRow:
-    """The row of a case that is there.
+    """Return the row of an existing case.
 
     Raises:
-        NotStored: CASE_UNKNOWN.
+        NotFound: CASE_UNKNOWN.
     """
     row = session.get(CaseRow, case_id)
-    if row is None or row.state != HERE:
-        raise NotStored(
+    if row is None or row.state != PRESENT:
+        raise NotFound(
             "CASE_UNKNOWN",
             f"there is no case {case_id[:40]}",
             "Look at the list of cases; it may have been deleted.",
@@ -46,20 +46,20 @@ def case_row(session: Session, case_id: str) -> CaseRow:
 
 
 def all_cases(session: Session) -> tuple[Case, ...]:
-    """The newest first."""
+    """Return all cases, newest first."""
     rows = session.scalars(
-        select(CaseRow).where(CaseRow.state == HERE).order_by(CaseRow.created_at.desc(), CaseRow.id)
+        select(CaseRow).where(CaseRow.state == PRESENT).order_by(CaseRow.created_at.desc(), CaseRow.id)
     )
     return tuple(case_of(row) for row in rows)
 
 
 def add_case(
-    session: Session, *, name: str, now: str, state: str = HERE, copied_from: str | None = None
+    session: Session, *, name: str, now: str, state: str = PRESENT, copied_from: str | None = None
 ) -> Case:
-    """A new case without anything in it."""
+    """Create an empty case."""
     row = CaseRow(
         id=new_id(),
-        name=checked_name(name, of="name of the case"),
+        name=validate_name(name, of="name of the case"),
         state=state,
         created_at=now,
         changed_at=now,
@@ -70,29 +70,29 @@ def add_case(
     return case_of(row)
 
 
-def opened_case(session: Session) -> Case | None:
-    """The case that is open."""
+def find_open_case(session: Session) -> Case | None:
+    """Return the open case, or None."""
     row = session.get(OpenCaseRow, 1)
     return None if row is None else case_of(case_row(session, row.case_id))
 
 
 def open_case(session: Session, case_id: str) -> Case:
-    """Open a case; the one that was open is closed by it."""
+    """Open a case, which closes the one that was open."""
     case = case_of(case_row(session, case_id))
     session.merge(OpenCaseRow(only=1, case_id=case_id))
     return case
 
 
 def close_case(session: Session) -> None:
-    """Have no case open."""
+    """Close the open case."""
     session.execute(delete(OpenCaseRow))
 
 
 def reject_removal(session: Session, case_id: str, confirm: str) -> None:
-    """A case is taken away only by who knows its name, and not while people work in it.
+    """Reject the deletion of an open case, or with a wrong confirmation.
 
     Raises:
-        NotStored: CASE_UNKNOWN.
+        NotFound: CASE_UNKNOWN.
         StoreConflict: CASE_OPEN.
         InvalidInput: CONFIRMATION_WRONG.
     """
@@ -105,7 +105,7 @@ def reject_removal(session: Session, case_id: str, confirm: str) -> None:
             "Close it first.",
             {"case_id": case_id},
         )
-    if confirm.strip() != row.name and checked_name(confirm or "-", of="word of confirmation") != row.name:
+    if confirm.strip() != row.name and validate_name(confirm or "-", of="word of confirmation") != row.name:
         raise InvalidInput(
             "CONFIRMATION_WRONG",
             f"the word of confirmation is not the name of the case {case_id}",
@@ -114,10 +114,10 @@ def reject_removal(session: Session, case_id: str, confirm: str) -> None:
         )
 
 
-def mark_leaving(session: Session, case_id: str) -> None:
-    """From here on the case is gone for everybody, and the next start takes away what is left of it.
+def mark_deleting(session: Session, case_id: str) -> None:
+    """Mark a case as deleted; it is invisible from here on, and its remains are removed at the next start.
 
-    A small change on purpose: on a full disk it is the one that makes room.
+    The change is small on purpose: it must succeed on a full disk.
     """
     row = case_row(session, case_id)
-    row.state, row.name = LEAVING, ""
+    row.state, row.name = DELETING, ""

@@ -1,4 +1,4 @@
-"""What was changed in the store, for those who write down who did it."""
+"""Records of changes in the store, for the audit log."""
 
 from dataclasses import dataclass
 
@@ -7,15 +7,15 @@ from server.store.records import Case, Document
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Change:
-    """One change, as it was committed.
+    """One committed change.
 
     Attributes:
-        case_id: of which case.
-        kind: of the document, or "case".
-        name: of the document; empty for a case, whose name may say more than a log shall.
-        before: version or state before it; None where there was none.
-        after: version or state after it; None where there is none.
-        by: who said that they did it.
+        case_id: the case.
+        kind: kind of the document, or "case".
+        name: name of the document; empty for a case, whose name could identify the patient.
+        before: version or state before the change; None if there was none.
+        after: version or state after the change; None if there is none.
+        by: stated author.
     """
 
     case_id: str
@@ -27,12 +27,12 @@ class Change:
 
     @classmethod
     def opened(cls, case_id: str, *, before: Case | None) -> "Change":
-        """That another case is open now."""
+        """Return the change for an opened case."""
         return cls(case_id=case_id, kind="open case", before=before.id if before else None, after=case_id)
 
     @classmethod
     def added(cls, document: Document) -> "Change":
-        """That a document has a new version."""
+        """Return the change for a new version of a document."""
         return cls(
             case_id=document.case_id,
             kind=document.kind.value,
@@ -44,7 +44,7 @@ class Change:
 
     @classmethod
     def withdrawn(cls, document: Document, *, by: str) -> "Change":
-        """That a document no longer holds."""
+        """Return the change for a withdrawn document."""
         return cls(
             case_id=document.case_id,
             kind=document.kind.value,
@@ -54,8 +54,8 @@ class Change:
             by=by,
         )
 
-    def told(self) -> dict[str, object]:
-        """As JSON takes it."""
+    def to_json(self) -> dict[str, object]:
+        """Return the change as JSON-serialisable values."""
         line: dict[str, object] = {"what": self.kind, "case_id": self.case_id}
         if self.name and self.kind != "patient":
             line["name"] = self.name

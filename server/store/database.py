@@ -1,4 +1,4 @@
-"""The database file: what is committed outlasts a power cut, and its form is that of this version."""
+"""The SQLite database: durable commits, integrity check, and migration to the current schema."""
 
 import sqlite3
 from collections.abc import Callable, Iterator
@@ -15,12 +15,12 @@ from sqlalchemy import Connection, Engine, create_engine, event
 from sqlalchemy.engine.interfaces import DBAPIConnection
 from sqlalchemy.pool import ConnectionPoolEntry
 
-from server.store.errors import StoreError, damaged, told
+from server.store.errors import StoreError, damaged_database, translate_errors
 from server.store.home import Home, sync_folder
 
 MIGRATIONS = Path(__file__).parent / "migrations"
 BUSY_TIMEOUT_MS = 10_000
-# Deleted patients are overwritten, not only forgotten.
+# secure_delete overwrites deleted patient data.
 PRAGMAS = (
     "PRAGMA journal_mode = WAL",
     "PRAGMA synchronous = FULL",
@@ -33,7 +33,7 @@ PRAGMAS = (
 
 
 def open_database(home: Home, *, now: Callable[[], datetime], migrations: Path = MIGRATIONS) -> Engine:
-    """The database of a home, sound and in this version's form.
+    """Open the database of a home, after an integrity check and migration to the current schema.
 
     Raises:
         StoreError: STORE_DAMAGED, STORE_NEWER, or as the disk says.
@@ -41,7 +41,7 @@ def open_database(home: Home, *, now: Callable[[], datetime], migrations: Path =
     engine = create_engine(f"sqlite:///{home.database}")
     event.listen(engine, "connect", _prepare)
     event.listen(engine, "begin", _begin)
-    with told(home.folder):
+    with translate_errors(home.folder):
         try:
             _check(engine, home)
             _migrate(engine, home, now=now, migrations=migrations)
@@ -52,20 +52,20 @@ def open_database(home: Home, *, now: Callable[[], datetime], migrations: Path =
     return engine
 
 
-def for_writing(engine: Engine) -> Engine:
-    """The same database; its transactions wait their turn at the beginning, so that none fails half way."""
+def with_immediate_transactions(engine: Engine) -> Engine:
+    """Return an engine with BEGIN IMMEDIATE, so that write transactions wait at their start."""
     return engine.execution_options(begins="IMMEDIATE")
 
 
-def empty_journal(engine: Engine) -> None:
-    """Bring everything from the journal into the database, so that what was deleted is in neither."""
-    with _bare(engine) as connection:
+def truncate_journal(engine: Engine) -> None:
+    """Checkpoint and truncate the write-ahead log, so that no deleted data remains in it."""
+    with _raw_connection(engine) as connection:
         connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
 
 
 def _prepare(connection: DBAPIConnection, entry: ConnectionPoolEntry) -> None:
     del entry
-    # Python begins transactions late, and not for changes of tables; ours begin where they are written.
+    # The sqlite3 module starts transactions late, and not for DDL; they are started explicitly in `_begin`.
     connection.isolation_level = None
     cursor = connection.cursor()
     for pragma in PRAGMAS:
@@ -78,8 +78,8 @@ def _begin(connection: Connection) -> None:
 
 
 @contextmanager
-def _bare(engine: Engine) -> Iterator[sqlite3.Connection]:
-    """A connection without a transaction around it."""
+def _raw_connection(engine: Engine) -> Iterator[sqlite3.Connection]:
+    """Context manager for a connection without a transaction."""
     proxied = engine.raw_connection()
     try:
         connection = proxied.driver_connection
@@ -91,10 +91,10 @@ def _bare(engine: Engine) -> Iterator[sqlite3.Connection]:
 
 
 def _check(engine: Engine, home: Home) -> None:
-    with _bare(engine) as connection:
+    with _raw_connection(engine) as connection:
         found = connection.execute("PRAGMA quick_check(1)").fetchone()[0]
     if found != "ok":
-        raise damaged(home.folder, str(found))
+        raise damaged_database(home.folder, str(found))
 
 
 def _migrate(engine: Engine, home: Home, *, now: Callable[[], datetime], migrations: Path) -> None:
@@ -109,7 +109,7 @@ def _migrate(engine: Engine, home: Home, *, now: Callable[[], datetime], migrati
     if revision is not None:
         _reject_newer(ScriptDirectory.from_config(config), revision, home)
         _back_up(engine, home, name=f"coaxial-{revision}-{now():%Y%m%dT%H%M%SZ}.sqlite3")
-    with for_writing(engine).begin() as connection:
+    with with_immediate_transactions(engine).begin() as connection:
         config.attributes["connection"] = connection
         command.upgrade(config, "head")
 
@@ -120,17 +120,17 @@ def _reject_newer(scripts: ScriptDirectory, revision: str, home: Home) -> None:
     except CommandError as error:
         raise StoreError(
             "STORE_NEWER",
-            f"the database in {home.folder} was made by a newer Coaxial (its form is {revision}, this "
-            f"program knows forms up to {scripts.get_current_head()})",
+            f"the database in {home.folder} was made by a newer Coaxial (its schema is {revision}, this "
+            f"program supports schemas up to {scripts.get_current_head()})",
             "Start the newer program again, or name another folder with COAXIAL_HOME.",
             {"found": revision, "known": scripts.get_current_head()},
         ) from error
 
 
 def _back_up(engine: Engine, home: Home, *, name: str) -> None:
-    """A whole copy of the database beside it, on the disk before anything is changed."""
+    """Make a durable backup of the database before the migration."""
     part = home.backups / f"{name}.part"
-    with _bare(engine) as source, closing(sqlite3.connect(part)) as target:
+    with _raw_connection(engine) as source, closing(sqlite3.connect(part)) as target:
         target.execute("PRAGMA synchronous = FULL")
         source.backup(target)
     part.replace(home.backups / name)

@@ -1,8 +1,8 @@
-"""Documents: added version by version, read, withdrawn; never changed.
+"""Documents: versions are added, read and withdrawn, and never changed.
 
-A changed plan puts what was registered on it out of date without anybody having to remember to do it, and
-the history remains for the report. A withdrawn newest version leaves none, because an older one must not
-come back.
+A new version of a plan makes the registrations that depend on it out of date automatically, and the history
+remains for the report. If the newest version is withdrawn there is none, because an older version must not
+become valid again.
 """
 
 import json
@@ -14,51 +14,51 @@ from sqlalchemy import ColumnClause, func, literal_column, select
 from sqlalchemy.orm import Session
 
 from server.store.cases import new_id
-from server.store.checks import checked_name, text_of
-from server.store.errors import NotStored, StoreConflict
-from server.store.records import Document, DocumentKind, Imported, Withdrawal
-from server.store.tables import WHOLE, BasisRow, DocumentFileRow, DocumentRow, FileRow
+from server.store.errors import NotFound, StoreConflict
+from server.store.records import Document, DocumentKind, ImportRecord, Withdrawal
+from server.store.tables import COMPLETE, BasisRow, DocumentFileRow, DocumentRow, FileRow
+from server.store.validation import content_to_json, validate_name
 from tracker.errors import InvalidInput
 
-# As they were stored; clocks may go back.
+# Order of insertion; time stamps are not monotonic, because clocks can be set back.
 IN_ORDER: ColumnClause[int] = literal_column("documents.rowid")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NewDocument:
-    """A document that is to be stored, with everything in it checked."""
+    """A validated document that is to be stored."""
 
     kind: DocumentKind
     name: str
     text: str
     made_by: str
-    stands_on: tuple[str, ...]
+    depends_on: tuple[str, ...]
     files: tuple[str, ...]
     expected_version: int | None
 
     @classmethod
-    def checked(
+    def validated(
         cls,
         kind: DocumentKind,
         name: str,
         content: Mapping[str, object],
         *,
         made_by: str,
-        stands_on: Sequence[str],
+        depends_on: Sequence[str],
         files: Sequence[str] = (),
         expected_version: int | None = None,
     ) -> "NewDocument":
-        """Refuse what cannot be stored, before the database is asked.
+        """Validate a document before the database is accessed.
 
         Raises:
             InvalidInput: NAME_INVALID, CONTENT_NOT_JSON, CONTENT_TOO_LARGE.
         """
         return cls(
             kind=DocumentKind(kind),
-            name=checked_name(name, of="name of the document"),
-            text=text_of(content),
-            made_by=checked_name(made_by, of="name of who made it"),
-            stands_on=tuple(dict.fromkeys(stands_on)),
+            name=validate_name(name, of="name of the document"),
+            text=content_to_json(content),
+            made_by=validate_name(made_by, of="name of who made it"),
+            depends_on=tuple(dict.fromkeys(depends_on)),
             files=tuple(dict.fromkeys(files)),
             expected_version=expected_version,
         )
@@ -80,19 +80,19 @@ def add_document(session: Session, case_id: str, new: NewDocument, *, now: str) 
     )
     session.add(row)
     session.flush()
-    for place, basis in enumerate(new.stands_on):
+    for place, basis in enumerate(new.depends_on):
         session.add(BasisRow(case_id=case_id, document_id=row.id, place=place, basis_id=basis))
     for place, file in enumerate(new.files):
         session.add(DocumentFileRow(case_id=case_id, document_id=row.id, place=place, file_id=file))
     session.flush()
-    return document_of(row, new.stands_on, new.files)
+    return document_of(row, new.depends_on, new.files)
 
 
 def find_document(session: Session, case_id: str, document_id: str) -> Document:
     """One document.
 
     Raises:
-        NotStored: DOCUMENT_UNKNOWN.
+        NotFound: DOCUMENT_UNKNOWN.
     """
     return _read(session, [document_row(session, case_id, document_id)])[0]
 
@@ -101,7 +101,7 @@ def document_row(session: Session, case_id: str, document_id: str) -> DocumentRo
     """The row of one document.
 
     Raises:
-        NotStored: DOCUMENT_UNKNOWN.
+        NotFound: DOCUMENT_UNKNOWN.
     """
     row = session.get(DocumentRow, (case_id, document_id))
     if row is None:
@@ -132,7 +132,7 @@ def every_document(session: Session, case_id: str) -> Iterator[Document]:
 
 
 def newest(session: Session, case_id: str, kind: DocumentKind, name: str | None) -> tuple[Document, ...]:
-    """The newest version of each name, where it was not withdrawn; ordered by name."""
+    """Return the newest version of each name unless it is withdrawn, ordered by name."""
     last = (
         select(DocumentRow.name, func.max(DocumentRow.version).label("version"))
         .where(DocumentRow.case_id == case_id, DocumentRow.kind == kind.value)
@@ -154,7 +154,7 @@ def newest(session: Session, case_id: str, kind: DocumentKind, name: str | None)
     return _read(session, session.scalars(chosen).all())
 
 
-def document_of(row: DocumentRow, stands_on: Iterable[str], files: Iterable[str]) -> Document:
+def document_of(row: DocumentRow, depends_on: Iterable[str], files: Iterable[str]) -> Document:
     """The record of a row."""
     return Document(
         case_id=row.case_id,
@@ -165,16 +165,16 @@ def document_of(row: DocumentRow, stands_on: Iterable[str], files: Iterable[str]
         content=json.loads(row.content),
         made_at=row.made_at,
         made_by=row.made_by,
-        stands_on=tuple(stands_on),
+        depends_on=tuple(depends_on),
         files=tuple(files),
         withdrawn=withdrawal_of(row.withdrawn_at, row.withdrawn_by, row.withdrawn_reason),
         imported=imported_of(row.imported_at, row.imported_by),
     )
 
 
-def imported_of(at: str | None, by: str | None) -> Imported | None:
+def imported_of(at: str | None, by: str | None) -> ImportRecord | None:
     """The record of a taking in, if it was not made here."""
-    return None if at is None else Imported(by=by or "", at=at)
+    return None if at is None else ImportRecord(by=by or "", at=at)
 
 
 def withdrawal_of(at: str | None, by: str | None, reason: str | None) -> Withdrawal | None:
@@ -226,16 +226,16 @@ def _next_version(session: Session, case_id: str, new: NewDocument) -> int:
 
 
 def _reject_strange(session: Session, case_id: str, new: NewDocument) -> None:
-    """What it stands on and its files must be there, and nothing may lead to the patient's identity."""
-    for basis in new.stands_on:
+    """Reject unknown dependencies and files, and any link to the patient's identity."""
+    for basis in new.depends_on:
         found = session.get(DocumentRow, (case_id, basis))
         if found is None:
             raise _unknown(case_id, basis)
         if found.kind == DocumentKind.PATIENT:
             raise InvalidInput(
-                "STANDS_ON_IDENTITY",
-                "a document may not stand on who the patient is, because that never leaves with the case",
-                "Leave it out of what the document stands on.",
+                "DEPENDS_ON_IDENTITY",
+                "a document may not depend on the patient's identity, because that is not exported",
+                "Leave it out of the document's dependencies.",
                 {"document_id": basis},
             )
     if new.files and new.kind is DocumentKind.PATIENT:
@@ -246,13 +246,13 @@ def _reject_strange(session: Session, case_id: str, new: NewDocument) -> None:
         )
     for file in new.files:
         row = session.get(FileRow, (case_id, file))
-        if row is None or row.state != WHOLE:
+        if row is None or row.state != COMPLETE:
             raise file_unknown(case_id, file)
 
 
-def file_unknown(case_id: str, file_id: str) -> NotStored:
+def file_unknown(case_id: str, file_id: str) -> NotFound:
     """The error for a file that is not there."""
-    return NotStored(
+    return NotFound(
         "FILE_UNKNOWN",
         f"there is no file {file_id[:60]} in the case {case_id[:40]}",
         "Look at the files of the case.",
@@ -260,8 +260,8 @@ def file_unknown(case_id: str, file_id: str) -> NotStored:
     )
 
 
-def _unknown(case_id: str, document_id: str) -> NotStored:
-    return NotStored(
+def _unknown(case_id: str, document_id: str) -> NotFound:
+    return NotFound(
         "DOCUMENT_UNKNOWN",
         f"there is no document {document_id[:40]} in the case {case_id[:40]}",
         "Look at the documents of the case.",

@@ -1,8 +1,8 @@
-"""What can go wrong with what is kept.
+"""Errors of the store.
 
 NavigationError
 ├── StoreError        the folder or the database cannot be used            HTTP 503, 507
-├── NotStored         there is no such case, document or file              HTTP 404
+├── NotFound         there is no such case, document or file              HTTP 404
 ├── StoreConflict     it cannot be done as things stand                    HTTP 409
 ├── OutOfDateError    what is needed was changed under it, or is missing   HTTP 409
 └── InvalidInput      a name, a content or an archive cannot be used       HTTP 422
@@ -18,7 +18,7 @@ from pathlib import Path
 
 from sqlalchemy.exc import DBAPIError
 
-from server.disk import FULL, MAKE_ROOM
+from server.disk import FREE_SPACE_REMEDY, FULL
 from tracker.errors import NavigationError
 
 READ_ONLY, BUSY, DAMAGED, FAILED = (
@@ -35,12 +35,12 @@ WHAT = {
     FAILED: "the folder {folder} cannot be used ({why})",
 }
 REMEDY = {
-    FULL: MAKE_ROOM,
+    FULL: FREE_SPACE_REMEDY,
     READ_ONLY: "Give this user the right to write there, or name another folder with COAXIAL_HOME.",
     BUSY: "Close the program that has the database open, then do it again.",
     DAMAGED: "Stop the server and keep a copy of the folder; its folder 'backups' holds the database "
     "as it was before the last change of version.",
-    FAILED: "Look whether the disk is there and sound, then do it again; what was confirmed before is kept.",
+    FAILED: "Check that the disk is connected and healthy, then try again; acknowledged data is stored.",
 }
 BY_SQLITE = {
     sqlite3.SQLITE_FULL: FULL,
@@ -61,26 +61,26 @@ BY_SYSTEM = {
 
 
 class StoreError(NavigationError):
-    """The folder or the database in which cases are kept cannot be used."""
+    """The folder or the database of the cases cannot be used."""
 
 
-class NotStored(NavigationError):
+class NotFound(NavigationError):
     """There is no such case, document or file."""
 
 
 class StoreConflict(NavigationError):
-    """It cannot be done as things stand: somebody else was quicker, or something is in use."""
+    """The state of the store does not allow it: a concurrent change, or something is in use."""
 
 
 class OutOfDateError(NavigationError):
-    """What a step stands on is missing, was withdrawn, or was changed under it."""
+    """A dependency of a step is missing, was withdrawn, or was replaced."""
 
 
 @contextmanager
-def told(folder: Path, *, known_only: bool = False) -> Iterator[None]:
-    """Errors of the disk and of the database, as sentences with a remedy.
+def translate_errors(folder: Path, *, known_only: bool = False) -> Iterator[None]:
+    """Context manager that translates errors of disk and database into a StoreError with a remedy.
 
-    Where others do the work, `known_only` lets pass what may have nothing to do with the disk.
+    `known_only` passes on an OSError that is not known to be about the disk, for blocks with foreign code.
 
     Raises:
         StoreError: STORE_FULL, STORE_READ_ONLY, STORE_BUSY, STORE_DAMAGED or STORE_FAILED.
@@ -95,8 +95,8 @@ def told(folder: Path, *, known_only: bool = False) -> Iterator[None]:
         raise _store_error(folder, _code_of(error), error) from error
 
 
-def damaged(folder: Path, found: str) -> StoreError:
-    """The error for a database in which its own check found something."""
+def damaged_database(folder: Path, found: str) -> StoreError:
+    """Return the error for a database that fails its integrity check."""
     return StoreError(
         DAMAGED, f"{WHAT[DAMAGED].format(folder=folder)}: {found[:200]}", REMEDY[DAMAGED], {"found": found}
     )

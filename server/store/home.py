@@ -1,4 +1,4 @@
-"""The folder in which everything is kept, used by one server at a time."""
+"""The data folder, used by one server at a time."""
 
 import errno
 import fcntl
@@ -13,35 +13,35 @@ from types import TracebackType
 import filelock
 import platformdirs
 
-from server.disk import reject_without_room
-from server.store.errors import StoreError, told
+from server.disk import reject_without_space
+from server.store.errors import StoreError, translate_errors
 
 FOLDER_VARIABLE = "COAXIAL_HOME"
-# Patients' pictures are for the one who runs the server.
+# Patient data is accessible to the user who runs the server only.
 PRIVATE = 0o700
 RESERVE_BYTES = 2**20
-# What disks say that know no locks, as some network disks and those of some containers.
+# Errors of file systems without locks, such as some network disks and container volumes.
 WITHOUT_LOCKS = frozenset({errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP})
-# On macOS a plain sync leaves things in the disk's own memory.
+# On macOS fsync leaves data in the drive's cache.
 FULL_SYNC: int | None = getattr(fcntl, "F_FULLFSYNC", None)
 
 
 def home_folder(environment: Mapping[str, str] = os.environ) -> Path:
-    """Where cases are kept: `COAXIAL_HOME`, else where this system keeps what a user's programs make."""
+    """Return the data folder: `COAXIAL_HOME`, or the user data directory of the system."""
     named = environment.get(FOLDER_VARIABLE, "").strip()
     return Path(named).expanduser().absolute() if named else platformdirs.user_data_path("coaxial")
 
 
 class Home:
-    """A folder that belongs to this process until it is closed, or the process ends in whatever way.
+    """The data folder, locked by this process until it is closed or the process ends.
 
     Attributes:
-        folder: the whole of it.
-        database: the file with cases and documents.
-        backups: copies of the database, made before its form was changed.
-        cases: a folder for each case, with its files.
-        temporary: work that is not done; emptied at each start.
-        reserve: room on the disk that is given up when a case is to be deleted because the disk is full.
+        folder: the data folder.
+        database: file of the database with cases and documents.
+        backups: copies of the database, made before each migration.
+        cases: one folder per case, with its files.
+        temporary: temporary files; emptied at each start.
+        reserve: file that reserves disk space, released to delete a case on a full disk.
 
     Raises:
         StoreError: HOME_IN_USE, HOME_NOT_LOCKABLE, STORE_READ_ONLY, STORE_FULL or STORE_FAILED.
@@ -55,7 +55,7 @@ class Home:
         self.temporary = folder / "temporary"
         self.reserve = folder / "reserve"
         self._lock = filelock.FileLock(folder / "coaxial.lock", thread_local=False)
-        with told(folder):
+        with translate_errors(folder):
             folder.mkdir(mode=PRIVATE, parents=True, exist_ok=True)
             try:
                 self._lock.acquire(timeout=0)
@@ -69,38 +69,38 @@ class Home:
                 shutil.rmtree(self.temporary, ignore_errors=True)
                 for room in (self.backups, self.cases, self.temporary):
                     room.mkdir(mode=PRIVATE, exist_ok=True)
-                self.keep_reserve()
+                self.allocate_reserve()
                 sync_folder(folder)
             except OSError:
                 self._lock.release()
                 raise
 
     def new_temporary(self, suffix: str = "") -> Path:
-        """A name for work that is not done; what is written there is gone at the next start."""
+        """Return a new path for temporary data, which is deleted at the next start."""
         return self.temporary / f"{secrets.token_hex(8)}{suffix}"
 
-    def keep_reserve(self) -> None:
-        """Hold some room on the disk, as far as there is any."""
+    def allocate_reserve(self) -> None:
+        """Reserve disk space, if there is any."""
         with suppress(OSError):
             if not self.reserve.exists() or self.reserve.stat().st_size < RESERVE_BYTES:
-                # Noise, because some disks need no room for zeros.
+                # Random bytes, because some file systems store no blocks for zeros.
                 self.reserve.write_bytes(secrets.token_bytes(RESERVE_BYTES))
 
-    def spend_reserve(self) -> None:
-        """Give the room up."""
+    def release_reserve(self) -> None:
+        """Release the reserved disk space."""
         self.reserve.unlink(missing_ok=True)
 
-    def reject_without_room(self, needed_bytes: int) -> None:
-        """To be asked before much is written, so that the disk is not filled for everybody first.
+    def reject_without_space(self, needed_bytes: int) -> None:
+        """Raise before a large write that would fill the disk.
 
         Raises:
             DiskFull: STORE_FULL.
         """
-        with told(self.folder):
-            reject_without_room(self.folder, needed_bytes)
+        with translate_errors(self.folder):
+            reject_without_space(self.folder, needed_bytes)
 
     def close(self) -> None:
-        """Let another server have the folder."""
+        """Unlock the folder."""
         self._lock.release()
 
     def __enter__(self) -> "Home":
@@ -113,7 +113,7 @@ class Home:
 
 
 def sync_folder(folder: Path) -> None:
-    """Have names that were made, changed or taken away in a folder outlast a power cut."""
+    """Make created, renamed and removed directory entries durable (fsync of the folder)."""
     descriptor = os.open(folder, os.O_RDONLY)
     try:
         sync_file(descriptor)
@@ -122,7 +122,7 @@ def sync_folder(folder: Path) -> None:
 
 
 def sync_file(descriptor: int) -> None:
-    """Have what was written into a file outlast a power cut."""
+    """Make written data durable (fsync)."""
     os.fsync(descriptor)
     if FULL_SYNC is not None:
         with suppress(OSError):
@@ -132,8 +132,8 @@ def sync_file(descriptor: int) -> None:
 def _without_locks(folder: Path) -> StoreError:
     return StoreError(
         "HOME_NOT_LOCKABLE",
-        f"the disk of the folder {folder} gives no locks (some network disks do not), so that another "
-        "Coaxial could write into it at the same time",
+        f"the disk of the folder {folder} does not support file locks (as some network disks), so that "
+        "another Coaxial could write into it at the same time",
         "Name a folder on a disk of this computer with COAXIAL_HOME.",
         {"folder": str(folder)},
     )

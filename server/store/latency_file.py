@@ -1,4 +1,4 @@
-"""Measured latencies, in a small file of the home: they belong to a camera and a screen, not to a case."""
+"""File of measured latencies in the home: they belong to a camera and a screen, not to a case."""
 
 import json
 import os
@@ -11,14 +11,14 @@ import structlog
 from pydantic import TypeAdapter, ValidationError
 
 from server.latency import LatencyResult
-from server.store.errors import told
+from server.store.errors import translate_errors
 from server.store.home import sync_file, sync_folder
 
 FORM = 1
 LATENCY_FILE = "latency.json"
 # One a camera; of the cameras that were used before, so many are remembered.
 MAX_CAMERAS = 20
-OWNER_ALONE = 0o600
+OWNER_ONLY = 0o600
 
 _RESULTS = TypeAdapter(tuple[LatencyResult, ...])
 _log = structlog.get_logger(__name__)
@@ -36,12 +36,12 @@ class LatencyFile:
         self._file = folder / LATENCY_FILE
 
     def results(self) -> tuple[LatencyResult, ...]:
-        """One a camera, the newest first; none where the file is damaged, which the log says.
+        """Return one result per camera, newest first; empty if the file is damaged, which is logged.
 
         Raises:
             StoreError: the file cannot be read.
         """
-        with told(self._folder):
+        with translate_errors(self._folder):
             if not self._file.exists():
                 return ()
             content = self._file.read_bytes()
@@ -57,7 +57,7 @@ class LatencyFile:
             return ()
 
     def of(self, camera: str) -> LatencyResult | None:
-        """The newest result of this camera; None where there is none.
+        """Return the newest result of this camera; None if there is none.
 
         Raises:
             StoreError: the file cannot be read.
@@ -76,8 +76,8 @@ class LatencyFile:
     def _write(self, results: Iterable[LatencyResult]) -> None:
         content = json.dumps({"form": FORM, "results": [asdict(one) for one in results]}, indent=1)
         part = self._file.with_name(f".{LATENCY_FILE}.{secrets.token_hex(4)}")
-        with told(self._folder):
-            descriptor = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, OWNER_ALONE)
+        with translate_errors(self._folder):
+            descriptor = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, OWNER_ONLY)
             try:
                 with os.fdopen(descriptor, "wb") as file:
                     file.write(content.encode())

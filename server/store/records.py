@@ -1,4 +1,4 @@
-"""What the store gives out: frozen records of cases, documents and files."""
+"""Immutable records of cases, documents and files."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ SAYS_ARCHIVE = ", says the archive"
 
 
 class DocumentKind(StrEnum):
-    """What a document is about. PATIENT alone may say who the patient is; it never leaves with a case."""
+    """Kind of a document. Only PATIENT may identify the patient; exports leave it out by default."""
 
     PATIENT = "patient"
     CAMERA = "camera"
@@ -30,14 +30,14 @@ class DocumentKind(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Case:
-    """One patient's operation: all that was made for it is kept under it.
+    """One operation on one patient.
 
     Attributes:
-        id: 16 hexadecimal digits; stands in addresses and logs, where the name must not.
-        name: as people call it; any text, not unique.
+        id: 16 hexadecimal digits; used in URLs and logs, which must not contain the name.
+        name: display name; any text, not unique.
         created_at: UTC, ISO 8601 with milliseconds.
-        changed_at: when something was last added, renamed or withdrawn in it.
-        copied_from: the id under which its archive was made, if it came as one.
+        changed_at: time of the last change.
+        copied_from: id of the exported case, if it was imported from an archive.
     """
 
     id: str
@@ -49,12 +49,12 @@ class Case:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Withdrawal:
-    """That a document no longer holds.
+    """The withdrawal of a document.
 
     Attributes:
         at: UTC, ISO 8601 with milliseconds.
-        by: who said so.
-        reason: why, in words.
+        by: name of the person.
+        reason: the reason.
     """
 
     at: str
@@ -63,17 +63,17 @@ class Withdrawal:
 
 
 def says_archive(name: str) -> str:
-    """The name of somebody for whom an archive alone vouches; nobody signed in here under it."""
+    """Mark a name as stated by an archive only; nobody signed in to this server under it."""
     return name if name.endswith(SAYS_ARCHIVE) else f"{name}{SAYS_ARCHIVE}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Imported:
-    """That a document came in with an archive, in which anybody may have written anything.
+class ImportRecord:
+    """The import of a document from an archive, whose contents are not authenticated.
 
     Attributes:
-        by: who took it in.
-        at: when, UTC, ISO 8601 with milliseconds.
+        by: name of the person who imported it.
+        at: UTC, ISO 8601 with milliseconds.
     """
 
     by: str
@@ -82,20 +82,20 @@ class Imported:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Heading:
-    """What is known of a document without reading it.
+    """A document without its content.
 
     Attributes:
         case_id: the case.
-        id: unique within its case, also after the case was copied out and in.
-        kind: what it is about.
-        name: tells it from others of its kind, as "main" or "L3 left".
+        id: unique within its case; an export and import of the case keeps it.
+        kind: its kind.
+        name: unique within its kind, for example "main" or "L3 left".
         version: 1, 2, 3 ... for its kind and name.
         made_at: UTC, ISO 8601 with milliseconds.
-        made_by: who made it; where it was imported, only the archive says so: show `maker`.
-        stands_on: ids of the documents that it was made from.
+        made_by: name of the author; for an imported document only stated by the archive: display `maker`.
+        depends_on: ids of the documents that it was made from.
         files: ids of the files that belong to it.
-        withdrawn: that it no longer holds; None while nobody said so.
-        imported: that it came in with an archive; None where it was made here.
+        withdrawn: its withdrawal; None if it is not withdrawn.
+        imported: its import; None if it was made here.
     """
 
     case_id: str
@@ -105,33 +105,33 @@ class Heading:
     version: int
     made_at: str
     made_by: str
-    stands_on: tuple[str, ...] = ()
+    depends_on: tuple[str, ...] = ()
     files: tuple[str, ...] = ()
     withdrawn: Withdrawal | None = None
-    imported: Imported | None = None
+    imported: ImportRecord | None = None
 
     @property
     def maker(self) -> str:
-        """Who made it, in words that people may be shown."""
+        """Author, for display."""
         return self.made_by if self.imported is None else says_archive(self.made_by)
 
     @property
     def makers(self) -> tuple[str, ...]:
-        """All who may have made it: who took it in may have written it, too."""
+        """All possible authors: the person who imported it may also have written it."""
         return (self.made_by,) if self.imported is None else (self.made_by, self.imported.by)
 
     @property
     def title(self) -> str:
-        """The document in words."""
+        """Kind, name and version, for display."""
         return f"{self.kind.value} '{self.name}' version {self.version}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Document(Heading):
-    """One version of one thing that set-up made; it never changes once it is stored.
+    """One version of a result of the procedure; immutable once it is stored.
 
     Attributes:
-        content: what was stored, as JSON has it (tuples have become lists); a copy for each reader.
+        content: the stored JSON (tuples become lists); each reader gets a copy.
     """
 
     content: Mapping[str, object]
@@ -139,14 +139,14 @@ class Document(Heading):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StoredFile:
-    """A file of a case, whole on the disk.
+    """A complete file of a case.
 
     Attributes:
         case_id: the case.
-        id: its name in the case's folder, made by the store; a document's content may refer to it.
-        path: where it can be read; never to be written.
-        size_bytes: of the whole file.
-        sha256: of the whole file, hexadecimal.
+        id: its name in the case's folder, generated by the store; a document may refer to it.
+        path: path for reading; it must not be written.
+        size_bytes: size of the file.
+        sha256: SHA-256 of the file, hexadecimal.
         made_at: UTC, ISO 8601 with milliseconds.
     """
 
@@ -160,21 +160,21 @@ class StoredFile:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Current:
-    """The document and all that it stands on are the newest, and none of them was withdrawn."""
+    """The document and all that it depends on are the newest versions, and none is withdrawn."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OutOfDate:
-    """The document no longer holds.
+    """The document is not valid any more.
 
     Attributes:
-        reason: why, in a sentence without its full stop.
+        reason: the reason, as a sentence without its full stop.
     """
 
     reason: str
 
 
-Standing: TypeAlias = Current | OutOfDate
+Validity: TypeAlias = Current | OutOfDate
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -182,26 +182,26 @@ class Entry:
     """A document in the list of its case.
 
     Attributes:
-        heading: everything but its content.
-        standing: whether it holds.
+        heading: the document without its content.
+        validity: whether it is valid.
     """
 
     heading: Heading
-    standing: Standing
+    validity: Validity
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Damage:
-    """A file that is not as it was stored.
+    """A file that differs from what was stored.
 
     Attributes:
-        file_id: which one.
+        file_id: the file.
         problem: "missing", "size" or "content".
-        told: the same in words, with numbers.
-        documents: titles of the documents that need it.
+        message: description with numbers.
+        documents: titles of the documents that refer to it.
     """
 
     file_id: str
     problem: str
-    told: str
+    message: str
     documents: tuple[str, ...]

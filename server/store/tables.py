@@ -1,4 +1,4 @@
-"""The tables of the database, as this version of the program has them.
+"""The tables of the database in the current schema.
 
 A change here needs a new file in `migrations/versions`; a test compares the two.
 """
@@ -6,17 +6,17 @@ A change here needs a new file in `migrations/versions`; a test compares the two
 from sqlalchemy import CheckConstraint, ForeignKey, ForeignKeyConstraint, Index, UniqueConstraint
 from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column
 
-# Of a case: on its way in, there, on its way out. Of a file: being written, whole.
-ARRIVING, HERE, LEAVING = "arriving", "here", "leaving"
-COMING, WHOLE = "coming", "whole"
+# States of a case, and of a file. The values are stored in databases.
+IMPORTING, PRESENT, DELETING = "arriving", "here", "leaving"
+WRITING, COMPLETE = "coming", "whole"
 
 
 class Table(DeclarativeBase):
-    """Common to all tables."""
+    """Base class of all tables."""
 
 
 class CaseRow(Table):
-    """A case. A row that is arriving or leaving is seen by nobody, and cleaned away at the next start."""
+    """A case. A row that is being imported or deleted is invisible, and removed at the next start."""
 
     __tablename__ = "cases"
     __table_args__ = (CheckConstraint("state IN ('arriving', 'here', 'leaving')", name="case_state"),)
@@ -40,7 +40,7 @@ class OpenCaseRow(Table):
 
 
 class DocumentRow(Table):
-    """One version of a document; only its withdrawal is ever added."""
+    """One version of a document; only its withdrawal can be added."""
 
     __tablename__ = "documents"
     __table_args__ = (
@@ -64,7 +64,7 @@ class DocumentRow(Table):
 
 
 class FileRow(Table):
-    """A file in the case's folder. The row is there before the file, so that no file is without one."""
+    """A file in the case's folder. The row is created before the file, so that no file is without one."""
 
     __tablename__ = "files"
     __table_args__ = (CheckConstraint("state IN ('coming', 'whole')", name="file_state"),)
@@ -78,7 +78,7 @@ class FileRow(Table):
 
 
 class BasisRow(Table):
-    """That a document stands on another one."""
+    """A dependency of a document on another one."""
 
     __tablename__ = "bases"
     __table_args__ = (
@@ -98,7 +98,7 @@ class BasisRow(Table):
 
 
 class DocumentFileRow(Table):
-    """That a file belongs to a document."""
+    """A file that belongs to a document."""
 
     __tablename__ = "document_files"
     __table_args__ = (

@@ -1,29 +1,29 @@
-"""The alarms as they go over the wire, in the same message as the image that they were looked for in."""
+"""Alarm messages, sent with the image in which they were evaluated."""
 
 from datetime import UTC, datetime
 
 from server.clock import utc_text
 from server.stream.assessment_messages import TextMessage, text_message
 from server.stream.message import Message
-from server.texts import alarm_text, without_live_figures
+from server.texts import alarm_text, with_unknown_presence
 from tracker.navigation.alarms import (
     Alarm,
-    AlarmPicture,
+    AlarmSnapshot,
     AlarmState,
     Condition,
     Kind,
     Measure,
+    Presence,
     Priority,
-    Showing,
     Site,
     Sound,
 )
-from tracker.navigation.clearance import MeasuredAgainst
+from tracker.navigation.clearance import WallSource
 from tracker.navigation.directions import Wall
 
 
 class MeasureMessage(Message):
-    """A number and its limit."""
+    """A value and its limit."""
 
     value: float
     limit: float
@@ -32,53 +32,53 @@ class MeasureMessage(Message):
 
 
 class SiteMessage(Message):
-    """Where in the bone a number was measured."""
+    """Location in the bone at which a value was measured."""
 
     depth_mm: float
     """Of the tip, past the entry plane."""
     wall: Wall | None
-    against: MeasuredAgainst | None
+    against: WallSource | None
     tool: str | None
-    """Null where there is only one."""
+    """Null with a single tool."""
 
 
 class AlarmMessage(Message):
-    """One alarm that is to be seen."""
+    """One displayed alarm."""
 
     number: int
-    """Of this occurrence; whoever acknowledges names it."""
+    """Of this occurrence; an acknowledgement names it."""
     condition: Condition
     priority: Priority
     kind: Kind
     state: AlarmState
-    presence: Showing
-    """Whether the newest moment shows it by its limit alone, without hysteresis; an alarm that is no longer
+    presence: Presence
+    """Whether the newest image shows it by its limit alone, without hysteresis; an alarm that is no longer
     present is described in the past tense and has no instruction."""
     raised_at: str
     """UTC, ISO 8601."""
     raised_s_ago: float
     measure: MeasureMessage | None
-    """The newest number; null where it is no matter of a number."""
+    """The newest value; null for an alarm without a value."""
     site: SiteMessage | None
     worst: MeasureMessage | None
     """Since it was raised."""
     worst_at: str | None
     worst_site: SiteMessage | None
     earlier_worst: MeasureMessage | None
-    """Of the occurrences before it that nobody has acknowledged."""
+    """Of earlier occurrences that nobody has acknowledged."""
     earlier_worst_at: str | None
     acknowledged_by: str
     by: str
-    """Who asks, where somebody does."""
+    """Who requests it, for a hold."""
     title: TextMessage
     """In capitals."""
     sentence: TextMessage
-    """What is, or was, in numbers."""
+    """The condition, present or past, with numbers."""
     remedy: TextMessage
-    """Empty where nothing is to be done but to acknowledge."""
+    """Empty where it only has to be acknowledged."""
     sentence_without_figures: TextMessage
     remedy_without_figures: TextMessage
-    """How both read beside figures that are too old to be shown: what figures show is not known then."""
+    """Both texts beside figures that are too old to be shown."""
     known: TextMessage
     """Who has acknowledged it; empty where nobody has."""
 
@@ -89,17 +89,17 @@ class AlarmsMessage(Message):
     revision: int
     """Grows with every change."""
     sound: Sound
-    """What is to be heard now, by a screen whose sound is armed."""
+    """The sound to be played by a screen whose sound is armed."""
     sound_number: int
-    """Of the alarm that sounds; a new one begins the sound anew."""
+    """Number of the alarm that sounds; a new one restarts the sound."""
     pause_left_s: float
-    """How long the sound stays paused, if nothing new comes; 0 when it is not."""
+    """Remaining pause of the sound, without a new alarm; 0 when it is not paused."""
     alarms: list[AlarmMessage]
-    """What stands before what is over; of these the highest first."""
+    """Present alarms before past ones; within both the highest priority first."""
 
 
-def alarms_message(picture: AlarmPicture, *, now_s: float) -> AlarmsMessage:
-    """The message of a picture, as sent at monotonic time `now_s`."""
+def alarms_message(picture: AlarmSnapshot, *, now_s: float) -> AlarmsMessage:
+    """Return the message of an alarm picture, sent at monotonic time `now_s`."""
     return AlarmsMessage(
         revision=picture.revision,
         sound=picture.sound,
@@ -110,10 +110,10 @@ def alarms_message(picture: AlarmPicture, *, now_s: float) -> AlarmsMessage:
 
 
 def _alarm(alarm: Alarm, *, now_s: float, unix_offset_s: float) -> AlarmMessage:
-    words = alarm_text(alarm, unix_offset_s=unix_offset_s)
-    unseen = without_live_figures(alarm)
-    # Most alarms read the same: made once, because each image's message has them.
-    without_figures = words if unseen is alarm else alarm_text(unseen, unix_offset_s=unix_offset_s)
+    texts = alarm_text(alarm, unix_offset_s=unix_offset_s)
+    unseen = with_unknown_presence(alarm)
+    # Most alarms have equal texts, which are then made once: every image's message contains them.
+    without_figures = texts if unseen is alarm else alarm_text(unseen, unix_offset_s=unix_offset_s)
     peak, earlier = alarm.peak, alarm.earlier_peak
     return AlarmMessage(
         number=alarm.number,
@@ -133,12 +133,12 @@ def _alarm(alarm: Alarm, *, now_s: float, unix_offset_s: float) -> AlarmMessage:
         earlier_worst_at=None if earlier is None else _utc(earlier.at_s + unix_offset_s),
         acknowledged_by=alarm.acknowledged_by,
         by=alarm.by,
-        title=text_message(words.title),
-        sentence=text_message(words.sentence),
-        remedy=text_message(words.remedy),
+        title=text_message(texts.title),
+        sentence=text_message(texts.sentence),
+        remedy=text_message(texts.remedy),
         sentence_without_figures=text_message(without_figures.sentence),
         remedy_without_figures=text_message(without_figures.remedy),
-        known=text_message(words.known),
+        known=text_message(texts.known),
     )
 
 

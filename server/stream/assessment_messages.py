@@ -1,9 +1,9 @@
-"""The figures of a drill as they are shown, and the headline, as they go over the wire."""
+"""Messages of the displayed figures of a drill, and of the headline."""
 
 from typing import Literal
 
 from server.stream.message import Message, finite
-from server.stream.place_messages import AbsentMessage, absent_message
+from server.stream.pose_messages import AbsentMessage, absent_message
 from server.texts import Headline, Text, Tone
 from tracker.navigation import (
     Absent,
@@ -16,7 +16,7 @@ from tracker.navigation import (
     Status,
     Verdict,
 )
-from tracker.navigation.clearance import MeasuredAgainst
+from tracker.navigation.clearance import WallSource
 from tracker.navigation.directions import Wall
 
 
@@ -28,14 +28,14 @@ class TextMessage(Message):
 
 
 class FigureMessage(Message):
-    """One number as it is shown: rounded, and compared with its limit after that."""
+    """One displayed number: rounded, then compared with its limit."""
 
     value: float | None
-    """Null where it does not exist: outside the bone, or of a drill across the channel."""
+    """Null where it is undefined: outside the bone, or for a drill across the channel."""
     limit: float | None
-    """Null where there is none."""
+    """Null without a limit."""
     error_95: float | None
-    """Half width of the 95 % interval; null where it is not known."""
+    """Half width of the 95 % interval; null where unknown."""
     status: Status
 
 
@@ -61,48 +61,48 @@ class CorrectionMessage(Message):
 
 
 class LagMessage(Message):
-    """How far the shown tip may lag behind one that moves; beside the figures, and in no verdict."""
+    """How far the displayed tip may lag behind a moving one; beside the figures, in no verdict."""
 
     speed_mm_s: float | None
-    """Of the tip in the vertebra, 0 at rest; null where it is not known yet."""
+    """Of the tip in the vertebra, 0 at rest; null while unknown."""
     latency_ms: float | None
-    """From light to page, 99 % are within; null where it was not measured."""
+    """From light to page, 99th percentile; null where it was not measured."""
     margin_mm: float | None
-    """Product of both, to be added to the 95 % error; null where either is not known."""
+    """Product of both, to be added to the 95 % error; null where either is unknown."""
 
 
 class AssessmentMessage(Message):
-    """All figures of a drill, and the verdict that follows from them."""
+    """All figures of a drill, and their verdict."""
 
     kind: Literal["assessment"] = "assessment"
     verdict: Verdict
     figures: FiguresMessage
     corrections: list[CorrectionMessage]
-    """How to correct what is over its limit, the larger component first."""
+    """Corrections for values over their limit, the larger component first."""
     wall: Wall | None
     """The nearest wall; null while the drill is outside the bone."""
     end_wall: Wall | None
-    """The wall that the screw would come nearest to; null where it misses the pedicle."""
-    against: MeasuredAgainst | None
-    """What the wall was measured against; null where none is known."""
+    """The wall nearest to the planned screw; null where it misses the pedicle."""
+    against: WallSource | None
+    """What the wall was measured against; null where unknown."""
     lag: LagMessage | None
-    """Null where nobody looked for it."""
+    """Null where it is not measured."""
 
 
 class HeadlineMessage(Message):
-    """What stands in the largest letters: the verdict of the figures, or why there are none."""
+    """The headline: the verdict of the figures, or why there are none."""
 
     verdict: Verdict | None
-    """Null where there are no figures."""
+    """Null without figures."""
     tone: Tone
     title: TextMessage
     detail: TextMessage
     event: TextMessage
-    """Alarms that are over and not acknowledged, being cleared, or not tracked now; empty without any."""
+    """Alarms that are past and not acknowledged, being cleared, or not tracked now; empty without any."""
 
 
 def assessment_message(assessment: Assessment | Absent) -> AssessmentMessage | AbsentMessage:
-    """The message of the figures of a drill."""
+    """Return the message of the figures of a drill."""
     if isinstance(assessment, Absent):
         return absent_message(assessment)
     figures = {name.value: _figure(assessment.figures[name]) for name in FigureName}
@@ -126,7 +126,7 @@ def _lag(lag: Lag | None) -> LagMessage | None:
 
 
 def headline_message(headline: Headline) -> HeadlineMessage:
-    """The message of a headline."""
+    """Return the message of a headline."""
     return HeadlineMessage(
         verdict=headline.verdict,
         tone=headline.tone,
@@ -137,7 +137,7 @@ def headline_message(headline: Headline) -> HeadlineMessage:
 
 
 def text_message(text: Text) -> TextMessage:
-    """The message of a text."""
+    """Return the message of a text."""
     return TextMessage(en=text["en"], de=text["de"])
 
 

@@ -1,84 +1,84 @@
-"""What is concluded of a drill, as it goes over the wire: its deviation, and its judgement."""
+"""Messages of a drill's deviation, clearance and uncertainty."""
 
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from server.stream.message import Message, finite
-from server.stream.place_messages import AbsentMessage, absent_message
+from server.stream.pose_messages import AbsentMessage, absent_message
 from tracker.navigation import Absent, Deviation
-from tracker.navigation.certainty import Certain, Judged, Probability, Spread
-from tracker.navigation.clearance import Closest, DrillClearance, MeasuredAgainst, NotEntered
+from tracker.navigation.clearance import DrillClearance, NotEntered, WallProximity, WallSource
 from tracker.navigation.directions import Wall
+from tracker.navigation.uncertainty import DrillAnalysis, DrillUncertainty, Probability, ToleranceCheck
 from tracker.plan.screw import GertzbeinRobbins
 
 
 class DeviationMessage(Message):
-    """The surgeon's numbers; see `tracker.navigation.Deviation`."""
+    """Deviation of the drill from the channel; see `tracker.navigation.Deviation`."""
 
     kind: Literal["deviation"] = "deviation"
     entry_offset_mm: float | None
-    """Null when the drill lies across the channel and its line never meets the entry plane."""
+    """Null when the drill lies across the channel and its axis never meets the entry plane."""
     angle_deg: float
     depth_mm: float
     remaining_mm: float
     tip_offset_mm: float
     entry_lateral_mm: float | None
-    """Along the slice, positive away from the patient's middle; null as the whole."""
+    """In the axial plane, positive lateral; null like the offset."""
     entry_cranial_mm: float | None
-    """Along the body, positive to the head; null as the whole."""
+    """Along the spine, positive cranial; null like the offset."""
     transverse_deg: float
-    """By how much the drill runs more to the middle than the channel, in an axial slice."""
+    """Angle to the channel in an axial slice, positive medial."""
     sagittal_deg: float
-    """By how much it runs more to the head, in a sagittal slice."""
+    """Angle to the channel in a sagittal slice, positive cranial."""
     angle_medial_deg: float
-    """The part of the angle to the patient's middle, across the channel itself."""
+    """Medial component of the angle, about the channel itself."""
     angle_cranial_deg: float
-    """The part to the head, likewise."""
+    """Cranial component, likewise."""
 
 
-class NearestMessage(Message):
-    """The place of the drill with the least clearance."""
+class NearestWallMessage(Message):
+    """Point of the drill with the minimum clearance."""
 
     kind: Literal["nearest"] = "nearest"
     clearance_mm: float
-    """From the drill's surface to the wall; below 0 where it is through."""
+    """From the drill's surface to the wall; negative for a breach."""
     wall: Wall
     point_in_vertebra_mm: list[float]
-    """x, y, z of that place."""
+    """x, y, z of that point."""
     grade: GertzbeinRobbins
 
 
 class NotEnteredMessage(Message):
-    """No part of the drill is past the bone's back, or within reach of the channel."""
+    """No part of the drill has entered the bone, or is within reach of the channel."""
 
     kind: Literal["not-entered"] = "not-entered"
 
 
-ClosestMessage = Annotated[NearestMessage | NotEnteredMessage, Field(discriminator="kind")]
+WallProximityMessage = Annotated[NearestWallMessage | NotEnteredMessage, Field(discriminator="kind")]
 
 
 class ClearanceMessage(Message):
-    """What is between the drill and the walls around it."""
+    """Clearance between the drill and the walls around it."""
 
-    against: MeasuredAgainst
+    against: WallSource
     """Which wall `now`, `soon` and `at_end` were measured against."""
-    now: ClosestMessage
-    soon: ClosestMessage
-    """When it is 2 mm further in its present direction."""
-    at_end: ClosestMessage
-    """The planned screw, when the present direction is kept to the planned depth."""
-    channel: ClosestMessage
-    """The drill as it is, against the planned cylinder's wall."""
+    now: WallProximityMessage
+    lookahead: WallProximityMessage
+    """With the drill advanced by 2 mm in its present direction."""
+    at_end: WallProximityMessage
+    """Of the planned screw, in the present direction to the planned depth."""
+    channel: WallProximityMessage
+    """Of the present drill, against the wall of the planned cylinder."""
     past_planned_mm: float
-    """How far the tip is past the planned depth; below 0 before it."""
+    """Depth of the tip past the planned depth; negative before it."""
 
 
 class ProbabilityMessage(Message):
-    """Probabilities, 0 to 1, that any part of the drill is through the wall."""
+    """Probabilities, 0 to 1, that any part of the drill breaches the wall."""
 
     now_ratio: float
-    soon_ratio: float
+    lookahead_ratio: float
     at_end_ratio: float
     at_end_grade_ratio: dict[GertzbeinRobbins, float]
     """Of each class at the end; they sum to 1."""
@@ -87,10 +87,10 @@ class ProbabilityMessage(Message):
 
 
 class SpreadMessage(Message):
-    """How far the true drill may be from the one that is shown; in the plan's frame."""
+    """Uncertainty of the drill's pose, in the plan's frame."""
 
     tip_ellipsoid_mm: list[list[float]]
-    """3 half axes of the ellipsoid that holds the tip in 95 %, the longest first."""
+    """3 half axes of the 95 % ellipsoid of the tip, the longest first."""
     cone_95_deg: float
     tip_sd_mm: float
     sd_angle_deg: float
@@ -100,20 +100,20 @@ class SpreadMessage(Message):
 
 
 class CertainMessage(Message):
-    """Whether that is little enough for this pedicle."""
+    """Whether the uncertainty is small enough for this pedicle."""
 
     enough: bool
     entry_95_mm: float | None
-    """The drill's line is within this of where it is shown, in 95 %; null when it is across the channel."""
+    """95 % bound of the drill axis's offset at the entry; null when it is across the channel."""
     isthmus_95_mm: float | None
-    room_mm: float
-    """What the pedicle leaves to an offset at the entry, for a drill that runs along the channel."""
-    room_deg: float
-    """What it leaves to an angle, for a drill that comes in on the axis."""
+    tolerance_mm: float
+    """Allowed offset at the entry, for a drill parallel to the channel."""
+    tolerance_deg: float
+    """Allowed angle, for a drill that enters on the axis."""
 
 
 class JudgementMessage(Message):
-    """Clearance, uncertainty, and what both mean together."""
+    """Clearance, uncertainty, and their conclusion."""
 
     kind: Literal["judgement"] = "judgement"
     clearance: ClearanceMessage
@@ -123,7 +123,7 @@ class JudgementMessage(Message):
 
 
 def deviation_message(deviation: Deviation | Absent) -> DeviationMessage | AbsentMessage:
-    """The message of a drill's deviation."""
+    """Return the message of a drill's deviation."""
     if isinstance(deviation, Absent):
         return absent_message(deviation)
     return DeviationMessage(
@@ -141,13 +141,13 @@ def deviation_message(deviation: Deviation | Absent) -> DeviationMessage | Absen
     )
 
 
-def judgement_message(judged: Judged | Absent) -> JudgementMessage | AbsentMessage:
-    """The message of all that is concluded of a drill."""
+def judgement_message(judged: DrillAnalysis | Absent) -> JudgementMessage | AbsentMessage:
+    """Return the message of a drill's clearance and uncertainty."""
     if isinstance(judged, Absent):
         return absent_message(judged)
     return JudgementMessage(
         clearance=_clearance(judged.clearance),
-        probability=_probability(judged.now, judged.soon, judged.at_end, judged.past_planned_ratio),
+        probability=_probability(judged.now, judged.lookahead, judged.at_end, judged.past_planned_ratio),
         spread=_spread(judged.spread),
         certain=_certain(judged.certain),
     )
@@ -157,17 +157,17 @@ def _clearance(clearance: DrillClearance) -> ClearanceMessage:
     return ClearanceMessage(
         against=clearance.against,
         now=_closest(clearance.now),
-        soon=_closest(clearance.soon),
+        lookahead=_closest(clearance.lookahead),
         at_end=_closest(clearance.at_end),
         channel=_closest(clearance.channel),
         past_planned_mm=clearance.past_planned_mm,
     )
 
 
-def _closest(closest: Closest) -> NearestMessage | NotEnteredMessage:
+def _closest(closest: WallProximity) -> NearestWallMessage | NotEnteredMessage:
     if isinstance(closest, NotEntered):
         return NotEnteredMessage()
-    return NearestMessage(
+    return NearestWallMessage(
         clearance_mm=closest.clearance_mm,
         wall=closest.wall,
         point_in_vertebra_mm=closest.point_in_vertebra_mm.tolist(),
@@ -176,18 +176,18 @@ def _closest(closest: Closest) -> NearestMessage | NotEnteredMessage:
 
 
 def _probability(
-    now: Probability, soon: Probability, at_end: Probability, past_planned_ratio: float
+    now: Probability, lookahead: Probability, at_end: Probability, past_planned_ratio: float
 ) -> ProbabilityMessage:
     return ProbabilityMessage(
         now_ratio=now.through_ratio,
-        soon_ratio=soon.through_ratio,
+        lookahead_ratio=lookahead.through_ratio,
         at_end_ratio=at_end.through_ratio,
         at_end_grade_ratio=dict(at_end.grade_ratio),
         past_planned_ratio=past_planned_ratio,
     )
 
 
-def _spread(spread: Spread) -> SpreadMessage:
+def _spread(spread: DrillUncertainty) -> SpreadMessage:
     return SpreadMessage(
         tip_ellipsoid_mm=spread.tip_ellipsoid_mm.tolist(),
         cone_95_deg=spread.cone_95_deg,
@@ -198,11 +198,11 @@ def _spread(spread: Spread) -> SpreadMessage:
     )
 
 
-def _certain(certain: Certain) -> CertainMessage:
+def _certain(certain: ToleranceCheck) -> CertainMessage:
     return CertainMessage(
         enough=certain.enough,
         entry_95_mm=finite(certain.entry_95_mm),
         isthmus_95_mm=finite(certain.isthmus_95_mm),
-        room_mm=certain.room_mm,
-        room_deg=certain.room_deg,
+        tolerance_mm=certain.tolerance_mm,
+        tolerance_deg=certain.tolerance_deg,
     )

@@ -1,4 +1,4 @@
-"""What is common to all messages."""
+"""Base class of all messages."""
 
 import math
 
@@ -6,11 +6,11 @@ from pydantic import BaseModel, ConfigDict
 
 
 class Message(BaseModel):
-    """Common to all messages: nothing unknown, nothing changed after it was made."""
+    """Base class of all messages: frozen, unknown fields are forbidden."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
 
 def finite(value: float) -> float | None:
-    """The number, or null where it is infinite or NaN: JSON has neither."""
+    """Return the number, or None where it is infinite or NaN, which JSON lacks."""
     return value if math.isfinite(value) else None

@@ -1,8 +1,8 @@
-"""What goes over the wire, and the one function that makes it from an instant.
+"""The live message, and the function that makes it from an instant.
 
-These models are the schema: OpenAPI has them through `GET /api/live`, and the page's types are generated
+These models are the wire schema: OpenAPI has them through `GET /api/live`, and the page's types are generated
 from there, so that a renamed field fails the build. The same message is sent as JSON on `/ws/live`, as the
-header of each image on `/ws/view`, and answered by `GET /api/live`.
+header of each image on `/ws/view`, and returned by `GET /api/live`.
 """
 
 from server.live import (
@@ -24,7 +24,7 @@ from server.texts import flicker_note, headline_of
 
 
 class ProblemMessage(Message):
-    """Errors have this shape everywhere."""
+    """The common shape of all errors."""
 
     code: str
     message: str
@@ -33,18 +33,18 @@ class ProblemMessage(Message):
 
 
 class CameraModeMessage(Message):
-    """How a camera gives its images."""
+    """Pixel format, size and rate of a camera."""
 
     fourcc: str
-    """Pixel format: "MJPG", "YUYV", "BayerRG8"; empty where it is not known."""
+    """Pixel format: "MJPG", "YUYV", "BayerRG8"; empty where unknown."""
     width_px: int
     height_px: int
     rate_hz: float
-    """0 where it is not known."""
+    """0 where unknown."""
 
 
 class CameraNoteMessage(Message):
-    """Something about the camera that is worth mending, and stops nothing."""
+    """A camera problem that can be improved, and stops nothing."""
 
     code: str
     message: TextMessage
@@ -52,17 +52,17 @@ class CameraNoteMessage(Message):
 
 
 class CameraStatusMessage(Message):
-    """What is known of a camera beside its images."""
+    """Status of a camera."""
 
     clock: ImageClock
-    """Whose clock says when an image was taken: the camera driver's, the camera's own, the stream's
-    sender's, the browser's of the phone that sends it, or this machine's at its arrival."""
-    asked: CameraModeMessage | None
+    """Clock of the capture times: the camera driver's, the camera's own, the stream's sender's, the browser's
+    of the phone that sends it, or this machine's at the arrival."""
+    requested: CameraModeMessage | None
     granted: CameraModeMessage | None
     controls: dict[str, int]
-    """Their values, in the driver's own units; without those that the camera does not have."""
+    """Control values, in the driver's units; only controls that the camera has."""
     note: CameraNoteMessage | None
-    """Lamps that flicker in its images; null while none do."""
+    """Lamps that flicker in its images; null without flicker."""
 
 
 class SourceMessage(Message):
@@ -75,7 +75,7 @@ class SourceMessage(Message):
     skipped_images: int
     rate_hz: float
     camera: CameraStatusMessage | None
-    """Null where images come from files or are rendered."""
+    """Null for files and rendered images."""
 
 
 class ProcessMessage(Message):
@@ -87,27 +87,27 @@ class ProcessMessage(Message):
 
 
 class LiveMessage(Message):
-    """What is true now."""
+    """The present state of capture, tracking and alarms."""
 
     sequence: int
-    """Grows by one with each instant; a gap is what this reader skipped."""
+    """Grows by one with each instant; a gap is what this client skipped."""
     sent_at_s: float
     """Monotonic clock of the server."""
     shown_scale_ratio: float
-    """Width and height of the picture that comes with this message, of those of the camera's image: 1, 0.5 or
-    0.25. All pixels in the message are those of the camera's image."""
+    """Scale of the picture that comes with this message, relative to the camera's image: 1, 0.5 or 0.25. All
+    pixels in the message are those of the camera's image."""
     source: SourceMessage
     process: ProcessMessage
     snapshot: SnapshotMessage | None
-    """Null before the first image and while capture or tracking is dead."""
+    """Null before the first image and while capture or tracking is down."""
     headline: HeadlineMessage
-    """Of this image, with the alarms beside it."""
+    """Of this image and its alarms."""
     alarms: AlarmsMessage
-    """With this image looked at."""
+    """Evaluated with this image."""
 
 
 def live_message(instant: Instant, *, now_s: float, shown_scale_ratio: float = 1.0) -> LiveMessage:
-    """The message of an instant, as sent at monotonic time `now_s` with a picture of this scale."""
+    """Return the message of an instant, sent at monotonic time `now_s` with a picture of this scale."""
     return LiveMessage(
         sequence=instant.sequence,
         sent_at_s=now_s,
@@ -123,7 +123,7 @@ def live_message(instant: Instant, *, now_s: float, shown_scale_ratio: float = 1
 
 
 def source_message(source: SourceStatus) -> SourceMessage:
-    """The message of the source of images."""
+    """Return the message of the source of images."""
     return SourceMessage(
         name=source.name,
         state=source.state,
@@ -140,7 +140,7 @@ def _camera_message(camera: CameraStatus | None) -> CameraStatusMessage | None:
         return None
     return CameraStatusMessage(
         clock=camera.clock,
-        asked=_mode_message(camera.asked),
+        requested=_mode_message(camera.requested),
         granted=_mode_message(camera.granted),
         controls={control.value: value for control, value in camera.controls.items()},
         note=_note_message(camera),
@@ -165,14 +165,14 @@ def _mode_message(mode: CameraMode | None) -> CameraModeMessage | None:
 
 
 def process_message(process: ProcessStatus) -> ProcessMessage:
-    """The message of the tracking process."""
+    """Return the message of the tracking process."""
     return ProcessMessage(
         state=process.state, restarts=process.restarts, problem=problem_message(process.problem)
     )
 
 
 def problem_message(problem: Problem | None) -> ProblemMessage | None:
-    """The message of something that is wrong, if anything is."""
+    """Return the message of a problem; None without one."""
     if problem is None:
         return None
     return ProblemMessage(

@@ -1,4 +1,4 @@
-"""What is shown when there is no image: a picture that says so, with the reason and the time."""
+"""The card that is shown without an image, with the reason and the time."""
 
 from datetime import datetime
 
@@ -6,51 +6,51 @@ from server.live import Instant, ProcessState, SourceState
 from server.overlay import draw_card, encode_jpeg
 
 TITLE = "NO VIDEO"
-USUAL_SIZE_WH_PX = (1280, 720)
+DEFAULT_SIZE_WH_PX = (1280, 720)
 CARD_QUALITY = 85
 
-PROCESS_WORDS = {
+PROCESS_TEXTS = {
     ProcessState.STARTING: "Tracking is starting.",
     ProcessState.RESTARTING: "Tracking has stopped and is being started again.",
     ProcessState.GIVEN_UP: "Tracking has stopped too often and is not started again.",
 }
-SOURCE_WORDS = {
+SOURCE_TEXTS = {
     SourceState.OPENING: "The source of images is being opened.",
     SourceState.RECONNECTING: "The source of images has stopped and is tried again.",
-    SourceState.ENDED: "The source of images has come to its end.",
+    SourceState.ENDED: "The source of images has ended.",
     SourceState.RUNNING: "Waiting for the first image.",
 }
 
 
 def reasons_for_no_video(instant: Instant | None, *, now_s: float) -> tuple[str, ...]:
-    """Why there is no image, in sentences: what is wrong, and what to do.
+    """Return in sentences why there is no image: the problem, and what to do.
 
-    Given an instant with a snapshot, its image is meant to be too old.
+    The image of an instant with a snapshot is assumed to be too old.
     """
     if instant is None:
-        return (PROCESS_WORDS[ProcessState.STARTING],)
+        return (PROCESS_TEXTS[ProcessState.STARTING],)
     for part in (instant.process, instant.source):
         if part.problem is not None:
             return f"{_upper_first(part.problem.message)}.", part.problem.remedy
-    if instant.process.state in PROCESS_WORDS:
-        return (PROCESS_WORDS[instant.process.state],)
+    if instant.process.state in PROCESS_TEXTS:
+        return (PROCESS_TEXTS[instant.process.state],)
     if instant.snapshot is not None and instant.source.state is SourceState.RUNNING:
-        # Whole seconds, so that the card is made once a second for all.
+        # Whole seconds, so that the card is made once a second for all viewers.
         age_s = int(now_s - instant.snapshot.captured_at_s)
         return (f"No new image for {age_s} s." if age_s >= 1 else "No new image.",)
-    return (SOURCE_WORDS[instant.source.state],)
+    return (SOURCE_TEXTS[instant.source.state],)
 
 
 class NoVideoCard:
-    """Makes the card once for all viewers, and again when it has to say something else."""
+    """Makes the card once for all viewers, and again when its text changes."""
 
     def __init__(self) -> None:
         self._key: tuple[object, ...] = ()
         self._jpeg = b""
-        self._size_wh_px = USUAL_SIZE_WH_PX
+        self._size_wh_px = DEFAULT_SIZE_WH_PX
 
     def jpeg(self, instant: Instant | None, *, now_s: float, clock: datetime) -> bytes:
-        """The card for this instant, in the size of the last image, with the time of day."""
+        """Return the card for this instant, in the size of the last image, with the time of day."""
         if instant is not None and instant.snapshot is not None:
             self._size_wh_px = instant.snapshot.size_wh_px
         lines = (*reasons_for_no_video(instant, now_s=now_s), clock.strftime("%H:%M:%S"))

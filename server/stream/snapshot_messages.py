@@ -1,11 +1,11 @@
-"""One image and all that was concluded from it, as it goes over the wire."""
+"""Message of one image and its navigation results."""
 
 from collections.abc import Mapping
 from typing import Annotated
 
 from pydantic import Field
 
-from server.stream.along_messages import AlongMessage, along_message
+from server.stream.along_messages import BullseyeMessage, bullseye_message
 from server.stream.assessment_messages import AssessmentMessage, assessment_message
 from server.stream.judgement_messages import (
     DeviationMessage,
@@ -14,7 +14,7 @@ from server.stream.judgement_messages import (
     judgement_message,
 )
 from server.stream.message import Message
-from server.stream.place_messages import (
+from server.stream.pose_messages import (
     AbsentMessage,
     MarkerMessage,
     ToolMessage,
@@ -26,17 +26,17 @@ from server.stream.place_messages import (
 from tracker.navigation import (
     Absent,
     AbsentReason,
-    MovesSeen,
+    MotionDetection,
+    MotionState,
     NavigationSnapshot,
-    Watched,
-    moves_seen_by,
+    motion_detected_by,
 )
-from tracker.navigation.watch import NeverSeen, SceneState
+from tracker.navigation.monitoring import NeverSeen, SceneState
 from tracker.registration import AnchoredTo, Method
 
 
 class ToolStateMessage(Message):
-    """One tool by name: where it is, how far from the channel, what that means, and the figures as shown."""
+    """One tool by name: pose, deviation from the channel, conclusion, and displayed figures."""
 
     name: str
     marker: str
@@ -44,49 +44,49 @@ class ToolStateMessage(Message):
     deviation: Annotated[DeviationMessage | AbsentMessage, Field(discriminator="kind")]
     judgement: Annotated[JudgementMessage | AbsentMessage, Field(discriminator="kind")]
     assessment: Annotated[AssessmentMessage | AbsentMessage, Field(discriminator="kind")]
-    along: AlongMessage | None
-    """The drill in the view along the channel; null where there is no deviation."""
+    along: BullseyeMessage | None
+    """View of the drill along the channel; null without a deviation."""
 
 
-class WatchMessage(Message):
-    """What holds plan and patient together, and whether something moved."""
+class MotionMonitorMessage(Message):
+    """State of the motion monitor: whether patient, camera or reference moved."""
 
-    moves_seen_by: MovesSeen
-    """By what a move of patient or camera is noticed."""
+    motion_detected_by: MotionDetection
+    """What detects a move of patient or camera."""
     camera_moved: bool
-    """Since the registration; another one takes it back."""
+    """Since the registration; a new registration resets it."""
     reference_moved: bool
-    """Since the registration; a check on anatomy takes it back."""
+    """Since the registration; a check on anatomy resets it."""
     scene: SceneState
-    """What stands still around the field of work, and what it says of the camera."""
+    """State of the static background around the field of work, and the camera motion seen in it."""
 
 
 class SnapshotMessage(Message):
-    """One image and all that was concluded from it."""
+    """One image and its navigation results."""
 
     image_number: int
     captured_at_s: float
     """Monotonic clock of the server."""
     age_ms: float
-    """From the grab to the moment this message was made."""
+    """From the capture to the making of this message."""
     width_px: int
     height_px: int
     camera_calibrated: bool
     registered_by: Method | None
-    """How plan and patient were registered; null when they are not."""
+    """Registration method; null without a registration."""
     anchored_to: AnchoredTo | None
-    """What that is fixed to; null when they are not registered."""
+    """What the registration is fixed to; null without one."""
     reference: str | None
-    """The marker on the patient; null where there is none."""
+    """The reference marker on the patient; null without one."""
     channel_name: str | None
     withheld: AbsentReason | None
-    """Why no number is given although all is known, as NOT_CONFIRMED after a start; null otherwise."""
+    """Why no number is given although all is known, as NOT_CONFIRMED after a restart; null otherwise."""
     vertebra: Annotated[VertebraMessage | AbsentMessage, Field(discriminator="kind")]
-    watched: WatchMessage
+    motion: MotionMonitorMessage
     markers: list[MarkerMessage]
     tools: list[ToolStateMessage]
-    shown_tool: str | None
-    """Whose figures are shown: of those that have any, the most severe verdict; null where none has."""
+    displayed_tool: str | None
+    """The tool whose figures are displayed: the one with the most severe verdict; null without any."""
     stage_ms: dict[str, float]
     """Time of each stage, of the tracking process and of the server."""
     skipped_images: int
@@ -95,7 +95,7 @@ class SnapshotMessage(Message):
 def snapshot_message(
     snapshot: NavigationSnapshot, server_ms: Mapping[str, float], *, now_s: float
 ) -> SnapshotMessage:
-    """The message of a snapshot, as sent at monotonic time `now_s`."""
+    """Return the message of a snapshot, sent at monotonic time `now_s`."""
     setup, registration = snapshot.setup, snapshot.setup.registration
     return SnapshotMessage(
         image_number=snapshot.image_number,
@@ -110,18 +110,18 @@ def snapshot_message(
         channel_name=None if isinstance(setup.channel, Absent) else setup.channel.name,
         withheld=setup.withheld,
         vertebra=vertebra_message(snapshot.vertebra),
-        watched=_watched(snapshot),
+        motion=_watched(snapshot),
         markers=[
             marker_message(
                 name,
                 sighting,
-                unseen_s=_unseen_s(snapshot.watched, name),
+                unseen_s=_unseen_s(snapshot.motion, name),
                 calibrated=setup.camera_calibrated,
             )
             for name, sighting in snapshot.sightings.items()
         ],
         tools=[_tool_state(snapshot, name) for name in snapshot.tools],
-        shown_tool=snapshot.shown_tool or None,
+        displayed_tool=snapshot.displayed_tool or None,
         stage_ms={**snapshot.stage_ms, **server_ms},
         skipped_images=snapshot.skipped_images,
     )
@@ -133,22 +133,22 @@ def _tool_state(snapshot: NavigationSnapshot, name: str) -> ToolStateMessage:
         marker=snapshot.setup.tools[name].marker,
         pose=tool_message(snapshot.tools[name]),
         deviation=deviation_message(snapshot.deviations[name]),
-        judgement=judgement_message(snapshot.judgements[name]),
+        judgement=judgement_message(snapshot.analyses[name]),
         assessment=assessment_message(snapshot.assessments[name]),
-        along=along_message(snapshot, name),
+        along=bullseye_message(snapshot, name),
     )
 
 
-def _watched(snapshot: NavigationSnapshot) -> WatchMessage:
-    watched = snapshot.watched
-    return WatchMessage(
-        moves_seen_by=moves_seen_by(snapshot),
-        camera_moved=watched.camera_moved,
-        reference_moved=watched.reference_moved,
-        scene=watched.scene,
+def _watched(snapshot: NavigationSnapshot) -> MotionMonitorMessage:
+    motion = snapshot.motion
+    return MotionMonitorMessage(
+        motion_detected_by=motion_detected_by(snapshot),
+        camera_moved=motion.camera_moved,
+        reference_moved=motion.reference_moved,
+        scene=motion.scene,
     )
 
 
-def _unseen_s(watched: Watched, marker: str) -> float | None:
-    age_s = watched.unseen_s.get(marker)
+def _unseen_s(motion: MotionState, marker: str) -> float | None:
+    age_s = motion.unseen_s.get(marker)
     return None if age_s is None or isinstance(age_s, NeverSeen) else age_s

@@ -1,4 +1,4 @@
-"""What the WebSockets have in common: one task speaks, one listens, and who misbehaves is told why."""
+"""Common parts of the WebSockets: a sending and a receiving task, and limits for client messages."""
 
 import asyncio
 import contextlib
@@ -6,21 +6,21 @@ from collections.abc import Callable, Coroutine
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from server.stream.connection import line_of
+from server.stream.connection import connection_of
 from server.stream.errors import TooManyViewers
-from server.stream.race import until_one_ends
+from server.stream.tasks import run_until_first_ends
 from server.stream.viewers import Stalled, Viewers
 
-LARGEST_MESSAGE_BYTES = 1024
-MESSAGES_A_SECOND = 240
+MAX_MESSAGE_BYTES = 1024
+MAX_MESSAGES_PER_SECOND = 240
 
 REJECTED, TOO_LARGE, TRY_LATER = 1008, 1009, 1013
-# A farewell holds no more than 123 bytes.
-LONGEST_REASON = 120
+# The reason of a close frame has at most 123 bytes.
+MAX_REASON_BYTES = 120
 
 
-class Misbehaviour(Exception):
-    """A client sent what it may not; it is told this, and goes."""
+class ProtocolViolation(Exception):
+    """A client sent what it may not; the connection is closed with this code and reason."""
 
     def __init__(self, code: int, reason: str) -> None:
         super().__init__(reason)
@@ -28,47 +28,47 @@ class Misbehaviour(Exception):
         self.reason = reason
 
 
-async def converse(
+async def run_duplex(
     websocket: WebSocket,
     viewers: Viewers,
     *,
-    speak: Callable[[], Coroutine[None, None, None]],
-    hear: Callable[[str], None],
+    send: Callable[[], Coroutine[None, None, None]],
+    receive_text: Callable[[str], None],
 ) -> None:
-    """Run both directions of an accepted socket until the client goes, misbehaves or stalls.
+    """Run both directions of an accepted socket until the client disconnects, misbehaves or stalls.
 
     Args:
         websocket: accepted already.
-        viewers: knows how long one sending may take.
-        speak: sends for ever; Stalled ends the line.
-        hear: takes one text message of at most 1 kB.
+        viewers: has the timeout of one send.
+        send: sends forever; Stalled ends the connection.
+        receive_text: handles one text message of at most 1 kB.
     """
     try:
-        await until_one_ends(speak(), _listen(websocket, hear))
+        await run_until_first_ends(send(), _listen(websocket, receive_text))
     except WebSocketDisconnect:
         return
-    except Misbehaviour as told:
+    except ProtocolViolation as violation:
         with contextlib.suppress(Stalled, WebSocketDisconnect, RuntimeError):
-            await viewers.send(websocket.close(told.code, told.reason), None)
+            await viewers.send(websocket.close(violation.code, violation.reason), None)
     except Stalled:
-        line = line_of(websocket.scope)
-        if line is not None:
-            # A word of farewell would wait behind what the client does not take.
-            line.cut()
+        connection = connection_of(websocket.scope)
+        if connection is not None:
+            # A close frame would wait behind what the client does not read.
+            connection.abort()
         else:
             with contextlib.suppress(Stalled, WebSocketDisconnect, RuntimeError):
                 await viewers.send(websocket.close(TRY_LATER, "too slow"), None)
         raise
 
 
-async def turn_away(websocket: WebSocket, full: TooManyViewers) -> None:
-    """Say to an accepted socket that there is no place for it: before that, a browser shows no page why."""
+async def reject_viewer(websocket: WebSocket, full: TooManyViewers) -> None:
+    """Close an accepted socket, with the reason: before accepting, a browser gives a page no reason."""
     with contextlib.suppress(WebSocketDisconnect, RuntimeError):
-        await websocket.close(TRY_LATER, full.message[:LONGEST_REASON])
+        await websocket.close(TRY_LATER, full.message[:MAX_REASON_BYTES])
 
 
-async def _listen(websocket: WebSocket, hear: Callable[[str], None]) -> None:
-    """Hand on what comes, as long as it is small, text, and not too much of it."""
+async def _listen(websocket: WebSocket, receive_text: Callable[[str], None]) -> None:
+    """Pass on text messages within the limits of size and rate."""
     loop = asyncio.get_running_loop()
     second, in_second = loop.time(), 0
     while True:
@@ -77,12 +77,14 @@ async def _listen(websocket: WebSocket, hear: Callable[[str], None]) -> None:
             raise WebSocketDisconnect(message.get("code", 1005))
         text = message.get("text")
         if text is None:
-            raise Misbehaviour(REJECTED, "only text messages are understood")
-        if len(text) > LARGEST_MESSAGE_BYTES:
-            raise Misbehaviour(TOO_LARGE, f"messages may have at most {LARGEST_MESSAGE_BYTES} characters")
+            raise ProtocolViolation(REJECTED, "only text messages are accepted")
+        if len(text) > MAX_MESSAGE_BYTES:
+            raise ProtocolViolation(TOO_LARGE, f"messages may have at most {MAX_MESSAGE_BYTES} characters")
         if loop.time() - second >= 1.0:
             second, in_second = loop.time(), 0
         in_second += 1
-        if in_second > MESSAGES_A_SECOND:
-            raise Misbehaviour(REJECTED, f"at most {MESSAGES_A_SECOND} messages a second are taken")
-        hear(text)
+        if in_second > MAX_MESSAGES_PER_SECOND:
+            raise ProtocolViolation(
+                REJECTED, f"at most {MAX_MESSAGES_PER_SECOND} messages a second are taken"
+            )
+        receive_text(text)

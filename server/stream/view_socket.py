@@ -1,4 +1,4 @@
-"""`WS /ws/view`: image and pose of one instant in one message, each asked for by the client.
+"""`WS /ws/view`: image and pose of one instant in one message, each requested by the client.
 
 The client sends `{"next": true}` and gets one binary message:
 
@@ -6,14 +6,15 @@ The client sends `{"next": true}` and gets one binary message:
     header     a `LiveMessage` as JSON, UTF-8
     the rest   the JPEG of that same instant; empty when there is no image
 
-Then it may ask again. So one image is on the way at a time, and a thin line carries fewer images instead of
-older ones. A second `{"next": true}` before the answer changes nothing. `{"next": true, "showing_ms": 12}`
-also says how long the client needed to show the last image: that time does not count against its line.
-`{"size": "half"}` asks for another size from the next image on: full, half, quarter, or auto for the one that
-the line carries. `{"largest": "half"}`: with auto, send none larger, because the client cannot show it.
+Then it may send the next request. So one image is in flight at a time, and a slow connection gets fewer
+images instead of older ones. A second `{"next": true}` before the answer has no effect. `{"next": true,
+"showing_ms": 12}` also reports how long the client needed to display the last image: that time does not count
+against its connection. `{"size": "half"}` requests another size from the next image on: full, half, quarter,
+or auto for the one that suits the connection. `{"largest": "half"}`: with auto, send none larger, because the
+client cannot display it.
 
-Picture and pose cannot belong to different images, and the client sets the rate. MJPEG has neither, and
-browsers show a part only when the next one begins; it remains for programs that show pictures only.
+Picture and pose cannot belong to different images, and the client sets the rate. MJPEG has neither property,
+and browsers display a part only when the next one begins; it remains for programs that show pictures only.
 """
 
 import asyncio
@@ -27,131 +28,134 @@ from starlette.websockets import WebSocket
 
 from server.live import Instant, LiveHub
 from server.security import person_of
-from server.stream.connection import line_of
+from server.stream.connection import connection_of
 from server.stream.errors import TooManyViewers
-from server.stream.fitting.pictures import Pictures
-from server.stream.fitting.sizes import Choice, Size
-from server.stream.fitting.texts import Texts
-from server.stream.socket import REJECTED, Misbehaviour, converse, turn_away
+from server.stream.scaling.message_cache import MessageCache
+from server.stream.scaling.picture_cache import PictureCache
+from server.stream.scaling.sizes import PictureSize, SizeChoice
+from server.stream.socket import REJECTED, ProtocolViolation, reject_viewer, run_duplex
 from server.stream.viewers import Viewer, ViewerKind, Viewers
 
 HEADER_LENGTH = struct.Struct("<I")
-GRANT = {"next": True}
-UNDERSTOOD = (
-    'only {"next": true, "showing_ms"?: 0 or more}, {"size": ...} and {"largest": ...} are understood'
+NEXT_REQUEST = {"next": True}
+EXPECTED_MESSAGES = (
+    'only {"next": true, "showing_ms"?: 0 or more}, {"size": ...} and {"largest": ...} are accepted'
 )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class View:
-    """What all who watch in this way have in common.
+class ViewContext:
+    """Shared parts of all connections.
 
     Attributes:
-        hub: where the newest instant is.
-        viewers: who watches.
+        hub: has the newest instant.
+        viewers: registry of viewers.
         pictures, texts: of each instant, made once for all.
     """
 
     hub: LiveHub
     viewers: Viewers
-    pictures: Pictures
-    texts: Texts
+    pictures: PictureCache
+    texts: MessageCache
 
 
-class Granting:
-    """What the client allows and wants.
+class ViewRequests:
+    """Requests of the client.
 
     Attributes:
-        granted: whether the next image may be sent.
-        at_s: when that was said last; monotonic.
-        showing_s: how long the client says that it needed to show the last image.
+        requested: set while the next image may be sent.
+        at_s: time of the last request, monotonic.
+        showing_s: time that the client reported for displaying the last image.
     """
 
     def __init__(self, viewer: Viewer) -> None:
         self._viewer = viewer
-        self.granted = asyncio.Event()
+        self.requested = asyncio.Event()
         self.at_s = 0.0
         self.showing_s = 0.0
 
-    def hear(self, text: str) -> None:
-        """One message of the client.
+    def receive_text(self, text: str) -> None:
+        """Handle one message of the client.
 
         Raises:
-            Misbehaviour: it is not understood.
+            ProtocolViolation: it is invalid.
         """
         try:
-            said = json.loads(text)
+            message = json.loads(text)
         except (ValueError, RecursionError):
-            said = None
-        if not isinstance(said, dict):
-            raise Misbehaviour(REJECTED, UNDERSTOOD)
-        if list(said) == ["size"] and said["size"] in list(Choice):
-            self._viewer.pace.choose(Choice(said["size"]))
-        elif list(said) == ["largest"] and said["largest"] in list(Size):
-            self._viewer.pace.limit(Size(said["largest"]))
-        elif said.pop("next", None) is True and (showing_ms := _showing_ms(said)) is not None:
+            message = None
+        if not isinstance(message, dict):
+            raise ProtocolViolation(REJECTED, EXPECTED_MESSAGES)
+        if list(message) == ["size"] and message["size"] in list(SizeChoice):
+            self._viewer.adaptive_size.choose(SizeChoice(message["size"]))
+        elif list(message) == ["largest"] and message["largest"] in list(PictureSize):
+            self._viewer.adaptive_size.limit(PictureSize(message["largest"]))
+        elif message.pop("next", None) is True and (showing_ms := _showing_ms(message)) is not None:
             self.at_s, self.showing_s = time.monotonic(), showing_ms / 1000.0
-            self.granted.set()
+            self.requested.set()
         else:
-            raise Misbehaviour(REJECTED, UNDERSTOOD)
+            raise ProtocolViolation(REJECTED, EXPECTED_MESSAGES)
 
-    def line_free_at_s(self, *, drained_at_s: float) -> float:
-        """When the line had carried the last image; monotonic.
+    def connection_free_at_s(self, *, drained_at_s: float) -> float:
+        """Return when the connection had delivered the last image, monotonic.
 
-        That is before the client began to show it, and not before its last byte had left this machine.
+        That is before the client began to display it, and not before its last byte had left this machine.
         """
         return min(self.at_s, max(drained_at_s, self.at_s - self.showing_s))
 
 
 def _showing_ms(rest: dict[str, object]) -> float | None:
-    """How long the client says that it needed, 0 where it says nothing; None for what is not understood."""
+    """Return the reported display time, 0 without one; None for an invalid message."""
     showing_ms = rest.pop("showing_ms", 0.0)
     if rest or isinstance(showing_ms, bool) or not isinstance(showing_ms, int | float):
         return None
     return float(showing_ms) if math.isfinite(showing_ms) and showing_ms >= 0.0 else None
 
 
-async def view_message(view: View, instant: Instant, viewer: Viewer) -> bytes:
-    """Header length, header and JPEG of one instant, in the size that this viewer has now."""
-    size = viewer.pace.size
+async def view_message(view: ViewContext, instant: Instant, viewer: Viewer) -> bytes:
+    """Return header length, header and JPEG of one instant, in the viewer's present size."""
+    size = viewer.adaptive_size.size
     jpeg = await view.pictures.of(instant, size)
     header = view.texts.of(instant, size=size, now_s=time.monotonic()).encode()
     return b"".join((HEADER_LENGTH.pack(len(header)), header, jpeg))
 
 
-async def watch_view(websocket: WebSocket, view: View, *, choice: Choice = Choice.AUTO) -> None:
-    """Answer each grant of the client with the newest instant that it has not had, until it goes.
+async def watch_view(
+    websocket: WebSocket, view: ViewContext, *, choice: SizeChoice = SizeChoice.AUTO
+) -> None:
+    """Answer each request of the client with the newest instant that it has not had, until it disconnects.
 
-    One that grants but takes nothing for 2 s is cut off; one that sends anything else is closed with 1008.
+    A client that requests but reads nothing for 2 s is disconnected; one that sends anything else is closed
+    with 1008.
     """
     await websocket.accept()
     try:
-        with view.viewers.watching(ViewerKind.VIEW, choice, person=person_of(websocket.scope)) as viewer:
+        with view.viewers.register(ViewerKind.VIEW, choice, person=person_of(websocket.scope)) as viewer:
             await _show(websocket, view, viewer)
     except TooManyViewers as full:
-        await turn_away(websocket, full)
+        await reject_viewer(websocket, full)
 
 
-async def _show(websocket: WebSocket, view: View, viewer: Viewer) -> None:
-    line, granting = line_of(websocket.scope), Granting(viewer)
+async def _show(websocket: WebSocket, view: ViewContext, viewer: Viewer) -> None:
+    connection, requests = connection_of(websocket.scope), ViewRequests(viewer)
 
-    async def speak() -> None:
+    async def send() -> None:
         began_s: float | None = None
         drained_at_s = 0.0
         while True:
-            await granting.granted.wait()
+            await requests.requested.wait()
             newest = view.hub.newest
             if began_s is not None and newest is not None:
-                # Until the client asks again, but for what it needed itself: that is not its line's.
+                # Until the next request, minus the client's own display time, which is not the connection's.
                 missed = max(0, newest.sequence - viewer.sequence - 1)
-                free_at_s = granting.line_free_at_s(drained_at_s=drained_at_s)
-                viewer.pace.sent(began_s=began_s, ended_s=free_at_s, missed=missed)
+                free_at_s = requests.connection_free_at_s(drained_at_s=drained_at_s)
+                viewer.adaptive_size.sent(began_s=began_s, ended_s=free_at_s, missed=missed)
             instant = await view.hub.next_after(viewer.sequence)
-            granting.granted.clear()
-            viewer.took(instant.sequence)
+            requests.requested.clear()
+            viewer.mark_taken(instant.sequence)
             content = await view_message(view, instant, viewer)
             began_s = time.monotonic()
-            await view.viewers.send(websocket.send_bytes(content), line)
+            await view.viewers.send(websocket.send_bytes(content), connection)
             drained_at_s = time.monotonic()
 
-    await converse(websocket, view.viewers, speak=speak, hear=granting.hear)
+    await run_duplex(websocket, view.viewers, send=send, receive_text=requests.receive_text)

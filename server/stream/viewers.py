@@ -1,4 +1,4 @@
-"""Who watches, and what they missed."""
+"""Viewers, and the instants that they skipped."""
 
 import asyncio
 from collections.abc import Awaitable, Iterator
@@ -8,22 +8,22 @@ from enum import StrEnum
 
 import structlog
 
-from server.security import ANYBODY, Person, Role
-from server.stream.connection import Line
+from server.security import LOCAL_USER, Person, Role
+from server.stream.connection import Connection
 from server.stream.errors import TooManyViewers
-from server.stream.fitting.pace import Pace
-from server.stream.fitting.sizes import Choice
+from server.stream.scaling.adaptive_size import AdaptiveSize
+from server.stream.scaling.sizes import SizeChoice
 
 _log = structlog.get_logger(__name__)
 
-MAX_A_PERSON = 8
-# Of so many places one is kept for those without whom nothing goes on in theatre.
-PLACES_A_KEPT_ONE = 8
-KEPT_FOR = frozenset({Role.OPERATOR, Role.SCREEN})
+MAX_PER_PERSON = 8
+# Of this many places one is reserved for the roles that theatre needs.
+PLACES_PER_RESERVED_ONE = 8
+RESERVED_FOR = frozenset({Role.OPERATOR, Role.SCREEN})
 
 
 class ViewerKind(StrEnum):
-    """The ways to watch."""
+    """Kinds of connections."""
 
     MJPEG = "mjpeg"
     LIVE = "live"
@@ -32,86 +32,88 @@ class ViewerKind(StrEnum):
     SCENE = "scene"
 
 
-# Each of these ways has places of its own: it takes no picture from anybody. All others share theirs.
-APART = frozenset({ViewerKind.ROOM, ViewerKind.SCENE})
+# Each of these kinds has its own limit: it carries no video. All others share one.
+SEPARATE_KINDS = frozenset({ViewerKind.ROOM, ViewerKind.SCENE})
 
 
 @dataclass(slots=True, eq=False)
 class Viewer:
-    """One who watches.
+    """One viewer.
 
     Attributes:
-        kind: by which way.
-        person: who it is; `ANYBODY` where nobody signs in.
-        sequence: of the last instant taken, -1 before the first.
-        dropped: how many instants it skipped, because it was slower than they came.
-        pace: in which size its pictures go out.
+        kind: kind of its connection.
+        person: the person; `LOCAL_USER` where sign-in is off.
+        sequence: sequence of the last instant sent, -1 before the first.
+        dropped: number of instants that it skipped because it was too slow.
+        adaptive_size: size of its pictures.
     """
 
     kind: ViewerKind
-    person: Person = ANYBODY
+    person: Person = LOCAL_USER
     sequence: int = -1
     dropped: int = 0
-    pace: Pace = field(default_factory=Pace)
+    adaptive_size: AdaptiveSize = field(default_factory=AdaptiveSize)
 
-    def took(self, sequence: int) -> None:
-        """Note that this instant goes to the viewer now."""
+    def mark_taken(self, sequence: int) -> None:
+        """Record that this instant is sent to the viewer now."""
         if self.sequence >= 0:
             self.dropped += max(0, sequence - self.sequence - 1)
         self.sequence = sequence
 
 
 class Stalled(Exception):
-    """Nothing could be sent to a viewer for too long."""
+    """Nothing could be sent to a viewer within the timeout."""
 
 
 class Viewers:
-    """All who watch now, and sums over those who went. Used in one event loop only."""
+    """All present viewers, and counters over past ones. For one event loop."""
 
-    def __init__(self, *, most: int = 64, send_timeout_s: float = 2.0) -> None:
+    def __init__(self, *, maximum: int = 64, send_timeout_s: float = 2.0) -> None:
         self.send_timeout_s = send_timeout_s
-        self._max = most
+        self._max = maximum
         self._watching: list[Viewer] = []
         self._dropped_by_gone = dict.fromkeys(ViewerKind, 0)
-        self._let_go = dict.fromkeys(ViewerKind, 0)
+        self._disconnected = dict.fromkeys(ViewerKind, 0)
 
     @contextmanager
-    def watching(
-        self, kind: ViewerKind, choice: Choice = Choice.AUTO, *, person: Person = ANYBODY
+    def register(
+        self, kind: ViewerKind, choice: SizeChoice = SizeChoice.AUTO, *, person: Person = LOCAL_USER
     ) -> Iterator[Viewer]:
-        """One more watches, for the time of the block; a stall ends it quietly, and is counted.
+        """Register a viewer for the duration of the block; a stall ends it without an error, and is counted.
 
         Raises:
-            TooManyViewers: as many watch as are allowed, or as one person may; then no place is taken.
+            TooManyViewers: the maximum, or that of one person, is reached.
         """
         self._reject(kind, person)
-        viewer = Viewer(kind, person=person, pace=Pace(choice))
+        viewer = Viewer(kind, person=person, adaptive_size=AdaptiveSize(choice))
         self._watching.append(viewer)
         try:
             yield viewer
         except Stalled:
-            self._let_go[kind] += 1
-            _log.info("viewer_let_go", kind=kind, blocked_s=self.send_timeout_s, dropped=viewer.dropped)
+            self._disconnected[kind] += 1
+            _log.info("viewer_disconnected", kind=kind, blocked_s=self.send_timeout_s, dropped=viewer.dropped)
         finally:
             self._watching.remove(viewer)
             self._dropped_by_gone[kind] += viewer.dropped
 
     def _reject(self, kind: ViewerKind, person: Person) -> None:
-        ways = {kind} if kind in APART else set(ViewerKind) - APART
+        ways = {kind} if kind in SEPARATE_KINDS else set(ViewerKind) - SEPARATE_KINDS
         same = [one for one in self._watching if one.kind in ways]
         own = sum(one.person.id == person.id for one in same)
-        most = self._max - (0 if person.role in KEPT_FOR else self._max // PLACES_A_KEPT_ONE)
+        maximum = self._max - (0 if person.role in RESERVED_FOR else self._max // PLACES_PER_RESERVED_ONE)
         error = None
-        if len(same) >= most:
-            error = TooManyViewers(len(same), most)
-        elif person != ANYBODY and own >= MAX_A_PERSON:
-            error = TooManyViewers(own, MAX_A_PERSON, person.name)
+        if len(same) >= maximum:
+            error = TooManyViewers(len(same), maximum)
+        elif person != LOCAL_USER and own >= MAX_PER_PERSON:
+            error = TooManyViewers(own, MAX_PER_PERSON, person.name)
         if error is not None:
-            _log.warning("viewer_rejected", kind=kind, by=person.name, watching=len(same), own=own, most=most)
+            _log.warning(
+                "viewer_rejected", kind=kind, by=person.name, watching=len(same), own=own, maximum=maximum
+            )
             raise error
 
-    async def send(self, sending: Awaitable[None], line: Line | None) -> None:
-        """Send something, and wait until the line has taken it, for as long as one sending may take.
+    async def send(self, sending: Awaitable[None], connection: Connection | None) -> None:
+        """Send, and wait until the connection has taken it, within the timeout.
 
         Raises:
             Stalled: nothing went for that long, or the whole needed several times as long.
@@ -119,20 +121,20 @@ class Viewers:
         try:
             async with asyncio.timeout(self.send_timeout_s):
                 await sending
-            if line is not None:
-                await line.drained(patience_s=self.send_timeout_s)
+            if connection is not None:
+                await connection.drained(timeout_s=self.send_timeout_s)
         except TimeoutError as error:
             raise Stalled from error
 
     def count(self, kind: ViewerKind) -> int:
-        """How many watch by this way now."""
+        """Return the present number of viewers of this kind."""
         return sum(viewer.kind is kind for viewer in self._watching)
 
     def dropped(self, kind: ViewerKind) -> int:
-        """How many instants viewers of this kind skipped since the start."""
+        """Return how many instants viewers of this kind have skipped since the start."""
         now = sum(viewer.dropped for viewer in self._watching if viewer.kind is kind)
         return self._dropped_by_gone[kind] + now
 
-    def let_go(self, kind: ViewerKind) -> int:
-        """How many viewers of this kind were let go because they were stalled."""
-        return self._let_go[kind]
+    def disconnected(self, kind: ViewerKind) -> int:
+        """Return how many viewers of this kind were disconnected because they stalled."""
+        return self._disconnected[kind]

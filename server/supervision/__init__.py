@@ -1,20 +1,21 @@
-"""Who watches, what they point at, draw and sign, and whether they ask to hold. Nothing here moves anything.
+"""Presence, marks, hold requests and co-signatures of the people who watch. Nothing here moves anything.
 
-people.py        who is here, each person once, and how their line does
-marks.py         pointers and drawings, in pixels of the image that they were made on
-room.py          both together, with what each may do; pure: time is handed in
-told.py          what one connection has been told, so that it is told only what is new
-lobby.py         the room with its clock, and who waits for news
-holds.py         who asks to hold
-asked.py         the same on the disk, so that a start of the server forgets nobody
-signatures.py    co-signatures of plan and registration
+participants.py     who is present, each person once, and the state of their connection
+marks.py            pointers and drawings, in pixels of the image that they were made on
+room.py             both together, with the rules for each role; pure: time is passed in
+room_updates.py     the state already sent to one connection, so that only changes are sent
+room_hub.py         the room with its clock and its subscribers
+token_bucket.py     rate limit of one page
+hold_requests.py    who requests a hold
+hold_storage.py     the same on the disk, so that it survives a restart
+signatures.py       co-signatures of plan and registration
 """
 
-from server.supervision.asked import HoldsFile
-from server.supervision.holds import Holds
-from server.supervision.lobby import Lobby
-from server.supervision.people import View
-from server.supervision.room import Unfair
-from server.supervision.signatures import SignatureDesk
+from server.supervision.hold_requests import HoldRequests
+from server.supervision.hold_storage import HoldRequestFile
+from server.supervision.participants import View
+from server.supervision.room import RoomPolicyViolation
+from server.supervision.room_hub import RoomHub
+from server.supervision.signatures import SignatureService
 
-__all__ = ["Holds", "HoldsFile", "Lobby", "SignatureDesk", "Unfair", "View"]
+__all__ = ["HoldRequestFile", "HoldRequests", "RoomHub", "RoomPolicyViolation", "SignatureService", "View"]

@@ -1,6 +1,6 @@
-"""Pointers and drawings on the picture; each belongs to the image that it was made on, and goes with it.
+"""Pointers and drawings on the video image; each belongs to one image, and expires with it.
 
-Marks are kept nowhere but as lines in the log; they do not outlast the process.
+Marks are kept in memory only, with one line each in the log; they do not survive the process.
 """
 
 from collections.abc import Sequence
@@ -12,15 +12,15 @@ from server.security import Person
 
 Pixel: TypeAlias = tuple[float, float]
 
-# A pointer that does not move says nothing any more.
-POINTER_GOES_AFTER_S = 2.0
+# A pointer that has not moved for this long is removed.
+POINTER_TIMEOUT_S = 2.0
 MAX_DRAWINGS = 60
-MAX_DRAWINGS_A_PERSON = 20
-MAX_POINTS_A_DRAWING = 400
+MAX_DRAWINGS_PER_PERSON = 20
+MAX_POINTS_PER_DRAWING = 400
 
 
 class Shape(StrEnum):
-    """What is drawn."""
+    """Shape of a drawing."""
 
     PEN = "pen"  # through all its points
     ARROW = "arrow"  # from the first to the second point, its head at the second
@@ -29,11 +29,11 @@ class Shape(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Moment:
-    """The image that somebody saw while they made a mark.
+    """The image that was shown when a mark was made.
 
     Attributes:
-        image_number: of the image.
-        captured_at_s: when it was captured, by the server's monotonic clock.
+        image_number: number of the image.
+        captured_at_s: its capture time, server's monotonic clock.
     """
 
     image_number: int
@@ -42,17 +42,17 @@ class Moment:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pointer:
-    """Where somebody points now.
+    """Current pointer of one page.
 
     Attributes:
-        seat: the page it comes from.
-        person: whose it is.
+        session: number of the page's session.
+        person: its owner.
         at_px: x, y in pixels of the whole image.
-        moment: the image they saw.
-        moved_at_s: when it was moved for the last time.
+        moment: the image that was shown.
+        moved_at_s: time of its last move, monotonic.
     """
 
-    seat: int
+    session: int
     person: Person
     at_px: Pixel
     moment: Moment
@@ -61,19 +61,19 @@ class Pointer:
 
 @dataclass(slots=True, kw_only=True)
 class Drawing:
-    """Something drawn; only points are ever added to it.
+    """A drawing; points are only ever appended.
 
     Attributes:
-        key: tells it from all others of this run of the server.
-        seat: the page it comes from.
-        person: whose it is.
-        shape: what it is.
-        moment: the image that it was begun on.
+        key: unique key in this run of the server.
+        session: number of the page's session.
+        person: its owner.
+        shape: its shape.
+        moment: the image on which it was started.
         points_px: x, y in pixels of the whole image.
     """
 
     key: str
-    seat: int
+    session: int
     person: Person
     shape: Shape
     moment: Moment
@@ -81,11 +81,11 @@ class Drawing:
 
 
 class Marks:
-    """All that is pointed at and drawn. Pure: the time is handed in.
+    """All pointers and drawings. Pure: time is passed in.
 
     Args:
-        fades_after_s: how long a drawing stays, counted from the image that it was made on: patient and
-            camera move, and what was true of that image is not true for ever.
+        fades_after_s: lifetime of a drawing, from the capture of its image: patient and camera move, so a
+            mark does not stay valid.
     """
 
     def __init__(self, *, fades_after_s: float) -> None:
@@ -94,61 +94,61 @@ class Marks:
         self._drawings: dict[str, Drawing] = {}
 
     def pointers(self, now_s: float) -> tuple[Pointer, ...]:
-        """Those that moved within the last two seconds."""
+        """Return pointers that moved within the last two seconds."""
         gone = [
-            seat for seat, one in self._pointers.items() if now_s - one.moved_at_s >= POINTER_GOES_AFTER_S
+            session for session, one in self._pointers.items() if now_s - one.moved_at_s >= POINTER_TIMEOUT_S
         ]
-        for seat in gone:
-            del self._pointers[seat]
+        for session in gone:
+            del self._pointers[session]
         return tuple(self._pointers.values())
 
     def drawings(self, now_s: float) -> tuple[Drawing, ...]:
-        """Those whose moment is not over, the oldest first."""
-        over = [key for key, one in self._drawings.items() if self.left_s(one, now_s) <= 0.0]
+        """Return drawings that have not expired, oldest first."""
+        over = [key for key, one in self._drawings.items() if self.remaining_s(one, now_s) <= 0.0]
         for key in over:
             del self._drawings[key]
         return tuple(self._drawings.values())
 
-    def left_s(self, drawing: Drawing, now_s: float) -> float:
-        """How long a drawing still stays."""
+    def remaining_s(self, drawing: Drawing, now_s: float) -> float:
+        """Return the remaining lifetime of a drawing."""
         return drawing.moment.captured_at_s + self.fades_after_s - now_s
 
     def point(self, pointer: Pointer) -> None:
-        """Somebody's pointer is here now."""
-        self._pointers[pointer.seat] = pointer
+        """Set the pointer of a page."""
+        self._pointers[pointer.session] = pointer
 
-    def lift(self, seat: int) -> None:
-        """This page points at nothing any more."""
-        self._pointers.pop(seat, None)
+    def lift(self, session: int) -> None:
+        """Remove the pointer of a page."""
+        self._pointers.pop(session, None)
 
     def begin(self, drawing: Drawing) -> None:
-        """One more drawing; where there are too many, the oldest goes."""
+        """Add a drawing; above the limits the oldest one is removed."""
         own = [key for key, one in self._drawings.items() if one.person.id == drawing.person.id]
-        if len(own) >= MAX_DRAWINGS_A_PERSON:
+        if len(own) >= MAX_DRAWINGS_PER_PERSON:
             del self._drawings[own[0]]
         elif len(self._drawings) >= MAX_DRAWINGS:
             del self._drawings[next(iter(self._drawings))]
         self._drawings[drawing.key] = drawing
 
     def extend(self, key: str, points_px: Sequence[Pixel]) -> bool:
-        """Draw on; False when that would be too long. One that is gone meanwhile stays gone."""
+        """Append points; return False above the maximum length. Points of an expired drawing are ignored."""
         drawing = self._drawings.get(key)
         if drawing is None:
             return True
-        if len(drawing.points_px) + len(points_px) > MAX_POINTS_A_DRAWING:
+        if len(drawing.points_px) + len(points_px) > MAX_POINTS_PER_DRAWING:
             return False
         drawing.points_px.extend(points_px)
         return True
 
     def undo(self, person_id: str) -> bool:
-        """Take back the newest drawing of a person; whether there was one."""
+        """Remove the newest drawing of a person; return whether there was one."""
         own = [key for key, one in self._drawings.items() if one.person.id == person_id]
         if own:
             del self._drawings[own[-1]]
         return bool(own)
 
     def clear(self, person_id: str | None = None) -> int:
-        """Take away a person's drawings, or all of them; how many."""
+        """Remove the drawings of a person, or all; return their number."""
         gone = [key for key, one in self._drawings.items() if person_id in (None, one.person.id)]
         for key in gone:
             del self._drawings[key]

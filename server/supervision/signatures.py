@@ -1,4 +1,4 @@
-"""Co-signatures of plan and registration, given and taken back, each bound to one version and its content."""
+"""Co-signatures of plan and registration, each bound to one version and its content."""
 
 import threading
 from collections.abc import Callable
@@ -6,21 +6,21 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from server.errors import SetupOrderError
-from server.procedure.opened import opened_case
-from server.procedure.plan.kept import MAIN_PLAN
+from server.procedure.open_case import require_open_case
+from server.procedure.plan.repository import MAIN_PLAN
 from server.procedure.state import Procedure
-from server.procedure.state.cosigned import (
-    KeptSignature,
-    Signed,
+from server.procedure.state.cosignatures import (
+    CosignTarget,
+    SignatureRecord,
     content_sha256,
     is_cosigned,
-    kept_signature,
     may_have_made,
+    signature_from_document,
     signatures_of,
 )
-from server.security import ANYBODY, Person, Role
+from server.security import LOCAL_USER, Person, Role
 from server.security.audit import note
-from server.store import CaseStore, Current, Document, DocumentKind, Imported, Standing
+from server.store import CaseStore, Current, Document, DocumentKind, ImportRecord, Validity
 from tracker.errors import NavigationError
 
 Requirement: TypeAlias = Literal["required", "offered"]
@@ -28,16 +28,16 @@ Requirement: TypeAlias = Literal["required", "offered"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Signature:
-    """One signature that holds.
+    """One valid signature.
 
     Attributes:
-        id: of its document.
-        by: who signed.
-        signer_id: the same person; never told to others.
+        id: id of its document.
+        by: name of the signer.
+        signer_id: id of the signer; not sent to others.
         at: UTC, ISO 8601.
-        second_person: whether it is known that somebody else made what was signed.
-        invited_by: who had invited the signer; empty where that is not known.
-        invited_by_maker: that was who made what was signed, and may have invited themselves.
+        second_person: whether it is known that another person made what was signed.
+        invited_by: who invited the signer; empty where unknown.
+        invited_by_maker: whether that was the maker of what was signed, who may have invited themselves.
     """
 
     id: str
@@ -51,32 +51,32 @@ class Signature:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Signable:
-    """The plan, or the registration of the vertebra that is to be drilled, with its signatures.
+    """The plan, or the registration of the vertebra to be drilled, with its signatures.
 
     Attributes:
-        what: which of both.
-        requirement: whether nobody navigates without.
+        what: plan or registration.
+        requirement: whether navigation needs the signature.
         document_id: of the newest version; empty where there is none.
-        title: in words.
-        made_by: who made that version; of what came in with an archive, in words that say so.
+        title: display title.
+        made_by: maker of that version, as a display text for an imported one.
         made_at: UTC, ISO 8601.
-        said_maker: the bare name, as an archive has it.
-        imported: that it came in with an archive; None where it was made here.
+        claimed_maker: maker's name as it stands in an imported archive.
+        imported: origin of an imported version; None where it was made here.
         sha256: of its content; empty where there is none.
-        out_of_date: why it does not hold; empty where it does.
+        out_of_date: reason why it is invalid; empty where it is valid.
         signatures: of exactly this version.
-        is_cosigned: whether a second person has signed it.
-        was_signed: an earlier version was, so that somebody may expect this one to be.
+        is_cosigned: whether a second person signed this version.
+        was_signed: whether an earlier version was signed and this one is not.
     """
 
-    what: Signed
+    what: CosignTarget
     requirement: Requirement
     document_id: str = ""
     title: str = ""
     made_by: str = ""
     made_at: str = ""
-    said_maker: str = ""
-    imported: Imported | None = None
+    claimed_maker: str = ""
+    imported: ImportRecord | None = None
     sha256: str = ""
     out_of_date: str = ""
     signatures: tuple[Signature, ...] = ()
@@ -84,12 +84,12 @@ class Signable:
     was_signed: bool = False
 
 
-class SignatureDesk:
-    """Where plan and registration of the open case are co-signed. From any thread; waits for the disk.
+class SignatureService:
+    """Co-signs plan and registration of the open case. Thread-safe; waits for the disk.
 
     Args:
-        store: where signatures are kept.
-        procedure: knows which vertebra is to be drilled, and what must be signed.
+        store: storage of the signatures.
+        procedure: provides the vertebra to be drilled and the signatures that are required.
     """
 
     def __init__(self, store: CaseStore, procedure: Procedure) -> None:
@@ -97,38 +97,38 @@ class SignatureDesk:
         self._procedure = procedure
         self._lock = threading.Lock()
         self._known: tuple[Signable, ...] = ()
-        # Called when plan, registration or signatures are others than before.
-        self.tell: Callable[[], None] = lambda: None
-        store.call_after_writing(self.refresh)
+        # Called when plan, registration or signatures have changed.
+        self.on_change: Callable[[], None] = lambda: None
+        store.add_commit_listener(self.refresh)
         self.refresh()
 
     @property
     def known(self) -> tuple[Signable, ...]:
-        """As after the last change of the store; without waiting for the disk."""
+        """State after the last change of the store, without waiting for the disk."""
         return self._known
 
     def refresh(self) -> None:
-        """Look again, and tell if something changed."""
+        """Read the state again, and notify if it changed."""
         with self._lock:
             now = self.overview()
             is_new, self._known = now != self._known, now
         if is_new:
-            self.tell()
+            self.on_change()
 
     def overview(self) -> tuple[Signable, ...]:
-        """Plan and registration of the open case as they stand now."""
-        case = self._store.opened()
-        return tuple(self._signable(what, None if case is None else case.id) for what in Signed)
+        """Return plan and registration of the open case in their present state."""
+        case = self._store.get_open_case()
+        return tuple(self._signable(what, None if case is None else case.id) for what in CosignTarget)
 
-    def sign(self, what: Signed, document_id: str, person: Person) -> tuple[Signable, ...]:
-        """Sign exactly this version; a second time changes nothing.
+    def sign(self, what: CosignTarget, document_id: str, person: Person) -> tuple[Signable, ...]:
+        """Sign exactly this version; a second signature of the same person changes nothing.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, PLAN_MISSING, REGISTRATION_MISSING, SIGNED_VERSION_OLD,
                 SIGNED_BY_MAKER.
             OutOfDateError: DOCUMENT_OUT_OF_DATE.
         """
-        case_id = opened_case(self._store).id
+        case_id = require_open_case(self._store).id
         document = self._newest(what, case_id)
         if document is None:
             raise SetupOrderError(
@@ -136,28 +136,28 @@ class SignatureDesk:
             )
         self._reject(what, document, document_id, person)
         self._store.current(case_id, document.kind, document.name)
-        if any(kept.signer_id == person.id for _, kept in signatures_of(self._store, document)):
+        if any(stored.signer_id == person.id for _, stored in signatures_of(self._store, document)):
             return self.overview()
-        kept = KeptSignature(
+        stored = SignatureRecord(
             what=what,
             document_id=document.id,
             title=document.title,
             content_sha256=content_sha256(document),
             signer_id=person.id,
             signer_role=person.role.value,
-            second_person=person.id != ANYBODY.id,
+            second_person=person.id != LOCAL_USER.id,
             signer_invited_by=person.invited_by,
         )
         name = f"{what.value} {document.name[:60]} by {person.id[:60]}"
-        content = kept.model_dump(mode="json")
-        # A version that is newer than what was read here puts this signature out of date at once.
+        content = stored.model_dump(mode="json")
+        # A version newer than the one read here invalidates this signature at once.
         self._store.put(
             case_id,
             DocumentKind.SIGNATURE,
             name,
             content,
             made_by=person.name,
-            stands_on=[document.id],
+            depends_on=[document.id],
         )
         note(
             {
@@ -171,34 +171,34 @@ class SignatureDesk:
         )
         return self.overview()
 
-    def take_back(self, signature_id: str, person: Person) -> tuple[Signable, ...]:
-        """Take back one's own signature; the operator, anybody's.
+    def withdraw(self, signature_id: str, person: Person) -> tuple[Signable, ...]:
+        """Withdraw one's own signature, or as the operator anybody's.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, SIGNATURE_NOT_YOURS.
-            NotStored: DOCUMENT_UNKNOWN.
+            NotFound: DOCUMENT_UNKNOWN.
             InvalidInput: SIGNATURE_DOCUMENT_INVALID.
         """
-        document = self._store.document(opened_case(self._store).id, signature_id)
-        kept = kept_signature(document)
-        if person.role is not Role.OPERATOR and kept.signer_id != person.id:
+        document = self._store.document(require_open_case(self._store).id, signature_id)
+        stored = signature_from_document(document)
+        if person.role is not Role.OPERATOR and stored.signer_id != person.id:
             raise SetupOrderError(
                 "SIGNATURE_NOT_YOURS",
                 f"this was signed by {document.made_by}, not by {person.name}",
-                "Leave it to who signed, or to the operator.",
+                "Leave it to the signer, or to the operator.",
             )
         self._store.withdraw(document, by=person.name, reason="the signature was taken back")
         return self.overview()
 
-    def _reject(self, what: Signed, document: Document, document_id: str, person: Person) -> None:
+    def _reject(self, what: CosignTarget, document: Document, document_id: str, person: Person) -> None:
         if document.id != document_id:
             raise SetupOrderError(
                 "SIGNED_VERSION_OLD",
-                f"the {what.value} was changed since it was looked at: it is {document.title} now",
+                f"the {what.value} was changed since it was displayed: it is {document.title} now",
                 "Look at the newest version, then sign that one.",
                 {"newest_id": document.id, "asked_id": document_id},
             )
-        if person.id != ANYBODY.id and may_have_made(person.name, document):
+        if person.id != LOCAL_USER.id and may_have_made(person.name, document):
             taken_in = "" if document.imported is None else f", and taken in by {document.imported.by}"
             raise SetupOrderError(
                 "SIGNED_BY_MAKER",
@@ -207,15 +207,15 @@ class SignatureDesk:
                 {"made_by": list(document.makers)},
             )
 
-    def _newest(self, what: Signed, case_id: str) -> Document | None:
-        if what is Signed.PLAN:
+    def _newest(self, what: CosignTarget, case_id: str) -> Document | None:
+        if what is CosignTarget.PLAN:
             return self._store.latest(case_id, DocumentKind.PLAN, MAIN_PLAN)
         vertebra = self._procedure.active_vertebra(case_id)
         return None if vertebra is None else self._store.latest(case_id, DocumentKind.REGISTRATION, vertebra)
 
-    def _signable(self, what: Signed, case_id: str | None) -> Signable:
+    def _signable(self, what: CosignTarget, case_id: str | None) -> Signable:
         cosign = self._procedure.cosign
-        requirement = cosign.plan if what is Signed.PLAN else cosign.registration
+        requirement = cosign.plan if what is CosignTarget.PLAN else cosign.registration
         document = None if case_id is None else self._newest(what, case_id)
         if document is None:
             return Signable(what=what, requirement=requirement)
@@ -223,13 +223,13 @@ class SignatureDesk:
             Signature(
                 id=one.id,
                 by=one.made_by,
-                signer_id=kept.signer_id,
+                signer_id=stored.signer_id,
                 at=one.made_at,
-                second_person=kept.second_person and not may_have_made(one.made_by, document),
-                invited_by=kept.signer_invited_by,
-                invited_by_maker=may_have_made(kept.signer_invited_by, document),
+                second_person=stored.second_person and not may_have_made(one.made_by, document),
+                invited_by=stored.signer_invited_by,
+                invited_by_maker=may_have_made(stored.signer_invited_by, document),
             )
-            for one, kept in signatures_of(self._store, document)
+            for one, stored in signatures_of(self._store, document)
         )
         return Signable(
             what=what,
@@ -238,26 +238,26 @@ class SignatureDesk:
             title=document.title,
             made_by=document.maker,
             made_at=document.made_at,
-            said_maker=document.made_by,
+            claimed_maker=document.made_by,
             imported=document.imported,
             sha256=content_sha256(document),
-            out_of_date=_why(self._store.standing(document)),
+            out_of_date=_out_of_date_reason(self._store.validity(document)),
             signatures=signatures,
             is_cosigned=is_cosigned(self._store, document),
             was_signed=not signatures and self._was_signed(what, document),
         )
 
-    def _was_signed(self, what: Signed, document: Document) -> bool:
+    def _was_signed(self, what: CosignTarget, document: Document) -> bool:
         earlier = {one.id for one in self._store.history(document.case_id, document.kind, document.name)}
         for one in self._store.all(document.case_id, DocumentKind.SIGNATURE):
             try:
-                kept = kept_signature(one)
+                stored = signature_from_document(one)
             except NavigationError:
                 continue
-            if kept.what is what and kept.document_id in earlier:
+            if stored.what is what and stored.document_id in earlier:
                 return True
         return False
 
 
-def _why(standing: Standing) -> str:
-    return "" if isinstance(standing, Current) else standing.reason
+def _out_of_date_reason(validity: Validity) -> str:
+    return "" if isinstance(validity, Current) else validity.reason

@@ -1,19 +1,18 @@
-"""Headline and alarms in words: one catalogue in every language for video, page, wire, log and report.
+"""Message catalogue (English, German) of headline and alarms, for video, page, API, log and report.
 
 language.py     the languages, and a text in all of them
-alarms.py       an alarm: present, in the past tense, not tracked, or beside figures that are not live
-phrases.py      what is said of each alarm: the table
-headline.py     the verdict of an image, or why it has no figures, with the alarms that are not acknowledged
-flicker.py      lamps that flicker, and the exposures that even them out
+alarms.py       texts of an alarm: present, past, or not observed
+phrases.py      templates of each alarm condition
+headline.py     verdict of an image, or why there are no figures, with unacknowledged alarms
+flicker.py      lamp flicker and the exposures that avoid it
 states.py       why there are no figures
 places.py       walls and directions
 
-Headline, alarms and the reasons for missing figures are written here in both languages. Error messages stay
-English, because they carry numbers, names and remedies that no catalogue by code could hold; the page marks
-them with `lang="en"` so that a screen reader pronounces them.
+Headline, alarms and the reasons for missing figures are translated. Error messages are English only, because
+they contain numbers and names; the page marks them with `lang="en"` for screen readers.
 """
 
-from server.texts.alarms import AlarmText, alarm_text, alarm_title, without_live_figures
+from server.texts.alarms import AlarmText, alarm_text, alarm_title, with_unknown_presence
 from server.texts.flicker import CameraNote, flicker_note
 from server.texts.headline import Headline, Tone, headline_of
 from server.texts.language import LANGUAGES, Language, Text
@@ -30,5 +29,5 @@ __all__ = [
     "alarm_title",
     "flicker_note",
     "headline_of",
-    "without_live_figures",
+    "with_unknown_presence",
 ]

@@ -1,7 +1,7 @@
-"""An alarm in words: what is, what was, what is not tracked, and what to do.
+"""Texts of an alarm: sentence, remedy and acknowledgement.
 
-Only an alarm whose condition is present has a present tense and an instruction. One that is being cleared, or
-is over and not acknowledged, is told in the past tense with its worst value, place and time.
+An alarm whose condition is present has a sentence in the present tense and an instruction. An alarm that is
+clearing or latched has a sentence in the past tense with its worst value, its place and time.
 """
 
 from collections.abc import Mapping
@@ -12,18 +12,18 @@ from server.texts.controls import control_name, setting
 from server.texts.language import NO_TEXT, Language, Text, amount, clock_text, text_of
 from server.texts.phrases import PHRASES
 from server.texts.places import near_text, through_text
-from tracker.navigation.alarms import TRAITS, Alarm, AlarmState, Condition, Kind, Measure, Showing, Site
+from tracker.navigation.alarms import ALARM_RULES, Alarm, AlarmState, Condition, Kind, Measure, Presence, Site
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AlarmText:
-    """The words of one alarm.
+    """Texts of one alarm.
 
     Attributes:
-        title: in capitals, to be read from afar: "BREACH".
-        sentence: what is or was, in numbers.
-        remedy: what to do; empty where there is nothing to be done but to acknowledge.
-        known: who has acknowledged it; empty where nobody has.
+        title: In capitals, readable from a distance: "BREACH".
+        sentence: Present or past state with numbers.
+        remedy: What to do; empty if it only has to be acknowledged.
+        known: Who acknowledged it; empty if nobody has.
     """
 
     title: Text
@@ -33,17 +33,17 @@ class AlarmText:
 
 
 def alarm_title(condition: Condition) -> Text:
-    """Its name in capitals."""
+    """Return the title in capitals."""
     return text_of(lambda language: PHRASES[language][condition].title)
 
 
 def alarm_text(alarm: Alarm, *, unix_offset_s: float, of_now: bool = True) -> AlarmText:
-    """The words of one alarm.
+    """Return the texts of an alarm.
 
     Args:
-        alarm: as the engine has it.
-        unix_offset_s: to be added to the alarm's times to have them as Unix time.
-        of_now: to be read at this moment; a line of the log is read later, and says nothing of then.
+        alarm: The alarm.
+        unix_offset_s: Unix time minus monotonic time of the alarm.
+        of_now: For display now; False for the log, which is read later.
     """
     return AlarmText(
         title=alarm_title(alarm.condition),
@@ -55,17 +55,17 @@ def alarm_text(alarm: Alarm, *, unix_offset_s: float, of_now: bool = True) -> Al
     )
 
 
-def without_live_figures(alarm: Alarm) -> Alarm:
-    """The alarm beside figures that are too old to be shown: what figures show is not known then."""
-    trait = TRAITS[alarm.condition]
-    is_of_figures = trait.kind is Kind.PHYSIOLOGICAL or trait.of_newest_image
-    if is_of_figures and alarm.presence is not Showing.UNKNOWN:
-        return replace(alarm, presence=Showing.UNKNOWN)
+def with_unknown_presence(alarm: Alarm) -> Alarm:
+    """Return the alarm with unknown presence if it depends on figures; used while figures are stale."""
+    trait = ALARM_RULES[alarm.condition]
+    is_of_figures = trait.kind is Kind.PHYSIOLOGICAL or trait.needs_current_image
+    if is_of_figures and alarm.presence is not Presence.UNKNOWN:
+        return replace(alarm, presence=Presence.UNKNOWN)
     return alarm
 
 
 def _sentence(alarm: Alarm, language: Language, unix_offset_s: float, *, of_now: bool) -> str:
-    # A line of the log is of one occurrence; those before it have lines of their own.
+    # A log line describes one occurrence; earlier ones have their own lines.
     earlier = _earlier(alarm, language, unix_offset_s) if of_now else ""
     return _own_sentence(alarm, language, unix_offset_s, of_now=of_now) + earlier
 
@@ -73,21 +73,21 @@ def _sentence(alarm: Alarm, language: Language, unix_offset_s: float, *, of_now:
 def _own_sentence(alarm: Alarm, language: Language, unix_offset_s: float, *, of_now: bool) -> str:
     phrases = PHRASES[language][alarm.condition]
     fields = _fields(alarm, language, unix_offset_s)
-    if alarm.presence is Showing.YES:
+    if alarm.presence is Presence.YES:
         if alarm.measure is None and phrases.bare:
             return phrases.bare.format(**fields)
         return phrases.present.format(**fields)
-    if is_lost(alarm):
+    if is_unobserved(alarm):
         return (phrases.lost or LOST[language]).format(**fields)
     if alarm.peak is None and phrases.bare_past:
         return phrases.bare_past.format(**fields)
-    # That it is over is said of what is measured now, and of nothing else.
-    is_measured = of_now and alarm.presence is Showing.NO
+    # The end of the condition is only stated if it is measured now.
+    is_measured = of_now and alarm.presence is Presence.NO
     return phrases.past.format(**fields) + (phrases.over if is_measured else "")
 
 
 def _earlier(alarm: Alarm, language: Language, unix_offset_s: float) -> str:
-    """The worst of the occurrences before it that nobody has acknowledged."""
+    """Return the text on the worst earlier occurrence that is not acknowledged."""
     peak = alarm.earlier_peak
     if peak is None:
         return ""
@@ -96,20 +96,20 @@ def _earlier(alarm: Alarm, language: Language, unix_offset_s: float) -> str:
     )
 
 
-def is_lost(alarm: Alarm) -> bool:
-    """Whether it was there when it was last seen, and nobody sees whether it still is."""
-    return alarm.presence is Showing.UNKNOWN and alarm.state is not AlarmState.LATCHED
+def is_unobserved(alarm: Alarm) -> bool:
+    """Return whether the condition was present when last observed and cannot be observed now."""
+    return alarm.presence is Presence.UNKNOWN and alarm.state is not AlarmState.LATCHED
 
 
 def _remedy(alarm: Alarm, language: Language) -> str:
     phrases = PHRASES[language][alarm.condition]
-    if alarm.presence is Showing.YES:
+    if alarm.presence is Presence.YES:
         return phrases.remedy
-    return phrases.lost_remedy if is_lost(alarm) else ""
+    return phrases.lost_remedy if is_unobserved(alarm) else ""
 
 
 def _fields(alarm: Alarm, language: Language, unix_offset_s: float) -> Mapping[str, str]:
-    # As the figure that it is about: the 95 % error has two decimals.
+    # Decimals of the displayed figure: the 95 % error has two.
     decimals = 2 if alarm.condition is Condition.POSE_UNCERTAIN else None
     peak = alarm.peak
     worst_site = None if peak is None else peak.site
@@ -136,7 +136,7 @@ def _fields(alarm: Alarm, language: Language, unix_offset_s: float) -> Mapping[s
 
 
 def _size(measure: Measure | None, decimals: int | None) -> str:
-    """How deep, how far, how long: without a sign, because the sentence says on which side of the limit."""
+    """Return the absolute value with its unit; the sentence states the side of the limit."""
     return "" if measure is None else amount(abs(measure.value), measure.unit, decimals=decimals)
 
 

@@ -1,4 +1,4 @@
-"""A camera's controls and their values in words."""
+"""Names of camera controls and texts of their values."""
 
 from collections.abc import Mapping
 
@@ -37,12 +37,12 @@ SWITCHES = (CameraControl.AUTOFOCUS, CameraControl.AUTO_WHITE_BALANCE)
 
 
 def control_name(control: CameraControl | None, language: Language) -> str:
-    """Its name at the beginning of a sentence; the camera's where it is not known which control it is."""
+    """Return the name of a control, capitalised; "The camera" if the control is unknown."""
     return CAMERA[language] if control is None else CONTROLS[language][control]
 
 
 def setting(control: CameraControl | None, value: float, language: Language) -> str:
-    """A control's value: a number in the driver's own unit, on or off of a switch."""
+    """Return the value of a control: a number in driver units, or on/off for a switch."""
     if control in SWITCHES:
         return OFF_ON[language][1 if value else 0]
     return f"{value:.0f}"

@@ -1,8 +1,8 @@
-"""A flickering lamp in words, with the exposures that would even it out."""
+"""Text about lamp flicker, with exposure times that avoid it."""
 
 from dataclasses import dataclass
 
-from server.shown import shown_number
+from server.number_format import format_number
 from server.texts.language import Language, Text, text_of
 from tracker.camera import LampFlicker
 
@@ -13,12 +13,12 @@ OR = {"en": " or ", "de": " oder "}
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraNote:
-    """Something about the camera that is worth mending, and stops nothing.
+    """A note about the camera that does not prevent navigation.
 
     Attributes:
-        code: which it is.
-        message: what was found, in numbers.
-        remedy: what to do.
+        code: Identifier of the note.
+        message: The finding, with numbers.
+        remedy: What to do.
     """
 
     code: str
@@ -27,18 +27,18 @@ class CameraNote:
 
 
 def flicker_note(flicker: LampFlicker, *, exposure_ms: float | None, rate_hz: float) -> CameraNote:
-    """The note about a flickering lamp.
+    """Return the note about lamp flicker.
 
     Args:
-        flicker: what was found.
-        exposure_ms: of the images; None where it is not known.
-        rate_hz: images a second; 0 where it is not known. No exposure is longer than from image to image.
+        flicker: Detected flicker.
+        exposure_ms: Exposure time; None if unknown.
+        rate_hz: Images per second; 0 if unknown. It bounds the exposure time.
     """
 
     def message(language: Language) -> str:
-        percent = shown_number(100.0 * flicker.depth_ratio, decimals=1)
+        percent = format_number(100.0 * flicker.depth_ratio, decimals=1)
         mains = OR[language].join(f"{mains_hz} Hz" for mains_hz in flicker.mains_hz)
-        exposure = "" if exposure_ms is None else shown_number(exposure_ms, decimals=1)
+        exposure = "" if exposure_ms is None else format_number(exposure_ms, decimals=1)
         if language == "de":
             shown = f"Lampen flackern um {percent} % im Bild ({mains})"
             return f"{shown}, Belichtung {exposure} ms." if exposure else f"{shown}."
@@ -47,7 +47,7 @@ def flicker_note(flicker: LampFlicker, *, exposure_ms: float | None, rate_hz: fl
 
     def remedy(language: Language) -> str:
         choices = "; ".join(
-            f"{OR[language].join(shown_number(ms, decimals=1) for ms in exposures)} ms ({mains_hz} Hz)"
+            f"{OR[language].join(format_number(ms, decimals=1) for ms in exposures)} ms ({mains_hz} Hz)"
             for mains_hz in flicker.mains_hz
             if (exposures := even_exposures_ms(mains_hz, exposure_ms=exposure_ms, rate_hz=rate_hz))
         )
@@ -65,17 +65,17 @@ def flicker_note(flicker: LampFlicker, *, exposure_ms: float | None, rate_hz: fl
 
 
 def even_exposures_ms(mains_hz: int, *, exposure_ms: float | None, rate_hz: float) -> list[float]:
-    """One or two exposures over which this mains' light is even: whole periods of it, nearest to the present.
+    """Return one or two exposure times without flicker: whole light periods nearest to the present exposure.
 
     Args:
-        mains_hz: 50 or 60; light has twice that.
-        exposure_ms: at present; None where it is not known.
-        rate_hz: images a second; 0 where it is not known.
+        mains_hz: 50 or 60; the light flickers at twice this frequency.
+        exposure_ms: Present exposure time; None if unknown.
+        rate_hz: Images per second; 0 if unknown.
     """
     period_ms = 500.0 / mains_hz
-    most = int(1000.0 / ((rate_hz or DEFAULT_RATE_HZ) * period_ms) + 1e-6)
+    max_periods = int(1000.0 / ((rate_hz or DEFAULT_RATE_HZ) * period_ms) + 1e-6)
     wanted = period_ms if exposure_ms is None else exposure_ms
-    # One of them that is the present one again is no remedy.
-    periods = [n for n in range(1, most + 1) if abs(n * period_ms - (exposure_ms or 0.0)) > 0.1]
+    # The present exposure is not proposed again.
+    periods = [n for n in range(1, max_periods + 1) if abs(n * period_ms - (exposure_ms or 0.0)) > 0.1]
     nearest = sorted(periods, key=lambda n: abs(n * period_ms - wanted))[:2]
     return [n * period_ms for n in sorted(nearest)]

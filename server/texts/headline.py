@@ -1,7 +1,7 @@
-"""The headline: the verdict of one image in words, with what is over its limit and which way to correct it.
+"""The headline: verdict of one image with the exceeded limit and the direction of correction.
 
-It follows from the figures of the image alone. Alarms that are not acknowledged, or not yet cleared, stand
-beside it; it is green only while there are none.
+The verdict depends on the figures of the image only. Alarms that are unacknowledged or not cleared are shown
+next to it; it is green only without such alarms.
 """
 
 from collections.abc import Mapping
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from math import isnan
 
-from server.texts.alarms import alarm_title, is_lost
+from server.texts.alarms import alarm_title, is_unobserved
 from server.texts.language import NO_TEXT, Language, Text, amount, clock_text, text_of
 from server.texts.places import TOWARDS, WALLS, wall_text
 from server.texts.states import STATES, UNSEEN
@@ -22,13 +22,13 @@ from tracker.navigation import (
     NavigationSnapshot,
     Verdict,
 )
-from tracker.navigation.alarms import TRAITS, Alarm, AlarmPicture, AlarmState, Kind, Priority, Showing
-from tracker.navigation.clearance import MeasuredAgainst
+from tracker.navigation.alarms import ALARM_RULES, Alarm, AlarmSnapshot, AlarmState, Kind, Presence, Priority
+from tracker.navigation.clearance import WallSource
 from tracker.pose import Seen, Unseen
 
 
 class Tone(StrEnum):
-    """How a headline is coloured; its symbol and its words say the same."""
+    """Colour of a headline; symbol and text carry the same information."""
 
     GOOD = "good"  # green: on path, and no alarm
     CAUTION = "caution"  # yellow: something is to be corrected, or an alarm is not acknowledged
@@ -71,12 +71,12 @@ class Headline:
     event: Text
 
 
-def headline_of(snapshot: NavigationSnapshot | None, alarms: AlarmPicture) -> Headline:
+def headline_of(snapshot: NavigationSnapshot | None, alarms: AlarmSnapshot) -> Headline:
     """The headline of an image with the alarms of that moment; of no image, only the alarms'."""
     event = text_of(lambda language: _event(alarms, language))
     if snapshot is None:
         return Headline(verdict=None, tone=Tone.NONE, title=NO_IMAGE, detail=NO_TEXT, event=event)
-    assessment = snapshot.assessments.get(snapshot.shown_tool)
+    assessment = snapshot.assessments.get(snapshot.displayed_tool)
     if not isinstance(assessment, Assessment):
         reason, marker = absence_of(snapshot)
         return Headline(
@@ -86,7 +86,7 @@ def headline_of(snapshot: NavigationSnapshot | None, alarms: AlarmPicture) -> He
             detail=text_of(lambda language: _why(snapshot, reason, marker, language)),
             event=event,
         )
-    several = f"{snapshot.shown_tool}: " if len(snapshot.tools) > 1 else ""
+    several = f"{snapshot.displayed_tool}: " if len(snapshot.tools) > 1 else ""
     return Headline(
         verdict=assessment.verdict,
         tone=_tone(assessment.verdict, alarms),
@@ -116,7 +116,7 @@ def _why(snapshot: NavigationSnapshot, reason: AbsentReason, marker: str, langua
     return STATES[language][reason].detail
 
 
-def _tone(verdict: Verdict, alarms: AlarmPicture) -> Tone:
+def _tone(verdict: Verdict, alarms: AlarmSnapshot) -> Tone:
     tone = TONES[verdict]
     disturbed = any(
         alarm.priority is not Priority.LOW and alarm.kind is not Kind.ADVISORY for alarm in alarms.alarms
@@ -131,7 +131,7 @@ def _title(assessment: Assessment, language: Language) -> str:
         return ACROSS[language]
     if verdict is Verdict.CORRECT_END and isnan(figures[FigureName.END].value):
         return MISSES[language]
-    of_channel = assessment.against is MeasuredAgainst.CHANNEL
+    of_channel = assessment.against is WallSource.CHANNEL
     if of_channel and verdict in CHANNEL_TITLES[language]:
         words = CHANNEL_TITLES[language]
     wall = assessment.wall
@@ -184,7 +184,7 @@ def _detail(assessment: Assessment, language: Language) -> str:
     )
 
 
-def _event(alarms: AlarmPicture, language: Language) -> str:
+def _event(alarms: AlarmSnapshot, language: Language) -> str:
     return " · ".join(
         part for alarm in alarms.alarms if (part := _one_event(alarm, alarms.unix_offset_s, language)) != ""
     )
@@ -192,10 +192,10 @@ def _event(alarms: AlarmPicture, language: Language) -> str:
 
 def _one_event(alarm: Alarm, unix_offset_s: float, language: Language) -> str:
     # A warning that has passed goes by itself; only what somebody has to acknowledge is named.
-    if not TRAITS[alarm.condition].latches or alarm.presence is Showing.YES:
+    if not ALARM_RULES[alarm.condition].latches or alarm.presence is Presence.YES:
         return ""
     title = alarm_title(alarm.condition)[language]
-    if is_lost(alarm):
+    if is_unobserved(alarm):
         return EVENTS[language]["lost"].format(title=title)
     at_s = alarm.raised_at_s if alarm.peak is None else alarm.peak.at_s
     time = clock_text(at_s + unix_offset_s)
@@ -249,7 +249,7 @@ TITLES: Mapping[Language, Mapping[Verdict, str]] = {
         Verdict.ON_PATH: "AUF KURS",
     },
 }
-# Where no bone is known, there is no wall that a drill could be through: only the planned channel.
+# Without a bone surface the verdict refers to the planned channel instead of a wall.
 CHANNEL_TITLES: Mapping[Language, Mapping[Verdict, str]] = {
     "en": {
         Verdict.THROUGH_WALL: "OUTSIDE CHANNEL {wall_mm}",

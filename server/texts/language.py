@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from datetime import datetime
 from typing import Literal, TypeAlias
 
-from server.shown import shown_number
+from server.number_format import format_number
 
 Language: TypeAlias = Literal["en", "de"]
 LANGUAGES: tuple[Language, ...] = ("en", "de")
@@ -22,7 +22,7 @@ def text_of(write: Callable[[Language], str]) -> Text:
 
 def amount(value: float, unit: str, *, decimals: int | None = None) -> str:
     """A number with its unit: "0.8 mm", "12 %", "2.4°"."""
-    digits = shown_number(value, decimals=DECIMALS.get(unit, 1) if decimals is None else decimals)
+    digits = format_number(value, decimals=DECIMALS.get(unit, 1) if decimals is None else decimals)
     return f"{digits}{unit}" if unit in ("°", "") else f"{digits} {unit}"
 
 

@@ -1,4 +1,4 @@
-"""What is said of each alarm, in every language: one table."""
+"""Templates of the alarm texts in all languages."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,14 +12,14 @@ class Phrases:
     """Templates of one condition in one language.
 
     Attributes:
-        title: in capitals.
-        present: it is there now.
-        past: it was there.
-        over: added to `past` where it is measured that it is not there now.
-        lost: it was there when it was last seen, and nobody sees whether it still is.
-        remedy, lost_remedy: what to do, while it is there and while that is not known.
-        bare: `present` where there is no number; empty where there always is one, or never.
-        bare_past: likewise of `past`.
+        title: In capitals.
+        present: The condition is present.
+        past: The condition was present.
+        over: Appended to `past` if its absence is measured.
+        lost: The condition was present when last observed and cannot be observed now.
+        remedy, lost_remedy: What to do while it is present, and while it cannot be observed.
+        bare: `present` without a value; empty if there always or never is one.
+        bare_past: `past` without a value.
     """
 
     title: str
@@ -34,7 +34,7 @@ class Phrases:
 
 
 _WITHDRAW: Text = {"en": "Stop. Withdraw the drill.", "de": "Anhalten. Bohrer zurückziehen."}
-# Why it is not tracked, and what to do about it, is another alarm's or the headline's.
+# Another alarm or the headline states why tracking is lost and what to do.
 _STOP: Text = {"en": "Stop.", "de": "Anhalten."}
 
 ENGLISH: Mapping[Condition, Phrases] = {
@@ -91,15 +91,15 @@ ENGLISH: Mapping[Condition, Phrases] = {
         remedy="Check the camera and its cable.",
     ),
     Condition.CAMERA_GONE: Phrases(
-        title="CAMERA GONE",
+        title="CAMERA DISCONNECTED",
         present="No images from the camera.",
-        past="The camera sent no images for a time.",
+        past="The camera temporarily sent no images.",
         remedy="Check the camera and its cable. Reconnecting.",
     ),
     Condition.TRACKING_STOPPED: Phrases(
         title="TRACKING STOPPED",
         present="The tracking process does not run.",
-        past="The tracking process did not run for a time.",
+        past="The tracking process temporarily did not run.",
         remedy="Wait for its restart. If none comes, restart the server.",
     ),
     Condition.POSE_UNCERTAIN: Phrases(
@@ -108,7 +108,7 @@ ENGLISH: Mapping[Condition, Phrases] = {
         past="95 % error was ±{worst}.",
         bare="Tip position too uncertain to be shown.",
         bare_past="Tip position was too uncertain to be shown.",
-        remedy="Show the marker nearer, steadier, more tilted.",
+        remedy="Hold the marker closer, steadier and more tilted.",
     ),
     Condition.POSE_JUMPED: Phrases(
         title="POSE AMBIGUOUS",
@@ -174,14 +174,14 @@ ENGLISH: Mapping[Condition, Phrases] = {
     Condition.RECORDING_STOPPED: Phrases(
         title="NOT RECORDED",
         present="Events are not written to the disk.",
-        past="Events were not written to the disk for a time.",
-        remedy="Check whether the disk is full or missing.",
+        past="Events were temporarily not written to the disk.",
+        remedy="Check whether the disk is full or disconnected.",
     ),
-    Condition.HOLD_ASKED: Phrases(
+    Condition.HOLD_REQUESTED: Phrases(
         title="HOLD REQUESTED",
         present="{by} requests a hold.",
         past="{by} requested a hold.",
-        remedy="Talk to them before you continue.",
+        remedy="Talk to the person before you continue.",
     ),
 }
 
@@ -239,15 +239,15 @@ GERMAN: Mapping[Condition, Phrases] = {
         remedy="Kamera und Kabel prüfen.",
     ),
     Condition.CAMERA_GONE: Phrases(
-        title="KAMERA WEG",
+        title="KAMERA GETRENNT",
         present="Keine Bilder von der Kamera.",
-        past="Die Kamera sandte eine Zeit lang keine Bilder.",
+        past="Die Kamera lieferte zeitweise keine Bilder.",
         remedy="Kamera und Kabel prüfen. Neuer Versuch läuft.",
     ),
     Condition.TRACKING_STOPPED: Phrases(
         title="TRACKING ANGEHALTEN",
         present="Der Tracking-Prozess läuft nicht.",
-        past="Der Tracking-Prozess lief eine Zeit lang nicht.",
+        past="Der Tracking-Prozess lief zeitweise nicht.",
         remedy="Neustart abwarten. Kommt keiner, den Server neu starten.",
     ),
     Condition.POSE_UNCERTAIN: Phrases(
@@ -322,14 +322,14 @@ GERMAN: Mapping[Condition, Phrases] = {
     Condition.RECORDING_STOPPED: Phrases(
         title="NICHT AUFGEZEICHNET",
         present="Ereignisse werden nicht auf die Platte geschrieben.",
-        past="Ereignisse wurden eine Zeit lang nicht geschrieben.",
-        remedy="Prüfen, ob die Platte voll oder weg ist.",
+        past="Ereignisse wurden zeitweise nicht geschrieben.",
+        remedy="Prüfen, ob die Platte voll oder getrennt ist.",
     ),
-    Condition.HOLD_ASKED: Phrases(
+    Condition.HOLD_REQUESTED: Phrases(
         title="BITTE ANHALTEN",
         present="{by} bittet anzuhalten.",
         past="{by} bat anzuhalten.",
-        remedy="Vor dem Weitermachen mit ihm sprechen.",
+        remedy="Vor dem Weitermachen Rücksprache halten.",
     ),
 }
 PHRASES: Mapping[Language, Mapping[Condition, Phrases]] = {"en": ENGLISH, "de": GERMAN}

@@ -1,11 +1,11 @@
-"""Walls and directions in words."""
+"""Texts of walls and directions."""
 
 from collections.abc import Mapping
 
 from server.texts.language import Language
 from tracker.navigation import Direction
 from tracker.navigation.alarms import Site
-from tracker.navigation.clearance import MeasuredAgainst
+from tracker.navigation.clearance import WallSource
 from tracker.navigation.directions import Wall
 
 # "medial wall", "mediale Wand".
@@ -33,21 +33,21 @@ TOWARDS: Mapping[Language, Mapping[Direction, str]] = {
 
 
 def wall_text(wall: Wall | None, language: Language) -> str:
-    """As "medial wall"; only "wall" where it is not known which."""
+    """Return a text such as "medial wall"; "wall" if unknown."""
     noun = {"en": "wall", "de": "Wand"}[language]
     return noun if wall is None else f"{WALLS[language][wall]} {noun}"
 
 
 def through_text(site: Site | None, language: Language) -> str:
-    """What a drill is through: a wall of the bone, or only the planned channel where no bone is known."""
-    if site is not None and site.against is MeasuredAgainst.CHANNEL:
+    """Return what a drill has passed: a wall of the bone, or the planned channel without a bone surface."""
+    if site is not None and site.against is WallSource.CHANNEL:
         return {"en": "outside the planned channel", "de": "außerhalb des geplanten Kanals"}[language]
     wall = wall_text(None if site is None else site.wall, language)
     return {"en": f"through the {wall}", "de": f"durch die {wall}"}[language]
 
 
 def near_text(site: Site | None, language: Language) -> str:
-    """What bone or channel ends at."""
-    if site is not None and site.against is MeasuredAgainst.CHANNEL:
+    """Return the wall, or the edge of the channel without a bone surface."""
+    if site is not None and site.against is WallSource.CHANNEL:
         return {"en": "edge of the planned channel", "de": "Rand des geplanten Kanals"}[language]
     return wall_text(None if site is None else site.wall, language)

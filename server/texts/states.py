@@ -1,4 +1,4 @@
-"""Why there are no figures, in words."""
+"""Texts of the reasons for missing figures."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from tracker.pose import UnseenReason
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """A state in capitals, and what it means or what to do."""
+    """Title in capitals, and the meaning or what to do."""
 
     title: str
     detail: str
@@ -21,7 +21,7 @@ STATES: Mapping[Language, Mapping[AbsentReason, State]] = {
         AbsentReason.MARKER_UNSEEN: State("NO TRACKING", "marker not seen"),
         AbsentReason.CAMERA_NOT_CALIBRATED: State("CAMERA NOT CALIBRATED", "calibrate the camera first"),
         AbsentReason.CAMERA_CHANGED: State("CAMERA CHANGED", "set it back, or calibrate again"),
-        AbsentReason.POSE_UNCERTAIN: State("POSE UNCERTAIN", "show the marker nearer, steadier, more tilted"),
+        AbsentReason.POSE_UNCERTAIN: State("POSE UNCERTAIN", "hold the marker closer, steadier, more tilted"),
         AbsentReason.TOOL_NOT_DEFINED: State("TOOL NOT DEFINED", "calibrate the tool first"),
         AbsentReason.NOT_REGISTERED: State("NOT REGISTERED", "register plan and patient"),
         AbsentReason.NO_PLAN: State("NO PLAN", "plan a channel on the CT"),
@@ -58,15 +58,15 @@ STATES: Mapping[Language, Mapping[AbsentReason, State]] = {
 }
 UNSEEN: Mapping[Language, Mapping[UnseenReason, str]] = {
     "en": {
-        UnseenReason.NO_CANDIDATE: "not seen, no square looks like it",
+        UnseenReason.NO_CANDIDATE: "not seen, no similar square",
         UnseenReason.SCORE_TOO_LOW: "not seen, too few of its edges",
-        UnseenReason.TARGET_SCORE_TOO_LOW: "not seen, edges that it does not have",
-        UnseenReason.SHAPE_DIFFERS: "not seen, a look-alike with another shape",
+        UnseenReason.TARGET_SCORE_TOO_LOW: "not seen, edges that do not belong to it",
+        UnseenReason.SHAPE_DIFFERS: "not seen, similar object with another shape",
     },
     "de": {
-        UnseenReason.NO_CANDIDATE: "nicht gesehen, kein Quadrat sieht ihm ähnlich",
+        UnseenReason.NO_CANDIDATE: "nicht gesehen, kein ähnliches Quadrat",
         UnseenReason.SCORE_TOO_LOW: "nicht gesehen, zu wenige seiner Kanten",
-        UnseenReason.TARGET_SCORE_TOO_LOW: "nicht gesehen, Kanten, die er nicht hat",
-        UnseenReason.SHAPE_DIFFERS: "nicht gesehen, ein Doppelgänger mit anderer Form",
+        UnseenReason.TARGET_SCORE_TOO_LOW: "nicht gesehen, Kanten, die nicht dazugehören",
+        UnseenReason.SHAPE_DIFFERS: "nicht gesehen, ähnliches Objekt mit anderer Form",
     },
 }

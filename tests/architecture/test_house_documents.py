@@ -12,7 +12,7 @@ READMES = [
 DOCUMENTS = sorted([*ROOT.glob("*.md"), *READMES, *(ROOT / "docs" / "guide").glob("*.md")])
 OF_TODAY = [document for document in DOCUMENTS if document.name != "CHANGELOG.md"]
 FIRST_SCREEN = 30  # lines
-LARGEST_PICTURE_BYTES = 300_000
+MAX_PICTURE_BYTES = 300_000
 MAX_LINES_OF_ARCHITECTURE = 150
 
 
@@ -100,7 +100,7 @@ def test_the_architecture_is_read_in_one_sitting() -> None:
 
 
 def test_the_picture_is_small() -> None:
-    assert (ROOT / "web" / "dashboard.png").stat().st_size < LARGEST_PICTURE_BYTES
+    assert (ROOT / "web" / "dashboard.png").stat().st_size < MAX_PICTURE_BYTES
 
 
 def test_help_lists_every_target_that_the_documents_name() -> None:

@@ -16,7 +16,7 @@ import pytest
 import typer
 
 from server.cli.commands import app
-from server.security.table import SOCKET, rules_of
+from server.security.access_rules import SOCKET, rules_of
 from server.texts.phrases import ENGLISH
 
 ROOT = Path(__file__).parents[2]
@@ -56,12 +56,12 @@ def fault_of(words: list[str]) -> str:
 def addresses(text: str) -> set[tuple[str, str]]:
     """Methods and paths of the server that the text names."""
     named = set(re.findall(r"\b(GET|POST|PUT|PATCH|DELETE) (/[a-z][^\s`\"')]*)", text))
-    asked = {
+    requested = {
         (method or "GET", path)
         for method, path in re.findall(r"curl (?:-s )?(?:-X (\w+) )?127\.0\.0\.1:8000(/\S+)", text)
     }
     sockets = {(SOCKET, path) for path in re.findall(r"`WS (/[a-z/]+)", text)}
-    return {(method, path) for method, path in named | asked | sockets if path not in NO_ADDRESS}
+    return {(method, path) for method, path in named | requested | sockets if path not in NO_ADDRESS}
 
 
 class Links(HTMLParser):
@@ -127,8 +127,8 @@ def test_every_command_exists_with_its_options(document: Path) -> None:
 
 @pytest.mark.parametrize("document", WRITTEN, ids=lambda path: path.name)
 def test_every_address_exists(document: Path) -> None:
-    asked = addresses(text_of(document))
-    assert {one for one in asked if not rules_of(*one)[0] and one[1] not in VIEWS} == set()
+    requested = addresses(text_of(document))
+    assert {one for one in requested if not rules_of(*one)[0] and one[1] not in VIEWS} == set()
 
 
 def test_a_command_and_an_address_that_do_not_exist_are_seen() -> None:

@@ -5,5 +5,5 @@ from importlinter.cli import lint_imports
 
 
 def test_every_import_contract_is_kept(capsys: pytest.CaptureFixture[str]) -> None:
-    kept = lint_imports(no_cache=True) == 0
-    assert kept, capsys.readouterr().out
+    stored = lint_imports(no_cache=True) == 0
+    assert stored, capsys.readouterr().out

@@ -87,7 +87,7 @@ def test_every_package_is_pinned_with_hashes_and_without_a_place(lock: str) -> N
     ],
 )
 def test_what_must_not_be_in_a_lock_is_seen(line: str, fault: str) -> None:
-    assert any(fault in told for told in faults_of(line))
+    assert any(fault in reported for reported in faults_of(line))
 
 
 @pytest.mark.parametrize("lock", LOCKS)

@@ -44,8 +44,8 @@ def test_each_file_of_tests_is_run_once(tmp_path: Path) -> None:
     assert code == 0
     first, *others, judged = called
     assert len(others) == 2
-    scenes = next(asked for asked in others if "-m browser" not in asked)
-    browser = next(asked for asked in others if "-m browser" in asked)
+    scenes = next(requested for requested in others if "-m browser" not in requested)
+    browser = next(requested for requested in others if "-m browser" in requested)
     # The first part runs all that is found, but what needs a browser and what it is told to leave out.
     assert "-m not browser" in first
     left_out = {word.removeprefix("--ignore=") for word in first.split() if word.startswith("--ignore=")}
@@ -64,4 +64,4 @@ def test_the_run_fails_with_any_of_its_parts(tmp_path: Path, fails: str) -> None
 def test_what_is_narrowed_runs_in_two_parts_of_which_one_may_be_empty(tmp_path: Path) -> None:
     code, called = run(tmp_path, "tests/server", fails="-m browser", code=5)
     assert code == 0
-    assert ["tests/server" in asked for asked in called] == [True, True, False]
+    assert ["tests/server" in requested for requested in called] == [True, True, False]

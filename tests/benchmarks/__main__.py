@@ -1,4 +1,4 @@
-"""Benchmarks: how true and how fast the tracker is beside its peers and the bound, as Markdown tables.
+"""Benchmarks of accuracy and speed: the tracker beside other detectors and the Cramer-Rao bound, as Markdown.
 
 python -m tests.benchmarks [SECTION ...] [--write]; the sections are those of `sections.py`.
 """
@@ -7,12 +7,12 @@ import argparse
 import sys
 from collections.abc import Mapping
 
-from tests.benchmarks.asked import Asked
 from tests.benchmarks.dot_plots import write_plots
 from tests.benchmarks.figures import Figure, better_figures, read_figures, worse_figures, write_figures
 from tests.benchmarks.machine import machine_line
-from tests.benchmarks.measured import Measured
+from tests.benchmarks.options import BenchmarkOptions
 from tests.benchmarks.readme import write_section
+from tests.benchmarks.section_result import SectionResult
 from tests.benchmarks.sections import SECTIONS
 from tracker.errors import NavigationError
 
@@ -21,9 +21,9 @@ ALONE = dict.fromkeys(("calibration", "ct", "pedicles"), "")
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Measure what was asked for, print it, and write it into the README if that was asked for too."""
+    """Run the selected sections, print the tables, and write them into the README on request."""
     given = _parser().parse_args(arguments)
-    asked = Asked(
+    options = BenchmarkOptions(
         seeds=given.seeds,
         seconds=given.seconds,
         rate_hz=given.rate,
@@ -42,16 +42,16 @@ def main(arguments: list[str] | None = None) -> None:
     written = read_figures()
     for name in SECTIONS if given.what == "all" else (given.what,):
         try:
-            measured = SECTIONS[name](asked)
+            measured = SECTIONS[name](options)
         except NavigationError as error:
             sys.stderr.write(f"Error: {error}\n")
             sys.exit(2)
         said = {
-            "limits": asked.said_of_limits,
-            "tools": asked.said_of_tools,
-            "load": asked.said_of_load,
+            "limits": options.limits_summary,
+            "tools": options.tools_summary,
+            "load": options.load_summary,
             **ALONE,
-        }.get(name, asked.said_of_theatres)
+        }.get(name, options.theatres_summary)
         content = "\n".join([f"{machine_line()} {said}\n", *(table.markdown for table in measured.tables)])
         sys.stdout.write(f"## {name}\n\n{content}\n{_compared(written.get(name, {}), measured)}\n")
         sys.stdout.flush()
@@ -60,7 +60,7 @@ def main(arguments: list[str] | None = None) -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
-    default = Asked()
+    default = BenchmarkOptions()
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks", description=__doc__)
     parser.add_argument("what", nargs="?", choices=["all", *SECTIONS], default="all")
     parser.add_argument("--seeds", type=_seeds, default=default.seeds, help="theatres, as 1,2,3")
@@ -81,8 +81,8 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _compared(then: Mapping[str, Figure], measured: Measured) -> str:
-    """What got worse than the written table by more than the noise, and what got better."""
+def _compared(then: Mapping[str, Figure], measured: SectionResult) -> str:
+    """Return the figures that got worse or better than the written ones by more than the noise."""
     both = sum(name in then for name in measured.figures)
     if not both:
         return ""
@@ -96,8 +96,8 @@ def _compared(then: Mapping[str, Figure], measured: Measured) -> str:
     return "\n".join([*lines, ""])
 
 
-def _write(name: str, content: str, measured: Measured) -> None:
-    if not measured.is_whole:
+def _write(name: str, content: str, measured: SectionResult) -> None:
+    if not measured.is_complete:
         sys.stderr.write("Not written: only a part was measured. Leave out --rigs and --conditions.\n")
         return
     write_section(name, content)
@@ -123,18 +123,18 @@ def _seed(text: str) -> int:
 
 
 def _seeds(text: str) -> tuple[int, ...]:
-    return _numbers(text, least=0)
+    return _numbers(text, minimum=0)
 
 
 def _viewers(text: str) -> tuple[int, ...]:
-    return _numbers(text, least=1)
+    return _numbers(text, minimum=1)
 
 
-def _numbers(text: str, *, least: int) -> tuple[int, ...]:
+def _numbers(text: str, *, minimum: int) -> tuple[int, ...]:
     numbers = [int(word) if word.strip().isdecimal() else -1 for word in text.split(",")]
-    if min(numbers) < least:
+    if min(numbers) < minimum:
         raise argparse.ArgumentTypeError(
-            f"'{text}' has something else than whole numbers of {least} or more, needed some as 1,2,3"
+            f"'{text}' has something else than whole numbers of {minimum} or more, needed some as 1,2,3"
         )
     return tuple(numbers)
 

@@ -1,43 +1,43 @@
-"""The tables of what was found, and how far it was off."""
+"""Tables of detection rates and pose errors."""
 
 from collections.abc import Callable, Sequence
 
-from tests.benchmarks.claims import ELLIPSOID_95, Error, FalseClaim, Judgement, NoClaim, RightClaim
+from tests.benchmarks.claims import ELLIPSOID_95, CorrectClaim, Error, FalseClaim, Judgement, NoClaim
 from tests.benchmarks.tables import Table, median, number, pair, share
 from tracker.navigation import AbsentReason
 from tracker.rehearsal import Phase
 
-# On the marker, and still worthless: such a pose is tilted the wrong way.
+# Found on the marker, but tilted the wrong way: the pose is useless.
 FAR_TIP_MM = 2.0
-# Half of all honest errors in three dimensions are below this squared distance.
+# Median of chi-square with three degrees of freedom.
 ELLIPSOID_50 = 2.366
 
 Group = tuple[str, Sequence[Judgement]]
 
 
 def groups_by_phase(judgements: Sequence[Judgement]) -> list[Group]:
-    """The images of each phase, and all of them."""
+    """Return the images of each phase, and all of them."""
     phases = [(phase.value, [one for one in judgements if one.phase is phase]) for phase in Phase]
     return [*((name, some) for name, some in phases if some), ("**all**", judgements)]
 
 
 def errors_of(judgements: Sequence[Judgement]) -> list[Error]:
-    """The errors of the claims that are not false."""
-    return [one.outcome.error for one in judgements if isinstance(one.outcome, RightClaim)]
+    """Return the errors of the correct claims."""
+    return [one.outcome.error for one in judgements if isinstance(one.outcome, CorrectClaim)]
 
 
 def false_claims(judgements: Sequence[Judgement]) -> list[Judgement]:
-    """The images in which something else was taken for the marker."""
+    """Return the images in which something else was taken for the marker."""
     return [one for one in judgements if isinstance(one.outcome, FalseClaim)]
 
 
 def missed(judgements: Sequence[Judgement]) -> list[Judgement]:
-    """The images in which the marker is in view and nothing was claimed."""
+    """Return the images with the marker in view and no claim."""
     return [one for one in judgements if one.in_view and isinstance(one.outcome, NoClaim)]
 
 
 def withheld(judgements: Sequence[Judgement]) -> list[Judgement]:
-    """The images in which the marker was found and its pose was too unsure to place the tip."""
+    """Return the images whose pose was too uncertain to place the tip."""
     return [
         one
         for one in judgements
@@ -46,12 +46,12 @@ def withheld(judgements: Sequence[Judgement]) -> list[Judgement]:
 
 
 def found_table(title: str, groups: Sequence[Group]) -> Table:
-    """How often the marker was found, rightly and falsely."""
+    """Table of correct and false detections."""
     rows = []
     for name, some in groups:
-        right = [one for one in some if isinstance(one.outcome, RightClaim)]
+        right = [one for one in some if isinstance(one.outcome, CorrectClaim)]
         in_view = sum(one.in_view for one in some)
-        by = [one.outcome.found_by for one in right if isinstance(one.outcome, RightClaim)]
+        by = [one.outcome.found_by for one in right if isinstance(one.outcome, CorrectClaim)]
         rows.append(
             [
                 name,
@@ -87,7 +87,7 @@ def found_table(title: str, groups: Sequence[Group]) -> Table:
 
 
 def pose_table(title: str, groups: Sequence[Group], *, note: str = "") -> Table:
-    """How far the poses are off: median / 95th percentile."""
+    """Table of pose errors: median / 95th percentile."""
     columns: list[tuple[str, Callable[[Error], float]]] = [
         ("corners px", lambda error: error.corner_px),
         ("marker across mm", lambda error: error.across_mm),
@@ -110,13 +110,13 @@ def pose_table(title: str, groups: Sequence[Group], *, note: str = "") -> Table:
     )
 
 
-def honesty_table(title: str, groups: Sequence[Group], *, note: str = "") -> Table:
-    """Whether the stated uncertainty of the tip is true, and the bias along the line of sight."""
+def calibration_table(title: str, groups: Sequence[Group], *, note: str = "") -> Table:
+    """Table of the coverage of the stated tip covariance, and of the bias along the line of sight."""
     rows = []
     for name, some in groups:
         errors = errors_of(some)
-        inside = sum(error.tip_squared_sd <= ELLIPSOID_95 for error in errors)
-        typical = median(error.tip_squared_sd for error in errors) / ELLIPSOID_50
+        inside = sum(error.tip_mahalanobis_squared <= ELLIPSOID_95 for error in errors)
+        typical = median(error.tip_mahalanobis_squared for error in errors) / ELLIPSOID_50
         rows.append(
             [
                 name,
@@ -130,7 +130,7 @@ def honesty_table(title: str, groups: Sequence[Group], *, note: str = "") -> Tab
         columns=[
             "",
             "tips within the stated 95 % ellipsoid",
-            "typical error / stated (1 is honest)",
+            "typical error / stated (1 is consistent)",
             "signed median along the sight mm",
         ],
         rows=rows,

@@ -1,4 +1,4 @@
-"""What the program said of one image, held against what is true in it."""
+"""Evaluation of one claimed drill pose against the ground truth."""
 
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -18,7 +18,7 @@ ELLIPSOID_95 = 7.815
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Claim:
-    """What was said of the drill in one image.
+    """The drill pose claimed for one image.
 
     Attributes:
         camera_from_marker: the marker's pose.
@@ -41,7 +41,7 @@ class Claim:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Error:
-    """How far a claim is off; all of them estimate minus truth, sizes where no sign is named.
+    """Error of a claim: estimate minus truth, absolute where no sign is named.
 
     Attributes:
         corner_px: root mean square over the four corners.
@@ -49,7 +49,7 @@ class Error:
         along_mm: signed, of the marker's centre along the line of sight; positive is too far away.
         rotation_deg: angle between both poses.
         tip_mm: distance of the tips.
-        tip_squared_sd: squared distance of the tips by the stated covariance, nan if none was stated.
+        tip_mahalanobis_squared: squared Mahalanobis distance of the tips, NaN without covariance.
         entry_offset_mm, angle_deg, depth_mm: of the numbers on the surgeon's screen.
     """
 
@@ -58,14 +58,14 @@ class Error:
     along_mm: float
     rotation_deg: float
     tip_mm: float
-    tip_squared_sd: float
+    tip_mahalanobis_squared: float
     entry_offset_mm: float
     angle_deg: float
     depth_mm: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RightClaim:
+class CorrectClaim:
     """The marker was found where it is."""
 
     found_by: FoundBy
@@ -86,12 +86,12 @@ class NoClaim:
     reason: str
 
 
-Outcome: TypeAlias = RightClaim | FalseClaim | NoClaim
+Outcome: TypeAlias = CorrectClaim | FalseClaim | NoClaim
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Judgement:
-    """One image: what was true, and what was said."""
+    """Ground truth and outcome of one image."""
 
     at_s: float
     phase: Phase
@@ -99,47 +99,47 @@ class Judgement:
     outcome: Outcome
 
 
-def judge(theatre: Theatre, at_s: float, said: Claim | str) -> Judgement:
-    """Hold a claim, or the reason why there is none, against the truth of this time.
+def judge(theatre: Theatre, at_s: float, claimed: Claim | str) -> Judgement:
+    """Evaluate a claim, or the reason why there is none, against the truth at this time.
 
     A claim of a marker that is only partly in view is right when its corners are.
     """
     truth = theatre.truth_at(at_s)
     return Judgement(
-        at_s=at_s, phase=truth.phase, in_view=truth.marker_in_view, outcome=_outcome(theatre, truth, said)
+        at_s=at_s, phase=truth.phase, in_view=truth.marker_in_view, outcome=_outcome(theatre, truth, claimed)
     )
 
 
-def _outcome(theatre: Theatre, truth: Truth, said: Claim | str) -> Outcome:
-    if isinstance(said, str):
-        return NoClaim(reason=said)
-    off = np.linalg.norm(said.corners_px - truth.corners_px, axis=1)
+def _outcome(theatre: Theatre, truth: Truth, claimed: Claim | str) -> Outcome:
+    if isinstance(claimed, str):
+        return NoClaim(reason=claimed)
+    off = np.linalg.norm(claimed.corners_px - truth.corners_px, axis=1)
     if float(off.max()) > max(FALSE_PX, FALSE_SIDE_RATIO * side_px_of(truth.corners_px)):
         return FalseClaim(corner_px=float(off.max()))
-    return RightClaim(found_by=said.found_by, error=_error(theatre, truth, said))
+    return CorrectClaim(found_by=claimed.found_by, error=_error(theatre, truth, claimed))
 
 
-def _error(theatre: Theatre, truth: Truth, said: Claim) -> Error:
+def _error(theatre: Theatre, truth: Truth, claimed: Claim) -> Error:
     centre = truth.camera_from_marker.translation_mm
     sight = centre / np.linalg.norm(centre)
-    off = said.camera_from_marker.translation_mm - centre
+    off = claimed.camera_from_marker.translation_mm - centre
     along = float(off @ sight)
-    turned = said.camera_from_marker.rotation @ truth.camera_from_marker.rotation.T
-    tip = said.tip_in_camera_mm - truth.camera_from_tool.translation_mm
+    turned = claimed.camera_from_marker.rotation @ truth.camera_from_marker.rotation.T
+    tip = claimed.tip_in_camera_mm - truth.camera_from_tool.translation_mm
     squared = np.nan
-    if said.tip_covariance_mm2 is not None:
-        squared = float(tip @ np.linalg.solve(said.tip_covariance_mm2, tip))
+    if claimed.tip_covariance_mm2 is not None:
+        squared = float(tip @ np.linalg.solve(claimed.tip_covariance_mm2, tip))
     deviation = deviation_from_channel(
         truth.camera_from_vertebra.inverse @ truth.camera_from_tool, theatre.channels[0]
     )
     return Error(
-        corner_px=float(np.sqrt(np.mean(np.sum((said.corners_px - truth.corners_px) ** 2, axis=1)))),
+        corner_px=float(np.sqrt(np.mean(np.sum((claimed.corners_px - truth.corners_px) ** 2, axis=1)))),
         across_mm=float(np.linalg.norm(off - along * sight)),
         along_mm=along,
         rotation_deg=float(np.degrees(np.linalg.norm(vector_from_rotation(turned)))),
         tip_mm=float(np.linalg.norm(tip)),
-        tip_squared_sd=squared,
-        entry_offset_mm=abs(said.entry_offset_mm - deviation.entry_offset_mm),
-        angle_deg=abs(said.angle_deg - deviation.angle_deg),
-        depth_mm=abs(said.depth_mm - deviation.depth_mm),
+        tip_mahalanobis_squared=squared,
+        entry_offset_mm=abs(claimed.entry_offset_mm - deviation.entry_offset_mm),
+        angle_deg=abs(claimed.angle_deg - deviation.angle_deg),
+        depth_mm=abs(claimed.depth_mm - deviation.depth_mm),
     )

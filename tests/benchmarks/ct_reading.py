@@ -1,4 +1,4 @@
-"""Time and memory of reading a CT of 512 x 512 x 400 voxels, each time in a process of its own.
+"""Time and memory of reading a CT of 512 x 512 x 400 voxels, each run in its own process.
 
 python -m tests.benchmarks.ct_reading FOLDER_OR_ZIP reads one and prints what it took, as JSON.
 """
@@ -32,7 +32,7 @@ KIB_PER_MIB = 1024.0
 
 
 def measure_ct_reading() -> list[Table]:
-    """A table: each compression, and the uncompressed one as a zip."""
+    """Table of each compression, and of the uncompressed series as a zip."""
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         for name, syntax in KINDS.items():
@@ -54,7 +54,7 @@ def measure_ct_reading() -> list[Table]:
 
 
 def write_series(folder: Path, syntax: uid.UID) -> None:
-    """A body of soft tissue with a spine and a scanner's noise; after some slices they begin again."""
+    """Write a synthetic series: soft tissue, a spine and scanner noise; slices repeat periodically."""
     folder.mkdir()
     template = made_ct(count=1, size_wh=SIZE_WH).slices[0]
     template.PixelSpacing = [0.742, 0.742]
@@ -104,7 +104,7 @@ def _row(name: str, path: Path) -> list[str]:
 
 
 def read_one(path: Path) -> dict[str, float]:
-    """Read it as the server does, and tell what it took."""
+    """Read a series as the server does, and return time and memory."""
     seen_s: list[float] = []
 
     def first(_: Slice) -> None:

@@ -1,4 +1,4 @@
-"""A CT of 512 x 512 x 400 voxels sent to a running server: how soon a slice of it is seen, and what it takes.
+"""Upload of a CT of 512 x 512 x 400 voxels to a running server: time to the first slice, and memory.
 
 The server captures and tracks a rehearsal meanwhile, as it would in a theatre.
 """
@@ -17,27 +17,27 @@ from typing import TypeAlias
 
 from pydicom import uid
 
-from tests.benchmarks.asked import Asked
 from tests.benchmarks.ct_reading import SIZE_WH, SLICES, write_series, zipped
+from tests.benchmarks.options import BenchmarkOptions
 from tests.benchmarks.running_server import RunningServer, running_server
 from tests.benchmarks.tables import Table
 
 KINDS = {"uncompressed": uid.ExplicitVRLittleEndian, "JPEG 2000": uid.JPEG2000Lossless}
 RATE_HZ = 30.0
 VOLUME_MIB = SIZE_WH[0] * SIZE_WH[1] * SLICES * 2 / 2**20
-WATCH_EVERY_S = 0.1
+POLL_EVERY_S = 0.1
 NOTE = (
     "Times begin when the last byte was sent. Memory is over the 200 MiB of the voxels: `server` is the most "
     "that the web server held, with what it had before; `all` is what it and every process under it "
     "(tracking, reading, decoding) held more than before, what they share and the mapped file counted once."
 )
 PATIENCE_S = 300.0
-Told: TypeAlias = dict[str, object]
+Status: TypeAlias = dict[str, object]
 
 
 @dataclass(slots=True, kw_only=True)
 class Memory:
-    """The most that was held at once, in MiB; what processes share is counted once."""
+    """Peak memory in MiB; shared memory is counted once."""
 
     server_mib: float = 0.0
     together_mib: float = 0.0
@@ -45,13 +45,13 @@ class Memory:
 
 
 @dataclass(slots=True)
-class Door:
-    """The server's own door, kept open."""
+class HttpClient:
+    """A persistent HTTP connection to the server."""
 
     port: int
 
-    def ask(self, method: str, path: str, body: bytes | None = None) -> tuple[int, bytes]:
-        """Status and content of an answer."""
+    def request(self, method: str, path: str, body: bytes | None = None) -> tuple[int, bytes]:
+        """Return status and content of a response."""
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE_S)
         try:
             headers = {"Content-Type": "application/json"} if body else {}
@@ -61,16 +61,18 @@ class Door:
         finally:
             connection.close()
 
-    def mapping(self, method: str, path: str, asked: Mapping[str, object] | None = None) -> Told:
-        """The answer as JSON; RuntimeError where it is a refusal."""
-        status, content = self.ask(method, path, None if asked is None else json.dumps(asked).encode())
+    def mapping(self, method: str, path: str, options: Mapping[str, object] | None = None) -> Status:
+        """Return the response as JSON; RuntimeError for an error status."""
+        status, content = self.request(
+            method, path, None if options is None else json.dumps(options).encode()
+        )
         if status >= 300:
             raise RuntimeError(f"{method} {path}: {status} {content[:300]!r}")
-        answer: Told = json.loads(content)
+        answer: Status = json.loads(content)
         return answer
 
-    def send(self, path: str, file: Path) -> tuple[Told, float]:
-        """Send a file as the body; the answer, and when its last byte was sent."""
+    def send(self, path: str, file: Path) -> tuple[Status, float]:
+        """Send a file as the body; return the response, and when the last byte was sent."""
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE_S)
         with file.open("rb") as content:
             connection.putrequest("POST", path)
@@ -79,20 +81,20 @@ class Door:
             while chunk := content.read(2**20):
                 connection.send(chunk)
         sent_s = time.perf_counter()
-        answer: Told = json.loads(connection.getresponse().read())
+        answer: Status = json.loads(connection.getresponse().read())
         connection.close()
         return answer, sent_s
 
 
-def measure_ct_upload(asked: Asked) -> list[Table]:
-    """A table: both compressions, as a zip."""
+def measure_ct_upload(options: BenchmarkOptions) -> list[Table]:
+    """Table of both compressions, as a zip."""
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         for name, syntax in KINDS.items():
             made = Path(folder) / name
             write_series(made, syntax)
             archive = zipped(made)
-            with running_server(asked, seed=asked.seeds[0], live_rate_hz=RATE_HZ) as server:
+            with running_server(options, seed=options.seeds[0], live_rate_hz=RATE_HZ) as server:
                 rows.append(_row(name, archive, server))
     return [
         Table(
@@ -105,19 +107,19 @@ def measure_ct_upload(asked: Asked) -> list[Table]:
 
 
 def _row(name: str, archive: Path, server: RunningServer) -> list[str]:
-    door = Door(server.port)
-    case = door.mapping("POST", "/api/cases", {"name": "benchmark"})
-    door.mapping("POST", f"/api/cases/{case['id']}/open", {})
+    client = HttpClient(server.port)
+    case = client.mapping("POST", "/api/cases", {"name": "benchmark"})
+    client.mapping("POST", f"/api/cases/{case['id']}/open", {})
     # What tracking takes from its start on is not the CT's.
-    _until(lambda: _tracks(door))
-    with _watched(server.pid) as memory:
-        begun, sent_s = door.send("/api/ct?made_by=benchmark", archive)
-        first_s = _until(lambda: _is_shown(door, begun)) - sent_s
-        open_s = _until(lambda: _is_done(door, begun)) - sent_s
+    _until(lambda: _tracks(client))
+    with _monitored(server.pid) as memory:
+        begun, sent_s = client.send("/api/ct?made_by=benchmark", archive)
+        first_s = _until(lambda: _is_shown(client, begun)) - sent_s
+        open_s = _until(lambda: _is_done(client, begun)) - sent_s
         shown = []
         for plane in ("axial", "sagittal"):
             start = time.perf_counter()
-            status, _ = door.ask("GET", f"/api/ct/slices/{plane}.png")
+            status, _ = client.request("GET", f"/api/ct/slices/{plane}.png")
             if status != 200:
                 raise RuntimeError(f"no {plane} slice: {status}")
             shown.append(1000.0 * (time.perf_counter() - start))
@@ -131,19 +133,19 @@ def _row(name: str, archive: Path, server: RunningServer) -> list[str]:
     ]
 
 
-def _tracks(door: Door) -> bool:
-    snapshot = door.mapping("GET", "/api/live").get("snapshot")
+def _tracks(client: HttpClient) -> bool:
+    snapshot = client.mapping("GET", "/api/live").get("snapshot")
     return isinstance(snapshot, dict) and int(snapshot["image_number"]) > 3 * RATE_HZ
 
 
-def _is_shown(door: Door, begun: Mapping[str, object]) -> bool:
-    status, _ = door.ask("GET", f"/api/ct/uploads/{begun['upload_id']}/preview.png")
+def _is_shown(client: HttpClient, begun: Mapping[str, object]) -> bool:
+    status, _ = client.request("GET", f"/api/ct/uploads/{begun['upload_id']}/preview.png")
     # Once the CT is open there is no first slice to be asked for.
     return status in {200, 404}
 
 
-def _is_done(door: Door, begun: Mapping[str, object]) -> bool:
-    job = door.mapping("GET", f"/api/jobs/{begun['id']}")
+def _is_done(client: HttpClient, begun: Mapping[str, object]) -> bool:
+    job = client.mapping("GET", f"/api/jobs/{begun['id']}")
     if job["state"] == "failed":
         raise RuntimeError(f"the CT was not read: {job['problem']}")
     return job["state"] == "done"
@@ -159,12 +161,12 @@ def _until(true: Callable[[], bool]) -> float:
 
 
 @contextmanager
-def _watched(pid: int) -> Iterator[Memory]:
-    """The memory of the server and all under it, looked at again and again until the block ends."""
+def _monitored(pid: int) -> Iterator[Memory]:
+    """Sample the memory of the server and its child processes until the block ends."""
     memory, over = Memory(before_mib=_together_mib(pid)), threading.Event()
 
     def watch() -> None:
-        while not over.wait(WATCH_EVERY_S):
+        while not over.wait(POLL_EVERY_S):
             memory.server_mib = max(memory.server_mib, _mib(pid, "status", "VmRSS"))
             memory.together_mib = max(memory.together_mib, _together_mib(pid))
 
@@ -182,7 +184,7 @@ def _together_mib(pid: int) -> float:
 
 
 def _under(pid: int) -> list[int]:
-    """All processes under one; those that end meanwhile are left out."""
+    """Return all descendants of a process; those that end meanwhile are left out."""
     found = []
     for task in Path(f"/proc/{pid}/task").glob("*/children"):
         try:
@@ -199,5 +201,5 @@ def _mib(pid: int, file: str, name: str) -> float:
         text = Path(f"/proc/{pid}/{file}").read_text()
     except OSError:
         return 0.0
-    told = re.search(rf"^{name}:\s+(\d+) kB", text, re.MULTILINE)
-    return int(told[1]) / 1024.0 if told else 0.0
+    reported = re.search(rf"^{name}:\s+(\d+) kB", text, re.MULTILINE)
+    return int(reported[1]) / 1024.0 if reported else 0.0

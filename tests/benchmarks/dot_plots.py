@@ -1,4 +1,4 @@
-"""Small plots as SVG: rows of named dots on a common axis, in panels side by side."""
+"""Dot plots as SVG: rows of named dots on a common axis, in adjacent panels."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -52,14 +52,14 @@ class Panel:
     band: tuple[float, float] | None = None
 
     def x(self, value: float) -> float:
-        """Where a value is drawn; beyond the axis at its end."""
+        """Return the x position of a value, clipped to the axis."""
         low, high = (math.log10(limit) if self.is_log else limit for limit in self.limits)
         at = math.log10(max(value, 1e-12)) if self.is_log else value
         return LABEL + PANEL * min(max((at - low) / (high - low), 0.0), 1.0)
 
     @property
     def ticks(self) -> list[float]:
-        """Powers of ten, or fifths of the axis."""
+        """Return powers of ten, or fifths of the axis."""
         low, high = self.limits
         if self.is_log:
             powers = range(math.ceil(math.log10(low)), math.floor(math.log10(high)) + 1)
@@ -68,7 +68,7 @@ class Panel:
 
 
 def svg(title: str, panels: Sequence[Panel]) -> str:
-    """The picture: its title, the legend of the first panel, and all panels."""
+    """Return the picture: title, legend of the first panel, and all panels."""
     width = len(panels) * (LABEL + PANEL + GAP)
     height = TOP + ROW * max((len(panel.rows) for panel in panels), default=0) + BOTTOM
     lines = [
@@ -123,7 +123,7 @@ def _dot(x: float, y: float, series: Series) -> str:
 
 
 def write_plots(plots: Mapping[str, str], folder: Path = FOLDER) -> None:
-    """Each picture as `<name>.svg`."""
+    """Write each picture as `<name>.svg`."""
     folder.mkdir(exist_ok=True)
     for name, picture in plots.items():
         (folder / f"{name}.svg").write_text(picture, encoding="utf-8")

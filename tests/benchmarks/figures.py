@@ -1,4 +1,4 @@
-"""Figures that a later run is held against: shares with their counts, sizes with their spread."""
+"""Figures for comparison between runs: proportions with counts, sizes with spread."""
 
 import json
 import math
@@ -19,7 +19,7 @@ BETWEEN_RUNS_OF_TIME = 0.08
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Share:
-    """So many of so many.
+    """A proportion.
 
     Attributes:
         is_good: whether more is better.
@@ -35,18 +35,18 @@ class Share:
 
     @property
     def ratio(self) -> float:
-        """The share."""
+        """Return the proportion."""
         return self.count / self.of
 
     @property
     def range(self) -> tuple[float, float]:
-        """Where the true share may lie."""
+        """Return the confidence interval."""
         return interval(self.count / self.in_a_row, self.of / self.in_a_row)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Size:
-    """An error, a time or a ratio; less is better.
+    """An error, a time or a ratio; lower is better.
 
     Attributes:
         value: a median or another percentile.
@@ -63,7 +63,7 @@ Figure: TypeAlias = Share | Size
 
 
 def size_of(values: Sequence[float], percent: float = 50.0, *, is_time: bool = False) -> Size | None:
-    """A percentile with its spread; None where there are too few numbers for one."""
+    """Return a percentile with its spread; None if there are too few values."""
     numbers = np.array([value for value in values if math.isfinite(value) and value > 0.0])
     if len(numbers) < 3:
         return None
@@ -71,13 +71,13 @@ def size_of(values: Sequence[float], percent: float = 50.0, *, is_time: bool = F
     spread = float(np.std(np.log(np.percentile(draws, percent, axis=1))))
     if is_time:
         spread = math.hypot(spread, BETWEEN_RUNS_OF_TIME)
-    # A percentile at the rim of few numbers does not move when they are drawn again, and yet is unsure.
+    # The bootstrap underestimates the spread of an extreme percentile of few values.
     spread = max(spread, 1.0 / len(numbers))
     return Size(value=float(np.percentile(numbers, percent)), log_sd=spread, count=len(numbers))
 
 
 def interval(count: float, of: float, sd: float = NOISE_SD) -> tuple[float, float]:
-    """Wilson's interval for a share."""
+    """Return the Wilson interval of a proportion."""
     if of == 0:
         return 0.0, 1.0
     p, square = count / of, sd * sd
@@ -87,7 +87,7 @@ def interval(count: float, of: float, sd: float = NOISE_SD) -> tuple[float, floa
 
 
 def is_worse(then: Figure, now: Figure) -> bool:
-    """Whether a figure got worse by more than the noise of both runs."""
+    """Return whether a figure got worse by more than the noise of both runs."""
     if isinstance(then, Size) and isinstance(now, Size):
         return math.log(now.value / then.value) > NOISE_SD * math.hypot(then.log_sd, now.log_sd)
     if isinstance(then, Share) and isinstance(now, Share) and then.of and now.of:
@@ -102,25 +102,25 @@ def is_worse(then: Figure, now: Figure) -> bool:
 
 
 def worse_figures(then: Mapping[str, Figure], now: Mapping[str, Figure]) -> list[str]:
-    """A line for each figure that got worse by more than the noise."""
+    """Return a line for each figure that got worse by more than the noise."""
     return [
-        f"{name}: {said(now[name])}, was {said(then[name])}"
+        f"{name}: {text_of(now[name])}, was {text_of(then[name])}"
         for name in now
         if name in then and is_worse(then[name], now[name])
     ]
 
 
 def better_figures(then: Mapping[str, Figure], now: Mapping[str, Figure]) -> list[str]:
-    """A line for each figure that got better by more than the noise."""
+    """Return a line for each figure that got better by more than the noise."""
     return [
-        f"{name}: {said(now[name])}, was {said(then[name])}"
+        f"{name}: {text_of(now[name])}, was {text_of(then[name])}"
         for name in now
         if name in then and is_worse(now[name], then[name])
     ]
 
 
-def said(figure: Figure) -> str:
-    """The figure in a few words."""
+def text_of(figure: Figure) -> str:
+    """Format a figure."""
     if isinstance(figure, Share):
         share = f"{figure.ratio:.3f}" if figure.of else "none"
         return f"{share} ({figure.count} of {figure.of})"
@@ -128,7 +128,7 @@ def said(figure: Figure) -> str:
 
 
 def read_figures(path: Path = FIGURES) -> dict[str, dict[str, Figure]]:
-    """The figures that were written, by section and name; none where nothing was written."""
+    """Return the written figures by section and name; empty without a file."""
     if not path.exists():
         return {}
     written = json.loads(path.read_text(encoding="utf-8"))
@@ -139,13 +139,13 @@ def read_figures(path: Path = FIGURES) -> dict[str, dict[str, Figure]]:
 
 
 def write_figures(section: str, figures: Mapping[str, Figure], path: Path = FIGURES) -> None:
-    """Write the figures of one section, and leave the others as they are."""
-    kept = {**read_figures(path), section: figures}
+    """Write the figures of one section; other sections are preserved."""
+    retained = {**read_figures(path), section: figures}
     lines = [
         f" {json.dumps(name)}: {{\n"
-        + ",\n".join(f"  {json.dumps(key)}: {json.dumps(_plain(one))}" for key, one in kept[name].items())
+        + ",\n".join(f"  {json.dumps(key)}: {json.dumps(_plain(one))}" for key, one in retained[name].items())
         + "\n }"
-        for name in sorted(kept)
+        for name in sorted(retained)
     ]
     path.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")
 

@@ -1,4 +1,4 @@
-"""Messages of a running server against the truth of their images."""
+"""Messages of a running server against the ground truth of their images."""
 
 import math
 import time
@@ -10,7 +10,7 @@ from websockets.sync.client import connect
 
 from server.stream.judgement_messages import DeviationMessage
 from server.stream.messages import LiveMessage
-from server.stream.place_messages import AbsentMessage, MarkerSeenMessage, MarkerUnseenMessage, ToolMessage
+from server.stream.pose_messages import AbsentMessage, MarkerSeenMessage, MarkerUnseenMessage, ToolMessage
 from server.stream.snapshot_messages import SnapshotMessage
 from tests.benchmarks.claims import Claim, Judgement, judge
 from tests.benchmarks.running_server import PATIENCE_S, RunningServer
@@ -26,8 +26,8 @@ STAGES = ("waiting", *TRACKER_STAGES, "navigation", "overlay", "encode")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Heard:
-    """One message, and when it came.
+class ReceivedMessage:
+    """One message and its time of arrival.
 
     Attributes:
         snapshot: what it says.
@@ -40,41 +40,43 @@ class Heard:
     latency_ms: float
 
 
-def listen(server: RunningServer, *, seconds: float) -> list[Heard]:
-    """Every message of `/ws/live` with an image, for so long after the first have settled."""
-    heard: list[Heard] = []
+def listen(server: RunningServer, *, seconds: float) -> list[ReceivedMessage]:
+    """Return the `/ws/live` messages with an image, for this long after settling."""
+    received: list[ReceivedMessage] = []
     for one in _messages(server):
-        heard.append(one)
-        if one.snapshot.captured_at_s - heard[0].snapshot.captured_at_s > SETTLING_S + seconds:
+        received.append(one)
+        if one.snapshot.captured_at_s - received[0].snapshot.captured_at_s > SETTLING_S + seconds:
             break
-    start_s = heard[0].snapshot.captured_at_s + SETTLING_S
-    return [one for one in heard if one.snapshot.captured_at_s >= start_s]
+    start_s = received[0].snapshot.captured_at_s + SETTLING_S
+    return [one for one in received if one.snapshot.captured_at_s >= start_s]
 
 
-def _messages(server: RunningServer) -> Iterator[Heard]:
+def _messages(server: RunningServer) -> Iterator[ReceivedMessage]:
     with connect(server.socket_address("/ws/live"), proxy=None, compression=None) as socket:
         while True:
             text = socket.recv(timeout=PATIENCE_S)
             came_s = time.monotonic()
             message = LiveMessage.model_validate_json(text)
             if message.snapshot is not None:
-                yield Heard(
+                yield ReceivedMessage(
                     snapshot=message.snapshot,
                     sequence=message.sequence,
                     latency_ms=(came_s - message.snapshot.captured_at_s) * 1e3,
                 )
 
 
-def judge_messages(theatre: Theatre, heard: Sequence[Heard], *, live_rate_hz: float) -> list[Judgement]:
-    """Each message against the truth of the image whose number it carries."""
+def judge_messages(
+    theatre: Theatre, received: Sequence[ReceivedMessage], *, live_rate_hz: float
+) -> list[Judgement]:
+    """Evaluate each message against the truth of the image whose number it carries."""
     return [
         judge(theatre, one.snapshot.image_number / live_rate_hz, claim_of_message(one.snapshot))
-        for one in heard
+        for one in received
     ]
 
 
 def claim_of_message(snapshot: SnapshotMessage) -> Claim | str:
-    """What a message says of the drill, or the reason why it says nothing."""
+    """Return the drill pose of a message, or the reason why there is none."""
     sighting = next(marker.sighting for marker in snapshot.markers if marker.name == "drill")
     tool = next(tool for tool in snapshot.tools if tool.name == "drill")
     if isinstance(sighting, MarkerUnseenMessage):
@@ -102,9 +104,9 @@ def claim_of_message(snapshot: SnapshotMessage) -> Claim | str:
     )
 
 
-def pace_table(title: str, heard: Sequence[Heard]) -> Table:
-    """How old the messages are, and how many images nobody looked at."""
-    first, last = heard[0].snapshot, heard[-1].snapshot
+def pace_table(title: str, received: Sequence[ReceivedMessage]) -> Table:
+    """Table of message age and skipped images."""
+    first, last = received[0].snapshot, received[-1].snapshot
     spent_s = last.captured_at_s - first.captured_at_s
     return Table(
         title=title,
@@ -118,20 +120,20 @@ def pace_table(title: str, heard: Sequence[Heard]) -> Table:
         ],
         rows=[
             [
-                str(len(heard)),
-                number((len(heard) - 1) / spent_s, 1),
-                pair([one.snapshot.age_ms for one in heard], 99.0, 1),
-                pair([one.latency_ms for one in heard], 99.0, 1),
-                str(last.image_number - first.image_number + 1 - len(heard)),
-                str(heard[-1].sequence - heard[0].sequence + 1 - len(heard)),
+                str(len(received)),
+                number((len(received) - 1) / spent_s, 1),
+                pair([one.snapshot.age_ms for one in received], 99.0, 1),
+                pair([one.latency_ms for one in received], 99.0, 1),
+                str(last.image_number - first.image_number + 1 - len(received)),
+                str(received[-1].sequence - received[0].sequence + 1 - len(received)),
             ]
         ],
     )
 
 
-def stage_table(title: str, heard: Sequence[Heard]) -> Table:
-    """Time of each stage as the messages tell it."""
-    present = {name for one in heard for name in one.snapshot.stage_ms}
+def stage_table(title: str, received: Sequence[ReceivedMessage]) -> Table:
+    """Table of the stage times in the messages."""
+    present = {name for one in received for name in one.snapshot.stage_ms}
     names = [*(name for name in STAGES if name in present), *sorted(present - set(STAGES))]
     return Table(
         title=title,
@@ -139,7 +141,9 @@ def stage_table(title: str, heard: Sequence[Heard]) -> Table:
         rows=[
             [
                 name,
-                pair([one.snapshot.stage_ms[name] for one in heard if name in one.snapshot.stage_ms], 99.0),
+                pair(
+                    [one.snapshot.stage_ms[name] for one in received if name in one.snapshot.stage_ms], 99.0
+                ),
             ]
             for name in names
         ],

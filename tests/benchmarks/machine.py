@@ -1,4 +1,4 @@
-"""On which machine, and when, something was measured."""
+"""Description of the machine and date of a measurement."""
 
 import datetime
 import os
@@ -12,7 +12,7 @@ CPUINFO = Path("/proc/cpuinfo")
 
 
 def machine_line() -> str:
-    """One sentence that names the processor, the versions and the day."""
+    """Return one sentence with processor, versions and date."""
     today = datetime.datetime.now(datetime.UTC).date().isoformat()
     return (
         f"{_processor()}, {os.cpu_count()} cores shared with other work; Python {platform.python_version()}, "

@@ -1,4 +1,4 @@
-"""Every image of the theatre through `Tracker.step`, and the same image through others for comparison."""
+"""Every image of a theatre through `Tracker.step`, and through other detectors for comparison."""
 
 import time
 from collections.abc import Sequence
@@ -20,8 +20,8 @@ Image = npt.NDArray[np.uint8]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Timed:
-    """Time of one image.
+class TimedImage:
+    """Times of one image.
 
     Attributes:
         step_ms: of `Tracker.step`, whose stages are `step_stage_ms`.
@@ -39,27 +39,27 @@ class Timed:
 
 
 @dataclass(slots=True)
-class Offline:
-    """What was measured, image by image."""
+class OfflineRun:
+    """Results image by image."""
 
     stepped: list[Judgement] = field(default_factory=list)
     searched: list[Judgement] = field(default_factory=list)
-    timed: list[Timed] = field(default_factory=list)
+    timed: list[TimedImage] = field(default_factory=list)
 
 
 def times_s(*, seconds: float, rate_hz: float) -> list[float]:
-    """The times of the images."""
+    """Return the times of the images."""
     return [number / rate_hz for number in range(round(seconds * rate_hz))]
 
 
-def measure_offline(theatre: Theatre, at_s: Sequence[float]) -> Offline:
-    """All images of these times, in this order, by one tracker that remembers."""
+def measure_offline(theatre: Theatre, at_s: Sequence[float]) -> OfflineRun:
+    """Process all images of these times in order with one stateful tracker."""
     setup = setup_of(theatre)
     tracker = Tracker(camera=theatre.camera, models=[theatre.marker], clock=time.perf_counter)
     searcher = Tracker(camera=theatre.camera, models=[theatre.marker], clock=time.perf_counter)
     detector = cv2.aruco.ArucoDetector(cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_6X6_250))
     renderer = theatre.renderer()
-    measured = Offline()
+    measured = OfflineRun()
     for now_s in at_s:
         image = renderer.image_at(now_s)
         started = time.perf_counter()
@@ -72,7 +72,7 @@ def measure_offline(theatre: Theatre, at_s: Sequence[float]) -> Offline:
         measured.stepped.append(judge(theatre, now_s, claim_of(setup, image, stepped)))
         measured.searched.append(judge(theatre, now_s, claim_of(setup, image, searched)))
         measured.timed.append(
-            Timed(
+            TimedImage(
                 step_ms=(after_step - started) * 1e3,
                 step_stage_ms=dict(tracker.stage_ms),
                 tracked=isinstance(stepped, Seen) and stepped.found_by == "track",
@@ -85,7 +85,7 @@ def measure_offline(theatre: Theatre, at_s: Sequence[float]) -> Offline:
 
 
 def setup_of(theatre: Theatre) -> Setup:
-    """What stands before the first image of this theatre."""
+    """Return the navigation setup before the first image of this theatre."""
     return Setup(
         camera=theatre.camera,
         camera_calibrated=True,
@@ -96,7 +96,7 @@ def setup_of(theatre: Theatre) -> Setup:
 
 
 def claim_of(setup: Setup, image: Image, sighting: Sighting) -> Claim | str:
-    """What navigation makes of a sighting, or the reason why it makes nothing."""
+    """Return the drill pose from a sighting by navigation, or the reason why there is none."""
     if not isinstance(sighting, Seen):
         return sighting.reason.value
     snapshot = navigate(

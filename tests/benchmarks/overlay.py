@@ -1,4 +1,4 @@
-"""Time of all that follows tracking, which the server does once per image for all viewers."""
+"""Time of everything after tracking, which the server does once per image for all viewers."""
 
 import dataclasses
 import time
@@ -8,15 +8,15 @@ from contextlib import contextmanager
 import cv2
 import numpy as np
 
-from server.alarms import AlarmDesk
+from server.alarms import AlarmService
 from server.capture.shot import Shot
 from server.config import Config, VideoConfig
 from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.loop.tracking import Tracking
 from server.overlay import draw_overlay, encode_jpeg
 from server.setup import Preparation, build_setup
-from tests.benchmarks.asked import Asked
 from tests.benchmarks.offline import Image
+from tests.benchmarks.options import BenchmarkOptions
 from tests.benchmarks.tables import Table, pair
 from tracker.navigation import Absent, NavigationSnapshot
 from tracker.registration import Registration
@@ -33,7 +33,7 @@ PROCESS = ProcessStatus(state=ProcessState.RUNNING)
 
 
 @dataclasses.dataclass(slots=True)
-class Spent:
+class StageTimes:
     """Milliseconds of each image."""
 
     watch: list[float] = dataclasses.field(default_factory=list)
@@ -43,16 +43,16 @@ class Spent:
 
     @property
     def together(self) -> list[float]:
-        """Of each image, the sum."""
+        """Return the sum for each image."""
         parts = (self.watch, self.navigation, self.alarms, self.overlay)
         return [sum(one) for one in zip(*parts, strict=True)]
 
 
-def measure_overlay(asked: Asked) -> list[Table]:
+def measure_overlay(options: BenchmarkOptions) -> list[Table]:
     """Navigation, alarms and overlay together on one core, and overlay and encoding as they run."""
     rows, drawing = [], []
     for size in SIZES_WH_PX:
-        preparation, shots = _drilling(asked, size)
+        preparation, shots = _drilling(options, size)
         spent, newest = _measured(preparation, shots)
         said = f"{size[0]}x{size[1]}"
         parts = (spent.watch, spent.navigation, spent.alarms, spent.overlay, spent.together)
@@ -73,13 +73,13 @@ def measure_overlay(asked: Asked) -> list[Table]:
     ]
 
 
-def _drilling(asked: Asked, size_wh_px: tuple[int, int]) -> tuple[Preparation, list[Shot]]:
-    """What is known before the first image, and a few images that are shown again and again."""
-    settings = asked.settings_of(asked.seeds[0], size_wh_px)
-    told = dataclasses.asdict(settings)
-    width, height = told.pop("size_wh_px")
+def _drilling(options: BenchmarkOptions, size_wh_px: tuple[int, int]) -> tuple[Preparation, list[Shot]]:
+    """Return the setup and a few images, which are repeated."""
+    settings = options.settings_of(options.seeds[0], size_wh_px)
+    reported = dataclasses.asdict(settings)
+    width, height = reported.pop("size_wh_px")
     known = {"seed", "noise", "blur", "clutter", "light"}
-    rehearsal = {name: value for name, value in told.items() if name in known}
+    rehearsal = {name: value for name, value in reported.items() if name in known}
     config = Config.model_validate({"rehearsal": {**rehearsal, "width": width, "height": height}})
     preparation = build_setup(config)
     registration, theatre = preparation.registration, preparation.theatre
@@ -106,23 +106,23 @@ def _drilling(asked: Asked, size_wh_px: tuple[int, int]) -> tuple[Preparation, l
     return dataclasses.replace(preparation, registration=unsure), shots
 
 
-def _measured(preparation: Preparation, shots: list[Shot]) -> tuple[Spent, NavigationSnapshot]:
-    tracking, spent, now_s = Tracking(preparation), Spent(), [0.0]
-    desk = AlarmDesk(Config(), clock=lambda: now_s[0])
+def _measured(preparation: Preparation, shots: list[Shot]) -> tuple[StageTimes, NavigationSnapshot]:
+    tracking, spent, now_s = Tracking(preparation), StageTimes(), [0.0]
+    service = AlarmService(Config(), clock=lambda: now_s[0])
     snapshot: NavigationSnapshot | None = None
     with one_thread():
         for shot in shots:
-            snapshot = tracking.conclude(shot, skipped_images=0, clock=time.thread_time)
+            snapshot = tracking.process(shot, skipped_images=0, clock=time.thread_time)
             now_s[0] = shot.captured_at_s + 0.02
             started_s = time.thread_time()
-            alarms = desk.look(snapshot, SOURCE, PROCESS)
+            alarms = service.observe(snapshot, SOURCE, PROCESS)
             looked_s = time.thread_time()
             draw_overlay(shot.image, snapshot, alarms)
             spent.overlay.append((time.thread_time() - looked_s) * 1e3)
             spent.alarms.append((looked_s - started_s) * 1e3)
             spent.watch.append(snapshot.stage_ms["watch"])
             spent.navigation.append(snapshot.stage_ms["navigation"])
-    if snapshot is None or not snapshot.judgements:
+    if snapshot is None or not snapshot.analyses:
         raise RuntimeError("nothing was judged")
     return spent, snapshot
 
@@ -146,7 +146,7 @@ def _drawing(said: str, image: Image, snapshot: NavigationSnapshot) -> list[str]
 
 @contextmanager
 def one_thread() -> Iterator[None]:
-    """OpenCV on one thread, for the time of the block."""
+    """Run OpenCV on one thread within the block."""
     before = cv2.getNumThreads()
     cv2.setNumThreads(1)
     try:

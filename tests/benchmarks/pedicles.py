@@ -1,8 +1,8 @@
-"""How true pedicles are measured: random phantoms in random scans, clicked somewhere in the pedicle."""
+"""Accuracy of the pedicle measurement: random phantoms in random scans, with random clicks."""
 
 import numpy as np
 
-from tests.benchmarks.measured import Measured
+from tests.benchmarks.section_result import SectionResult
 from tests.benchmarks.tables import Table
 from tests.tracker.plan.pedicles import Off, off_by
 from tracker.errors import NavigationError
@@ -13,8 +13,8 @@ PHANTOMS = 40
 FINE_MM = 1.5
 
 
-def measure_pedicles(phantoms: int = PHANTOMS) -> Measured:
-    """Both pedicles of each phantom against their truth."""
+def measure_pedicles(phantoms: int = PHANTOMS) -> SectionResult:
+    """Measure both pedicles of each phantom against their ground truth."""
     fine: list[Off] = []
     thick: list[Off] = []
     rejected: list[str] = []
@@ -35,7 +35,7 @@ def measure_pedicles(phantoms: int = PHANTOMS) -> Measured:
     rows = [_row(f"slices under {FINE_MM} mm", fine), _row(f"slices of {FINE_MM} to 3 mm", thick)]
     note = (
         "Median / worst size of the error; widths and heights in voxels of the slice (0.35 to 0.9 mm), "
-        f"also where slices are thicker. Refused: {len(rejected)} {', '.join(sorted(set(rejected)))}".strip()
+        f"also where slices are thicker. Rejected: {len(rejected)} {', '.join(sorted(set(rejected)))}".strip()
         + "."
     )
     columns = [
@@ -47,7 +47,7 @@ def measure_pedicles(phantoms: int = PHANTOMS) -> Measured:
         "sagittal deg",
         "length mm",
     ]
-    return Measured(tables=[Table(title="", columns=columns, rows=rows, note=note)])
+    return SectionResult(tables=[Table(title="", columns=columns, rows=rows, note=note)])
 
 
 def _row(name: str, some: list[Off]) -> list[str]:

@@ -1,4 +1,4 @@
-"""Puts measured tables between their marks in the README, and leaves everything else there as it is."""
+"""Replaces the measured tables between their marks in the README."""
 
 from pathlib import Path
 
@@ -6,7 +6,7 @@ README = Path(__file__).with_name("README.md")
 
 
 def with_section(text: str, name: str, content: str) -> str:
-    """The text with this content between `<!-- name -->` and `<!-- end of name -->`.
+    """Return the text with this content between `<!-- name -->` and `<!-- end of name -->`.
 
     Raises:
         ValueError: the text has no such marks.

@@ -1,4 +1,4 @@
-"""What the simulated theatre costs: processor time of each image, and how long its start takes.
+"""Cost of the simulated theatre: processor time of each image, and start-up time.
 
 python -m tests.benchmarks.rehearsal_cost [--images 150] [--size 1280x720] [--threads 2]
 """
@@ -13,7 +13,7 @@ from pathlib import Path
 
 import cv2
 
-from server.capture.frozen import SameImage
+from server.capture.frozen_image import FrozenImageDetector
 from server.capture.shot import Shot
 from server.loop.still_files import StillFiles
 from tests.benchmarks.machine import machine_line
@@ -35,7 +35,7 @@ EVENTS = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Played:
-    """A scene and what is special about it.
+    """A scene with its special settings.
 
     Attributes:
         name: of its row.
@@ -54,7 +54,7 @@ class Played:
     events: tuple[Event, ...] = ()
 
     def settings(self, size_wh_px: tuple[int, int]) -> TheatreSettings:
-        """Its theatre."""
+        """Return the theatre settings."""
         return TheatreSettings(
             size_wh_px=size_wh_px,
             scene=self.scene,
@@ -75,20 +75,20 @@ PLAYED = (
 
 
 def image_ms(theatre: Theatre, renderer: Renderer | BoardRenderer, images: int) -> list[float]:
-    """Processor time of images evenly spread over the scene's cycle, with all that capturing them costs."""
-    same, spent = SameImage(), []
+    """Return the processor time of images spread evenly over the scene's cycle, including capture."""
+    same, spent = FrozenImageDetector(), []
     for number_of in range(-WARMING, images):
         # Not a whole part of the cycle: each place of a board is seen held and moved.
         at_s = round((number_of % images) / images * theatre.cycle_s * RATE_HZ) / RATE_HZ
         began = time.process_time()
         image = renderer.image_at(at_s)
-        same.for_s(Shot(image=image, number=number_of, captured_at_s=at_s, source_time_s=at_s))
+        same.repeated_for_s(Shot(image=image, number=number_of, captured_at_s=at_s, source_time_s=at_s))
         spent.append(1e3 * (time.process_time() - began))
     return spent[WARMING:]
 
 
 def image_table(images: int, size_wh_px: tuple[int, int]) -> Table:
-    """Of each scene, the processor time of an image and the share of a core that it takes."""
+    """Table of the processor time of an image and its share of a core, by scene."""
     rows = []
     before: Renderer | BoardRenderer | None = None
     for played in PLAYED:
@@ -118,7 +118,7 @@ def image_table(images: int, size_wh_px: tuple[int, int]) -> Table:
 
 
 def start_table(size_wh_px: tuple[int, int]) -> Table:
-    """From a loaded program to the first image, each start in a process of its own."""
+    """Table of the time from the loaded program to the first image, each in its own process."""
     with tempfile.TemporaryDirectory() as folder:
         first, second = (_start(size_wh_px, Path(folder)) for _ in range(2))
     rows = [[name, *(f"{value:.2f}" for value in (*first[name], *second[name]))] for name in first]

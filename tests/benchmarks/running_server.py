@@ -1,4 +1,4 @@
-"""A real server, started as a person starts it, watched through its own doors, stopped by its own number."""
+"""A server process started by its command line, used over HTTP, and stopped by its process id."""
 
 import os
 import re
@@ -13,7 +13,7 @@ from pathlib import Path
 
 import yaml
 
-from tests.benchmarks.asked import Asked
+from tests.benchmarks.options import BenchmarkOptions
 
 CHECKOUT = Path(__file__).resolve().parents[2]
 PATIENCE_S = 60.0
@@ -32,15 +32,19 @@ class RunningServer:
     pid: int
 
     def socket_address(self, path: str) -> str:
-        """The address of a WebSocket of this server."""
+        """Return the address of a WebSocket of this server."""
         return f"ws://127.0.0.1:{self.port}{path}"
 
 
 @contextmanager
 def running_server(
-    asked: Asked, *, seed: int, live_rate_hz: float, rehearsal: Mapping[str, object] | None = None
+    options: BenchmarkOptions,
+    *,
+    seed: int,
+    live_rate_hz: float,
+    rehearsal: Mapping[str, object] | None = None,
 ) -> Iterator[RunningServer]:
-    """`python -m server run` with the rehearsal of this seed, until the end of the block.
+    """Run `python -m server run` with the rehearsal of this seed until the end of the block.
 
     What is said of the rehearsal beside how hard it is: its scene, its skill, its events.
 
@@ -50,10 +54,10 @@ def running_server(
     played = {
         "seed": seed,
         "rate_hz": live_rate_hz,
-        "noise": asked.noise,
-        "blur": asked.blur,
-        "clutter": asked.clutter,
-        "light": asked.light,
+        "noise": options.noise,
+        "blur": options.blur,
+        "clutter": options.clutter,
+        "light": options.light,
         **(rehearsal or {}),
     }
     with tempfile.TemporaryDirectory() as folder:

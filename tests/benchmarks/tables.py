@@ -1,4 +1,4 @@
-"""Markdown tables, and the two figures that stand in them: median and a high percentile."""
+"""Markdown tables, and formatting of medians and percentiles."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ NOTHING = "–"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Table:
-    """A heading, a table under it, and what must be said about it."""
+    """A table with title and note."""
 
     title: str
     columns: Sequence[str]
@@ -19,7 +19,7 @@ class Table:
 
     @property
     def markdown(self) -> str:
-        """The table as Markdown, its first column to the left and all others to the right."""
+        """Return the table as Markdown, first column left-aligned, others right-aligned."""
         lines = [f"**{self.title}**", ""] if self.title else []
         lines.append("| " + " | ".join(self.columns) + " |")
         lines.append("|" + "|".join(["---", *["---:"] * (len(self.columns) - 1)]) + "|")
@@ -30,24 +30,24 @@ class Table:
 
 
 def percentile(values: Iterable[float], percent: float) -> float:
-    """This percentile of the finite values; not a number when there are none."""
+    """Return this percentile of the finite values; NaN without any."""
     array = np.fromiter(values, dtype=np.float64)
     array = array[np.isfinite(array)]
     return float(np.percentile(array, percent)) if len(array) else float("nan")
 
 
 def median(values: Iterable[float]) -> float:
-    """The median of the finite values; not a number when there are none."""
+    """Return the median of the finite values; NaN without any."""
     return percentile(values, 50.0)
 
 
 def number(value: float, digits: int = 2) -> str:
-    """A number with so many digits behind the point; a dash where there is none."""
+    """Format a number with this many decimals; a dash for NaN."""
     return f"{value:.{digits}f}" if np.isfinite(value) else NOTHING
 
 
 def pair(values: Iterable[float], percent: float, digits: int = 2) -> str:
-    """Median and this percentile: `0.21 / 0.64`."""
+    """Format median and percentile: `0.21 / 0.64`."""
     listed = list(values)
     return (
         f"{number(median(listed), digits)} / {number(percentile(listed, percent), digits)}"
@@ -57,5 +57,5 @@ def pair(values: Iterable[float], percent: float, digits: int = 2) -> str:
 
 
 def share(part: int, whole: int, digits: int = 1) -> str:
-    """Part of a whole in per cent; a dash when there is no whole."""
+    """Format a share in per cent; a dash if the whole is 0."""
     return f"{100.0 * part / whole:.{digits}f} %" if whole else NOTHING

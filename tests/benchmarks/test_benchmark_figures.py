@@ -20,7 +20,7 @@ from tests.benchmarks.figures import (
     worse_figures,
     write_figures,
 )
-from tests.benchmarks.measured import Measured
+from tests.benchmarks.section_result import SectionResult
 
 
 def errors_like(median_mm: float, *, seed: int, count: int = 24) -> Size:
@@ -97,7 +97,7 @@ def test_errors_that_grew_threefold_are_called_worse_and_ones_that_shrank_better
 
 def test_what_got_worse_is_said_with_both_numbers() -> None:
     then = {"A base, found": Share(count=24, of=24), "gone": Share(count=1, of=1)}
-    measured = Measured(
+    measured = SectionResult(
         tables=[], figures={"A base, found": Share(count=8, of=24), "new": Share(count=1, of=1)}
     )
     assert _compared(then, measured) == (
@@ -186,11 +186,11 @@ def test_no_scenes_are_no_measurement(count: str, capsys: pytest.CaptureFixture[
     ],
 )
 def test_what_is_no_number_of_its_kind_is_told_with_its_form(
-    words: list[str], told: str, capsys: pytest.CaptureFixture[str]
+    words: list[str], reported: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     with pytest.raises(SystemExit):
         _parser().parse_args(["limits", *words])
-    assert told in capsys.readouterr().err
+    assert reported in capsys.readouterr().err
 
 
 def test_seeds_and_viewers_are_numbers_with_commas() -> None:

@@ -8,9 +8,9 @@ import pytest
 from server.live import Instant, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.stream.messages import live_message
 from tests.benchmarks.accuracy import errors_of, false_claims, found_table, groups_by_phase, missed, withheld
-from tests.benchmarks.claims import Claim, FalseClaim, NoClaim, RightClaim, judge
+from tests.benchmarks.claims import Claim, CorrectClaim, FalseClaim, NoClaim, judge
 from tests.benchmarks.live import claim_of_message
-from tests.benchmarks.offline import Offline, claim_of, measure_offline, setup_of
+from tests.benchmarks.offline import OfflineRun, claim_of, measure_offline, setup_of
 from tests.benchmarks.readme import README, with_section
 from tests.benchmarks.sections import SECTIONS
 from tests.benchmarks.tables import Table, median, pair
@@ -30,7 +30,7 @@ def theatre() -> Theatre:
 
 
 @pytest.fixture(scope="module")
-def measured(theatre: Theatre) -> Offline:
+def measured(theatre: Theatre) -> OfflineRun:
     return measure_offline(theatre, (*WORKING_S, *AWAY_S))
 
 
@@ -42,27 +42,29 @@ def true_claim(theatre: Theatre, at_s: float) -> Claim:
     return claim
 
 
-def test_the_drill_is_found_in_every_working_image_and_claimed_in_none_without_it(measured: Offline) -> None:
+def test_the_drill_is_found_in_every_working_image_and_claimed_in_none_without_it(
+    measured: OfflineRun,
+) -> None:
     for judgements in (measured.stepped, measured.searched):
         assert missed(judgements) == []
         assert false_claims(judgements) == []
         assert len(errors_of(judgements)) == len(WORKING_S)
         assert all(isinstance(one.outcome, NoClaim) for one in judgements if one.phase is Phase.AWAY)
-    ways = [one.outcome.found_by for one in measured.stepped if isinstance(one.outcome, RightClaim)]
+    ways = [one.outcome.found_by for one in measured.stepped if isinstance(one.outcome, CorrectClaim)]
     assert ways == ["search", *["track"] * (len(WORKING_S) - 1)]
 
 
-def test_poses_are_as_near_to_the_truth_as_they_have_been(measured: Offline) -> None:
+def test_poses_are_as_near_to_the_truth_as_they_have_been(measured: OfflineRun) -> None:
     for errors in (errors_of(measured.stepped), errors_of(measured.searched)):
         assert median(error.corner_px for error in errors) < 0.05
         assert median(error.tip_mm for error in errors) < 0.1
         assert max(error.tip_mm for error in errors) < 0.4
         assert max(error.rotation_deg for error in errors) < 0.2
         assert max(error.entry_offset_mm for error in errors) < 0.3
-        assert max(error.tip_squared_sd for error in errors) < 16.0
+        assert max(error.tip_mahalanobis_squared for error in errors) < 16.0
 
 
-def test_every_stage_of_both_ways_is_timed(measured: Offline) -> None:
+def test_every_stage_of_both_ways_is_timed(measured: OfflineRun) -> None:
     assert set(measured.timed[1].step_stage_ms) == {"grey", "gradient", "fit", "score", "judgement"}
     assert set(measured.timed[0].search_stage_ms) >= {
         "grey",
@@ -76,7 +78,7 @@ def test_every_stage_of_both_ways_is_timed(measured: Offline) -> None:
 
 def test_the_truth_itself_has_no_error(theatre: Theatre) -> None:
     judged = judge(theatre, 13.0, true_claim(theatre, 13.0))
-    assert isinstance(judged.outcome, RightClaim)
+    assert isinstance(judged.outcome, CorrectClaim)
     np.testing.assert_allclose(dataclasses.astuple(judged.outcome.error), 0.0, atol=1e-6)
 
 
@@ -92,9 +94,9 @@ def test_a_marker_a_millimetre_too_far_away_is_told_with_its_sign(theatre: Theat
         tip_covariance_mm2=np.eye(3) * 0.25,
     )
     judged = judge(theatre, 13.0, moved)
-    assert isinstance(judged.outcome, RightClaim)
+    assert isinstance(judged.outcome, CorrectClaim)
     error = judged.outcome.error
-    found = (error.along_mm, error.across_mm, error.tip_mm, error.angle_deg, error.tip_squared_sd)
+    found = (error.along_mm, error.across_mm, error.tip_mm, error.angle_deg, error.tip_mahalanobis_squared)
     np.testing.assert_allclose(found, (1.0, 0.0, 1.0, 2.0, 4.0), atol=1e-6)
 
 
@@ -104,7 +106,7 @@ def test_a_claim_beside_the_marker_is_false_and_one_of_its_parts_in_view_is_righ
     assert isinstance(judge(theatre, 13.0, beside).outcome, FalseClaim)
     out = judge(theatre, 33.0, true_claim(theatre, 33.0))
     assert not out.in_view
-    assert isinstance(out.outcome, RightClaim)
+    assert isinstance(out.outcome, CorrectClaim)
     assert isinstance(judge(theatre, 33.0, claim).outcome, FalseClaim)
 
 
@@ -139,18 +141,18 @@ def test_a_message_makes_the_same_claim_as_the_snapshot_that_it_was_made_from(th
     )
     message = live_message(instant, now_s=5.1).snapshot
     assert message is not None
-    told, own = claim_of_message(message), claim_of(snapshot.setup, image, sightings["drill"])
-    assert isinstance(told, Claim)
+    reported, own = claim_of_message(message), claim_of(snapshot.setup, image, sightings["drill"])
+    assert isinstance(reported, Claim)
     assert isinstance(own, Claim)
-    np.testing.assert_allclose(told.camera_from_marker.matrix, own.camera_from_marker.matrix)
-    np.testing.assert_allclose(told.tip_in_camera_mm, own.tip_in_camera_mm)
-    np.testing.assert_allclose(told.corners_px, own.corners_px)
-    assert (told.entry_offset_mm, told.angle_deg, told.depth_mm) == pytest.approx(
+    np.testing.assert_allclose(reported.camera_from_marker.matrix, own.camera_from_marker.matrix)
+    np.testing.assert_allclose(reported.tip_in_camera_mm, own.tip_in_camera_mm)
+    np.testing.assert_allclose(reported.corners_px, own.corners_px)
+    assert (reported.entry_offset_mm, reported.angle_deg, reported.depth_mm) == pytest.approx(
         (own.entry_offset_mm, own.angle_deg, own.depth_mm)
     )
 
 
-def test_a_phase_without_claims_has_dashes_for_numbers(measured: Offline) -> None:
+def test_a_phase_without_claims_has_dashes_for_numbers(measured: OfflineRun) -> None:
     rows = found_table("", groups_by_phase(measured.stepped)).rows
     assert [row[:4] for row in rows] == [
         ["drill", "8", "8", "100.00 %"],

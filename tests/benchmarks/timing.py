@@ -1,15 +1,15 @@
-"""The tables of time: each stage by its name in the code, and against OpenCV's own detection."""
+"""Tables of times: each stage by its name in the code, and against OpenCV's own detection."""
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from tests.benchmarks.offline import Timed
+from tests.benchmarks.offline import TimedImage
 from tests.benchmarks.tables import Table, median, number, pair
 
 STAGES = ("grey", "gradient", "candidates", "fit", "score", "judgement")
 
 
-def stage_table(title: str, timed: Sequence[Timed]) -> Table:
-    """Time of each stage: of a step that tracked, and of a search in the whole image."""
+def stage_table(title: str, timed: Sequence[TimedImage]) -> Table:
+    """Table of stage times: of a tracking step, and of a search in the whole image."""
     steps = [one for one in timed if one.tracked]
     columns = [
         ([one.step_stage_ms for one in steps], [one.step_ms for one in steps]),
@@ -25,8 +25,8 @@ def stage_table(title: str, timed: Sequence[Timed]) -> Table:
     )
 
 
-def ratio_table(title: str, timed: Sequence[Timed]) -> Table:
-    """The same images by `cv2.aruco` with its defaults, in the same run."""
+def ratio_table(title: str, timed: Sequence[TimedImage]) -> Table:
+    """Table of times against `cv2.aruco` with its defaults, on the same images."""
     aruco = median(one.aruco_ms for one in timed)
     rows = [
         [name, pair(values, 99.0), number(median(values) / aruco)]
@@ -41,7 +41,7 @@ def ratio_table(title: str, timed: Sequence[Timed]) -> Table:
 
 
 def _names(lists: Iterable[Sequence[Mapping[str, float]]]) -> list[str]:
-    """The stages that occurred, in the order of the pipeline."""
+    """Return the stages that occurred, in pipeline order."""
     present = {name for stages in lists for one in stages for name in one}
     return [*(name for name in STAGES if name in present), *sorted(present - set(STAGES))]
 

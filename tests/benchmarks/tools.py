@@ -1,4 +1,4 @@
-"""Calibrations of simulated tools: how far tip and axis are from the truth, and whether they know it."""
+"""Calibration of simulated tools: errors of tip and axis, and coverage of their stated covariance."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
-from tests.benchmarks.asked import Asked
 from tests.benchmarks.figures import Figure, Share, interval, size_of
-from tests.benchmarks.measured import Measured
+from tests.benchmarks.options import BenchmarkOptions
+from tests.benchmarks.section_result import SectionResult
 from tests.benchmarks.tables import Table, pair, percentile
 from tests.tracker.pose.tool.pivoted import AXIS, Hand, pivoted, spun
 from tracker.errors import CalibrationError
@@ -37,7 +37,7 @@ HANDS: Mapping[str, tuple[Hand, bool]] = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Runs:
-    """What many calibrations of one kind gave: errors, what they stated, and how many held the truth."""
+    """Errors, stated standard deviations and coverage of many calibrations of one kind."""
 
     errors: list[float]
     stated: list[float]
@@ -46,17 +46,17 @@ class Runs:
 
     @property
     def count(self) -> int:
-        """How many gave a result."""
+        """Return the number of accepted calibrations."""
         return len(self.errors)
 
 
-def measure_tools(asked: Asked) -> Measured:
-    """Pivot and spin of simulated tools against their truth."""
-    tips = {name: pivots(hand, runs=asked.runs, states=states) for name, (hand, states) in HANDS.items()}
+def measure_tools(options: BenchmarkOptions) -> SectionResult:
+    """Measure pivot and spin calibrations of simulated tools against their truth."""
+    tips = {name: pivots(hand, runs=options.runs, states=states) for name, (hand, states) in HANDS.items()}
     axes = {
-        "wobble 1 deg, spun by 160 deg": spins(runs=asked.runs, wobble_deg=1.0, arc_deg=160.0),
+        "wobble 1 deg, spun by 160 deg": spins(runs=options.runs, wobble_deg=1.0, arc_deg=160.0),
         "wobble 2 deg, spun by 120 deg, a tenth outliers": spins(
-            runs=asked.runs, wobble_deg=2.0, arc_deg=120.0, outliers=6
+            runs=options.runs, wobble_deg=2.0, arc_deg=120.0, outliers=6
         ),
     }
     figures: dict[str, Figure] = {}
@@ -65,7 +65,7 @@ def measure_tools(asked: Asked) -> Measured:
         error = size_of(runs.errors)
         if error is not None:
             figures[f"{name}: error"] = error
-    return Measured(
+    return SectionResult(
         tables=[
             _table("Tip by pivoting, error in mm: median / 95th percentile", "noise of the poses", tips),
             _table("Axis by spinning, error in degrees: median / 95th percentile", "motion", axes),
@@ -75,7 +75,7 @@ def measure_tools(asked: Asked) -> Measured:
 
 
 def pivots(hand: Hand, *, runs: int, states: bool) -> Runs:
-    """Pivot calibrations of one kind."""
+    """Run pivot calibrations of one kind."""
 
     def one(seed: int) -> tuple[float, float, float]:
         made = pivoted(hand, seed=seed, states_covariance=states)
@@ -88,7 +88,7 @@ def pivots(hand: Hand, *, runs: int, states: bool) -> Runs:
 
 
 def spins(*, runs: int, wobble_deg: float, arc_deg: float, outliers: int = 0) -> Runs:
-    """Spin calibrations of one kind."""
+    """Run spin calibrations of one kind."""
 
     def one(seed: int) -> tuple[float, float, float]:
         poses = spun(seed=seed, wobble_deg=wobble_deg, arc_deg=arc_deg, outliers=outliers)
@@ -103,7 +103,7 @@ def spins(*, runs: int, wobble_deg: float, arc_deg: float, outliers: int = 0) ->
 
 def _runs(one: Callable[[int], tuple[float, float, float]], *, runs: int, freedom: int) -> Runs:
     errors, stated, inside, rejected = [], [], 0, 0
-    most = float(stats.chi2.ppf(0.95, freedom))
+    maximum = float(stats.chi2.ppf(0.95, freedom))
     for seed in range(runs):
         try:
             error, sd, squared = one(seed)
@@ -112,7 +112,7 @@ def _runs(one: Callable[[int], tuple[float, float, float]], *, runs: int, freedo
             continue
         errors.append(error)
         stated.append(sd)
-        inside += squared <= most
+        inside += squared <= maximum
     return Runs(errors=errors, stated=stated, inside=inside, rejected=rejected)
 
 

@@ -1,4 +1,4 @@
-"""What the whole server costs, and how old a picture is when a viewer has it."""
+"""Cost of the whole server, and age of a picture at a viewer."""
 
 import json
 import os
@@ -9,7 +9,7 @@ from pathlib import Path
 from websockets.sync.client import connect
 
 from server.stream.messages import LiveMessage
-from server.stream.view_socket import GRANT, HEADER_LENGTH
+from server.stream.view_socket import HEADER_LENGTH, NEXT_REQUEST
 from tests.benchmarks.running_server import PATIENCE_S, RunningServer
 from tests.benchmarks.tables import NOTHING, Table, number, pair
 
@@ -17,8 +17,8 @@ SETTLING_S, WATCHED_S = 2.0, 10.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Watched:
-    """What one viewer of `/ws/view` got.
+class ViewerMeasurement:
+    """What one viewer of `/ws/view` received.
 
     Attributes:
         latency_ms: of each image, from its grab to the whole message in the viewer's hands.
@@ -34,7 +34,7 @@ class Watched:
 
 
 def measure_viewer(server: RunningServer) -> list[Table]:
-    """One viewer that asks for each next image as soon as it has one."""
+    """Measure one viewer that requests each next image as soon as it has one."""
     watched = _watch(server)
     shares = watched.cpu_ratio_of_process
     row = [
@@ -56,12 +56,12 @@ def measure_viewer(server: RunningServer) -> list[Table]:
     return [Table(title="", columns=columns, rows=[row])]
 
 
-def _watch(server: RunningServer) -> Watched:
+def _watch(server: RunningServer) -> ViewerMeasurement:
     latency_ms, image_bytes = list[float](), list[int]()
     begun_s, begun_cpu = time.monotonic() + SETTLING_S, None
     with connect(server.socket_address("/ws/view"), proxy=None, compression=None, max_size=None) as socket:
         while time.monotonic() < begun_s + WATCHED_S:
-            socket.send(json.dumps(GRANT))
+            socket.send(json.dumps(NEXT_REQUEST))
             content = socket.recv(timeout=PATIENCE_S, decode=False)
             came_s = time.monotonic()
             if came_s < begun_s:
@@ -78,13 +78,13 @@ def _watch(server: RunningServer) -> Watched:
     shares = None
     if begun_cpu is not None and ended_cpu is not None:
         shares = {name: (ended_cpu[name] - begun_cpu.get(name, 0.0)) / spent_s for name in ended_cpu}
-    return Watched(
+    return ViewerMeasurement(
         latency_ms=latency_ms, image_bytes=image_bytes, spent_s=spent_s, cpu_ratio_of_process=shares
     )
 
 
 def cpu_s(pid: int) -> dict[str, float] | None:
-    """Processor seconds so far of the web server and of all its children; None where there is no /proc."""
+    """Return the processor seconds of the web server and its children; None without /proc."""
     if not Path(f"/proc/{pid}/stat").exists():
         return None
     return {"web": _cpu_s_of(pid), "tracking": sum(map(_cpu_s_of, _descendants(pid)))}

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 import pytest
 from playwright.sync_api import Browser
 
-from tests.browser.theatre import CHECKOUT, PATIENCE_MS, Theatre, Watched
+from tests.browser.theatre import CHECKOUT, PATIENCE_MS, Theatre, WatchedPage
 
 
 @pytest.fixture(scope="session")
@@ -37,28 +37,28 @@ def shared_theatre(playhouse: Theatre) -> Iterator[Theatre]:
 
 
 @pytest.fixture
-def watch(browser: Browser) -> Iterator[Callable[..., Watched]]:
+def watch(browser: Browser) -> Iterator[Callable[..., WatchedPage]]:
     """Opens a page on a screen of this size; with `strict`, a complaint of the page fails the test."""
     with watching(browser) as opened:
         yield opened
 
 
 @pytest.fixture(scope="module")
-def watch_for_all(browser: Browser) -> Iterator[Callable[..., Watched]]:
+def watch_for_all(browser: Browser) -> Iterator[Callable[..., WatchedPage]]:
     """The same for a page that all tests of a file share: to load it costs more than most of them."""
     with watching(browser) as opened:
         yield opened
 
 
 @contextmanager
-def watching(browser: Browser) -> Iterator[Callable[..., Watched]]:
+def watching(browser: Browser) -> Iterator[Callable[..., WatchedPage]]:
     """What opens pages, which are closed at the end, and judged."""
-    pages: list[tuple[Watched, bool]] = []
+    pages: list[tuple[WatchedPage, bool]] = []
 
-    def opened(theatre: Theatre, width: int = 1280, height: int = 800, *, strict: bool = True) -> Watched:
+    def opened(theatre: Theatre, width: int = 1280, height: int = 800, *, strict: bool = True) -> WatchedPage:
         context = browser.new_context(viewport={"width": width, "height": height}, locale="en-GB")
         context.set_default_timeout(PATIENCE_MS)
-        watched = Watched(context.new_page(), theatre.port)
+        watched = WatchedPage(context.new_page(), theatre.port)
         pages.append((watched, strict))
         return watched
 

@@ -29,7 +29,7 @@ import numpy as np
 import numpy.typing as npt
 import uvicorn
 
-from server.alarms import AlarmDesk
+from server.alarms import AlarmService
 from server.app import AppParts, create_app
 from server.config import Config
 from server.jobs import Jobs
@@ -39,7 +39,7 @@ from server.overlay import draw_overlay, encode_jpeg
 from server.procedure.steps import Steps
 from server.store import CaseStore, Home
 from tests.server.texts.drilled_rod import UNSEEN, concluded, seen_at, setup_of
-from tests.tracker.navigation.assessed import guide
+from tests.tracker.navigation.assessed import drill_reference
 from tracker import CameraModel, Seen, ToolModel, Unseen, UnseenReason
 from tracker.geometry import Camera, Rigid, Tool, Vertebra
 from tracker.navigation import NavigationSnapshot, Setup, navigate
@@ -142,17 +142,17 @@ def snapshot_in_bone(mode: str, number: int, now_s: float) -> NavigationSnapshot
         where = np.array(PLACES_IN_BONE.get(mode, PLACES_IN_BONE["path"]))
     stands = setup_of()
     sighting = UNSEEN if mode == "hidden" else seen_at(where, stands.tools["drill"])
-    return concluded(stands, guide(), {"drill": sighting}, number=number, captured_at_s=now_s)
+    return concluded(stands, drill_reference(), {"drill": sighting}, number=number, captured_at_s=now_s)
 
 
-def instant_at(sequence: int, mode: str, ground: npt.NDArray[np.uint8], alarms: AlarmDesk) -> Instant:
+def instant_at(sequence: int, mode: str, ground: npt.NDArray[np.uint8], alarms: AlarmService) -> Instant:
     """The instant that this mode asks for."""
     process = ProcessStatus(state=ProcessState.RUNNING)
     if mode == "lost":
         away = SourceStatus(
             name="/dev/video0", state=SourceState.RECONNECTING, problem=UNPLUGGED, images=sequence
         )
-        picture = alarms.look(None, away, process)
+        picture = alarms.observe(None, away, process)
         return Instant(sequence=sequence, source=away, process=process, alarms=picture)
     now_s = time.monotonic()
     if mode in IN_BONE:
@@ -166,7 +166,7 @@ def instant_at(sequence: int, mode: str, ground: npt.NDArray[np.uint8], alarms: 
             deep=mode == "deep",
         )
     source = SourceStatus(name="/dev/video0", state=SourceState.RUNNING, images=sequence, rate_hz=RATE_HZ)
-    picture = alarms.look(snapshot, source, process)
+    picture = alarms.observe(snapshot, source, process)
     jpeg = encode_jpeg(draw_overlay(ground, snapshot, picture), 80)
     return Instant(
         sequence=sequence, source=source, process=process, snapshot=snapshot, jpeg=jpeg, alarms=picture
@@ -179,10 +179,14 @@ def backdrop() -> npt.NDArray[np.uint8]:
     return np.asarray(cv2.resize(noise, SIZE_WH_PX, interpolation=cv2.INTER_CUBIC), dtype=np.uint8)
 
 
+# On a busy machine images are older than the usual limit, and the page would switch its 3-D scene off.
+LIMITS = {"pose_stale_after_ms": 700}
+
+
 class Feeder(threading.Thread):
     """Publishes instants until the process ends."""
 
-    def __init__(self, hub: LiveHub, alarms: AlarmDesk) -> None:
+    def __init__(self, hub: LiveHub, alarms: AlarmService) -> None:
         super().__init__(name="feeder", daemon=True)
         self._hub = hub
         self._alarms = alarms
@@ -222,10 +226,11 @@ def main() -> None:
 def begun(ending: ExitStack, port: int) -> Feeder:
     """A server with nothing behind it, which says its port, and who feeds it; both go at the end."""
     hub = LiveHub()
-    alarms = AlarmDesk(Config())
+    config = Config.model_validate({"limits": LIMITS})
+    alarms = AlarmService(config)
     feeder = Feeder(hub, alarms)
     door = ending.enter_context(socket.create_server(("127.0.0.1", port), reuse_port=False))
-    app = create_app(kept_parts(ending, AppParts(hub=hub, config=Config(), setup=setup(), alarms=alarms)))
+    app = create_app(kept_parts(ending, AppParts(hub=hub, config=config, setup=setup(), alarms=alarms)))
     said = uvicorn.Config(app, log_level="error", lifespan="on", timeout_graceful_shutdown=FAREWELL_S)
     server = uvicorn.Server(said)
     serving = threading.Thread(target=server.run, args=([door],), name="web server", daemon=True)
@@ -255,7 +260,7 @@ def kept_parts(ending: ExitStack, parts: AppParts) -> AppParts:
         jobs=jobs,
         config=parts.config,
         markers=[],
-        adopt=lambda _: None,
+        publish_setup=lambda _: None,
     )
     return replace(parts, store=store, jobs=jobs, steps=steps)
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from server.config import RehearsalConfig
 from server.store import CaseStore, DocumentKind, Home
-from server.theatre import theatre_of
+from server.theatre import theatre_from_config
 from tests.procedure.patient import tool_content
 from tracker.plan import Landmark, PlanDocument, draw_reference, plan_to_mapping
 from tracker.plan.document import PlannedChannel, VertebraPlan
@@ -22,7 +22,7 @@ SIDES: tuple[Literal["left", "right"], ...] = ("left", "right")
 
 def prepared(home: Path, rehearsal: RehearsalConfig) -> Theatre:
     """Keep a case that waits for registration, open, in this folder; the theatre that it is of."""
-    theatre = theatre_of(rehearsal)
+    theatre = theatre_from_config(rehearsal)
     camera = theatre.camera
     with Home(home) as folder, CaseStore(folder) as store:
         case = store.create("L3, left")
@@ -34,7 +34,7 @@ def prepared(home: Path, rehearsal: RehearsalConfig) -> Theatre:
             "source": "rehearsal",
         }
         kept = store.put(case.id, DocumentKind.CAMERA, "main", {"camera": values}, made_by="test")
-        store.put(case.id, DocumentKind.TOOL, "drill", tool_content(), made_by="test", stands_on=[kept.id])
+        store.put(case.id, DocumentKind.TOOL, "drill", tool_content(), made_by="test", depends_on=[kept.id])
         volume = rehearsal_ct(spacing_mm=SPACING_MM)
         with store.new_file(case.id, ".npy") as new:
             np.save(new.path, volume.hu)
@@ -75,6 +75,6 @@ def prepared(home: Path, rehearsal: RehearsalConfig) -> Theatre:
             )
         )
         store.put(
-            case.id, DocumentKind.PLAN, "main", plan_to_mapping(plan), made_by="test", stands_on=[ct.id]
+            case.id, DocumentKind.PLAN, "main", plan_to_mapping(plan), made_by="test", depends_on=[ct.id]
         )
     return theatre

@@ -12,7 +12,7 @@ import numpy as np
 from playwright.sync_api import Error as PlaywrightError
 from playwright.sync_api import Page
 
-from tests.server.capture.served_images import ImageServer
+from tests.server.capture.http_image_server import ImageServer
 
 SIZE_WH_PX = (640, 400)
 # Slow enough for a busy machine to show every image.

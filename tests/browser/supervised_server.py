@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import uvicorn
 
-from server.alarms import AlarmDesk, StoredAlarmLog
+from server.alarms import AlarmService, StoredAlarmLog
 from server.app import AppParts, create_app
 from server.config import Config
 from server.jobs import Jobs
@@ -22,11 +22,11 @@ from server.live import LiveHub
 from server.logs import LogSettings
 from server.procedure import Steps
 from server.procedure.plan import ACTIVE_CHANNEL, ActiveChannel
-from server.procedure.registered import KeptCheck, KeptRegistration, check_name
+from server.procedure.registration_record import CheckRecord, RegistrationRecord, check_name
 from server.store import CaseStore, DocumentKind, Home
 from tests.browser.fake_server import Feeder, setup
 from tests.procedure.patient import CAMERA_FROM_VERTEBRA, plan_content
-from tests.server.supervision.persons import sign_people_in
+from tests.server.supervision.signed_in_people import sign_people_in
 from tracker.plan import plan_from_mapping
 from tracker.plan.document import plain
 from tracker.plan.document.changes import channel_of, vertebra_named
@@ -44,13 +44,13 @@ def fill(store: CaseStore, run: str) -> None:
     store.open(case.id)
     ct = store.put(case.id, DocumentKind.CT, "main", {}, made_by="ito")
     content = plan_content("L3")
-    plan = store.put(case.id, DocumentKind.PLAN, "main", content, made_by="ito", stands_on=[ct.id])
+    plan = store.put(case.id, DocumentKind.PLAN, "main", content, made_by="ito", depends_on=[ct.id])
     vertebra = vertebra_named(plan_from_mapping(content), "L3")
     active = ActiveChannel(vertebra="L3", side="left", channel=channel_of(vertebra, "left").channel)
     chosen = store.put(
-        case.id, DocumentKind.PLAN, ACTIVE_CHANNEL, dict(plain(active)), made_by="ito", stands_on=[plan.id]
+        case.id, DocumentKind.PLAN, ACTIVE_CHANNEL, dict(plain(active)), made_by="ito", depends_on=[plan.id]
     )
-    kept = KeptRegistration.of(
+    stored = RegistrationRecord.of(
         Registration.known_to_camera(CAMERA_FROM_VERTEBRA),
         vertebra="L3",
         reference="",
@@ -69,11 +69,11 @@ def fill(store: CaseStore, run: str) -> None:
         case.id,
         DocumentKind.REGISTRATION,
         "L3",
-        kept.model_dump(mode="json"),
+        stored.model_dump(mode="json"),
         made_by="ito",
-        stands_on=[chosen.id],
+        depends_on=[chosen.id],
     )
-    check = KeptCheck(
+    check = CheckRecord(
         vertebra="L3",
         landmark="left lamina",
         tool="drill",
@@ -92,7 +92,7 @@ def fill(store: CaseStore, run: str) -> None:
         check_name("L3"),
         check.model_dump(mode="json"),
         made_by="ito",
-        stands_on=[registration.id],
+        depends_on=[registration.id],
     )
 
 
@@ -106,7 +106,7 @@ def main() -> None:
         CaseStore(home) as store,
     ):
         log = StoredAlarmLog(store)
-        alarms = AlarmDesk(CONFIG, log=log)
+        alarms = AlarmService(CONFIG, log=log)
         jobs = Jobs(log=LogSettings(as_json=True))
         steps = Steps.of(
             hub=hub,
@@ -114,7 +114,7 @@ def main() -> None:
             jobs=jobs,
             config=CONFIG,
             markers=(),
-            adopt=lambda _: None,
+            publish_setup=lambda _: None,
         )
         fill(store, steps.procedure.run)
         app = create_app(

@@ -9,7 +9,7 @@ from urllib.request import urlopen
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser.theatre import CHECKOUT, PATIENCE_MS, Theatre, Watched
+from tests.browser.theatre import CHECKOUT, PATIENCE_MS, Theatre, WatchedPage
 
 pytestmark = pytest.mark.browser
 
@@ -32,19 +32,19 @@ def patient(port: int) -> dict[str, Any]:
 
 
 @pytest.fixture(scope="module")
-def watched(browser: Browser, shared_theatre: Theatre) -> Iterator[Watched]:
+def watched(browser: Browser, shared_theatre: Theatre) -> Iterator[WatchedPage]:
     """The page of all these tests, with axe-core in it."""
     said = patient(shared_theatre.port)
     context = browser.new_context(locale="en-GB")
     context.set_default_timeout(PATIENCE_MS)
     context.add_init_script(path=AXE)
     context.route("**/api/dashboard", lambda route: route.fulfill(json=said))
-    yield Watched(context.new_page(), shared_theatre.port)
+    yield WatchedPage(context.new_page(), shared_theatre.port)
     context.close()
 
 
 @pytest.fixture
-def opened(watched: Watched, shared_theatre: Theatre) -> Iterator[Callable[..., Page]]:
+def opened(watched: WatchedPage, shared_theatre: Theatre) -> Iterator[Callable[..., Page]]:
     """Goes to an address if the page is not there; a complaint of the page fails the test."""
 
     def go(path: str, size: tuple[int, int] = LYING) -> Page:
@@ -102,7 +102,7 @@ def test_the_theatre_s_view_while_nothing_is_well(
 
 
 @pytest.mark.parametrize("step", STEPS)
-def test_every_page_of_the_operator(opened: Callable[..., Page], watched: Watched, step: str) -> None:
+def test_every_page_of_the_operator(opened: Callable[..., Page], watched: WatchedPage, step: str) -> None:
     is_there = "/operator/" in watched.page.url
     page = watched.page if is_there else opened(f"/operator/{step}")
     link = page.get_by_test_id(f"step-{step}")

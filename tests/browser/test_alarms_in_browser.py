@@ -6,11 +6,11 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Theatre, Watched, arm
+from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Theatre, WatchedPage, arm
 
 pytestmark = pytest.mark.browser
 
-Watch = Callable[..., Watched]
+Watch = Callable[..., WatchedPage]
 expect.set_options(timeout=PATIENCE_MS)
 # What the page plays, noted from outside: every source that is started, and its stop.
 EARS = """window.heard = [];

@@ -6,19 +6,19 @@ import httpx2
 import pytest
 from playwright.sync_api import Error, Page, expect
 
-from tests.browser.theatre import PATIENCE_MS, Theatre, Watched, arm
+from tests.browser.theatre import PATIENCE_MS, Theatre, WatchedPage, arm
 
 pytestmark = pytest.mark.browser
 
-Watch = Callable[..., Watched]
+Watch = Callable[..., WatchedPage]
 SCREENS = "/api/alarms/screens"
 expect.set_options(timeout=PATIENCE_MS)
 
 
 def conditions(theatre: Theatre) -> set[str]:
     """The alarms that the server raises now."""
-    told = httpx2.get(f"http://127.0.0.1:{theatre.port}/api/alarms").json()
-    return {one["condition"] for one in told["alarms"]}
+    reported = httpx2.get(f"http://127.0.0.1:{theatre.port}/api/alarms").json()
+    return {one["condition"] for one in reported["alarms"]}
 
 
 def raised(page: Page, theatre: Theatre, condition: str, *, there: bool = True) -> None:

@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, Route, expect
 
-from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Theatre, Watched
+from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Theatre, WatchedPage
 
 pytestmark = pytest.mark.browser
 
-Watch = Callable[..., Watched]
+Watch = Callable[..., WatchedPage]
 PANES = ("video", "numbers", "scene")
 
 expect.set_options(timeout=PATIENCE_MS)

@@ -11,7 +11,7 @@ from playwright.sync_api import Page, Route, expect
 
 from server.latency.codes import MIN_TIMED_RATIO
 from tests.browser.screen_camera import RATE_HZ, ScreenCamera
-from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Watched
+from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, WatchedPage
 from tests.procedure.real_server import BUSY_MACHINE, RealServer, real_server
 
 pytestmark = pytest.mark.browser
@@ -40,7 +40,7 @@ def filming(camera: ScreenCamera, tmp_path_factory: pytest.TempPathFactory) -> I
 
 
 @pytest.fixture
-def page(camera: ScreenCamera, filming: RealServer, watch: Callable[..., Watched]) -> Page:
+def page(camera: ScreenCamera, filming: RealServer, watch: Callable[..., WatchedPage]) -> Page:
     """The camera's page, with the camera before it."""
     camera.delay_s, camera.covered = SHORT_S, False
     # A measurement that is refused is a 409, which the browser writes into its console.
@@ -133,7 +133,7 @@ def test_a_page_that_is_left_ends_it(filming: RealServer, page: Page) -> None:
 def test_a_camera_under_a_hand_is_told_in_numbers(
     camera: ScreenCamera, filming: RealServer, page: Page
 ) -> None:
-    kept = filming.ask("GET", "/api/latency", 200)["result"]
+    stored = filming.ask("GET", "/api/latency", 200)["result"]
     page.get_by_test_id("latency-begin").click()
     read = page.get_by_test_id("latency-read")
     expect(read).to_contain_text("hold the camera still", timeout=PATIENCE_MS)
@@ -142,4 +142,4 @@ def test_a_camera_under_a_hand_is_told_in_numbers(
     rejection = page.get_by_test_id("latency").get_by_role("alert")
     expect(rejection).to_contain_text("The code was read in")
     expect(rejection).to_contain_text("Point the camera at the screen, darken the room")
-    assert filming.ask("GET", "/api/latency", 200)["result"] == kept
+    assert filming.ask("GET", "/api/latency", 200)["result"] == stored

@@ -12,12 +12,12 @@ import pytest
 from playwright.sync_api import Page, Route, WebSocketRoute, expect
 
 from tests.browser.test_supervision_in_browser import Supervised
-from tests.browser.theatre import CHECKOUT, PATIENCE_MS, Watched
+from tests.browser.theatre import CHECKOUT, PATIENCE_MS, WatchedPage
 
 pytestmark = pytest.mark.browser
 expect.set_options(timeout=PATIENCE_MS)
 
-Watch = Callable[..., Watched]
+Watch = Callable[..., WatchedPage]
 NAME = "L3, rehearsal"
 STEPS = (
     "",
@@ -98,7 +98,7 @@ MOMENTS, MOMENT_MS = 10, 300
 class Loading:
     """A page whose answers and live messages wait until they are let go, in a time that the test makes."""
 
-    def __init__(self, watched: Watched, *, rejects: bool = False) -> None:
+    def __init__(self, watched: WatchedPage, *, rejects: bool = False) -> None:
         self.page = watched.page
         self._rejects = rejects
         self._held: dict[str, list[Route]] = {"session": [], "rest": [], "live": []}
@@ -209,8 +209,8 @@ def is_true(page: Page, path: str, within_ms: float) -> None:
         expect(page.get_by_test_id("step-register")).to_contain_text("done", timeout=within_ms)
     else:
         expect(page.get_by_test_id("numbers")).to_have_attribute("data-live", "true", timeout=within_ms)
-        told = page.get_by_test_id("case-name" if path == "theatre" else "steps")
-        expect(told).to_contain_text(NAME if path == "theatre" else "Register", timeout=within_ms)
+        reported = page.get_by_test_id("case-name" if path == "theatre" else "steps")
+        expect(reported).to_contain_text(NAME if path == "theatre" else "Register", timeout=within_ms)
     bands = page.locator(
         "main .loading:visible, .alarms:is([data-priority=loading], [data-priority=unknown])"
     )
@@ -261,5 +261,5 @@ def test_server_that_is_not_reached_is_told_after_ten_seconds_and_not_before(
     loading.release("live")
     loading.comes_true(path)
     for band in (".when-stale", ".alarms", ".facts-status"):
-        told = page.locator(f"{band}:visible").filter(has_text=re.compile("not reached", re.IGNORECASE))
-        expect(told).to_have_count(0)
+        reported = page.locator(f"{band}:visible").filter(has_text=re.compile("not reached", re.IGNORECASE))
+        expect(reported).to_have_count(0)

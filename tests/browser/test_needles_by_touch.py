@@ -22,7 +22,7 @@ SETTINGS = {
     **BUSY_MACHINE,
     "rehearsal": {
         "seed": 3,
-        "brings_setup": False,
+        "provides_setup": False,
         "reference": True,
         "rate_hz": 8,
         "scene": "landmarks",
@@ -51,8 +51,8 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RealServer]:
     folder = tmp_path_factory.mktemp("operator")
     prepared(folder / "home", Config.model_validate(SETTINGS).rehearsal)
     with real_server(folder, SETTINGS) as running:
-        asked = {**BY, "vertebra": "L3", "side": "left"}
-        running.ask("POST", "/api/plan/active-channel", 200, json=asked)
+        requested = {**BY, "vertebra": "L3", "side": "left"}
+        running.ask("POST", "/api/plan/active-channel", 200, json=requested)
         yield running
 
 
@@ -95,16 +95,16 @@ def test_the_slice_is_dragged_pinched_and_turned_over_the_live_picture(
     dragged = overlay_of(page)
     moved = np.subtract(dragged["shift_px"], first["shift_px"])
     np.testing.assert_allclose(moved, [60 * per_px, -20 * per_px], atol=4 * per_px)
-    assert dragged["turn_deg"] == first["turn_deg"]
+    assert dragged["rotation_deg"] == first["rotation_deg"]
 
     until_changed("scale_px_per_mm", ((-40, 0), (-80, 0)), ((40, 0), (80, 0)))
     pinched = overlay_of(page)
     assert pinched["scale_px_per_mm"] / dragged["scale_px_per_mm"] == pytest.approx(2.0, rel=0.3)
 
-    until_changed("turn_deg", ((-60, 0), (-60, -30)), ((60, 0), (60, 30)))
+    until_changed("rotation_deg", ((-60, 0), (-60, -30)), ((60, 0), (60, 30)))
     turned = overlay_of(page)
     clockwise = np.degrees(np.arctan2(30, 60))
-    assert turned["turn_deg"] - pinched["turn_deg"] == pytest.approx(clockwise, abs=8.0)
+    assert turned["rotation_deg"] - pinched["rotation_deg"] == pytest.approx(clockwise, abs=8.0)
 
     tablet.tap("overlay-undo")
     expect(state).to_have_attribute("data-settled", "true")
@@ -147,15 +147,15 @@ def gesture(page: Page, paths: list[list[tuple[float, float]]], *, steps: int = 
 
 def overlay_of(page: Page) -> dict[str, Any]:
     """Where the hand has the slice."""
-    told: dict[str, Any] = page.evaluate(OVERLAY)
-    return told
+    reported: dict[str, Any] = page.evaluate(OVERLAY)
+    return reported
 
 
 def same_as_the_server(server: RealServer, page: Page) -> None:
     """Every line, and the picture of the slice, stand where the server would take them."""
     view: dict[str, Any] = page.evaluate("JSON.parse(Object.values(localStorage)[0])")
-    asked = {"view": view, "overlay": overlay_of(page)}
-    laid = server.ask("POST", "/api/registration/needles/overlay", 200, json=asked)
+    requested = {"view": view, "overlay": overlay_of(page)}
+    laid = server.ask("POST", "/api/registration/needles/overlay", 200, json=requested)
     drawn = page.locator("[data-testid=lines] polyline.line").evaluate_all(
         "lines => lines.map(one => [...one.points].map(point => [point.x, point.y]))"
     )

@@ -82,8 +82,8 @@ def failure_of(source: PhoneSource) -> str:
     for _ in range(ATTEMPTS):
         try:
             source.read()
-        except CaptureError as told:
-            return told.code
+        except CaptureError as reported:
+            return reported.code
     pytest.fail("images still come")
 
 
@@ -137,8 +137,8 @@ def test_images_of_a_browsers_camera_arrive_in_their_size_and_in_order(
 
 def test_no_other_page_may_ask_for_a_camera(browser: Browser, port: int) -> None:
     page = opened(browser, port, UPRIGHT, "/theatre")
-    asked = "navigator.mediaDevices.getUserMedia({ video: true }).then(() => 'given', (no) => no.name)"
-    assert page.evaluate(asked) == "NotAllowedError"
+    requested = "navigator.mediaDevices.getUserMedia({ video: true }).then(() => 'given', (no) => no.name)"
+    assert page.evaluate(requested) == "NotAllowedError"
     page.goto(f"http://127.0.0.1:{port}/camera")
-    assert page.evaluate(asked) == "given"
+    assert page.evaluate(requested) == "given"
     page.context.close()

@@ -17,7 +17,7 @@ import pytest
 from playwright.sync_api import Page, ViewportSize, expect
 
 from tests.browser.test_dashboard import DIGEST, is_live
-from tests.browser.theatre import CHECKOUT, SCREENSHOTS, Watched
+from tests.browser.theatre import CHECKOUT, SCREENSHOTS, WatchedPage
 
 pytestmark = pytest.mark.browser
 
@@ -106,7 +106,7 @@ def rehearsal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Rehearsal]:
 
 
 def test_rehearsal_is_tracked_and_seen_in_picture_numbers_and_scene(
-    rehearsal: Rehearsal, watch: Callable[..., Watched]
+    rehearsal: Rehearsal, watch: Callable[..., WatchedPage]
 ) -> None:
     page = watch(rehearsal, 1920, 1080).open()
     expect(page.get_by_test_id("scene")).to_have_attribute("data-live", "true", timeout=ONE_CYCLE_MS)
@@ -136,7 +136,7 @@ def picture_while_drilling(page: Page, path: Path) -> None:
 
 
 def test_killed_tracking_takes_the_numbers_and_comes_back_by_itself(
-    rehearsal: Rehearsal, watch: Callable[..., Watched]
+    rehearsal: Rehearsal, watch: Callable[..., WatchedPage]
 ) -> None:
     if rehearsal.process is None:
         pytest.skip("the server that COAXIAL_URL names is not ours to hurt")

@@ -17,11 +17,11 @@ from dataclasses import dataclass
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.theatre import PATIENCE_MS, Theatre, Watched
+from tests.browser.theatre import PATIENCE_MS, Theatre, WatchedPage
 
 pytestmark = pytest.mark.browser
 
-Watch = Callable[..., Watched]
+Watch = Callable[..., WatchedPage]
 PANES = ("video", "numbers", "scene")
 FIGURES = ("entry", "angle", "depth", "toGo")
 # Times hold where nothing else runs: COAXIAL_TIMES=1 asks for them, too.
@@ -128,14 +128,14 @@ def first_changes(page: Page, *, live: bool) -> dict[str, float]:
 
 
 @contextmanager
-def recorded(watched: Watched) -> Iterator[Page]:
+def recorded(watched: WatchedPage) -> Iterator[Page]:
     """A page that writes down, and is live, and is not loaded anew for the time of the block."""
     watched.page.add_init_script(RECORDER)
     with urllib.request.urlopen(f"http://127.0.0.1:{watched.port}/api/dashboard", timeout=60) as answer:
-        told = json.load(answer)
+        reported = json.load(answer)
     # On a busy machine images are older than the usual limits, which is no matter of the server's absence.
-    told["limits"] |= {"pose_stale_after_ms": 700, "video_stale_after_ms": 700}
-    watched.page.route("**/api/dashboard", lambda route: route.fulfill(json=told))
+    reported["limits"] |= {"pose_stale_after_ms": 700, "video_stale_after_ms": 700}
+    watched.page.route("**/api/dashboard", lambda route: route.fulfill(json=reported))
     page = watched.open()
     all_live(page, live=True)
     page.evaluate("window.neverReloaded = true")
@@ -158,16 +158,16 @@ def absence(page: Page, *, go: Callable[[], None], come: Callable[[], None]) -> 
     all_live(page, live=True)
     is_right_again(page)
     right = first_changes(page, live=True)
-    kept = page.evaluate("kept")
-    tries = [last_heard, *kept["tries"]]
+    stored = page.evaluate("kept")
+    tries = [last_heard, *stored["tries"]]
     return Absence(
         said_ms={pane: at - last_heard for pane, at in said.items()},
-        right_ms={pane: at - kept["firstHeardAt"] for pane, at in right.items()},
+        right_ms={pane: at - stored["firstHeardAt"] for pane, at in right.items()},
         since_return_ms={pane: at - returned for pane, at in right.items()},
-        gone_for_ms=kept["firstHeardAt"] - last_heard,
-        tries=len(kept["tries"]),
+        gone_for_ms=stored["firstHeardAt"] - last_heard,
+        tries=len(stored["tries"]),
         try_ms=max(later - earlier for earlier, later in itertools.pairwise(tries)),
-        pause_ms=kept["longestPause"],
+        pause_ms=stored["longestPause"],
     )
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.theatre import CHECKOUT, PATIENCE_MS, SCREENSHOTS, Watched
+from tests.browser.theatre import CHECKOUT, PATIENCE_MS, SCREENSHOTS, WatchedPage
 
 pytestmark = pytest.mark.browser
 expect.set_options(timeout=PATIENCE_MS)
@@ -53,7 +53,7 @@ def supervised() -> Iterator[Supervised]:
 
 
 def opened(
-    watch: Callable[..., Watched], server: Supervised, person: str, path: str, size: tuple[int, int]
+    watch: Callable[..., WatchedPage], server: Supervised, person: str, path: str, size: tuple[int, int]
 ) -> Page:
     watched = watch(server, *size)
     address = f"http://127.0.0.1:{server.port}"
@@ -130,8 +130,8 @@ def signature_opens_navigation(supervised: Supervised, theatre: Page, sato: Page
     # What is required is not there; one look and two touches later it is, and navigation is open.
     asks = theatre.request.get
     address = f"http://127.0.0.1:{supervised.port}/api/procedure"
-    told: Any = asks(address).json()
-    assert not told["may_navigate"]
+    reported: Any = asks(address).json()
+    assert not reported["may_navigate"]
     plan = sato.get_by_test_id("fold-plan")
     expect(plan).to_contain_text("required before anybody navigates")
     plan.locator("summary").click()
@@ -157,7 +157,7 @@ def hold_is_heard(theatre: Page, sato: Page) -> None:
 
 @pytest.mark.parametrize(("width", "height"), [(1920, 1080), (390, 844)])
 def test_nothing_of_the_supervisors_page_lies_outside_its_screen(
-    supervised: Supervised, watch: Callable[..., Watched], width: int, height: int
+    supervised: Supervised, watch: Callable[..., WatchedPage], width: int, height: int
 ) -> None:
     page = opened(watch, supervised, "s1", "supervisor?lang=de", (width, height))
     for fold in ("plan", "registration", "log"):
@@ -173,7 +173,7 @@ def test_nothing_of_the_supervisors_page_lies_outside_its_screen(
 
 
 def test_what_a_supervisor_marks_signs_and_asks_reaches_the_theatre(
-    supervised: Supervised, watch: Callable[..., Watched]
+    supervised: Supervised, watch: Callable[..., WatchedPage]
 ) -> None:
     theatre = opened(watch, supervised, "v1", "theatre", (1600, 900))
     sato = opened(watch, supervised, "s1", "supervisor", (1280, 800))

@@ -11,7 +11,7 @@ from tests.browser.by_touch.planning import moved_and_undone, plan_both_pedicles
 from tests.browser.by_touch.registering import check_on_a_landmark, register_by_points
 from tests.browser.by_touch.setting_up import calibrate_camera, calibrate_tool, open_case, play
 from tests.browser.by_touch.tablet import LANDSCAPE, Tablet, tablet_at
-from tests.browser.theatre import SCREENSHOTS, Watched, arm
+from tests.browser.theatre import SCREENSHOTS, WatchedPage, arm
 from tests.procedure.real_server import BUSY_MACHINE, RealServer, real_server
 
 pytestmark = pytest.mark.browser
@@ -25,7 +25,7 @@ SETTINGS = {
     "reference": {"marker": "reference"},
     "rehearsal": {
         "seed": 3,
-        "brings_setup": False,
+        "provides_setup": False,
         "reference": True,
         "width": 960,
         "height": 540,
@@ -138,7 +138,7 @@ def switch_to_the_left(tablet: Tablet) -> None:
     assert steps(tablet)[3:5] == ["done", "done"]
 
 
-def in_theatre(browser: Browser, server: RealServer, tablet: Tablet, sato: Watched) -> None:
+def in_theatre(browser: Browser, server: RealServer, tablet: Tablet, sato: WatchedPage) -> None:
     """The screen shows the same as the tablet, who watches, and a hold that was asked for from afar."""
     link = invite(tablet, "Screen in theatre 3", "Theatre screen")
     screen = let_in(browser, server.port, link, SCREEN, patience_ms=PATIENCE_MS)

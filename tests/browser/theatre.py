@@ -80,7 +80,7 @@ class Theatre:
             self.kill()
 
 
-class Watched:
+class WatchedPage:
     """A page, and all that it should not do."""
 
     def __init__(self, page: Page, port: int) -> None:

@@ -113,7 +113,7 @@ def _prepared(config: str) -> Preparation:
 def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> Iterator[Server]:
     """The whole inside of a server that keeps its things in this folder."""
     # Few images to a capture: a test has no half second for each landmark.
-    few = {"rehearsal": {"brings_setup": False}, "registration": {"capture_images": 4, "capture_s": 0.06}}
+    few = {"rehearsal": {"provides_setup": False}, "registration": {"capture_images": 4, "capture_s": 0.06}}
     config = Config.model_validate({**few, **(settings or {})})
     hub, adopted, tracked_from_s = LiveHub(), list[CaseSetup](), [-math.inf]
     jobs = Jobs(log=LogSettings(as_json=True))
@@ -125,7 +125,7 @@ def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> 
             jobs=jobs,
             config=config,
             markers=preparation.models,
-            adopt=adopted.append,
+            publish_setup=adopted.append,
             tracked_from_s=lambda: tracked_from_s[-1],
         )
         app = create_app(AppParts(hub=hub, config=config, store=store, jobs=jobs, steps=steps))

@@ -24,7 +24,7 @@ from typing import Any
 import httpx2
 
 from server.config import Config
-from tests.procedure.killing.people import HOLDS, KilledUnderUs, Listener, People, WatchedServer
+from tests.procedure.killing.people import VALID_STATES, KilledUnderUs, Listener, People, WatchedServer
 from tests.procedure.killing.processes import Family, family_of, kill, left_behind
 from tests.procedure.killing.promised import Promised
 from tests.procedure.killing.theatre import prepare, settings_of
@@ -146,18 +146,18 @@ class Theatre:
 
     def _goes_on_once_confirmed(self, one: Kill) -> str:
         """Where all was done: no number before a person's word, and numbers after it; why it was stopped."""
-        told = self._server.ask("GET", "/api/procedure", 200)
-        states = {step["step"]: step["state"] for step in told["steps"]}
-        ready = all(state in HOLDS for step, state in states.items() if step != "navigate")
-        goes_on = one.target == "tracking" and (self._reference or told["confirmation"] is None)
+        reported = self._server.ask("GET", "/api/procedure", 200)
+        states = {step["step"]: step["state"] for step in reported["steps"]}
+        ready = all(state in VALID_STATES for step, state in states.items() if step != "navigate")
+        goes_on = one.target == "tracking" and (self._reference or reported["confirmation"] is None)
         if not ready:
-            return next(f"{step} {state}" for step, state in states.items() if state not in HOLDS)
+            return next(f"{step} {state}" for step, state in states.items() if state not in VALID_STATES)
         process = int(self._server.ask("GET", "/api/live", 200)["process"]["restarts"])
         heard = self._listener
         if goes_on:
             self._server.until("numbers again", lambda: self._has_numbers(process))
             return "-"
-        if told["confirmation"] is None:
+        if reported["confirmation"] is None:
             one.broken.append("nobody is asked whether all stands as it did")
             return "nothing"
         self._server.until("a word that it is stopped", lambda: heard.reasons.get(process, set()) & STOPPED)
@@ -165,7 +165,7 @@ class Theatre:
             one.broken.append("numbers were given before anybody confirmed them")
         self._people.confirm()
         self._server.until("numbers again", lambda: self._has_numbers(process))
-        return str(told["confirmation"]["because"])
+        return str(reported["confirmation"]["because"])
 
     def _has_numbers(self, process: int) -> bool:
         """Whether numbers are given again. On a busy machine tracking may be started once more meanwhile."""
@@ -201,7 +201,7 @@ def main() -> None:
     given = parser.parse_args()
     tell = sys.stdout.write
     tell(COLUMNS.format("kill", "killed", "", "while", "changes", "back in s", "broken", "stopped by"))
-    told: list[Kill] = []
+    reported: list[Kill] = []
     for one in kills(
         given.times,
         seed=given.seed,
@@ -209,14 +209,14 @@ def main() -> None:
         each=given.kills_each,
         longest_s=given.longest_s,
     ):
-        told.append(one)
-        row = (len(told), one.target, "", one.doing, one.confirmed, f"{one.back_s:.1f}", len(one.broken))
+        reported.append(one)
+        row = (len(reported), one.target, "", one.doing, one.confirmed, f"{one.back_s:.1f}", len(one.broken))
         tell(COLUMNS.format(*row, one.stopped_by))
         tell("".join(f"       {what}\n" for what in one.broken))
         sys.stdout.flush()
-    broken = sum(len(one.broken) for one in told)
-    changes = sum(one.confirmed for one in told)
-    tell(f"{len(told)} kills, {changes} confirmed changes, {broken} promises broken\n")
+    broken = sum(len(one.broken) for one in reported)
+    changes = sum(one.confirmed for one in reported)
+    tell(f"{len(reported)} kills, {changes} confirmed changes, {broken} promises broken\n")
     sys.exit(1 if broken else 0)
 
 

@@ -130,7 +130,7 @@ class Patient:
 
     def hold(self, path: str, landmark: str, *, off_mm: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Any:  # noqa: ANN401  JSON
         """Hold the tip on a landmark until the capture that runs is over; what the path tells then."""
-        told: Any = None
+        reported: Any = None
         for _ in range(100):
             before = self.server.ask("GET", path, 200)["capture"]
             if before["state"] != "looking":
@@ -138,12 +138,14 @@ class Patient:
             self.show(self.tip_on(landmark, off_mm=off_mm))
 
             def looked_at(images: int = before["images"]) -> bool:
-                nonlocal told
-                told = self.server.ask("GET", path, 200)
-                return bool(told["capture"]["state"] != "looking" or told["capture"]["images"] > images)
+                nonlocal reported
+                reported = self.server.ask("GET", path, 200)
+                return bool(
+                    reported["capture"]["state"] != "looking" or reported["capture"]["images"] > images
+                )
 
             self.server.until(looked_at)
-        return told
+        return reported
 
     def touch(self, landmark: str, *, off_mm: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Any:  # noqa: ANN401  JSON
         """Capture a landmark of the session that runs."""
@@ -168,14 +170,14 @@ class Patient:
 def with_tool(server: Server, case_id: str) -> None:
     camera = server.store.current(case_id, DocumentKind.CAMERA, "main")
     server.store.put(
-        case_id, DocumentKind.TOOL, "drill", tool_content(), made_by="test", stands_on=[camera.id]
+        case_id, DocumentKind.TOOL, "drill", tool_content(), made_by="test", depends_on=[camera.id]
     )
 
 
 def with_plan(server: Server, case_id: str, *vertebrae: str) -> None:
     ct = server.store.put(case_id, DocumentKind.CT, "main", {}, made_by="test")
     content = plan_content(*(vertebrae or ("L3",)))
-    server.store.put(case_id, DocumentKind.PLAN, "main", content, made_by="test", stands_on=[ct.id])
+    server.store.put(case_id, DocumentKind.PLAN, "main", content, made_by="test", depends_on=[ct.id])
 
 
 def activate(server: Server, vertebra: str = "L3", side: str = "left") -> None:
@@ -203,5 +205,5 @@ def registered(server: Server) -> Registration | None:
 
 def states(server: Server) -> dict[str, str]:
     """Each step's state, as the door tells it."""
-    told = server.ask("GET", "/api/procedure", 200)
-    return {one["step"]: one["state"] for one in told["steps"]}
+    reported = server.ask("GET", "/api/procedure", 200)
+    return {one["step"]: one["state"] for one in reported["steps"]}

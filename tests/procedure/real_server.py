@@ -45,11 +45,11 @@ class RealServer:
 
     def rejected(self, method: str, path: str, code: str, **sent: Any) -> Any:  # noqa: ANN401  JSON
         """The refusal of a step out of its turn: its code, a sentence with what happened, what to do."""
-        told = self.ask(method, path, 409, **sent)
-        assert told["code"] == code, told
-        assert told["message"]
-        assert told["remedy"].endswith(".")
-        return told
+        reported = self.ask(method, path, 409, **sent)
+        assert reported["code"] == code, reported
+        assert reported["message"]
+        assert reported["remedy"].endswith(".")
+        return reported
 
     def until(self, what: str, true: Callable[[], Any]) -> Any:  # noqa: ANN401  whatever became true
         """What this gives as soon as it is true."""
@@ -66,9 +66,9 @@ class RealServer:
             now = self.ask("GET", f"/api/jobs/{job['id']}", 200)
             return now if now["state"] in {"done", "failed", "cancelled"} else None
 
-        told = self.until(str(job["title"]), over)
-        assert told["state"] == "done", told["problem"]
-        return told["result"]
+        reported = self.until(str(job["title"]), over)
+        assert reported["state"] == "done", reported["problem"]
+        return reported["result"]
 
     @contextmanager
     def listening(self) -> Iterator[Iterator[dict[str, Any]]]:
@@ -78,8 +78,8 @@ class RealServer:
 
 
 def _message(text: str | bytes) -> dict[str, Any]:
-    told: dict[str, Any] = httpx2.Response(200, content=text).json()
-    return told
+    reported: dict[str, Any] = httpx2.Response(200, content=text).json()
+    return reported
 
 
 @contextmanager

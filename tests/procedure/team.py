@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from server.config import Config, RehearsalEventConfig
-from server.theatre import theatre_of
+from server.theatre import theatre_from_config
 from tests.procedure.real_server import RealServer
 from tracker.geometry import Rigid, Tool, Vertebra
 from tracker.navigation import Deviation
@@ -63,19 +63,19 @@ class Team:
     first_number: int = 0
 
     def __post_init__(self) -> None:
-        self.theatre = theatre_of(self.config.rehearsal)
+        self.theatre = theatre_from_config(self.config.rehearsal)
 
     def play(self, scene: str, *, skill: str = "good", events: Sequence[RehearsalEventConfig] = ()) -> None:
         """Have a scene played, and wait until it is before the camera."""
-        asked = {"scene": scene, "skill": skill, "events": [one.model_dump() for one in events]}
-        changed = {**asked, "events": list(events)}
-        self.theatre = theatre_of(self.config.rehearsal.model_copy(update=changed))
-        self.server.ask("PUT", "/api/rehearsal", 200, json=asked)
+        requested = {"scene": scene, "skill": skill, "events": [one.model_dump() for one in events]}
+        changed = {**requested, "events": list(events)}
+        self.theatre = theatre_from_config(self.config.rehearsal.model_copy(update=changed))
+        self.server.ask("PUT", "/api/rehearsal", 200, json=requested)
 
         def is_shown() -> bool:
-            told = self.server.ask("GET", "/api/rehearsal?truth=1", 200)
-            self.first_number = told["first_number"] or 0
-            return told["begun"] and told["truth"]["moment"] is not None
+            reported = self.server.ask("GET", "/api/rehearsal?truth=1", 200)
+            self.first_number = reported["first_number"] or 0
+            return reported["begun"] and reported["truth"]["moment"] is not None
 
         self.server.until(f"the scene {scene}", is_shown)
 
@@ -128,8 +128,8 @@ class Team:
         for side, true_channel in zip(("left", "right"), truth["channels"], strict=True):
             ends = np.array([true_channel["entry_lps_mm"], true_channel["target_lps_mm"]])
             click = ends[0] + 0.35 * (ends[1] - ends[0])
-            asked = {**BY, "seed_lps_mm": click.tolist()}
-            self.server.done(ask("POST", f"{where}/pedicles/{side}", 202, json=asked))
+            requested = {**BY, "seed_lps_mm": click.tolist()}
+            self.server.done(ask("POST", f"{where}/pedicles/{side}", 202, json=requested))
             ask("PUT", f"{where}/channels/{side}", 200, json=BY)
             ask("PUT", f"{where}/channels/{side}/screw", 200, json=BY)
         self.server.done(ask("POST", "/api/surface/from-ct", 202, json=BY))
@@ -138,8 +138,8 @@ class Team:
 
     def choose(self, vertebra: str, side: str) -> Channel:
         """The channel that is to be drilled, as the plan has it."""
-        asked = {**BY, "vertebra": vertebra, "side": side}
-        plan = self.server.ask("POST", "/api/plan/active-channel", 200, json=asked)
+        requested = {**BY, "vertebra": vertebra, "side": side}
+        plan = self.server.ask("POST", "/api/plan/active-channel", 200, json=requested)
         planned = plan["active_channel"]["channel"]
         return Channel(
             name=planned["name"],
@@ -163,21 +163,21 @@ class Team:
         ask = self.server.ask
 
         def taken() -> dict[str, Any] | None:
-            told: dict[str, Any] = ask("GET", POINTS, 200)
-            known = {one["name"] for one in told["landmarks"] if one["touched"]}
+            reported: dict[str, Any] = ask("GET", POINTS, 200)
+            known = {one["name"] for one in reported["landmarks"] if one["touched"]}
             name = self.touched()
             if not name or name in known:
                 return None
             ask("POST", f"{POINTS}/captures", 202, json={"landmark": name})
-            told = self._captured_at(POINTS)
-            return told if told["capture"]["state"] == "taken" else None
+            reported = self._captured_at(POINTS)
+            return reported if reported["capture"]["state"] == "taken" else None
 
         return dict(self.server.until("a landmark with the tip at rest on it", taken))
 
     def _captured_at(self, path: str) -> dict[str, Any]:
         def over() -> dict[str, Any] | None:
-            told: dict[str, Any] = self.server.ask("GET", path, 200)
-            return None if told["capture"]["state"] == "looking" else told
+            reported: dict[str, Any] = self.server.ask("GET", path, 200)
+            return None if reported["capture"]["state"] == "looking" else reported
 
         return dict(self.server.until("the end of a capture", over))
 
@@ -196,8 +196,8 @@ class Team:
 
     def steps(self) -> dict[str, str]:
         """The state of each step."""
-        told = self.server.ask("GET", "/api/procedure", 200)
-        return {one["step"]: one["state"] for one in told["steps"]}
+        reported = self.server.ask("GET", "/api/procedure", 200)
+        return {one["step"]: one["state"] for one in reported["steps"]}
 
     def waits_for(self, step: str, code: str) -> None:
         """The server says that this is to be done now, and refuses to register before it."""
@@ -211,8 +211,8 @@ class Team:
 
     def arm_a_screen(self) -> None:
         """A screen in theatre says that its sound would be heard."""
-        asked = {"screen": "theatre-one", "state": "armed"}
-        self.server.ask("POST", "/api/alarms/screens", 200, json=asked)
+        requested = {"screen": "theatre-one", "state": "armed"}
+        self.server.ask("POST", "/api/alarms/screens", 200, json=requested)
 
     def heard(self, messages: Iterator[dict[str, Any]]) -> Iterator[Heard]:
         """The messages with an image of the scene that is played."""

@@ -50,9 +50,11 @@ def test_a_camera_from_sent_images_is_the_true_one_and_is_used_at_once(server: S
     case_id = open_a_case(server)
     server.ask("POST", "/api/camera/collection", 201, json={"board": DOTS})
     for index, image in enumerate(images):
-        told = server.ask("POST", f"/api/camera/collection/images?name=view-{index}", 201, content=png(image))
-    assert len(told["views"]) == len(images)
-    assert told["missing"] == []
+        reported = server.ask(
+            "POST", f"/api/camera/collection/images?name=view-{index}", 201, content=png(image)
+        )
+    assert len(reported["views"]) == len(images)
+    assert reported["missing"] == []
     job = server.done(server.ask("POST", "/api/camera/calibration", 202, json={"made_by": "ito"}))
     assert job["state"] == "done", job["problem"]
     report = job["result"]
@@ -66,15 +68,15 @@ def test_a_camera_from_sent_images_is_the_true_one_and_is_used_at_once(server: S
     np.testing.assert_allclose(used.matrix, report["matrix"])
     corner = np.array([[8.0, 8.0], [950.0, 530.0]])
     assert np.abs(used.normalised_from_px(corner) - truth.normalised_from_px(corner)).max() < 1.5e-3
-    kept = server.ask("GET", "/api/camera/calibration", 200)
-    heading = kept["heading"]
+    stored = server.ask("GET", "/api/camera/calibration", 200)
+    heading = stored["heading"]
     assert (heading["kind"], heading["name"], heading["made_by"], heading["version"]) == (
         "camera",
         "main",
         "ito",
         1,
     )
-    for picture in kept["content"]["plots"].values():
+    for picture in stored["content"]["plots"].values():
         svg = server.door.get(f"/api/cases/{case_id}/files/{picture}")
         assert svg.content.startswith(b"<svg")
     check_accuracy(server, images[0])
@@ -82,17 +84,17 @@ def test_a_camera_from_sent_images_is_the_true_one_and_is_used_at_once(server: S
 
 def check_accuracy(server: Server, image: np.ndarray) -> None:
     """Known displacements on a board are measured in the picture of now."""
-    asked = {"board": DOTS, "made_by": "ito"}
-    assert server.ask("POST", "/api/camera/accuracy", 503, json=asked)["code"] == "NO_PICTURE"
+    requested = {"board": DOTS, "made_by": "ito"}
+    assert server.ask("POST", "/api/camera/accuracy", 503, json=requested)["code"] == "NO_PICTURE"
     server.show(at_s=0.0, image=np.full_like(image, 90))
-    assert server.ask("POST", "/api/camera/accuracy", 422, json=asked)["code"] == "BOARD_NOT_FOUND"
+    assert server.ask("POST", "/api/camera/accuracy", 422, json=requested)["code"] == "BOARD_NOT_FOUND"
     other = cv2.resize(image, (480, 270))
     server.show(at_s=0.5, image=other)
-    rejected = server.ask("POST", "/api/camera/accuracy", 409, json=asked)
+    rejected = server.ask("POST", "/api/camera/accuracy", 409, json=requested)
     assert rejected["code"] == "CAMERA_SIZE_MISMATCH"
     assert "480x270" in rejected["message"]
     server.show(at_s=1.0, image=image)
-    check = server.ask("POST", "/api/camera/accuracy", 201, json=asked)["content"]
+    check = server.ask("POST", "/api/camera/accuracy", 201, json=requested)["content"]
     assert check["passed"]
     assert 0.0 < check["rms_error_mm"] < check["maximum_error_mm"] < 0.2
     assert len(check["rows"]) >= 20
@@ -122,8 +124,8 @@ def test_the_controls_of_the_camera_are_kept_with_its_calibration_and_come_into_
         server.ask("POST", "/api/camera/collection/images", 201, content=png(image))
     job = server.done(server.ask("POST", "/api/camera/calibration", 202, json={"made_by": "ito"}))
     assert job["state"] == "done", job["problem"]
-    kept = server.ask("GET", "/api/camera/calibration", 200)
-    assert kept["content"]["camera"]["controls"] == {"focus": 45, "gain": 20}
+    stored = server.ask("GET", "/api/camera/calibration", 200)
+    assert stored["content"]["camera"]["controls"] == {"focus": 45, "gain": 20}
     assert server.adopted[-1].camera_controls == controls
 
 
@@ -141,8 +143,8 @@ def test_another_calibration_of_the_same_mode_keeps_the_readout(server: Server) 
     calibrate()
     server.ask("PUT", "/api/camera/readout", 200, json={"readout_ms": 16.5, "made_by": "ito"})
     calibrate()
-    kept = server.ask("GET", "/api/camera/calibration", 200)
-    assert (kept["heading"]["version"], kept["content"]["camera"]["readout_ms"]) == (3, 16.5)
+    stored = server.ask("GET", "/api/camera/calibration", 200)
+    assert (stored["heading"]["version"], stored["content"]["camera"]["readout_ms"]) == (3, 16.5)
     assert server.adopted[-1].readout_ms == 16.5
 
 
@@ -170,12 +172,12 @@ def test_views_are_taken_by_themselves_from_the_live_images(server: Server) -> N
             server.until(
                 lambda: server.ask("GET", "/api/camera/collection", 200)["image_number"] == server.number
             )
-    told = server.ask("GET", "/api/camera/collection", 200)
-    assert told["running"]
-    assert told["missing"]
-    assert told["views"] == ["image 2", "image 4", "image 6"]
-    assert (told["width_px"], told["height_px"]) == SIZE
-    assert len(told["points_px"]) == 140
+    reported = server.ask("GET", "/api/camera/collection", 200)
+    assert reported["running"]
+    assert reported["missing"]
+    assert reported["views"] == ["image 2", "image 4", "image 6"]
+    assert (reported["width_px"], reported["height_px"]) == SIZE
+    assert len(reported["points_px"]) == 140
     server.ask("DELETE", "/api/camera/collection", 204)
     assert server.ask("GET", "/api/camera/collection", 409)["code"] == "COLLECTION_MISSING"
 

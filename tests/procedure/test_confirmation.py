@@ -22,7 +22,7 @@ from tests.procedure.patient import (
     withheld,
 )
 from tracker.geometry import Camera, Marker, Rigid
-from tracker.navigation import Absent, AbsentReason, Deviation, PlacedVertebra, ToolInView
+from tracker.navigation import Absent, AbsentReason, Deviation, ToolPose, VertebraPose
 
 REFERENCE = {"reference": {"marker": "reference"}}
 CAMERA_FROM_REFERENCE: Rigid[Camera, Marker] = Rigid.from_vector([3.0, 0.1, 0.2], [60.0, 20.0, 430.0])
@@ -30,7 +30,7 @@ CONFIRM = "/api/procedure/confirmation"
 ON_ENTRY = drill_at(CAMERA_FROM_VERTEBRA.move_points(np.array([15.0, 14.0, 2.0])))
 
 
-def asked(server: Server) -> Any:  # noqa: ANN401  JSON
+def requested(server: Server) -> Any:  # noqa: ANN401  JSON
     """What a person is asked, if anything."""
     return server.ask("GET", "/api/procedure", 200)["confirmation"]
 
@@ -47,7 +47,7 @@ def started_again(tmp_path: Path, turns: ExitStack) -> Server:
     patient = beside_a_reference(server)
     patient.register()
     patient.check()
-    assert asked(server) is None
+    assert requested(server) is None
     turns.close()
     return turns.enter_context(serving(tmp_path, REFERENCE))
 
@@ -55,30 +55,30 @@ def started_again(tmp_path: Path, turns: ExitStack) -> Server:
 def test_after_a_start_the_plan_is_shown_and_no_drill_until_a_person_confirms(started_again: Server) -> None:
     server, patient = started_again, beside_a_reference(started_again)
     shown = patient.show(ON_ENTRY)
-    assert isinstance(shown.vertebra, PlacedVertebra)
+    assert isinstance(shown.vertebra, VertebraPose)
     stopped = Absent(reason=AbsentReason.NOT_CONFIRMED)
-    assert (shown.tools["drill"], shown.deviations["drill"], shown.judgements["drill"]) == (stopped,) * 3
+    assert (shown.tools["drill"], shown.deviations["drill"], shown.analyses["drill"]) == (stopped,) * 3
 
-    told = server.ask("GET", "/api/procedure", 200)
-    assert not told["may_navigate"]
-    assert {one["step"]: one["state"] for one in told["steps"]} == {
+    reported = server.ask("GET", "/api/procedure", 200)
+    assert not reported["may_navigate"]
+    assert {one["step"]: one["state"] for one in reported["steps"]} == {
         **dict.fromkeys(("camera", "tool", "plan", "register", "check"), "done"),
         "navigate": "missing",
     }
-    assert told["next_step"] == "navigate"
-    needed = told["confirmation"]
+    assert reported["next_step"] == "navigate"
+    needed = reported["confirmation"]
     assert needed["because"] == "server_started"
     assert (needed["vertebra"], needed["registered_by"], needed["reference"]) == ("L3", "ito", "reference")
-    assert needed["said"] in told["steps"][-1]["said"]
+    assert needed["message"] in reported["steps"][-1]["message"]
 
     after = server.ask("POST", CONFIRM, 200, json={"registration_id": needed["registration_id"]})
     assert (after["may_navigate"], after["confirmation"]) == (True, None)
     shown = patient.show(ON_ENTRY)
-    assert isinstance(shown.tools["drill"], ToolInView)
+    assert isinstance(shown.tools["drill"], ToolPose)
     assert isinstance(shown.deviations["drill"], Deviation)
-    (kept,) = server.store.all(told["case_id"], DocumentKind.CONFIRMATION)
-    assert (kept.made_by, kept.content["because"]) == ("this computer", "server_started")
-    assert kept.stands_on == (needed["registration_id"],)
+    (stored,) = server.store.all(reported["case_id"], DocumentKind.CONFIRMATION)
+    assert (stored.made_by, stored.content["because"]) == ("this computer", "server_started")
+    assert stored.depends_on == (needed["registration_id"],)
 
 
 def test_a_second_word_is_no_second_document_and_holds_for_one_run(
@@ -86,10 +86,10 @@ def test_a_second_word_is_no_second_document_and_holds_for_one_run(
 ) -> None:
     server = started_again
     beside_a_reference(server).show(None)
-    word = {"registration_id": asked(server)["registration_id"]}
+    word = {"registration_id": requested(server)["registration_id"]}
     server.ask("POST", CONFIRM, 200, json=word)
     server.ask("POST", CONFIRM, 200, json=word)
-    opened = server.store.opened()
+    opened = server.store.get_open_case()
     assert opened is not None
     assert len(server.store.history(opened.id, DocumentKind.CONFIRMATION, "going on with L3")) == 1
     # Opened by hand within the run it stays as it was said; the next start asks again.
@@ -101,14 +101,14 @@ def test_a_second_word_is_no_second_document_and_holds_for_one_run(
     assert withheld(again) is AbsentReason.NOT_CONFIRMED
     # Neither does closing and opening the case take the place of a word.
     again.ask("POST", f"/api/cases/{opened.id}/close", 200)
-    assert asked(again) is None
+    assert requested(again) is None
     again.ask("POST", f"/api/cases/{opened.id}/open", 200)
     assert withheld(again) is AbsentReason.NOT_CONFIRMED
 
 
 def test_nobody_confirms_what_they_do_not_see_or_what_is_not_in_use(started_again: Server) -> None:
     server = started_again
-    needed = asked(server)
+    needed = requested(server)
     blind = server.ask("POST", CONFIRM, 409, json={"registration_id": needed["registration_id"]})
     assert blind["code"] == "CONFIRMATION_UNSEEN"
     beside_a_reference(server).show(None)
@@ -122,7 +122,7 @@ def test_a_tip_on_a_landmark_is_more_than_a_word(started_again: Server) -> None:
     patient = beside_a_reference(started_again)
     patient.show(None)
     patient.check()
-    assert asked(started_again) is None
+    assert requested(started_again) is None
     assert withheld(started_again) is None
 
 
@@ -133,7 +133,7 @@ def test_a_new_tracking_process_did_not_watch_the_camera_before(server: Server) 
     patient.check()
     assert isinstance(patient.show(ON_ENTRY).deviations["drill"], Deviation)
     server.tracked_from_s.append(time.monotonic())
-    needed = asked(server)
+    needed = requested(server)
     assert needed["because"] == "tracking_started"
     assert needed["reference"] is None
     assert states(server)["navigate"] == "missing"
@@ -143,7 +143,7 @@ def test_a_new_tracking_process_did_not_watch_the_camera_before(server: Server) 
     assert before.tracked_from(server.tracked_from_s[-1]).withheld is AbsentReason.NOT_CONFIRMED
     server.ask("POST", CONFIRM, 200, json={"registration_id": needed["registration_id"]})
     assert server.adopted[-1].tracked_from(server.tracked_from_s[-1]).withheld is None
-    assert asked(server) is None
+    assert requested(server) is None
 
 
 def test_beside_a_reference_a_new_tracking_process_goes_on(tmp_path: Path, turns: ExitStack) -> None:
@@ -153,7 +153,7 @@ def test_beside_a_reference_a_new_tracking_process_goes_on(tmp_path: Path, turns
     patient.register()
     patient.check()
     server.tracked_from_s.append(time.monotonic())
-    assert asked(server) is None
+    assert requested(server) is None
     assert server.adopted[-1].tracked_from(server.tracked_from_s[-1]).withheld is None
 
 
@@ -168,19 +168,19 @@ def test_what_is_registered_in_this_run_needs_no_word_and_the_other_vertebra_doe
     turns.close()
     again = turns.enter_context(serving(tmp_path, REFERENCE))
     activate(again, "L4")
-    assert (asked(again), registered(again)) == (None, None)
+    assert (requested(again), registered(again)) == (None, None)
     patient = beside_a_reference(again)
     patient.register()
     patient.check()
     assert withheld(again) is None
     activate(again, "L3")
-    assert asked(again)["vertebra"] == "L3"
+    assert requested(again)["vertebra"] == "L3"
     assert withheld(again) is AbsentReason.NOT_CONFIRMED
 
 
 def test_with_no_case_open_there_is_nothing_to_confirm(
     server: Server, restarted: Callable[[], Server]
 ) -> None:
-    assert asked(server) is None
+    assert requested(server) is None
     again = restarted()
     assert again.ask("POST", CONFIRM, 409, json={"registration_id": "a"})["code"] == "NO_CASE_OPEN"

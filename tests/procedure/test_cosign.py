@@ -10,13 +10,13 @@ from fastapi import FastAPI
 
 from server.app import AppParts, create_app
 from server.errors import SetupOrderError
-from server.procedure.state import Finding, Lack, StepName, StepState, judged
-from server.security.audit import noting
+from server.procedure.state import Finding, MissingCosignature, StepName, StepState, derive_state
+from server.security.audit import collect_changes
 from server.store import DocumentKind
 from tests.procedure.conftest import Server, serving
 from tests.procedure.patient import Patient, plan_content, ready, with_plan, withheld
 from tests.procedure.test_camera_step import open_a_case
-from tests.server.supervision.persons import sign_people_in
+from tests.server.supervision.signed_in_people import sign_people_in
 from tracker.navigation import AbsentReason
 
 SIGNATURES = "/api/supervision/signatures"
@@ -38,19 +38,19 @@ def guarded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callabl
 
 
 def signable(server: Server, what: str) -> dict[str, Any]:
-    told = server.ask("GET", SIGNATURES, 200)["signable"]
-    return next(dict(one) for one in told if one["what"] == what)
+    reported = server.ask("GET", SIGNATURES, 200)["signable"]
+    return next(dict(one) for one in reported if one["what"] == what)
 
 
 def sign(server: Server, what: str, person: str, status: int = 201, document_id: str = "") -> Any:  # noqa: ANN401  JSON
-    asked = {"what": what, "document_id": document_id or signable(server, what)["document_id"] or "none"}
+    requested = {"what": what, "document_id": document_id or signable(server, what)["document_id"] or "none"}
     headers = {"x-person": person} if person else {}
-    return server.ask("POST", SIGNATURES, status, json=asked, headers=headers)
+    return server.ask("POST", SIGNATURES, status, json=requested, headers=headers)
 
 
 def step(server: Server, name: str) -> dict[str, Any]:
-    told = server.ask("GET", "/api/procedure", 200)["steps"]
-    return next(dict(one) for one in told if one["step"] == name)
+    reported = server.ask("GET", "/api/procedure", 200)["steps"]
+    return next(dict(one) for one in reported if one["step"] == name)
 
 
 def planned(server: Server) -> str:
@@ -63,7 +63,7 @@ def planned(server: Server) -> str:
 def change_plan(server: Server, case_id: str, made_by: str = "ito") -> None:
     ct = server.store.current(case_id, DocumentKind.CT, "main")
     content = plan_content("L3", shift_mm=0.5)
-    server.store.put(case_id, DocumentKind.PLAN, "main", content, made_by=made_by, stands_on=[ct.id])
+    server.store.put(case_id, DocumentKind.PLAN, "main", content, made_by=made_by, depends_on=[ct.id])
 
 
 def test_required_signatures_withhold_navigation_until_a_second_person_signed(
@@ -73,17 +73,17 @@ def test_required_signatures_withhold_navigation_until_a_second_person_signed(
     ready(server)
     patient = Patient(server=server)
     # The plan lacks it, and the registration goes on all the same.
-    assert "not signed by a second person" in step(server, "plan")["lacks"]["said"]
+    assert "not signed by a second person" in step(server, "plan")["missing_cosignature"]["message"]
     patient.register()
     patient.check()
     navigate = step(server, "navigate")
     assert (navigate["state"], navigate["allowed"]) == ("missing", False)
-    assert "waits for a co-signature: plan 'main' version 1" in navigate["said"]
+    assert "waits for a co-signature: plan 'main' version 1" in navigate["message"]
     assert navigate["remedy"].endswith("page.")
     assert withheld(server) is AbsentReason.NOT_COSIGNED
     sign(server, "plan", "s1")
-    assert step(server, "plan")["lacks"] is None
-    assert "registration 'L3'" in step(server, "navigate")["said"]
+    assert step(server, "plan")["missing_cosignature"] is None
+    assert "registration 'L3'" in step(server, "navigate")["message"]
     assert withheld(server) is AbsentReason.NOT_COSIGNED
     (signature,) = sign(server, "registration", "s1")["signable"][1]["signatures"]
     assert (signature["by"], signature["second_person"]) == ("Dr Sato", True)
@@ -127,16 +127,16 @@ def test_several_sign_and_each_once(guarded: Callable[..., Server]) -> None:
     planned(server)
     sign(server, "plan", "s1")
     sign(server, "plan", "s2")
-    told = sign(server, "plan", "s1")["signable"][0]["signatures"]
-    assert [one["by"] for one in told] == ["Dr Sato", "Dr Kim"]
-    assert [one["is_yours"] for one in told] == [True, False]
+    reported = sign(server, "plan", "s1")["signable"][0]["signatures"]
+    assert [one["by"] for one in reported] == ["Dr Sato", "Dr Kim"]
+    assert [one["is_yours"] for one in reported] == [True, False]
 
 
 def test_without_sign_in_a_signature_is_nobodys_second(server: Server) -> None:
     planned(server)
-    told = sign(server, "plan", "")["signable"][0]
-    assert [(one["by"], one["second_person"]) for one in told["signatures"]] == [("this computer", False)]
-    assert not told["is_cosigned"]
+    reported = sign(server, "plan", "")["signable"][0]
+    assert [(one["by"], one["second_person"]) for one in reported["signatures"]] == [("this computer", False)]
+    assert not reported["is_cosigned"]
 
 
 def test_what_is_not_there_is_not_signed(server: Server) -> None:
@@ -161,7 +161,7 @@ def test_a_content_that_was_changed_behind_the_store_is_not_signed(guarded: Call
         document.name,
         content,
         made_by="Dr Sato",
-        stands_on=document.stands_on,
+        depends_on=document.depends_on,
     )
     assert not signable(server, "plan")["is_cosigned"]
 
@@ -194,7 +194,7 @@ def test_who_took_an_archive_in_cannot_co_sign_what_they_may_have_written_into_i
     server.ask("POST", f"/api/cases/{taken}/open", 200)
     plan = signable(server, "plan")
     assert plan["made_by"] == "Dr Kim, says the archive"
-    assert (plan["imported"]["said_maker"], plan["imported"]["by"]) == ("Dr Kim", "ito")
+    assert (plan["imported"]["claimed_maker"], plan["imported"]["by"]) == ("Dr Kim", "ito")
     documents = server.ask("GET", f"/api/cases/{taken}/documents", 200)["documents"]
     assert {one["imported"]["by"] for one in documents} == {"ito"}
     assert all(one["made_by"].endswith(", says the archive") for one in documents)
@@ -213,9 +213,9 @@ def test_a_signature_says_who_invited_the_signer_and_whether_that_was_the_maker(
     case_id = planned(server)
     change_plan(server, case_id, made_by=" ITO ")
     sign(server, "plan", "s1")
-    with noting() as noted:
-        told = sign(server, "plan", "s3")["signable"][0]["signatures"]
-    assert [(one["by"], one["invited_by"], one["invited_by_maker"]) for one in told] == [
+    with collect_changes() as noted:
+        reported = sign(server, "plan", "s3")["signable"][0]["signatures"]
+    assert [(one["by"], one["invited_by"], one["invited_by_maker"]) for one in reported] == [
         ("Dr Sato", "", False),
         ("Dr Lee", "ito", True),
     ]
@@ -231,8 +231,8 @@ def test_a_signature_says_who_invited_the_signer_and_whether_that_was_the_maker(
     # It counts all the same: who invites is often who plans. Of what somebody else made, nothing is said.
     assert signable(server, "plan")["is_cosigned"]
     change_plan(server, case_id, made_by="abe")
-    (told,) = sign(server, "plan", "s3")["signable"][0]["signatures"]
-    assert (told["invited_by"], told["invited_by_maker"]) == ("ito", False)
+    (reported,) = sign(server, "plan", "s3")["signable"][0]["signatures"]
+    assert (reported["invited_by"], reported["invited_by_maker"]) == ("ito", False)
 
 
 def test_the_room_is_told_of_a_signature_at_once(guarded: Callable[..., Server]) -> None:
@@ -243,12 +243,12 @@ def test_the_room_is_told_of_a_signature_at_once(guarded: Callable[..., Server])
             """The plan in the first message of this socket that says so."""
             plans: list[dict[str, Any]] = []
 
-            def told() -> bool:
+            def reported() -> bool:
                 socket.send_json({"next": True})
                 plans.extend((socket.receive_json()["signable"] or [])[:1])
                 return bool(plans) and true(plans[-1])
 
-            server.until(told)
+            server.until(reported)
             return plans[-1]
 
         assert heard(lambda plan: plan["document_id"] is None)["signatures"] == []
@@ -262,18 +262,25 @@ def test_the_room_is_told_of_a_signature_at_once(guarded: Callable[..., Server])
 
 
 def test_only_navigation_waits_for_a_signature() -> None:
-    done = Finding(state=StepState.DONE, said="done")
+    done = Finding(state=StepState.DONE, message="done")
     findings = dict.fromkeys(StepName, done)
     del findings[StepName.NAVIGATE]
-    lack = Lack(said="plan 'main' version 3 is not signed by a second person", remedy="Sign it.")
-    state = judged("case", findings, lacks={StepName.PLAN: lack})
+    lack = MissingCosignature(
+        message="plan 'main' version 3 is not signed by a second person", remedy="Sign it."
+    )
+    state = derive_state("case", findings, missing_cosignature={StepName.PLAN: lack})
     assert [one.step for one in state.steps if not one.allowed] == [StepName.NAVIGATE]
-    state.reject_before(StepName.CHECK)
+    state.require_earlier_steps(StepName.CHECK)
     with pytest.raises(SetupOrderError) as caught:
-        state.reject_before(StepName.NAVIGATE)
+        state.require_earlier_steps(StepName.NAVIGATE)
     assert (caught.value.code, caught.value.remedy) == ("PLAN_NOT_COSIGNED", "Sign it.")
-    missing = {**findings, StepName.TOOL: Finding(state=StepState.MISSING, said="no tool", remedy="Pivot.")}
+    missing = {
+        **findings,
+        StepName.TOOL: Finding(state=StepState.MISSING, message="no tool", remedy="Pivot."),
+    }
     assert (
         "no tool"
-        in judged("case", missing, lacks={StepName.PLAN: lack}).status(StepName.NAVIGATE).finding.said
+        in derive_state("case", missing, missing_cosignature={StepName.PLAN: lack})
+        .status(StepName.NAVIGATE)
+        .finding.message
     )

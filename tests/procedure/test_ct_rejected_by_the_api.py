@@ -56,7 +56,7 @@ BAD: dict[str, tuple[str, Case]] = {
 }
 
 
-def kept(server: Server) -> list[Any]:
+def stored(server: Server) -> list[Any]:
     """Every document and file of every case."""
     return [(server.store.outline(case.id), server.store.files(case.id)) for case in server.store.list()]
 
@@ -64,7 +64,7 @@ def kept(server: Server) -> list[Any]:
 def test_bad_cts_are_told_and_leave_nothing(server: Server, tmp_path: Path) -> None:
     opened(server)
     assert sent(server, dicom_zip())["state"] == "done"
-    before = kept(server)
+    before = stored(server)
     for name, (code, make) in BAD.items():
         folder = tmp_path / name
         folder.mkdir()
@@ -74,16 +74,16 @@ def test_bad_cts_are_told_and_leave_nothing(server: Server, tmp_path: Path) -> N
         assert (problem["code"], bool(problem["remedy"])) == (code, True), name
         for secret in (*NAME.split("^"), BORN, NUMBER, str(tmp_path)):
             assert secret.casefold() not in str(job).casefold(), name
-        assert kept(server) == before, name
+        assert stored(server) == before, name
         assert leftovers(server) == [], name
     assert server.ask("POST", "/api/ct", 422, content=b"", params=BY)["code"] == "UPLOAD_EMPTY"
-    assert kept(server) == before
+    assert stored(server) == before
     assert server.ask("GET", "/api/ct", 200)["heading"]["version"] == 1
 
 
 def test_a_surface_that_cannot_be_read_leaves_nothing(server: Server) -> None:
     opened(server)
-    before = kept(server)
+    before = stored(server)
     for content, query, code in (
         (b"solid nothing", {}, "MESH_FORMAT_UNKNOWN"),
         (b"hello", {}, "MESH_FORMAT_UNKNOWN"),
@@ -94,7 +94,7 @@ def test_a_surface_that_cannot_be_read_leaves_nothing(server: Server) -> None:
     ):
         job = server.done(server.ask("POST", "/api/surface", 202, content=content, params={**BY, **query}))
         assert job["problem"]["code"] == code
-        assert kept(server) == before
+        assert stored(server) == before
         assert leftovers(server) == []
     assert server.ask("GET", "/api/surface", 409)["code"] == "SURFACE_MISSING"
 
@@ -108,8 +108,8 @@ def test_a_surface_from_the_ct_and_one_in_metres(server: Server) -> None:
     opened(server)
     sent(server, dicom_zip())
     region = {"low_lps_mm": [-30, -30, -15], "high_lps_mm": [30, 30, 15]}
-    asked = {**BY, "region": region, "max_faces": 5000}
-    job = server.done(server.ask("POST", "/api/surface/from-ct", 202, json=asked))
+    requested = {**BY, "region": region, "max_faces": 5000}
+    job = server.done(server.ask("POST", "/api/surface/from-ct", 202, json=requested))
     assert job["state"] == "done", job["problem"]
     made = server.ask("GET", "/api/surface", 200)
     assert made["heading"]["current"]
@@ -120,14 +120,14 @@ def test_a_surface_from_the_ct_and_one_in_metres(server: Server) -> None:
     assert (
         server.door.get("/api/surface.ply", headers={"If-None-Match": ply.headers["etag"]}).status_code == 304
     )
-    wrong = {**asked, "region": {**region, "high_lps_mm": [-40, 0, 0]}}
+    wrong = {**requested, "region": {**region, "high_lps_mm": [-40, 0, 0]}}
     assert server.ask("POST", "/api/surface/from-ct", 409, json=wrong)["code"] == "REGION_INVALID"
     # Another CT: what was made of the old one is out of date.
     sent(server, dicom_zip())
     assert not server.ask("GET", "/api/surface", 200)["heading"]["current"]
     in_metres = server.ask("POST", "/api/surface", 202, content=stl(0.05), params={**BY, "unit": "m"})
     assert server.done(in_metres)["result"]["size_mm"] == pytest.approx([50.0] * 3, rel=1e-5)
-    assert server.ask("GET", "/api/surface", 200)["heading"]["stands_on"] == []
+    assert server.ask("GET", "/api/surface", 200)["heading"]["depends_on"] == []
 
 
 @functools.cache
@@ -152,13 +152,13 @@ def sent_and_begun(server: Server) -> Any:  # noqa: ANN401  JSON
 
 def test_reading_is_cancelled_in_the_middle(server: Server) -> None:
     opened(server)
-    before = kept(server)
+    before = stored(server)
     begun = sent_and_begun(server)
     assert any(path.suffix == ".partial" for path in leftovers(server))
     over = server.ask("DELETE", f"/api/jobs/{begun['id']}", 200)
     assert over["state"] == "cancelled"
     server.done(begun)
-    assert kept(server) == before
+    assert stored(server) == before
     assert leftovers(server) == []
     assert server.ask("GET", "/api/ct", 409)["code"] == "CT_MISSING"
     gone = server.ask("GET", f"/api/ct/uploads/{begun['upload_id']}/preview.png", 404)
@@ -168,7 +168,7 @@ def test_reading_is_cancelled_in_the_middle(server: Server) -> None:
 def test_the_process_that_reads_is_killed(server: Server) -> None:
     opened(server)
     begun = sent_and_begun(server)
-    watched = server.jobs._watched[begun["id"]]
+    watched = server.jobs._entries[begun["id"]]
     pid = None if watched.process is None else watched.process.pid
     assert pid is not None
     os.kill(pid, signal.SIGKILL)
@@ -201,6 +201,6 @@ def test_who_has_no_name_that_can_be_kept_is_told_before_anything_is_done(server
             ("/api/camera/calibration", {"json": by}),
             ("/api/tools/collection/conclusion", {"json": by}),
         ):
-            told = server.ask("POST", path, 422, **sent_up)
-            assert told["code"] == "NAME_INVALID", path
+            reported = server.ask("POST", path, 422, **sent_up)
+            assert reported["code"] == "NAME_INVALID", path
     assert server.jobs.list() == ()

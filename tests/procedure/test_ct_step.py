@@ -62,9 +62,9 @@ def test_a_ct_is_sent_and_looked_at(server: Server, content: Any) -> None:  # no
     probed = server.ask("POST", "/api/ct/probe", 200, json={"point_lps_mm": point.tolist()})
     assert probed["hu"] == pytest.approx(truth.hu[20, 50, 40], abs=1.0)
     assert probed["inside"]
-    told = server.door.get("/api/ct").text + server.door.get("/api/jobs").text
+    reported = server.door.get("/api/ct").text + server.door.get("/api/jobs").text
     for secret in (*NAME.split("^"), NUMBER, BORN, "QUIBBLE"):
-        assert secret.casefold() not in told.casefold()
+        assert secret.casefold() not in reported.casefold()
 
 
 def test_a_picture_is_kept_by_the_browser_until_the_ct_is_another(server: Server) -> None:
@@ -87,7 +87,7 @@ def test_slices_along_and_across_a_channel(server: Server) -> None:
         server, f"/api/ct/oblique.png?{way}&view=across&depth_mm=15&width_mm=40&height_mm=40&pixel_mm=1"
     ).shape == (41, 41)
     place = server.ask(
-        "GET", f"/api/ct/oblique?{way}&turn_deg=90&pixel_mm=1".replace("&preset=soft-tissue", ""), 200
+        "GET", f"/api/ct/oblique?{way}&rotation_deg=90&pixel_mm=1".replace("&preset=soft-tissue", ""), 200
     )
     assert place["edges"]["top"].startswith("A")
 

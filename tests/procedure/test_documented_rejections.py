@@ -18,5 +18,5 @@ def test_every_refusal_is_documented_in_the_shape_that_it_has(server: Server) ->
     assert {where: schema for where, schema in rejections.items() if schema != ours} == {}
     assert "ValidationError" not in str(document)
     # One that the framework itself refuses.
-    told = server.ask("GET", "/api/cases/none/archive", 422, params={"with_identity": "perhaps"})
-    assert set(told) == set(document["components"]["schemas"]["ProblemMessage"]["required"])
+    reported = server.ask("GET", "/api/cases/none/archive", 422, params={"with_identity": "perhaps"})
+    assert set(reported) == set(document["components"]["schemas"]["ProblemMessage"]["required"])

@@ -24,9 +24,9 @@ def small_disk(tmp_path: Path) -> Iterator[Path]:
     """A folder for a server whose cases lie on a disk of their own, a small one."""
     home = tmp_path / "home"
     home.mkdir()
-    asked = ["mount", "-t", "tmpfs", "-o", f"size={ROOM_MB}m", "tmpfs", str(home)]
+    requested = ["mount", "-t", "tmpfs", "-o", f"size={ROOM_MB}m", "tmpfs", str(home)]
     with suppress(FileNotFoundError):
-        if subprocess.run(asked, check=False, capture_output=True).returncode == 0:
+        if subprocess.run(requested, check=False, capture_output=True).returncode == 0:
             yield tmp_path
             subprocess.run(["umount", str(home)], check=True)
             return
@@ -50,11 +50,11 @@ def test_a_full_disk_is_an_alarm_and_navigation_goes_on(small_disk: Path) -> Non
         assert rejected["code"] == "STORE_FULL"
         assert "MB are free" in rejected["message"]
         assert rejected["context"]["free_mb"] < 1.0
-        assert rejected["remedy"].startswith("Make room")
+        assert rejected["remedy"].startswith("Free disk space")
         # A wish to hold is heard in theatre though it cannot be written, and whoever asked is told so.
         assert server.ask("POST", "/api/alarms/hold", 507, json=HOLD)["code"] == "STORE_FULL"
-        told = alarms(server)
-        assert {"HOLD_ASKED", "RECORDING_STOPPED"} <= told.keys()
+        reported = alarms(server)
+        assert {"HOLD_REQUESTED", "RECORDING_STOPPED"} <= reported.keys()
         numbers_of_new_images(server)
 
         filler.unlink()
@@ -63,7 +63,7 @@ def test_a_full_disk_is_an_alarm_and_navigation_goes_on(small_disk: Path) -> Non
         names = [one["name"] for one in server.ask("GET", "/api/cases", 200)["cases"]]
         assert {"kept", "after"} <= set(names)
         lines = server.ask("GET", "/api/alarms/log", 200)["lines"]
-        assert ("HOLD_ASKED", "Dr. Sato") in {(one.get("condition"), one.get("by")) for one in lines}
+        assert ("HOLD_REQUESTED", "Dr. Sato") in {(one.get("condition"), one.get("by")) for one in lines}
 
 
 def fill(file: Path) -> None:
@@ -80,9 +80,9 @@ def until_rejected(server: RealServer) -> Any:  # noqa: ANN401  JSON
         answer = server.door.post("/api/cases", json={"name": "x" * 200})
         return None if answer.status_code == 201 else (answer.status_code, answer.json())
 
-    status, told = server.until("a refusal", rejection)
+    status, reported = server.until("a refusal", rejection)
     assert status == 507
-    return told
+    return reported
 
 
 def alarms(server: RealServer) -> dict[str, Any]:

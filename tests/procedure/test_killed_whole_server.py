@@ -15,11 +15,11 @@ def test_killed_in_a_procedure_it_comes_back_into_case_and_step_and_waits_for_a_
     rng = random.Random(5)
     theatre = Theatre(tmp_path / "theatre", reference=True, rng=rng, empty=False)
     try:
-        told = {target: theatre.kill_once(target, after_s=rng.uniform(0.2, 2.0)) for target in TARGETS}
+        reported = {target: theatre.kill_once(target, after_s=rng.uniform(0.2, 2.0)) for target in TARGETS}
     finally:
         theatre.end()
-    assert {target: one.broken for target, one in told.items()} == {target: [] for target in TARGETS}
-    assert sum(one.confirmed for one in told.values()) > 0
+    assert {target: one.broken for target, one in reported.items()} == {target: [] for target in TARGETS}
+    assert sum(one.confirmed for one in reported.values()) > 0
     # What is fixed to the patient's marker goes on by itself when only tracking was started again.
-    assert told["web"].stopped_by == told["both"].stopped_by == "server_started"
-    assert told["tracking"].stopped_by == "-"
+    assert reported["web"].stopped_by == reported["both"].stopped_by == "server_started"
+    assert reported["tracking"].stopped_by == "-"

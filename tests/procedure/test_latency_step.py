@@ -37,12 +37,12 @@ def show(server: Server, number: int, image: np.ndarray | None = None) -> Naviga
 
 def begun(server: Server, codes: int = CODES) -> dict[str, Any]:
     show(server, 0, np.zeros((360, 640, 3), np.uint8))
-    told: dict[str, Any] = server.ask("POST", MEASUREMENT, 201, json={"codes": codes})
-    return told
+    reported: dict[str, Any] = server.ask("POST", MEASUREMENT, 201, json={"codes": codes})
+    return reported
 
 
 def looked(server: Server) -> int:
-    return int(server.ask("GET", MEASUREMENT, 200)["looked_images"])
+    return int(server.ask("GET", MEASUREMENT, 200)["examined_images"])
 
 
 def until_looked_after(server: Server, before: int) -> None:
@@ -69,7 +69,11 @@ def film(server: Server, codes: list[int]) -> dict[str, Any]:
             }
         )
     compared = [
-        {"asked_at_ms": BEHIND_MS + at, "answered_at_ms": BEHIND_MS + at + 2.0, "server_s": (at + 1.0) / 1e3}
+        {
+            "requested_at_ms": BEHIND_MS + at,
+            "responded_at_ms": BEHIND_MS + at + 2.0,
+            "server_s": (at + 1.0) / 1e3,
+        }
         for at in (0.0, 500.0)
     ]
     return {"made_by": "ito", "painted": painted, "shown": shown, "comparisons": compared, "screen": SCREEN}
@@ -81,8 +85,8 @@ def test_a_latency_is_measured_kept_and_told_to_everybody(server: Server) -> Non
     assert (plan["cells"], len(plan["patterns"]), plan["codes"], plan["min_timed"]) == (4, 250, CODES, 13)
     assert (plan["min_code_ms"], plan["max_code_ms"]) == (100.0, 150.0)
     said = film(server, list(range(CODES)))
-    told = server.ask("GET", MEASUREMENT, 200)
-    assert (told["running"], told["read_images"], told["problem"]) == (True, CODES, None)
+    reported = server.ask("GET", MEASUREMENT, 200)
+    assert (reported["running"], reported["read_images"], reported["problem"]) == (True, CODES, None)
     result = server.ask("POST", CONCLUSION, 201, json=said)
     report = result["report"]
     assert (report["samples"], report["median_ms"], report["p99_ms"]) == (CODES - 1, LATENCY_MS, LATENCY_MS)
@@ -116,7 +120,7 @@ def test_a_result_outlasts_a_start_of_the_server(server: Server, restarted: Call
 
 def test_a_camera_that_looks_elsewhere_is_refused_in_numbers_and_leaves_what_was_kept(server: Server) -> None:
     begun(server)
-    kept = server.ask("POST", CONCLUSION, 201, json=film(server, list(range(CODES))))
+    stored = server.ask("POST", CONCLUSION, 201, json=film(server, list(range(CODES))))
     begun(server)
     said = film(server, list(range(5)))
     black = np.zeros((360, 640, 3), np.uint8)
@@ -129,7 +133,7 @@ def test_a_camera_that_looks_elsewhere_is_refused_in_numbers_and_leaves_what_was
     assert rejected["code"] == "LATENCY_CODE_NOT_READ"
     assert rejected["message"] == "the code was read in 5 of 29 images, needed 13"
     assert rejected["remedy"].startswith("Point the camera at the screen, darken the room")
-    assert server.ask("GET", "/api/latency", 200) == {"measuring": False, "result": kept}
+    assert server.ask("GET", "/api/latency", 200) == {"measuring": False, "result": stored}
     assert server.ask("POST", CONCLUSION, 409, json=said)["code"] == "COLLECTION_MISSING"
 
 
@@ -193,7 +197,7 @@ def test_a_page_that_left_ends_it(server: Server) -> None:
     server.until(lambda: len(measurement.read) == 2)
     now_s[0] = 110.0
     show(server, 3, np.zeros((360, 640, 3), np.uint8))
-    server.until(lambda: not measurement._follower.running)
+    server.until(lambda: not measurement._listener.running)
     problem = measurement.status().problem
     assert problem is not None
     assert problem.code == "LATENCY_PAGE_LEFT"

@@ -16,8 +16,8 @@ SETTINGS: dict[str, Any] = {
     "alarms": {"screen_lost_after_s": 600, "drill_unseen_after_ms": 400, "reference_unseen_after_ms": 400},
 }
 EVENTS = (
-    RehearsalEventConfig(kind="drill_hidden", at_s=3.0, lasts_s=1.5),
-    RehearsalEventConfig(kind="reference_hidden", at_s=6.5, lasts_s=1.5),
+    RehearsalEventConfig(kind="drill_occluded", at_s=3.0, lasts_s=1.5),
+    RehearsalEventConfig(kind="reference_occluded", at_s=6.5, lasts_s=1.5),
     RehearsalEventConfig(kind="camera_stops", at_s=10.0, lasts_s=2.0),
 )
 ALL_TOLD = {"pose": "tool", "deviation": "deviation", "judgement": "judgement", "assessment": "assessment"}

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from server.image_file import png_bytes
 from server.loop.tracking import Tracking
-from server.picture_file import png_bytes
 from server.store import DocumentKind
 from tests.procedure.conftest import Server
 from tests.procedure.test_camera_step import open_a_case
@@ -24,8 +24,8 @@ def picture(turn: int = 0) -> np.ndarray:
 
 def names(server: Server) -> dict[str, bool]:
     """The markers that are looked for, and whether the case keeps them."""
-    told = server.ask("GET", "/api/markers", 200)["markers"]
-    return {one["name"]: one["document_id"] is not None for one in told}
+    reported = server.ask("GET", "/api/markers", 200)["markers"]
+    return {one["name"]: one["document_id"] is not None for one in reported}
 
 
 def of_case(server: Server) -> list[str]:
@@ -37,17 +37,17 @@ def send(
     server: Server, status: int = 201, image: np.ndarray | None = None, **changed: object
 ) -> dict[str, object]:
     content = png_bytes(picture() if image is None else image)
-    told: dict[str, object] = server.ask(
+    reported: dict[str, object] = server.ask(
         "POST", "/api/markers", status, content=content, params={**AWL, **changed}
     )
-    return told
+    return reported
 
 
 def test_marker_that_was_sent_is_looked_for_and_shown(server: Server) -> None:
     open_a_case(server)
     assert names(server) == {"drill": False}
-    told = send(server)
-    assert (told["side_mm"], told["width_px"], told["made_by"]) == (25.0, 400, "ito")
+    reported = send(server)
+    assert (reported["side_mm"], reported["width_px"], reported["made_by"]) == (25.0, 400, "ito")
     assert names(server) == {"drill": False, "awl": True}
     (model,) = server.adopted[-1].models
     assert (model.name, model.side_mm) == ("awl", 25.0)
@@ -86,8 +86,8 @@ def test_marker_goes_with_its_case_and_by_being_taken_away(server: Server) -> No
 def test_marker_whose_picture_is_damaged_is_left_out_and_can_be_taken_away(server: Server) -> None:
     case_id = open_a_case(server)
     send(server)
-    (kept,) = server.store.all(case_id, DocumentKind.MARKER)
-    server.store.file(case_id, kept.files[0]).path.unlink()
+    (stored,) = server.store.all(case_id, DocumentKind.MARKER)
+    server.store.file(case_id, stored.files[0]).path.unlink()
     assert names(server) == {"drill": False}
     server.ask("DELETE", "/api/markers/awl", 204, params=BY)
 
@@ -98,7 +98,9 @@ def test_marker_whose_picture_is_damaged_is_left_out_and_can_be_taken_away(serve
         pytest.param(None, {"name": "drill"}, 409, "MARKER_OF_SETTINGS", id="a-name-of-the-settings"),
         pytest.param(np.full((100, 100), 90, np.uint8), {}, 422, "MARKER_IMAGE_FLAT", id="grey-all-over"),
         pytest.param(picture()[:200], {}, 422, "MARKER_IMAGE_NOT_SQUARE", id="half-of-it"),
-        pytest.param(Theatre(TheatreSettings()).marker.image, {}, 422, "MARKERS_ALIKE", id="as-another"),
+        pytest.param(
+            Theatre(TheatreSettings()).marker.image, {}, 422, "MARKERS_TOO_SIMILAR", id="as-another"
+        ),
         pytest.param(None, {"side_mm": 0.0}, 422, "REQUEST_INVALID", id="no-size"),
         pytest.param(None, {"name": "a b"}, 422, "REQUEST_INVALID", id="a-name-with-a-blank"),
     ],
@@ -107,10 +109,10 @@ def test_what_cannot_be_a_marker_is_refused_and_nothing_changes(
     server: Server, image: np.ndarray | None, changed: dict[str, object], status: int, code: str
 ) -> None:
     open_a_case(server)
-    told = send(server, status, image, file="photo.png", **changed)
-    assert told["code"] == code
+    reported = send(server, status, image, file="photo.png", **changed)
+    assert reported["code"] == code
     if code.startswith("MARKER_IMAGE"):
-        assert "the marker picture photo.png" in str(told["message"])
+        assert "the marker picture photo.png" in str(reported["message"])
     assert names(server) == {"drill": False}
 
 
@@ -126,10 +128,10 @@ def test_tool_behind_a_changed_marker_is_out_of_date(server: Server, how: str) -
     gather(server, Scene.PIVOT, "pivot", marker="awl")
     server.ask("POST", "/api/tools/collection/conclusion", 201, json={**BY, **SHAPE})
     (tool,) = server.ask("GET", "/api/tools", 200)["tools"]
-    assert (tool["name"], tool["of_settings"], tool["kept"]["heading"]["current"]) == ("drill", False, True)
+    assert (tool["name"], tool["from_settings"], tool["kept"]["heading"]["current"]) == ("drill", False, True)
     assert tool["kept"]["content"]["side_mm"] == 25.0
     (marker,) = server.store.all(case_id, DocumentKind.MARKER)
-    assert marker.id in tool["kept"]["heading"]["stands_on"]
+    assert marker.id in tool["kept"]["heading"]["depends_on"]
     if how == "replaced":
         send(server, side_mm=24.0)
     else:
@@ -141,9 +143,9 @@ def test_tool_behind_a_changed_marker_is_out_of_date(server: Server, how: str) -
 
 
 def test_gates_are_those_of_the_settings(server: Server) -> None:
-    told = server.ask("GET", "/api/gates", 200)
-    assert told["calibration"] == {"max_rms_px": 1.0, "max_error_mm": 0.5}
-    assert told["collecting"] == {"min_views": 12, "min_coverage_ratio": 0.75, "min_tilt_deg": 20.0}
-    assert told["tracker"]["accept_score_ratio"] == 0.7
+    reported = server.ask("GET", "/api/gates", 200)
+    assert reported["calibration"] == {"max_rms_px": 1.0, "max_error_mm": 0.5}
+    assert reported["collecting"] == {"min_views": 12, "min_coverage_ratio": 0.75, "min_tilt_deg": 20.0}
+    assert reported["tracker"]["accept_score_ratio"] == 0.7
     # As the test's own settings have it, and not the default.
-    assert told["registration"]["capture_images"] == 4
+    assert reported["registration"]["capture_images"] == 4

@@ -23,17 +23,17 @@ from tracker.geometry import Array, Camera, Rigid, Vertebra
 from tracker.navigation import AbsentReason
 from tracker.plan import ReferenceSlice, SliceLine
 from tracker.registration.needles import (
-    MeasuredView,
+    RulerMeasurement,
     overlay_of_pose,
-    places_on_lines,
-    view_from_ruler,
+    planned_on_lines,
+    view_prior_from_ruler,
 )
 from tracker.rehearsal import Theatre, TheatreSettings
 
 NEEDLES = "/api/registration/needles"
 CAMERA = Theatre(TheatreSettings()).camera
 VIEW = {"vertical_mm": 380.0, "horizontal_mm": 240.0}
-MEASURED = MeasuredView(vertical_mm=380.0, horizontal_mm=240.0)
+MEASURED = RulerMeasurement(vertical_mm=380.0, horizontal_mm=240.0)
 STANDING_ON = ["left transverse process", "right transverse process", "spinous process"]
 MIDDLE = np.mean([LANDMARKS[name] for name in STANDING_ON], axis=0)
 IMAGE = np.full((CAMERA.size_wh_px[1], CAMERA.size_wh_px[0], 3), 90, np.uint8)
@@ -44,7 +44,7 @@ ORIGIN_LPS_MM = (-50.0, -40.0, -5.0)
 def truth() -> Rigid[Camera, Vertebra]:
     """The patient as the ruler has it."""
     middle_px = 0.5 * np.array(CAMERA.size_wh_px)
-    view = view_from_ruler(MEASURED, CAMERA, middle_px)
+    view = view_prior_from_ruler(MEASURED, CAMERA, middle_px)
     x, y = CAMERA.normalised_from_px(middle_px.reshape(1, 2))[0]
     at = view.distance_mm * np.array([x, y, 1.0]) / np.linalg.norm([x, y, 1.0])
     return Rigid(rotation=view.rotation, translation_mm=at - view.rotation @ MIDDLE)
@@ -96,7 +96,7 @@ def with_slice(server: Server) -> None:
         files=[new.stored.id],
     )
     content = plan_content("L3", references=(reference(),))
-    server.store.put(case_id, DocumentKind.PLAN, "main", content, made_by="test", stands_on=[ct.id])
+    server.store.put(case_id, DocumentKind.PLAN, "main", content, made_by="test", depends_on=[ct.id])
     activate(server)
 
 
@@ -104,8 +104,8 @@ def test_needles_that_are_marked_register_and_say_what_they_cannot_see(server: S
     ready(server)
     patient = Patient(server=server, camera_from_vertebra=truth())
     patient.show(None, image=IMAGE)
-    asked = {"view": VIEW, "landmarks": STANDING_ON, "marked": marked(STANDING_ON)}
-    document = server.ask("POST", f"{NEEDLES}/conclusion", 201, json={**asked, **BY})
+    requested = {"view": VIEW, "landmarks": STANDING_ON, "marked": marked(STANDING_ON)}
+    document = server.ask("POST", f"{NEEDLES}/conclusion", 201, json={**requested, **BY})
     numbers = document["content"]["numbers"]
     assert document["content"]["method"] == "needles"
     assert numbers["needles"] == 3
@@ -133,12 +133,12 @@ def test_the_slice_is_laid_over_the_picture_and_taken(server: Server) -> None:
     assert first["directions"] == []
     assert first["slice"] is not None
 
-    places = places_on_lines(reference())
-    view = view_from_ruler(MEASURED, CAMERA, 0.5 * np.array(CAMERA.size_wh_px))
+    places = planned_on_lines(reference())
+    view = view_prior_from_ruler(MEASURED, CAMERA, 0.5 * np.array(CAMERA.size_wh_px))
     true_overlay = overlay_of_pose(truth(), places, CAMERA, view)
     overlay = {
         "shift_px": true_overlay.shift_px.tolist(),
-        "turn_deg": true_overlay.turn_deg,
+        "rotation_deg": true_overlay.rotation_deg,
         "scale_px_per_mm": true_overlay.scale_px_per_mm,
     }
     ends = [px(place.point_lps_mm, place.point_lps_mm + 40.0 * place.direction_lps) for place in places]
@@ -153,8 +153,8 @@ def test_the_slice_is_laid_over_the_picture_and_taken(server: Server) -> None:
         there = np.column_stack([line.ends_px, np.ones(2)]) @ np.array(laid["slice"]["image_from_slice"]).T
         np.testing.assert_allclose(there[:, :2] / there[:, 2:], px(*line.ends_lps_mm), atol=1.5)
 
-    asked = {**VIEW, "x_px": overlay["shift_px"][0], "y_px": overlay["shift_px"][1], "fade_ratio": 0.5}
-    answer = server.door.get(f"{NEEDLES}/overlay.jpg", params=asked)
+    requested = {**VIEW, "x_px": overlay["shift_px"][0], "y_px": overlay["shift_px"][1], "fade_ratio": 0.5}
+    answer = server.door.get(f"{NEEDLES}/overlay.jpg", params=requested)
     assert answer.headers["content-type"] == "image/jpeg"
     drawn: Any = cv2.imdecode(np.frombuffer(answer.content, np.uint8), cv2.IMREAD_COLOR)
     assert drawn.shape == IMAGE.shape
@@ -186,8 +186,8 @@ def test_needles_that_the_software_finds_are_proposed_and_kept_when_a_person_has
     ready(server)
     patient = Patient(server=server, camera_from_vertebra=truth())
     patient.show(None, image=drawn(STANDING_ON))
-    asked = {"view": VIEW, "landmarks": STANDING_ON}
-    proposals = server.ask("POST", f"{NEEDLES}/proposal", 200, json=asked)["proposals"]
+    requested = {"view": VIEW, "landmarks": STANDING_ON}
+    proposals = server.ask("POST", f"{NEEDLES}/proposal", 200, json=requested)["proposals"]
     best = proposals[0]
     assert best["probability_ratio"] == max(one["probability_ratio"] for one in proposals)
     assert [one["name"] for one in best["laid"]["needles"]] == STANDING_ON
@@ -195,11 +195,14 @@ def test_needles_that_the_software_finds_are_proposed_and_kept_when_a_person_has
     for found, true in zip(best["marked"], marked(STANDING_ON), strict=True):
         assert np.linalg.norm(np.subtract(found["entry_px"], true["entry_px"])) < 6.0
     # Nobody has looked at it yet.
-    assert server.ask("POST", f"{NEEDLES}/conclusion", 422, json={**asked, **BY})["code"] == "REQUEST_INVALID"
-    alone = {**asked, "picked": True, "overlay": best["laid"]["overlay"], **BY}
+    assert (
+        server.ask("POST", f"{NEEDLES}/conclusion", 422, json={**requested, **BY})["code"]
+        == "REQUEST_INVALID"
+    )
+    alone = {**requested, "picked": True, "overlay": best["laid"]["overlay"], **BY}
     assert server.ask("POST", f"{NEEDLES}/conclusion", 422, json=alone)["code"] == "REQUEST_INVALID"
     assert registered(server) is None
-    picked = {**asked, "marked": best["marked"], "picked": True, **BY}
+    picked = {**requested, "marked": best["marked"], "picked": True, **BY}
     document = server.ask("POST", f"{NEEDLES}/conclusion", 201, json=picked)
     assert document["content"]["made_from"]["way"] == "picked"
     # As sure as it was proposed, although a person's own mark is surer.
@@ -208,7 +211,7 @@ def test_needles_that_the_software_finds_are_proposed_and_kept_when_a_person_has
     assert kept["tilt_sd_deg"] == pytest.approx(proposed["tilt_sd_deg"], rel=0.05)
     assert registered(server) is not None
     swapped = [best["marked"][number] for number in (1, 0, 2)]
-    rejected = server.ask("POST", f"{NEEDLES}/conclusion", 409, json={**asked, "marked": swapped, **BY})
+    rejected = server.ask("POST", f"{NEEDLES}/conclusion", 409, json={**requested, "marked": swapped, **BY})
     assert rejected["code"] == "NEEDLES_SWAPPED"
 
 

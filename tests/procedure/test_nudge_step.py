@@ -27,9 +27,11 @@ def test_a_nudge_moves_the_vertebra_and_undone_it_is_as_it_was(server: Server) -
     patient.check()
     made = now(server)
     step = {"made_by": "mori", "kind": "shift", "axis": "head", "amount": 1.0}
-    told = server.ask("POST", NUDGES, 201, json=step)
-    assert told["shift_mm"] == pytest.approx(1.0)
-    assert [(one["axis"], one["amount"], one["made_by"]) for one in told["nudges"]] == [("head", 1.0, "mori")]
+    reported = server.ask("POST", NUDGES, 201, json=step)
+    assert reported["shift_mm"] == pytest.approx(1.0)
+    assert [(one["axis"], one["amount"], one["made_by"]) for one in reported["nudges"]] == [
+        ("head", 1.0, "mori")
+    ]
     moved = now(server)
     way = moved.anchor_from_vertebra.translation_mm - made.anchor_from_vertebra.translation_mm
     np.testing.assert_allclose(way, made.anchor_from_vertebra.rotation[:, 2], atol=1e-9)
@@ -39,11 +41,11 @@ def test_a_nudge_moves_the_vertebra_and_undone_it_is_as_it_was(server: Server) -
     assert states(server)["check"] == "missing"
 
     server.ask("POST", NUDGES, 201, json={**step, "kind": "turn", "amount": -0.5})
-    told = server.ask("DELETE", f"{NUDGES}/last", 200, params={"made_by": "mori"})
-    assert (len(told["nudges"]), told["version"]) == (1, 4)
+    reported = server.ask("DELETE", f"{NUDGES}/last", 200, params={"made_by": "mori"})
+    assert (len(reported["nudges"]), reported["version"]) == (1, 4)
     np.testing.assert_allclose(now(server).anchor_from_vertebra.matrix, moved.anchor_from_vertebra.matrix)
-    told = server.ask("DELETE", f"{NUDGES}/last", 200, params={"made_by": "mori"})
-    assert (told["nudges"], told["shift_mm"], told["turn_deg"]) == ([], 0.0, 0.0)
+    reported = server.ask("DELETE", f"{NUDGES}/last", 200, params={"made_by": "mori"})
+    assert (reported["nudges"], reported["shift_mm"], reported["rotation_deg"]) == ([], 0.0, 0.0)
     np.testing.assert_allclose(now(server).anchor_from_vertebra.matrix, made.anchor_from_vertebra.matrix)
     np.testing.assert_allclose(now(server).covariance, made.covariance)
     nothing = server.ask("DELETE", f"{NUDGES}/last", 409, params={"made_by": "mori"})
@@ -64,8 +66,8 @@ def test_nudges_that_came_in_with_an_archive_say_so_also_after_one_more(server: 
     server.ask("POST", f"/api/cases/{taken}/open", 200)
     (one,) = server.ask("GET", NUDGES, 200)["nudges"]
     assert one["made_by"] == "mori, says the archive"
-    told = server.ask("POST", NUDGES, 201, json=step)
-    assert [one["made_by"] for one in told["nudges"]] == ["mori, says the archive", "mori"]
+    reported = server.ask("POST", NUDGES, 201, json=step)
+    assert [one["made_by"] for one in reported["nudges"]] == ["mori, says the archive", "mori"]
 
 
 def test_nudges_are_small_and_lead_only_so_far(server: Server) -> None:
@@ -76,8 +78,8 @@ def test_nudges_are_small_and_lead_only_so_far(server: Server) -> None:
     server.ask("POST", NUDGES, 422, json={**step, "amount": 5.0})
     server.ask("POST", NUDGES, 422, json={**step, "axis": "up"})
     for _ in range(5):
-        told = server.ask("POST", NUDGES, 201, json=step)
-    assert told["shift_mm"] == pytest.approx(5.0)
+        reported = server.ask("POST", NUDGES, 201, json=step)
+    assert reported["shift_mm"] == pytest.approx(5.0)
     too_far = server.ask("POST", NUDGES, 409, json=step)
     assert too_far["code"] == "NUDGE_TOO_FAR"
     assert len(server.ask("GET", NUDGES, 200)["nudges"]) == 5

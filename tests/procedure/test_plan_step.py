@@ -173,8 +173,8 @@ def test_landmarks_are_set_go_out_and_come_back_and_odd_ones_are_refused(server:
     back = server.ask("POST", "/api/plan/import", 201, content=json.dumps(file), params=BY)
     assert back["plan"]["vertebrae"][0]["landmarks"] == landmarks
 
-    def rejected(status: int, code: str, **asked: Any) -> None:  # noqa: ANN401
-        answer = server.ask("PUT", where, status, json={**BY, "landmarks": landmarks, **asked})
+    def rejected(status: int, code: str, **requested: Any) -> None:  # noqa: ANN401
+        answer = server.ask("PUT", where, status, json={**BY, "landmarks": landmarks, **requested})
         assert answer["code"] == code
 
     rejected(409, "VERSION_CONFLICT", expected_version=2)
@@ -281,9 +281,9 @@ def test_hostile_plan_files_are_refused_and_nothing_is_stored(server: Server) ->
     for name, content in bad.items():
         answer = server.door.post("/api/plan/import", content=content, params=BY)
         assert answer.status_code in (409, 422), (name, answer.text)
-        told = answer.json()
-        assert told["remedy"], name
-        assert len(told["message"]) < 500, name
+        reported = answer.json()
+        assert reported["remedy"], name
+        assert len(reported["message"]) < 500, name
     assert server.ask("GET", "/api/plan", 200) == before
     too_long = server.door.post("/api/plan/import", content=b" " * (9 * 2**20), params=BY)
     assert too_long.status_code == 413

@@ -7,9 +7,9 @@ from typing import Any, TypeAlias
 import pytest
 
 from server.errors import SetupOrderError
-from server.procedure.registered import KeptCheck, KeptRegistration
-from server.procedure.state import Finding, StepName, StepState, judged, no_case
-from server.procedure.state.checked import check_finding
+from server.procedure.registration_record import CheckRecord, RegistrationRecord
+from server.procedure.state import Finding, StepName, StepState, derive_state, no_case
+from server.procedure.state.check_finding import check_finding
 from server.store import Document, DocumentKind
 from tests.procedure.conftest import Server
 from tests.procedure.patient import (
@@ -36,7 +36,7 @@ Five: TypeAlias = tuple[StepState, StepState, StepState, StepState, StepState]
 
 def found(*five: StepState) -> dict[StepName, Finding]:
     return {
-        step: Finding(state=state, said=f"{step} is {state}", remedy="Do it.")
+        step: Finding(state=state, message=f"{step} is {state}", remedy="Do it.")
         for step, state in zip(StepName, five, strict=False)
     }
 
@@ -61,18 +61,18 @@ def found(*five: StepState) -> dict[StepName, Finding]:
     ],
 )
 def test_a_step_waits_for_all_that_it_stands_on(five: Five, next_step: str, allowed: str) -> None:
-    state = judged("case", found(*five))
+    state = derive_state("case", found(*five))
     assert state.next_step == next_step
     assert [one.step for one in state.steps if one.allowed] == allowed.split()
     for one in state.steps:
         if one.allowed:
-            state.reject_before(one.step)
+            state.require_earlier_steps(one.step)
             continue
         with pytest.raises(SetupOrderError) as caught:
-            state.reject_before(one.step)
+            state.require_earlier_steps(one.step)
         waits_for = StepName(str(caught.value.context["waits_for"]))
         assert ORDER.index(waits_for) < ORDER.index(one.step)
-        assert state.status(waits_for).finding.said in caught.value.message
+        assert state.status(waits_for).finding.message in caught.value.message
         assert caught.value.remedy
         assert caught.value.code == f"{waits_for.name}_{state.status(waits_for).finding.state.name}"
 
@@ -81,7 +81,7 @@ def test_a_step_waits_for_all_that_it_stands_on(five: Five, next_step: str, allo
     ("check", "navigates"), [(MISSING, True), (DONE, True), (DUE, True), (FAILED, False), (OLD, False)]
 )
 def test_where_no_check_is_asked_for_a_failed_one_still_counts(check: StepState, navigates: bool) -> None:
-    state = judged("case", found(DONE, DONE, DONE, DONE, check), check_required=False)
+    state = derive_state("case", found(DONE, DONE, DONE, DONE, check), check_required=False)
     assert state.status(StepName.NAVIGATE).allowed is navigates
     assert state.waits_for_check is not navigates
 
@@ -91,7 +91,7 @@ def test_without_a_case_nothing_may_be_done() -> None:
     for one in state.steps:
         assert not one.allowed
         with pytest.raises(SetupOrderError) as caught:
-            state.reject_before(one.step)
+            state.require_earlier_steps(one.step)
         assert caught.value.code == "NO_CASE_OPEN"
 
 
@@ -121,7 +121,7 @@ def test_a_check_holds_for_its_time_and_its_run(
     anchored_to: str, registered_in: str, check: tuple[str, float, bool] | None, state: StepState
 ) -> None:
     eye = [[float(row == column) for column in range(6)] for row in range(6)]
-    registration = KeptRegistration(
+    registration = RegistrationRecord(
         vertebra="L3",
         method=Method.POINTS,
         anchored_to=AnchoredTo(anchored_to),
@@ -134,7 +134,7 @@ def test_a_check_holds_for_its_time_and_its_run(
     document = None
     if check is not None:
         run, minutes, passed = check
-        kept = KeptCheck(
+        stored = CheckRecord(
             vertebra="L3",
             landmark=SPARE,
             tool="drill",
@@ -155,13 +155,13 @@ def test_a_check_holds_for_its_time_and_its_run(
             version=1,
             made_at=(NOW - timedelta(minutes=minutes)).isoformat(),
             made_by="ito",
-            content=kept.model_dump(mode="json"),
+            content=stored.model_dump(mode="json"),
         )
     found = check_finding(
         registration=registration, title="it", check=document, run=HERE, again_after_min=30, now=NOW
     )
     assert found.state is state
-    assert found.said
+    assert found.message
     assert bool(found.remedy) is (state is not DONE)
 
 
@@ -202,7 +202,7 @@ def inaccurate(server: Server) -> None:
     now = server.store.current(case_id, DocumentKind.CAMERA, "main")
     values = {"passed": False, "limit_mm": 0.5, "maximum_error_mm": 0.9}
     server.store.put(
-        case_id, DocumentKind.CHECK, "accuracy of the camera", values, made_by="test", stands_on=[now.id]
+        case_id, DocumentKind.CHECK, "accuracy of the camera", values, made_by="test", depends_on=[now.id]
     )
 
 

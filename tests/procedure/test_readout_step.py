@@ -55,8 +55,8 @@ def test_it_is_not_known_until_somebody_says_so_and_is_used_at_once(calibrated: 
         "found_by": None,
     }
     assert used(calibrated) is None
-    told = calibrated.ask("PUT", READOUT, 200, json={"readout_ms": 16.5, **BY})
-    assert (told["readout_ms"], told["sd_ms"], told["found_by"]) == (16.5, None, "stated")
+    reported = calibrated.ask("PUT", READOUT, 200, json={"readout_ms": 16.5, **BY})
+    assert (reported["readout_ms"], reported["sd_ms"], reported["found_by"]) == (16.5, None, "stated")
     assert used(calibrated) == 16.5
     assert calibrated.adopted[-1].camera is not None
     calibrated.ask("PUT", READOUT, 200, json={"readout_ms": None, **BY})
@@ -105,11 +105,11 @@ def test_a_shaken_board_measures_it_and_it_is_kept_with_its_spread(
     _burst(calibrated, readout_s=0.02)
     job = calibrated.done(calibrated.ask("POST", f"{READOUT}/measurement", 202, json=BY))
     assert job["state"] == "done", job["problem"]
-    told = calibrated.ask("GET", READOUT, 200)
-    assert told["found_by"] == "measured"
-    assert not told["collecting"]
-    assert abs(told["readout_ms"] - 20.0) < 3.0 * told["sd_ms"]
-    assert calibrated.adopted[-1].readout_ms == told["readout_ms"]
+    reported = calibrated.ask("GET", READOUT, 200)
+    assert reported["found_by"] == "measured"
+    assert not reported["collecting"]
+    assert abs(reported["readout_ms"] - 20.0) < 3.0 * reported["sd_ms"]
+    assert calibrated.adopted[-1].readout_ms == reported["readout_ms"]
 
 
 def test_what_does_not_determine_it_is_refused_and_nothing_is_kept(

@@ -40,22 +40,22 @@ def test_from_an_open_case_to_numbers_against_the_channel(server: Server) -> Non
     ready(server)
     patient = Patient(server=server)
     patient.show(None)
-    told = server.ask("POST", POINTS, 201, json=DRILL)
-    assert [one["name"] for one in told["landmarks"]] == list(LANDMARKS)
-    assert told["anchored_to"] == "camera"
-    assert told["limits"]["max_tre_mm"] == 2.0
+    reported = server.ask("POST", POINTS, 201, json=DRILL)
+    assert [one["name"] for one in reported["landmarks"]] == list(LANDMARKS)
+    assert reported["anchored_to"] == "camera"
+    assert reported["limits"]["max_tre_mm"] == 2.0
     running = server.ask("GET", "/api/registration/running", 200)
     assert running == {"points": True, "sweep": False, "check": False}
-    assert told["missing"][0]["code"] == "POINTS_TOO_FEW"
+    assert reported["missing"][0]["code"] == "POINTS_TOO_FEW"
     for count, one in enumerate(USED, start=1):
-        told = patient.touch(one)
-        assert told["capture"]["state"] == "taken"
-        assert sum(touched["touched"] for touched in told["landmarks"]) == count
-    assert told["missing"] == []
-    assert told["fre_rms_mm"] < 0.2
-    assert {error["side"] for error in told["targets"]} == {"left", "right"}
-    at_entry = [error["stated_mm"] for error in told["targets"] if error["depth_mm"] == 0]
-    at_end = [error["stated_mm"] for error in told["targets"] if error["depth_mm"] > 40]
+        reported = patient.touch(one)
+        assert reported["capture"]["state"] == "taken"
+        assert sum(touched["touched"] for touched in reported["landmarks"]) == count
+    assert reported["missing"] == []
+    assert reported["fre_rms_mm"] < 0.2
+    assert {error["side"] for error in reported["targets"]} == {"left", "right"}
+    at_entry = [error["stated_mm"] for error in reported["targets"] if error["depth_mm"] == 0]
+    at_end = [error["stated_mm"] for error in reported["targets"] if error["depth_mm"] > 40]
     assert 0.2 < max(at_entry) < max(at_end)
 
     document = server.ask("POST", f"{POINTS}/conclusion", 201, json=BY)
@@ -78,7 +78,7 @@ def test_from_an_open_case_to_numbers_against_the_channel(server: Server) -> Non
     check = patient.check()
     assert check["content"]["passed"] is True
     assert check["content"]["distance_mm"] < 0.5
-    assert check["heading"]["stands_on"] == [document["heading"]["id"]]
+    assert check["heading"]["depends_on"] == [document["heading"]["id"]]
     deviation = patient.show(on_entry).deviations["drill"]
     assert isinstance(deviation, Deviation)
     assert deviation.entry_offset_mm < 0.5
@@ -100,21 +100,21 @@ def test_a_mistaken_landmark_is_refused_with_its_numbers_and_may_be_left_out(ser
     rejected = server.ask("POST", f"{POINTS}/conclusion", 409, json=BY)
     assert rejected["code"] == "POINTS_FIT_TOO_LARGE"
     assert rejected["context"]["allowed_mm"] == 1.5
-    told = server.ask("GET", POINTS, 200)["missing"]
-    assert [one["code"] for one in told] == ["POINTS_FIT_TOO_LARGE", "POINT_STRAYS"]
-    assert told[1]["context"]["landmark"] == SPARE
+    reported = server.ask("GET", POINTS, 200)["missing"]
+    assert [one["code"] for one in reported] == ["POINTS_FIT_TOO_LARGE", "POINT_STRAYS"]
+    assert reported[1]["context"]["landmark"] == SPARE
     assert registered(server) is None
-    told = server.ask("PUT", f"{POINTS}/use", 200, json={"landmark": SPARE, "used": False})
-    assert told["missing"] == []
-    left_out = next(one for one in told["landmarks"] if one["name"] == SPARE)
+    reported = server.ask("PUT", f"{POINTS}/use", 200, json={"landmark": SPARE, "used": False})
+    assert reported["missing"] == []
+    left_out = next(one for one in reported["landmarks"] if one["name"] == SPARE)
     assert not left_out["used"]
     assert left_out["residual_mm"] == pytest.approx(8.0, abs=0.7)
     # Touched again where it belongs, it may be used again.
     patient.touch(SPARE)
-    told = server.ask("PUT", f"{POINTS}/use", 200, json={"landmark": SPARE, "used": True})
-    assert told["fre_rms_mm"] < 0.2
-    told = server.ask("DELETE", f"{POINTS}/captures", 200, params={"landmark": SPARE})
-    assert [one["touched"] for one in told["landmarks"]] == [True] * 4 + [False]
+    reported = server.ask("PUT", f"{POINTS}/use", 200, json={"landmark": SPARE, "used": True})
+    assert reported["fre_rms_mm"] < 0.2
+    reported = server.ask("DELETE", f"{POINTS}/captures", 200, params={"landmark": SPARE})
+    assert [one["touched"] for one in reported["landmarks"]] == [True] * 4 + [False]
     server.ask("POST", f"{POINTS}/conclusion", 201, json=BY)
 
 
@@ -135,17 +135,17 @@ def test_a_capture_is_refused_where_the_tip_moves_or_is_not_seen(server: Server)
     server.until(lambda: server.ask("GET", POINTS, 200)["capture"]["images"] == 1)
     patient.show(None)
     server.until(lambda: server.ask("GET", POINTS, 200)["capture"]["state"] == "rejected")
-    told = server.ask("GET", POINTS, 200)
-    assert told["capture"]["problem"]["code"] == "CAPTURE_UNSEEN"
-    assert told["capture"]["problem"]["remedy"]
+    reported = server.ask("GET", POINTS, 200)
+    assert reported["capture"]["problem"]["code"] == "CAPTURE_UNSEEN"
+    assert reported["capture"]["problem"]["remedy"]
 
     server.ask("POST", f"{POINTS}/captures", 202, json=start)
     for index in range(4):
         patient.show(patient.tip_on(USED[0], off_mm=(0.0, 1.2 * index, 0.0)))
         server.until(partial(looked_at, index))
-    told = server.ask("GET", POINTS, 200)
-    assert told["capture"]["problem"]["code"] == "CAPTURE_MOVED"
-    assert not any(one["touched"] for one in told["landmarks"])
+    reported = server.ask("GET", POINTS, 200)
+    assert reported["capture"]["problem"]["code"] == "CAPTURE_MOVED"
+    assert not any(one["touched"] for one in reported["landmarks"])
 
 
 def test_a_check_that_fails_is_kept_and_nobody_navigates(server: Server) -> None:
@@ -163,7 +163,7 @@ def test_a_check_that_fails_is_kept_and_nobody_navigates(server: Server) -> None
     assert states(server)["check"] == "failed"
     procedure = server.ask("GET", "/api/procedure", 200)
     assert not procedure["may_navigate"]
-    assert "allowed 2.00 mm" in procedure["steps"][4]["said"]
+    assert "allowed 2.00 mm" in procedure["steps"][4]["message"]
     assert len(server.store.history(case_id, DocumentKind.CHECK, "registration of L3")) == 2
 
 
@@ -199,7 +199,7 @@ def test_a_session_does_not_outlive_what_it_was_begun_on(server: Server) -> None
         patient.touch(one)
     server.store.put(case_id, DocumentKind.TOOL, "drill", tool_content(), made_by="test")
     rejected = server.ask("POST", f"{POINTS}/conclusion", 409, json=BY)
-    assert rejected["code"] == "REGISTRATION_GROUND_CHANGED"
+    assert rejected["code"] == "REGISTRATION_CONTEXT_CHANGED"
 
 
 def test_each_vertebra_has_a_registration_of_its_own_and_both_sides_share_it(server: Server) -> None:
@@ -250,9 +250,9 @@ def test_beside_a_reference_patient_and_camera_may_move_and_the_server_start_aga
         move: Rigid[Camera, Camera] = Rigid.from_vector([0.02 * number, 0.0, 0.0], [5.0 * number, 0.0, 3.0])
         patient.camera_from_vertebra = move @ CAMERA_FROM_VERTEBRA
         patient.camera_from_reference = move @ CAMERA_FROM_REFERENCE
-        told = patient.touch(one)
-    assert told["anchored_to"] == "reference"
-    assert told["fre_rms_mm"] < 0.3
+        reported = patient.touch(one)
+    assert reported["anchored_to"] == "reference"
+    assert reported["fre_rms_mm"] < 0.3
     server.ask("POST", f"{POINTS}/conclusion", 201, json=BY)
     patient.check()
     assert withheld(server) is None
@@ -323,5 +323,5 @@ def test_a_move_of_the_camera_withdraws_the_registration_once_it_lasts(server: S
     server.until(lambda: registered(server) is None)
     register = server.ask("GET", "/api/procedure", 200)["steps"][3]
     assert register["state"] == "out_of_date"
-    assert "the camera stands elsewhere" in register["said"]
+    assert "the camera stands elsewhere" in register["message"]
     server.ask("POST", POINTS, 201, json=DRILL)

@@ -153,8 +153,8 @@ def test_a_check_that_is_kept_too_early_says_how_long_to_hold_on(server: Server)
 
 def test_a_tool_is_calibrated_with_a_slow_camera(server: Server) -> None:
     calibrated(server)
-    told = gather(server, Scene.PIVOT, "pivot", rate_hz=3.0)
-    assert told["missing"] == []
+    reported = gather(server, Scene.PIVOT, "pivot", rate_hz=3.0)
+    assert reported["missing"] == []
     for _ in range(5):
         sign_of_life(server)
         assert server.ask("GET", "/api/tools/collection", 200)["newest"] != "no_picture"

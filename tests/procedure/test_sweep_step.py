@@ -35,18 +35,18 @@ def with_bone(server: Server, case_id: str) -> None:
 
 def swept(server: Server, patient: Patient, points_lps_mm: Array) -> Any:  # noqa: ANN401  JSON
     """Show the tip on each of these points, and wait until all were taken."""
-    told = server.ask("GET", SWEEP, 200)
+    reported = server.ask("GET", SWEEP, 200)
     for point in points_lps_mm:
-        wanted = told["points"] + 1
+        wanted = reported["points"] + 1
         patient.show(drill_at(CAMERA_FROM_VERTEBRA.move_points(point) + patient.random.normal(0, 0.1, 3)))
 
         def taken(wanted: int = wanted) -> bool:
-            nonlocal told
-            told = server.ask("GET", SWEEP, 200)
-            return bool(told["points"] >= wanted)
+            nonlocal reported
+            reported = server.ask("GET", SWEEP, 200)
+            return bool(reported["points"] >= wanted)
 
         server.until(taken)
-    return told
+    return reported
 
 
 def on_bone(corners: Array, count: int) -> Array:
@@ -66,8 +66,8 @@ def test_a_sweep_makes_the_next_version_of_the_registration(server: Server) -> N
     patient.check()
     server.ask("POST", SWEEP, 201, json=DRILL)
     assert server.ask("POST", f"{SWEEP}/fit", 409)["code"] == "SURFACE_SWEEP_SMALL"
-    told = swept(server, patient, on_bone(corners_from_behind(), 40))
-    assert told["reach_mm"][0] > 20.0
+    reported = swept(server, patient, on_bone(corners_from_behind(), 40))
+    assert reported["reach_mm"][0] > 20.0
     # Lifted off the bone, the tip says nothing.
     server.ask("PUT", SWEEP, 200, json={"taking": False})
     patient.show(drill_at(np.array([0.0, 0.0, 300.0])))

@@ -14,13 +14,13 @@ from tracker.rehearsal import Scene, Theatre, TheatreSettings
 
 SHAPE = {"radius_mm": 2.0, "length_mm": 118.0}
 # All of a theatre follows from its settings.
-theatre_of = cache(Theatre)
+theatre_from_config = cache(Theatre)
 
 
 def calibrated(server: Server) -> str:
     """An open case that has the rehearsal's true camera."""
     case_id = open_a_case(server)
-    camera = theatre_of(TheatreSettings()).camera
+    camera = theatre_from_config(TheatreSettings()).camera
     values = {
         "matrix": camera.matrix.tolist(),
         "distortion": camera.distortion.tolist(),
@@ -42,45 +42,48 @@ def gather(
     rate_hz: float = 10.0,
 ) -> dict[str, Any]:
     """Show a rehearsed motion until nothing is missing; the state of the gathering."""
-    theatre = theatre_of(TheatreSettings(seed=seed, scene=scene))
+    theatre = theatre_from_config(TheatreSettings(seed=seed, scene=scene))
     random = np.random.default_rng(5)
     server.ask(
         "POST", "/api/tools/collection", 201, json={"tool": "drill", "purpose": purpose, "marker": marker}
     )
-    told: dict[str, Any] = {}
+    reported: dict[str, Any] = {}
     for index in range(images):
         at_s = index / rate_hz
         seen = sighting(theatre, at_s, random)
         server.show(at_s=at_s, seen=seen, beside={marker: seen})
 
         def looked_at(wanted: int = index + 1) -> bool:
-            nonlocal told
-            told = server.ask("GET", "/api/tools/collection", 200)
-            return bool(told["taken"] + sum(told["passed_over"].values()) >= wanted or not told["running"])
+            nonlocal reported
+            reported = server.ask("GET", "/api/tools/collection", 200)
+            return bool(
+                reported["taken"] + sum(reported["rejected_images"].values()) >= wanted
+                or not reported["running"]
+            )
 
         server.until(looked_at)
-        if not told["missing"] or not told["running"]:
+        if not reported["missing"] or not reported["running"]:
             break
-    return told
+    return reported
 
 
 def test_tip_and_axis_from_the_live_images_are_the_true_ones(server: Server) -> None:
     case_id = calibrated(server)
-    truth = theatre_of(TheatreSettings()).tool.marker_from_tool
-    told = gather(server, Scene.PIVOT, "pivot")
-    assert (told["purpose"], told["missing"]) == ("pivot", [])
-    assert told["tilt_range_deg"] > 30.0
-    assert told["tilt_range_across_deg"] > 30.0
-    kept = server.ask("POST", "/api/tools/collection/conclusion", 201, json={"made_by": "ito", **SHAPE})
-    tip = kept["content"]["pivot"]["tip_in_marker_mm"]
+    truth = theatre_from_config(TheatreSettings()).tool.marker_from_tool
+    reported = gather(server, Scene.PIVOT, "pivot")
+    assert (reported["purpose"], reported["missing"]) == ("pivot", [])
+    assert reported["tilt_range_deg"] > 30.0
+    assert reported["tilt_range_across_deg"] > 30.0
+    stored = server.ask("POST", "/api/tools/collection/conclusion", 201, json={"made_by": "ito", **SHAPE})
+    tip = stored["content"]["pivot"]["tip_in_marker_mm"]
     assert np.linalg.norm(np.array(tip) - truth.translation_mm) < 0.5
     # Nobody knows yet which way it points.
     assert server.adopted[-1].tools == {}
 
-    told = gather(server, Scene.SPIN, "spin")
-    assert told["missing"] == []
-    kept = server.ask("POST", "/api/tools/collection/conclusion", 201, json={"made_by": "ito"})
-    assert kept["heading"]["version"] == 2
+    reported = gather(server, Scene.SPIN, "spin")
+    assert reported["missing"] == []
+    stored = server.ask("POST", "/api/tools/collection/conclusion", 201, json={"made_by": "ito"})
+    assert stored["heading"]["version"] == 2
     tool = server.adopted[-1].tools["drill"]
     off_deg = np.degrees(
         np.arccos(np.clip(tool.marker_from_tool.rotation[:, 2] @ truth.rotation[:, 2], -1, 1))
@@ -92,7 +95,7 @@ def test_tip_and_axis_from_the_live_images_are_the_true_ones(server: Server) -> 
     check = server.ask("POST", "/api/tools/collection/conclusion", 201, json={"made_by": "ito"})
     assert check["heading"]["kind"] == "check"
     assert check["content"]["rms_3d_mm"] < 0.5
-    assert check["heading"]["stands_on"] == [kept["heading"]["id"]]
+    assert check["heading"]["depends_on"] == [stored["heading"]["id"]]
     documents = server.ask("GET", f"/api/cases/{case_id}/documents", 200)["documents"]
     assert all(one["current"] for one in documents if one["version"] == 2 or one["kind"] != "tool")
 
@@ -112,8 +115,8 @@ def test_a_new_camera_puts_the_tool_out_of_date(server: Server) -> None:
 
 def test_a_tool_that_was_hardly_tilted_is_refused_with_its_numbers(server: Server) -> None:
     calibrated(server)
-    told = gather(server, Scene.OPERATION, "pivot", images=60)
-    assert told["missing"]
+    reported = gather(server, Scene.OPERATION, "pivot", images=60)
+    assert reported["missing"]
     rejected = server.ask("POST", "/api/tools/collection/conclusion", 409, json={"made_by": "ito", **SHAPE})
     assert rejected["remedy"]
     assert server.adopted[-1].tools == {}
@@ -121,9 +124,9 @@ def test_a_tool_that_was_hardly_tilted_is_refused_with_its_numbers(server: Serve
 
 def test_without_millimetres_no_pose_is_taken(server: Server) -> None:
     open_a_case(server)
-    told = gather(server, Scene.PIVOT, "pivot", images=3)
-    assert not told["running"]
-    assert told["problem"]["code"] == "CAMERA_NOT_CALIBRATED"
+    reported = gather(server, Scene.PIVOT, "pivot", images=3)
+    assert not reported["running"]
+    assert reported["problem"]["code"] == "CAMERA_NOT_CALIBRATED"
 
 
 @pytest.mark.parametrize(
@@ -143,10 +146,10 @@ def test_without_millimetres_no_pose_is_taken(server: Server) -> None:
     ],
 )
 def test_what_cannot_be_begun_is_refused(
-    server: Server, asked: dict[str, str], status: int, code: str
+    server: Server, requested: dict[str, str], status: int, code: str
 ) -> None:
     calibrated(server)
-    assert server.ask("POST", "/api/tools/collection", status, json=asked)["code"] == code
+    assert server.ask("POST", "/api/tools/collection", status, json=requested)["code"] == code
 
 
 def test_shape_is_asked_for_where_nobody_knows_it(server: Server) -> None:
@@ -163,5 +166,5 @@ def test_when_the_camera_is_gone_no_pose_seems_to_be_taken_any_more(server: Serv
     running = ProcessStatus(state=ProcessState.RUNNING)
     server.hub.publish(Instant(sequence=server.number + 1, source=gone, process=running))
     server.until(lambda: server.ask("GET", "/api/tools/collection", 200)["newest"] == "no_picture")
-    told = server.ask("GET", "/api/tools/collection", 200)
-    assert (told["running"], told["problem"]) == (True, None), "it goes on when the camera is back"
+    reported = server.ask("GET", "/api/tools/collection", 200)
+    assert (reported["running"], reported["problem"]) == (True, None), "it goes on when the camera is back"

@@ -18,6 +18,6 @@ def test_the_surface_of_the_case_becomes_the_wall(server: Server) -> None:
     assert done["state"] == "done", done["problem"]
     assert done["result"]["in_use"]
     assert done["result"]["against"] == "bone", done["result"]
-    guide = server.adopted[-1].guide
-    assert guide is not None
-    assert guide.wall.against == "bone"
+    drill_reference = server.adopted[-1].drill_reference
+    assert drill_reference is not None
+    assert drill_reference.wall.against == "bone"

@@ -15,7 +15,7 @@ from tracker.rehearsal import Phase
 
 SETTINGS = {
     **BUSY_MACHINE,
-    "rehearsal": {"seed": 3, "brings_setup": False, "reference": True, "rest_s": 1.6},
+    "rehearsal": {"seed": 3, "provides_setup": False, "reference": True, "rest_s": 1.6},
     "reference": {"marker": "reference"},
 }
 CONFIG = Config.model_validate(SETTINGS)
@@ -67,8 +67,10 @@ def test_from_an_empty_case_to_drilling(tmp_path: Path) -> None:
     with real_server(tmp_path, SETTINGS) as server:
         goes_on_once_confirmed(Team(server=server, config=CONFIG))
         lines = server.ask("GET", "/api/alarms/log", 200)["lines"]
-        told = [(line["change"], line.get("by")) for line in lines if line.get("number") == breach["number"]]
-        assert told[:2] == [("raised", None), ("acknowledged", "M. Ito")]
+        reported = [
+            (line["change"], line.get("by")) for line in lines if line.get("number") == breach["number"]
+        ]
+        assert reported[:2] == [("raised", None), ("acknowledged", "M. Ito")]
 
 
 STEPS = ("camera", "tool", "plan", "register", "check", "navigate")
@@ -87,13 +89,13 @@ def goes_on_once_confirmed(team: Team) -> None:
 
 def register(team: Team) -> None:
     """Landmarks are touched until they say well enough where the vertebra is; too few are refused."""
-    told = team.touch(2)
-    assert [one["code"] for one in told["missing"]] == ["POINTS_TOO_FEW"]
+    reported = team.touch(2)
+    assert [one["code"] for one in reported["missing"]] == ["POINTS_TOO_FEW"]
     team.server.rejected("POST", f"{POINTS}/conclusion", "POINTS_TOO_FEW", json=BY)
-    told = team.touch_more(3)
-    assert told["missing"] == []
-    assert told["fre_rms_mm"] < CONFIG.registration.max_fre_mm
-    assert max(one["stated_mm"] for one in told["targets"]) < CONFIG.registration.max_tre_mm
+    reported = team.touch_more(3)
+    assert reported["missing"] == []
+    assert reported["fre_rms_mm"] < CONFIG.registration.max_fre_mm
+    assert max(one["stated_mm"] for one in reported["targets"]) < CONFIG.registration.max_tre_mm
     document = team.server.ask("POST", f"{POINTS}/conclusion", 201, json=BY)
     assert document["content"]["anchored_to"] == "reference"
 
@@ -154,7 +156,7 @@ def breach_in(heard: Iterator[Heard]) -> dict[str, Any]:
 
 def acknowledged(server: RealServer, heard: Iterator[Heard], breach: dict[str, Any]) -> None:
     """Somebody says that it was seen, and every client hears it."""
-    asked = {"by": "M. Ito", "numbers": [breach["number"]]}
-    server.ask("POST", "/api/alarms/acknowledgement", 200, json=asked)
+    requested = {"by": "M. Ito", "numbers": [breach["number"]]}
+    server.ask("POST", "/api/alarms/acknowledgement", 200, json=requested)
     answered = next(one.alarms["BREACH"] for one in heard if one.alarms["BREACH"]["state"] == "acknowledged")
     assert answered["acknowledged_by"] == "M. Ito"

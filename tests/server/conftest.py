@@ -13,7 +13,15 @@ from server.live import Instant, ProcessState, ProcessStatus, SourceState, Sourc
 from tests.served import served
 from tracker import CameraModel, Seen, ToolModel, Unseen, UnseenReason
 from tracker.geometry import Camera, Rigid, Tool, Vertebra
-from tracker.navigation import Absent, AbsentReason, Guide, NavigationSnapshot, Setup, Watched, navigate
+from tracker.navigation import (
+    Absent,
+    AbsentReason,
+    DrillReference,
+    MotionState,
+    NavigationSnapshot,
+    Setup,
+    navigate,
+)
 from tracker.plan import Channel
 from tracker.registration import Registration
 
@@ -69,10 +77,10 @@ def _whole_setup(size_wh_px: tuple[int, int], place: Rigid[Camera, Vertebra]) ->
 
 
 @cache
-def _guide() -> Guide:
+def _guide() -> DrillReference:
     setup = _whole_setup((640, 360), Rigid[Camera, Vertebra].identity())
     assert isinstance(setup.channel, Channel)
-    return Guide.of_channel(setup.channel)
+    return DrillReference.of_channel(setup.channel)
 
 
 def make_snapshot(
@@ -86,7 +94,7 @@ def make_snapshot(
     planned: bool = True,
     with_tool: bool = True,
     pose_variance: float = 1e-4,
-    watched: Watched | None = None,
+    motion: MotionState | None = None,
     judged: bool = False,
     camera_from_vertebra: Rigid[Camera, Vertebra] | None = None,
     image_number: int = 0,
@@ -115,8 +123,8 @@ def make_snapshot(
         size_wh_px=size_wh_px,
         stage_ms={"edges": 3.0, "pose": 1.0},
         skipped_images=0,
-        guide=_guide() if judged else None,
-        watched=watched or Watched(),
+        drill_reference=_guide() if judged else None,
+        motion=motion or MotionState(),
     )
 
 

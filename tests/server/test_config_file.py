@@ -97,7 +97,7 @@ TOOL = {
         pytest.param({5: 1}, ["'[5]'", "server"], id="key-is-a-number"),
         pytest.param("server: {port: 1\n", ["YAML", "line"], id="not-yaml"),
         pytest.param("- a\n", ["YAML", "list"], id="list-at-the-top"),
-        pytest.param("video: {}\nvideo: {}\n", ["'video'", "twice"], id="key-twice"),
+        pytest.param("video: {}\nvideo: {}\n", ["'video'", "duplicate"], id="key-twice"),
         pytest.param(
             {"camera": {"calibration": "c.yaml"}}, ["camera.calibration", "c.yaml"], id="no-camera-file"
         ),

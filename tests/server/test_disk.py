@@ -17,7 +17,7 @@ VOLUME = (64, 64, 64)
 def test_a_ct_without_room_is_refused_before_its_file_is_made(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(disk, "SPARE_BYTES", 2**60)
+    monkeypatch.setattr(disk, "RESERVED_BYTES", 2**60)
     with pytest.raises(DiskFull) as full, voxels_to_fill(VOLUME, tmp_path / "voxels.npy"):
         pytest.fail("it is not begun")
     assert full.value.context["needed_bytes"] == 2 * 64**3
@@ -37,7 +37,7 @@ def test_the_room_of_a_ct_is_its_own_before_the_first_voxel(tmp_path: Path) -> N
 def test_a_disk_that_is_full_all_the_same_is_told_and_leaves_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def reject(*_asked: object) -> None:
+    def reject(*_requested: object) -> None:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
     monkeypatch.setattr(os, "posix_fallocate", reject, raising=False)

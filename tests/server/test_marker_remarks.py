@@ -6,7 +6,7 @@ import pytest
 import structlog
 
 from server.config import Config
-from server.marker_remarks import warn_of_markers
+from server.marker_remarks import warn_of_ambiguous_markers
 from server.setup import build_setup
 from tests.benchmarks.scenes.faces import FACES
 from tracker.marker import MarkerModel
@@ -39,7 +39,7 @@ def test_what_may_be_taken_for_itself_is_told_with_its_likeness(
     marker: MarkerModel, codes: list[str]
 ) -> None:
     with structlog.testing.capture_logs() as said:
-        warn_of_markers([marker])
+        warn_of_ambiguous_markers([marker])
     assert [line["code"] for line in said] == codes
     for line, correlation in zip(said, [one for one in marker.own_correlation if one > 0.9], strict=True):
         assert f"correlation {correlation:.2f}" in line["event"]
@@ -48,5 +48,7 @@ def test_what_may_be_taken_for_itself_is_told_with_its_likeness(
 
 def test_the_rehearsal_s_own_markers_need_no_word() -> None:
     with structlog.testing.capture_logs() as said:
-        warn_of_markers(build_setup(Config.model_validate({"rehearsal": {"reference": True}})).models)
+        warn_of_ambiguous_markers(
+            build_setup(Config.model_validate({"rehearsal": {"reference": True}})).models
+        )
     assert said == []

@@ -234,7 +234,7 @@ def test_after_a_case_is_closed_the_rehearsals_own_channel_says_whose_it_is() ->
 
 
 def test_a_rehearsal_that_brings_no_setup_knows_its_marker_alone() -> None:
-    bare = build_setup(Config(rehearsal=RehearsalConfig(brings_setup=False)))
+    bare = build_setup(Config(rehearsal=RehearsalConfig(provides_setup=False)))
     assert [model.name for model in bare.models] == ["drill"]
     assert bare.camera is None
     assert bare.tools == {}

@@ -15,8 +15,8 @@ THREADS = "OPENBLAS_NUM_THREADS"
 
 def told_by_a_server(**environment: str) -> list[str]:
     """What a process says that has loaded the server, then NumPy: what is set, and its threads."""
-    kept = {name: value for name, value in os.environ.items() if name != THREADS}
-    told = subprocess.run(
+    stored = {name: value for name, value in os.environ.items() if name != THREADS}
+    reported = subprocess.run(
         [
             sys.executable,
             "-c",
@@ -24,12 +24,12 @@ def told_by_a_server(**environment: str) -> list[str]:
             f"print(os.environ['{THREADS}'], *os.listdir('/proc/self/task'))",
         ],
         cwd=REPOSITORY,
-        env={**kept, **environment},
+        env={**stored, **environment},
         capture_output=True,
         text=True,
         check=True,
     )
-    return told.stdout.split()
+    return reported.stdout.split()
 
 
 def test_a_process_that_loads_numpy_has_one_thread() -> None:

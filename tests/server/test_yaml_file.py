@@ -30,10 +30,10 @@ def test_what_cannot_be_read_is_told(tmp_path: Path, content: bytes | None) -> N
     else:
         path.write_bytes(content)
     for kind, load in (("camera", load_camera_file), ("tool", load_tool_file)):
-        with pytest.raises(InvalidInput) as told:
+        with pytest.raises(InvalidInput) as reported:
             load(path)
-        assert told.value.code == f"{kind.upper()}_FILE_UNREADABLE"
-        assert f"the {kind} file {path} " in told.value.message
+        assert reported.value.code == f"{kind.upper()}_FILE_UNREADABLE"
+        assert f"the {kind} file {path} " in reported.value.message
     with pytest.raises(ConfigError) as rejected:
         load_config(path)
     assert str(path) in rejected.value.message

@@ -5,9 +5,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 import numpy as np
 import numpy.typing as npt
 
-from tests.benchmarks.limits.judging import Judged, Outcome, claim_of, judged
+from tests.benchmarks.limits.evaluation import Evaluation, Outcome, claim_of, evaluate
 from tests.benchmarks.scenes.faces import FACES, Face
-from tests.benchmarks.scenes.placing import posed
+from tests.benchmarks.scenes.placement import posed
 from tests.benchmarks.scenes.rigs import Rig
 from tests.benchmarks.scenes.scene import Pose, Scene
 from tracker import Sighting, Tracker
@@ -39,20 +39,20 @@ def pose_of(random: np.random.Generator, side_px: float, tilt_deg: tuple[float, 
 
 def judged_by_seed(
     shown: Callable[[int, Face, Trackers], Shown], seeds: Iterable[int], trackers: Trackers
-) -> list[tuple[int, Judged]]:
+) -> list[tuple[int, Evaluation]]:
     """What became of each image, with its scene's seed; nothing is claimed where no marker is."""
     found = []
     for seed in seeds:
         for scene, sighting in shown(seed, FACES[seed % len(FACES)], trackers):
-            one = judged(scene, claim_of(sighting))
+            one = evaluate(scene, claim_of(sighting))
             assert one.outcome is not Outcome.WRONG
             found.append((seed, one))
     return found
 
 
-def worst_by_seed(found: list[tuple[int, Judged]], *, over_sd2: float) -> dict[int, float]:
+def worst_by_seed(found: list[tuple[int, Evaluation]], *, over_sd2: float) -> dict[int, float]:
     """The worst squared error in units of what is stated, by seed, where it is over this."""
     worst: dict[int, float] = {}
     for seed, one in found:
-        worst[seed] = max(worst.get(seed, 0.0), *one.stated_sd2, 0.0)
+        worst[seed] = max(worst.get(seed, 0.0), *one.mahalanobis_squared, 0.0)
     return {seed: sd2 for seed, sd2 in worst.items() if sd2 > over_sd2}

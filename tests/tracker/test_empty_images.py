@@ -1,9 +1,9 @@
-"""Images without a marker, in which nothing may be claimed."""
+"""No detection in images without a marker."""
 
 import pytest
 
 from tests.benchmarks.limits.conditions_run import measure_empty
-from tests.benchmarks.limits.judging import Outcome
+from tests.benchmarks.limits.evaluation import Outcome
 from tests.benchmarks.scenes.rigs import RIGS
 from tests.tracker.levels import SEED
 

@@ -1,4 +1,4 @@
-"""Search near the limit of what the pixels hold, on a small set of scenes that is the same each time."""
+"""Search under hard conditions, on a small fixed set of scenes."""
 
 from functools import cache
 
@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from tests.benchmarks.limits.conditions_run import ConditionRun, measure_condition
+from tests.benchmarks.limits.evaluation import COVERED, Evaluation, Outcome
 from tests.benchmarks.limits.finders import Searchers
-from tests.benchmarks.limits.judging import COVERED, Judged, Outcome
 from tests.benchmarks.scenes.conditions import conditions_of
 from tests.benchmarks.scenes.rigs import RIGS
 from tests.tracker.levels import SEED, WORST_SD2, Level
@@ -77,8 +77,8 @@ def run_of(rig: str, condition: str, searchers: Searchers) -> ConditionRun:
     )
 
 
-def right(run: ConditionRun) -> list[Judged]:
-    return [one for one in run.searched if one.outcome is Outcome.RIGHT]
+def right(run: ConditionRun) -> list[Evaluation]:
+    return [one for one in run.searched if one.outcome is Outcome.CORRECT]
 
 
 @pytest.mark.parametrize(("rig", "condition"), FOUND, ids=map(" ".join, FOUND))
@@ -116,12 +116,12 @@ def test_errors_lie_inside_their_stated_ellipsoid_as_often_as_stated(
     assert (
         float(np.mean([one.covered[number] for one in found])) >= COVERED_MIN.asserted - COVERED_PROBABILITY
     )
-    assert float(np.median([one.stated_sd2[number] for one in found])) >= TYPICAL_SD2.asserted
+    assert float(np.median([one.mahalanobis_squared[number] for one in found])) >= TYPICAL_SD2.asserted
 
 
 def test_no_pose_is_wrong_and_sure_of_itself(searchers: Searchers) -> None:
-    stated_sd2 = {
-        (rig, name): max(max(one.stated_sd2) for one in right(run_of(rig, name, searchers)))
+    mahalanobis_squared = {
+        (rig, name): max(max(one.mahalanobis_squared) for one in right(run_of(rig, name, searchers)))
         for rig, name in FOUND
     }
-    assert {where: worst for where, worst in stated_sd2.items() if worst > WORST_SD2} == {}
+    assert {where: worst for where, worst in mahalanobis_squared.items() if worst > WORST_SD2} == {}

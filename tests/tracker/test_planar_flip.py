@@ -1,4 +1,4 @@
-"""The wrong one of the two planar solutions, where it was once taken."""
+"""Regression tests of wrongly chosen planar solutions."""
 
 import numpy as np
 import pytest

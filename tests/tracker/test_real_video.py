@@ -1,4 +1,4 @@
-"""Real recordings: a sheet of twelve look-alikes that is waved about, and a tag in a hand."""
+"""Real recordings: a waved sheet of twelve similar markers, and a tag in a hand."""
 
 from functools import cache
 from pathlib import Path

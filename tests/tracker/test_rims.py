@@ -1,4 +1,4 @@
-"""Markers whose outline is not the model's: trimmed with scissors, framed, or with a strip along a side."""
+"""Markers whose outline deviates from the model: trimmed, framed, or with a strip along a side."""
 
 from collections.abc import Callable
 
@@ -8,7 +8,7 @@ import pytest
 
 from tests.benchmarks.scenes.conditions import BASE
 from tests.benchmarks.scenes.faces import FACES, Face
-from tests.benchmarks.scenes.placing import scene_at
+from tests.benchmarks.scenes.placement import scene_at
 from tests.benchmarks.scenes.scene import Pose, Scene, image_of
 from tests.tracker.levels import WORST_SD2
 from tests.tracker.small_scenes import (

@@ -30,10 +30,10 @@ def test_what_a_browser_asks_of_an_app_is_there() -> None:
 
 def test_its_colour_is_the_page_s_ground() -> None:
     ground = re.search(r"--ground: (#\w+);", (WEB / "src" / "theme" / "page.css").read_text(encoding="utf-8"))
-    told = re.search(r'name="theme-color" content="(#\w+)"', INDEX)
+    reported = re.search(r'name="theme-color" content="(#\w+)"', INDEX)
     assert ground is not None
-    assert told is not None
-    assert {MANIFEST["theme_color"], MANIFEST["background_color"], ground[1]} == {told[1]}
+    assert reported is not None
+    assert {MANIFEST["theme_color"], MANIFEST["background_color"], ground[1]} == {reported[1]}
 
 
 def test_no_service_worker_stands_between_page_and_server() -> None:

@@ -1,4 +1,4 @@
-"""The camera: its model (pinhole and lens), and the boards that it is calibrated with."""
+"""The camera: pinhole model with lens distortion, calibration boards, controls and lamp flicker."""
 
 from tracker.camera.boards import Board, CharucoBoard, CharucoLayout, CheckerBoard, DotBoard, DotLayout
 from tracker.camera.controls import GEOMETRIC, CameraControl, ControlChange, control_changes

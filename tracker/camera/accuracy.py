@@ -1,8 +1,8 @@
-"""How true a calibrated camera measures: known displacements on a plane against measured ones (paper, 3.2).
+"""Measurement accuracy of a calibrated camera on known displacements on a plane (paper, 3.2).
 
-What is measured is never what the plane's place was fitted to: a fit shares its errors with its own points,
-and would look better than it is. Even so, such a check sees the lens and the plane's tilt, not the overall
-scale, which comes from the same board: `AccuracyReport.plane_distance_mm` beside a tape measure shows that.
+The plane is never fitted to the measured points, because a fit shares errors with its own points and would
+look better than it is. The check shows errors of the lens and the plane's tilt, not of the overall scale,
+which comes from the same board: compare `AccuracyReport.plane_distance_mm` with a tape measure for that.
 """
 
 from dataclasses import dataclass
@@ -193,7 +193,7 @@ def _report(
 def _checked_fit(
     camera: CameraModel, points_mm: npt.ArrayLike, points_px: npt.ArrayLike
 ) -> tuple[Array, Array]:
-    # OpenCV refuses columns of a larger array.
+    # OpenCV rejects non-contiguous arrays.
     on_plane, seen = (np.ascontiguousarray(points, np.float64) for points in (points_mm, points_px))
     if on_plane.ndim != 2 or on_plane.shape[1] != 2 or on_plane.shape != seen.shape:
         raise InvalidInput(
@@ -224,12 +224,12 @@ def _reject_outside(camera: CameraModel, *points_px: Array) -> None:
 
 
 def _same(points: Array, others: Array, within: float) -> npt.NDArray[np.bool_]:
-    """Which points (n, 2) are among the others (m, 2)."""
+    """Return the mask of points (n, 2) that are among the others (m, 2)."""
     return np.asarray((np.abs(points[:, None, :] - others[None, :, :]).max(axis=2) <= within).any(axis=1))
 
 
 def _distinct(points: Array) -> int:
-    """How many points (n, 2) there are; two displacements may share one."""
+    """Return the number of distinct points (n, 2); two displacements may share one."""
     return int(np.unique(np.rint(points / SAME_MM), axis=0).shape[0])
 
 

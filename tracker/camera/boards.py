@@ -18,7 +18,7 @@ MIN_POINTS, MAX_POINTS = 4, 10_000
 
 
 class DotLayout(StrEnum):
-    """How dots stand to each other."""
+    """Arrangement of the dots."""
 
     SYMMETRIC = "symmetric"
     """On a square grid."""
@@ -37,7 +37,7 @@ class CharucoLayout(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DotBoard:
-    """A grid of dots; some may be larger, to tell which way up the board is.
+    """A grid of dots; some may be larger, to make the orientation unique.
 
     Attributes:
         columns: dots in a row.
@@ -79,7 +79,7 @@ class DotBoard:
 
     @property
     def transposed(self) -> "DotBoard":
-        """The same numbers read the other way round: columns as rows; indexes count along the new rows."""
+        """Return the board with columns and rows exchanged; indexes count along the new rows."""
         return DotBoard(
             columns=self.rows,
             rows=self.columns,
@@ -117,8 +117,8 @@ class CheckerBoard:
         return _points(column * self.square_mm, row * self.square_mm)
 
     @property
-    def tells_its_way_up(self) -> bool:
-        """Whether its colours change when it is turned by 180 degrees: odd by even corners."""
+    def has_unique_orientation(self) -> bool:
+        """Whether its colours change under a rotation by 180 degrees: odd by even corners."""
         return (self.columns + self.rows) % 2 == 1
 
 
@@ -155,10 +155,10 @@ class CharucoBoard:
             raise _invalid(f"the dictionary '{self.dictionary}', allowed {', '.join(dictionaries())}")
         if self.layout is not None:
             object.__setattr__(self, "layout", CharucoLayout(self.layout))
-        held = int(self.opencv_dictionary.bytesList.shape[0])
+        available = int(self.opencv_dictionary.bytesList.shape[0])
         needed = self.columns * self.rows // 2
-        if needed > held:
-            raise _invalid(f"{needed} markers, and {self.dictionary} holds {held}")
+        if needed > available:
+            raise _invalid(f"{needed} markers, and {self.dictionary} has {available}")
 
     @property
     def object_points_mm(self) -> Array:

@@ -1,8 +1,8 @@
-"""A camera's controls, and which of them void a calibration when they change.
+"""Camera controls, and which of them invalidate a calibration when they change.
 
-An autofocus moves the focal length by a percent, and with it every depth, without any sign in the image. So
-a changed geometric control withholds millimetres. A camera whose driver reports a wavering focus gives no
-numbers at all.
+An autofocus changes the focal length by a percent, and with it every depth, without a sign in the image. So
+after a change of a geometric control no millimetres are shown. A camera whose driver reports a fluctuating
+focus shows no numbers at all.
 """
 
 from collections.abc import Mapping
@@ -11,7 +11,7 @@ from enum import StrEnum
 
 
 class CameraControl(StrEnum):
-    """What of a camera can be set beside its mode, in the order of what a change of it spoils."""
+    """Controls of a camera beside its mode; those that affect the geometry come first."""
 
     FOCUS = "focus"
     ZOOM = "zoom"

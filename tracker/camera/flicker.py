@@ -1,10 +1,10 @@
-"""Lamps on mains current in a camera's images: light that beats with the image rate, by a matched filter.
+"""Detect mains flicker of lamps in camera images by a matched filter.
 
-A lamp on mains current is bright twice a period: 100 times a second at 50 Hz, 120 times at 60 Hz. A rolling
-shutter shows that as bands that travel over the rows from image to image, a global shutter as a brightness
-that beats with the image rate. Both are one wave, `cos(2 pi (f t + k v))` with the time `t` of an image, the
-place `v` of a row (0..1) and `k` cycles over the image (0 of a global shutter). What moves in front of the
-camera is told from it by where it shows: the lamp's wave is the same in every part of the image.
+A lamp on mains current flickers at 100 Hz (50 Hz mains) or 120 Hz (60 Hz mains). With a rolling shutter this
+appears as bands that travel over the rows from image to image, with a global shutter as a brightness that
+beats with the image rate. Both are one wave, `cos(2 pi (f t + k v))` with the time `t` of an image, the
+place `v` of a row (0..1) and `k` cycles over the image (0 of a global shutter). Motion in
+front of the camera is distinguished by its location: flicker has the same wave in every part of the image.
 """
 
 from collections.abc import Sequence
@@ -50,8 +50,8 @@ HZ_STEP = 0.2
 NEIGHBOURS_HZ = np.array([2.4, 2.8, 3.2, 3.6, 4.0])
 
 
-class LightState(StrEnum):
-    """What a window of images says of the lamps."""
+class FlickerState(StrEnum):
+    """Result of flicker detection over a window of images."""
 
     FLICKERS = "flickers"
     STEADY = "steady"
@@ -72,10 +72,10 @@ class LampFlicker:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LightVerdict:
-    """What a window of images says; `flicker` is there where the state is FLICKERS."""
+class FlickerVerdict:
+    """Result of flicker detection; `flicker` is set where the state is FLICKERS."""
 
-    state: LightState
+    state: FlickerState
     flicker: LampFlicker | None = None
 
 
@@ -87,11 +87,11 @@ class _Wave:
     is_a_lamp: bool
 
 
-UNSURE = LightVerdict(state=LightState.UNSURE)
+UNSURE = FlickerVerdict(state=FlickerState.UNSURE)
 
 
-def light_means(image: npt.NDArray[np.uint8]) -> Array:
-    """Mean levels (32, 4) of bands and strips of an image (h, w) or (h, w, 3), by a few of its pixels."""
+def brightness_grid(image: npt.NDArray[np.uint8]) -> Array:
+    """Return mean grey levels (32, 4) of a grid of bands and strips, from a subsample of the image."""
     height, width = image.shape[:2]
     rows, columns = BANDS * ROWS_A_BAND, STRIPS * PIXELS_A_STRIP
     row_step, column_step = max(height // rows, 1), max(width // columns, 1)
@@ -104,15 +104,15 @@ def light_means(image: npt.NDArray[np.uint8]) -> Array:
     return np.asarray(cells.mean(axis=(1, 3), dtype=np.float64))
 
 
-def judge_light(times_s: Sequence[float], means: Sequence[Array]) -> LightVerdict:
-    """Whether lamps flicker in a window of images.
+def detect_flicker(times_s: Sequence[float], means: Sequence[Array]) -> FlickerVerdict:
+    """Detect lamp flicker in a window of images.
 
-    A beat under 1.5 Hz, or as near to half the image rate, is not seen: the bands stand still (60 Hz at 30
-    images/s, 50 Hz at 25). Such a pair of mains and rate counts as steady where the other one is seen.
+    A beat under 1.5 Hz, or as near to half the image rate, is not observable: the bands stand still (60 Hz at
+    30 images/s, 50 Hz at 25). Such a pair of mains and rate counts as steady where the other is observable.
 
     Args:
         times_s: capture times, in order, over about `WINDOW_S`.
-        means: `light_means` of each image.
+        means: `brightness_grid` of each image.
     """
     at_s = np.asarray(times_s) - times_s[0]
     levels = np.asarray(means)
@@ -133,15 +133,15 @@ def judge_light(times_s: Sequence[float], means: Sequence[Array]) -> LightVerdic
     lamps = {mains: one for mains, one in waves.items() if one.is_a_lamp}
     if lamps:
         strongest = max(lamps.values(), key=lambda one: one.power)
-        return LightVerdict(
-            state=LightState.FLICKERS,
+        return FlickerVerdict(
+            state=FlickerState.FLICKERS,
             flicker=LampFlicker(
                 mains_hz=tuple(mains for mains, one in lamps.items() if one.power > 0.5 * strongest.power),
                 depth_ratio=strongest.depth_ratio,
             ),
         )
     is_quiet = all(one.floor_ratio < MIN_DEPTH_RATIO for one in waves.values())
-    return LightVerdict(state=LightState.STEADY) if is_quiet else UNSURE
+    return FlickerVerdict(state=FlickerState.STEADY) if is_quiet else UNSURE
 
 
 def _is_seen(light_hz: float, rate_hz: float) -> bool:
@@ -150,7 +150,7 @@ def _is_seen(light_hz: float, rate_hz: float) -> bool:
 
 
 def _parts(used: npt.NDArray[np.bool_]) -> list[npt.NDArray[np.intp]]:
-    """Cells (flat indexes) of each part of the image in which light can be seen."""
+    """Return the cells (flat indexes) of each part of the image that is neither dark nor saturated."""
     index = np.arange(BANDS * STRIPS).reshape(BANDS, STRIPS)
     parts = []
     for group in range(ROW_GROUPS):
@@ -170,7 +170,7 @@ def _wave(
     light_hz: float,
     rate_hz: float,
 ) -> _Wave:
-    """The strongest wave near this frequency, and whether it is one of a lamp."""
+    """Return the strongest wave near this frequency, and whether it is lamp flicker."""
     cells = np.concatenate(parts)
     rows = (np.arange(BANDS * STRIPS) // STRIPS + 0.5) / BANDS
     max_cycles = min(light_hz / rate_hz, MAX_CYCLES)
@@ -187,18 +187,18 @@ def _wave(
     power = (np.abs(seen[:, :, cells] @ unrolled.T) ** 2).sum(axis=0)
     best_hz, best_cycles = np.unravel_index(int(power.argmax()), power.shape)
     near_hz = np.concatenate([tried_hz[best_hz] - NEIGHBOURS_HZ, tried_hz[best_hz] + NEIGHBOURS_HZ])
-    # Beyond half the image rate and below its multiples lie the mirror images of what was looked at.
+    # Beyond half the image rate and below its multiples lie aliases of the tested frequencies.
     near_hz = near_hz[[_is_seen(float(hz), rate_hz) for hz in near_hz]]
     around = (np.abs(seen_at(near_hz)[:, :, cells] @ unrolled.T) ** 2).sum(axis=0)
     floor = float(around.max()) if around.size else np.inf
     derotated = seen[:, best_hz, :] * np.exp(-2j * np.pi * cycles[best_cycles] * rows)
-    depth_ratio, is_alike = _alike(derotated, parts)
+    depth_ratio, is_uniform = _amplitude_and_agreement(derotated, parts)
     strongest = float(power[best_hz, best_cycles])
     return _Wave(
         power=strongest,
         depth_ratio=depth_ratio,
         floor_ratio=float(np.sqrt(MIN_LINE_RATIO * floor / len(segments))),
-        is_a_lamp=is_alike and strongest >= MIN_LINE_RATIO * floor,
+        is_a_lamp=is_uniform and strongest >= MIN_LINE_RATIO * floor,
     )
 
 
@@ -211,29 +211,29 @@ def _amplitudes(at_s: Array, levels: Array, hz: Array) -> npt.NDArray[np.complex
     return np.asarray(2.0 * (window * np.exp(-2j * np.pi * hz[:, None] * at_s)) @ varying)
 
 
-def _alike(
+def _amplitude_and_agreement(
     derotated: npt.NDArray[np.complex128], parts: Sequence[npt.NDArray[np.intp]]
 ) -> tuple[float, bool]:
-    """The wave's amplitude (segments, cells: with its travel taken out), and whether it is one everywhere."""
+    """Return the wave's amplitude from (segments, cells) without its travel, and whether all parts agree."""
     of_parts = np.array([derotated[:, cells].mean(axis=1) for cells in parts]).T
     of_segments = of_parts.mean(axis=1)
     sizes = np.abs(of_segments)
     along = np.real(of_parts * np.conj(of_segments)[:, None] / np.maximum(sizes, 1e-12)[:, None]).mean(axis=0)
     mean = float(sizes.mean())
     agreement = len(parts) * float(sizes.sum()) / max(float(np.abs(of_parts).sum()), 1e-12)
-    is_alike = (
+    is_uniform = (
         agreement >= MIN_AGREEMENT and float((along >= MIN_PART_RATIO * mean).mean()) >= MIN_PARTS_RATIO
     )
-    return mean, is_alike
+    return mean, is_uniform
 
 
 class FlickerMonitor:
-    """Judges a window of images now and then. Without a clock: times are those of the images.
+    """Detects flicker in successive windows of images. Times are those of the images.
 
-    A verdict stands until a window says otherwise; one that is unsure says nothing.
+    A result is valid until a later window differs; an uncertain window changes nothing.
 
     Args:
-        rest_s: between two windows. Lamps change when somebody switches them.
+        rest_s: pause between two windows; lamps change only when they are switched.
     """
 
     def __init__(self, *, rest_s: float = 15.0) -> None:
@@ -245,24 +245,24 @@ class FlickerMonitor:
 
     @property
     def flicker(self) -> LampFlicker | None:
-        """The flicker that was seen last; None where light was last seen steady, or not yet."""
+        """Return the last detected flicker; None where the light was steady, or before the first window."""
         return self._flicker
 
     def take(self, image: npt.NDArray[np.uint8], at_s: float) -> None:
-        """One more image (h, w) or (h, w, 3), captured at this time."""
+        """Add an image (h, w) or (h, w, 3) captured at this time."""
         if at_s < self._begins_at_s:
             return
         if self._times_s and not 0.0 < at_s - self._times_s[-1] < 0.5:
-            # A pause or a clock that was set: what was gathered is of another time.
+            # A pause, or a clock that was set: discard the window.
             self._times_s, self._means = [], []
         self._times_s.append(at_s)
-        self._means.append(light_means(image))
+        self._means.append(brightness_grid(image))
         if at_s - self._times_s[0] < WINDOW_S:
             return
-        verdict = judge_light(self._times_s, self._means)
+        verdict = detect_flicker(self._times_s, self._means)
         self._times_s, self._means, self._begins_at_s = [], [], at_s + self._rest_s
         limit = CLEARS_AT_RATIO if self._flicker is not None else MIN_DEPTH_RATIO
         if verdict.flicker is not None and verdict.flicker.depth_ratio >= limit:
             self._flicker = verdict.flicker
-        elif verdict.state is not LightState.UNSURE:
+        elif verdict.state is not FlickerState.UNSURE:
             self._flicker = None

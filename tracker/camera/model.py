@@ -1,4 +1,4 @@
-"""The camera as a pinhole with a lens."""
+"""Pinhole camera model with lens distortion."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -7,25 +7,25 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tracker.camera.lens import lens_of
+from tracker.camera.lens import pack_lens
 from tracker.errors import InvalidInput
 from tracker.geometry import Array
 
 DISTORTION_LENGTHS = (4, 5, 8, 12, 14)
-# A field of view of 157 degrees; and a sensor of which the image is one corner. Beyond, a number is mistaken.
+# A field of view of 157 degrees, and a principal point one image size off centre: values beyond are errors.
 MIN_FOCAL_RATIO, MAX_PRINCIPAL_RATIO = 0.1, 1.0
 UNDISTORT_CRITERIA = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 40, 1e-10)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraModel:
-    """Where a point in front of the camera lands in the image.
+    """Intrinsic parameters of a camera: projects points of the camera frame to pixels.
 
     Attributes:
         matrix: OpenCV's K (3, 3): focal lengths and principal point in px, no skew.
         distortion: OpenCV's coefficients, 4, 5, 8, 12 or 14 of them (k1 k2 p1 p2 k3 ...).
         size_wh_px: width and height of the images that it was calibrated on.
-        lens: the same as the compiled loops want it, see `lens_of`; made here.
+        lens: the same as the compiled loops want it, see `pack_lens`; made here.
 
     Raises:
         InvalidInput: CAMERA_MODEL_INVALID, with the number that cannot be.
@@ -49,7 +49,7 @@ class CameraModel:
                 f"the camera model cannot be used: {problem}",
                 "Calibrate the camera again, or give OpenCV's K (3x3), distortion and image size.",
             )
-        lens = lens_of(matrix, distortion)
+        lens = pack_lens(matrix, distortion)
         for one in (matrix, distortion, lens):
             one.setflags(write=False)
         object.__setattr__(self, "matrix", matrix)
@@ -58,9 +58,9 @@ class CameraModel:
         object.__setattr__(self, "lens", lens)
 
     def __reduce__(self) -> tuple[object, ...]:
-        """Made anew in another process, where its arrays have to be read-only too.
+        """Pickle so that the arrays are read-only in another process too.
 
-        For arrays that may be written the compiled loops would be compiled once more, while tracking.
+        For writable arrays the kernels would be compiled once more, during tracking.
         """
         return _made, (self.matrix, self.distortion, self.size_wh_px)
 
@@ -95,10 +95,10 @@ class CameraModel:
         return self.size_wh_px[0] * size_wh_px[1] == self.size_wh_px[1] * size_wh_px[0]
 
     def scaled_to(self, size_wh_px: tuple[int, int]) -> "CameraModel":
-        """The same camera with images of another size that show the same area of its sensor.
+        """Return the camera model for images of another size that show the same area of the sensor.
 
-        Exact for pixels that are joined or split evenly: their edges coincide, so centres (integers here)
-        move by half a pixel's difference. The lens stays: its coefficients are of normalised coordinates.
+        Exact for pixels that are binned or split evenly: their edges coincide, so centres (integers here)
+        move by half a pixel's difference. The distortion is unchanged: it applies to normalised coordinates.
 
         Raises:
             InvalidInput: CAMERA_ASPECT_DIFFERS, width and height would be scaled differently.
@@ -119,13 +119,13 @@ class CameraModel:
         return CameraModel(matrix=matrix, distortion=self.distortion, size_wh_px=size_wh_px)
 
     def px_from_camera(self, points_mm: npt.ArrayLike) -> Array:
-        """Pixels (n, 2) of points (n, 3) in mm of the camera frame; points must be in front (z > 0)."""
+        """Project points (n, 3) in mm of the camera frame, z > 0, to pixels (n, 2)."""
         points = np.asarray(points_mm, dtype=np.float64).reshape(-1, 1, 3)
         px, _ = cv2.projectPoints(points, np.zeros(3), np.zeros(3), self.matrix, self.distortion)
         return np.asarray(px, dtype=np.float64).reshape(-1, 2)
 
     def normalised_from_px(self, px: npt.ArrayLike) -> Array:
-        """Directions (n, 2) as x/z, y/z, with the lens taken out, of pixels (n, 2)."""
+        """Return undistorted normalised coordinates x/z, y/z (n, 2) of pixels (n, 2)."""
         points = np.asarray(px, dtype=np.float64).reshape(-1, 1, 2)
         out = cv2.undistortPoints(points, self.matrix, self.distortion, criteria=UNDISTORT_CRITERIA)
         return np.asarray(out, dtype=np.float64).reshape(-1, 2)
@@ -136,7 +136,7 @@ def _made(matrix: Array, distortion: Array, size_wh_px: tuple[int, int]) -> Came
 
 
 def _problem(matrix: Array, distortion: Array, width: int, height: int) -> str:
-    """What is wrong with these numbers, or an empty string."""
+    """Return what is invalid, or an empty string."""
     if matrix.shape != (3, 3):
         return f"its matrix has shape {matrix.shape}, needed (3, 3)"
     if distortion.size not in DISTORTION_LENGTHS:

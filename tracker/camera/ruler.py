@@ -1,7 +1,7 @@
-"""The paper's ruler: millimetres from pixels by two measured distances to the camera (2.2, equations 1 to 5).
+"""Scale from two measured distances to the camera: millimetres from pixels (paper, 2.2, equations 1 to 5).
 
-It holds for short displacements across the line of sight, near the image's middle, with square pixels and no
-lens distortion. A calibrated camera needs none of that; the ruler is there to check one by hand.
+Valid for short displacements perpendicular to the line of sight, near the image centre, with square pixels
+and no lens distortion. Used to check a calibrated camera by hand.
 """
 
 import math

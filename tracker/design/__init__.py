@@ -1,37 +1,37 @@
-"""Design of a marker that its background cannot imitate, and any marker measured by the same figures."""
+"""Design of a marker that is unique against its background, and assessment of any marker."""
 
-from tracker.design.background import Advance, Background, CameraOf, Claim, Searched
-from tracker.design.design import SEARCHED, Design, best_design
-from tracker.design.false_score import FalseScore, ImitatingPlace
-from tracker.design.judgement import Judgement, judgement_of
-from tracker.design.places import Places, flattened, joined, places_in
+from tracker.design.assessment import MarkerAssessment, assess_marker
+from tracker.design.background import Advance, Background, CameraOf, Claim, SearchResult
+from tracker.design.design import MAX_SEARCHED, Design, best_design
+from tracker.design.false_score import Distractor, FalseScore
+from tracker.design.places import Places, concatenated, places_in, rectified
 from tracker.design.precision import Precision, precision_of
 from tracker.design.proposals import proposed_shapes
-from tracker.design.rules import keeps_the_rules
-from tracker.design.shape import Patch, Shape, picture_of
+from tracker.design.rules import satisfies_rules
+from tracker.design.shape import Patch, Shape, rendered_face
 
 __all__ = [
-    "SEARCHED",
+    "MAX_SEARCHED",
     "Advance",
     "Background",
     "CameraOf",
     "Claim",
     "Design",
+    "Distractor",
     "FalseScore",
-    "ImitatingPlace",
-    "Judgement",
+    "MarkerAssessment",
     "Patch",
     "Places",
     "Precision",
-    "Searched",
+    "SearchResult",
     "Shape",
+    "assess_marker",
     "best_design",
-    "flattened",
-    "joined",
-    "judgement_of",
-    "keeps_the_rules",
-    "picture_of",
+    "concatenated",
     "places_in",
     "precision_of",
     "proposed_shapes",
+    "rectified",
+    "rendered_face",
+    "satisfies_rules",
 ]

@@ -1,4 +1,4 @@
-"""The images of a background, and what the tracker itself says of a marker in them."""
+"""Background images, and the tracker's own detections of a marker in them."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -18,12 +18,12 @@ Advance: TypeAlias = Callable[[], None]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Background:
-    """What a marker must not be mistaken in.
+    """Images in which a marker must not be detected.
 
     Attributes:
-        images: grey (h, w), of any sizes.
-        places: the squares in them, by the images' indexes.
-        camera_of: a camera for a size of image: the tracker needs one to search.
+        images: grey (h, w), of any size.
+        places: their square candidates, by image index.
+        camera_of: returns a camera for an image size; the tracker needs one to search.
     """
 
     images: tuple[GreyImage, ...]
@@ -33,7 +33,7 @@ class Background:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Claim:
-    """A marker that the tracker claims in an image of the background.
+    """A detection of the marker in a background image: a false positive.
 
     Attributes:
         image_index: of the image.
@@ -47,22 +47,22 @@ class Claim:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Searched:
-    """What `Tracker.search` said of one marker in all images.
+class SearchResult:
+    """Result of `Tracker.search` for one marker over all background images.
 
     Attributes:
-        best_score_ratio: the best score that anything reached, 0 where nothing was scored.
-        claims: where it claims the marker, the best score first.
+        best_score_ratio: the maximum score of any candidate, 0 without one.
+        claims: false detections, best score first.
     """
 
     best_score_ratio: float
     claims: tuple[Claim, ...]
 
 
-def searched(
+def search_background(
     models: Sequence[MarkerModel], background: Background, settings: ScoreSettings, *, advance: Advance
-) -> dict[str, Searched]:
-    """The tracker's own search for each marker in each image; `advance` is called after each image."""
+) -> dict[str, SearchResult]:
+    """Search each image for each marker with the tracker itself; call `advance` after each image."""
     best = dict.fromkeys((model.name for model in models), 0.0)
     claims: dict[str, list[Claim]] = {model.name: [] for model in models}
     trackers: dict[tuple[int, int], list[Tracker]] = {}
@@ -70,7 +70,7 @@ def searched(
         size = (image.shape[1], image.shape[0])
         if size not in trackers:
             camera = background.camera_of(size)
-            # One each: several in one tracker would take places from each other.
+            # One tracker per model: in a common tracker, models compete for candidates.
             trackers[size] = [Tracker(camera=camera, models=[model], settings=settings) for model in models]
         for tracker in trackers[size]:
             for name, sighting in tracker.search(image).items():
@@ -84,7 +84,7 @@ def searched(
                     best[name] = max(best[name], sighting.best_score_ratio or 0.0)
         advance()
     return {
-        name: Searched(
+        name: SearchResult(
             best_score_ratio=best[name],
             claims=tuple(sorted(claims[name], key=lambda claim: claim.score_ratio, reverse=True)),
         )

@@ -1,8 +1,8 @@
-"""The best of many proposed shapes, in three sieves: likeness, then score and precision, then the tracker.
+"""Selection among proposed shapes: first by correlation, then by score and precision, then by tracker search.
 
-Most of many random shapes are discarded. Correlation with all squares of a background is one matrix product
-for hundreds of shapes; the tracker itself judges only the last twelve, so that the printed figure is the
-tracker's own. The result is no optimum: shapes are polygons, and the seed decides.
+Correlation with all squares of a background is one matrix product for hundreds of shapes; the tracker itself
+searches only for the last twelve, so that the reported score is the tracker's own. The result is the best of
+the proposals, not an optimum: it depends on the seed.
 """
 
 from collections.abc import Sequence
@@ -10,30 +10,30 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tracker.design.background import Advance, Background, searched
-from tracker.design.correlation import background_correlation, own_correlation, turned_rows
-from tracker.design.judgement import Judgement, without_search
-from tracker.design.places import joined
-from tracker.design.shape import Shape, picture_of
+from tracker.design.assessment import MarkerAssessment, assess_without_search
+from tracker.design.background import Advance, Background, search_background
+from tracker.design.correlation import background_correlation, own_correlation, rotated_rows
+from tracker.design.places import concatenated
+from tracker.design.shape import Shape, rendered_face
 from tracker.marker import MarkerModel, ScoreSettings
 
-GLANCE_PX, MODEL_PX = 100, 800
-SCORED, SEARCHED = 40, 12
+COARSE_PX, MODEL_PX = 100, 800
+MAX_SCORED, MAX_SEARCHED = 40, 12
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Design:
-    """A proposed marker.
+    """A proposed marker with its assessment.
 
     Attributes:
-        shape: what is printed.
-        model: the same as the tracker takes it.
-        judgement: its figures.
+        shape: the printed face.
+        model: the tracker's model of it.
+        assessment: its figures.
     """
 
     shape: Shape
     model: MarkerModel
-    judgement: Judgement
+    assessment: MarkerAssessment
 
 
 def best_design(
@@ -45,44 +45,43 @@ def best_design(
     name: str,
     advance: Advance,
 ) -> Design:
-    """The shape that nothing imitates, of those whose edges tell the pose best.
+    """Return the unique shape whose edges determine the pose best and whose false score is lowest.
 
-    By likeness 40 are kept, of these the ones that nothing reaches, of those the half that tells its pose
-    better, and by score twelve at most, which the tracker searches for in every image. `advance` is called
-    after each image of the background.
+    Selects 40 by correlation, of these the unique ones, of those the more precise half, and by score at most
+    12, which the tracker searches for in every image. `advance` is called after each background image.
     """
     scored = [
         _scored(shape, background, settings, side_mm=side_mm, name=name)
-        for shape in _min_alike(shapes, background)
+        for shape in _least_correlated(shapes, background)
     ]
-    unique = [one for one in scored if one.judgement.unique] or scored
-    precise = sorted(unique, key=lambda one: one.judgement.precision.tilt_sd_deg)[: -(-len(unique) // 2)]
-    finalists = sorted(precise, key=_merit)[:SEARCHED]
+    unique = [one for one in scored if one.assessment.unique] or scored
+    precise = sorted(unique, key=lambda one: one.assessment.precision.tilt_sd_deg)[: -(-len(unique) // 2)]
+    finalists = sorted(precise, key=_merit)[:MAX_SEARCHED]
     if background is not None:
-        found = [searched([one.model], background, settings, advance=advance) for one in finalists]
+        found = [search_background([one.model], background, settings, advance=advance) for one in finalists]
         finalists = [
-            replace(one, judgement=replace(one.judgement, search=own[name]))
+            replace(one, assessment=replace(one.assessment, search=own[name]))
             for one, own in zip(finalists, found, strict=True)
         ]
     return min(finalists, key=_merit)
 
 
-def _min_alike(shapes: Sequence[Shape], background: Background | None) -> list[Shape]:
-    """Those that look least like themselves turned or mirrored, and like the background."""
-    squares = [picture_of(shape, GLANCE_PX) for shape in shapes]
-    places = joined([]) if background is None else background.places
-    theirs = background_correlation(np.stack([turned_rows(square) for square in squares]), places)
+def _least_correlated(shapes: Sequence[Shape], background: Background | None) -> list[Shape]:
+    """Return the shapes with the lowest correlation to their rotations, mirror image and background."""
+    squares = [rendered_face(shape, COARSE_PX) for shape in shapes]
+    places = concatenated([]) if background is None else background.places
+    theirs = background_correlation(np.stack([rotated_rows(square) for square in squares]), places)
     worst = np.maximum([own_correlation(square) for square in squares], theirs)
-    return [shapes[int(k)] for k in np.argsort(worst, kind="stable")[:SCORED]]
+    return [shapes[int(k)] for k in np.argsort(worst, kind="stable")[:MAX_SCORED]]
 
 
 def _scored(
     shape: Shape, background: Background | None, settings: ScoreSettings, *, side_mm: float, name: str
 ) -> Design:
-    model = MarkerModel.from_image(picture_of(shape, MODEL_PX), side_mm=side_mm, name=name)
-    return Design(shape=shape, model=model, judgement=without_search(model, background, settings))
+    model = MarkerModel.from_image(rendered_face(shape, MODEL_PX), side_mm=side_mm, name=name)
+    return Design(shape=shape, model=model, assessment=assess_without_search(model, background, settings))
 
 
 def _merit(one: Design) -> tuple[bool, float]:
-    """Sorts what nothing imitates first, then the least false score."""
-    return not one.judgement.unique, one.judgement.best_false_score_ratio
+    """Sort key: unique markers first, then the lowest false score."""
+    return not one.assessment.unique, one.assessment.best_false_score_ratio

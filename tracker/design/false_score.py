@@ -1,4 +1,4 @@
-"""The paper's score of a marker's edges where the marker is not: over a background, or itself turned."""
+"""Score of a marker's edges where the marker is absent: in the background, or over its own rotations."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -6,31 +6,31 @@ from dataclasses import dataclass, replace
 import cv2
 import numpy as np
 
-from tracker.design.correlation import TURNS, likeliest_places, turned_rows
-from tracker.design.places import Places, flattened
+from tracker.design.correlation import QUARTER_TURNS, best_correlated_places, rotated_rows
+from tracker.design.places import Places, rectified
 from tracker.edges import GreyImage, edgels_of, gradient_of
 from tracker.geometry import Array
 from tracker.marker import Agreement, MarkerModel, ScoreSettings, model_agreement, target_coverage_ratio
 
-# The size at which turns are compared: that of a 25 mm marker at arm's length in a plain camera.
+# The size at which rotations are compared: a 25 mm marker at arm's length in an ordinary camera.
 SIDE_PX = 27
 BLUR_PX = 0.6
 # White paper around a square, in sides.
 MARGIN_RATIO = 0.25
-# Of the squares of a background, so many are scored; the others look less like the marker.
-SCORED_PLACES = 24
+# Number of background squares that are scored: those with the highest correlation.
+MAX_DISTRACTORS = 24
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FalseScore:
-    """A score where the marker is not.
+    """The score of a marker model at a place where the marker is absent.
 
     Attributes:
         score_ratio: model coverage x (1 - weight x normalised fit error), 0..1.
         inner_coverage_ratio: coverage of the edges inside the square alone, 0..1.
         target_score_ratio: share of the edges in the square that are the marker's, x the same, 0..1.
-        accepted: whether all three reach what the tracker accepts. It may still refuse what is dark for
-            bright inside; but then that test alone stands between a thing and the marker.
+        accepted: whether all three reach the acceptance thresholds. The tracker may still reject an inverted
+            polarity inside; but then that test alone prevents a false detection.
     """
 
     score_ratio: float
@@ -40,14 +40,14 @@ class FalseScore:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ImitatingPlace:
-    """A square of the background, and how far the marker's edges are there.
+class Distractor:
+    """A square of the background and the marker's false score there.
 
     Attributes:
         image_index: of the image that it is in.
         corners_px: (4, 2), top-left, top-right, bottom-right, bottom-left of the marker laid on it.
         score: its false score.
-        likeness: correlation of its inside with the marker, -1..1.
+        correlation: normalised correlation of its inside with the marker, -1..1.
     """
 
     image_index: int
@@ -59,15 +59,15 @@ class ImitatingPlace:
 def score_at(
     image: GreyImage, corners_px: Array, model: MarkerModel, settings: ScoreSettings, *, threshold: float
 ) -> FalseScore:
-    """The score of a model laid on four corners (4, 2) of an image, without any fit.
+    """Return the score of a model placed on four corners (4, 2) of an image, without a pose fit.
 
-    `threshold` is the gradient that is taken for noise, as in `tracker.edges.Gradient`.
+    `threshold` is the gradient noise threshold, as in `tracker.edges.Gradient`.
     """
     x, y = corners_px[:, 0], corners_px[:, 1]
     active = model.level_for(float(np.sqrt(0.5 * abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1))))))
     level = active.level_px
     margin = int(MARGIN_RATIO * level)
-    seen = _from_the_front(image, corners_px, level_px=level, margin_px=margin)
+    seen = _rectified_level(image, corners_px, level_px=level, margin_px=margin)
     gradient = replace(gradient_of(seen), threshold=threshold)
     scale = level / model.side_mm
     points = margin + level / 2.0 - 0.5 + active.points_mm * [scale, -scale]
@@ -98,11 +98,11 @@ def _false_score(agreement: Agreement, settings: ScoreSettings) -> FalseScore:
     )
 
 
-def _from_the_front(image: GreyImage, corners_px: Array, *, level_px: int, margin_px: int) -> GreyImage:
-    """What is inside four corners, so many pixels wide, and what is beside it; larger places are averaged."""
+def _rectified_level(image: GreyImage, corners_px: Array, *, level_px: int, margin_px: int) -> GreyImage:
+    """Return the rectified inside of four corners with a margin, area-averaged down to `level_px`."""
     side_px = float(np.linalg.norm(np.roll(corners_px, -1, axis=0) - corners_px, axis=1).max())
     finer = max(1, round(side_px / level_px))
-    fine = flattened(image, corners_px, side_px=level_px * finer, margin_px=margin_px * finer)
+    fine = rectified(image, corners_px, side_px=level_px * finer, margin_px=margin_px * finer)
     whole = level_px + 2 * margin_px
     return np.asarray(cv2.resize(fine, (whole, whole), interpolation=cv2.INTER_AREA), dtype=np.uint8)
 
@@ -114,33 +114,37 @@ def _square_px(margin_px: int, side_px: int) -> Array:
 
 
 def own_false_scores(model: MarkerModel, settings: ScoreSettings) -> tuple[FalseScore, FalseScore]:
-    """The best score over the marker's own quarter turns, and over its mirror image at all turns."""
-    turned = [_over(np.rot90(model.square, turn), model, settings) for turn in range(1, TURNS)]
-    mirrored = [_over(np.rot90(model.square[:, ::-1], turn), model, settings) for turn in range(TURNS)]
-    return _best(turned), _best(mirrored)
+    """Return the best scores over the marker's own quarter turns and over its mirror image."""
+    rotated = [_score_over(np.rot90(model.square, turn), model, settings) for turn in range(1, QUARTER_TURNS)]
+    mirrored = [
+        _score_over(np.rot90(model.square[:, ::-1], turn), model, settings) for turn in range(QUARTER_TURNS)
+    ]
+    return _best(rotated), _best(mirrored)
 
 
-def imitating_places(
+def distractors_of(
     images: Sequence[GreyImage], places: Places, model: MarkerModel, settings: ScoreSettings
-) -> list[ImitatingPlace]:
-    """The places of a background that look most like the marker, the best score first."""
+) -> list[Distractor]:
+    """Return the background squares with the highest correlation to the marker, best score first."""
     found = []
-    for index, turn, correlation in likeliest_places(turned_rows(model.square), places, count=SCORED_PLACES):
+    for index, turn, correlation in best_correlated_places(
+        rotated_rows(model.square), places, count=MAX_DISTRACTORS
+    ):
         image_index = int(places.image_index[index])
         corners = np.roll(places.corners_px[index], turn, axis=0)
         image = images[image_index]
         score = score_at(image, corners, model, settings, threshold=gradient_of(image).threshold)
         found.append(
-            ImitatingPlace(image_index=image_index, corners_px=corners, score=score, correlation=correlation)
+            Distractor(image_index=image_index, corners_px=corners, score=score, correlation=correlation)
         )
     return sorted(found, key=_rank, reverse=True)
 
 
-def _rank(place: ImitatingPlace) -> tuple[bool, float]:
+def _rank(place: Distractor) -> tuple[bool, float]:
     return place.score.accepted, place.score.score_ratio
 
 
-def _over(square: GreyImage, model: MarkerModel, settings: ScoreSettings) -> FalseScore:
+def _score_over(square: GreyImage, model: MarkerModel, settings: ScoreSettings) -> FalseScore:
     """The score of a model over a printed square (n, n) that is `SIDE_PX` wide in the image."""
     paper = int(np.percentile(model.square, 98))
     margin = SIDE_PX // 2

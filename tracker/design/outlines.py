@@ -1,7 +1,6 @@
-"""The outlines of an image that could be a square's: what any finder of square markers has to look at.
+"""Square candidates in an image: every quadrilateral outline that a square-marker detector has to test.
 
-All of them, likely or not. The tracker's own search stops as soon as it has found its marker; here it is
-enough to miss nothing that looks like a square.
+High recall is all that matters here. The tracker's own search stops as soon as it has found its marker.
 """
 
 import cv2
@@ -9,7 +8,7 @@ import numpy as np
 
 from tracker.edges import GreyImage, chains_of, edgels_of, gradient_of, joined_segments, segments_of
 from tracker.geometry import Array
-from tracker.outlines import Quads, corner_quads_of
+from tracker.quads import Quads, corner_quads_of
 
 # A third of the side of the smallest marker that is found.
 MIN_PIECE_PX = 4.0
@@ -17,9 +16,9 @@ MIN_STEP_GREY = 5.0
 
 
 def outlines_of(image: GreyImage) -> Array:
-    """Outlines (n, 4, 2) in px, corners clockwise on the screen, of a grey image (h, w).
+    """Return quadrilaterals (n, 4, 2) in px, corners clockwise on the screen, of a grey image (h, w).
 
-    Also at half the size, where an edge that is blurred over four pixels is a clear one.
+    Also runs at half resolution, where an edge that is blurred over four pixels is sharp.
     """
     half = np.asarray(cv2.resize(image, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA), dtype=np.uint8)
     coarse = _outlines(half).astype(np.float64) * 2.0 + 0.5

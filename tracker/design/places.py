@@ -1,4 +1,4 @@
-"""The squares of a background: every outline in it that could be a marker's, and squares taken at random."""
+"""Square candidates of a background: every quadrilateral outline in it, and squares sampled at random."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,21 +11,21 @@ from tracker.design.outlines import outlines_of
 from tracker.edges import GreyImage
 from tracker.geometry import Array
 
-# Cells a side in which squares are compared: finer than a marker's parts (an eighth of the side).
-CELLS = 20
-FINER = 2
-# Beside what is outlined, so many squares of an image anywhere in it, at any size and turn.
+# Grid cells per side for the correlation: finer than a marker's parts (an eighth of the side).
+GRID_CELLS = 20
+SUPERSAMPLING = 2
+# Number of random squares of an image, of any position, size and rotation, beside its outlines.
 RANDOM_SQUARES = 300
-SMALLEST_SIDE_PX, LARGEST_SIDE_RATIO = 20.0, 0.6
-# An outline with less contrast inside (sd, grey levels) is a flat patch, and correlates with anything.
-MIN_SPREAD_GREY = 4.0
+MIN_SIDE_PX, MAX_SIDE_RATIO = 20.0, 0.6
+# Below this contrast (sd, grey levels) a square is flat, and its correlation is noise.
+MIN_CONTRAST_GREY = 4.0
 
 Cells32 = npt.NDArray[np.float32]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Places:
-    """Squares of a background, as pictures that can be compared.
+    """Squares of a background, sampled on a common grid for correlation.
 
     Attributes:
         image_index: (n,), of the image that each is in.
@@ -38,37 +38,39 @@ class Places:
     cells: Cells32
 
     def __len__(self) -> int:
-        """How many."""
+        """Return the number of squares."""
         return len(self.image_index)
 
 
 def places_in(image: GreyImage, *, image_index: int) -> Places:
-    """The squares of a grey image (h, w): those with an outline, and some anywhere."""
-    corners = np.concatenate([outlines_of(image), _anywhere(image, image_index)])
-    kept, cells = [], []
+    """Return the square candidates of a grey image (h, w): its outlines and random squares."""
+    corners = np.concatenate([outlines_of(image), _random_squares(image, image_index)])
+    squares, cells = [], []
     for one in corners:
-        inside = flattened(image, one, side_px=CELLS * FINER)
-        row = unit_row(cv2.resize(inside, (CELLS, CELLS), interpolation=cv2.INTER_AREA))
+        inside = rectified(image, one, side_px=GRID_CELLS * SUPERSAMPLING)
+        row = normalised_row(cv2.resize(inside, (GRID_CELLS, GRID_CELLS), interpolation=cv2.INTER_AREA))
         if row is not None:
-            kept.append(one)
+            squares.append(one)
             cells.append(row)
     return Places(
-        image_index=np.full(len(kept), image_index, np.int64),
-        corners_px=np.array(kept, dtype=np.float64).reshape(-1, 4, 2),
-        cells=np.array(cells, dtype=np.float32).reshape(-1, CELLS * CELLS),
+        image_index=np.full(len(squares), image_index, np.int64),
+        corners_px=np.array(squares, dtype=np.float64).reshape(-1, 4, 2),
+        cells=np.array(cells, dtype=np.float32).reshape(-1, GRID_CELLS * GRID_CELLS),
     )
 
 
-def joined(parts: Sequence[Places]) -> Places:
+def concatenated(parts: Sequence[Places]) -> Places:
     """The squares of several images."""
     return Places(
         image_index=np.concatenate([np.empty(0, np.int64), *(part.image_index for part in parts)]),
         corners_px=np.concatenate([np.empty((0, 4, 2)), *(part.corners_px for part in parts)]),
-        cells=np.concatenate([np.empty((0, CELLS * CELLS), np.float32), *(part.cells for part in parts)]),
+        cells=np.concatenate(
+            [np.empty((0, GRID_CELLS * GRID_CELLS), np.float32), *(part.cells for part in parts)]
+        ),
     )
 
 
-def flattened(image: GreyImage, corners_px: Array, *, side_px: int, margin_px: int = 0) -> GreyImage:
+def rectified(image: GreyImage, corners_px: Array, *, side_px: int, margin_px: int = 0) -> GreyImage:
     """What lies inside four corners (4, 2), as a square picture seen from the front, with a margin."""
     low, high = margin_px - 0.5, margin_px + side_px - 0.5
     square = np.array([[low, low], [high, low], [high, high], [low, high]], dtype=np.float32)
@@ -79,20 +81,20 @@ def flattened(image: GreyImage, corners_px: Array, *, side_px: int, margin_px: i
     return np.asarray(flat, dtype=np.uint8)
 
 
-def unit_row(square: npt.NDArray[np.generic]) -> Cells32 | None:
-    """A picture (n, n) as numbers (n * n,) with mean 0 and length 1; None where it is flat."""
+def normalised_row(square: npt.NDArray[np.generic]) -> Cells32 | None:
+    """Return a picture (n, n) as a row (n * n,) with mean 0 and norm 1; None if it is flat."""
     row = square.astype(np.float32).ravel()
     row = row - row.mean()
     length = float(np.linalg.norm(row))
-    return None if length < MIN_SPREAD_GREY * np.sqrt(row.size) else np.asarray(row / length)
+    return None if length < MIN_CONTRAST_GREY * np.sqrt(row.size) else np.asarray(row / length)
 
 
-def _anywhere(image: GreyImage, image_index: int) -> Array:
-    """Squares (n, 4, 2) of an image, at random and always the same."""
+def _random_squares(image: GreyImage, image_index: int) -> Array:
+    """Return random squares (n, 4, 2) of an image; the seed is the image index."""
     random = np.random.default_rng([image_index, 97])
     height, width = image.shape
-    largest = max(LARGEST_SIDE_RATIO * min(height, width), SMALLEST_SIDE_PX + 1.0)
-    side = np.exp(random.uniform(np.log(SMALLEST_SIDE_PX), np.log(largest), RANDOM_SQUARES))
+    largest = max(MAX_SIDE_RATIO * min(height, width), MIN_SIDE_PX + 1.0)
+    side = np.exp(random.uniform(np.log(MIN_SIDE_PX), np.log(largest), RANDOM_SQUARES))
     turn = random.uniform(0.0, 2.0 * np.pi, RANDOM_SQUARES)
     centre = random.uniform(0.0, 1.0, (RANDOM_SQUARES, 2)) * [width, height]
     angles = turn[:, None] + np.radians([225.0, 315.0, 45.0, 135.0])

@@ -1,4 +1,4 @@
-"""How well a marker's edges determine its pose: Fisher's information, against that of the plain square."""
+"""Cramer-Rao bound of a marker's pose from its edges (Fisher information), compared with a plain square."""
 
 from dataclasses import dataclass
 
@@ -13,14 +13,14 @@ SIDE_PX, DISTANCE_SIDES, TILT_DEG, DIRECTIONS = 27.0, 20.0, 30.0, 12
 # Of an edge's place, for a pixel of its length: noise of 4 grey levels, contrast of 160, blur of 1 px:
 # sd = noise / contrast * sqrt(2 * sqrt(pi) * blur).
 EDGE_SD_PX = 4.0 / 160.0 * float(np.sqrt(2.0 * np.sqrt(np.pi)))
-# A camera's response and ink move all edges towards bright or dark alike, by this much.
+# The camera response and ink spread shift all edges towards bright or dark by the same amount (sd).
 SHIFT_SD_PX = 0.25
 STEP = 1e-6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Precision:
-    """The least standard deviations that any method can reach, for a marker 27 px wide, tilted by 30 degrees.
+    """Minimum standard deviations of any unbiased estimator, for a marker 27 px wide, tilted by 30 degrees.
 
     Attributes:
         tilt_sd_deg: of the direction of the marker's normal.
@@ -36,17 +36,17 @@ class Precision:
 
     @property
     def tilt_gain(self) -> float:
-        """How many times surer the tilt is than a plain square's."""
+        """Return the ratio of the plain square's tilt sd to this marker's."""
         return self.plain_tilt_sd_deg / self.tilt_sd_deg
 
     @property
     def distance_gain(self) -> float:
-        """How many times surer the distance is than a plain square's."""
+        """Return the ratio of the plain square's distance sd to this marker's."""
         return self.plain_distance_sd_ratio / self.distance_sd_ratio
 
 
 def precision_of(model: MarkerModel) -> Precision:
-    """What the active edges of a model say of its pose, on average over the directions of the tilt."""
+    """Return the pose precision from a model's active edges, averaged over the directions of the tilt."""
     active = model.level_for(SIDE_PX)
     tilt, distance = _min_sd(active, np.ones(len(active.points_mm), np.bool_), model.side_mm)
     plain_tilt, plain_distance = _min_sd(active, ~active.inner, model.side_mm)
@@ -59,7 +59,7 @@ def precision_of(model: MarkerModel) -> Precision:
 
 
 def _min_sd(active: ActiveEdges, chosen: npt.NDArray[np.bool_], side_mm: float) -> tuple[float, float]:
-    """Root mean square over the directions: sd of the normal in degrees, and of the distance by itself."""
+    """Return the RMS over all directions of the sd of the normal (deg) and of the relative distance."""
     points = np.column_stack([active.points_mm[chosen], np.zeros(int(chosen.sum()))]) / side_mm
     normals = np.column_stack([active.normals[chosen], np.zeros(int(chosen.sum()))])
     length_px = active.length_mm[chosen] / side_mm * SIDE_PX
@@ -69,7 +69,7 @@ def _min_sd(active: ActiveEdges, chosen: npt.NDArray[np.bool_], side_mm: float) 
         axis = np.array([np.cos(about), np.sin(about), 0.0])
         rotation = rotation_from_vector(axis * np.radians(TILT_DEG)) @ np.diag([1.0, -1.0, -1.0])
         covariance = _covariance(points, normals, weight, rotation)
-        # Turning about its own normal does not tilt the marker.
+        # Rotation about the normal does not tilt the marker.
         across = np.eye(3) - np.outer(rotation[:, 2], rotation[:, 2])
         tilts.append(float(np.trace(across @ covariance[3:6, 3:6] @ across)))
         distances.append(float(covariance[2, 2]))
@@ -77,7 +77,7 @@ def _min_sd(active: ActiveEdges, chosen: npt.NDArray[np.bool_], side_mm: float) 
 
 
 def _covariance(points: Array, normals: Array, weight: Array, rotation: Array) -> Array:
-    """Covariance (7, 7) of translation (sides), rotation (rad) and the shift common to all edges (px)."""
+    """Return the covariance (7, 7) of translation (sides), rotation (rad) and common edge shift (px)."""
     there = np.array([0.0, 0.0, DISTANCE_SIDES])
     focal = SIDE_PX * DISTANCE_SIDES
 
@@ -86,18 +86,18 @@ def _covariance(points: Array, normals: Array, weight: Array, rotation: Array) -
         return np.asarray(focal * seen[:, :2] / seen[:, 2:])
 
     directions = projected(points + STEP * normals) - projected(points)
-    # Along the edge, not its normal in the plane, is what perspective keeps: the normal stands across it.
+    # Perspective preserves the direction along the edge, not its normal in the plane: project the tangent.
     along = projected(points + STEP * normals[:, [1, 0, 2]] * [-1.0, 1.0, 0.0]) - projected(points)
     across = np.column_stack([-along[:, 1], along[:, 0]])
     across *= np.sign((across * directions).sum(axis=1, keepdims=True))
     across /= np.linalg.norm(across, axis=1, keepdims=True)
-    turned = points @ rotation.T
-    seen = turned + there
+    rotated = points @ rotation.T
+    seen = rotated + there
     depth = seen[:, 2:]
     columns = [
         np.column_stack([across * focal / depth, -(across * seen[:, :2]).sum(1) * focal / depth[:, 0] ** 2])
     ]
-    columns.append(np.cross(turned, columns[0]))
+    columns.append(np.cross(rotated, columns[0]))
     jacobian = np.column_stack([*columns, np.ones(len(points))])
     information = jacobian.T @ (jacobian * weight[:, None])
     information[6, 6] += 1.0 / SHIFT_SD_PX**2

@@ -1,14 +1,14 @@
-"""Shapes drawn at random that keep the rules: the same seed always gives the same ones."""
+"""Random generation of marker shapes that satisfy the design rules; reproducible by seed."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
-from tracker.design.rules import keeps_the_rules
-from tracker.design.shape import Patch, Shape, outlined, painted
+from tracker.design.rules import satisfies_rules
+from tracker.design.shape import Patch, Shape, rasterised, vectorised
 from tracker.geometry import Array
 
-# In sides. The border is an eighth at least, so that the outline and the inside stay two edges.
+# In sides. The border is at least an eighth, so that outline and inside remain two separate edges.
 BORDERS = (0.13, 0.17)
 BODY_RADII, BODY_CORNERS = (0.22, 0.60), (3, 7)
 HOLE_RADII, HOLE_CORNERS = (0.11, 0.28), (3, 6)
@@ -19,16 +19,16 @@ GRID = 100
 
 
 def proposed_shapes(seed: int) -> Iterator[Shape]:
-    """White bodies with black holes, and sometimes a white island beside them, without end.
+    """Yield white polygons with black holes, some with a second white polygon, without end.
 
-    The edge of a body is dark outside, that of a hole dark inside, and the outline of the square is dark
-    inside too: what moves bright against dark (a camera's response, ink) moves them apart, and what scales
-    the marker moves them alike.
+    The edge of a body is dark outside, that of a hole and that of the square dark inside. A shift of bright
+    against dark (camera response, ink spread) therefore moves them in opposite directions, a change of scale
+    in the same one: both polarities separate distance from blooming.
     """
     random = np.random.default_rng([seed, 311])
     while True:
-        shape = outlined(painted(_shape(random), GRID))
-        if keeps_the_rules(shape):
+        shape = vectorised(rasterised(_shape(random), GRID))
+        if satisfies_rules(shape):
             yield shape
 
 
@@ -50,7 +50,7 @@ def _shape(random: np.random.Generator) -> Shape:
 def _polygon(
     random: np.random.Generator, centre: Array, radii: tuple[float, float], corners: int, border: float
 ) -> Array:
-    """Corners (n, 2) around a centre, at angles about evenly apart, inside the border."""
+    """Return corners (n, 2) around a centre, at roughly even angles, clipped to the border."""
     step = 2.0 * np.pi / corners
     angles = random.uniform(0.0, 2.0 * np.pi) + step * (
         np.arange(corners) + random.uniform(-0.35, 0.35, corners)

@@ -1,32 +1,33 @@
-"""What a shape must keep to, so that it survives being 25 pixels wide and blurred."""
+"""Design rules that keep a shape recognisable when it is 25 px wide and blurred."""
 
 import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tracker.design.shape import Shape, painted
+from tracker.design.shape import Shape, rasterised
 
-# At 25 px in the image, an eighth of the side is 3 px: thinner parts take each other's contrast away.
+# At 25 px in the image, an eighth of the side is 3 px: blur removes the contrast of thinner parts.
 MIN_PART_RATIO = 1 / 8
 RASTER_PX = 96
 PAPER_PX = 16
-# What a disc leaves of a corner of 60 degrees, in squares of its radius. More is a spike, or a thin part.
+# Area that an opening with a disc removes from a corner of 60 degrees, in squares of its radius. More is a
+# spike or a thin part.
 MAX_CORNER_REST = 0.85
-# A shorter edge of the outline of a part is a notch or a step that blur takes away.
+# Blur removes a shorter edge: a notch or a step.
 MIN_EDGE_RATIO = 0.11
-# Light and dark must both be there: a sliver of either is a marker with one edge.
+# White share of the face. A marker with little of either colour has too few edges.
 WHITE_SHARE = (0.2, 0.55)
-# Shares of the inner edges in four sectors of direction (45 degrees each) are 0.25 where they are even. A
-# direction without edges is one along which motion blurs everything.
+# Shares of the inner edges in four sectors of direction (45 degrees each); 0.25 for a uniform distribution.
+# Motion blur along a direction leaves only the edges along it: each direction needs some.
 SECTORS = 4
 MIN_SECTOR_SHARE = 0.12
 
 
-def keeps_the_rules(shape: Shape) -> bool:
-    """Whether every part is thick enough, white and black are both there, and edges run in all directions."""
+def satisfies_rules(shape: Shape) -> bool:
+    """Return whether all parts are thick enough, black and white balanced and edge directions spread."""
     if not has_long_edges(shape) or min(sector_shares(shape)) < MIN_SECTOR_SHARE:
         return False
-    image = painted(shape, RASTER_PX)
+    image = rasterised(shape, RASTER_PX)
     if not WHITE_SHARE[0] <= float((image > 0).mean()) <= WHITE_SHARE[1]:
         return False
     paper = cv2.copyMakeBorder(image, *(PAPER_PX,) * 4, cv2.BORDER_CONSTANT, value=(255,))
@@ -34,7 +35,7 @@ def keeps_the_rules(shape: Shape) -> bool:
 
 
 def has_long_edges(shape: Shape) -> bool:
-    """Whether each edge of what is painted is long enough to be seen."""
+    """Return whether every polygon edge is at least `MIN_EDGE_RATIO` long."""
     for patch in shape.patches:
         edges = np.linalg.norm(np.roll(patch.corners, -1, axis=0) - patch.corners, axis=1)
         if len(edges) < 3 or float(edges.min()) < MIN_EDGE_RATIO:
@@ -43,10 +44,10 @@ def has_long_edges(shape: Shape) -> bool:
 
 
 def is_thick(mask: npt.NDArray[np.bool_]) -> bool:
-    """Whether a disc of the least thickness reaches all of a mask (96 px a side) but its corners."""
+    """Return whether an opening with a disc of the minimum thickness keeps all of a mask but its corners."""
     width = round(MIN_PART_RATIO * RASTER_PX)
     disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (width + 1, width + 1))
-    # Padded, because what lies beyond the picture must not help.
+    # Padded with background: the picture border must not count as thickness.
     whole = np.pad(mask.astype(np.uint8), width)
     rest = whole & ~np.asarray(cv2.morphologyEx(whole, cv2.MORPH_OPEN, disc), np.uint8)
     count, _, stats, _ = cv2.connectedComponentsWithStats(rest, connectivity=4)
@@ -55,7 +56,7 @@ def is_thick(mask: npt.NDArray[np.bool_]) -> bool:
 
 
 def sector_shares(shape: Shape) -> list[float]:
-    """Share of the length of the inner edges by direction: around 0, 45, 90 and 135 degrees."""
+    """Return the share of inner edge length by direction: around 0, 45, 90 and 135 degrees."""
     steps = np.concatenate(
         [np.roll(patch.corners, -1, axis=0) - patch.corners for patch in shape.patches]
     ).reshape(-1, 2)

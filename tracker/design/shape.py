@@ -1,4 +1,4 @@
-"""A marker as what is printed: polygons painted one over the other on a black square."""
+"""A printed marker as polygons, painted one over the other on a black square."""
 
 from dataclasses import dataclass
 
@@ -10,9 +10,9 @@ from tracker.edges import GreyImage
 from tracker.geometry import Array
 
 SHIFT_BITS = 6
-# Rays a side in each pixel of the picture.
-FINER = 4
-# An outline is a polygon up to this part of the side; smaller areas are specks, where two polygons crossed.
+# Subsamples per pixel and axis.
+SUPERSAMPLING = 4
+# Polygon approximation tolerance by the side; areas below the second are specks where two polygons cross.
 STRAIGHT_RATIO, MIN_AREA_RATIO = 0.015, 0.002
 
 
@@ -36,14 +36,14 @@ class Shape:
     patches: tuple[Patch, ...]
 
 
-def picture_of(shape: Shape, side_px: int) -> GreyImage:
-    """The printed face (side_px, side_px), black 0 and white 255; the black square fills it edge to edge."""
-    fine = painted(shape, side_px * FINER)
+def rendered_face(shape: Shape, side_px: int) -> GreyImage:
+    """Return the printed face (side_px, side_px), black 0 and white 255, antialiased; no white margin."""
+    fine = rasterised(shape, side_px * SUPERSAMPLING)
     return np.asarray(cv2.resize(fine, (side_px, side_px), interpolation=cv2.INTER_AREA), dtype=np.uint8)
 
 
-def painted(shape: Shape, side_px: int) -> npt.NDArray[np.uint8]:
-    """The same without soft edges: each pixel is 0 or 255."""
+def rasterised(shape: Shape, side_px: int) -> npt.NDArray[np.uint8]:
+    """Return the face (side_px, side_px) without antialiasing: each pixel is 0 or 255."""
     image = np.zeros((side_px, side_px), dtype=np.uint8)
     for patch in shape.patches:
         # The square's edge lies half a pixel outside the centre of the first pixel.
@@ -52,8 +52,8 @@ def painted(shape: Shape, side_px: int) -> npt.NDArray[np.uint8]:
     return image
 
 
-def outlined(image: npt.NDArray[np.uint8]) -> Shape:
-    """What is painted in a picture (n, n) of 0 and 255, as polygons that do not overlap, without specks."""
+def vectorised(image: npt.NDArray[np.uint8]) -> Shape:
+    """Return the polygons of a picture (n, n) of 0 and 255; they do not overlap, small specks are dropped."""
     side = image.shape[0]
     outlines, tree = cv2.findContours(image, cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE)
     patches: list[Patch] = []

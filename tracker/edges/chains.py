@@ -1,12 +1,12 @@
-"""Chains: edgels joined along their edges, and the straight pieces of them."""
+"""Chains of linked edgels, and their straight segments."""
 
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
+from tracker.edges.edge_kernels import join_collinear, link_edgels, split_straight, trace_chains
 from tracker.edges.edgels import Edgels, Float32, Int32
-from tracker.edges.kernels import cut_straight, join_collinear, link, walk
 
 # Walked along a chain, the dark side is on the right hand. So the outline of a dark square is walked
 # clockwise as seen on the screen, and two outlines of opposite polarity are never joined.
@@ -24,8 +24,8 @@ class Chains:
 
     Attributes:
         order: (m,), indexes of edgels, chain after chain.
-        starts: (c + 1,), where each chain starts in `order`; the last entry is m.
-        closed: (c,), whether a chain comes back to its start.
+        starts: (c + 1,), start of each chain in `order`; the last entry is m.
+        closed: (c,), whether a chain is closed.
     """
 
     order: Int32
@@ -34,33 +34,35 @@ class Chains:
 
 
 def chains_of(edgels: Edgels) -> Chains:
-    """The chains of at least five edgels."""
-    successor, predecessor = link(edgels.nx, edgels.ny, edgels.strength, edgels.at)
-    order, starts, closed = walk(successor, predecessor, edgels.x, edgels.y, MIN_CHAIN_EDGELS)
+    """Link edgels to chains of at least five edgels."""
+    successor, predecessor = link_edgels(edgels.nx, edgels.ny, edgels.strength, edgels.at)
+    order, starts, closed = trace_chains(successor, predecessor, edgels.x, edgels.y, MIN_CHAIN_EDGELS)
     return Chains(order=order, starts=starts, closed=closed)
 
 
 def segments_of(edgels: Edgels, chains: Chains, *, min_length_px: float) -> npt.NDArray[np.float32]:
-    """Straight pieces (s, 4) of the chains: start x, y and end x, y, dark side on the right hand."""
-    off, least = np.float32(STRAIGHT_TOLERANCE_PX), np.float32(min_length_px)
-    return np.asarray(cut_straight(edgels.x, edgels.y, chains.order, chains.starts, off, least), np.float32)
+    """Return straight segments (s, 4) of the chains: start x, y and end x, y, dark side on the right."""
+    off, minimum = np.float32(STRAIGHT_TOLERANCE_PX), np.float32(min_length_px)
+    return np.asarray(
+        split_straight(edgels.x, edgels.y, chains.order, chains.starts, off, minimum), np.float32
+    )
 
 
 def straight_pieces(
     x: Float32, y: Float32, starts: Int32, *, off_px: float, min_length_px: float
 ) -> npt.NDArray[np.float32]:
-    """Straight pieces (s, 4) of lines of points x, y (n,) that start at `starts`, and several joined to one.
+    """Split polylines x, y (n,) into straight segments (s, 4), and join collinear ones.
 
-    No point is off a piece by more than `off_px`.
+    Each polyline begins at one of `starts`. No point is farther from its segment than `off_px`.
     """
     order = np.arange(len(x), dtype=np.int32)
-    pieces = cut_straight(x, y, order, starts, np.float32(off_px), np.float32(min_length_px))
+    pieces = split_straight(x, y, order, starts, np.float32(off_px), np.float32(min_length_px))
     pieces = np.asarray(pieces, dtype=np.float32)
     return np.concatenate([pieces, joined_segments(pieces)])
 
 
 def joined_segments(segments: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:
-    """The sides that a speck or a faint edge has cut in two: segments (j, 4) made of several given ones."""
+    """Join collinear segments that a speck or a faint edge separates; return the joined ones (j, 4)."""
     if len(segments) < 2:
         return np.empty((0, 4), np.float32)
     return np.asarray(

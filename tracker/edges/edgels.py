@@ -1,12 +1,12 @@
-"""Edge elements: where the gradient is greatest across an edge, placed to sub-pixel."""
+"""Edgels: local maxima of the gradient magnitude across an edge, with sub-pixel position (section 2.3)."""
 
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
+from tracker.edges.edge_kernels import find_edgels
 from tracker.edges.gradient import Gradient
-from tracker.edges.kernels import find_edgels
 
 Float32 = npt.NDArray[np.float32]
 Int32 = npt.NDArray[np.int32]
@@ -32,6 +32,6 @@ class Edgels:
 
 
 def edgels_of(gradient: Gradient) -> Edgels:
-    """All edgels over the gradient's noise threshold, in row order."""
+    """Return all edgels above the gradient's noise threshold, in row order."""
     x, y, nx, ny, strength, at = find_edgels(gradient.x, gradient.y, np.float32(gradient.threshold))
     return Edgels(x=x, y=y, nx=nx, ny=ny, strength=strength, at=at)

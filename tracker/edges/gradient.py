@@ -1,4 +1,4 @@
-"""The gradient of an image (the paper's equations 6 and 7) and the noise in it."""
+"""Image gradient (the paper's equations 6 and 7) and its noise threshold."""
 
 from dataclasses import dataclass
 from math import isnan
@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tracker.edges.kernels import median_magnitude
+from tracker.edges.edge_kernels import median_magnitude
 
 GreyImage: TypeAlias = npt.NDArray[np.uint8]
 GradientImage: TypeAlias = npt.NDArray[np.int16]
@@ -18,8 +18,8 @@ SOBEL_GAIN = 4.0
 # The magnitude of pure noise is Rayleigh distributed: its median is 1.18 sd. Three medians let one noise
 # pixel in 500 pass, and non-maximum suppression and chaining take those out.
 NOISE_MEDIANS = 3.0
-# Contrasts under 3 grey levels cannot be told from 8-bit quantisation; a picture full of texture must not
-# raise the threshold over what a marker in dim light has.
+# Contrasts under 3 grey levels are indistinguishable from 8-bit quantisation; texture must not raise the
+# threshold above a dimly lit marker.
 MIN_THRESHOLD, MAX_THRESHOLD = 3.0 * SOBEL_GAIN, 110.0
 SAMPLE_STRIDE = 7
 
@@ -44,14 +44,14 @@ class Gradient:
 
 
 def gradient_of(image: GreyImage, *, left_px: int = 0, top_px: int = 0) -> Gradient:
-    """The gradient of a grey image (h, w), or of a window of it that starts at (left_px, top_px)."""
+    """Compute the gradient of a grey image (h, w), or of a window that starts at (left_px, top_px)."""
     x, y = cv2.spatialGradient(image)
     gx, gy = np.asarray(x, dtype=np.int16), np.asarray(y, dtype=np.int16)
     return Gradient(x=gx, y=gy, left_px=left_px, top_px=top_px, threshold=noise_threshold(gx, gy))
 
 
 def noise_threshold(x: GradientImage, y: GradientImage) -> float:
-    """The magnitude that noise of this image rarely exceeds, from the median over a sparse grid."""
+    """Return the magnitude that noise rarely exceeds, from the median over a sparse grid."""
     median = float(median_magnitude(x, y, SAMPLE_STRIDE))
     if isnan(median):
         return MIN_THRESHOLD

@@ -1,4 +1,4 @@
-"""Frames, rigid motions, angles, and covariance carried through them."""
+"""Coordinate frames, rigid transforms, angles, and covariance propagation."""
 
 from tracker.geometry.cylinder import cylinder_ring_mm, cylinder_silhouette_mm
 from tracker.geometry.frames import Anchor, Camera, Marker, Pattern, Reference, Tool, Vertebra
@@ -6,9 +6,9 @@ from tracker.geometry.rigid import (
     Rigid,
     chained_covariance,
     inverse_covariance,
-    inverse_slopes,
+    inverse_jacobian,
     point_covariance_mm2,
-    slopes_of_product,
+    product_jacobians,
 )
 from tracker.geometry.rotations import (
     Array,
@@ -35,12 +35,12 @@ __all__ = [
     "cylinder_ring_mm",
     "cylinder_silhouette_mm",
     "inverse_covariance",
-    "inverse_slopes",
+    "inverse_jacobian",
     "nearest_rotation",
     "point_covariance_mm2",
+    "product_jacobians",
     "rotation_between",
     "rotation_from_vector",
     "skew",
-    "slopes_of_product",
     "vector_from_rotation",
 ]

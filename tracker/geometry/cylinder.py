@@ -1,4 +1,4 @@
-"""What is seen of a cylinder: its rings, and the two lines where its surface turns away from the eye."""
+"""Visible contours of a cylinder: its rings and its silhouette lines."""
 
 import numpy as np
 import numpy.typing as npt
@@ -9,21 +9,21 @@ from tracker.geometry.rotations import Array
 def cylinder_ring_mm(
     centre_mm: npt.ArrayLike, axis: npt.ArrayLike, radius_mm: float, *, count: int = 49
 ) -> Array:
-    """Points (count, 3) of the ring around `centre_mm`, across the unit direction `axis`; a closed line."""
+    """Return points (count, 3) of the closed circle around `centre_mm` in the plane normal to `axis`."""
     direction = np.asarray(axis, dtype=np.float64)
     across = np.cross(direction, np.eye(3)[int(np.argmin(np.abs(direction)))])
     across /= np.linalg.norm(across)
-    turn = np.linspace(0.0, 2.0 * np.pi, count)[:, None]
-    ring = np.cos(turn) * across + np.sin(turn) * np.cross(direction, across)
+    angle = np.linspace(0.0, 2.0 * np.pi, count)[:, None]
+    ring = np.cos(angle) * across + np.sin(angle) * np.cross(direction, across)
     return np.asarray(np.asarray(centre_mm, dtype=np.float64) + radius_mm * ring, dtype=np.float64)
 
 
 def cylinder_silhouette_mm(
     start_mm: npt.ArrayLike, end_mm: npt.ArrayLike, radius_mm: float
 ) -> tuple[tuple[Array, Array], ...]:
-    """The two lines (start, end) on a cylinder where it turns away from an eye at the frame's origin.
+    """Return the two silhouette lines (start, end) of a cylinder seen from the frame's origin.
 
-    There the surface's normal n is at right angles to the line of sight: n . (start + radius n) = 0, with n
+    There the surface normal n is perpendicular to the line of sight: n . (start + radius n) = 0, with n
     across the axis. Empty when the eye is inside the cylinder (or its prolongation): no outline exists.
     """
     start, end = np.asarray(start_mm, dtype=np.float64), np.asarray(end_mm, dtype=np.float64)

@@ -1,4 +1,4 @@
-"""The frames of the theatre.
+"""The coordinate frames.
 
 | frame     | origin                         | axes                                           | unit |
 |-----------|--------------------------------|------------------------------------------------|------|
@@ -27,11 +27,11 @@ class Marker:
 
 
 class Tool:
-    """The frame of the instrument behind its marker."""
+    """The frame of the tool, with its origin at the tip."""
 
 
 class Vertebra:
-    """The frame of the plan."""
+    """The frame of the plan: CT patient coordinates, LPS."""
 
 
 class Reference:

@@ -1,4 +1,4 @@
-"""`Rigid[To, From]`: where one frame of the theatre stands in another."""
+"""Rigid transforms `Rigid[To, From]` between coordinate frames, and covariance propagation."""
 
 from dataclasses import dataclass
 from math import isfinite
@@ -8,26 +8,26 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.errors import InvalidInput
-from tracker.geometry.kernels import off_rotation
+from tracker.geometry.geometry_kernels import orthonormality_error
 from tracker.geometry.rotations import Array, rotation_from_vector, skew
 
 To = TypeVar("To")
 From = TypeVar("From")
 Other = TypeVar("Other")
 
-# A rotation read from a file with six digits is off by 1e-6; one off by a hundredth is not a rotation.
+# A rotation read from a file with six digits deviates by 1e-6; a deviation of 0.01 is no rounding.
 ORTHONORMAL_TOLERANCE = 1e-3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rigid(Generic[To, From]):
-    """Takes points from frame `From` to frame `To`: x_to = rotation @ x_from + translation_mm.
+    """Rigid transform from frame `From` to frame `To`: x_to = rotation @ x_from + translation_mm.
 
-    Named `to_from_from` in code (`camera_from_marker`); in a product equal names touch.
+    Named `<to>_from_<from>` in code (`camera_from_marker`); in a product, equal names are adjacent.
 
     Attributes:
         rotation: (3, 3), orthonormal, determinant +1.
-        translation_mm: (3,), the origin of `From` seen in `To`.
+        translation_mm: (3,), the origin of `From` in `To`.
 
     Raises:
         InvalidInput: ROTATION_INVALID, the matrix is not a rotation or a number is not finite.
@@ -39,7 +39,7 @@ class Rigid(Generic[To, From]):
     def __post_init__(self) -> None:
         rotation = np.array(self.rotation, dtype=np.float64, order="C").reshape(3, 3)
         translation = np.array(self.translation_mm, dtype=np.float64, order="C").reshape(3)
-        off, determinant = off_rotation(rotation)
+        off, determinant = orthonormality_error(rotation)
         if not all(map(isfinite, translation.tolist())) or off > ORTHONORMAL_TOLERANCE or determinant < 0.0:
             raise InvalidInput(
                 "ROTATION_INVALID",
@@ -55,18 +55,18 @@ class Rigid(Generic[To, From]):
 
     @classmethod
     def identity(cls) -> "Rigid[To, From]":
-        """Both frames are one."""
+        """Return the identity transform."""
         return cls(rotation=np.eye(3), translation_mm=np.zeros(3))
 
     @classmethod
     def from_matrix(cls, matrix: npt.ArrayLike) -> "Rigid[To, From]":
-        """From a homogeneous (4, 4) matrix."""
+        """Create from a homogeneous (4, 4) matrix."""
         m = np.asarray(matrix, dtype=np.float64).reshape(4, 4)
         return cls(rotation=m[:3, :3], translation_mm=m[:3, 3])
 
     @classmethod
     def from_vector(cls, rotation_rad: npt.ArrayLike, translation_mm: npt.ArrayLike) -> "Rigid[To, From]":
-        """From a rotation vector (3,) in radians and a translation (3,) in mm."""
+        """Create from a rotation vector (3,) in radians and a translation (3,) in mm."""
         return cls(
             rotation=rotation_from_vector(rotation_rad),
             translation_mm=np.asarray(translation_mm, dtype=np.float64),
@@ -81,34 +81,34 @@ class Rigid(Generic[To, From]):
 
     @property
     def inverse(self) -> "Rigid[From, To]":
-        """The same two frames, the other way round."""
+        """Return the inverse transform, from `To` to `From`."""
         return Rigid(rotation=self.rotation.T, translation_mm=-self.rotation.T @ self.translation_mm)
 
     def __matmul__(self, other: "Rigid[From, Other]") -> "Rigid[To, Other]":
-        """`a_from_b @ b_from_c` is `a_from_c`."""
+        """Compose transforms: `a_from_b @ b_from_c` is `a_from_c`."""
         return Rigid(
             rotation=self.rotation @ other.rotation,
             translation_mm=self.rotation @ other.translation_mm + self.translation_mm,
         )
 
     def move_points(self, points_mm: npt.ArrayLike) -> Array:
-        """Points (..., 3) in mm of frame `From`, seen in frame `To`."""
+        """Transform points (..., 3) in mm from frame `From` to frame `To`."""
         return np.asarray(points_mm, dtype=np.float64) @ self.rotation.T + self.translation_mm
 
-    def turn_directions(self, directions: npt.ArrayLike) -> Array:
-        """Directions (..., 3) of frame `From`, seen in frame `To`: turned, never shifted."""
+    def rotate_directions(self, directions: npt.ArrayLike) -> Array:
+        """Rotate directions (..., 3) from frame `From` to frame `To`, without translation."""
         return np.asarray(directions, dtype=np.float64) @ self.rotation.T
 
 
 def point_covariance_mm2(
     transform: Rigid[To, From], pose_covariance: npt.ArrayLike, point_mm: npt.ArrayLike
 ) -> Array:
-    """Covariance (3, 3) in mm^2 of a point (3,) of `From` as seen in `To`.
+    """Return the covariance (3, 3) in mm^2, in `To`, of a point (3,) fixed in `From`.
 
     `pose_covariance` is (6, 6) [mm, rad], translation first, then the rotation as a small rotation vector
-    multiplied from the left in `To`. First order: good while the angles are small (under about 5 degrees).
+    multiplied from the left in `To`. First order: valid for small angles (under about 5 degrees).
     """
-    arm = transform.turn_directions(point_mm)
+    arm = transform.rotate_directions(point_mm)
     jacobian = np.hstack([np.eye(3), -skew(arm)])
     return np.asarray(jacobian @ np.asarray(pose_covariance, dtype=np.float64) @ jacobian.T)
 
@@ -116,33 +116,33 @@ def point_covariance_mm2(
 def chained_covariance(
     first: Rigid[To, From], of_first: npt.ArrayLike, second: Rigid[From, Other], of_second: npt.ArrayLike
 ) -> Array:
-    """Covariance (6, 6) of `first @ second` from those of both, which err independently.
+    """Return the covariance (6, 6) of `first @ second` from independent covariances of both.
 
-    All three as in `point_covariance_mm2`, each in the frame that its transform leads to.
+    All three as in `point_covariance_mm2`, each in the `To` frame of its transform.
     """
-    lever, turn = slopes_of_product(first, second)
+    outer, inner = product_jacobians(first, second)
     near, far = np.asarray(of_first, dtype=np.float64), np.asarray(of_second, dtype=np.float64)
-    return np.asarray(lever @ near @ lever.T + turn @ far @ turn.T)
+    return np.asarray(outer @ near @ outer.T + inner @ far @ inner.T)
 
 
-def slopes_of_product(first: Rigid[To, From], second: Rigid[From, Other]) -> tuple[Array, Array]:
-    """How errors (6) of the first and of the second become one of their product, (6, 6) each."""
+def product_jacobians(first: Rigid[To, From], second: Rigid[From, Other]) -> tuple[Array, Array]:
+    """Return the Jacobians (6, 6) of the product by errors (6) of the first and of the second transform."""
     outer, inner = np.eye(6), np.zeros((6, 6))
-    outer[:3, 3:] = -skew(first.turn_directions(second.translation_mm))
+    outer[:3, 3:] = -skew(first.rotate_directions(second.translation_mm))
     inner[:3, :3] = inner[3:, 3:] = first.rotation
     return outer, inner
 
 
-def inverse_slopes(transform: Rigid[To, From]) -> Array:
-    """How an error (6) of `transform` becomes one of `transform.inverse`, (6, 6), in first order."""
+def inverse_jacobian(transform: Rigid[To, From]) -> Array:
+    """Return the Jacobian (6, 6) of `transform.inverse` by errors (6) of `transform`."""
     back = -transform.rotation.T
-    slopes = np.zeros((6, 6))
-    slopes[:3, :3] = slopes[3:, 3:] = back
-    slopes[:3, 3:] = back @ skew(transform.translation_mm)
-    return slopes
+    jacobian = np.zeros((6, 6))
+    jacobian[:3, :3] = jacobian[3:, 3:] = back
+    jacobian[:3, 3:] = back @ skew(transform.translation_mm)
+    return jacobian
 
 
 def inverse_covariance(transform: Rigid[To, From], covariance: npt.ArrayLike) -> Array:
-    """Covariance (6, 6) of `transform.inverse` from that of `transform`."""
-    slopes = inverse_slopes(transform)
-    return np.asarray(slopes @ np.asarray(covariance, dtype=np.float64) @ slopes.T)
+    """Return the covariance (6, 6) of `transform.inverse` from that of `transform`."""
+    jacobian = inverse_jacobian(transform)
+    return np.asarray(jacobian @ np.asarray(covariance, dtype=np.float64) @ jacobian.T)

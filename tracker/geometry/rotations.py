@@ -5,21 +5,21 @@ from math import atan2, hypot
 import numpy as np
 import numpy.typing as npt
 
-from tracker.geometry.kernels import straightened
+from tracker.geometry.geometry_kernels import orthonormalise
 
 Array = npt.NDArray[np.float64]
-# A matrix that is off by less is a rotation but for rounding.
+# Deviation from orthonormal below which it is a rounding error.
 ROUNDING = 1e-7
 
 
 def skew(vector: npt.ArrayLike) -> Array:
-    """The 3x3 matrix whose product with `a` is the cross product `vector x a`."""
+    """Return the skew-symmetric matrix (3, 3) whose product with `a` is the cross product `vector x a`."""
     x, y, z = np.asarray(vector, dtype=np.float64)
     return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
 
 
 def rotation_from_vector(vector_rad: npt.ArrayLike) -> Array:
-    """Rodrigues' formula: rotation matrix (3, 3) from a rotation vector (3,) in radians."""
+    """Return the rotation matrix (3, 3) of a rotation vector (3,) in radians, by Rodrigues' formula."""
     v = np.asarray(vector_rad, dtype=np.float64)
     angle = float(np.linalg.norm(v))
     k = skew(v)
@@ -32,9 +32,9 @@ def rotation_from_vector(vector_rad: npt.ArrayLike) -> Array:
 
 
 def vector_from_rotation(rotation: npt.ArrayLike) -> Array:
-    """Rotation vector (3,) in radians, length 0..pi, from a rotation matrix (3, 3)."""
+    """Return the rotation vector (3,) in radians, length 0..pi, of a rotation matrix (3, 3)."""
     r = np.asarray(rotation, dtype=np.float64)
-    # Plain numbers: of so few, an array's own functions take far longer, and each image asks.
+    # Python floats: NumPy is far slower on so few numbers, and this runs for each image.
     (a, b, c), (d, e, f), (g, h, i) = r.tolist()
     x, y, z = (h - f) / 2.0, (c - g) / 2.0, (d - b) / 2.0
     sine, cosine = hypot(x, y, z), (a + e + i - 1.0) / 2.0
@@ -53,7 +53,7 @@ def vector_from_rotation(rotation: npt.ArrayLike) -> Array:
 
 
 def rotation_between(a: npt.ArrayLike, b: npt.ArrayLike) -> Array:
-    """The smallest rotation (3, 3) that takes direction `a` to direction `b`."""
+    """Return the smallest rotation (3, 3) that takes direction `a` to direction `b`."""
     p = np.asarray(a, dtype=np.float64) / np.linalg.norm(a)
     q = np.asarray(b, dtype=np.float64) / np.linalg.norm(b)
     axis = np.cross(p, q)
@@ -68,17 +68,17 @@ def rotation_between(a: npt.ArrayLike, b: npt.ArrayLike) -> Array:
 
 
 def nearest_rotation(matrix: npt.ArrayLike) -> Array:
-    """The rotation (3, 3) nearest to a matrix that is one but for rounding, or nearly."""
+    """Return the rotation (3, 3) nearest to a matrix that is nearly a rotation (orthogonal Procrustes)."""
     given = np.array(matrix, dtype=np.float64, order="C")
     straight = np.empty((3, 3))
-    if straightened(given, straight) < ROUNDING:
+    if orthonormalise(given, straight) < ROUNDING:
         return straight
     u, _, vt = np.linalg.svd(given)
     return np.asarray(u @ vt)
 
 
 def angle_between_deg(a: npt.ArrayLike, b: npt.ArrayLike) -> float:
-    """The angle 0..180 degrees between two directions (3,)."""
+    """Return the angle 0..180 degrees between two directions (3,)."""
     p, q = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
     # atan2 of cross and dot, because arccos loses half its digits near zero degrees,
     # which is exactly where the surgeon works.

@@ -1,16 +1,15 @@
-"""The marker: its model and active edges, its occurrences in an image, and their scores."""
+"""The marker: model with active edges, candidates in an image, edge scores, photometric verification."""
 
 from tracker.marker.active_edges import ActiveEdges
-from tracker.marker.explanation import (
-    Contradiction,
-    Explanation,
-    contradiction_of,
-    explanation_of,
-    is_washed_out,
-    pictures_of,
+from tracker.marker.model import MarkerModel, reject_similar
+from tracker.marker.photometric_fit import (
+    PhotometricFit,
+    ShapeMismatch,
+    matches_under_saturation,
+    photometric_fit_of,
+    scale_space_of,
+    shape_mismatch_of,
 )
-from tracker.marker.looks import Templates, templates_of
-from tracker.marker.model import MarkerModel, reject_alike
 from tracker.marker.score import (
     Agreement,
     ScoreSettings,
@@ -20,25 +19,26 @@ from tracker.marker.score import (
     target_coverage_ratio,
 )
 from tracker.marker.search import Candidate, candidate_rounds, thorough_rounds
+from tracker.marker.template_matching import Templates, templates_of
 
 __all__ = [
     "ActiveEdges",
     "Agreement",
     "Candidate",
-    "Contradiction",
-    "Explanation",
     "MarkerModel",
+    "PhotometricFit",
     "ScoreSettings",
+    "ShapeMismatch",
     "Templates",
     "candidate_rounds",
-    "contradiction_of",
     "edge_crossings",
-    "explanation_of",
-    "is_washed_out",
+    "matches_under_saturation",
     "model_agreement",
-    "pictures_of",
+    "photometric_fit_of",
     "reach_px",
-    "reject_alike",
+    "reject_similar",
+    "scale_space_of",
+    "shape_mismatch_of",
     "target_coverage_ratio",
     "templates_of",
     "thorough_rounds",

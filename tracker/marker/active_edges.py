@@ -1,4 +1,4 @@
-"""The model's active edges: those that stand out at a given size in the image."""
+"""Active edges of the model: the edges that remain visible at a given size in the image."""
 
 from dataclasses import dataclass, field
 
@@ -10,7 +10,7 @@ from tracker.edges import chains_of, edgels_of
 from tracker.edges.gradient import Gradient
 from tracker.geometry import Array
 
-# Sizes of the marker in the image for which edges are kept, a factor of 1.4 apart.
+# Sizes of the marker in the image for which active edges are stored, a factor of 1.4 apart.
 LEVELS_PX = (12, 17, 24, 34, 48, 68, 96, 136, 192)
 # Pixels of the model for a pixel of the image: its edgels are placed to a hundredth of an image's pixel.
 OVERSAMPLING = 6
@@ -29,14 +29,14 @@ MAX_CORNER_TURN_COS = 0.9
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StraightEdges:
-    """Those active edges that say where the marker is, side by side for the fit.
+    """The active edges without a corner nearby, which the pose fit uses.
 
     Attributes:
         points_mm: (m, 2), in the marker's plane.
         normals: (m, 2), unit, from dark to bright.
-        strength_ratio: (m,), contrast by that of a free edge, 0..1.
-        weight: what they weigh together, at least 1.
-        spacing_ratio: how far active edges are apart, by the marker's side.
+        strength_ratio: (m,), contrast over that of an isolated edge, 0..1.
+        weight: sum of their weights, at least 1.
+        spacing_ratio: distance between active edges, by the marker's side.
     """
 
     points_mm: Array
@@ -51,16 +51,16 @@ class ActiveEdges:
     """Active edges of a model at one size, as edgels about a pixel apart, weighted by length.
 
     Attributes:
-        level_px: side of the marker in the image for which they hold.
+        level_px: side of the marker in the image for which they are valid.
         points_mm: (n, 2), in the marker's plane.
         normals: (n, 2), unit, from dark to bright.
-        length_mm: (n,), the length of edge that each stands for.
-        strength_ratio: (n,), its contrast by that of a free edge, 0..1.
-        inner: (n,), not of the outline of the square.
-        straight: (n,), no corner within reach: only these say where the marker is.
-        fitted: the straight ones alone; made here.
-        sides: (n,), of the outline, and no corner within reach; made here.
-        half_mm: from the marker's middle to the farthest of them along x or y; made here.
+        length_mm: (n,), edge length that each edgel represents.
+        strength_ratio: (n,), contrast over that of an isolated edge, 0..1.
+        inner: (n,), not part of the outline of the square.
+        straight: (n,), no corner nearby: only these constrain the position.
+        fitted: the straight edges alone; derived.
+        sides: (n,), straight edges of the outline; derived.
+        half_mm: largest |x| or |y| of the points; derived.
     """
 
     level_px: int
@@ -91,7 +91,7 @@ class ActiveEdges:
 
 
 def active_edges_at(square: npt.NDArray[np.uint8], *, side_mm: float, level_px: int) -> ActiveEdges:
-    """The edges of a grey square (n, n) that is seen `level_px` wide."""
+    """Extract the active edges of a grey square (n, n) that appears `level_px` wide."""
     picture, scale, margin = _seen_at(square, level_px)
     x = np.asarray(cv2.Sobel(picture, cv2.CV_32F, 1, 0), dtype=np.float32)
     y = np.asarray(cv2.Sobel(picture, cv2.CV_32F, 0, 1), dtype=np.float32)
@@ -108,7 +108,7 @@ def active_edges_at(square: npt.NDArray[np.uint8], *, side_mm: float, level_px: 
     edgels = edgels_of(gradient)
     chains = chains_of(edgels)
     mm_per_px = side_mm / scale
-    kept: list[npt.NDArray[np.int64]] = []
+    selected: list[npt.NDArray[np.int64]] = []
     lengths: list[Array] = []
     straight: list[npt.NDArray[np.bool_]] = []
     for k in range(len(chains.closed)):
@@ -117,10 +117,10 @@ def active_edges_at(square: npt.NDArray[np.uint8], *, side_mm: float, level_px: 
             continue
         points = np.stack([edgels.x[chain], edgels.y[chain]], axis=1).astype(np.float64)
         picked, spacing = _every_pixel(points, closed=bool(chains.closed[k]))
-        kept.append(chain[picked])
+        selected.append(chain[picked])
         lengths.append(np.full(len(picked), spacing * mm_per_px))
         straight.append(_away_from_corners(edgels.nx[chain], edgels.ny[chain], picked))
-    index, length, plain = _thin(kept, lengths, straight)
+    index, length, plain = _thin(selected, lengths, straight)
     centre = margin + scale / 2.0 - 0.5
     u = (edgels.x[index].astype(np.float64) - centre) * mm_per_px
     v = (edgels.y[index].astype(np.float64) - centre) * mm_per_px
@@ -138,7 +138,7 @@ def active_edges_at(square: npt.NDArray[np.uint8], *, side_mm: float, level_px: 
 
 
 def _seen_at(square: npt.NDArray[np.uint8], level_px: int) -> tuple[npt.NDArray[np.float32], int, int]:
-    """The model on white paper as a camera blurs it; its side and the margin in px of that picture."""
+    """Return the model on white paper with camera blur, its side and the margin in px."""
     scale = level_px * OVERSAMPLING
     mode = cv2.INTER_AREA if scale < square.shape[0] else cv2.INTER_LINEAR
     seen = cv2.resize(square, (scale, scale), interpolation=mode).astype(np.float32)
@@ -150,14 +150,14 @@ def _seen_at(square: npt.NDArray[np.uint8], level_px: int) -> tuple[npt.NDArray[
 
 
 def _whole_numbers(slopes: npt.NDArray[np.float32], quantise: np.float32) -> npt.NDArray[np.int16]:
-    """Slopes as many times as large, cut off to whole numbers; `slopes` is overwritten, as it is large."""
+    """Scale slopes and round to int16; `slopes` is overwritten to save memory."""
     np.multiply(slopes, quantise, out=slopes)
     np.clip(slopes, -32000, 32000, out=slopes)
     return slopes.astype(np.int16)
 
 
 def _every_pixel(points: Array, *, closed: bool) -> tuple[npt.NDArray[np.int64], float]:
-    """Indexes of the edgels of a chain (n, 2) that are an image's pixel apart, and their true spacing."""
+    """Return the indexes of edgels of a chain (n, 2) one image pixel apart, and their exact spacing."""
     ends = np.vstack([points, points[:1]]) if closed else points
     along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(ends, axis=0), axis=1))])
     count = max(round(float(along[-1]) / OVERSAMPLING), 1)
@@ -169,7 +169,7 @@ def _every_pixel(points: Array, *, closed: bool) -> tuple[npt.NDArray[np.int64],
 def _away_from_corners(
     nx: npt.NDArray[np.float32], ny: npt.NDArray[np.float32], picked: npt.NDArray[np.int64]
 ) -> npt.NDArray[np.bool_]:
-    """Whether the edge keeps its direction on both sides of each picked edgel."""
+    """Return whether the edge keeps its direction on both sides of each picked edgel."""
     reach = int(CORNER_REACH_PX * OVERSAMPLING)
     before = np.clip(picked - reach, 0, len(nx) - 1)
     after = np.clip(picked + reach, 0, len(nx) - 1)
@@ -177,11 +177,11 @@ def _away_from_corners(
 
 
 def _thin(
-    kept: list[npt.NDArray[np.int64]], lengths: list[Array], straight: list[npt.NDArray[np.bool_]]
+    selected: list[npt.NDArray[np.int64]], lengths: list[Array], straight: list[npt.NDArray[np.bool_]]
 ) -> tuple[npt.NDArray[np.int64], Array, npt.NDArray[np.bool_]]:
-    """At most `MAX_EDGELS` of all, evenly, each standing for more of the length."""
-    if not kept:
+    """Reduce to at most `MAX_EDGELS`, evenly; each represents more of the length."""
+    if not selected:
         return np.empty(0, np.int64), np.empty(0), np.empty(0, np.bool_)
-    index, length, plain = np.concatenate(kept), np.concatenate(lengths), np.concatenate(straight)
+    index, length, plain = np.concatenate(selected), np.concatenate(lengths), np.concatenate(straight)
     step = -(-len(index) // MAX_EDGELS)
     return index[::step], length[::step] * step, plain[::step]

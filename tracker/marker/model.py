@@ -1,4 +1,4 @@
-"""The marker that is searched for: any printed square shape, known by its edges."""
+"""Marker model: a printed square with a unique shape, described by its edges."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -20,11 +20,11 @@ SQUARE_TOLERANCE_RATIO = 0.02
 MIN_CONTRAST_GREY = 40
 # The border must be dark for all but a worn corner.
 MIN_DARK_BORDER_RATIO = 0.9
-# A shape that looks the same after a quarter or half turn has no top: its pose would be a guess.
+# A shape with a quarter or half turn symmetry has no unique orientation.
 MAX_SYMMETRY = 0.985
-# Of two shapes that are more alike, small or blurred ones are taken for each other. Those of a printed sheet
-# reach 0.88, a shape and its mirror image 0.98.
-MAX_ALIKE = 0.95
+# More similar shapes are confused when small or blurred. Those of a printed sheet reach 0.88, a shape and its
+# mirror image 0.98.
+MAX_SIMILARITY = 0.95
 WORKING_SIDE_PX = 360
 
 
@@ -33,11 +33,11 @@ class MarkerModel:
     """A printed square with a unique geometric shape.
 
     Attributes:
-        name: what the screen calls it.
+        name: shown on the screen.
         side_mm: outer side of the black square.
         image: (h, w) grey, as given; the black square fills it edge to edge, row 0 on top.
-        square: (n, n) grey, the same at the size that its edges are taken from.
-        levels: its active edges as they stand out at each size in the image, smallest first.
+        square: (n, n) grey, resampled to the size that the edges are extracted from.
+        levels: active edges at each size in the image, smallest first.
     """
 
     name: str
@@ -48,7 +48,7 @@ class MarkerModel:
 
     @classmethod
     def from_image(cls, image: npt.NDArray[np.uint8], *, side_mm: float, name: str) -> "MarkerModel":
-        """From a grey image (h, w) which the black square fills edge to edge, row 0 on top.
+        """Create a model from a grey image (h, w) that the black square fills edge to edge, row 0 on top.
 
         Raises:
             InvalidInput: MARKER_IMAGE_INVALID, MARKER_SIDE_INVALID or MARKER_SYMMETRIC.
@@ -87,19 +87,21 @@ class MarkerModel:
 
     @property
     def own_correlation(self) -> tuple[float, float]:
-        """How like itself it is after quarter turns, and as its mirror image however turned, -1..1."""
+        """Largest correlation with its quarter rotations, and with its rotated mirror images, -1..1."""
         small = _small(self.square)
         mirrored = small[:, ::-1]
-        return max(_turned(small)), max(_correlation(small, np.rot90(mirrored, turns)) for turns in range(4))
+        return max(_rotation_correlations(small)), max(
+            _correlation(small, np.rot90(mirrored, turns)) for turns in range(4)
+        )
 
     def level_for(self, side_px: float) -> ActiveEdges:
-        """The active edges for a marker of about this size in the image."""
+        """Return the active edges for a marker of about this size in the image."""
         size = log(max(side_px, 1.0))
         return min(self.levels, key=lambda level: abs(log(level.level_px) - size))
 
 
 def _problem(grey: npt.NDArray[np.generic]) -> str:
-    """What is wrong with this image, or an empty string."""
+    """Return why this image cannot be used, or an empty string."""
     if grey.ndim != 2 or grey.dtype != np.uint8:
         return f"it is {grey.dtype} with {grey.ndim} dimensions, needed uint8 grey (h, w)"
     h, w = grey.shape
@@ -118,7 +120,7 @@ def _problem(grey: npt.NDArray[np.generic]) -> str:
 
 
 def _working_image(grey: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
-    """The same picture, square and large enough to find its edges to a hundredth of its side."""
+    """Resample to a square large enough to locate its edges to a hundredth of its side."""
     n = max(grey.shape)
     if n >= WORKING_SIDE_PX:
         wanted = (n, n)
@@ -132,11 +134,11 @@ def _working_image(grey: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
     return np.asarray(cv2.resize(grey, (size, size), interpolation=mode), dtype=np.uint8)
 
 
-def reject_alike(models: Sequence[MarkerModel]) -> None:
-    """Refuse models of which one, however it is turned, looks like another.
+def reject_similar(models: Sequence[MarkerModel]) -> None:
+    """Reject models that look alike in any quarter rotation.
 
     Raises:
-        InvalidInput: MARKERS_ALIKE, or MARKER_NAMES_NOT_UNIQUE.
+        InvalidInput: MARKERS_TOO_SIMILAR, or MARKER_NAMES_NOT_UNIQUE.
     """
     names = [model.name for model in models]
     if len(set(names)) != len(names):
@@ -147,14 +149,14 @@ def reject_alike(models: Sequence[MarkerModel]) -> None:
         )
     small = [_small(model.square) for model in models]
     for (a, first), (b, second) in combinations(enumerate(small), 2):
-        alike = max(_correlation(first, np.rot90(second, turns)) for turns in range(4))
-        if alike > MAX_ALIKE:
+        correlation = max(_correlation(first, np.rot90(second, turns)) for turns in range(4))
+        if correlation > MAX_SIMILARITY:
             raise InvalidInput(
-                "MARKERS_ALIKE",
+                "MARKERS_TOO_SIMILAR",
                 f"markers '{names[a]}' and '{names[b]}' look the same, however they are turned: "
-                f"correlation {alike:.3f}, allowed {MAX_ALIKE}",
+                f"correlation {correlation:.3f}, allowed {MAX_SIMILARITY}",
                 "Use shapes that differ, so that none is taken for another: another seed designs another.",
-                {"names": [names[a], names[b]], "correlation": alike},
+                {"names": [names[a], names[b]], "correlation": correlation},
             )
 
 
@@ -166,18 +168,18 @@ def _correlation(a: Array, b: Array) -> float:
     return float(np.corrcoef(a.ravel(), b.ravel())[0, 1])
 
 
-def _turned(small: Array) -> list[float]:
-    """How like itself a picture is after one, two and three quarter turns."""
+def _rotation_correlations(small: Array) -> list[float]:
+    """Return the correlation of an image with its one, two and three quarter rotations."""
     return [_correlation(small, np.rot90(small, turns)) for turns in (1, 2, 3)]
 
 
 def _reject_symmetry(square: npt.NDArray[np.uint8], name: str) -> None:
-    for turns, alike in enumerate(_turned(_small(square)), start=1):
-        if alike > MAX_SYMMETRY:
+    for turns, correlation in enumerate(_rotation_correlations(_small(square)), start=1):
+        if correlation > MAX_SYMMETRY:
             raise InvalidInput(
                 "MARKER_SYMMETRIC",
                 f"marker '{name}' looks the same when turned by {90 * turns} degrees: "
-                f"correlation {alike:.3f}, allowed {MAX_SYMMETRY}",
+                f"correlation {correlation:.3f}, allowed {MAX_SYMMETRY}",
                 "Use a shape that has one top only.",
-                {"name": name, "turned_deg": 90 * turns, "correlation": alike},
+                {"name": name, "turned_deg": 90 * turns, "correlation": correlation},
             )

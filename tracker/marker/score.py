@@ -1,4 +1,4 @@
-"""How well a model and an image agree: the paper's score and target score (2.3)."""
+"""The paper's score and target score of a model in an image (section 2.3)."""
 
 from dataclasses import dataclass
 
@@ -8,7 +8,7 @@ from tracker.edges import Edgels, Gradient
 from tracker.errors import InvalidInput
 from tracker.geometry import Array
 from tracker.marker.active_edges import ActiveEdges
-from tracker.marker.kernels import crossings, explained, laid_over
+from tracker.marker.score_kernels import count_matched_edgels, crossings, edge_agreement
 
 # An edge counts where its gradient has this part of what its own contrast and the marker's let expect.
 MIN_RESPONSE_RATIO = 0.35
@@ -19,22 +19,22 @@ REACH_PX, REACH_SIDE_RATIO, MAX_REACH_PX = 2.0, 0.04, 5.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ScoreSettings:
-    """What is accepted as the marker.
+    """Acceptance levels of the scores.
 
     Attributes:
-        accept_score_ratio: least score, 0..1.
-        accept_target_score_ratio: least target score, 0..1.
-        accept_inner_coverage_ratio: least coverage of the edges inside the square alone, 0..1: the outline
-            is what all square markers share, the inside is what makes this one unique.
-        explained_share: what part of the least score and least inner coverage is enough where blur, light
-            and covers explain every pixel, 0..1; 1 asks the same of all.
+        accept_score_ratio: minimum score, 0..1.
+        accept_target_score_ratio: minimum target score, 0..1.
+        accept_inner_coverage_ratio: minimum coverage of the edges inside the square, 0..1: the outline is
+            common to all square markers, the inside distinguishes this one.
+        verified_threshold_ratio: factor on the minimum score and minimum inner coverage where photometric
+            verification succeeds, 0..1; 1 keeps them.
         fit_error_weight: the paper's fit error weighing factor, here on the normalised fit error, 0..1.
     """
 
     accept_score_ratio: float = 0.7
     accept_target_score_ratio: float = 0.55
     accept_inner_coverage_ratio: float = 0.6
-    explained_share: float = 0.6
+    verified_threshold_ratio: float = 0.6
     fit_error_weight: float = 0.25
 
     def __post_init__(self) -> None:
@@ -51,15 +51,15 @@ class ScoreSettings:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Agreement:
-    """The model's edges laid over an image.
+    """Agreement of the model's active edges with an image.
 
     Attributes:
         model_coverage_ratio: length of active edges found, by their total length, 0..1.
         inner_coverage_ratio: the same for the edges inside the square.
-        target_coverage_ratio: length of edges in the occurrence that are the model's, by all of them, 0..1.
+        target_coverage_ratio: edges in the occurrence that belong to the model, by all edges there, 0..1.
         fit_error_px2: mean squared distance of common edgels to their model edges.
-        normalised_fit_error: the same by the square of the farthest distance that counts, 0..1.
-        contrast: gradient of a free edge of this occurrence, Sobel's scale.
+        normalised_fit_error: the same by the square of the largest accepted distance, 0..1.
+        contrast: gradient of an isolated edge of this occurrence, Sobel's scale.
     """
 
     model_coverage_ratio: float
@@ -70,16 +70,16 @@ class Agreement:
     contrast: float
 
     def score_ratio(self, settings: ScoreSettings) -> float:
-        """Score = model coverage x (1 - weight x normalised fit error)."""
+        """Return model coverage x (1 - weight x normalised fit error)."""
         return self.model_coverage_ratio * (1.0 - settings.fit_error_weight * self.normalised_fit_error)
 
     def target_score_ratio(self, settings: ScoreSettings) -> float:
-        """Target score = target coverage x (1 - weight x normalised fit error)."""
+        """Return target coverage x (1 - weight x normalised fit error)."""
         return self.target_coverage_ratio * (1.0 - settings.fit_error_weight * self.normalised_fit_error)
 
 
 def reach_px(side_px: float) -> float:
-    """How far from its model edge an edgel still counts as common, in px."""
+    """Return the largest distance, in px, at which an edgel still counts as common with its model edge."""
     return min(max(REACH_SIDE_RATIO * side_px, REACH_PX), MAX_REACH_PX)
 
 
@@ -92,13 +92,13 @@ def model_agreement(
     side_px: float,
     shift_px: float = 0.0,
 ) -> Agreement:
-    """Agreement of projected active edges (n, 2), normals (n, 2) unit and dark to bright, with an image.
+    """Compare projected active edges (n, 2) with an image; normals (n, 2) are unit, dark to bright.
 
-    `shift_px` is the shift common to all edges (camera response, ink): it is no error of the fit.
-    The target coverage is left at 1: it needs the edgels, see `with_target`.
+    `shift_px` is a shift common to all edges (camera response, ink), which is no fit error. The target
+    coverage is set to 1: it requires the edgels, see `with_target_coverage`.
     """
     reach = reach_px(side_px)
-    coverage, inner_coverage, fit, contrast = laid_over(
+    coverage, inner_coverage, fit, contrast = edge_agreement(
         gradient.x,
         gradient.y,
         float(gradient.left_px),
@@ -126,7 +126,7 @@ def model_agreement(
 def edge_crossings(
     gradient: Gradient, points_px: Array, normals_px: Array, *, reach_px: float
 ) -> tuple[Array, Array]:
-    """Offsets (n,) in px along the normals to the image's edges, and their strengths (n,), 0 for none."""
+    """Return offsets (n,) in px along the normals to the image's edges, and strengths (n,), 0 for none."""
     corner = np.array([gradient.left_px, gradient.top_px], dtype=np.float64)
     offset, response = crossings(gradient.x, gradient.y, points_px - corner, normals_px, reach_px)
     return np.asarray(offset), np.asarray(response)
@@ -142,12 +142,12 @@ def target_coverage_ratio(
     side_px: float,
     contrast: float,
 ) -> float:
-    """Share of the edgels inside the square (and a little around it) that are edges of the model, 0..1.
+    """Return the share of edgels in and around the square that are edges of the model, 0..1.
 
     Edgels under a third of the marker's contrast are texture and do not count.
     """
     shift = np.array([gradient.left_px, gradient.top_px], dtype=np.float64)
-    common, present = explained(
+    common, present = count_matched_edgels(
         edgels.at,
         edgels.x,
         edgels.y,

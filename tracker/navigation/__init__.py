@@ -1,54 +1,54 @@
-"""From poses to what the surgeon needs: deviation from the channel, and the snapshot of one instant."""
+"""Navigation: the deviation of the drill from the planned channel, and the state of one image."""
 
-from tracker.navigation.along import AlongChannel, half_axes_95_mm, seen_along
 from tracker.navigation.assessment import Assessment, Correction, Direction, Lag, Verdict, assess
-from tracker.navigation.concluding import navigate
+from tracker.navigation.bullseye import BullseyeView, bullseye_view, half_axes_95_mm
 from tracker.navigation.deviation import Deviation, deviation_from_channel
+from tracker.navigation.drill_reference import DrillReference, ScrewSize
 from tracker.navigation.figures import DrillLimits, Figure, FigureName, Status
-from tracker.navigation.guide import Guide, ScrewSize
-from tracker.navigation.lag import Lagging
-from tracker.navigation.moves import MovesSeen, moves_seen_by
+from tracker.navigation.lag import LagEstimator
+from tracker.navigation.motion_detection import MotionDetection, motion_detected_by
+from tracker.navigation.motion_monitor import MotionMonitor
 from tracker.navigation.snapshot import (
     Absent,
     AbsentReason,
+    MotionState,
     NavigationSnapshot,
-    PlacedVertebra,
     Setup,
-    ToolInView,
-    Watched,
+    ToolPose,
+    VertebraPose,
 )
-from tracker.navigation.steadying import Steadying
-from tracker.navigation.watching import Watching
+from tracker.navigation.snapshot_builder import navigate
+from tracker.navigation.tool_smoothing import ToolSmoothing
 
 __all__ = [
     "Absent",
     "AbsentReason",
-    "AlongChannel",
     "Assessment",
+    "BullseyeView",
     "Correction",
     "Deviation",
     "Direction",
     "DrillLimits",
+    "DrillReference",
     "Figure",
     "FigureName",
-    "Guide",
     "Lag",
-    "Lagging",
-    "MovesSeen",
+    "LagEstimator",
+    "MotionDetection",
+    "MotionMonitor",
+    "MotionState",
     "NavigationSnapshot",
-    "PlacedVertebra",
     "ScrewSize",
     "Setup",
     "Status",
-    "Steadying",
-    "ToolInView",
+    "ToolPose",
+    "ToolSmoothing",
     "Verdict",
-    "Watched",
-    "Watching",
+    "VertebraPose",
     "assess",
+    "bullseye_view",
     "deviation_from_channel",
     "half_axes_95_mm",
-    "moves_seen_by",
+    "motion_detected_by",
     "navigate",
-    "seen_along",
 ]

@@ -1,9 +1,9 @@
-"""The verdict on a drill, which follows from its figures and their limits and from nothing else.
+"""The verdict on a drill, computed from its figures and their limits only.
 
-Headline, figures, alarms, overlay, wire and log follow this one assessment; the page compares nothing.
-Whether a condition is present is decided without hysteresis, and only a present one gets a present tense
-and an instruction. A drill that leaves the planned cylinder and stays within all limits is therefore on
-path, and a screw with more than `alarms.breach_ratio` probability of a breach at its end is not.
+Headline, figures, alarms, overlay, wire messages and log all use this assessment; the web page compares
+nothing. Presence of a condition is decided without hysteresis; only a present condition is described in the
+present tense and gets an instruction. A drill outside the planned cylinder but within all limits is therefore
+on path; a screw whose probability of breach at its end exceeds `alarms.breach_ratio` is not.
 `tests/server/texts/contradictions.py` states the rule; `random_drilling.py` searches for violations.
 """
 
@@ -12,8 +12,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from math import inf, isfinite, nan
 
-from tracker.navigation.certainty import Judged
-from tracker.navigation.clearance import Closest, MeasuredAgainst, Nearest
+from tracker.navigation.clearance import NearestWall, WallProximity, WallSource
 from tracker.navigation.deviation import Deviation
 from tracker.navigation.directions import Wall
 from tracker.navigation.figures import (
@@ -21,20 +20,21 @@ from tracker.navigation.figures import (
     Figure,
     FigureName,
     Status,
-    figures_of,
+    drill_figures,
     rounded,
     rounded_up,
 )
+from tracker.navigation.uncertainty import DrillAnalysis
 from tracker.plan import Channel
 
 # The second component of a correction is stated from this share of the first one on.
 MIN_SECOND_RATIO = 0.5
 # Farther off than this a drill lies across the channel.
-MAX_AIMED_DEG = 45.0
+MAX_CORRECTED_DEG = 45.0
 
 
 class Verdict(StrEnum):
-    """What the figures of one image say of the drill, the most severe first."""
+    """Classification of the figures of one image, the most severe first."""
 
     THROUGH_WALL = "through_wall"  # a part of the drill is through the wall
     TOO_DEEP = "too_deep"  # the tip is past the planned depth
@@ -57,7 +57,7 @@ _BY_SEVERITY = list(Verdict)
 
 
 class Direction(StrEnum):
-    """Where to move or to aim, in the patient's directions."""
+    """Direction of a correction, in anatomical terms."""
 
     MEDIAL = "medial"
     LATERAL = "lateral"
@@ -90,13 +90,13 @@ class Correction:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lag:
-    """How far a shown tip may be behind.
+    """How far the displayed tip may lag behind the real one.
 
     Attributes:
-        speed_mm_s: of the tip in the vertebra, with two standard deviations; 0 at rest, NaN where it is not
-            known yet.
-        latency_ms: from light to page, which 99 % are within; NaN where it was not measured.
-        margin_mm: product of both, rounded up; to be added to the 95 % error. NaN where either is not known.
+        speed_mm_s: speed of the tip in the vertebra plus two standard deviations; 0 at rest, NaN if not yet
+            known.
+        latency_ms: 99th percentile of the delay from exposure to display; NaN if not measured.
+        margin_mm: product of both, rounded up; to be added to the 95 % error. NaN if either is not known.
     """
 
     speed_mm_s: float
@@ -105,7 +105,7 @@ class Lag:
 
     @classmethod
     def of(cls, speed_mm_s: float, latency_ms: float | None) -> "Lag":
-        """The lag of a tip with this speed."""
+        """Return the lag of a tip that moves at this speed."""
         known_ms = nan if latency_ms is None else latency_ms
         # A tip at rest does not lag, however late its picture is.
         margin_mm = 0.0 if speed_mm_s == 0.0 else rounded_up(speed_mm_s * known_ms / 1000.0)
@@ -114,18 +114,18 @@ class Lag:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Assessment:
-    """All figures of a drill, and their verdict.
+    """All figures of a drill and their verdict.
 
     Attributes:
-        verdict: the most severe that the figures give.
-        figures: each of them.
-        corrections: of an entry or an angle that is over its limit, the larger component first: for the
-            entry where the drill's line must move to, for the angle where the drill must point to.
-            Away from the wall, without an amount (NaN), where a wall is near or would be breached.
+        verdict: the most severe one that the figures imply.
+        figures: by name.
+        corrections: for an entry offset or angle over its limit, the larger component first. For the entry:
+            where the drill's axis must move. For the angle: where the drill must point. For a wall that is
+            near or would be breached: away from it, without an amount (NaN).
         wall: the nearest wall; None while the drill is outside the bone.
-        end_wall: the wall that the screw would come nearest to; None where it misses the pedicle.
-        against: what the wall was measured against; None where none is known.
-        lag: beside the figures, of a tip that moves; None where nobody looked for it.
+        end_wall: the wall nearest to the screw at the planned depth; None if the screw misses the pedicle.
+        against: what the wall distance was measured against; None if nothing is known.
+        lag: of a moving tip; None if not computed. Independent of the verdict.
     """
 
     verdict: Verdict
@@ -133,38 +133,39 @@ class Assessment:
     corrections: tuple[Correction, ...] = ()
     wall: Wall | None = None
     end_wall: Wall | None = None
-    against: MeasuredAgainst | None = None
+    against: WallSource | None = None
     lag: Lag | None = None
 
     @property
     def rank(self) -> tuple[float, float]:
-        """Orders the drills of one image: larger is more severe, and of equal ones nearer to its wall."""
+        """Sort key of the drills in one image: larger is more severe; among equals, nearer to its wall."""
         wall_mm = self.figures[FigureName.WALL].value
         return self.verdict.severity, -wall_mm if isfinite(wall_mm) else -inf
 
 
-def assess(deviation: Deviation, judged: Judged | None, channel: Channel, limits: DrillLimits) -> Assessment:
-    """The figures of one drill in one image with their limits, and the verdict.
+def assess(
+    deviation: Deviation, analysis: DrillAnalysis | None, channel: Channel, limits: DrillLimits
+) -> Assessment:
+    """Compute the figures of one drill in one image, compare them with their limits, and return the verdict.
 
     Args:
         deviation: of the drill from the channel.
-        judged: clearance and uncertainty; None where no pedicle is known. Nothing has a limit then but the
-            depth.
-        channel: the plan.
-        limits: those that no plan contains.
+        analysis: clearance and uncertainty; None if no pedicle is known. Then only the depth has a limit.
+        channel: the planned channel.
+        limits: those that are not part of a plan.
     """
-    figures = figures_of(deviation, judged, channel, limits)
-    if judged is None:
+    figures = drill_figures(deviation, analysis, channel, limits)
+    if analysis is None:
         is_deep = figures[FigureName.TO_GO].status is Status.THROUGH
         return Assessment(verdict=Verdict.TOO_DEEP if is_deep else Verdict.NOT_ASSESSED, figures=figures)
-    clearance = judged.clearance
+    clearance = analysis.clearance
     wall, end_wall = _wall_of(clearance.now), _wall_of(clearance.at_end)
     verdict = _verdict(figures)
     return Assessment(
         verdict=verdict,
         figures=figures,
         corrections=_corrections(
-            verdict, deviation, wall if wall is not None else _wall_of(clearance.soon), end_wall
+            verdict, deviation, wall if wall is not None else _wall_of(clearance.lookahead), end_wall
         ),
         wall=wall,
         end_wall=end_wall,
@@ -181,7 +182,7 @@ def _verdict(figures: Mapping[FigureName, Figure]) -> Verdict:
     if status(FigureName.TO_GO) is Status.THROUGH:
         return Verdict.TOO_DEEP
     error = figures[FigureName.ERROR]
-    # Across the channel a drill's line meets no plane of it: that is no uncertainty, and its angle says so.
+    # An infinite error means a drill across the channel, not uncertainty: its angle gives the verdict.
     if error.status is Status.OVER and isfinite(error.value):
         return Verdict.UNCERTAIN
     for name, verdict in (
@@ -196,15 +197,15 @@ def _verdict(figures: Mapping[FigureName, Figure]) -> Verdict:
 
 
 def _worse_of(figures: Mapping[FigureName, Figure]) -> Verdict | None:
-    """Of entry and angle the one that exceeds its limit by the larger factor; None where neither does."""
+    """Return which of entry and angle exceeds its limit by the larger factor; None if neither does."""
     entry, angle = figures[FigureName.ENTRY], figures[FigureName.ANGLE]
     over = {
         verdict: figure.value / max(figure.limit, 0.1)
         for verdict, figure in ((Verdict.CORRECT_ENTRY, entry), (Verdict.CORRECT_ANGLE, angle))
         if figure.status is Status.OVER
     }
-    # A drill across the channel meets its entry plane far away or never: its angle says what to do.
-    if Verdict.CORRECT_ANGLE in over and angle.value > MAX_AIMED_DEG:
+    # A drill across the channel meets its entry plane far away or never: the angle decides.
+    if Verdict.CORRECT_ANGLE in over and angle.value > MAX_CORRECTED_DEG:
         return Verdict.CORRECT_ANGLE
     return max(over, key=lambda verdict: over[verdict], default=None)
 
@@ -218,8 +219,8 @@ def _corrections(
             (deviation.entry_cranial_mm, Direction.CAUDAL, Direction.CRANIAL),
         )
     if verdict is Verdict.CORRECT_ANGLE:
-        # A drill across the channel is to be turned into it, not aimed by degrees.
-        if deviation.angle_deg > MAX_AIMED_DEG:
+        # A drill across the channel needs reorientation, not a correction by degrees.
+        if deviation.angle_deg > MAX_CORRECTED_DEG:
             return ()
         return _components(
             (deviation.angle_medial_deg, Direction.LATERAL, Direction.MEDIAL),
@@ -237,7 +238,7 @@ def _corrections(
 
 
 def _components(*parts: tuple[float, Direction, Direction]) -> tuple[Correction, ...]:
-    """Steps against errors, each with where to go when it is positive and when it is negative."""
+    """Return corrections of errors, each given with its direction for a positive and a negative error."""
     corrections = sorted(
         (
             Correction(amount=rounded(abs(error)), towards=positive if error > 0.0 else negative)
@@ -253,5 +254,5 @@ def _components(*parts: tuple[float, Direction, Direction]) -> tuple[Correction,
     )
 
 
-def _wall_of(closest: Closest) -> Wall | None:
-    return closest.wall if isinstance(closest, Nearest) else None
+def _wall_of(closest: WallProximity) -> Wall | None:
+    return closest.wall if isinstance(closest, NearestWall) else None

@@ -1,4 +1,4 @@
-"""The patient's directions across a channel: to the middle, to the head, and the wall that lies there."""
+"""Anatomical directions across a channel (medial, cranial), and the wall in each direction."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -10,14 +10,14 @@ from tracker.geometry import Array
 from tracker.plan.channel import Channel
 from tracker.plan.pedicle import Side
 
-# Nearer than this (10 degrees) to the patient's long axis, "to the head" says nothing across a channel.
-MIN_ACROSS = 0.17
-# A wall that is met within 45 degrees of the channel's axis is the one in front.
+# Within 10 degrees of the patient's long axis, the cranial direction across a channel is undefined.
+MIN_AXIS_SINE = 0.17
+# A wall that is met within 45 degrees of the channel's axis is the anterior one.
 AHEAD = float(np.cos(np.radians(45.0)))
 
 
 class Wall(StrEnum):
-    """The walls around a channel, as a surgeon calls them."""
+    """The walls around a channel, by anatomical direction."""
 
     MEDIAL = "medial"
     LATERAL = "lateral"
@@ -28,15 +28,15 @@ class Wall(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Directions:
-    """Three unit directions (3,) at right angles, in the vertebra's frame (LPS).
+    """Orthonormal directions (3,) of a channel in the vertebra frame (LPS).
 
     Attributes:
-        axis: of drilling.
-        medial: across the axis, to the patient's middle.
-        cranial: across the axis, to the head.
-        side: the side of the patient on which the channel lies.
-        basis: (3, 3), the three as rows, in this order.
-        entry_mm: (3,), the channel's entry.
+        axis: drilling direction.
+        medial: perpendicular to the axis, towards the patient's midline.
+        cranial: perpendicular to the axis, towards the head.
+        side: of the patient on which the channel lies.
+        basis: (3, 3), rows are axis, medial and cranial.
+        entry_mm: (3,), entry point of the channel.
     """
 
     axis: Array
@@ -47,7 +47,7 @@ class Directions:
     entry_mm: Array
 
     def wall_towards(self, direction: Array) -> Wall:
-        """The wall that lies in a direction (3,) of any length."""
+        """Return the wall in a direction (3,) of any length."""
         parts = np.array([direction @ self.axis, direction @ self.medial, direction @ self.cranial])
         length = float(np.linalg.norm(parts))
         if length < 1e-12 or parts[0] > AHEAD * length:
@@ -58,9 +58,9 @@ class Directions:
 
 
 def side_of(channel: Channel) -> Side:
-    """The side on which a channel lies, where nobody said it: channels run to the middle.
+    """Return the side of a channel whose plan states none: channels converge towards the midline.
 
-    Not sure where a channel runs nearly straight forwards, as at the lower thoracic levels.
+    Unreliable where a channel runs nearly straight forwards, as at the lower thoracic levels.
     """
     return _side_along(channel.axis_in_vertebra)
 
@@ -69,8 +69,8 @@ def _side_along(axis: Array) -> Side:
     return "left" if axis[0] <= 0.0 else "right"
 
 
-def directions_of(channel: Channel, side: Side | None = None) -> Directions:
-    """The directions across a channel; its side as the plan says it, or else as `side_of`."""
+def channel_directions(channel: Channel, side: Side | None = None) -> Directions:
+    """Return the directions of a channel; `side` as planned, or else as `side_of`."""
     return _directions(channel.entry_in_vertebra_mm.tobytes(), channel.target_in_vertebra_mm.tobytes(), side)
 
 
@@ -81,7 +81,7 @@ def _directions(entry: bytes, target: bytes, side: Side | None) -> Directions:
     axis = way / np.linalg.norm(way)
     side = side or _side_along(axis)
     up = np.array([0.0, 0.0, 1.0])
-    if np.linalg.norm(np.cross(axis, up)) < MIN_ACROSS:
+    if np.linalg.norm(np.cross(axis, up)) < MIN_AXIS_SINE:
         up = np.array([0.0, 1.0, 0.0])
     cranial = up - (up @ axis) * axis
     cranial /= np.linalg.norm(cranial)

@@ -1,8 +1,8 @@
-"""The figures of a drill as they are shown: rounded, and compared with their limits after that.
+"""The displayed figures of a drill: rounded first, then compared with their limits.
 
-The digits on the screen are the digits that decide. Where being wrong is dangerous the rounding is towards
-danger: bone to the wall and depth to go are rounded down, probabilities and uncertainties up. An alarm is
-therefore never later than the exact number.
+The displayed digits decide. Where an error is dangerous, rounding is conservative: distance to the wall and
+remaining depth are rounded down, probabilities and uncertainties up. An alarm is therefore never later than
+with the exact number.
 """
 
 from collections.abc import Mapping
@@ -11,13 +11,13 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_UP, Decimal
 from enum import StrEnum
 from math import isfinite, nan
 
-from tracker.navigation.certainty import Judged
-from tracker.navigation.clearance import Closest, MeasuredAgainst, Nearest
+from tracker.navigation.clearance import NearestWall, WallProximity, WallSource
 from tracker.navigation.deviation import Deviation
+from tracker.navigation.uncertainty import DrillAnalysis
 from tracker.plan import Channel
 
-# A tip farther than this from the channel's axis is not in this pedicle, however deep it is.
-BESIDE_MM = 30.0
+# A tip farther than this from the channel's axis is not in this pedicle, at any depth.
+MAX_BESIDE_MM = 30.0
 # Of a normal distribution within +- 1.96 standard deviations lie 95 %.
 NORMAL_95 = 1.96
 # 0.3 is stored as 0.29999999999999998: an error of the last binary digit must not cost a tenth.
@@ -26,11 +26,12 @@ ROUNDING_ERROR = 1e-9
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DrillLimits:
-    """The limits that no plan contains.
+    """Limits that are not part of a plan.
 
     Attributes:
-        warning_distance_mm: less bone than this beside the drill is a warning.
-        breach_ratio: probability of a breach: of the drill now or 2 mm further, or of the screw at the end.
+        warning_distance_mm: a smaller clearance of the drill is a warning.
+        breach_ratio: maximum probability of a breach, of the drill now or 2 mm deeper, or of the screw at its
+            end.
     """
 
     warning_distance_mm: float = 1.0
@@ -38,7 +39,7 @@ class DrillLimits:
 
 
 class FigureName(StrEnum):
-    """The numbers that a verdict is made from."""
+    """Names of the figures that determine the verdict."""
 
     ENTRY = "entry"  # mm, offset of the drill's line at the entry point
     ANGLE = "angle"  # deg, between drill and channel
@@ -51,7 +52,7 @@ class FigureName(StrEnum):
 
 
 class Status(StrEnum):
-    """How a figure compares with its limit."""
+    """Result of comparing a figure with its limit."""
 
     WITHIN = "within"
     OVER = "over"  # a limit is exceeded
@@ -62,13 +63,13 @@ class Status(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Figure:
-    """One number as it is shown.
+    """One displayed number.
 
     Attributes:
-        value: rounded; infinite where the drill lies across the channel, NaN where the figure does not exist.
-        limit: rounded towards safety; NaN where there is none.
-        error_95: half width of the 95 % interval of `value`; NaN where it is not known.
-        status: the comparison of the two rounded numbers.
+        value: rounded; infinite if the drill lies across the channel, NaN if the figure does not exist.
+        limit: rounded conservatively; NaN if there is none.
+        error_95: half width of the 95 % interval of `value`; NaN if not known.
+        status: comparison of the two rounded numbers.
     """
 
     value: float
@@ -77,21 +78,21 @@ class Figure:
     status: Status = Status.UNLIMITED
 
 
-def figures_of(
-    deviation: Deviation, judged: Judged | None, channel: Channel, limits: DrillLimits
+def drill_figures(
+    deviation: Deviation, analysis: DrillAnalysis | None, channel: Channel, limits: DrillLimits
 ) -> Mapping[FigureName, Figure]:
-    """All figures of a drill in one image with their limits.
+    """Compute all figures of a drill in one image and compare them with their limits.
 
     Args:
         deviation: of the drill from the channel.
-        judged: clearance and uncertainty; None where no pedicle is known.
-        channel: the plan.
-        limits: those that no plan contains.
+        analysis: clearance and uncertainty; None if no pedicle is known.
+        channel: the planned channel.
+        limits: those that are not part of a plan.
     """
-    is_beside = deviation.tip_offset_mm > channel.radius_mm + BESIDE_MM
+    is_beside = deviation.tip_offset_mm > channel.radius_mm + MAX_BESIDE_MM
     to_go = _to_go(deviation.remaining_mm, is_beside=is_beside)
     depth = Figure(value=rounded(deviation.depth_mm), limit=rounded(channel.length_mm), status=to_go.status)
-    if judged is None:
+    if analysis is None:
         missing = (FigureName.WALL, FigureName.RISK, FigureName.END, FigureName.ERROR)
         return {
             FigureName.ENTRY: Figure(value=rounded(deviation.entry_offset_mm)),
@@ -100,28 +101,28 @@ def figures_of(
             FigureName.TO_GO: to_go,
             **dict.fromkeys(missing, Figure(value=nan)),
         }
-    certain, spread, clearance = judged.certain, judged.spread, judged.clearance
-    risk_ratio = max(judged.now.through_ratio, judged.soon.through_ratio)
+    certain, spread, clearance = analysis.certain, analysis.spread, analysis.clearance
+    risk_ratio = max(analysis.now.through_ratio, analysis.lookahead.through_ratio)
     depth_error_95 = rounded_up(NORMAL_95 * spread.sd_depth_mm, decimals=2)
     return {
         FigureName.ENTRY: _at_most(
             rounded(deviation.entry_offset_mm),
-            rounded_down(certain.room_mm),
+            rounded_down(certain.tolerance_mm),
             error_95=rounded_up(certain.entry_95_mm, decimals=2),
         ),
         FigureName.ANGLE: _at_most(
             rounded(deviation.angle_deg),
-            rounded_down(certain.room_deg),
+            rounded_down(certain.tolerance_deg),
             error_95=rounded_up(spread.cone_95_deg, decimals=2),
         ),
         FigureName.DEPTH: replace(depth, error_95=depth_error_95),
         FigureName.TO_GO: to_go,
-        FigureName.WALL: _wall(clearance.now, limits.warning_distance_mm, sd_mm=judged.now.sd_mm),
+        FigureName.WALL: _wall(clearance.now, limits.warning_distance_mm, sd_mm=analysis.now.sd_mm),
         FigureName.RISK: _at_most(_percent(risk_ratio), _limit_percent(limits.breach_ratio)),
-        FigureName.END: _end(judged, limits.breach_ratio),
+        FigureName.END: _end(analysis, limits.breach_ratio),
         FigureName.ERROR: _at_most(
             rounded_up(max(certain.entry_95_mm, certain.isthmus_95_mm), decimals=2),
-            rounded_down(certain.room_mm, decimals=2),
+            rounded_down(certain.tolerance_mm, decimals=2),
         ),
     }
 
@@ -132,29 +133,29 @@ def _to_go(remaining_mm: float, *, is_beside: bool) -> Figure:
     return Figure(value=value, limit=0.0, status=status)
 
 
-def _wall(now: Closest, warning_distance_mm: float, *, sd_mm: float) -> Figure:
+def _wall(now: WallProximity, warning_distance_mm: float, *, sd_mm: float) -> Figure:
     limit = rounded_up(warning_distance_mm)
-    if not isinstance(now, Nearest):
+    if not isinstance(now, NearestWall):
         return Figure(value=nan, limit=limit, status=Status.OUTSIDE)
     value = rounded_down(now.clearance_mm)
-    # A value that is no number is not within.
+    # NaN is not within.
     status = Status.THROUGH if value < 0.0 else Status.WITHIN if value >= limit else Status.OVER
     return Figure(value=value, limit=limit, error_95=rounded_up(NORMAL_95 * sd_mm, decimals=2), status=status)
 
 
-def _end(judged: Judged, breach_ratio: float) -> Figure:
-    if judged.clearance.against is MeasuredAgainst.CHANNEL:
-        # A planned cylinder is no bone that a screw of that very size could breach.
+def _end(analysis: DrillAnalysis, breach_ratio: float) -> Figure:
+    if analysis.clearance.against is WallSource.CHANNEL:
+        # The planned cylinder is not bone: a screw of the same size cannot breach it.
         return Figure(value=nan)
     limit = _limit_percent(breach_ratio)
-    if not isinstance(judged.clearance.at_end, Nearest):
-        # A line that comes nowhere near the pedicle breaches no wall, and is no way into it.
+    if not isinstance(analysis.clearance.at_end, NearestWall):
+        # An axis that misses the pedicle breaches no wall but is no valid path either.
         return Figure(value=nan, limit=limit, status=Status.OVER)
-    return _at_most(_percent(judged.at_end.through_ratio), limit)
+    return _at_most(_percent(analysis.at_end.through_ratio), limit)
 
 
 def _at_most(value: float, limit: float, *, error_95: float = nan) -> Figure:
-    # Also an infinite value, and one that is no number.
+    # Infinity and NaN are over the limit.
     status = Status.WITHIN if value <= limit else Status.OVER
     return Figure(value=value, limit=limit, error_95=error_95, status=status)
 
@@ -168,20 +169,20 @@ def _limit_percent(ratio: float) -> float:
 
 
 def rounded(value: float, *, decimals: int = 1) -> float:
-    """The nearest number with so many decimals, half away from zero, on the exact binary value.
+    """Round to a number of decimals, half away from zero, on the exact binary value.
 
-    `Number.prototype.toFixed` of a browser rounds in the same way, so both show the same digits.
+    `Number.prototype.toFixed` in a browser rounds in the same way, so both display the same digits.
     """
     return _quantised(value, decimals, ROUND_HALF_UP)
 
 
 def rounded_down(value: float, *, decimals: int = 1) -> float:
-    """The next smaller number with so many decimals; what is within 1e-9 of one is that one."""
+    """Round down to a number of decimals; a value within 1e-9 of a rounded one is taken as exact."""
     return _quantised(value + ROUNDING_ERROR, decimals, ROUND_FLOOR)
 
 
 def rounded_up(value: float, *, decimals: int = 1) -> float:
-    """The next larger number with so many decimals; what is within 1e-9 of one is that one."""
+    """Round up to a number of decimals; a value within 1e-9 of a rounded one is taken as exact."""
     return _quantised(value - ROUNDING_ERROR, decimals, ROUND_CEILING)
 
 

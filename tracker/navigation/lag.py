@@ -1,8 +1,8 @@
-"""How far the tip that is shown may lag behind a tip that moves: its speed times the measured latency.
+"""Estimate how far the displayed tip lags behind a moving one: its speed times the measured latency.
 
-A snapshot is of the time of its capture, and is seen a latency later. Meanwhile a moving tip has gone on, by
-as much as this where it keeps its speed. It is a margin beside the 95 % error of the figures, and no part of
-any verdict: a hand on its way to the bone would be "uncertain" at once, which hides what else is to be said.
+A snapshot shows the time of its capture and is displayed one latency later. A tip that keeps its speed has
+moved on by this distance. The margin is shown beside the 95 % error and does not enter a verdict: otherwise
+every approach to the bone would be "uncertain", which would hide the other verdicts.
 """
 
 from collections import deque
@@ -29,18 +29,18 @@ MIN_IMAGES = 5
 MIN_SPEED_SD, MIN_SPEED_MM_S = 6.5, 1.0
 
 
-class TipSpeed:
-    """The speed of one tip from its last places. Mutable."""
+class TipSpeedEstimator:
+    """Estimate the speed of one tip from its recent positions. Mutable."""
 
     def __init__(self) -> None:
         self._places: deque[tuple[float, Array]] = deque()
 
     def forget(self) -> None:
-        """What comes next is another motion."""
+        """Discard the recent positions."""
         self._places.clear()
 
     def take(self, tip_mm: Array, *, at_s: float) -> float:
-        """The speed in mm/s with one more place (3,); 0 at rest, NaN while too few are known."""
+        """Add a position (3,) and return the speed in mm/s: 0 at rest, NaN while positions are too few."""
         if self._places and not 0.0 < at_s - self._places[-1][0] <= MAX_GAP_S:
             self.forget()
         self._places.append((at_s, tip_mm))
@@ -60,18 +60,18 @@ class TipSpeed:
         return 0.0 if is_at_rest else speed_mm_s + 2.0 * sd_mm_s
 
 
-class Lagging:
-    """Gives each assessment of a snapshot its lag. Mutable: one `TipSpeed` for each tool."""
+class LagEstimator:
+    """Add the lag to each assessment of a snapshot. Mutable: one `TipSpeedEstimator` per tool."""
 
     def __init__(self) -> None:
-        self._tips: dict[str, TipSpeed] = {}
+        self._tips: dict[str, TipSpeedEstimator] = {}
 
     def take(self, snapshot: NavigationSnapshot, *, latency_ms: float | None) -> NavigationSnapshot:
-        """The same with the lag of each tool that has figures.
+        """Return the snapshot with the lag of each assessed tool.
 
         Args:
             snapshot: of the next image.
-            latency_ms: from light to page, which 99 % are within; None where it was not measured.
+            latency_ms: 99th percentile of the delay from exposure to display; None if not measured.
         """
         assessments: Mapping[str, Assessment | Absent] = {
             name: self._with_lag(snapshot, name, one, latency_ms)
@@ -82,7 +82,7 @@ class Lagging:
     def _with_lag(
         self, snapshot: NavigationSnapshot, name: str, one: Assessment | Absent, latency_ms: float | None
     ) -> Assessment | Absent:
-        tip = self._tips.setdefault(name, TipSpeed())
+        tip = self._tips.setdefault(name, TipSpeedEstimator())
         vertebra_from_tool = snapshot.vertebra_from_tool(name)
         if isinstance(one, Absent) or isinstance(vertebra_from_tool, Absent):
             tip.forget()

@@ -1,7 +1,7 @@
-"""All that is known at the instant of one image.
+"""The navigation state of one image.
 
-Overlay, JSON, 3-D scene and recording are made from this one record, so they cannot disagree. What is absent
-is a value with its reason, never None, 0 or the last pose.
+Overlay, JSON, 3-D scene and recording derive from this record, so they cannot disagree. A missing value is an
+`Absent` with its reason, never None, 0 or the last pose.
 """
 
 from collections.abc import Mapping
@@ -19,11 +19,11 @@ from tracker.geometry import (
     Vertebra,
 )
 from tracker.navigation.assessment import Assessment
-from tracker.navigation.certainty import Judged
 from tracker.navigation.deviation import Deviation
+from tracker.navigation.drill_reference import ScrewSize
 from tracker.navigation.figures import DrillLimits
-from tracker.navigation.guide import ScrewSize
-from tracker.navigation.watch import NeverSeen, SceneState
+from tracker.navigation.monitoring import NeverSeen, SceneState
+from tracker.navigation.uncertainty import DrillAnalysis
 from tracker.plan import Channel
 from tracker.plan.pedicle import Side
 from tracker.pose import Sighting, ToolModel
@@ -31,39 +31,39 @@ from tracker.registration import Registration
 
 
 class AbsentReason(StrEnum):
-    """Why a pose or a number is not there."""
+    """Why a pose or a number is missing."""
 
     MARKER_UNSEEN = "MARKER_UNSEEN"  # the marker is not seen in this image
-    CAMERA_NOT_CALIBRATED = "CAMERA_NOT_CALIBRATED"  # found in the picture, but mm are not known
+    CAMERA_NOT_CALIBRATED = "CAMERA_NOT_CALIBRATED"  # detected, but without a metric pose
     CAMERA_CHANGED = "CAMERA_CHANGED"  # focus or zoom are not what they were at the calibration
-    POSE_UNCERTAIN = "POSE_UNCERTAIN"  # seen, but the tip could be millimetres away from where it seems
-    TOOL_NOT_DEFINED = "TOOL_NOT_DEFINED"  # nobody said where the tip is behind this marker
+    POSE_UNCERTAIN = "POSE_UNCERTAIN"  # seen, but the uncertainty of the tip is too large
+    TOOL_NOT_DEFINED = "TOOL_NOT_DEFINED"  # the tip of this marker is not calibrated
     NOT_REGISTERED = "NOT_REGISTERED"  # plan and patient are not registered
     NO_PLAN = "NO_PLAN"  # there is no channel
     REFERENCE_UNSEEN = "REFERENCE_UNSEEN"  # the marker on the patient is not seen in this image
-    CAMERA_MOVED = "CAMERA_MOVED"  # the camera stands elsewhere than when plan and patient were registered
+    CAMERA_MOVED = "CAMERA_MOVED"  # the camera moved since the registration
     REFERENCE_MOVED = "REFERENCE_MOVED"  # the marker on the patient moved, or the patient did
-    POSE_JUMPED = "POSE_JUMPED"  # seen, but farther away than a hand gets from one image to the next
-    NOT_CHECKED = "NOT_CHECKED"  # registered, but not yet held against a landmark
-    NOT_CONFIRMED = "NOT_CONFIRMED"  # started again, and nobody has said yet that all stands as it did
+    POSE_JUMPED = "POSE_JUMPED"  # seen, but it moved faster than a hand can
+    NOT_CHECKED = "NOT_CHECKED"  # registered, but not yet checked on a landmark
+    NOT_CONFIRMED = "NOT_CONFIRMED"  # restarted; nobody has confirmed yet that nothing moved
     NOT_COSIGNED = "NOT_COSIGNED"  # a second person has not yet signed plan or registration
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Absent:
-    """Something that is not known, with the reason."""
+    """A missing value, with its reason."""
 
     reason: AbsentReason
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ToolInView:
-    """The drill, placed by its marker.
+class ToolPose:
+    """Pose of a drill, from its marker.
 
     Attributes:
-        camera_from_tool: tip (origin) and drilling direction (+z) in the camera's frame.
-        tip_covariance_mm2: (3, 3), of the tip in the camera's frame.
-        lag_ms: how far it lies behind its image, where it was steadied; else 0.
+        camera_from_tool: tip (origin) and drilling direction (+z) in the camera frame.
+        tip_covariance_mm2: (3, 3), of the tip in the camera frame.
+        lag_ms: delay of a smoothed pose relative to its image; else 0.
     """
 
     camera_from_tool: Rigid[Camera, Tool]
@@ -73,20 +73,21 @@ class ToolInView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Setup:
-    """What stands before the first image: camera, tools, plan, registration.
+    """What navigation is configured with.
 
     Attributes:
-        camera: the camera model; where `camera_calibrated` is False it only serves to find the marker.
+        camera: the camera model; while `camera_calibrated` is False it only serves to find the marker.
         camera_calibrated: whether poses in mm may be derived from it.
-        tools: by name; each names the marker that it carries.
+        tools: by name; each names its marker.
         channel: the planned channel.
-        screw: that is planned in it; None where none is.
-        registration: of plan and patient, fixed to the camera or to the patient's reference.
-        reference: name of the marker that is fixed to the patient; empty when there is none.
-        withheld: why no number is given although all of this is known; None when nothing is in the way.
-        max_tip_sd_mm: a tip that is less sure than this (root of the trace of its covariance) is not placed.
+        registration: of plan and patient, anchored to the camera or to the patient's reference.
+        reference: name of the marker fixed to the patient; empty if there is none.
+        screw: the planned one; None if there is none.
+        withheld: why no numbers are given although the rest is known; None if they are given.
+        max_tip_sd_mm: maximum uncertainty of a tip (root of the trace of its covariance); above it the pose
+            is rejected.
         limits: of a drill, beside those of its pedicle.
-        side: the plan's side of the patient; None where nobody stated it.
+        side: of the patient, as planned; None if not stated.
     """
 
     camera: CameraModel
@@ -103,40 +104,40 @@ class Setup:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PlacedVertebra:
-    """Where the plan's vertebra is in one image.
+class VertebraPose:
+    """Pose of the planned vertebra in one image.
 
     Attributes:
-        camera_from_vertebra: through the reference, where the registration is fixed to it.
-        covariance: (6, 6) [mm, rad] of it, as of a marker's pose; of the registration, and of the reference
-            as it is seen in this image.
-        tip_slope: (6, 3), how it follows an error of the tip that it was registered with, as a registration
-            has it.
-        tool: the tool with that tip; empty for none.
+        camera_from_vertebra: through the reference, if the registration is anchored to it.
+        covariance: (6, 6) [mm, rad], as of a marker's pose; from the registration and the reference in this
+            image.
+        tip_jacobian: (6, 3), derivative of the pose with respect to the tip used for registration, see
+            `Registration`.
+        tool: the tool with that tip; empty if none.
     """
 
     camera_from_vertebra: Rigid[Camera, Vertebra]
     covariance: Array
-    tip_slope: Array = field(default_factory=lambda: np.zeros((6, 3)))
+    tip_jacobian: Array = field(default_factory=lambda: np.zeros((6, 3)))
     tool: str = ""
 
-    def tip_slope_for(self, tool: ToolModel) -> Array:
-        """The same for the tool that is navigated: of another tool's tip, this one's error knows nothing."""
-        return self.tip_slope if tool.name == self.tool else np.zeros((6, 3))
+    def tip_jacobian_for(self, tool: ToolModel) -> Array:
+        """Return the Jacobian for the navigated tool: zero for a tool other than the registering one."""
+        return self.tip_jacobian if tool.name == self.tool else np.zeros((6, 3))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Watched:
-    """What no image says alone; see `tracker.navigation.watch`.
+class MotionState:
+    """What follows from the images before this one; see `tracker.navigation.monitoring`.
 
     Attributes:
-        jumped: the markers whose pose is farther from the one before than a hand moves.
-        camera_moved: since the registration, and nothing takes it back but another one.
-        reference_moved: likewise of the marker on the patient; a check on anatomy takes it back.
-        scene: what the still scene says of the camera.
-        unseen_s: by marker, how long ago it was seen, 0 for one in this image.
-        camera_changes: controls of the camera that are not what they were at the calibration in use, and
-            void it; what spoils most comes first.
+        jumped: markers whose pose moved faster than a hand.
+        camera_moved: since the registration; only another registration resets it.
+        reference_moved: the patient's marker moved since the registration; a check on anatomy resets it.
+        scene: state of the static scene.
+        unseen_s: by marker, time since it was last seen; 0 if seen in this image.
+        camera_changes: camera controls that differ from those at calibration, which invalidates it; the most
+            severe first.
     """
 
     jumped: frozenset[str] = frozenset()
@@ -147,28 +148,29 @@ class Watched:
     camera_changes: tuple[ControlChange, ...] = ()
 
 
-UNWATCHED = Watched()
+NO_MOTION = MotionState()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NavigationSnapshot:
-    """One image, and all that was concluded from it.
+    """One image and all results derived from it.
 
     Attributes:
-        image_number: counts every image that the source gave, skipped ones too; the first is 0.
-        captured_at_s: monotonic time at the grab.
+        image_number: counts every image of the source, including skipped ones; the first is 0.
+        captured_at_s: monotonic time of the capture.
         size_wh_px: of the image.
-        setup: what stood when it was concluded.
+        setup: the configuration in effect.
         sightings: by marker name.
-        vertebra: where the plan is in this image, or why that is not known.
+        vertebra: pose of the planned vertebra in this image, or why it is not known.
         tools: by tool name.
         deviations: by tool name, of the tool from the channel.
-        judgements: by tool name, clearance, uncertainty and chance of a breach; there with the deviation.
-        assessments: by tool name, the figures that are shown, with their limits and the verdict; there with
-            the deviation. Headline, alarms, overlay, bull's-eye, wire and log read them from here.
-        watched: what the images before add to it.
-        stage_ms: time of each stage by the name it has in the code.
-        skipped_images: how many images the source gave that were never looked at, since the start.
+        analyses: by tool name, clearance, uncertainty and breach probability; present together with the
+            deviation.
+        assessments: by tool name, the displayed figures with limits and verdict; present together with the
+            deviation. Headline, alarms, overlay, bull's-eye, wire messages and log use them.
+        motion: what the previous images add.
+        stage_ms: time of each stage by its name in the code.
+        skipped_images: number of images of the source that were not processed, since the start.
     """
 
     image_number: int
@@ -176,26 +178,26 @@ class NavigationSnapshot:
     size_wh_px: tuple[int, int]
     setup: Setup
     sightings: Mapping[str, Sighting]
-    vertebra: PlacedVertebra | Absent
-    tools: Mapping[str, ToolInView | Absent]
+    vertebra: VertebraPose | Absent
+    tools: Mapping[str, ToolPose | Absent]
     deviations: Mapping[str, Deviation | Absent]
-    judgements: Mapping[str, Judged | Absent]
+    analyses: Mapping[str, DrillAnalysis | Absent]
     assessments: Mapping[str, Assessment | Absent]
     stage_ms: Mapping[str, float]
     skipped_images: int
-    watched: Watched = UNWATCHED
+    motion: MotionState = NO_MOTION
 
     @property
-    def shown_tool(self) -> str:
-        """The tool whose figures are shown: of those that have any, the one with the most severe verdict.
+    def displayed_tool(self) -> str:
+        """The tool whose figures are displayed: the one with the most severe verdict.
 
-        Of equal ones the first in the order of the setup. Empty where no tool has figures.
+        Among equals the first in the order of the setup. Empty if no tool has figures.
         """
         ranks = {name: one.rank for name, one in self.assessments.items() if isinstance(one, Assessment)}
         return max(ranks, key=lambda name: ranks[name], default="")
 
     def vertebra_from_tool(self, tool: str) -> Rigid[Vertebra, Tool] | Absent:
-        """Where a tool is in the plan; Absent where it has no numbers either, for the same reason."""
+        """Return the pose of a tool in the vertebra frame; Absent for the same reason as its deviation."""
         deviation, in_view, vertebra = self.deviations[tool], self.tools[tool], self.vertebra
         if isinstance(deviation, Absent):
             return deviation

@@ -1,4 +1,4 @@
-"""The stages of the tracker in order: a grey image, candidates, gradient, fit, score, judgement."""
+"""The stages of the tracker in order: grey image, candidates, gradient, fit, score, verification."""
 
 from tracker.pipeline.image import is_same_image
 from tracker.pipeline.tracker import Tracker

@@ -1,4 +1,4 @@
-"""From about where a marker could be to what is said of it: gradient, fit, score and judgement."""
+"""From an approximate pose of a marker to a sighting: gradient, fit, score and verification."""
 
 from collections.abc import Iterator, Sequence
 
@@ -10,42 +10,42 @@ from tracker.geometry import Camera, Marker, Rigid
 from tracker.marker import Candidate, MarkerModel, ScoreSettings
 from tracker.pose import (
     FoundBy,
-    Pixels,
-    Scene,
+    ImageContext,
+    OccurrenceContext,
     Sighting,
     corners_px_at,
-    judged,
     occurrence_near,
     pose_from_corners,
+    rank_score,
+    verify_occurrence,
     window_around,
-    with_target,
-    worth_of,
+    with_target_coverage,
 )
-from tracker.stages import Stages
+from tracker.stage_timer import StageTimer
 
-# Corners of an outline are intersections of fitted lines: off by a pixel, two on a bent sheet.
+# Corners of a quadrilateral are intersections of fitted lines: off by a pixel, two on a bent sheet.
 SEARCH_REACH_PX = 2.5
-# A hand in theatre moves the marker by a few pixels from image to image; prediction takes most of it.
+# A hand in theatre moves the marker by a few pixels between images; prediction removes most of it.
 TRACK_REACH_PX = 6.0
 MAX_FITS, MAX_THOROUGH_FITS = 2, 4
 # Seen (2), with score and target score of 0.9 on average.
-CERTAIN_WORTH = 3.8
+CERTAIN_RANK_SCORE = 3.8
 
 
 class Fitter:
-    """Lays models on the images of one camera.
+    """Fits marker models to the images of one camera.
 
     Attributes:
-        stages: what its stages, and those of a search that it serves, are timed by.
+        stages: timer of its own stages and those of a search that uses it.
     """
 
-    def __init__(self, *, camera: CameraModel, settings: ScoreSettings, stages: Stages) -> None:
+    def __init__(self, *, camera: CameraModel, settings: ScoreSettings, stages: StageTimer) -> None:
         self._camera, self._settings, self.stages = camera, settings, stages
 
     def near(
-        self, pixels: Pixels, model: MarkerModel, start: Rigid[Camera, Marker], *, found_by: FoundBy
+        self, pixels: ImageContext, model: MarkerModel, start: Rigid[Camera, Marker], *, found_by: FoundBy
     ) -> Sighting | None:
-        """What stands at about this pose; None when it would be outside the image, or nothing fits there."""
+        """Return the sighting near this pose; None when it is outside the image, or nothing fits there."""
         corners = corners_px_at(self._camera, model, start)
         window = window_around(corners, reach_px=TRACK_REACH_PX, size_wh_px=self._camera.size_wh_px)
         if window is None:
@@ -60,9 +60,9 @@ class Fitter:
         self.stages.end("fit")
         if found is None:
             return None
-        found = with_target(self._camera, model, gradient, edgels_of(gradient), found)
+        found = with_target_coverage(self._camera, model, gradient, edgels_of(gradient), found)
         self.stages.end("score")
-        scene = Scene(
+        scene = OccurrenceContext(
             camera=self._camera,
             model=model,
             pixels=pixels,
@@ -71,14 +71,19 @@ class Fitter:
             settings=self._settings,
             expected=expected,
         )
-        sighting = judged(scene, found)
+        sighting = verify_occurrence(scene, found)
         self.stages.end("judgement")
         return sighting
 
-    def each_of(
-        self, pixels: Pixels, model: MarkerModel, candidates: Sequence[Candidate], *, most: int = MAX_FITS
+    def fit_candidates(
+        self,
+        pixels: ImageContext,
+        model: MarkerModel,
+        candidates: Sequence[Candidate],
+        *,
+        maximum: int = MAX_FITS,
     ) -> Iterator[Sighting]:
-        """What some candidates, the likeliest first, turn out to be, one after the other, up to so many."""
+        """Yield the sightings of candidates, the most probable first, up to `most` fits."""
         fits = 0
         for candidate in candidates:
             start = pose_from_corners(self._camera, candidate.corners_px, side_mm=model.side_mm)
@@ -87,10 +92,10 @@ class Fitter:
                 continue
             yield sighting
             fits += 1
-            if fits >= most:
+            if fits >= maximum:
                 break
 
 
 def is_certain(sighting: Sighting) -> bool:
-    """Whether nothing better need be looked for."""
-    return worth_of(sighting) > CERTAIN_WORTH
+    """Whether the search can stop at this sighting."""
+    return rank_score(sighting) > CERTAIN_RANK_SCORE

@@ -1,4 +1,4 @@
-"""The tracker of one camera: what each image says of each marker."""
+"""The tracker of one camera."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import ClassVar
@@ -6,7 +6,6 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from tracker.appearance import textures_of
 from tracker.camera import CameraModel
 from tracker.errors import InvalidInput
 from tracker.geometry import Camera, Marker, Rigid
@@ -14,45 +13,45 @@ from tracker.marker import (
     MarkerModel,
     ScoreSettings,
     candidate_rounds,
-    pictures_of,
-    reject_alike,
+    reject_similar,
+    scale_space_of,
     templates_of,
 )
+from tracker.photometric import textures_of
 from tracker.pipeline.fitter import Fitter
-from tracker.pipeline.image import Patch, grey_of, pixels_of
-from tracker.pipeline.look_out import LookOut
-from tracker.pipeline.practice import practice_picture
+from tracker.pipeline.idle_search import IdleSearch
+from tracker.pipeline.image import RepeatedPatch, grey_of, image_context_of
 from tracker.pipeline.search import Search
-from tracker.pose import Pixels, Prior, Readout, Seen, Sighting, one_for_each_place
-from tracker.stages import Stages
+from tracker.pipeline.warm_up_image import warm_up_image
+from tracker.pose import ImageContext, Prior, RollingShutter, Seen, Sighting, suppress_overlaps
+from tracker.stage_timer import StageTimer
 
 # Slower cameras give under five images a second.
-LONGEST_READOUT_S = 0.2
+MAX_READOUT_S = 0.2
 
 
 class Tracker:
     """Finds any number of markers in images of one camera.
 
-    `step` uses what it knows from the images before; `search` is stateless. Not to be called from two
-    threads at once.
+    `step` uses the state from the images before; `search` is stateless. Not thread-safe.
 
     Attributes:
-        stage_ms: time of each stage of the last image, by name; empty where no clock was given.
-        readout_s: as it was given.
+        stage_ms: duration of each stage of the last image, by name; empty without a clock.
+        readout_s: the readout time from the constructor.
 
-    The first tracker of a process loads the compiled loops, so that no image has to wait for them.
+    The first tracker of a process loads the compiled kernels, so that no image is delayed by it.
 
     Args:
         camera: of all images.
         models: of the markers, each with a name and a shape of its own.
-        settings: what is accepted.
-        clock: seconds, to time the stages by.
-        readout_s: from when the first row of an image is read to the last one; 0 of a global shutter. What
-            moves meanwhile is sheared: its pose is told without that, as far as its motion is known, and
-            with the rest in its covariance. A pose is of the time at which the marker's centre is read.
+        settings: acceptance thresholds.
+        clock: returns seconds, to measure the stages.
+        readout_s: time from the first row of an image to the last one; 0 for a global shutter. Poses of
+            moving markers are corrected for the shear, and the uncertainty of the motion is added to the
+            covariance. A pose refers to the time at which the marker's centre is read.
 
     Raises:
-        InvalidInput: MARKER_NAMES_NOT_UNIQUE, MARKERS_ALIKE, or READOUT_INVALID.
+        InvalidInput: MARKER_NAMES_NOT_UNIQUE, MARKERS_TOO_SIMILAR, or READOUT_INVALID.
     """
 
     _has_loaded: ClassVar[bool] = False
@@ -66,10 +65,10 @@ class Tracker:
         clock: Callable[[], float] | None = None,
         readout_s: float = 0.0,
     ) -> None:
-        reject_alike(models)
+        reject_similar(models)
         _reject_readout(readout_s)
         self.readout_s = readout_s
-        self._readout = Readout(camera=camera, seconds=readout_s) if readout_s > 0.0 else None
+        self._readout = RollingShutter(camera=camera, seconds=readout_s) if readout_s > 0.0 else None
         self.camera = camera
         self.models = tuple(models)
         self.settings = settings or ScoreSettings()
@@ -77,133 +76,133 @@ class Tracker:
         self._templates = templates_of(self.models)
         self._textures = {model.name: textures_of(model.square) for model in self.models}
         self._priors = {model.name: Prior() for model in models}
-        self._patches = {model.name: Patch() for model in models}
+        self._patches = {model.name: RepeatedPatch() for model in models}
         for model in self.models:
-            # Made when they are first asked for: now, not when the marker is first in doubt.
-            pictures_of(model.square)
-        self._stages = Stages(clock)
+            # Cached at the first call: fill the cache now, not when a marker is first verified.
+            scale_space_of(model.square)
+        self._stages = StageTimer(clock)
         self._fitter = Fitter(camera=camera, settings=self.settings, stages=self._stages)
-        self._look_out = LookOut(self._search_of)
+        self._idle_search = IdleSearch(self._search_of)
         if self.models and not Tracker._has_loaded:
             Tracker._has_loaded = True
-            self._practise()
+            self._warm_up()
 
-    def _practise(self) -> None:
-        """Run the loops of a search once: they are made, or read, when they are first called."""
-        image = practice_picture(self.models[0].square, size_wh_px=self.camera.size_wh_px).image
-        pixels, templates = pixels_of(image, self._textures), self._templates[[0]]
-        # No image has come: the caller's clock is not asked.
-        fitter = Fitter(camera=self.camera, settings=self.settings, stages=Stages(None))
-        Search(pixels, self.models[:1], templates, fitter=fitter).to_the_end()
+    def _warm_up(self) -> None:
+        """Run the kernels of a search once, because they are compiled or loaded at their first call."""
+        image = warm_up_image(self.models[0].square, size_wh_px=self.camera.size_wh_px).image
+        pixels, templates = image_context_of(image, self._textures), self._templates[[0]]
+        # No image yet: do not call the caller's clock.
+        fitter = Fitter(camera=self.camera, settings=self.settings, stages=StageTimer(None))
+        Search(pixels, self.models[:1], templates, fitter=fitter).run()
         for _ in candidate_rounds(image, templates):
             pass
 
     def step(
-        self, image: npt.NDArray[np.uint8], *, captured_at_s: float, whole: bool = False
+        self, image: npt.NDArray[np.uint8], *, captured_at_s: float, full_search: bool = False
     ) -> dict[str, Sighting]:
-        """What this image says of each marker, using what is known from the images before it.
+        """Return a sighting of each marker in this image, using the state from the images before.
 
-        A marker that was seen is looked for where it is expected; one that is not there is searched for in
-        the whole of the same image. A marker that was not seen while others are costs a part of a search:
-        it may come into view for a fraction of a second before it is found. A marker whose pixels come
-        again, as from a frozen camera, is seen again, and no surer.
+        A marker that was seen is fitted at its predicted pose; if that fails, the whole image is searched.
+        While other markers are seen, one out of view is searched for in parts, so it may be found a fraction
+        of a second late. A marker whose pixels repeat, as from a frozen camera, is seen again, and its
+        certainty does not grow.
 
         Args:
             image: grey (h, w) or BGR (h, w, 3), uint8, of the camera's size.
-            captured_at_s: time of the image; an image that is older than the last one clears what is known.
-            whole: search the whole of this image for each marker that is not seen, whatever that costs: for
-                recordings, in which no image is to be missed.
+            captured_at_s: capture time; an image older than the last one clears the state.
+            full_search: search the whole image for each marker that is not seen, at any cost: for
+                recordings, in which no image may be missed.
 
         Raises:
             InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
         """
         pixels = self._pixels(image)
-        again = {name: patch.is_again(pixels.image) for name, patch in self._patches.items()}
+        again = {name: patch.is_repeated(pixels.image) for name, patch in self._patches.items()}
         seen: dict[str, Sighting] = {}
         for model in self.models:
-            sighting = self._track(pixels, model, captured_at_s, is_again=again[model.name])
+            sighting = self._track(pixels, model, captured_at_s, is_repeated=again[model.name])
             if isinstance(sighting, Seen):
                 seen[model.name] = sighting
         missing = [model for model in self.models if model.name not in seen]
-        # Where none is in view there is time to look for all.
-        at_once = whole or not seen
+        # If none is in view, there is time for a complete search.
+        at_once = full_search or not seen
         lost = [model for model in missing if at_once or self._expected(model, captured_at_s) is not None]
         if lost:
-            said = self._search_of(pixels, lost).to_the_end()
-            self._look_out.hear(said)
-            seen |= said
+            sightings = self._search_of(pixels, lost).run()
+            self._idle_search.record(sightings)
+            seen |= sightings
         lost_names = {model.name for model in lost}
-        seen |= self._look_out.look(pixels, [model for model in missing if model.name not in lost_names])
-        seen = one_for_each_place(seen)
+        seen |= self._idle_search.step(pixels, [model for model in missing if model.name not in lost_names])
+        seen = suppress_overlaps(seen)
         for model in self.models:
             name, prior = model.name, self._priors[model.name]
-            now = self._undone(model, seen[name], prior, captured_at_s, is_again=again[name])
+            now = self._without_shear(model, seen[name], prior, captured_at_s, is_repeated=again[name])
             seen[name] = now
-            prior.learn(now, captured_at_s, is_again=again[name])
+            prior.update(now, captured_at_s, is_repeated=again[name])
             if isinstance(now, Seen) and not again[name]:
-                self._patches[name].keep(pixels.image, now.corners_px)
-        self.stage_ms = self._stages.taken_ms
+                self._patches[name].store(pixels.image, now.corners_px)
+        self.stage_ms = self._stages.elapsed_ms
         return {model.name: seen[model.name] for model in self.models}
 
     def search(self, image: npt.NDArray[np.uint8]) -> dict[str, Sighting]:
-        """What this image says of each marker: the whole image, no prior, stateless.
+        """Return a sighting of each marker in this image by a search of the whole image, without state.
 
-        Where none is found for certain the light may be poor, and what is not found is looked for once more:
-        that takes many times as long again. A step leaves that out, as another image comes.
+        If no marker is found with certainty, the illumination may be poor, and a second, much slower search
+        follows. `step` omits it, because another image follows.
 
         Raises:
             InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
         """
-        said = self._search_of(self._pixels(image), self.models).to_the_end(thorough=True)
-        seen = one_for_each_place(said)
-        seen = {model.name: self._undone(model, seen[model.name]) for model in self.models}
-        self.stage_ms = self._stages.taken_ms
+        sightings = self._search_of(self._pixels(image), self.models).run(thorough=True)
+        seen = suppress_overlaps(sightings)
+        seen = {model.name: self._without_shear(model, seen[model.name]) for model in self.models}
+        self.stage_ms = self._stages.elapsed_ms
         return seen
 
-    def _pixels(self, image: npt.NDArray[np.uint8]) -> Pixels:
+    def _pixels(self, image: npt.NDArray[np.uint8]) -> ImageContext:
         self._stages.start()
         grey = grey_of(image, size_wh_px=self.camera.size_wh_px)
         self._stages.end("grey")
-        return pixels_of(grey, self._textures)
+        return image_context_of(grey, self._textures)
 
     def _track(
-        self, pixels: Pixels, model: MarkerModel, captured_at_s: float, *, is_again: bool
+        self, pixels: ImageContext, model: MarkerModel, captured_at_s: float, *, is_repeated: bool
     ) -> Sighting | None:
-        """The marker where it is expected; None when nothing is expected there."""
+        """Return the sighting at the predicted pose; None without a prediction."""
         prior = self._priors[model.name]
-        expected = prior.expected(captured_at_s, is_again=is_again)
+        expected = prior.predict(captured_at_s, is_repeated=is_repeated)
         if expected is not None and self._readout is not None:
-            expected = self._readout.expected(expected, prior.rates, side_mm=model.side_mm)
+            expected = self._readout.imaged_pose(expected, prior.rates, side_mm=model.side_mm)
         return None if expected is None else self._fitter.near(pixels, model, expected, found_by="track")
 
     def _expected(self, model: MarkerModel, captured_at_s: float) -> Rigid[Camera, Marker] | None:
-        return self._priors[model.name].expected(captured_at_s)
+        return self._priors[model.name].predict(captured_at_s)
 
-    def _undone(
+    def _without_shear(
         self,
         model: MarkerModel,
         sighting: Sighting,
         prior: Prior | None = None,
         at_s: float = 0.0,
         *,
-        is_again: bool = False,
+        is_repeated: bool = False,
     ) -> Sighting:
-        """The same without what reading the image row by row did to it; for the rest see `Readout.undone`."""
+        """Return the sighting corrected for the rolling shutter; see `RollingShutter.corrected`."""
         if self._readout is None or not isinstance(sighting, Seen):
             return sighting
-        return self._readout.undone(sighting, prior, at_s, side_mm=model.side_mm, is_again=is_again)
+        return self._readout.corrected(sighting, prior, at_s, side_mm=model.side_mm, is_repeated=is_repeated)
 
-    def _search_of(self, pixels: Pixels, models: Sequence[MarkerModel]) -> Search:
-        """A search that has not begun."""
+    def _search_of(self, pixels: ImageContext, models: Sequence[MarkerModel]) -> Search:
+        """Return a new search."""
         which = [self.models.index(model) for model in models]
         return Search(pixels, models, self._templates[which], fitter=self._fitter)
 
 
 def _reject_readout(readout_s: float) -> None:
-    if not 0.0 <= readout_s <= LONGEST_READOUT_S:
+    if not 0.0 <= readout_s <= MAX_READOUT_S:
         raise InvalidInput(
             "READOUT_INVALID",
             f"reading an image row by row would take {readout_s * 1e3:g} ms",
-            f"Give what its data sheet says, 0 (a global shutter) to {LONGEST_READOUT_S * 1e3:g} ms.",
+            f"Give what its data sheet says, 0 (a global shutter) to {MAX_READOUT_S * 1e3:g} ms.",
             {"readout_ms": readout_s * 1e3},
         )

@@ -1,4 +1,4 @@
-"""The plan: the channel that the drill shall follow, and the bone it goes through."""
+"""The surgical plan: the drill channel and the bone around it."""
 
 from tracker.plan.channel import Channel
 from tracker.plan.document import (

@@ -12,10 +12,10 @@ from tracker.geometry import Array
 class Channel:
     """A cylinder from the entry point on the bone to the target in the vertebral body.
 
-    As in the paper (2.1), its diameter is the least width of the pedicle.
+    As in the paper (2.1), its diameter is the minimum width of the pedicle.
 
     Attributes:
-        name: what the screen calls it ("L3 left").
+        name: display name ("L3 left").
         entry_in_vertebra_mm: (3,), on the bone's surface.
         target_in_vertebra_mm: (3,), the planned end of the drilling.
         radius_mm: radius of the cylinder.
@@ -46,10 +46,10 @@ class Channel:
 
     @property
     def length_mm(self) -> float:
-        """From entry point to target."""
+        """Return the distance from entry point to target."""
         return float(np.linalg.norm(self.target_in_vertebra_mm - self.entry_in_vertebra_mm))
 
     @property
     def axis_in_vertebra(self) -> Array:
-        """Unit direction (3,) of drilling."""
+        """Return the unit direction (3,) of drilling."""
         return (self.target_in_vertebra_mm - self.entry_in_vertebra_mm) / self.length_mm

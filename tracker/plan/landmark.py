@@ -1,4 +1,4 @@
-"""Named points of a vertebra, set on the CT, that are found again on the patient."""
+"""Named landmarks of a vertebra, defined on the CT and located again on the patient."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,10 +14,10 @@ from tracker.plan.volume import Volume
 class Landmark:
     """A point on the bone that can be found on the CT and on the patient.
 
-    A needle is put into it, or the tool's tip is held on it.
+    A needle is inserted at it, or the tool's tip touches it.
 
     Attributes:
-        name: what the screen calls it ("right superior articular process").
+        name: display name ("right superior articular process").
         point_lps_mm: (3,), on the bone's surface.
 
     Raises:
@@ -34,15 +34,15 @@ class Landmark:
                 "LANDMARK_INVALID",
                 f"landmark '{self.name[:40]}' has a place of shape {point.shape}, needed a name and three "
                 "finite numbers",
-                "Name it, and set it on the CT in LPS mm.",
+                "Give it a name and set it on the CT in LPS mm.",
                 {"name": self.name[:40]},
             )
         point.setflags(write=False)
         object.__setattr__(self, "point_lps_mm", point)
 
 
-def reject_twins(landmarks: Sequence[Landmark]) -> None:
-    """Refuse landmarks that cannot be told apart by their names; capitals and spaces tell nothing apart.
+def reject_duplicate_names(landmarks: Sequence[Landmark]) -> None:
+    """Reject landmarks whose names are equal up to case and whitespace.
 
     Raises:
         PlanError: LANDMARK_TWICE.
@@ -60,17 +60,17 @@ def reject_twins(landmarks: Sequence[Landmark]) -> None:
 
 
 def reject_landmarks_outside(landmarks: Sequence[Landmark], volume: Volume) -> None:
-    """A landmark that does not lie in the CT was set on another one.
+    """Reject a landmark outside the CT: it was set on another one.
 
     Raises:
         PlanError: LANDMARK_OUTSIDE_CT.
     """
     for one in landmarks:
-        if not volume.holds(one.point_lps_mm):
-            told = ", ".join(f"{value:.1f}" for value in one.point_lps_mm)
+        if not volume.contains(one.point_lps_mm):
+            formatted = ", ".join(f"{value:.1f}" for value in one.point_lps_mm)
             raise PlanError(
                 "LANDMARK_OUTSIDE_CT",
-                f"landmark '{one.name[:40]}' was set at ({told}) mm, which is not within the CT",
+                f"landmark '{one.name[:40]}' was set at ({formatted}) mm, which is not within the CT",
                 "Set it on this CT, in LPS mm.",
                 {"name": one.name[:40], "point_lps_mm": one.point_lps_mm.tolist()},
             )

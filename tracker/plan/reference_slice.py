@@ -1,4 +1,4 @@
-"""The paper's reference image: one axial slice, three lines to register by, the ideal paths."""
+"""The paper's reference image: one axial slice, three registration lines, the ideal paths."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from tracker.plan.channel import Channel
 from tracker.plan.pedicle import PedicleMeasure
 from tracker.plan.volume import Volume
 
-AHEAD_MM, BEHIND_MM = 50.0, 60.0
+AHEAD_MM, MAX_BEHIND_ENTRY_MM = 50.0, 60.0
 MIN_APART_MM = 1.0
 
 
@@ -39,7 +39,7 @@ class SliceLine:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReferenceSlice:
-    """The slice that stands for a vertebra, with its lines (paper, 2.1 and figure 1).
+    """The reference slice of a vertebra with its lines (paper, 2.1 and figure 1).
 
     Attributes:
         slice_index: number of the slice, from 0.
@@ -55,7 +55,7 @@ class ReferenceSlice:
 
 
 def propose_slice(volume: Volume, measures: Sequence[PedicleMeasure]) -> int:
-    """The slice that passes nearest to the isthmuses of all these pedicles: where they are seen best.
+    """Return the index of the slice nearest to the isthmuses of all these pedicles.
 
     Raises:
         PlanError: NO_PEDICLE_MEASURED.
@@ -71,7 +71,7 @@ def propose_slice(volume: Volume, measures: Sequence[PedicleMeasure]) -> int:
 
 
 def propose_middle(measures: Sequence[PedicleMeasure]) -> Array:
-    """A point (3,) half-way between the two isthmuses; the user moves it where the processes lie elsewhere.
+    """Return the midpoint (3,) of the two isthmuses; the user moves it if the processes lie elsewhere.
 
     Raises:
         PlanError: MIDDLE_UNKNOWN.
@@ -94,7 +94,7 @@ def draw_reference(
     apart_mm: float,
     channels: Sequence[Channel] = (),
 ) -> ReferenceSlice:
-    """The three vertical lines through a point and beside it, and the paths of the channels.
+    """Return the three vertical registration lines and the paths of the channels.
 
     Raises:
         PlanError: SLICE_OUTSIDE_CT, LINES_INVALID, MIDDLE_OUTSIDE_CT.
@@ -103,7 +103,7 @@ def draw_reference(
     if not 0 <= slice_index < slices:
         raise PlanError(
             "SLICE_OUTSIDE_CT",
-            f"slice {slice_index} was asked for, the CT has {slices} (0 to {slices - 1})",
+            f"slice {slice_index} was requested, the CT has {slices} (0 to {slices - 1})",
             "Choose a slice of this CT.",
             {"slice_index": slice_index, "slices": slices},
         )
@@ -121,16 +121,20 @@ def draw_reference(
     # The left line lies on the patient's left, whatever way the slice is stored.
     across *= 1.0 if across[0] > 0.0 else -1.0
     start = plane.project(middle)
-    if not volume.holds(plane.on_slice(start)):
-        told = ", ".join(f"{value:.1f}" for value in middle)
+    if not volume.contains(plane.on_slice(start)):
+        formatted = ", ".join(f"{value:.1f}" for value in middle)
         raise PlanError(
             "MIDDLE_OUTSIDE_CT",
-            f"the middle line was set through ({told}) mm, which is not on slice {slice_index} of the CT",
+            f"the middle line was set through ({formatted}) mm, not on slice {slice_index} of the CT",
             "Set it through a point of this slice, in LPS mm.",
             {"middle_lps_mm": middle.tolist(), "slice_index": slice_index},
         )
     lines = tuple(
-        plane.line(name, start + shift * across - AHEAD_MM * down, start + shift * across + BEHIND_MM * down)
+        plane.line(
+            name,
+            start + shift * across - AHEAD_MM * down,
+            start + shift * across + MAX_BEHIND_ENTRY_MM * down,
+        )
         for name, shift in (("middle", 0.0), ("left", apart_mm), ("right", -apart_mm))
     )
     paths = tuple(
@@ -159,7 +163,7 @@ class _Plane:
         return np.asarray(point - ((point - self._origin) @ self.normal) * self.normal)
 
     def on_slice(self, point: Array) -> Array:
-        """The same point without what rounding has put it beside the slice."""
+        """Return the same point, snapped to the slice to remove rounding errors."""
         index = self._volume.index_from_lps(point)
         return self._volume.lps_from_index([index[0], index[1], round(float(index[2]))])
 

@@ -1,4 +1,4 @@
-"""What the user should know about a result that can be used all the same."""
+"""Warning about a usable result."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -6,12 +6,12 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Remark:
-    """A warning: like an error, but the work was done.
+    """A warning with a code, as an error has, about work that was completed.
 
     Attributes:
         code: stable identifier in UPPER_SNAKE_CASE, for machines.
         message: what was found in numbers, without a final full stop.
-        remedy: what may be done about it, one full sentence.
+        remedy: what to do about it, one full sentence.
         context: the numbers of the message by name, each with its unit in the name.
     """
 

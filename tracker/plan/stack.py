@@ -1,4 +1,4 @@
-"""The slices of a CT put in order: one affine for all of them, or a sentence why there is none.
+"""Ordering of CT slices and their common affine, or an error if there is none.
 
 Slices that are uneven, missing or contradictory are rejected, neither resampled nor filled in: a pedicle
 would be measured where nothing was scanned. Deviations up to a tenth of the spacing, at most 0.2 mm, are
@@ -23,7 +23,7 @@ EXPORT_AGAIN = "Export the whole series again as original axial slices, and give
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stack:
-    """Where the slices of a series lie in the patient.
+    """Geometry of the ordered slices of a series.
 
     Attributes:
         lps_from_ijk: (4, 4), takes column, row and slice to LPS in mm; slices run along rows x columns.
@@ -43,7 +43,7 @@ class Stack:
 def stack_slices(
     *, positions_lps_mm: Array, directions: Array, pixels_mm: Array, size_wh_px: tuple[int, int]
 ) -> Stack:
-    """One affine for all slices of a series, in whatever order they are given.
+    """Return one affine for all slices of a series, given in any order.
 
     Args:
         positions_lps_mm: (n, 3), the centre of the first pixel of each slice.
@@ -58,7 +58,7 @@ def stack_slices(
     positions = np.asarray(positions_lps_mm, dtype=np.float64)
     axes = _checked_axes(np.asarray(directions, dtype=np.float64), np.asarray(pixels_mm, dtype=np.float64))
     extent = np.array(size_wh_px, dtype=np.float64) - 1.0
-    _check_alike(axes, extent)
+    _check_same_geometry(axes, extent)
     normal = np.cross(axes[0, 0], axes[0, 1])
     normal /= np.linalg.norm(normal)
     slices = _grouped(positions, positions @ normal)
@@ -83,7 +83,7 @@ def stack_slices(
     if tilt > MAX_TILT_DEG:
         raise InvalidInput(
             "CT_TILT_TOO_LARGE",
-            f"the slices are tilted by {tilt:.1f} deg against the way from one to the next, allowed "
+            f"the slices are tilted by {tilt:.1f} deg against the stacking direction, allowed "
             f"{MAX_TILT_DEG:.0f} deg",
             EXPORT_AGAIN,
             {"tilt_deg": tilt, "max_tilt_deg": MAX_TILT_DEG},
@@ -93,7 +93,7 @@ def stack_slices(
 
 
 def _checked_axes(directions: Array, pixels_mm: Array) -> Array:
-    """The step (n, 2, 3) in mm from column to column and from row to row of each slice."""
+    """Return the steps (n, 2, 3) in mm between columns and between rows of each slice."""
     finite = np.isfinite(directions).all() and np.isfinite(pixels_mm).all()
     lengths = np.linalg.norm(directions, axis=2)
     across = np.einsum("ni,ni->n", directions[:, 0], directions[:, 1])
@@ -109,8 +109,8 @@ def _checked_axes(directions: Array, pixels_mm: Array) -> Array:
     return np.asarray(directions / lengths[:, :, None] * pixels_mm[:, :, None])
 
 
-def _check_alike(axes: Array, extent: Array) -> None:
-    """Refuses slices that are turned, or have larger pixels, than the others."""
+def _check_same_geometry(axes: Array, extent: Array) -> None:
+    """Reject slices whose orientation or pixel size differs from the others."""
     usual = np.median(axes, axis=0)
     lengths = np.linalg.norm(axes, axis=2)
     usual_lengths = np.median(lengths, axis=0)
@@ -139,7 +139,7 @@ def _check_alike(axes: Array, extent: Array) -> None:
 
 
 def _grouped(positions: Array, heights: Array) -> tuple[tuple[int, ...], ...]:
-    """The slices from the lowest to the highest; those at the same height together."""
+    """Return the slices in ascending position; slices at the same position form one group."""
     groups: list[list[int]] = []
     for index in np.argsort(heights, kind="stable").tolist():
         if groups and heights[index] - heights[groups[-1][0]] <= SAME_PLACE_MM:
@@ -158,7 +158,7 @@ def _grouped(positions: Array, heights: Array) -> tuple[tuple[int, ...], ...]:
 
 
 def _check_gaps(gaps: Array) -> None:
-    """Refuses a series in which the distance between neighbours is not one and the same."""
+    """Reject a series with uneven slice spacing."""
     usual = float(np.sort(gaps)[(len(gaps) - 1) // 2])
     steps = gaps / usual
     if np.abs(steps - 1.0).max() <= 2.0 * MAX_JITTER_RATIO:
@@ -184,22 +184,22 @@ def _check_gaps(gaps: Array) -> None:
 
 
 def _jitter_mm(affine: Array, starts: Array, axes: Array, extent: Array) -> float:
-    """How far a corner of any slice lies at most from where the affine puts it."""
+    """Return the maximum distance of any slice corner from its place by the affine."""
     count = len(starts)
     worst = 0.0
     for column in (0.0, extent[0]):
         for row in (0.0, extent[1]):
-            told = starts + axes[:, 0] * column + axes[:, 1] * row
+            corners = starts + axes[:, 0] * column + axes[:, 1] * row
             index = np.column_stack([np.full(count, column), np.full(count, row), np.arange(count)])
             worst = max(
                 worst,
-                float(np.linalg.norm(told - index @ affine[:3, :3].T - affine[:3, 3], axis=1).max()),
+                float(np.linalg.norm(corners - index @ affine[:3, :3].T - affine[:3, 3], axis=1).max()),
             )
     return worst
 
 
 def _check_jitter(jitter: float, gaps: Array, spacing: float) -> None:
-    """Refuses slices that lie too far from where the affine puts them."""
+    """Reject slices too far from their place by the affine."""
     allowed = min(MAX_JITTER_MM, MAX_JITTER_RATIO * spacing)
     if jitter <= allowed:
         return

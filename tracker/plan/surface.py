@@ -1,4 +1,4 @@
-"""The bone's surface as triangles."""
+"""Triangle mesh of the bone surface."""
 
 from dataclasses import dataclass
 
@@ -43,13 +43,13 @@ class Surface:
 
     @property
     def volume_ml(self) -> float:
-        """What it encloses; meaningful only if it is closed. Negative if it is wound inside out."""
+        """Return the enclosed volume; valid only for a closed mesh. Negative for inward winding."""
         a, b, c = (self.vertices_mm[self.faces[:, i]] for i in range(3))
         return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6000.0)
 
 
 def _problem(vertices: Array, faces: npt.NDArray[np.int64]) -> str:
-    """What is wrong with this mesh, or an empty string."""
+    """Return the defect of this mesh, or an empty string."""
     if vertices.ndim != 2 or vertices.shape[1] != 3 or vertices.shape[0] < 3:
         return f"its vertices have shape {vertices.shape}, needed (n, 3)"
     if faces.ndim != 2 or faces.shape[1] != 3 or faces.shape[0] < 1:

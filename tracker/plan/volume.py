@@ -1,4 +1,4 @@
-"""A CT as an array of Hounsfield units with its place in the patient."""
+"""A CT volume of Hounsfield units with its affine in the patient."""
 
 import itertools
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from scipy import ndimage
 from tracker.errors import PlanError
 from tracker.geometry import Array
 
-# Outside the scanned block there is nothing known; air keeps it from being taken for bone.
+# Outside the scanned block the HU are unknown; air prevents a false detection of bone.
 OUTSIDE_HU = -1024.0
 BORDER_VOXELS = 1e-6
 
@@ -49,18 +49,18 @@ class Volume:
 
     @property
     def shape_ijk(self) -> tuple[int, int, int]:
-        """Number of columns, rows and slices."""
+        """Return the number of columns, rows and slices."""
         slices, rows, columns = self.hu.shape
         return columns, rows, slices
 
     @property
     def spacing_mm(self) -> Array:
-        """Distance (3,) between neighbouring voxels along i, j and k, in mm."""
+        """Return the distances (3,) between neighbouring voxels along i, j and k, in mm."""
         return np.asarray(np.linalg.norm(self.lps_from_ijk[:3, :3], axis=0))
 
     @property
     def voxel_mm3(self) -> float:
-        """What one voxel holds."""
+        """Return the volume of one voxel."""
         return float(abs(np.linalg.det(self.lps_from_ijk[:3, :3])))
 
     def in_patient_order(self) -> "Volume":
@@ -78,23 +78,23 @@ class Volume:
         return Volume(hu=hu, lps_from_ijk=self.lps_from_ijk[:, [*best, 3]])
 
     def lps_from_index(self, index_ijk: npt.ArrayLike) -> Array:
-        """Points (..., 3) in LPS mm of indexes (..., 3), which need not be whole numbers."""
+        """Return points (..., 3) in LPS mm of indexes (..., 3); fractions are allowed."""
         index = np.asarray(index_ijk, dtype=np.float64)
         return np.asarray(index @ self.lps_from_ijk[:3, :3].T + self.lps_from_ijk[:3, 3])
 
     def index_from_lps(self, points_lps_mm: npt.ArrayLike) -> Array:
-        """Indexes (..., 3) as i, j, k of points (..., 3) in LPS mm; not rounded, may lie outside."""
+        """Return indexes (..., 3) as i, j, k of points (..., 3) in LPS mm; not rounded, may lie outside."""
         points = np.asarray(points_lps_mm, dtype=np.float64) - self.lps_from_ijk[:3, 3]
         return np.asarray(points @ np.linalg.inv(self.lps_from_ijk[:3, :3]).T)
 
-    def holds(self, points_lps_mm: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-        """Which points (..., 3) in LPS mm lie between the centres of the outermost voxels: (...) bool."""
+    def contains(self, points_lps_mm: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+        """Return which points (..., 3) in LPS mm lie between the outermost voxel centres: (...) bool."""
         index = self.index_from_lps(points_lps_mm)
         most = np.array(self.shape_ijk) - 1.0
         return np.asarray(((index >= -1e-9) & (index <= most + 1e-9)).all(axis=-1))
 
     def sample_hu(self, points_lps_mm: npt.ArrayLike) -> Array:
-        """HU (...) at points (..., 3) in LPS mm, linear between voxels; -1024 outside the scanned block.
+        """Return HU (...) at points (..., 3) in LPS mm, trilinear; -1024 outside the scanned block.
 
         Only the part of the volume around the points is read, so that a mapped file stays on disk.
         """
@@ -116,7 +116,7 @@ class Volume:
 
 
 def _problem(hu: npt.NDArray[np.int16], affine: Array) -> str:
-    """What is wrong with this array and its place, or an empty string."""
+    """Return the defect of this array or affine, or an empty string."""
     if hu.ndim != 3 or min(hu.shape) < 2:
         return f"its array has shape {hu.shape}, needed three dimensions of at least 2"
     if hu.dtype != np.int16:

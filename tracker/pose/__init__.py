@@ -1,44 +1,50 @@
-"""From the marker's edges to its pose, and to the tool behind it."""
+"""Pose estimation of a marker from its edges and pixels, and the tool attached to it."""
 
-from tracker.pose.judgement import Scene, judged
-from tracker.pose.occurrence import Occurrence, corners_px_at, occurrence_near, side_px_of, with_target
-from tracker.pose.places import are_turned, one_for_each_place, worth_of
-from tracker.pose.planar import other_solution, pose_from_corners
+from tracker.pose.acceptance import OccurrenceContext, verify_occurrence
+from tracker.pose.occurrence import (
+    Occurrence,
+    corners_px_at,
+    occurrence_near,
+    side_px_of,
+    with_target_coverage,
+)
+from tracker.pose.photometric_refinement import ImageContext
+from tracker.pose.planar import flipped_pose, pose_from_corners
 from tracker.pose.prior import Prior
-from tracker.pose.readout import Readout
-from tracker.pose.refinement import Fit, refined_pose
+from tracker.pose.refinement import EdgeFit, fit_pose_to_edges
+from tracker.pose.rolling_shutter import RollingShutter
 from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
-from tracker.pose.steady import Steady, SteadyPose, SteadySettings
+from tracker.pose.smoothing import PoseSmoother, SmoothedPose, SmoothingSettings
+from tracker.pose.suppression import differ_by_rotation, rank_score, suppress_overlaps
 from tracker.pose.tool import ToolModel
-from tracker.pose.whole import Pixels
 from tracker.pose.window import window_around
 
 __all__ = [
-    "Fit",
+    "EdgeFit",
     "FoundBy",
+    "ImageContext",
     "Occurrence",
-    "Pixels",
+    "OccurrenceContext",
+    "PoseSmoother",
     "Prior",
-    "Readout",
-    "Scene",
+    "RollingShutter",
     "Seen",
     "Sighting",
-    "Steady",
-    "SteadyPose",
-    "SteadySettings",
+    "SmoothedPose",
+    "SmoothingSettings",
     "ToolModel",
     "Unseen",
     "UnseenReason",
-    "are_turned",
     "corners_px_at",
-    "judged",
+    "differ_by_rotation",
+    "fit_pose_to_edges",
+    "flipped_pose",
     "occurrence_near",
-    "one_for_each_place",
-    "other_solution",
     "pose_from_corners",
-    "refined_pose",
+    "rank_score",
     "side_px_of",
+    "suppress_overlaps",
+    "verify_occurrence",
     "window_around",
-    "with_target",
-    "worth_of",
+    "with_target_coverage",
 ]

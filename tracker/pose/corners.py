@@ -1,16 +1,16 @@
-"""Where the four corners of the black square are in the image."""
+"""Measure the four corners of the black square in the image."""
 
 from math import dist
 
 from tracker.edges import Gradient
 from tracker.geometry import Array
 from tracker.marker import ActiveEdges, edge_crossings
-from tracker.marker.kernels import shift_corners
+from tracker.marker.score_kernels import shift_corners
 
-# The part of each side, next to a corner, whose edgels say where that corner is: near enough that bent paper
-# is straight there, long enough to average over.
+# Part of each side, next to a corner, whose edgels locate the corner: short enough for bent paper to be
+# straight, long enough to average.
 NEAR_SIDE_RATIO = 0.35
-# Farther than this from where the pose has it, something else than the marker's own edge was met.
+# Beyond this distance from the projected edge, the edgel is not the marker's own.
 MAX_OFF_PX, MAX_OFF_SIDE_RATIO = 1.5, 0.04
 
 
@@ -23,11 +23,11 @@ def measured_corners_px(
     corners_px: Array,
     contrast: float,
 ) -> Array:
-    """Corners (4, 2), top-left, top-right, bottom-right, bottom-left, as the sides next to each show them.
+    """Return corners (4, 2), top-left, top-right, bottom-right, bottom-left, measured on the adjacent sides.
 
-    A pose is that of a flat square with true edges; paper bends, and a camera's response shifts edges: what
-    is seen lies beside it. Where too few edgels are seen next to a corner (it is covered, or not in the
-    image) it stays where the pose has it.
+    The pose assumes a flat square with unshifted edges; bent paper and the camera response move the imaged
+    corners. A corner with too few edgels next to it (occluded, or outside the image) keeps its projected
+    position.
 
     Args:
         gradient: of the image around the marker.

@@ -1,6 +1,6 @@
-"""The image rate of a measurement, from the times of its own images, and how long a gap it allows.
+"""Image period from capture times, and the longest gap allowed between two images.
 
-A camera with few images a second is no fault. What counts as a gap is therefore a number of image periods.
+A low image rate is no fault, so a gap is defined in image periods.
 """
 
 from collections.abc import Sequence
@@ -10,10 +10,10 @@ import numpy as np
 
 
 def image_period_s(times_s: Sequence[float], *, min_intervals: int = 1) -> float | None:
-    """Median time between two images [s]; None with fewer intervals than `min_intervals`.
+    """Return the median time between two images [s]; None with fewer than `min_intervals` intervals.
 
-    Of two middle intervals the shorter one counts: a single gap between few images must not pass for the
-    period. Times that do not increase are left out.
+    Of two middle intervals the shorter one is returned, so that a single gap between few images is not taken
+    for the period. Times that do not increase are ignored.
     """
     intervals = np.sort(np.diff(np.asarray(times_s, dtype=np.float64)))
     intervals = intervals[intervals > 0.0]
@@ -24,14 +24,13 @@ def image_period_s(times_s: Sequence[float], *, min_intervals: int = 1) -> float
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GapLimit:
-    """How much time may pass between two images, at any image rate.
+    """Limits of the time between two images, for any image rate.
 
     Attributes:
         max_periods: image periods. Six, because a camera of 5 to 10 images/s on a loaded machine has gaps of
             0.54 s. Higher: lost images go unnoticed. Lower: such a camera captures nothing.
-        always_allowed_s: a gap that no image rate forbids; in a shorter one no hand leaves a landmark and
-            comes back.
-        max_s: a gap that no image rate allows; in a longer one a hand can rest on two places.
+        always_allowed_s: lower bound of the limit; a hand cannot leave a landmark and return in this time.
+        max_s: upper bound of the limit; in a longer time a hand can rest at two positions.
     """
 
     max_periods: float = 6.0
@@ -39,6 +38,6 @@ class GapLimit:
     max_s: float = 1.0
 
     def allowed_s(self, period_s: float | None) -> float:
-        """The longest allowed gap [s] at this image period; the shortest limit while it is unknown."""
+        """Return the longest allowed gap [s] at this image period; the lower bound while it is unknown."""
         scaled_s = 0.0 if period_s is None else self.max_periods * period_s
         return min(self.max_s, max(self.always_allowed_s, scaled_s))

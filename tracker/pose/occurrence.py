@@ -1,4 +1,4 @@
-"""One claimed occurrence of a marker: fitted to its edges, and scored."""
+"""One occurrence of a marker model in the image: fitted to its edges and scored."""
 
 from dataclasses import dataclass, replace
 from math import sqrt
@@ -6,7 +6,7 @@ from math import sqrt
 import numpy as np
 
 from tracker.camera import CameraModel
-from tracker.camera.kernels import square_seen
+from tracker.camera.projection_kernels import project_square
 from tracker.edges import Edgels, Gradient
 from tracker.geometry import Array, Camera, Marker, Rigid
 from tracker.marker import (
@@ -17,30 +17,30 @@ from tracker.marker import (
     target_coverage_ratio,
 )
 from tracker.pose.corners import measured_corners_px
-from tracker.pose.refinement import Fit, projected_edges, refined_pose
+from tracker.pose.refinement import EdgeFit, fit_pose_to_edges, projected_edges
 
 # Before the fit, corners may be off by a pixel or two and edges therefore out of reach.
-WORTH_FITTING_COVERAGE = 0.3
-# The fit must end where it began: a candidate that has to be dragged over half its side is another thing.
+MIN_FIT_COVERAGE = 0.3
+# The fit must end near its start: a candidate that moves by over half its side is not the marker.
 MAX_DRAG_SIDE_RATIO = 0.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Occurrence:
-    """A marker laid on the edges of an image.
+    """A marker model fitted to the edges of an image.
 
     Attributes:
-        camera: that saw it.
+        camera: of the image.
         fit: the pose.
-        corners_px: (4, 2), of the black square at that pose, through the lens.
-        seen_corners_px: (4, 2), as the sides next to each show them.
-        agreement: how well the edges agree.
-        active: the model's edges that were laid on the image.
-        points_px: (n, 2), where they are at that pose; `normals_px` (n, 2) their unit normals.
+        corners_px: (4, 2), of the black square projected at that pose, with lens distortion.
+        seen_corners_px: (4, 2), measured on the sides next to each corner.
+        agreement: agreement of the model's edges with the image.
+        active: the fitted active edges of the model.
+        points_px: (n, 2), the active edges projected at that pose; `normals_px` (n, 2) their unit normals.
     """
 
     camera: CameraModel
-    fit: Fit
+    fit: EdgeFit
     corners_px: Array
     seen_corners_px: Array
     agreement: Agreement
@@ -50,13 +50,13 @@ class Occurrence:
 
 
 def corners_px_at(camera: CameraModel, model: MarkerModel, pose: Rigid[Camera, Marker]) -> Array:
-    """Corners (4, 2) of the black square at a pose, through the lens."""
-    seen = square_seen(pose.rotation, pose.translation_mm, camera.lens, model.side_mm)
+    """Return the corners (4, 2) of the black square projected at a pose, with lens distortion."""
+    seen = project_square(pose.rotation, pose.translation_mm, camera.lens, model.side_mm)
     return np.asarray(seen, dtype=np.float64)
 
 
 def side_px_of(corners_px: Array) -> float:
-    """Root of the area inside four corners (4, 2), in px."""
+    """Return the square root of the area of the quadrilateral (4, 2), in px."""
     (ax, ay), (bx, by), (cx, cy), (dx, dy) = corners_px.tolist()
     return sqrt(0.5 * abs((cx - ax) * (dy - by) - (cy - ay) * (dx - bx)))
 
@@ -70,7 +70,7 @@ def occurrence_near(
     first_reach_px: float,
     expected: Rigid[Camera, Marker] | None = None,
 ) -> Occurrence | None:
-    """The model fitted to the edges around a pose; None when too few of its edges are near."""
+    """Return the model fitted to the edges around a pose; None when too few of its edges are near."""
     corners = corners_px_at(camera, model, start)
     side = side_px_of(corners)
     active = model.level_for(side)
@@ -78,9 +78,9 @@ def occurrence_near(
     if projected is None:
         return None
     first = model_agreement(gradient, active, *projected, side_px=max(side, first_reach_px * 30.0))
-    if first.model_coverage_ratio < WORTH_FITTING_COVERAGE:
+    if first.model_coverage_ratio < MIN_FIT_COVERAGE:
         return None
-    fit = refined_pose(
+    fit = fit_pose_to_edges(
         camera,
         gradient,
         active,
@@ -119,10 +119,10 @@ def occurrence_near(
     )
 
 
-def with_target(
+def with_target_coverage(
     camera: CameraModel, model: MarkerModel, gradient: Gradient, edgels: Edgels, found: Occurrence
 ) -> Occurrence:
-    """The same with its target coverage, which asks which edges are there that the model has not."""
+    """Return the occurrence with its target coverage: how many of the image's edges the model has."""
     side = side_px_of(found.corners_px)
     active = model.level_for(side)
     projected: tuple[Array, Array] | None = (found.points_px, found.normals_px)

@@ -1,9 +1,9 @@
-"""The pose that lays all active edges on the edges of the image, with its covariance.
+"""Edge-based pose refinement with covariance.
 
 All active edges are fitted along their normals, with the lens model inside the fit and one shift common to
-all edges, because the camera's response and the ink move every edge alike. Four corners use a tenth of what
-the pixels hold. Both planar solutions are refined, and the mirror image of the accepted one is always
-tried. Cost: 1 ms an image.
+all edges, because the camera's response and the ink shift every edge alike. Four corners would use a tenth of
+the information in the pixels. Both planar solutions are refined, and the flipped pose of the accepted one is
+always tried. Cost: 1 ms per image.
 
 Without the error that does not average out along a side (`SIDE_BIAS_PX`), the tip of a marker 27 px wide
 lies inside its stated 95 % ellipsoid in a third of the images only; the price is a covariance that is wider
@@ -17,42 +17,42 @@ import numpy as np
 from tracker.camera import CameraModel
 from tracker.edges import Gradient
 from tracker.geometry import Array, Camera, Marker, Rigid
-from tracker.geometry.kernels import NO_BAND, RIDGE, pose_rows
+from tracker.geometry.geometry_kernels import NO_BAND, RIDGE, pose_rows
 from tracker.marker import ActiveEdges, reach_px
 from tracker.marker.score import MIN_RESPONSE_RATIO
-from tracker.pose.kernels import PARAMETERS, project_edges, refine_both
-from tracker.pose.rivals import DECIDED_COST, doubt_between, lead_between, surprise
+from tracker.pose.pose_ambiguity import DECIDED_COST, delta_chi2_to_next, flip_covariance, mahalanobis_squared
+from tracker.pose.pose_kernels import PARAMETERS, fit_both_solutions, project_edges
 
 # Camera response, ink and blooming shift all edges towards dark or bright alike: by up to 0.25 px.
 SHIFT_SD_PX = 0.25
-# Neighbouring edgels share pixels, so that their errors are alike over about three of them.
+# Neighbouring edgels share pixels, so their errors are correlated over about three of them.
 CORRELATION_LENGTH_PX = 3.0
 MIN_RESIDUAL_PX = 0.03
-# What does not average out along a side: the pattern of pixels against a straight edge, blur between edges
-# that are near to each other. Measured on rendered scenes, where the truth is known.
+# Error that does not average out along a side: aliasing of a straight edge with the pixel grid, blur between
+# neighbouring edges. Measured on rendered scenes with ground truth.
 SIDE_BIAS_PX, INDEPENDENT_SIDES = 0.05, 10.0
 MAX_MIRRORINGS = 5
 IN_ORDER = np.arange(PARAMETERS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Fit:
+class EdgeFit:
     """A refined pose.
 
     Attributes:
         camera_from_marker: the pose.
         covariance: (6, 6) [mm, rad], as in `Seen`.
-        shift_px: by how much all edges are shifted towards their bright side.
-        lead_sd2: as in `Seen`.
+        shift_px: common shift of all edges towards their bright side.
+        delta_chi2: as in `Seen`.
     """
 
     camera_from_marker: Rigid[Camera, Marker]
     covariance: Array
     shift_px: float
-    lead_sd2: float = float("inf")
+    delta_chi2: float = float("inf")
 
 
-def refined_pose(
+def fit_pose_to_edges(
     camera: CameraModel,
     gradient: Gradient,
     active: ActiveEdges,
@@ -62,10 +62,10 @@ def refined_pose(
     side_px: float,
     first_reach_px: float,
     expected: Rigid[Camera, Marker] | None = None,
-) -> Fit | None:
-    """The better of both planar solutions around `start`; None when no pose fits.
+) -> EdgeFit | None:
+    """Return the better of both planar solutions around `start`; None when no pose fits.
 
-    Where neither the image nor what was expected decides between the two, the covariance spans both.
+    Where neither the image nor the prediction decides between the two, the covariance spans both.
     """
     rotations, translations, matrices, numbers, first, second = _both(
         camera, gradient, active, start, contrast, reach_px(side_px), first_reach_px
@@ -78,7 +78,7 @@ def refined_pose(
 
     if second < 0:
         return _fit(pose_of(first), matrices[first], numbers[first], active, side_px)
-    # By all edges, not by those few that agree: where most are missing or far off, nothing is decided.
+    # Variance over all edges, not over the few inliers: where most are missing, nothing is decided.
     mean_px2 = float(numbers[first, 0]) / active.fitted.weight
     residuals = [float(numbers[k, 2] / numbers[k, 3]) for k in (first, second)]
     variance = max(min(residuals), MIN_RESIDUAL_PX**2, mean_px2) * CORRELATION_LENGTH_PX
@@ -86,18 +86,20 @@ def refined_pose(
     if expected is None and costs[1] - costs[0] > DECIDED_COST * variance:
         return _fit(pose_of(first), matrices[first], numbers[first], active, side_px)
     poses = [pose_of(first), pose_of(second)]
-    costs = [cost / variance + surprise(pose, expected) for cost, pose in zip(costs, poses, strict=True)]
+    costs = [
+        cost / variance + mahalanobis_squared(pose, expected) for cost, pose in zip(costs, poses, strict=True)
+    ]
     best = int(costs[0] > costs[1])
     first = (first, second)[best]
     fit = _fit(poses[best], matrices[first], numbers[first], active, side_px)
     if fit is None:
         return None
-    gap = abs(costs[1] - costs[0])
-    spread = doubt_between(poses[best], poses[1 - best], gap=gap, expected=expected)
+    delta_chi2 = abs(costs[1] - costs[0])
+    spread = flip_covariance(poses[best], poses[1 - best], delta_chi2=delta_chi2, expected=expected)
     return replace(
         fit,
         covariance=fit.covariance + spread,
-        lead_sd2=lead_between(costs, poses, best),
+        delta_chi2=delta_chi2_to_next(costs, poses, best),
     )
 
 
@@ -110,12 +112,12 @@ def _both(
     last_reach_px: float,
     first_reach_px: float,
 ) -> tuple[Array, Array, Array, Array, int, int]:
-    """What `refine_both` makes of a start: fits, and which of them is the better and which the other."""
+    """Call `fit_both_solutions` around a start; see there for what it returns."""
     fitted, last = active.fitted, last_reach_px
     reaches = np.array(
         [first_reach_px, first_reach_px, max(last, first_reach_px / 2.0), last, last, last, last, last]
     )
-    both: tuple[Array, Array, Array, Array, int, int] = refine_both(
+    both: tuple[Array, Array, Array, Array, int, int] = fit_both_solutions(
         gradient.x,
         gradient.y,
         float(gradient.left_px),
@@ -131,7 +133,7 @@ def _both(
         start.translation_mm,
         MAX_MIRRORINGS,
         MIN_RESIDUAL_PX**2,
-        # Twice what decides: the cost of a fit that is not at its end falls a little yet.
+        # Twice the deciding difference: the cost of a fit that has not converged still falls a little.
         2.0 * DECIDED_COST * CORRELATION_LENGTH_PX,
     )
     return both
@@ -140,7 +142,7 @@ def _both(
 def projected_edges(
     camera: CameraModel, pose: Rigid[Camera, Marker], active: ActiveEdges
 ) -> tuple[Array, Array] | None:
-    """Active edges as pixels (n, 2) and unit normals (n, 2), dark to bright; None behind the camera."""
+    """Return active edges in px (n, 2) and unit normals (n, 2), dark to bright; None behind the camera."""
     pixels, directions, in_front = project_edges(
         pose.rotation, pose.translation_mm, camera.lens, active.points_mm, active.normals
     )
@@ -149,22 +151,22 @@ def projected_edges(
 
 def _fit(
     pose: Rigid[Camera, Marker], matrix: Array, numbers: Array, active: ActiveEdges, side_px: float
-) -> Fit | None:
-    """The fit of what `refine_both` returns of one solution; None where it says nothing of the pose."""
+) -> EdgeFit | None:
+    """Return the fit of one solution of `fit_both_solutions`; None where the pose is not determined."""
     cost, shift, squares, weights, count = (float(v) for v in numbers)
     variance = max(
         squares / weights * count / max(count - PARAMETERS, 1),
         cost / active.fitted.weight,
         MIN_RESIDUAL_PX**2,
     )
-    # Edgels stand a pixel apart at small sizes and farther at large ones.
+    # Edgels are spaced by a pixel at small sizes and by more at large ones.
     spacing = max(active.fitted.spacing_ratio * side_px, 1e-3)
     variance *= max(CORRELATION_LENGTH_PX / spacing, 1.0)
     variance += SIDE_BIAS_PX**2 * count / INDEPENDENT_SIDES
-    inverse, is_told = pose_rows(matrix, IN_ORDER, NO_BAND, RIDGE)
-    if not is_told:
+    inverse, is_determined = pose_rows(matrix, IN_ORDER, NO_BAND, RIDGE)
+    if not is_determined:
         return None
-    return Fit(
+    return EdgeFit(
         camera_from_marker=pose,
         covariance=inverse[:, :6] * variance,
         shift_px=shift,

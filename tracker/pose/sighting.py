@@ -1,27 +1,27 @@
-"""What one image says of one marker: seen with its pose, or not seen with the reason."""
+"""The result of tracking one marker in one image: `Seen` with a pose, or `Unseen` with a reason."""
 
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Literal, TypeAlias
 
-from tracker.appearance import KnownLight
 from tracker.geometry import Array, Camera, Marker, Rigid
+from tracker.photometric import KnownIllumination
 
 FoundBy: TypeAlias = Literal["search", "track"]
 
 
 class UnseenReason(StrEnum):
-    """Why a marker is not claimed in an image.
+    """Why a marker was not detected in an image.
 
-    Two poses that explain it equally well are no such reason: the likelier one is claimed, with a covariance
-    that reaches over both (`POSE_UNCERTAIN` is what navigation makes of it), and the next images decide. So
-    the marker stays in sight, and its place in the image is as good as ever.
+    Pose ambiguity is no such reason: the more probable of two poses is returned, with a covariance that
+    spans both (navigation then reports `POSE_UNCERTAIN`), and the next images decide. The position of the
+    marker in the image is as accurate as ever.
     """
 
-    NO_CANDIDATE = "NO_CANDIDATE"  # nothing in the image has the outline of the marker
-    SCORE_TOO_LOW = "SCORE_TOO_LOW"  # something has, but too few of the marker's edges are there
-    TARGET_SCORE_TOO_LOW = "TARGET_SCORE_TOO_LOW"  # ... or edges are there that the marker has not
-    SHAPE_DIFFERS = "SHAPE_DIFFERS"  # its edges fit, but a part inside is dark for bright: a look-alike
+    NO_CANDIDATE = "NO_CANDIDATE"  # no quadrilateral in the image is a candidate
+    SCORE_TOO_LOW = "SCORE_TOO_LOW"  # the best candidate has too few of the model's edges
+    TARGET_SCORE_TOO_LOW = "TARGET_SCORE_TOO_LOW"  # ... or has edges that the model does not have
+    SHAPE_DIFFERS = "SHAPE_DIFFERS"  # its edges fit, but a part inside has inverted contrast: another shape
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,20 +32,21 @@ class Seen:
         camera_from_marker: the pose.
         pose_covariance: (6, 6) [mm, rad]; translation first, then rotation as a small left-multiplied
             rotation vector in the camera frame.
-        corners_px: (4, 2), top-left, top-right, bottom-right, bottom-left of the printed face, as the sides
-            next to each show them; where those are hidden, as the pose has them.
+        corners_px: (4, 2), top-left, top-right, bottom-right, bottom-left of the printed face, measured on
+            the sides next to each corner; projected from the pose where those sides are occluded.
         score_ratio: model coverage x (1 - weight x normalised fit error), 0..1.
         target_score_ratio: target coverage x the same, 0..1.
         model_coverage_ratio: length of the model's active edges found in the image, 0..1.
         target_coverage_ratio: length found, by the length of all edges inside the occurrence, 0..1.
         fit_error_px2: mean squared distance of the common edgels to the model's edges.
         found_by: "search" (whole image, no prior) or "track" (where it was expected).
-        lead_sd2: by how much this image and those before speak for this pose against the other planar
-            solution, in squared residuals by their variance; infinite where no other fits.
-        unexplained_ratio: of what its fit leaves of the pixels, the share (of the variance) that is not the
-            image's noise, 0..1: it comes again in the next image. 1 where edges told alone.
-        light: the uneven light that its pixels were explained in; None where it is even, or edges told alone.
-        is_in_noise: whether it is like the model only where noise, shadow and highlights do not hide it.
+        delta_chi2: chi-square of the flipped planar solution minus that of this pose, over this image and
+            those before; infinite where no other solution fits.
+        systematic_residual_ratio: share of the variance of the photometric residuals that is not image
+            noise, 0..1. It repeats in the next image. 1 where the pose is fitted to edges alone.
+        illumination: the uneven illumination, as estimated; None where it is even or unknown.
+        is_noise_corrected: whether the correlation passes only after correction for noise, shadow and
+            highlights.
     """
 
     camera_from_marker: Rigid[Camera, Marker]
@@ -57,20 +58,20 @@ class Seen:
     target_coverage_ratio: float
     fit_error_px2: float
     found_by: FoundBy
-    lead_sd2: float = float("inf")
-    unexplained_ratio: float = 1.0
-    light: KnownLight | None = None
-    is_in_noise: bool = False
+    delta_chi2: float = float("inf")
+    systematic_residual_ratio: float = 1.0
+    illumination: KnownIllumination | None = None
+    is_noise_corrected: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Unseen:
-    """A marker that is not claimed in an image.
+    """A marker that was not detected in an image.
 
     Attributes:
-        reason: why not.
-        best_score_ratio: the best score that anything in the image reached, 0 if nothing was scored. None
-            where only a part of it was searched: then the reason is that of the last whole search.
+        reason: why it was rejected.
+        best_score_ratio: the best score of any candidate, 0 if none was scored. None where only a part of
+            the image was searched: the reason is then that of the last complete search.
     """
 
     reason: UnseenReason

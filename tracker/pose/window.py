@@ -1,4 +1,4 @@
-"""The part of an image that is looked at around an expected marker."""
+"""The region of interest around an expected marker."""
 
 from math import ceil, floor
 
@@ -11,9 +11,9 @@ MARGIN_PX, MARGIN_SIDE_RATIO, MIN_PX = 8.0, 0.15, 24
 def window_around(
     corners_px: Array, *, reach_px: float, size_wh_px: tuple[int, int]
 ) -> tuple[int, int, int, int] | None:
-    """Left, top, right, bottom of the part of the image in which a marker expected at these corners can be.
+    """Return left, top, right, bottom (px) of the region that can contain a marker expected at these corners.
 
-    None where too little of it would be inside the image.
+    None where too little of it lies inside the image.
     """
     margin = reach_px + MARGIN_PX + MARGIN_SIDE_RATIO * side_px_of(corners_px)
     width, height = size_wh_px

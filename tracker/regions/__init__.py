@@ -1,11 +1,11 @@
-"""Dark regions: what is darker than its surroundings, the four sides of its outline, its borders."""
+"""Dark regions: adaptive threshold, quads that regions fill, and border segments."""
 
-from tracker.regions.dark import (
+from tracker.regions.dark_regions import (
     Regions,
     border_segments,
     dark_mask,
-    even_image,
     noise_grey,
+    normalise_illumination,
     quads_of,
     regions_of_mask,
 )
@@ -14,8 +14,8 @@ __all__ = [
     "Regions",
     "border_segments",
     "dark_mask",
-    "even_image",
     "noise_grey",
+    "normalise_illumination",
     "quads_of",
     "regions_of_mask",
 ]

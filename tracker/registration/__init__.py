@@ -1,4 +1,4 @@
-"""How the plan's vertebra is found on the patient: `Registration`, and the ways to make one."""
+"""Registration of the planned vertebra to the patient: the `Registration` record, and the methods."""
 
 from tracker.registration.record import AnchoredTo, Method, Registration
 

@@ -1,4 +1,4 @@
-"""A registration that was made in the camera's image, fixed to the marker on the patient."""
+"""Re-anchor a registration from the camera to the patient's reference marker."""
 
 import numpy as np
 
@@ -7,10 +7,10 @@ from tracker.pose import Seen
 from tracker.registration.record import AnchoredTo, Registration
 
 
-def fixed_to_reference(registration: Registration, reference: Seen) -> Registration:
-    """The same registration as seen from the reference, which was seen in the same image.
+def anchor_to_reference(registration: Registration, reference: Seen) -> Registration:
+    """Return the registration relative to the reference, seen in the same image.
 
-    From then on patient and camera may move together or alone; the reference's own uncertainty is in it.
+    Patient and camera may then move independently; the covariance of the reference's pose is included.
     """
     if registration.anchored_to is AnchoredTo.REFERENCE:
         return registration
@@ -29,8 +29,8 @@ def fixed_to_reference(registration: Registration, reference: Seen) -> Registrat
             registration.anchor_from_vertebra,
             registration.covariance,
         ),
-        tip_slope=np.vstack(
-            [back.rotation @ registration.tip_slope[:3], back.rotation @ registration.tip_slope[3:]]
+        tip_jacobian=np.vstack(
+            [back.rotation @ registration.tip_jacobian[:3], back.rotation @ registration.tip_jacobian[3:]]
         ),
         tool=registration.tool,
     )

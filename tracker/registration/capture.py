@@ -1,4 +1,4 @@
-"""Capture of a landmark: the tip is held on it, and taken only if it was seen and still in every image."""
+"""Capture a landmark: the tip must be seen and still in every image."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -17,16 +17,16 @@ MIN_INTERVALS = 3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CaptureSettings:
-    """What a capture must be like.
+    """Requirements of a capture.
 
     Attributes:
-        min_images: how many images.
-        min_s: how long they last at least, so that a hand's tremor is in them.
-        max_s: how long a tip is held at most; a rate at which `min_images` take longer is too low.
-        gap: between two images; a longer gap means that the tip could have moved unseen.
-        max_sd_mm: spread of the tip along its worst axis.
-        max_off_mm: the farthest single image from the mean.
-        max_tip_sd_mm: what an image may state of its own tip (root of the trace).
+        min_images: minimum number of images.
+        min_s: minimum duration, so that a hand's tremor is sampled.
+        max_s: maximum duration; an image rate at which `min_images` take longer is too low.
+        gap: between two images; in a longer gap the tip could have moved unseen.
+        max_sd_mm: standard deviation of the tip along its worst axis.
+        max_off_mm: maximum distance of a single image from the mean.
+        max_tip_sd_mm: maximum uncertainty of the tip in an image (root of the trace).
     """
 
     min_images: int = 12
@@ -38,21 +38,21 @@ class CaptureSettings:
     max_tip_sd_mm: float = 3.0
 
     def hold_s(self, period_s: float) -> float:
-        """How long the tip must be held [s] where an image comes every `period_s`."""
+        """Return how long the tip must be held [s] at an image period of `period_s`."""
         return max(self.min_s, self.min_images * period_s)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TipSample:
-    """The tip in one image, seen.
+    """Position of the tip in one image.
 
     Attributes:
-        at_s: when.
+        at_s: time of the image.
         tip_in_anchor_mm: (3,).
-        covariance_mm2: (3, 3), of all that is unsure, the tip behind its marker with it.
-        anchor_from_marker: (3, 3), how the tool's marker is turned.
-        tip_covariance_mm2: (3, 3) of the tip behind its marker, in the marker's frame.
-        image_number: as the camera counts its images, those that were not tracked included; None if unknown.
+        covariance_mm2: (3, 3), total, including the calibration of the tip.
+        anchor_from_marker: (3, 3), rotation of the tool's marker.
+        tip_covariance_mm2: (3, 3) of the tip's calibration, in the marker frame.
+        image_number: as counted by the camera, including untracked images; None if unknown.
     """
 
     at_s: float
@@ -74,17 +74,17 @@ class UnseenSample:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CapturedLandmark:
-    """Where the tip was held.
+    """Result of a capture.
 
     Attributes:
-        tip_in_anchor_mm: (3,) the mean.
-        covariance_mm2: (3, 3) of the mean: what is common to all images, and what is left of the rest.
-        anchor_from_marker: (3, 3), how the tool's marker was turned.
-        tip_covariance_mm2: (3, 3) of the tip behind its marker, in the marker's frame; it is in
-            `covariance_mm2`, and common to all landmarks that this tool touches.
-        images: how many.
+        tip_in_anchor_mm: (3,) mean position.
+        covariance_mm2: (3, 3) of the mean: the common part of all images plus the averaged noise.
+        anchor_from_marker: (3, 3), mean rotation of the tool's marker.
+        tip_covariance_mm2: (3, 3) of the tip's calibration, in the marker frame; included in `covariance_mm2`
+            and common to all landmarks captured with this tool.
+        images: their number.
         spread_mm: (3,) standard deviation along the anchor's axes.
-        max_off_mm: the farthest single image from the mean.
+        max_off_mm: maximum distance of a single image from the mean.
         lasted_s: from the first image to the last.
     """
 
@@ -99,7 +99,7 @@ class CapturedLandmark:
 
     @property
     def own_covariance_mm2(self) -> Array:
-        """(3, 3), of what this touch errs by itself: all but the tip behind its marker."""
+        """(3, 3), covariance of this capture without the common calibration of the tip."""
         of_tip = self.anchor_from_marker @ self.tip_covariance_mm2 @ self.anchor_from_marker.T
         values, vectors = np.linalg.eigh(self.covariance_mm2 - of_tip)
         # Turned a little from image to image, the tip's part may be larger than what is taken away here.
@@ -107,19 +107,19 @@ class CapturedLandmark:
 
 
 class LandmarkCollector:
-    """Gathers the images of one capture. Mutable: holds what was seen. Time arrives as a number."""
+    """Collect the images of one capture. Mutable; has no clock."""
 
     def __init__(self, settings: CaptureSettings | None = None) -> None:
         self._settings = settings or CaptureSettings()
         self._samples: list[TipSample | UnseenSample] = []
 
     def take(self, sample: TipSample | UnseenSample) -> None:
-        """One image, in the order of time; the tip seen or not."""
+        """Add one image, in chronological order."""
         self._samples.append(sample)
 
     @property
     def is_over(self) -> bool:
-        """Whether there is enough to judge, or no point in waiting."""
+        """Whether the capture is complete or cannot succeed any more."""
         if not self._samples:
             return False
         unseen = isinstance(self._samples[-1], UnseenSample)
@@ -133,7 +133,7 @@ class LandmarkCollector:
 
     @property
     def left_s(self) -> float | None:
-        """How long the tip is still to be held [s] at this rate; None before the second image."""
+        """Remaining time [s] at this rate; None before the second image."""
         rate = _rate_of(self._samples)
         if rate is None:
             return None
@@ -151,7 +151,7 @@ class LandmarkCollector:
 
     @property
     def _is_hopeless(self) -> bool:
-        """Whether the capture can only be refused: held too long, interrupted, or at too low a rate."""
+        """Whether the capture can only be rejected: too long, interrupted, or at too low a rate."""
         settings = self._settings
         times_s = [sample.at_s for sample in self._samples]
         gap_s = times_s[-1] - times_s[-2] if len(times_s) > 1 else 0.0
@@ -161,7 +161,7 @@ class LandmarkCollector:
         return period_s is not None and settings.hold_s(period_s) > settings.max_s
 
     def result(self, common_covariance_mm2: npt.ArrayLike | None = None) -> CapturedLandmark:
-        """The landmark. Raises as `captured`."""
+        """Return the landmark. Raises as `captured`."""
         return captured(self._samples, self._settings, common_covariance_mm2)
 
 
@@ -170,10 +170,10 @@ def captured(
     settings: CaptureSettings | None = None,
     common_covariance_mm2: npt.ArrayLike | None = None,
 ) -> CapturedLandmark:
-    """Where the tip was held, from all images in which it was held.
+    """Compute a landmark from all images of its capture.
 
-    `common_covariance_mm2`: (3, 3) of what does not average out, such as the tip's calibration. Left out, all
-    that the images state of themselves counts as common: of a tool at rest the errors are alike.
+    `common_covariance_mm2`: (3, 3) of errors that do not average out, such as the tip's calibration. If None,
+    the stated covariance counts as common: the errors of a tool at rest are correlated.
 
     Raises:
         RegistrationError: CAPTURE_UNSEEN, CAPTURE_INTERRUPTED, CAPTURE_RATE_TOO_LOW, CAPTURE_TOO_SHORT,

@@ -1,11 +1,11 @@
-"""The image rate of a capture: how it is worded in a refusal, and what makes it higher."""
+"""Image rate of a capture, its text in error messages, and how to raise it."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from tracker.pose.image_rate import image_period_s
 
-# Below this rate a refusal says how the camera, or the machine, becomes faster.
+# Below this rate an error message includes a remedy for the slow camera or machine.
 SLOW_HZ = 15.0
 # The camera gave so many times the images that were tracked: the machine is slow, not the camera.
 BUSY_RATIO = 1.5
@@ -13,11 +13,11 @@ BUSY_RATIO = 1.5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CaptureRate:
-    """How often images came during a capture.
+    """Image rate during a capture.
 
     Attributes:
-        period_s: median time between two images that were tracked.
-        camera_hz: images/s that the camera gave, tracked or not; None if unknown.
+        period_s: median time between two tracked images.
+        camera_hz: images/s of the camera, tracked or not; None if unknown.
     """
 
     period_s: float
@@ -25,9 +25,9 @@ class CaptureRate:
 
     @classmethod
     def of(cls, times_s: Sequence[float], image_numbers: Sequence[int | None]) -> "CaptureRate | None":
-        """The rate of these images; None before the second one.
+        """Return the rate of these images; None before the second one.
 
-        `image_numbers`: as the camera counts its images; None where that is unknown.
+        `image_numbers`: as counted by the camera; None if unknown.
         """
         period_s = image_period_s(times_s)
         if period_s is None:
@@ -49,13 +49,13 @@ class CaptureRate:
 
     @property
     def text(self) -> str:
-        """The rate for a sentence, such as `5.0 images/s`."""
+        """The rate as text, such as `5.0 images/s`."""
         given = f" (the camera gives {self.camera_hz:.1f})" if self.machine_is_slow else ""
         return f"{self.tracked_hz:.1f} images/s{given}"
 
     @property
     def remedy(self) -> str:
-        """How the images come faster, as a sentence with a space before it; empty where they are fast."""
+        """How to raise the rate, as a sentence with a leading space; empty at a high rate."""
         if self.tracked_hz >= SLOW_HZ:
             return ""
         if self.machine_is_slow:

@@ -1,4 +1,4 @@
-"""Check on anatomy: the tip on a landmark that was not used must come to lie there."""
+"""Check on anatomy: distance of the tip from a landmark that was not used for the registration."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -17,14 +17,14 @@ MIN_APART_MM = 5.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LandmarkCheck:
-    """How far the tip seems to be from the landmark that it touches.
+    """Distance of the tip from the landmark that it touches.
 
     Attributes:
         landmark: its name.
         distance_mm: between tip and landmark.
-        off_mm: (3,) tip minus landmark to the patient's left, back and head.
-        sd_mm: how unsure that distance is (3-D RMS) by what registration and tip state.
-        max_mm: what was allowed.
+        off_mm: (3,) tip minus landmark, LPS.
+        sd_mm: uncertainty of that distance (3-D RMS), from registration and tip.
+        max_mm: its limit.
     """
 
     landmark: str
@@ -35,11 +35,11 @@ class LandmarkCheck:
 
     @property
     def passed(self) -> bool:
-        """Whether navigation may go on."""
+        """Whether the distance is within the limit."""
         return self.distance_mm <= self.max_mm
 
     def failures(self) -> tuple[RegistrationError, ...]:
-        """What keeps navigation from going on; nothing where the check passes."""
+        """Return the errors that prevent navigation; empty if the check passes."""
         if self.passed:
             return ()
         left, back, head = self.off_mm
@@ -64,9 +64,9 @@ def check_landmark(
     tip_covariance_mm2: npt.ArrayLike | None = None,
     max_mm: float = MAX_MM,
 ) -> LandmarkCheck:
-    """The distance of the tip (3,) from a landmark (3,) of the CT, by a registration that did not use it.
+    """Compute the distance of the tip (3,) from a landmark (3,) of the CT that was not used.
 
-    `used_mm`: the landmarks on the CT that the registration stands on, by name; empty for other methods.
+    `used_mm`: landmarks on the CT used for the registration, by name; empty for other methods.
 
     Raises:
         RegistrationError: LANDMARK_WAS_USED, or CHECK_INVALID, a number is not finite.

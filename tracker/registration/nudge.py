@@ -1,7 +1,7 @@
-"""Nudges by hand: small steps of a registration along and about the patient's axes, bounded and undoable.
+"""Manual adjustment of a registration in small, bounded, undoable steps along the patient's axes.
 
-What a hand nudges, nobody has measured. So each nudge widens the stated uncertainty as if the truth lay
-anywhere between the registration as made and as nudged; undone, that is gone too.
+A manual adjustment is not a measurement. Each one widens the stated uncertainty as if the truth were anywhere
+between the original and the adjusted registration; undoing it removes that as well.
 """
 
 from dataclasses import dataclass, replace
@@ -19,7 +19,7 @@ ROUNDING = 1e-9
 
 
 class NudgeAxis(StrEnum):
-    """The patient's axes, each named for the way that is positive."""
+    """The patient's axes, named by their positive direction."""
 
     LEFT = "left"
     BACK = "back"
@@ -27,7 +27,7 @@ class NudgeAxis(StrEnum):
 
 
 class NudgeKind(StrEnum):
-    """What a nudge does: shift along its axis in mm, or turn about it in degrees, right-handed."""
+    """Translation along an axis in mm, or right-handed rotation about it in degrees."""
 
     SHIFT = "shift"
     TURN = "turn"
@@ -65,7 +65,7 @@ class Nudge:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NudgeLimits:
-    """How far all nudges together may lead from the registration as it was made."""
+    """Maximum total translation and rotation from the original registration."""
 
     max_mm: float = 5.0
     max_deg: float = 5.0
@@ -99,29 +99,29 @@ class NudgedRegistration:
         object.__setattr__(self, "pivot_mm", pivot)
 
     def nudged(self, nudge: Nudge) -> "NudgedRegistration":
-        """With one more nudge.
+        """Return the registration with one more adjustment.
 
         Raises:
-            RegistrationError: NUDGE_TOO_FAR, all together would lead farther than allowed.
+            RegistrationError: NUDGE_TOO_FAR, the total would exceed its limit.
         """
         after = replace(self, nudges=(*self.nudges, nudge))
-        shift_mm, turn_deg = after.shift_mm, after.turn_deg
+        shift_mm, rotation_deg = after.shift_mm, after.rotation_deg
         # What leads back is always let through, also where limits were made narrower meanwhile.
         too_far = shift_mm > max(self.limits.max_mm, self.shift_mm) + ROUNDING
-        too_turned = turn_deg > max(self.limits.max_deg, self.turn_deg) + ROUNDING
+        too_turned = rotation_deg > max(self.limits.max_deg, self.rotation_deg) + ROUNDING
         if too_far or too_turned:
             raise RegistrationError(
                 "NUDGE_TOO_FAR",
-                f"with this nudge the registration would be {shift_mm:.1f} mm and {turn_deg:.1f} deg "
+                f"with this nudge the registration would be {shift_mm:.1f} mm and {rotation_deg:.1f} deg "
                 f"from where it was made, allowed {self.limits.max_mm:g} mm and "
                 f"{self.limits.max_deg:g} deg",
                 "Undo nudges, or register again: what is this far off is no matter of nudging.",
-                {"shift_mm": shift_mm, "turn_deg": turn_deg},
+                {"shift_mm": shift_mm, "rotation_deg": rotation_deg},
             )
         return after
 
     def undone(self) -> "NudgedRegistration":
-        """Without the last nudge.
+        """Return the registration without the last adjustment.
 
         Raises:
             RegistrationError: NUDGE_NONE, there is none.
@@ -134,28 +134,28 @@ class NudgedRegistration:
 
     @property
     def shift_mm(self) -> float:
-        """How far the pivot lies from where it was as made."""
+        """Total translation of the pivot."""
         return float(np.linalg.norm(self._moved().move_points(self.pivot_mm) - self.pivot_mm))
 
     @property
-    def turn_deg(self) -> float:
-        """How far all nudges together turn it."""
+    def rotation_deg(self) -> float:
+        """Total rotation angle."""
         return float(np.degrees(np.linalg.norm(vector_from_rotation(self._moved().rotation))))
 
     @property
     def registration(self) -> Registration:
-        """As navigation uses it: moved, and stated as less sure by the nudges."""
+        """The adjusted registration, with a widened covariance."""
         if not self.nudges:
             return self.made
         moved = self._moved()
         anchor_from_vertebra = self.made.anchor_from_vertebra @ moved
-        turn = self.made.anchor_from_vertebra.turn_directions(vector_from_rotation(moved.rotation))
+        turn = self.made.anchor_from_vertebra.rotate_directions(vector_from_rotation(moved.rotation))
         was = self.made.anchor_from_vertebra.move_points(self.pivot_mm)
         shift = anchor_from_vertebra.move_points(self.pivot_mm) - was
         # What is known is known of the pivot's surroundings; the CT's origin is far, and its arc no straight
         # line, so that the pivot keeps its own uncertainty and gets the shift.
-        before = skew(self.made.anchor_from_vertebra.turn_directions(self.pivot_mm))
-        after = skew(anchor_from_vertebra.turn_directions(self.pivot_mm))
+        before = skew(self.made.anchor_from_vertebra.rotate_directions(self.pivot_mm))
+        after = skew(anchor_from_vertebra.rotate_directions(self.pivot_mm))
         carried = np.eye(6)
         carried[:3, 3:] = after - before
         way = np.concatenate([shift + after @ turn, turn])

@@ -1,12 +1,12 @@
-"""Where the vertebra of the plan is on the patient, and how sure that is.
+"""The registration: pose of the planned vertebra on the patient, and its covariance.
 
-One record and one covariance serve all methods. It is fixed to an anchor, the camera or the patient's
-reference, and carried into each image; where the vertebra is now (`PlacedVertebra`) belongs to the image,
-so video, numbers and 3-D lose it in the same image.
+All methods use one record. It is anchored to the camera or to the patient's reference and transformed into
+each image; the pose in an image (`VertebraPose`) belongs to the image, so video, numbers and 3-D lose it in
+the same image.
 
-`tip_slope` is kept because one tip both touches the landmarks and drills: its error cancels where the drill
-is turned as it was at the touches, and doubles where it is turned round. Taken as independent, the stated
-95 % covers 88 to 100 % of the truths; with it, 95 to 97.
+`tip_jacobian` is stored because the same tip captures the landmarks and drills: its error cancels if the
+drill has the orientation of the captures, and doubles if it is reversed. Assuming independence, the stated 95
+% cover 88 to 100 % of the truths; with the Jacobian, 95 to 97.
 """
 
 from dataclasses import dataclass, field
@@ -19,7 +19,7 @@ from tracker.geometry import Anchor, Array, Camera, Reference, Rigid, Vertebra, 
 
 
 class Method(StrEnum):
-    """How a registration was made."""
+    """Registration method."""
 
     NEEDLES = "needles"  # the paper's: three needles on three lines of the reference slice
     POINTS = "points"  # the tool's tip on landmarks of the plan
@@ -28,7 +28,7 @@ class Method(StrEnum):
 
 
 class AnchoredTo(StrEnum):
-    """What a registration is fixed to; it holds only as long as the patient keeps still before it."""
+    """What a registration is anchored to; it is valid only while the patient does not move relative to it."""
 
     CAMERA = "camera"  # a move of patient or camera is not seen
     REFERENCE = "reference"  # the marker fixed to the patient, which both may move with
@@ -36,32 +36,33 @@ class AnchoredTo(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Registration:
-    """The vertebra of the plan, found on the patient.
+    """Pose of the planned vertebra on the patient.
 
     Attributes:
         method: how it was made.
-        anchored_to: what it is fixed to.
-        anchor_from_vertebra: from the plan's frame (LPS, mm) to that of camera or reference.
-        covariance: (6, 6) [mm, rad] of `anchor_from_vertebra`: its translation first, then its rotation as a
-            small vector multiplied from the left, as a marker's pose has it. Symmetric.
-        tip_slope: (6, 3), how `anchor_from_vertebra` follows an error of the tip behind its marker; where one
-            tool both touched and drills, much of that error takes itself back. 0 where no tip was used.
-        tool: the tool with whose tip it was made; empty where none was.
+        anchored_to: camera or reference.
+        anchor_from_vertebra: from the plan's frame (LPS, mm) to that of the anchor.
+        covariance: (6, 6) [mm, rad] of `anchor_from_vertebra`: translation first, then a small rotation
+            vector multiplied from the left. Symmetric.
+        tip_jacobian: (6, 3), derivative of `anchor_from_vertebra` with respect to the calibrated tip
+            position; if the same tool registers and drills, much of that error cancels. 0 if no tip was used.
+        tool: the tool with that tip; empty if none.
 
     Raises:
-        RegistrationError: REGISTRATION_COVARIANCE_INVALID, it is not finite, or no covariance.
+        RegistrationError: REGISTRATION_COVARIANCE_INVALID, the covariance is not finite or not positive
+            semidefinite.
     """
 
     method: Method
     anchored_to: AnchoredTo
     anchor_from_vertebra: Rigid[Anchor, Vertebra]
     covariance: Array
-    tip_slope: Array = field(default_factory=lambda: np.zeros((6, 3)))
+    tip_jacobian: Array = field(default_factory=lambda: np.zeros((6, 3)))
     tool: str = ""
 
     @classmethod
     def known_to_camera(cls, camera_from_vertebra: Rigid[Camera, Vertebra]) -> "Registration":
-        """What a theatre in software knows of itself: exact, and fixed to the camera."""
+        """Return the exact pose of a simulated theatre, anchored to the camera."""
         return cls(
             method=Method.REHEARSAL,
             anchored_to=AnchoredTo.CAMERA,
@@ -73,7 +74,7 @@ class Registration:
 
     @classmethod
     def known_to_reference(cls, reference_from_vertebra: Rigid[Reference, Vertebra]) -> "Registration":
-        """The same, fixed to the marker on the patient."""
+        """Return the exact pose of a simulated theatre, anchored to the patient's reference."""
         return cls(
             method=Method.REHEARSAL,
             anchored_to=AnchoredTo.REFERENCE,
@@ -93,11 +94,11 @@ class Registration:
                 "Register again.",
             )
         covariance = 0.5 * (covariance + covariance.T)
-        slope = np.array(self.tip_slope, dtype=np.float64).reshape(6, 3)
-        for name, array in (("covariance", covariance), ("tip_slope", slope)):
+        slope = np.array(self.tip_jacobian, dtype=np.float64).reshape(6, 3)
+        for name, array in (("covariance", covariance), ("tip_jacobian", slope)):
             array.setflags(write=False)
             object.__setattr__(self, name, array)
 
     def point_covariance_mm2(self, point_in_vertebra_mm: Array) -> Array:
-        """Covariance (3, 3) of a point of the plan, as it is seen from the anchor."""
+        """Return the covariance (3, 3) of a point of the plan, in the anchor frame."""
         return point_covariance_mm2(self.anchor_from_vertebra, self.covariance, point_in_vertebra_mm)

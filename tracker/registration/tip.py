@@ -1,4 +1,4 @@
-"""The tip in one image, seen from what a registration is fixed to."""
+"""Position of the tip in one image, in the anchor frame of a registration."""
 
 from collections.abc import Sequence
 
@@ -8,13 +8,13 @@ import numpy.typing as npt
 from tracker.geometry import inverse_covariance, point_covariance_mm2
 from tracker.pose import Seen, ToolModel
 from tracker.registration.capture import CapturedLandmark, TipSample
-from tracker.registration.points import CommonTip, PairedPoints
+from tracker.registration.points import CommonTip, PointPairs
 
 
 def tip_in_anchor(tool: ToolModel, seen: Seen, reference: Seen | None, *, at_s: float) -> TipSample:
-    """Where the tip is in one image: before the camera, or beside the marker on the patient if given.
+    """Return the tip position in one image, in the camera frame, or relative to the reference if given.
 
-    Its covariance is of the marker's pose, of the tip behind the marker, and of the reference's pose.
+    The covariance includes the marker's pose, the calibration of the tip, and the reference's pose.
     """
     pose, tip = seen.camera_from_marker, tool.marker_from_tool.translation_mm
     in_camera = pose.move_points(tip)
@@ -42,13 +42,13 @@ def tip_in_anchor(tool: ToolModel, seen: Seen, reference: Seen | None, *, at_s: 
 
 def pairs_of_touches(
     fixed_mm: npt.ArrayLike, touched: Sequence[CapturedLandmark], *, labels: Sequence[str], tool: str
-) -> PairedPoints:
-    """Landmarks (n, 3) on the CT and where one tool touched them, with what its tip errs at all alike.
+) -> PointPairs:
+    """Return landmarks (n, 3) on the CT paired with captures by one tool; separate the common tip error.
 
-    Taken for noise of each touch, that error would be stated too small for the registration, and once more
+    Treated as independent noise, that error would be underestimated for the registration, and counted again
     for the drill.
     """
-    return PairedPoints(
+    return PointPairs(
         fixed_mm=np.asarray(fixed_mm, dtype=np.float64).reshape(-1, 3),
         moving_mm=np.array([one.tip_in_anchor_mm for one in touched]).reshape(-1, 3),
         moving_covariances_mm2=np.array([one.own_covariance_mm2 for one in touched]).reshape(-1, 3, 3),

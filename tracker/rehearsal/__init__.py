@@ -1,4 +1,4 @@
-"""A theatre that exists only in software, with known truth: it moves, is rendered, and knows what is true."""
+"""A simulated operating theatre with ground truth: moving objects, rendered images, exact poses."""
 
 from tracker.rehearsal.anatomy import Needle
 from tracker.rehearsal.events import Event, EventKind

@@ -1,9 +1,9 @@
-"""A lumbar vertebra as one smooth implicit shape, with the canal carved out of it.
+"""A lumbar vertebra as one smooth implicit surface, with the spinal canal removed.
 
-Not a copy of anybody's: ellipsoids and capsules with the proportions of an L3 (width over the transverse
-processes about 90 mm, body 49 x 36 x 30 mm, pedicles about 9 mm wide), melted into each other. Vertebra frame
-(LPS, mm): x to the patient's left, y backwards, z to the head; the origin lies in the canal. Left and right
-mirror each other, so shapes are given for the left half only.
+Synthetic: ellipsoids and capsules with the proportions of an L3 (width over the transverse processes about
+90 mm, body 49 x 36 x 30 mm, pedicles about 9 mm wide), joined by a smooth minimum. Vertebra frame
+(LPS, mm): x to the patient's left, y backwards, z to the head; the origin lies in the canal. The shape is
+symmetric, so only the left half is given.
 """
 
 from dataclasses import dataclass
@@ -36,7 +36,7 @@ TARGET_Y_MM = -28.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Limb:
-    """A capsule that tapers from one end to the other, squashed along the axes."""
+    """A tapered capsule, scaled along the axes."""
 
     start_mm: Triple
     end_mm: Triple
@@ -101,7 +101,7 @@ LIMBS = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Needle:
-    """A landmark needle stuck into the bone.
+    """A landmark needle in the bone.
 
     Attributes:
         tip_in_vertebra_mm: (3,), inside the bone.
@@ -115,17 +115,17 @@ class Needle:
 
 
 def bone_field(points_mm: npt.ArrayLike) -> Field:
-    """Below 0 inside the bone, above 0 outside, roughly mm near the surface, for points (..., 3)."""
+    """Return the implicit bone function at points (..., 3): below 0 inside, roughly mm near the surface."""
     p = np.asarray(points_mm, dtype=np.float32)
     x, y, z = np.abs(p[..., 0]), p[..., 1], p[..., 2]
     field = _body(x, y, z)
     for limb in LIMBS:
-        field = _melt(field, _limb(x, y, z, limb), BLEND_MM)
-    return -_melt(-field, canal_field(p), 1.5)
+        field = _smooth_min(field, _limb(x, y, z, limb), BLEND_MM)
+    return -_smooth_min(-field, canal_field(p), 1.5)
 
 
 def canal_field(points_mm: npt.ArrayLike) -> Field:
-    """Below 0 inside the spinal canal, above 0 outside, for points (..., 3)."""
+    """Return the implicit function of the spinal canal at points (..., 3): below 0 inside."""
     p = np.asarray(points_mm, dtype=np.float32)
     x, y = p[..., 0], p[..., 1]
     half_x, half_y = CANAL_HALF_MM
@@ -134,7 +134,7 @@ def canal_field(points_mm: npt.ArrayLike) -> Field:
 
 
 def bone_normals(points_mm: npt.ArrayLike, reach_mm: float = 0.4) -> Array:
-    """Unit directions (n, 3) out of the bone at points (n, 3), from differences over `reach_mm`."""
+    """Return outward unit normals (n, 3) at points (n, 3), by differences over `reach_mm`."""
     p = np.asarray(points_mm, dtype=np.float64)
     gradient = _gradient(p, reach_mm)
     length = np.linalg.norm(gradient, axis=1, keepdims=True)
@@ -143,7 +143,7 @@ def bone_normals(points_mm: npt.ArrayLike, reach_mm: float = 0.4) -> Array:
 
 @lru_cache(maxsize=1)
 def vertebra_surface() -> Surface:
-    """The bone's closed surface, outward winding, about 15 thousand faces."""
+    """Return the closed bone surface, outward winding, about 15 thousand faces."""
     xs = np.arange(0.0, GRID_X_END_MM + 1e-6, GRID_STEP_MM, dtype=np.float32)
     ys = np.arange(GRID_Y_MM[0], GRID_Y_MM[1] + 1e-6, GRID_STEP_MM, dtype=np.float32)
     zs = np.arange(GRID_Z_MM[0], GRID_Z_MM[1] + 1e-6, GRID_STEP_MM, dtype=np.float32)
@@ -161,13 +161,13 @@ def vertebra_surface() -> Surface:
 
 @lru_cache(maxsize=1)
 def pedicle_channels() -> tuple[Channel, ...]:
-    """The left and the right channel, each along the middle of its pedicle."""
+    """Return the left and right channel, each along the axis of its pedicle."""
     return (_channel("L3 left", 1.0), _channel("L3 right", -1.0))
 
 
 @lru_cache(maxsize=1)
 def landmark_needles() -> tuple[Needle, ...]:
-    """As in the paper: one in a superior articular process, two on the spinous process."""
+    """Return the needles of the paper: one in a superior articular process, two on the spinous process."""
     ends: tuple[tuple[Triple, Triple], ...] = (
         ((-19.5, 12.5, 17.0), (-24.0, 56.0, 30.0)),
         ((0.0, 40.0, -3.0), (-3.0, 84.0, 14.0)),
@@ -193,14 +193,14 @@ def _channel(name: str, side: float) -> Channel:
 
 
 def _body(x: Field, y: Field, z: Field) -> Field:
-    """The vertebral body: an oval drum with a waist and hollow endplates."""
+    """Implicit function of the vertebral body: an elliptic cylinder with a waist and concave endplates."""
     half_x, half_y, half_z = BODY_HALF_MM
     waist = 1.0 - 0.08 * np.clip(1.0 - (z / half_z) ** 2, 0.0, 1.0)
     oval = np.sqrt((x / half_x) ** 2 + ((y - BODY_CENTRE_Y_MM) / half_y) ** 2)
     wall = (oval - waist) * half_y
     hollow = 1.4 * np.clip(1.0 - oval**2, 0.0, 1.0)
     plate = np.asarray(np.abs(z) - half_z + hollow, dtype=np.float32)
-    return np.asarray(-_melt(-wall, -plate, 5.0), dtype=np.float32)
+    return np.asarray(-_smooth_min(-wall, -plate, 5.0), dtype=np.float32)
 
 
 def _limb(x: Field, y: Field, z: Field, limb: Limb) -> Field:
@@ -214,8 +214,8 @@ def _limb(x: Field, y: Field, z: Field, limb: Limb) -> Field:
     return np.asarray((distance - radius) * min(limb.squash), dtype=np.float32)
 
 
-def _melt(a: Field, b: Field, width_mm: float) -> Field:
-    """The lesser of two fields, with the crease between them filled over `width_mm`."""
+def _smooth_min(a: Field, b: Field, width_mm: float) -> Field:
+    """Smooth minimum of two fields, blended over `width_mm`."""
     overlap = np.maximum(width_mm - np.abs(a - b), 0.0)
     return np.asarray(np.minimum(a, b) - overlap * overlap * (0.25 / width_mm), dtype=np.float32)
 

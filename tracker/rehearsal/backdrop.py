@@ -1,4 +1,4 @@
-"""The still scenery as the camera sees it."""
+"""Static scenery in camera view, rendered once and reused."""
 
 from dataclasses import dataclass, replace
 from typing import Protocol
@@ -20,18 +20,18 @@ from tracker.rehearsal.theatre import Theatre
 Image8 = npt.NDArray[np.uint8]
 Image32 = npt.NDArray[np.float32]
 
-# Around the reference's board: what its marker's edges are measured in.
+# Margin around the reference's board in which its marker's edges are measured.
 REFERENCE_MARGIN_PX = 8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Still:
-    """The theatre without what moves, in the light that it has in the mean.
+    """Render of the static theatre in mean illumination.
 
     Attributes:
         picture: (h, w, 3) uint8, BGR.
-        depth_mm: (h, w) float32 along the optical axis, of the nearest still thing.
-        points_mm: (h/4, w/4, 3) float32, where the middle of each 4x4 block lies, in the room's frame.
+        depth_mm: (h, w) float32 along the optical axis, of the nearest static object.
+        points_mm: (h/4, w/4, 3) float32, centre of each 4x4 block in the room's frame.
     """
 
     picture: Image8
@@ -40,23 +40,23 @@ class Still:
 
     @property
     def size_wh_px(self) -> tuple[int, int]:
-        """Width and height of the picture."""
+        """Return width and height of the picture."""
         height, width = self.picture.shape[:2]
         return width, height
 
 
 class StillStore(Protocol):
-    """Keeps what was rendered over starts. It may forget or fail, and never answers with something else."""
+    """Cache of renders across program starts. It may lose entries, and never returns another entry."""
 
     def load(self, key: bytes) -> Still | None:
-        """What was saved under this key; None if there is nothing, or nothing that can be read."""
+        """Return the render stored under this key; None if it is missing or unreadable."""
 
     def save(self, key: bytes, still: Still) -> None:
-        """Keep it, or do not."""
+        """Store the render, if possible."""
 
 
 class Backdrop:
-    """The theatre without what moves, as a camera's sensor sees it.
+    """The static theatre as the camera's sensor records it.
 
     Attributes:
         depth_mm: as in `Still`.
@@ -73,15 +73,15 @@ class Backdrop:
         self._reference_box = reference_box
 
     def expose(self, at_s: float) -> Exposure:
-        """The image of this time, for now without what moves."""
+        """Return an exposure of the scenery at this time, without the moving objects."""
         exposure = Exposure(self._sensor, self._lit_at(at_s), self._still_noise, at_s)
         if self._reference_box is not None:
-            # A marker is measured: its noise must not be one that was there before.
+            # The tracker measures this marker: its noise must be independent in each image.
             exposure.refresh(self._reference_box)
         return exposure
 
     def _lit_at(self, at_s: float) -> Image8:
-        """The picture in the light of this time; nobody may draw into it."""
+        """Return the picture in the illumination of this time; read-only."""
         flicker = self._sensor.flicker_at(at_s)
         if flicker != self._lit[0]:
             lit = cv2.convertScaleAbs(self._picture, alpha=flicker)
@@ -90,11 +90,11 @@ class Backdrop:
 
 
 class Backdrops:
-    """The still scenery of each place that camera and patient are in, rendered when it is first needed.
+    """Static scenery for each placement of camera and patient, rendered on first use.
 
     Args:
         theatre: whose scenery it is.
-        store: what keeps it over starts; rendering one takes about a second.
+        store: cache across program starts; rendering one takes about a second.
 
     Attributes:
         rays: of the camera.
@@ -103,24 +103,24 @@ class Backdrops:
     def __init__(self, theatre: Theatre, store: StillStore | None = None) -> None:
         self._theatre = theatre
         self._store = store
-        self._stage = _stage(theatre.settings)
+        self._static_settings = _static_settings(theatre.settings)
         self.rays = RayGrid(theatre.camera)
         self._sensor = Sensor(theatre.settings)
-        self._kept: dict[bytes, Backdrop] = {}
+        self._retained: dict[bytes, Backdrop] = {}
 
     def at(self, placement: Placement) -> Backdrop:
-        """The scenery there."""
-        if placement.key not in self._kept:
+        """Return the scenery of a placement."""
+        if placement.key not in self._retained:
             box = _reference_box(self._theatre, placement, self.rays)
-            self._kept[placement.key] = Backdrop(self._still(placement), self._sensor, box)
-        return self._kept[placement.key]
+            self._retained[placement.key] = Backdrop(self._still(placement), self._sensor, box)
+        return self._retained[placement.key]
 
     def _still(self, placement: Placement) -> Still:
         if self._store is None:
             return self._rendered(placement)
-        key = repr(self._stage).encode() + placement.key
+        key = repr(self._static_settings).encode() + placement.key
         still = self._store.load(key)
-        if still is None or still.size_wh_px != self._stage.size_wh_px:
+        if still is None or still.size_wh_px != self._static_settings.size_wh_px:
             still = self._rendered(placement)
             self._store.save(key, still)
         return still
@@ -128,7 +128,7 @@ class Backdrops:
     def _rendered(self, placement: Placement) -> Still:
         scenery = still_scenery(self._theatre, self.rays, placement)
         picture = scenery.picture * self._sensor.gain[..., None]
-        sigma = DEFOCUS_PX * self._stage.blur
+        sigma = DEFOCUS_PX * self._static_settings.blur
         if sigma > 0.05:
             picture = np.asarray(cv2.GaussianBlur(picture, (0, 0), sigma), dtype=np.float32)
         return Still(
@@ -138,12 +138,12 @@ class Backdrops:
         )
 
     def show(self, theatre: Theatre) -> bool:
-        """Whether they are of this theatre, whatever is played in it."""
-        return _stage(theatre.settings) == self._stage
+        """Return whether the renders belong to this theatre, independent of its motion."""
+        return _static_settings(theatre.settings) == self._static_settings
 
 
-def _stage(settings: TheatreSettings) -> TheatreSettings:
-    """The settings without what is played."""
+def _static_settings(settings: TheatreSettings) -> TheatreSettings:
+    """Return the settings without the simulated motion."""
     return replace(settings, scene=Scene.OPERATION, board=BoardKind.DOTS, skill=Skill.WANDERING, events=())
 
 

@@ -1,4 +1,4 @@
-"""Images of the theatre while a calibration board is held before its camera."""
+"""Rendering of a calibration board in the theatre."""
 
 import cv2
 import numpy as np
@@ -8,7 +8,7 @@ from tracker.geometry import Array, Camera, Pattern, Rigid
 from tracker.rehearsal.backdrop import Backdrops, StillStore
 from tracker.rehearsal.boards import BOARD_FROM_KIND, BoardHand, printed
 from tracker.rehearsal.point_spread import DEFOCUS_PX, point_spread
-from tracker.rehearsal.printed import covered_px
+from tracker.rehearsal.printed_plane import covered_px
 from tracker.rehearsal.strips import Strips
 from tracker.rehearsal.theatre import Theatre
 
@@ -16,22 +16,22 @@ Image8 = npt.NDArray[np.uint8]
 
 SPEED_OVER_S = 0.004
 MARGIN_PX = 2
-# White paper in the theatre's lamp: the more it turns away the darker it is.
-BRIGHTEST, DARKEST = 0.93, 0.6
+# Brightness of white paper in the theatre's lamp, facing it and turned away.
+MAX_BRIGHTNESS, MIN_BRIGHTNESS = 0.93, 0.6
 # Of y and z: a plane is drawn with y up and its face turned to the viewer.
 FACE_FROM_PATTERN = np.diag([1.0, -1.0, -1.0])
 
 
 class BoardRenderer:
-    """Renders a board that a hand holds still in one place after the other. Same time, same image."""
+    """Renders a board that a hand presents in a sequence of fixed poses. Deterministic in time."""
 
     def __init__(
-        self, theatre: Theatre, kept: Backdrops | None = None, store: StillStore | None = None
+        self, theatre: Theatre, cached: Backdrops | None = None, store: StillStore | None = None
     ) -> None:
         self._theatre = theatre
         self._camera = theatre.camera
         self._blur = theatre.settings.blur
-        self.backdrops = kept if kept is not None and kept.show(theatre) else Backdrops(theatre, store)
+        self.backdrops = cached if cached is not None and cached.show(theatre) else Backdrops(theatre, store)
         self.prepare()
         self._rays = self.backdrops.rays
         self._printed = printed(BOARD_FROM_KIND[theatre.settings.board])
@@ -39,16 +39,16 @@ class BoardRenderer:
         self._hand = BoardHand(self._printed, theatre.camera, theatre.settings.seed)
 
     def prepare(self) -> None:
-        """Render all still scenery that will come, so that no image has to wait for it."""
+        """Render all static scenery in advance, so that no image is delayed."""
         for placement in self._theatre.placements():
             self.backdrops.at(placement)
 
     def camera_from_board_at(self, at_s: float) -> Rigid[Camera, Pattern]:
-        """What is true: where the board is at this time."""
+        """Return the true board pose at this time."""
         return self._hand.camera_from_board_at(at_s)
 
     def image_at(self, at_s: float) -> Image8:
-        """The image (h, w, 3), BGR, whose exposure has its middle at this time."""
+        """Return the image (h, w, 3), BGR, whose exposure is centred at this time."""
         pose = self.camera_from_board_at(at_s)
         exposure = self.backdrops.at(self._theatre.placement_at(at_s)).expose(at_s)
         face: Rigid[Camera, Pattern] = Rigid(
@@ -67,10 +67,12 @@ class BoardRenderer:
         return exposure.image
 
     def _brightness(self, pose: Rigid[Camera, Pattern]) -> float:
-        return DARKEST + (BRIGHTEST - DARKEST) * float(np.clip(pose.rotation[2, 2], 0.0, 1.0))
+        return MIN_BRIGHTNESS + (MAX_BRIGHTNESS - MIN_BRIGHTNESS) * float(
+            np.clip(pose.rotation[2, 2], 0.0, 1.0)
+        )
 
     def _speed_px_s(self, at_s: float) -> Array:
-        """How fast the middle of the board moves through the image."""
+        """Return the image velocity of the board's centre."""
         middle = self._printed.corners_mm.mean(axis=0)
         ends = [
             self._camera.px_from_camera(self.camera_from_board_at(at_s + step).move_points(middle))[0]

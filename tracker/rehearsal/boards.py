@@ -1,4 +1,4 @@
-"""A calibration board in the theatre: how it is printed, and how it is held before the camera."""
+"""Printed calibration boards, and the hand that presents them to the camera."""
 
 from dataclasses import dataclass
 
@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from tracker.camera import Board, CameraModel, CharucoBoard, CheckerBoard, DotBoard
 from tracker.geometry import Array, Camera, Pattern, Rigid, rotation_from_vector
-from tracker.rehearsal.printed import PrintedPlane
+from tracker.rehearsal.printed_plane import PrintedPlane
 from tracker.rehearsal.settings import BoardKind
 
 Image8 = npt.NDArray[np.uint8]
@@ -23,7 +23,7 @@ HOLD_S, MOVE_S = 1.1, 0.7
 BOARD_MARGIN_PX = 6.0
 TREMOR_MM, TREMOR_HZ = 0.012, 9.0
 
-# Wide enough to fill a good part of the image at arm's length, and each with a way up that can be told.
+# Large enough to fill a good part of the image at arm's length, each with a unique orientation.
 BOARD_FROM_KIND: dict[BoardKind, Board] = {
     BoardKind.DOTS: DotBoard(columns=14, rows=10, pitch_mm=12.0, fiducials=(31, 38, 101, 108, 60)),
     BoardKind.CHECKERBOARD: CheckerBoard(columns=10, rows=7, square_mm=15.0),
@@ -58,12 +58,12 @@ PLACES = np.array(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PrintedBoard:
-    """A board on its paper.
+    """A calibration board on its paper.
 
     Attributes:
-        board: what is printed.
+        board: the printed board.
         face: (h, w) grey, row 0 on top, `PER_MM` pixels to a millimetre.
-        origin_px: where the board's first point lies on the face, from its top left corner.
+        origin_px: position of the board's first point on the face, from its top left corner.
     """
 
     board: Board
@@ -72,12 +72,12 @@ class PrintedBoard:
 
     @property
     def plane(self) -> PrintedPlane:
-        """The same as something that can be drawn."""
+        """Return the board as a drawable plane."""
         return PrintedPlane(self.face, per_mm=PER_MM, middle_px=self.origin_px)
 
     @property
     def corners_mm(self) -> Array:
-        """The paper's corners (4, 3), in the board's frame (x right, y down)."""
+        """Return the paper's corners (4, 3) in the board's frame (x right, y down)."""
         height, width = self.face.shape
         x, y = self.origin_px
         corners = np.array([[-x, -y], [width - x, -y], [width - x, height - y], [-x, height - y]]) / PER_MM
@@ -85,7 +85,7 @@ class PrintedBoard:
 
 
 def printed(board: Board) -> PrintedBoard:
-    """The board as it is printed, with a white rim."""
+    """Return the printed board with a white rim."""
     points = board.object_points_mm[:, :2]
     match board:
         case DotBoard():
@@ -110,7 +110,7 @@ def printed(board: Board) -> PrintedBoard:
 
 
 class BoardHand:
-    """Holds the board still in one place, then in the next; which places follows from the seed.
+    """A hand that presents the board in a sequence of fixed poses; the poses follow from the seed.
 
     Args:
         printed_board: with its paper, which stays inside the image.
@@ -123,13 +123,13 @@ class BoardHand:
         self._camera = camera
         random = np.random.default_rng([seed, 0x424F4152])
         places = PLACES + random.normal(0.0, [0.03, 0.03, 0.03, 1.5, 1.5, 1.0], PLACES.shape)
-        self._nearest_mm = self._distance_at_which_it_takes(0.42)
-        self._places = [self._into_the_image(place) for place in places]
+        self._nearest_mm = self._distance_for_width(0.42)
+        self._places = [self._moved_into_image(place) for place in places]
         self._tremor_rad = random.uniform(0.0, 2.0 * np.pi, 6)
         self.cycle_s = len(places) * (HOLD_S + MOVE_S)
 
     def camera_from_board_at(self, at_s: float) -> Rigid[Camera, Pattern]:
-        """Where the board is: its first point the origin, x right and y down on its face."""
+        """Return the board pose: origin at its first point, x right and y down on its face."""
         place, since_s = divmod(at_s % self.cycle_s, HOLD_S + MOVE_S)
         one, other = self._places[int(place)], self._places[(int(place) + 1) % len(self._places)]
         share = np.clip((since_s - HOLD_S) / MOVE_S, 0.0, 1.0)
@@ -137,8 +137,8 @@ class BoardHand:
         tremor = TREMOR_MM * np.sin(2.0 * np.pi * TREMOR_HZ * at_s + self._tremor_rad[:3])
         return Rigid(rotation=pose.rotation, translation_mm=pose.translation_mm + tremor)
 
-    def _distance_at_which_it_takes(self, share: float) -> float:
-        """Where the paper is as wide as this share of the image."""
+    def _distance_for_width(self, share: float) -> float:
+        """Return the distance at which the paper fills this share of the image width."""
         corners = self._board.corners_mm
         width_mm = float(corners[:, 0].max() - corners[:, 0].min())
         return float(self._camera.matrix[0, 0]) * width_mm / (share * self._camera.size_wh_px[0])
@@ -156,8 +156,8 @@ class BoardHand:
         middle = self._board.corners_mm.mean(axis=0)
         return Rigid(rotation=rotation, translation_mm=ray * self._nearest_mm * place[2] - rotation @ middle)
 
-    def _into_the_image(self, place: Array) -> Array:
-        """The same place, as far towards the middle and away as the whole paper needs to be in the image."""
+    def _moved_into_image(self, place: Array) -> Array:
+        """Return the pose, moved to the centre and away until the whole paper is in the image."""
         last = np.array(self._camera.size_wh_px) - 1.0 - BOARD_MARGIN_PX
         for _ in range(200):
             px = self._camera.px_from_camera(self._pose(place).move_points(self._board.corners_mm))
@@ -170,7 +170,7 @@ class BoardHand:
 
 
 def _fixed(values: Array | float) -> npt.NDArray[np.int32]:
-    """Fixed-point pixels; a face's top left corner lies half a pixel before its first centre."""
+    """Convert to fixed-point pixels; a face's top-left corner lies half a pixel before its first centre."""
     return np.asarray(np.rint((np.asarray(values) - 0.5) * 2**SHIFT_BITS), dtype=np.int32)
 
 

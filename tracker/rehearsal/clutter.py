@@ -1,4 +1,4 @@
-"""What lies about: instruments on the drapes, gauze, labels, and squares that look like markers."""
+"""Background clutter: instruments, gauze, labels and marker-like squares."""
 
 from dataclasses import dataclass
 
@@ -24,13 +24,13 @@ BAR_RINGS = 30
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sheet:
-    """Something flat that lies on the drapes.
+    """A flat object on the drapes.
 
     Attributes:
         picture: (h, w, 4) float32, BGR and coverage 0..1.
         size_mm: width and height.
-        place: where its middle is, as parts of the image's width and height.
-        turn_rad: how it lies.
+        place: its centre, as shares of the image's width and height.
+        turn_rad: its rotation.
     """
 
     picture: Image32
@@ -40,7 +40,7 @@ class Sheet:
 
 
 def sheets(clutter: float, random: np.random.Generator) -> list[Sheet]:
-    """Gauze and labels, and above a clutter of 2 squares that look like the marker."""
+    """Return gauze and labels; above a clutter of 2 also marker-like squares."""
     out = []
     places = [PLACES[i] for i in random.permutation(len(PLACES))]
     for i in range(round(1.4 * clutter)):
@@ -56,7 +56,7 @@ def sheets(clutter: float, random: np.random.Generator) -> list[Sheet]:
 def instruments(
     clutter: float, field: OperatingField, spots_mm: list[tuple[float, float]], random: np.random.Generator
 ) -> list[Solid]:
-    """Bars of steel: retractors in the wound, and what lies on the drapes at these places (x, z)."""
+    """Return steel bars: retractors in the wound, and instruments at these positions (x, z)."""
     out = _retractors() if clutter >= RETRACTORS_FROM else []
     for i in range(min(round(1.6 * clutter), 12)):
         x, z = spots_mm[i % len(spots_mm)]
@@ -69,7 +69,7 @@ def instruments(
 
 
 def _retractors() -> list[Solid]:
-    """Two rakes that hold the wound open, left and right."""
+    """Return two rake retractors, left and right."""
     out = []
     at = np.linspace(0.0, 1.0, BAR_RINGS)
     given = np.linspace(0.0, 1.0, len(PRONG_MM))
@@ -89,7 +89,7 @@ def _retractors() -> list[Solid]:
 def _bar(
     field: OperatingField, middle: tuple[float, float], angle: float, side: float, length_mm: float
 ) -> Solid:
-    """One leg of a forceps (side -1 or 1), or a probe with a handle (side 0)."""
+    """Return one leg of a forceps (side -1 or 1), or a probe with a handle (side 0)."""
     t = np.linspace(0.0, 1.0, BAR_RINGS)
     along = (t - 0.5) * length_mm
     across = side * (0.8 + 5.0 * np.sin(np.pi * np.clip(t * 1.15, 0, 1)) ** 1.5)
@@ -152,7 +152,7 @@ def _label(random: np.random.Generator) -> tuple[Image32, tuple[float, float]]:
 
 
 def _lookalike(random: np.random.Generator) -> Image32:
-    """A black square with a white shape of its own on white paper, as another team's marker may be."""
+    """Return a black square with a random white shape on white paper, as a foreign marker."""
     side, paper, ink = 144, (230, 230, 230, 255), (20, 20, 20, 255)
     picture = np.full((side, side, 4), paper, dtype=np.uint8)
     cv2.rectangle(picture, (22, 22), (121, 121), ink, -1)

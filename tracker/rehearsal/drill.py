@@ -1,4 +1,4 @@
-"""The drill as it looks: a body of revolution, and the board with the marker on its front."""
+"""Appearance of the drill: a body of revolution, and the board with the marker on its front."""
 
 import cv2
 import numpy as np
@@ -56,7 +56,7 @@ BOARD_EDGE_GREY = 0.50
 
 
 def drill_portrait() -> Image8:
-    """The drill's body seen from the side, BGR and coverage, premultiplied.
+    """Return the side view of the drill body, BGR and coverage, premultiplied.
 
     Columns run along the axis from `PORTRAIT_START_MM`, rows across it from -`PORTRAIT_HALF_MM`, both
     `PORTRAIT_PER_MM` to a millimetre.
@@ -70,25 +70,25 @@ def drill_portrait() -> Image8:
 
 
 def drill_bulge_mm(shown_from_mm: float) -> Image32:
-    """How far the surface lies before the axis, over the portrait; endless from this far behind the tip."""
+    """Return the surface height before the axis over the portrait; infinite outside the body."""
     t, d = _stations()
     radius = np.interp(t, PROFILE_MM, RADIUS_MM, left=0.0)[None, :]
     bulge = np.sqrt(np.maximum(radius**2 - d[:, None] ** 2, 0.0))
     return np.where(t[None, :] > shown_from_mm, 1e6, bulge).astype(np.float32)
 
 
-def board_face(emblem: Image8, half_mm: float = BOARD_HALF_MM) -> Image8:
-    """The white board with the marker in its middle, grey, `BOARD_PER_MM` pixels to a millimetre."""
+def board_face(marker_image: Image8, half_mm: float = BOARD_HALF_MM) -> Image8:
+    """Return the white board with the marker at its centre, grey, `BOARD_PER_MM` pixels per mm."""
     side = round(2 * half_mm * BOARD_PER_MM)
     face = np.full((side, side), BOARD_WHITE, dtype=np.float32)
-    start = (side - emblem.shape[0]) // 2
-    printed = BOARD_BLACK + (BOARD_WHITE - BOARD_BLACK) * emblem.astype(np.float32) / 255.0
-    face[start : start + emblem.shape[0], start : start + emblem.shape[1]] = printed
+    start = (side - marker_image.shape[0]) // 2
+    printed = BOARD_BLACK + (BOARD_WHITE - BOARD_BLACK) * marker_image.astype(np.float32) / 255.0
+    face[start : start + marker_image.shape[0], start : start + marker_image.shape[1]] = printed
     return np.asarray(np.rint(face * 255.0), dtype=np.uint8)
 
 
 def _stations() -> tuple[Array, Array]:
-    """Of the portrait, the distances from the tip of its columns, and of its rows from the axis."""
+    """Return the distance from the tip of each column, and from the axis of each row."""
     columns, rows = (PORTRAIT_END_MM - PORTRAIT_START_MM, 2.0 * PORTRAIT_HALF_MM)
     along = (np.arange(int(columns * PORTRAIT_PER_MM)) + 0.5) / PORTRAIT_PER_MM + PORTRAIT_START_MM
     across = (np.arange(int(rows * PORTRAIT_PER_MM)) + 0.5) / PORTRAIT_PER_MM - PORTRAIT_HALF_MM
@@ -96,7 +96,7 @@ def _stations() -> tuple[Array, Array]:
 
 
 def _colour(t: npt.NDArray[np.float64], s: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """BGR 0..1 at distances t from the tip and s across (-1..1)."""
+    """Return BGR 0..1 at distances t from the tip and s across (-1..1)."""
     turn = np.arcsin(s)
     round_light = 0.34 + 0.66 * np.clip(np.cos(turn - 0.55), 0.0, 1.0) ** 1.3
     band = np.exp(-(((s - 0.42) / 0.16) ** 2)) + 0.35 * np.exp(-(((s + 0.62) / 0.12) ** 2))
@@ -120,6 +120,6 @@ def _colour(t: npt.NDArray[np.float64], s: npt.NDArray[np.float64]) -> npt.NDArr
 
 def _premultiplied(colour: npt.NDArray[np.float64], coverage: npt.NDArray[np.float64]) -> Image8:
     layer = np.dstack([colour * coverage[..., None], coverage])
-    # Half a pixel of softness keeps the outline smooth when it is looked up askew.
+    # Half a pixel of softness keeps the outline smooth when it is sampled obliquely.
     soft = cv2.GaussianBlur(layer.astype(np.float32), (0, 0), 0.7)
     return np.asarray(np.rint(soft * 255.0), dtype=np.uint8)

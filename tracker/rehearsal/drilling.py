@@ -1,4 +1,4 @@
-"""Two more ways to drill: as one should, and through the wall to the canal."""
+"""Hand motions for good drilling and for a breach towards the canal."""
 
 import numpy as np
 
@@ -36,7 +36,7 @@ STEADY_SWAY, STEADY_SHAKE = 0.6, 0.7
 
 
 def drilling_hand(skill: Skill, *, seed: int, rest: Rigid[Vertebra, Tool]) -> Hand:
-    """The hand of the operation, as skilled as this."""
+    """Return the operation's hand for a skill."""
     match skill:
         case Skill.GOOD:
             return Hand(seed, _steady(_along_the_axis(), GOOD_PHASES))
@@ -64,7 +64,7 @@ def _along_the_axis() -> Array:
 
 
 def _to_the_canal(rest: Rigid[Vertebra, Tool]) -> Array:
-    """The tip leaves the axis towards the midline; the shaft goes on through the entry point."""
+    """The tip leaves the axis medially; the shaft passes through the entry point."""
     times_s, depths_mm, aside_mm = np.array(BREACH).T
     entry = rest.translation_mm
     medial = rest.rotation.T @ np.array([-np.sign(entry[0]), 0.0, 0.0])

@@ -1,4 +1,4 @@
-"""What goes wrong in the theatre, and when: something moves, is hidden, or gives no images."""
+"""Scheduled disturbances: motion, occlusion, and loss of images."""
 
 import math
 from dataclasses import dataclass
@@ -10,28 +10,28 @@ MAX_S, MAX_MM, MAX_DEG = 1e5, 60.0, 20.0
 
 
 class EventKind(StrEnum):
-    """What happens."""
+    """Kind of disturbance."""
 
     CAMERA_MOVES = "camera_moves"  # somebody bumps into it: everything in the image is elsewhere
     PATIENT_MOVES = "patient_moves"  # bone, needles and reference move in a room that stands still
     DRILL_JUMPS = "drill_jumps"  # from one image to the next the drill is elsewhere
-    DRILL_HIDDEN = "drill_hidden"  # a cloth lies over its marker
-    REFERENCE_HIDDEN = "reference_hidden"  # a cloth lies over the reference marker
+    DRILL_HIDDEN = "drill_occluded"  # a cloth lies over its marker
+    REFERENCE_HIDDEN = "reference_occluded"  # a cloth lies over the reference marker
     CAMERA_STOPS = "camera_stops"  # its cable is out
     CAMERA_STALLS = "camera_stalls"  # it is open, and gives nothing
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Event:
-    """Something that happens at a known time; it is there, or not, from one image to the next.
+    """A disturbance at a known time; it begins and ends between two images.
 
     Attributes:
-        kind: what happens.
-        at_s: when, on the theatre's clock.
-        lasts_s: how long; infinite is for good.
-        every_s: it comes back after this; infinite is once.
-        size_mm: how far what moves is moved; which way follows from the seed.
-        size_deg: how far it is turned.
+        kind: kind of disturbance.
+        at_s: start, on the theatre's clock.
+        lasts_s: duration; may be infinite.
+        every_s: period of repetition; infinite for a single event.
+        size_mm: size of the translation; its direction follows from the seed.
+        size_deg: size of the rotation.
 
     Raises:
         InvalidInput: REHEARSAL_SETTING_INVALID, with the key, its value and what is allowed.
@@ -45,24 +45,24 @@ class Event:
     size_deg: float = 2.0
 
     def __post_init__(self) -> None:
-        for key, most in (("at_s", MAX_S), ("size_mm", MAX_MM), ("size_deg", MAX_DEG)):
+        for key, maximum in (("at_s", MAX_S), ("size_mm", MAX_MM), ("size_deg", MAX_DEG)):
             value = float(getattr(self, key))
-            if not 0.0 <= value <= most:
-                raise rejected(f"events.{key}", value, f"a number from 0 to {most:g}")
+            if not 0.0 <= value <= maximum:
+                raise rejected(f"events.{key}", value, f"a number from 0 to {maximum:g}")
         for key in ("lasts_s", "every_s"):
             value = float(getattr(self, key))
             if not value > 0.0:
                 raise rejected(f"events.{key}", value, "a number above 0")
 
     def is_on(self, at_s: float) -> bool:
-        """Whether it is there at this time."""
+        """Return whether the event is active at this time."""
         since_s = at_s - self.at_s
         if since_s < 0.0:
             return False
         return (since_s if math.isinf(self.every_s) else since_s % self.every_s) < self.lasts_s
 
     def over_at_s(self, at_s: float) -> float:
-        """When it is over, once it is there at this time; infinite for never."""
+        """Return the end time of the active event; infinite if it does not end."""
         begun_s = self.at_s
         if not math.isinf(self.every_s):
             begun_s += (at_s - self.at_s) // self.every_s * self.every_s
@@ -72,7 +72,7 @@ class Event:
 
 
 def rejected(key: str, value: object, allowed: str) -> InvalidInput:
-    """The error for a setting of the rehearsal."""
+    """Return the error for an invalid rehearsal setting."""
     return InvalidInput(
         "REHEARSAL_SETTING_INVALID",
         f"the rehearsal's {key} is {value}, allowed is {allowed}",

@@ -1,7 +1,7 @@
-"""One image while it is made: the still scenery with its noise, and what moves laid over it.
+"""Composition of one image: static scenery with its noise, and moving layers over it.
 
 Only what moves is drawn for each image, which halves the cost of an image and takes a sixth for a
-calibration board. Both markers keep noise that is new in each image, because they are measured; the drill
+calibration board. Both markers have fresh noise in each image, because the tracker measures them; the drill
 marker's edges are within 0.006 px of the truth.
 """
 
@@ -18,18 +18,18 @@ Image8 = npt.NDArray[np.uint8]
 Image16 = npt.NDArray[np.int16]
 
 BAND_PX = 96
-HALF_COVERED = 127
+HALF_COVERAGE = 127
 
 
 class Exposure:
-    """An image that begins as the still scenery.
+    """An image that starts as the static scenery.
 
-    The noise of what stands still is the same field again and again, in each band of rows moved as the time
-    has it: that two images are equal has a chance of 1 in 64 to the power of their bands. What is laid over
-    it, and what is refreshed, has noise that was never there before.
+    The noise of the static scenery is one field, shifted in each band of rows by a random offset of the
+    time: the probability of two equal images is 1/64 to the power of the number of bands. Moving layers and
+    refreshed parts have fresh noise.
 
     Attributes:
-        image: (h, w, 3), BGR, as the sensor gives it; changes while it is drawn into.
+        image: (h, w, 3), BGR, as the sensor records it; mutable.
     """
 
     image: Image8
@@ -53,7 +53,7 @@ class Exposure:
             np.add(lit[top : top + BAND_PX], noise, out=band)
 
     def refresh(self, box: Box) -> None:
-        """Give a part of the still scenery noise that is new in each image."""
+        """Apply fresh noise to a part of the static scenery."""
         x, y, width, height = box
         if self._sensor.is_noisy:
             lit = self._lit[y : y + height, x : x + width]
@@ -61,7 +61,7 @@ class Exposure:
             cv2.add(lit, self._noise(lit[..., 1], x, y), dst=part, dtype=cv2.CV_8U)
 
     def dim(self, box: Box, light: Image8) -> None:
-        """Leave only this much of the light (h, w) in a part of the image; 255 is all of it."""
+        """Multiply a part of the image by an illumination (h, w); 255 is full."""
         x, y, width, height = box
         part = self.image[y : y + height, x : x + width]
         left = light[: part.shape[0], : part.shape[1]]
@@ -70,14 +70,13 @@ class Exposure:
     def lay_over(
         self, strips: Strips, layer: Image8, spread: PointSpread | None, *, margin_px: int = 0
     ) -> None:
-        """Lay something that moves over a part of the image.
+        """Blend a moving layer over a part of the image.
 
         Args:
             strips: the part.
             layer: sharp, premultiplied, stacked: (h, w, 4) BGR and coverage, or (h, w, 2) grey and coverage.
-            spread: what defocus and motion make of a point in it; None leaves it sharp.
-            margin_px: how much more than the strips the layer shows on each side; as far as a point spreads,
-                where there is more than one.
+            spread: its point spread function; None leaves it sharp.
+            margin_px: margin of the layer around the strips; the kernel radius if there are several strips.
         """
         soft = strips.inner(layer if spread is None else spread.of(layer), margin_px)
         if soft.shape[2] == 2:
@@ -95,13 +94,13 @@ class Exposure:
         out = cv2.multiply(strips.taken_from(self.image), uncovered, scale=1.0 / 255.0)
         out = cv2.add(out, colour)
         if self._sensor.is_noisy:
-            # What shows through has its noise already.
-            _, where = cv2.threshold(coverage, HALF_COVERED, 255, cv2.THRESH_BINARY)
+            # The transparent part already has its noise.
+            _, where = cv2.threshold(coverage, HALF_COVERAGE, 255, cv2.THRESH_BINARY)
             x, y = strips.places[0]
             out = cv2.add(out, self._noise(levels, max(x, 0), y, where), dtype=cv2.CV_8U)
         strips.put_into(self.image, np.asarray(out, dtype=np.uint8))
 
     def _noise(self, levels: Pixels, x: int, y: int, where: Pixels | None = None) -> Image16:
-        """New noise for a part of the image, with its grey or green."""
+        """Return fresh noise for a part of the image, scaled by its grey or green."""
         row, column = self._bank_at
         return self._sensor.noise(levels, row + y, column + x, where)

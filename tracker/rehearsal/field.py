@@ -1,4 +1,4 @@
-"""The operating field: the open wound, the skin around it, the drapes, as heights over the patient's back."""
+"""Height field of the operating field: open wound, skin and drapes, over the patient's back."""
 
 import cv2
 import numpy as np
@@ -13,11 +13,11 @@ MAP_X_MM, MAP_Z_MM, MAP_STEP_MM = (-560.0, 480.0), (-260.0, 1100.0), 2.0
 WOUND_HALF_MM, WOUND_POWER, WOUND_CENTRE_Z_MM = (60.0, 66.0), 2.4, 2.0
 BED_MM, SKIN_MM = 7.0, 24.0
 WALL, DRAPE_EDGE = (0.86, 1.06), 1.27
-HIGHEST_MM, LEVELS = 44.0, 34
+MAX_HEIGHT_MM, LEVELS = 44.0, 34
 
 
 class OperatingField:
-    """Heights of everything soft, and where rays meet it."""
+    """Height field of all soft surfaces, with ray intersection."""
 
     def __init__(self, random: np.random.Generator) -> None:
         xs = np.arange(MAP_X_MM[0], MAP_X_MM[1], MAP_STEP_MM, dtype=np.float32)
@@ -35,30 +35,30 @@ class OperatingField:
         self._height = height.astype(np.float32)
 
     def height_at(self, x_mm: Image32, z_mm: Image32) -> Image32:
-        """Height (h, w) over the points (h, w)."""
+        """Return the height (h, w) at points (h, w)."""
         u = (x_mm - MAP_X_MM[0]) / MAP_STEP_MM
         v = (z_mm - MAP_Z_MM[0]) / MAP_STEP_MM
         out = cv2.remap(self._height, u, v, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         return np.asarray(out, dtype=np.float32)
 
     def normals_at(self, x_mm: Image32, z_mm: Image32, reach_mm: float = 2.0) -> Image32:
-        """Unit normals (h, w, 3) over the points (h, w)."""
+        """Return the unit normals (h, w, 3) at points (h, w)."""
         dx = self.height_at(x_mm + reach_mm, z_mm) - self.height_at(x_mm - reach_mm, z_mm)
         dz = self.height_at(x_mm, z_mm + reach_mm) - self.height_at(x_mm, z_mm - reach_mm)
         normal = np.dstack([-dx, np.full_like(dx, 2.0 * reach_mm), -dz])
         return np.asarray(normal / np.linalg.norm(normal, axis=2, keepdims=True), dtype=np.float32)
 
     def meet(self, origin_mm: Array, rays: Image32) -> Image32:
-        """How many times each ray (h, w, 3) must be taken from the origin to meet the field (h, w).
+        """Return the ray parameter (h, w) at which each ray (h, w, 3) from the origin meets the field.
 
-        The rays look down; they are followed level by level from above, so that the near edge of the wound
-        hides what lies behind it.
+        The rays point down and are traced level by level from above, so that the near edge of the wound
+        occludes what is behind it.
         """
         ox, oy, oz = (np.float32(v) for v in origin_mm)
         down = np.minimum(rays[..., 1], np.float32(-0.05))
-        levels = np.linspace(HIGHEST_MM, -2.0, LEVELS, dtype=np.float32)
+        levels = np.linspace(MAX_HEIGHT_MM, -2.0, LEVELS, dtype=np.float32)
         scale = (levels[-1] - oy) / down
-        before = np.full(rays.shape[:2], np.float32(HIGHEST_MM))
+        before = np.full(rays.shape[:2], np.float32(MAX_HEIGHT_MM))
         found = np.zeros(rays.shape[:2], dtype=bool)
         for i, level in enumerate(levels):
             s = (level - oy) / down
@@ -73,7 +73,7 @@ class OperatingField:
 
 
 def wound_ratio(x_mm: Image32, z_mm: Image32) -> Image32:
-    """0 in the middle of the wound, 1 at its edge, growing outwards."""
+    """Return the normalised distance from the wound's centre: 0 at the centre, 1 at the edge."""
     half_x, half_z = WOUND_HALF_MM
     power = WOUND_POWER
     bent = np.abs(x_mm / half_x) ** power + np.abs((z_mm - WOUND_CENTRE_Z_MM) / half_z) ** power
@@ -86,7 +86,7 @@ def _step(value: Image32, low: float, high: float) -> Image32:
 
 
 def _folds(x: Image32, z: Image32, random: np.random.Generator) -> Image32:
-    """Soft folds of cloth: a few long waves that bend."""
+    """Return cloth folds: a few long, curved waves."""
     out = np.zeros_like(x)
     for _ in range(4):
         angle, length = random.uniform(0, np.pi), random.uniform(60.0, 160.0)

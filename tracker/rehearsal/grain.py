@@ -1,4 +1,4 @@
-"""Textures without pictures: noise that tiles, looked up by millimetres."""
+"""Procedural textures from tileable noise, scaled in mm."""
 
 import cv2
 import numpy as np
@@ -9,7 +9,7 @@ TILE = 256
 
 
 class Grain:
-    """Soft noise of several sizes, mean 0 and deviation about 1, that repeats without a seam."""
+    """Tileable multi-scale noise, mean 0 and sd about 1."""
 
     def __init__(self, random: np.random.Generator) -> None:
         white = random.standard_normal((TILE, TILE)).astype(np.float32)
@@ -23,11 +23,11 @@ class Grain:
         self._white: Image32 = np.asarray(soft, dtype=np.float32)
 
     def clouds(self, x_mm: Image32, y_mm: Image32, period_mm: float) -> Image32:
-        """Clouds that repeat every `period_mm`, at coordinates of any one shape (h, w)."""
+        """Return low-frequency noise with period `period_mm` at coordinates of equal shape (h, w)."""
         return _looked_up(self._cloudy, x_mm, y_mm, TILE / period_mm)
 
     def specks(self, x_mm: Image32, y_mm: Image32, speck_mm: float) -> Image32:
-        """Fine specks of this size."""
+        """Return fine specks of this size."""
         return _looked_up(self._white, x_mm, y_mm, 1.0 / speck_mm)
 
 

@@ -1,4 +1,4 @@
-"""The lamp: how bright a surface is, how it shines, and what shadow a rod throws."""
+"""Lighting model of the lamp: diffuse shading, highlights and rod shadows."""
 
 import numpy as np
 import numpy.typing as npt
@@ -10,13 +10,13 @@ Image32 = npt.NDArray[np.float32]
 # In the vertebra's frame: from the patient's left, above, and a little from the camera's side.
 TO_LAMP = np.array([0.50, 0.84, -0.22]) / np.linalg.norm([0.50, 0.84, -0.22])
 AMBIENT, DIFFUSE = 0.46, 0.74
-# A theatre lamp is wide: shadows are soft, and fade out with the distance of what throws them.
+# A theatre lamp is wide: shadows are soft, and fade with the distance of the occluder.
 PENUMBRA_MM, PENUMBRA_PER_MM = 0.7, 0.06
 SHADOW_DEPTH, SHADOW_FADES_MM = 0.62, 170.0
 
 
 def lit(normals: Image32 | Array) -> Image32:
-    """Brightness (n,) of a matt white surface with these unit normals (n, 3) in the vertebra's frame."""
+    """Return the brightness (n,) of a matt white surface with unit normals (n, 3) in the vertebra's frame."""
     facing = normals @ TO_LAMP.astype(np.float32)
     # Half Lambert: light comes from many sides in a theatre, nothing is pitch dark.
     wrapped = np.clip(0.5 + 0.5 * facing, 0.0, 1.0)
@@ -24,7 +24,7 @@ def lit(normals: Image32 | Array) -> Image32:
 
 
 def shine(normals: Image32, to_camera: Image32, hardness: float) -> Image32:
-    """Highlight (n,) 0..1 on surfaces with these normals (n, 3), seen along unit directions (n, 3)."""
+    """Return the highlight (n,) 0..1 for normals (n, 3) seen along unit directions (n, 3)."""
     half = to_camera + TO_LAMP.astype(np.float32)
     half /= np.linalg.norm(half, axis=-1, keepdims=True)
     across = np.clip(np.einsum("...i,...i->...", normals, half), 0.0, 1.0)
@@ -34,7 +34,7 @@ def shine(normals: Image32, to_camera: Image32, hardness: float) -> Image32:
 def rod_shadow(
     points: Image32, tip: Array, along: Array, profile_mm: Array, profile_radius_mm: Array
 ) -> Image32:
-    """How much of the lamp a rod takes away, 0..1, at points (n, 3).
+    """Return the shadow of a rod, 0..1, at points (n, 3).
 
     The rod starts at `tip` and runs along the unit direction `along`; its radius is given over the
     distance from the tip. All in the vertebra's frame, mm. Distances between the rod and the ray to the

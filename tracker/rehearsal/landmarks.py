@@ -1,4 +1,4 @@
-"""Named points of the bone that a tip can be put on, and how the bone's surface is met from inside."""
+"""Landmarks on the bone surface, and intersection of rays from inside with the surface."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -8,7 +8,7 @@ import numpy as np
 from tracker.geometry import Array
 from tracker.rehearsal.anatomy import bone_field, bone_normals
 
-FARTHEST_MM, COARSE_MM, HALVINGS = 30.0, 0.5, 24
+MAX_DISTANCE_MM, COARSE_MM, HALVINGS = 30.0, 0.5, 24
 
 # Name, a point inside the bone, the way out of it to the landmark. Left is x above 0; y points backwards.
 ANCHORS = (
@@ -25,7 +25,7 @@ CHECK_ANCHOR = ("left mammillary process", (21.5, 17.5, 13.0), (0.35, 0.94, 0.0)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Landmark:
-    """A point of the bone's surface with a name.
+    """A named point of the bone surface.
 
     Attributes:
         name: in words.
@@ -40,19 +40,19 @@ class Landmark:
 
 @lru_cache(maxsize=1)
 def registration_landmarks() -> tuple[Landmark, ...]:
-    """Those that are touched one after the other, in this order."""
+    """Return the landmarks for registration, in capture order."""
     return tuple(_landmark(*anchor) for anchor in ANCHORS)
 
 
 @lru_cache(maxsize=1)
 def check_landmark() -> Landmark:
-    """The one that is left for the check."""
+    """Return the landmark that is reserved for the check."""
     return _landmark(*CHECK_ANCHOR)
 
 
-def where_surface_is(inside_mm: Array, outwards: Array) -> Array:
-    """Where rays from points (n, 3) inside the bone along unit directions (n, 3) first leave it."""
-    steps = np.arange(0.0, FARTHEST_MM, COARSE_MM)
+def surface_exits(inside_mm: Array, outwards: Array) -> Array:
+    """Return where rays from points (n, 3) inside the bone along unit directions (n, 3) first exit."""
+    steps = np.arange(0.0, MAX_DISTANCE_MM, COARSE_MM)
     outside = bone_field(inside_mm[:, None] + steps[:, None] * outwards[:, None]) > 0.0
     first = np.argmax(outside, axis=1)
     low, high = steps[np.maximum(first - 1, 0)], steps[first]
@@ -65,5 +65,5 @@ def where_surface_is(inside_mm: Array, outwards: Array) -> Array:
 
 def _landmark(name: str, inside: tuple[float, ...], way: tuple[float, ...]) -> Landmark:
     direction = np.array([way]) / np.linalg.norm(way)
-    point = where_surface_is(np.array([inside]), direction)
+    point = surface_exits(np.array([inside]), direction)
     return Landmark(name=name, point_in_vertebra_mm=point[0], outwards=bone_normals(point)[0])

@@ -1,4 +1,4 @@
-"""Rays through the image on a coarse grid, with the lens taken out once and for all."""
+"""Undistorted rays on a coarse pixel grid."""
 
 import math
 from typing import Any, TypeVar
@@ -24,7 +24,7 @@ Box = tuple[int, int, int, int]  # x, y, width, height in px, all multiples of 4
 
 
 class RayGrid:
-    """Where each pixel looks: nodes in the middle of blocks of 4x4 px, some of them beyond the image.
+    """Viewing rays at nodes in the centres of blocks of 4x4 px, with a margin beyond the image.
 
     Attributes:
         nodes: (rows, columns, 3) float32, rays (x/z, y/z, 1) of the nodes; the block of the node at row and
@@ -45,7 +45,7 @@ class RayGrid:
         self.squares: Image32 = (self.nodes**2).sum(axis=2)
 
     def block(self, x: int, y: int, width: int, height: int) -> Image32:
-        """The nodes (height/4 + 2, width/4 + 2, 3) of a rectangle of pixels, and one more all around.
+        """Return the nodes (height/4 + 2, width/4 + 2, 3) of a pixel rectangle with a margin of one node.
 
         All four numbers are multiples of 4, and the rectangle lies within the image rounded up to blocks.
         """
@@ -53,7 +53,7 @@ class RayGrid:
         return self.nodes[row : row + height // NODE_PX + 2, column : column + width // NODE_PX + 2]
 
     def box_around(self, px: Array, margin_px: int) -> Box | None:
-        """The rectangle of whole blocks around points (n, 2) inside the image, None if there is none."""
+        """Return the bounding rectangle of whole blocks around points (n, 2), None if outside the image."""
         if len(px) == 0:
             return None
         (left, top), (right, bottom) = px.min(axis=0).tolist(), px.max(axis=0).tolist()
@@ -67,13 +67,13 @@ class RayGrid:
 
 
 def resized(image: Image32, width: int, height: int) -> Image32:
-    """The image at another size: averaged when it shrinks, linear when it grows."""
+    """Return the image at another size: area average to shrink, linear to enlarge."""
     way = cv2.INTER_AREA if width < image.shape[1] else cv2.INTER_LINEAR
     return np.asarray(cv2.resize(image, (width, height), interpolation=way), dtype=np.float32)
 
 
 def spread(nodes: Image32, samples: int) -> Image32:
-    """Values on the nodes of a block with its margin, as values on a grid of `samples` to a pixel's side."""
+    """Interpolate the node values of a block with its margin to `samples` values per pixel side."""
     finer = NODE_PX * samples
     rows, columns = nodes.shape[0] * finer, nodes.shape[1] * finer
     wide = cv2.resize(np.ascontiguousarray(nodes), (columns, rows), interpolation=cv2.INTER_LINEAR)
@@ -83,6 +83,6 @@ def spread(nodes: Image32, samples: int) -> Image32:
 def looked_up(
     image: npt.NDArray[Value], column: Pixels, row: Pixels, beyond: float = 0.0
 ) -> npt.NDArray[Value]:
-    """The image's values, linear between its pixels, at these places (h, w); another value beyond it."""
+    """Sample the image linearly at these positions (h, w); `beyond` is returned outside it."""
     out = cv2.remap(image, column, row, cv2.INTER_LINEAR, borderValue=beyond)
     return np.asarray(out, dtype=image.dtype)

@@ -1,4 +1,4 @@
-"""From a sampled implicit shape to triangles: surface nets, all cells at once."""
+"""Isosurface of a sampled implicit function by surface nets, vectorised over all cells."""
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,7 @@ EDGES = np.array(
 def surface_net(
     values: npt.NDArray[np.float32], *, origin_mm: tuple[float, float, float], step_mm: float
 ) -> tuple[Array, npt.NDArray[np.int64]]:
-    """Vertices (n, 3) and faces (m, 3), outward winding, of where `values` (i, j, k) turn positive.
+    """Return vertices (n, 3) and faces (m, 3), outward winding, of the zero level of `values` (i, j, k).
 
     Each cell that the surface crosses gives one vertex, the mean of the crossings on its edges; each grid
     edge that it crosses gives two triangles between its four cells. Closed if no outermost value is negative.
@@ -33,7 +33,7 @@ def surface_net(
 
 
 def _mean_crossings(values: npt.NDArray[np.float32], crossed: npt.NDArray[np.int64]) -> Array:
-    """Where the surface crosses each cell, in cells from its first corner (n, 3)."""
+    """Return the mean edge crossing of each cell, in cells from its first corner (n, 3)."""
     at = crossed[:, None, :] + CORNERS
     v = values[at[..., 0], at[..., 1], at[..., 2]].astype(np.float64)
     a, b = v[:, EDGES[:, 0]], v[:, EDGES[:, 1]]
@@ -44,7 +44,7 @@ def _mean_crossings(values: npt.NDArray[np.float32], crossed: npt.NDArray[np.int
 
 
 def _quads(inside: npt.NDArray[np.bool_], number: npt.NDArray[np.int64], axis: int) -> npt.NDArray[np.int64]:
-    """The four cells (n, 4) around each crossed grid edge along `axis`, counter-clockwise from outside."""
+    """Return the four cells (n, 4) around each crossed edge along `axis`, counter-clockwise from outside."""
     first = np.moveaxis(inside, axis, 0)
     cells = np.moveaxis(number, axis, 0)
     lower, upper = first[:-1, 1:-1, 1:-1], first[1:, 1:-1, 1:-1]
@@ -58,7 +58,7 @@ def _quads(inside: npt.NDArray[np.bool_], number: npt.NDArray[np.int64], axis: i
 
 
 def _triangles(vertices: Array, quads: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
-    """Each quad split along its shorter diagonal."""
+    """Split each quad along its shorter diagonal."""
     corner = vertices[quads]
     shorter = np.linalg.norm(corner[:, 0] - corner[:, 2], axis=1) <= np.linalg.norm(
         corner[:, 1] - corner[:, 3], axis=1

@@ -1,4 +1,4 @@
-"""How the hand moves the drill: keyframes along the channel, smoothed, with a hand's wobble and tremor."""
+"""Hand motion along the channel: smoothed keyframes with sway and tremor."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -13,7 +13,7 @@ SMOOTHING_S = 0.3
 
 
 class Phase(StrEnum):
-    """What the hand is doing."""
+    """Phase of the hand motion."""
 
     APPROACH = "approach"  # from above the bone towards the entry point
     ALIGN = "align"  # the burr on the entry point, the axis turned into the channel's
@@ -71,22 +71,22 @@ TREMOR_SIZE = np.array([0.035, 0.05, 0.045, 0.03])
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pose6:
-    """The drill against the channel.
+    """Drill pose relative to the channel.
 
     Attributes:
         across_mm: (2,) of the tip, along the drill's x and y at rest.
         depth_mm: of the tip along the channel, negative outside.
-        turn_deg: (3,) rotation vector about the drill's x, y, z at rest.
+        rotation_deg: (3,) rotation vector about the drill's x, y, z at rest.
     """
 
     across_mm: Array
     depth_mm: float
-    turn_deg: Array
+    rotation_deg: Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Script:
-    """What a hand plays.
+    """Keyframes and variation of a hand motion.
 
     Attributes:
         keyframes: (n, 7), as `KEYFRAMES`.
@@ -107,7 +107,7 @@ WANDERING = Script(keyframes=KEYFRAMES, phases=PHASE_STARTS_S)
 
 
 class Hand:
-    """A hand that plays the same 40 seconds again and again; which 40 seconds follows from the seed."""
+    """A hand that repeats a cycle of 40 seconds, varied by the seed."""
 
     def __init__(self, seed: int, script: Script = WANDERING) -> None:
         random = np.random.default_rng([seed, 0x48414E44])
@@ -125,24 +125,24 @@ class Hand:
         self._offsets = random.uniform(0.0, 2.0 * np.pi, (6, 8))
 
     def at(self, at_s: float) -> Pose6:
-        """Where the hand holds the drill at this time."""
+        """Return the drill pose at this time."""
         time_s = at_s % CYCLE_S
         slow = catmull_rom(self._table, time_s * TABLE_HZ)
         values = slow + (self._sizes * np.sin(self._rates * time_s + self._offsets)).sum(axis=1)
-        return Pose6(across_mm=values[:2], depth_mm=float(values[2]), turn_deg=values[3:])
+        return Pose6(across_mm=values[:2], depth_mm=float(values[2]), rotation_deg=values[3:])
 
     def phase_at(self, at_s: float) -> Phase:
-        """What the hand is doing at this time."""
+        """Return the phase of the motion at this time."""
         time_s = at_s % CYCLE_S
         return [phase for start_s, phase in self._phases if start_s <= time_s][-1]
 
     def touched_at(self, _at_s: float) -> str:
-        """It rests on no landmark."""
+        """Return an empty name: the tip rests on no landmark."""
         return ""
 
 
 def _varied(keyframes: Array, random: np.random.Generator, ratio: float) -> Array:
-    """Each seed is a slightly different hand, most of all where there is room in the air."""
+    """Return keyframes varied by the seed, most in free air."""
     out = keyframes.copy()
     room = ratio * np.clip(-out[:, 3] / 60.0, 0.0, 1.0)[:, None]
     out[:, 1:4] += room * random.normal(0.0, 5.0, (len(out), 3))
@@ -151,7 +151,7 @@ def _varied(keyframes: Array, random: np.random.Generator, ratio: float) -> Arra
 
 
 def _smooth_table(keyframes: Array) -> Array:
-    """The keyframes as a periodic table (cycle x 50 Hz, 6) without corners."""
+    """Return the keyframes as a smooth periodic table (cycle x 50 Hz, 6)."""
     count = int(CYCLE_S * TABLE_HZ)
     times = np.arange(count) / TABLE_HZ
     columns = [np.interp(times, keyframes[:, 0], keyframes[:, i], period=CYCLE_S) for i in range(1, 7)]
@@ -162,7 +162,7 @@ def _smooth_table(keyframes: Array) -> Array:
 
 
 def catmull_rom(table: Array, position: float) -> Array:
-    """A periodic table's value between its rows, with a steady velocity."""
+    """Interpolate a periodic table with continuous velocity (Catmull-Rom spline)."""
     row = int(np.floor(position))
     f = position - row
     a, b, c, d = (table[(row + i) % len(table)] for i in (-1, 0, 1, 2))

@@ -1,4 +1,4 @@
-"""Where camera, room and patient are to each other, and what a move makes of it."""
+"""Poses of camera, room and patient, and their changes by events."""
 
 from dataclasses import dataclass, field
 
@@ -10,12 +10,12 @@ from tracker.rehearsal.settings import TheatreSettings
 
 
 class Room:
-    """The frame of what stands still: the vertebra's, as long as nothing has moved."""
+    """Frame of the static scene; equal to the vertebra's frame before any motion."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Placement:
-    """Where camera and patient are.
+    """Poses of camera and patient.
 
     Attributes:
         camera_from_room: the camera.
@@ -32,12 +32,12 @@ class Placement:
 
     @property
     def key(self) -> bytes:
-        """Equal where the placement is equal to the last bit."""
+        """Return a key that is equal for bitwise equal placements."""
         return self.camera_from_room.matrix.tobytes() + self.room_from_vertebra.matrix.tobytes()
 
 
 class Moves:
-    """The events that move something, with the ways that follow from the seed."""
+    """Motion events, with directions derived from the seed."""
 
     def __init__(self, settings: TheatreSettings, camera_from_vertebra: Rigid[Camera, Vertebra]) -> None:
         self._at_rest = Placement(
@@ -52,11 +52,11 @@ class Moves:
 
     @property
     def at_rest(self) -> Placement:
-        """Before anything has moved."""
+        """Return the placement before any motion."""
         return self._at_rest
 
     def placement_at(self, at_s: float) -> Placement:
-        """Where camera and patient are at this time."""
+        """Return the placement at this time."""
         camera, room = self._at_rest.camera_from_room, self._at_rest.room_from_vertebra
         for event, shift, turn in self._moves:
             if event.kind is EventKind.CAMERA_MOVES and event.is_on(at_s):
@@ -70,7 +70,7 @@ class Moves:
         return Placement(camera_from_room=camera, room_from_vertebra=room)
 
     def jump_mm_at(self, at_s: float) -> Array:
-        """How far the drill is from where the hand holds it (3,), along the drill's own axes."""
+        """Return the drill's displacement (3,) from the hand, along the drill's axes."""
         out = np.zeros(3)
         for event, shift, _ in self._moves:
             if event.kind is EventKind.DRILL_JUMPS and event.is_on(at_s):
@@ -78,7 +78,7 @@ class Moves:
         return out
 
     def placements(self) -> list[Placement]:
-        """All that can come: one for each set of moves that can be on together."""
+        """Return all possible placements, one for each set of simultaneous moves."""
         edges = {0.0}
         for event, _, _ in self._moves:
             if event.kind in (EventKind.CAMERA_MOVES, EventKind.PATIENT_MOVES):
@@ -88,7 +88,7 @@ class Moves:
 
 
 def _ways(seed: int, index: int, kind: EventKind) -> tuple[Array, Array]:
-    """Unit directions of a shift and of a turn's axis."""
+    """Return unit directions of a shift and of a rotation axis."""
     ways = np.random.default_rng([seed, 0x4D4F5645, index]).normal(0.0, 1.0, (2, 3))
     if kind is EventKind.PATIENT_MOVES:
         # A patient slides on the table, and hardly sinks into it or rises.

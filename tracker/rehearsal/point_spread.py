@@ -1,4 +1,4 @@
-"""What defocus and motion during the exposure make of a point, as few separable filters."""
+"""Point spread function of defocus and motion blur, as a sum of few separable kernels."""
 
 from dataclasses import dataclass
 
@@ -10,29 +10,29 @@ from tracker.geometry import Array
 
 Image8 = npt.NDArray[np.uint8]
 
-DEFOCUS_PX, EXPOSURE_S, LONGEST_EXPOSURE_S = 0.6, 0.008, 0.033
+DEFOCUS_PX, EXPOSURE_S, MAX_EXPOSURE_S = 0.6, 0.008, 0.033
 SHARP_PX = 0.05
 STEPS_PER_PX = 4.0
-# Below this a kernel's covariance of x and y cannot be seen: of a motion by half a pixel askew.
+# A kernel's xy covariance below this is invisible: that of an oblique motion by half a pixel.
 SLANT_PX2 = 0.01
 # Parts of a kernel below this share of its largest are left out.
 NEGLIGIBLE_RATIO = 0.02
-# OpenCV counts the taps of a filter from 8 bit to 8 bit in 1/256; they must add up to 1 in these.
+# OpenCV quantises the kernel of an 8-bit to 8-bit filter to 1/256; the quantised values must sum to 1.
 FIXED_POINT = 256.0
-# More taps are too small for that.
-MAX_FIXED_TAPS = 15
+# Longer kernels have values too small for that.
+MAX_FIXED_SAMPLES = 15
 
-# A Gaussian that is sampled once a pixel has less variance than its formula says: the formula's sigma by the
-# variance of the samples.
-_TAPS = np.arange(-8, 9)
+# A Gaussian sampled once per pixel has a smaller variance than its sigma squared: table of the nominal sigma
+# by the variance of the samples.
+_KERNELS = np.arange(-8, 9)
 _SIGMAS_PX = np.linspace(0.15, 1.2, 106)
-_SAMPLED = np.exp(-0.5 * (_TAPS / _SIGMAS_PX[:, None]) ** 2)
-_VARIANCES_PX2 = (_SAMPLED * _TAPS**2).sum(axis=1) / _SAMPLED.sum(axis=1)
+_SAMPLED = np.exp(-0.5 * (_KERNELS / _SIGMAS_PX[:, None]) ** 2)
+_VARIANCES_PX2 = (_SAMPLED * _KERNELS**2).sum(axis=1) / _SAMPLED.sum(axis=1)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PointSpread:
-    """A kernel as a sum of separable ones.
+    """A kernel as a sum of separable kernels.
 
     Attributes:
         along_x: (n, k) taps of each along x.
@@ -44,12 +44,12 @@ class PointSpread:
 
     @property
     def reach_px(self) -> int:
-        """How far it spreads a point."""
+        """Return the kernel radius."""
         return len(self.along_x[0]) // 2
 
     def of(self, layer: Image8) -> Image8:
-        """What it makes of a layer (h, w, channels); beyond its borders the layer goes on as it ends."""
-        if len(self.along_x) == 1 and self.along_x.shape[1] <= MAX_FIXED_TAPS:
+        """Filter a layer (h, w, channels); the border is replicated."""
+        if len(self.along_x) == 1 and self.along_x.shape[1] <= MAX_FIXED_SAMPLES:
             soft = cv2.sepFilter2D(
                 layer, -1, self.along_x[0], self.along_y[0], borderType=cv2.BORDER_REPLICATE
             )
@@ -59,23 +59,23 @@ class PointSpread:
             cv2.add(
                 total, cv2.sepFilter2D(layer, cv2.CV_32F, x, y, borderType=cv2.BORDER_REPLICATE), dst=total
             )
-        # What was left out of the kernel may leave a little below 0.
+        # The truncated kernel may give slightly negative values.
         return np.asarray(cv2.convertScaleAbs(np.maximum(total, 0.0, out=total)), dtype=np.uint8)
 
 
 def point_spread(blur: float, speed_px_s: Array, drawn_px2: float = 0.0) -> PointSpread | None:
-    """What defocus and motion during the exposure make of a point; None if it stays one.
+    """Return the point spread function of defocus and motion; None if it is a point.
 
-    Defocus is a Gaussian; the motion is a straight line, even in time, centred on the middle of the exposure,
-    so that the picture shows where things are at its own time.
+    Defocus is a Gaussian. Motion is linear with constant speed, centred on the middle of the exposure, so
+    that the image shows the positions at its own time.
 
     Args:
         blur: as in the settings.
-        speed_px_s: (2,) how fast the point moves.
-        drawn_px2: variance that what is drawn has already, beyond that of a pixel's square.
+        speed_px_s: (2,) image velocity of the point.
+        drawn_px2: variance already present in the drawn layer, beyond that of a pixel's square.
     """
     sigma = DEFOCUS_PX * blur
-    exposure_s = min(EXPOSURE_S * blur, LONGEST_EXPOSURE_S)
+    exposure_s = min(EXPOSURE_S * blur, MAX_EXPOSURE_S)
     path = np.asarray(speed_px_s, dtype=np.float64) * exposure_s
     length = float(np.linalg.norm(path))
     left_px2 = sigma**2 - drawn_px2
@@ -97,17 +97,17 @@ def point_spread(blur: float, speed_px_s: Array, drawn_px2: float = 0.0) -> Poin
     return PointSpread(along_x=x, along_y=y / float(x.sum(axis=1) @ y.sum(axis=1)))
 
 
-def _even_or_odd(taps: Array) -> Array:
-    """Taps (n, k) without rounding errors: OpenCV filters in half the time where both halves are the same."""
-    mirrored = taps[:, ::-1]
-    signs = np.sign((taps * mirrored).sum(axis=1, keepdims=True))
-    return np.asarray((taps + signs * mirrored) / 2.0, dtype=np.float64)
+def _even_or_odd(samples: Array) -> Array:
+    """Return exactly symmetric kernel samples (n, k): OpenCV filters them in half the time."""
+    mirrored = samples[:, ::-1]
+    signs = np.sign((samples * mirrored).sum(axis=1, keepdims=True))
+    return np.asarray((samples + signs * mirrored) / 2.0, dtype=np.float64)
 
 
-def _in_256ths(taps: Array) -> Array:
-    """The taps (k,) as (1, k), few ones in 1/256, that add up to 1; the middle one takes what is over."""
-    if len(taps) > MAX_FIXED_TAPS:
-        return np.asarray(taps[None] / taps.sum(), dtype=np.float64)
-    out = np.rint(taps / taps.sum() * FIXED_POINT)
+def _in_256ths(samples: Array) -> Array:
+    """Return the kernel (k,) as (1, k), quantised to 1/256 with sum 1; the centre takes the remainder."""
+    if len(samples) > MAX_FIXED_SAMPLES:
+        return np.asarray(samples[None] / samples.sum(), dtype=np.float64)
+    out = np.rint(samples / samples.sum() * FIXED_POINT)
     out[len(out) // 2] += FIXED_POINT - out.sum()
     return np.asarray(out[None] / FIXED_POINT, dtype=np.float64)

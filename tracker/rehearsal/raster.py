@@ -1,4 +1,4 @@
-"""Triangles to pixels with a depth buffer, all triangles of a size at once."""
+"""Vectorised triangle rasterisation with a depth buffer."""
 
 from dataclasses import dataclass
 
@@ -13,8 +13,8 @@ BATCH_SAMPLES = 4_000_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Covered:
-    """The nearest triangle on each covered pixel of a raster.
+class RasterSamples:
+    """The nearest triangle of each covered pixel.
 
     Attributes:
         pixel: (n,) flat index of the pixel.
@@ -29,7 +29,7 @@ class Covered:
     depth_mm: Image32
 
     def of_corners(self, values: npt.NDArray[np.float32], faces: npt.NDArray[np.int64]) -> Image32:
-        """Values of vertices (v, c), carried to the covered pixels (n, c)."""
+        """Interpolate vertex values (v, c) to the covered pixels (n, c)."""
         corners = faces[self.face]
         out = values[corners[:, 0]] * self.weights[:, :1]
         out += values[corners[:, 1]] * self.weights[:, 1:2]
@@ -39,8 +39,8 @@ class Covered:
 
 def rasterise(
     px: Array, depth_mm: Array, faces: npt.NDArray[np.int64], *, width: int, height: int
-) -> Covered:
-    """Which triangle each pixel of a (height, width) raster sees; pixel centres at whole numbers.
+) -> RasterSamples:
+    """Rasterise triangles to (height, width) pixels; pixel centres at whole numbers.
 
     `px` (v, 2) and `depth_mm` (v,) are the projected vertices. Triangles that turn their back are left out:
     from the front they run clockwise in an image whose y points down.
@@ -77,7 +77,7 @@ def _samples(
     width: int,
     height: int,
 ) -> _Part:
-    """Pixels, faces and corner weights over depth of all pixels inside these triangles."""
+    """Return pixels, faces and perspective-correct corner weights inside these triangles."""
     step = np.arange(box)
     x = low[:, :1, None] + step[None, None, :]
     y = low[:, 1:, None] + step[None, :, None]
@@ -97,7 +97,7 @@ def _samples(
     return pixel, face[triangle], weights * inverse[triangle]
 
 
-def _nearest(parts: list[_Part]) -> Covered:
+def _nearest(parts: list[_Part]) -> RasterSamples:
     if not parts:
         parts = [(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 3), np.float32))]
     pixel, face, over_depth = (np.concatenate([part[i] for part in parts]) for i in range(3))
@@ -108,7 +108,7 @@ def _nearest(parts: list[_Part]) -> Covered:
     first[1:] = pixel_in_order[1:] != pixel_in_order[:-1]
     chosen = order[first]
     near = np.asarray(nearness[chosen], dtype=np.float32)
-    return Covered(
+    return RasterSamples(
         pixel=pixel[chosen],
         face=face[chosen],
         weights=np.asarray(over_depth[chosen] / near[:, None], dtype=np.float32),

@@ -6,7 +6,7 @@ import numpy as np
 
 from tracker.geometry import Array, Camera, Reference, Rigid, Vertebra, rotation_from_vector
 from tracker.marker import MarkerModel
-from tracker.rehearsal.emblem import reference_emblem
+from tracker.rehearsal.marker_images import reference_marker_image
 
 REFERENCE_SIDE_MM = 30.0
 REFERENCE_QUIET_MM = 5.0
@@ -19,16 +19,16 @@ TILT_DEG = (22.0, 36.0)
 
 @lru_cache(maxsize=1)
 def reference_marker() -> MarkerModel:
-    """The printed marker ("reference", 30 mm)."""
-    return MarkerModel.from_image(reference_emblem(), side_mm=REFERENCE_SIDE_MM, name="reference")
+    """Return the printed marker ("reference", 30 mm)."""
+    return MarkerModel.from_image(reference_marker_image(), side_mm=REFERENCE_SIDE_MM, name="reference")
 
 
 def reference_from_vertebra(
     camera_from_vertebra: Rigid[Camera, Vertebra], seed: int
 ) -> Rigid[Reference, Vertebra]:
-    """Where it was clamped: turned to the camera, but seen askew, as the seed has it.
+    """Return the pose of the reference: facing the camera obliquely, varied by the seed.
 
-    A square that is seen from the front says little of its tilt.
+    A frontal view of a square hardly determines its tilt.
     """
     random = np.random.default_rng([seed, 0x52454645])
     camera_mm = camera_from_vertebra.inverse.translation_mm
@@ -52,5 +52,5 @@ def reference_from_vertebra(
 
 
 def reference_board_mm(z_mm: float = 0.0) -> Array:
-    """The board's corners (4, 3) in its marker's frame."""
+    """Return the board's corners (4, 3) in its marker's frame."""
     return np.array([[-1, 1, 0], [1, 1, 0], [1, -1, 0], [-1, -1, 0]]) * REFERENCE_HALF_MM + [0.0, 0.0, z_mm]

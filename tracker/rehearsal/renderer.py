@@ -1,4 +1,4 @@
-"""Images of the theatre: the still scenery, and the moving drill drawn into it."""
+"""Rendering of theatre images: static scenery with the moving drill."""
 
 from dataclasses import replace
 from typing import TypeVar
@@ -29,9 +29,9 @@ from tracker.rehearsal.lamp import TO_LAMP, lit, rod_shadow
 from tracker.rehearsal.lens import NODE_PX, looked_up
 from tracker.rehearsal.placement import Room
 from tracker.rehearsal.point_spread import DEFOCUS_PX, PointSpread, point_spread
-from tracker.rehearsal.printed import PrintedPlane, Sampled
+from tracker.rehearsal.printed_plane import PrintedPlane, Sampled
 from tracker.rehearsal.reference import REFERENCE_HALF_MM
-from tracker.rehearsal.reference_picture import board_layer, cloth_px, draw_cloth
+from tracker.rehearsal.reference_renderer import board_layer, cloth_px, draw_cloth
 from tracker.rehearsal.strips import Strips, strips_around
 from tracker.rehearsal.theatre import Theatre
 
@@ -41,7 +41,7 @@ Square = TypeVar("Square")
 
 MARGIN_PX = 2
 STATION_MM = 8.0
-# The marker is measured: with fewer samples its edges are off by twice as much, 0.004 px.
+# The tracker measures the marker: fewer samples double its edge error, to 0.004 px.
 MARKER_SAMPLES = 3
 SPEED_OVER_S = 0.002
 # Only this much of the drill ever comes near the bone.
@@ -54,17 +54,17 @@ SHADOW_RADIUS_MM = np.array([*RADIUS_MM[:16], 8.5, 8.5, 14.0, 14.0, 8.5, 8.5])
 
 
 class Renderer:
-    """Renders the theatre's images. Reads nothing but the theatre: same time, same image.
+    """Renders the theatre's images; deterministic in time.
 
     Building it renders the still scenery (about a second); an image then costs some milliseconds. It keeps no
     state between images, so that they may be asked for in any order.
     """
 
     def __init__(
-        self, theatre: Theatre, kept: Backdrops | None = None, store: StillStore | None = None
+        self, theatre: Theatre, cached: Backdrops | None = None, store: StillStore | None = None
     ) -> None:
         self._theatre = theatre
-        self.backdrops = kept if kept is not None and kept.show(theatre) else Backdrops(theatre, store)
+        self.backdrops = cached if cached is not None and cached.show(theatre) else Backdrops(theatre, store)
         self._rays = self.backdrops.rays
         self.backdrops.at(theatre.placement_at(0.0))
         self._portrait = drill_portrait()
@@ -76,12 +76,12 @@ class Renderer:
         )
 
     def prepare(self) -> None:
-        """Render all still scenery that will come, so that no image has to wait for it."""
+        """Render all static scenery in advance, so that no image is delayed."""
         for placement in self._theatre.placements():
             self.backdrops.at(placement)
 
     def image_at(self, at_s: float) -> Image8:
-        """The image (h, w, 3), BGR, whose exposure has its middle at this time."""
+        """Return the image (h, w, 3), BGR, whose exposure is centred at this time."""
         theatre = self._theatre
         placement, marker = theatre.placement_at(at_s), theatre.camera_from_marker_at(at_s)
         tool, room = marker @ theatre.tool.marker_from_tool, placement.camera_from_room
@@ -113,7 +113,7 @@ class Renderer:
         half_mm: float,
         spread: PointSpread | None,
     ) -> None:
-        """Lays a cloth over a marker."""
+        """Draw a cloth over a marker."""
         cloth = cloth_px(self._theatre.camera, camera_from_square, half_mm)
         box = self._rays.box_around(cloth, _reach_px(spread))
         if box is not None:
@@ -122,7 +122,7 @@ class Renderer:
             exposure.lay_over(Strips.of_box(box), layer, spread)
 
     def _outline_px(self, camera_from_tool: Rigid[Camera, Tool]) -> Array:
-        """Both sides (2, n, 2) of all of the drill's body that can be in the image."""
+        """Return both sides (2, n, 2) of the drill body in the image."""
         stations = np.arange(PORTRAIT_START_MM, PORTRAIT_END_MM, STATION_MM)
         half = np.interp(stations, [PORTRAIT_START_MM, 40.0, 96.0, 180.0, 200.0], [4.0, 5.0, 10.0, 10.0, 4.0])
         sides = np.zeros((2, len(stations), 3))
@@ -134,7 +134,7 @@ class Renderer:
         return px.reshape(2, -1, 2)
 
     def _speed_px_s(self, at_s: float, camera_from_marker: Rigid[Camera, Marker]) -> Array:
-        """How fast the marker moves through the image."""
+        """Return the image velocity of the marker."""
         later = self._theatre.camera_from_marker_at(at_s, late_s=SPEED_OVER_S)
         ends = np.stack([camera_from_marker.translation_mm, later.translation_mm])
         px = self._theatre.camera.px_from_camera(ends)
@@ -147,7 +147,7 @@ class Renderer:
         still_mm: Image32,
         spread: PointSpread | None,
     ) -> None:
-        """Lays the drill's body over the image, without what is in or behind the bone."""
+        """Draw the drill body, except what is in or behind the bone."""
         outline_px = self._outline_px(camera_from_tool)
         strips = strips_around(outline_px, _reach_px(spread), self._rays)
         if strips is None:
@@ -175,7 +175,7 @@ class Renderer:
         sampled: Sampled,
         spread: PointSpread | None,
     ) -> None:
-        """Lays the board with the marker over the body: exact through lens and perspective."""
+        """Draw the board with the marker over the body, with exact perspective and distortion."""
         camera = self._theatre.camera
         if float(pose.rotation[:, 2] @ pose.translation_mm) >= 0.0:
             return
@@ -204,7 +204,7 @@ class Renderer:
         camera_from_room: Rigid[Camera, Room],
         points_mm: Image32,
     ) -> None:
-        """The drill's soft shadow on the still scenery, whose places are `points_mm`."""
+        """Draw the drill's soft shadow on the static scenery at `points_mm`."""
         tip, back = room_from_tool.translation_mm, -room_from_tool.rotation[:, 2]
         stations = tip + np.linspace(0.0, 168.0, 12)[:, None] * back
         above = (stations[:, 1] - SHADOW_GROUND_MM) / TO_LAMP[1]
@@ -225,7 +225,7 @@ class Renderer:
 
 
 def _reach_px(spread: PointSpread | None) -> int:
-    """How far around something there is anything of it."""
+    """Return the radius of a spread."""
     return MARGIN_PX if spread is None else MARGIN_PX + spread.reach_px
 
 
@@ -234,14 +234,14 @@ def _board_corners(z_mm: float) -> Array:
 
 
 def _hide_behind(layer: Image8, still_mm: Image32, surface_mm: Image32) -> None:
-    """Take from a layer (h, w, 4) whose surface has this depth what still things hide."""
+    """Remove from a layer (h, w, 4) at this depth what static objects occlude."""
     # From a third of a millimetre behind them to a third before.
     seen = np.clip((still_mm - surface_mm) * np.float32(382.5) + np.float32(127.5), 0.0, 255.0)
     cv2.multiply(layer, cv2.merge([seen.astype(np.uint8)] * 4), dst=layer, scale=1.0 / 255.0)
 
 
 def _on_portrait(rays: Image32, squares: Image32, camera_from_tool: Rigid[Camera, Tool]) -> Image32:
-    """Where rays (n, r, c, 3) of squared lengths (n, r, c) pass the drill's axis.
+    """Return where rays (n, r, c, 3) of squared lengths (n, r, c) pass the drill's axis.
 
     Returns:
         Column and row of the portrait, and the depth of the axis in mm (n, r, c, 3).

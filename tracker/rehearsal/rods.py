@@ -1,4 +1,4 @@
-"""Straight things, and the shadows that they throw."""
+"""Straight objects and their shadows."""
 
 from dataclasses import dataclass
 
@@ -13,12 +13,12 @@ from tracker.rehearsal.placement import Room
 from tracker.rehearsal.solids import Solid
 
 Image32 = npt.NDArray[np.float32]
-FARTHEST_SHADOW_MM = 60.0
+MAX_SHADOW_MM = 60.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rod:
-    """A straight thing that throws a shadow, in the room's frame."""
+    """A straight shadow caster, in the room's frame."""
 
     tip_mm: Array
     along: Array
@@ -26,11 +26,11 @@ class Rod:
     radius_mm: float
 
     def shadow(self, points: Image32) -> Image32:
-        """How much of the lamp it takes away, 0..1, at points (n, 3)."""
+        """Return the shadow, 0..1, at points (n, 3)."""
         profile, radius = np.array([0.0, self.length_mm]), np.full(2, self.radius_mm)
         out = np.zeros(len(points), dtype=np.float32)
         middle = (self.tip_mm + 0.5 * self.length_mm * self.along).astype(np.float32)
-        reach = 0.5 * self.length_mm + FARTHEST_SHADOW_MM
+        reach = 0.5 * self.length_mm + MAX_SHADOW_MM
         near = np.flatnonzero(
             (np.abs(points[:, 0] - middle[0]) < reach) & (np.abs(points[:, 2] - middle[2]) < reach)
         )
@@ -39,14 +39,14 @@ class Rod:
 
 
 def rod_between(start_mm: Array, end_mm: Array, radius_mm: float) -> Rod:
-    """From one point (3,) to another."""
+    """Return the rod between two points (3,)."""
     line = end_mm - start_mm
     length = float(np.linalg.norm(line))
     return Rod(tip_mm=start_mm, along=line / length, length_mm=length, radius_mm=radius_mm)
 
 
 def rod_of_needle(needle: Needle, room_from_vertebra: Rigid[Room, Vertebra]) -> Rod:
-    """A needle as what throws its shadow."""
+    """Return the shadow caster of a needle."""
     tip, head = (
         room_from_vertebra.move_points(end) for end in (needle.tip_in_vertebra_mm, needle.head_in_vertebra_mm)
     )
@@ -54,6 +54,6 @@ def rod_of_needle(needle: Needle, room_from_vertebra: Rigid[Room, Vertebra]) -> 
 
 
 def rod_of_bar(bar: Solid) -> Rod:
-    """A bar of steel as what throws its shadow."""
+    """Return the shadow caster of a steel bar."""
     centres = bar.vertices_mm.reshape(BAR_RINGS, -1, 3).mean(axis=1)
     return rod_between(centres[0], centres[-1], 1.8)

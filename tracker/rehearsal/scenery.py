@@ -1,4 +1,4 @@
-"""Everything that stands still, rendered once: the field, the bone, the needles, what lies about."""
+"""Static scenery, rendered once: operating field, bone, needles and clutter."""
 
 from dataclasses import dataclass
 
@@ -15,29 +15,29 @@ from tracker.rehearsal.grain import Grain
 from tracker.rehearsal.lamp import TO_LAMP, lit, shine
 from tracker.rehearsal.lens import NODE_PX, RayGrid, resized, spread
 from tracker.rehearsal.placement import Placement, Room
-from tracker.rehearsal.raster import Covered, rasterise
-from tracker.rehearsal.reference_picture import lay_reference, post, reference_rods
+from tracker.rehearsal.raster import RasterSamples, rasterise
+from tracker.rehearsal.reference_renderer import lay_reference, post, reference_rods
 from tracker.rehearsal.rods import Rod, rod_of_bar, rod_of_needle
-from tracker.rehearsal.soft import soft_colours
+from tracker.rehearsal.soft_tissue import soft_colours
 from tracker.rehearsal.solids import Solid, ball, joined, moved, tube
 from tracker.rehearsal.theatre import Theatre
 
 Image32 = npt.NDArray[np.float32]
-FINER = 2
+SUPERSAMPLING = 2
 LAMP_STEPS_MM = (2.5, 5.0, 9.0, 15.0, 24.0, 36.0)
-# What traces of muscle take from bone's blue, green and red.
+# Absorption of bone's blue, green and red by traces of muscle.
 TRACES = np.array([0.62, 0.58, 0.22], dtype=np.float32)
 NEEDLE_COLOUR, NEEDLE_HEADS = (0.74, 0.73, 0.72), ((0.25, 0.75, 0.95), (0.85, 0.60, 0.20), (0.45, 0.75, 0.35))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scenery:
-    """The still part of the picture.
+    """Render of the static objects.
 
     Attributes:
         picture: (h, w, 3) float32, BGR 0..1, sharp, evenly lit by the camera's gain.
-        depth_mm: (h, w) float32 along the optical axis, of the nearest still thing.
-        points_mm: (h/4, w/4, 3) float32, where the middle of each 4x4 block lies, in the room's frame.
+        depth_mm: (h, w) float32 along the optical axis, of the nearest static object.
+        points_mm: (h/4, w/4, 3) float32, centre of each 4x4 block in the room's frame.
     """
 
     picture: Image32
@@ -46,7 +46,7 @@ class Scenery:
 
 
 def still_scenery(theatre: Theatre, rays: RayGrid, placement: Placement) -> Scenery:
-    """Renders the theatre without its drill, with camera and patient where they are."""
+    """Render the theatre without its drill, for one placement of camera and patient."""
     random = np.random.default_rng([theatre.settings.seed, 0x53434E45])
     field, grain = OperatingField(random), Grain(random)
     width, height = theatre.camera.size_wh_px
@@ -54,7 +54,7 @@ def still_scenery(theatre: Theatre, rays: RayGrid, placement: Placement) -> Scen
     full = spread(rays.block(0, 0, rays.columns * NODE_PX, rays.rows * NODE_PX), 1)[:height, :width]
     soft_depth, points = _soft_points(field, pose, full)
     clutter = theatre.settings.clutter
-    # Things lie where they were laid, however the camera is moved later.
+    # Clutter positions are independent of later camera motion.
     first = theatre.placement_at_rest
     laid = points if placement.key == first.key else _soft_points(field, first.camera_from_room, full)[1]
     steel = instruments(clutter, field, _spots(laid), random)
@@ -73,7 +73,7 @@ def still_scenery(theatre: Theatre, rays: RayGrid, placement: Placement) -> Scen
         lay_reference(
             picture,
             depth,
-            emblem=theatre.reference.image,
+            marker_image=theatre.reference.image,
             camera=theatre.camera,
             rays=rays,
             placement=placement,
@@ -84,7 +84,7 @@ def still_scenery(theatre: Theatre, rays: RayGrid, placement: Placement) -> Scen
 
 
 def _soft_points(field: OperatingField, pose: Rigid[Camera, Room], rays: Image32) -> tuple[Image32, Image32]:
-    """Depth (h, w) and place in the vertebra's frame (h, w, 3) of the field under each pixel."""
+    """Return depth (h, w) and position in the vertebra's frame (h, w, 3) of the field at each pixel."""
     height, width = rays.shape[:2]
     turn = pose.rotation.astype(np.float32)
     origin = pose.inverse.translation_mm
@@ -97,14 +97,14 @@ def _soft_points(field: OperatingField, pose: Rigid[Camera, Room], rays: Image32
 
 
 def _spots(points: Image32) -> list[tuple[float, float]]:
-    """Where on the patient the places for things are."""
+    """Return the positions of clutter on the patient."""
     height, width = points.shape[:2]
     found = [points[min(int(v * height), height - 1), min(int(u * width), width - 1)] for u, v in PLACES]
     return [(float(p[0]), float(p[2])) for p in found]
 
 
 def _soft_shade(points: Image32, rods: list[Rod], patient: Rigid[Room, Vertebra]) -> Image32:
-    """What is left of the lamp (h, w) on the soft field, beside bone, needles and instruments."""
+    """Return the lamp light (h, w) left on the soft field beside bone, needles and instruments."""
     height, width = points.shape[:2]
     half = resized(points, width // 2, height // 2).reshape(-1, 3)
     left = np.ones(len(half), dtype=np.float32)
@@ -121,7 +121,7 @@ def _soft_shade(points: Image32, rods: list[Rod], patient: Rigid[Room, Vertebra]
 
 
 def _bone_shadow(points: Image32, lift_mm: float) -> Image32:
-    """How much of the lamp the bone hides, 0..1, at points (n, 3)."""
+    """Return the shadow of the bone, 0..1, at points (n, 3)."""
     openness = np.full(len(points), np.float32(1.0))
     for step_mm in LAMP_STEPS_MM:
         ahead = bone_field(points + (step_mm * TO_LAMP).astype(np.float32))
@@ -168,7 +168,7 @@ def _lay(
     camera: CameraModel,
     pose: Rigid[Camera, Room],
 ) -> None:
-    """Paints a flat thing into the picture where it lies, in the light that falls there."""
+    """Draw a flat object into the picture with the local light."""
     height, width = picture.shape[:2]
     middle = points[int(sheet.place[1] * (height - 1)), int(sheet.place[0] * (width - 1))]
     half = np.array(sheet.size_mm) / 2.0
@@ -205,40 +205,40 @@ def _draw_solids(
     grain: Grain,
     rods: list[Rod],
 ) -> Image32:
-    """Draws the solids into the picture, twice as fine; answers with the depth (h, w) of all still things."""
+    """Draw solids into the picture with 2x supersampling; return the depth (h, w) of all static objects."""
     height, width = picture.shape[:2]
     in_camera = pose.move_points(solid.vertices_mm)
     px = camera.px_from_camera(in_camera)
     covered = rasterise(
-        px * FINER + (FINER - 1) / 2.0,
+        px * SUPERSAMPLING + (SUPERSAMPLING - 1) / 2.0,
         in_camera[:, 2],
         solid.faces,
-        width=width * FINER,
-        height=height * FINER,
+        width=width * SUPERSAMPLING,
+        height=height * SUPERSAMPLING,
     )
-    row, column = np.divmod(covered.pixel, width * FINER)
-    in_front = covered.depth_mm < soft_depth[row // FINER, column // FINER] + 0.2
-    covered = Covered(
+    row, column = np.divmod(covered.pixel, width * SUPERSAMPLING)
+    in_front = covered.depth_mm < soft_depth[row // SUPERSAMPLING, column // SUPERSAMPLING] + 0.2
+    covered = RasterSamples(
         pixel=covered.pixel[in_front],
         face=covered.face[in_front],
         weights=covered.weights[in_front],
         depth_mm=covered.depth_mm[in_front],
     )
     colour = _solid_colours(covered, solid, pose, grain, rods)
-    fine = np.zeros((height * FINER * width * FINER, 4), dtype=np.float32)
+    fine = np.zeros((height * SUPERSAMPLING * width * SUPERSAMPLING, 4), dtype=np.float32)
     fine[covered.pixel, :3] = colour
     fine[covered.pixel, 3] = 1.0
-    layer = resized(fine.reshape(height * FINER, width * FINER, 4), width, height)
+    layer = resized(fine.reshape(height * SUPERSAMPLING, width * SUPERSAMPLING, 4), width, height)
     picture *= 1.0 - layer[..., 3:]
     picture += layer[..., :3]
     depth = soft_depth.copy()
-    row, column = np.divmod(covered.pixel, width * FINER)
-    np.minimum.at(depth, (row // FINER, column // FINER), covered.depth_mm)
+    row, column = np.divmod(covered.pixel, width * SUPERSAMPLING)
+    np.minimum.at(depth, (row // SUPERSAMPLING, column // SUPERSAMPLING), covered.depth_mm)
     return depth
 
 
 def _solid_colours(
-    covered: Covered, solid: Solid, pose: Rigid[Camera, Room], grain: Grain, rods: list[Rod]
+    covered: RasterSamples, solid: Solid, pose: Rigid[Camera, Room], grain: Grain, rods: list[Rod]
 ) -> Image32:
     values = np.hstack([solid.vertices_mm, solid.normals, solid.colours, solid.gloss[:, None]])
     at = covered.of_corners(values.astype(np.float32), solid.faces)
@@ -269,7 +269,7 @@ def _solid_colours(
 
 
 def _roughness(points: Image32, grain: Grain) -> Image32:
-    """How bone's normals (n, 3) stray: it is lumpy, and scraped clean by hand."""
+    """Return perturbations of bone normals (n, 3): lumps and scrape marks."""
     x, y, z = (np.ascontiguousarray(points[:, i]) for i in range(3))
     return np.stack(
         [

@@ -1,4 +1,4 @@
-"""From light to 8 bit: how the lamp and the sensor spoil the picture."""
+"""Sensor model: illumination gain, flicker, noise and quantisation to 8 bit."""
 
 import cv2
 import numpy as np
@@ -18,18 +18,18 @@ BEYOND_PX = 64
 BANK_SCALE, SIGMA_SCALE = 64, 16
 COARSE_GAIN = 128
 FLICKER_HZ, FLICKER_RATIO = (0.17, 0.41), 0.008
-# Half a grey level of the brightest: as long as it does not step, the still scenery stays as it is.
+# Half a grey level at full scale: below this flicker step the static scenery is reused.
 FLICKER_STEP = 1.0 / 512.0
-# The noise of what stands still is made once, and moved by up to this much from image to image.
+# The noise of the static scenery is generated once and shifted by up to this much between images.
 STILL_SHIFT_PX = 8
 
 
 class Sensor:
-    """Gain, gradient and flicker of the light, and the sensor's noise, as the settings have them.
+    """Gain, gradient and flicker of the illumination, and sensor noise, by the settings.
 
     Attributes:
-        gain: (h, w) of the light, by place.
-        coarse_gain: (h, w) the same in 1/128, for what nobody measures.
+        gain: (h, w) of the illumination.
+        coarse_gain: (h, w) the same in 1/128, for unmeasured parts.
         is_noisy: whether there is any noise.
     """
 
@@ -49,11 +49,11 @@ class Sensor:
         self._sigma_of_level = np.rint(sigma * SIGMA_SCALE).astype(np.int16)
 
     def random_at(self, at_s: float) -> np.random.Generator:
-        """What is random in the image of this time."""
+        """Return the random generator of the image at this time."""
         return np.random.default_rng([self._settings.seed, round(at_s * 1e6) % 2**63])
 
     def flicker_at(self, at_s: float) -> float:
-        """The gain of the light at this time."""
+        """Return the illumination gain at this time."""
         if self._settings.light == 0.0:
             return 1.0
         waves = np.sin(2.0 * np.pi * np.array(FLICKER_HZ) * at_s + self._flicker_rad)
@@ -61,7 +61,7 @@ class Sensor:
         return round(gain / FLICKER_STEP) * FLICKER_STEP
 
     def noise(self, levels: Pixels, row: int, column: int, where: Pixels | None = None) -> Image16:
-        """Noise (h, w, 3) for grey values (h, w) or BGR (h, w, 3), from this place of the bank.
+        """Return noise (h, w, 3) for grey (h, w) or BGR (h, w, 3), from this position of the noise bank.
 
         There is none outside of `where` (h, w), which takes grey values.
         """
@@ -79,7 +79,7 @@ class Sensor:
         return np.asarray(noise, dtype=np.int16)
 
     def still_noise(self, picture: Image8) -> Image8:
-        """Noise (h + 8, w + 8, 3) for this picture (h, w, 3), wherever it is moved within its margin.
+        """Return noise (h + 8, w + 8, 3) for this picture (h, w, 3), valid within its margin.
 
         A picture of 8 bit and this add up modulo 256, which takes a tenth of the time of noise made for the
         picture's levels: what is below 0 is 256 more. No sum leaves 0 to 255, in any light.
@@ -95,7 +95,7 @@ class Sensor:
 
 
 def _gain(settings: TheatreSettings, random: np.random.Generator) -> Image32:
-    """How bright the light is over the image (h, w): dimmer and more lopsided the harder it is."""
+    """Return the illumination gain (h, w): dimmer and more uneven with difficulty."""
     width, height = settings.size_wh_px
     x = np.linspace(-1.0, 1.0, width, dtype=np.float32)[None, :]
     y = np.linspace(-1.0, 1.0, height, dtype=np.float32)[:, None]

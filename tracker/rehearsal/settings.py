@@ -1,4 +1,4 @@
-"""How hard the rehearsal is."""
+"""Rehearsal settings: scene, skill and difficulty."""
 
 import math
 from dataclasses import dataclass
@@ -8,11 +8,11 @@ from tracker.rehearsal.events import Event, rejected
 
 HARDEST = 10.0
 SIDE_PX = (160, 4096)
-MIN_REST_S, LONGEST_REST_S = 0.5, 60.0
+MIN_REST_S, MAX_REST_S = 0.5, 60.0
 
 
 class Scene(StrEnum):
-    """What is rehearsed."""
+    """Rehearsed scene."""
 
     OPERATION = "operation"  # a drill goes into the pedicle, and wanders off
     PIVOT = "pivot"  # the drill's tip rests on the bone while it is tilted to all sides
@@ -24,7 +24,7 @@ class Scene(StrEnum):
 
 
 class Skill(StrEnum):
-    """How the hand drills in the operation."""
+    """Drilling skill of the simulated hand."""
 
     WANDERING = "wandering"  # as a hand does, then off by millimetres and degrees, then out of the picture
     GOOD = "good"  # all the time along the channel's axis, within half a millimetre
@@ -32,7 +32,7 @@ class Skill(StrEnum):
 
 
 class BoardKind(StrEnum):
-    """Which calibration board is rehearsed with."""
+    """Calibration board of the rehearsal."""
 
     DOTS = "dots"
     CHECKERBOARD = "checkerboard"
@@ -41,21 +41,21 @@ class BoardKind(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TheatreSettings:
-    """What kind of theatre is played: 1.0 is a good camera in good light, 0 none of it, 10 very hard.
+    """Theatre settings; difficulty 1.0 is a good camera in good light, 0 ideal, 10 very hard.
 
     Attributes:
-        seed: everything that is random follows from it: same seed, same theatre.
+        seed: determines everything random: same seed, same theatre.
         size_wh_px: width and height of the images.
         noise: shot and read noise of the sensor.
         blur: defocus and motion blur (1.0: sigma 0.6 px, exposure 8 ms).
         clutter: instruments, gauze, labels and, above 2, squares that look like markers.
-        light: how uneven, dim and unsteady the light is.
-        scene: what is rehearsed.
+        light: unevenness, dimness and flicker of the illumination.
+        scene: the rehearsed scene.
         board: which calibration board is shown in its scene.
-        skill: how the hand drills in the operation.
-        rest_s: how long the hand holds the tip on a landmark.
+        skill: drilling skill in the operation.
+        rest_s: dwell time of the tip on a landmark.
         reference: whether a second marker is fixed to the patient.
-        events: what goes wrong, and when.
+        events: scheduled disturbances.
 
     Raises:
         InvalidInput: REHEARSAL_SETTING_INVALID, with the key, its value and what is allowed.
@@ -79,8 +79,8 @@ class TheatreSettings:
             raise rejected("seed", self.seed, f"a whole number from 0 to {2**32 - 1}")
         if not all(SIDE_PX[0] <= side <= SIDE_PX[1] for side in self.size_wh_px):
             raise rejected("size_wh_px", self.size_wh_px, f"sides from {SIDE_PX[0]} to {SIDE_PX[1]} px")
-        if not MIN_REST_S <= self.rest_s <= LONGEST_REST_S:
-            raise rejected("rest_s", self.rest_s, f"seconds from {MIN_REST_S:g} to {LONGEST_REST_S:g}")
+        if not MIN_REST_S <= self.rest_s <= MAX_REST_S:
+            raise rejected("rest_s", self.rest_s, f"seconds from {MIN_REST_S:g} to {MAX_REST_S:g}")
         for name in ("noise", "blur", "clutter", "light"):
             value = float(getattr(self, name))
             if not (math.isfinite(value) and 0.0 <= value <= HARDEST):

@@ -1,4 +1,4 @@
-"""Meshes of round things: needles, heads, bent steel."""
+"""Meshes of round objects: needles, heads, bent steel."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ Colour = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Solid:
-    """A mesh with the look of its surface, in the vertebra's frame.
+    """A coloured mesh in the vertebra's frame.
 
     Attributes:
         vertices_mm: (n, 3).
@@ -33,7 +33,7 @@ class Solid:
 
 
 def tube(points_mm: Array, radii_mm: Array, *, colour: Colour, gloss: float) -> Solid:
-    """A round bar along points (n, 3) with a radius at each; open at its ends."""
+    """Return a round bar along points (n, 3) with a radius at each; open ends."""
     points, radii = np.asarray(points_mm, dtype=np.float64), np.asarray(radii_mm, dtype=np.float64)
     along = np.gradient(points, axis=0)
     along /= np.linalg.norm(along, axis=1, keepdims=True)
@@ -50,7 +50,7 @@ def tube(points_mm: Array, radii_mm: Array, *, colour: Colour, gloss: float) -> 
 
 
 def ball(centre_mm: Array, radius_mm: float, *, colour: Colour, gloss: float) -> Solid:
-    """A ball."""
+    """Return a sphere."""
     polar = np.linspace(1e-3, np.pi - 1e-3, 11)
     centre = np.asarray(centre_mm, dtype=np.float64)
     points = centre + np.stack([np.zeros(11), np.zeros(11), -np.cos(polar) * radius_mm], axis=1)
@@ -68,7 +68,7 @@ def ball(centre_mm: Array, radius_mm: float, *, colour: Colour, gloss: float) ->
 
 
 def joined(solids: Sequence[Solid]) -> Solid:
-    """All of them as one mesh."""
+    """Return all solids as one mesh."""
     starts = np.cumsum([0, *(len(solid.vertices_mm) for solid in solids[:-1])])
     return Solid(
         vertices_mm=np.concatenate([solid.vertices_mm for solid in solids]),
@@ -80,10 +80,10 @@ def joined(solids: Sequence[Solid]) -> Solid:
 
 
 def moved(solid: Solid, room_from_vertebra: Rigid[Room, Vertebra]) -> Solid:
-    """The same where it is in the room."""
+    """Return the solid in the room's frame."""
     return Solid(
         vertices_mm=room_from_vertebra.move_points(solid.vertices_mm),
-        normals=room_from_vertebra.turn_directions(solid.normals),
+        normals=room_from_vertebra.rotate_directions(solid.normals),
         faces=solid.faces,
         colours=solid.colours,
         gloss=solid.gloss,

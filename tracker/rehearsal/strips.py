@@ -1,4 +1,4 @@
-"""Narrow rectangles along something long that lies askew, worked on as one picture: stacked."""
+"""Stacked rectangular strips along an oblique object, processed as one picture."""
 
 from dataclasses import dataclass
 from typing import TypeVar
@@ -18,7 +18,7 @@ STRIP_PX = 48
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Strips:
-    """Rectangles of one size. What is stacked has them one below the other.
+    """Rectangles of equal size, stacked vertically.
 
     Attributes:
         places: x and y of each; multiples of 4.
@@ -32,12 +32,12 @@ class Strips:
 
     @classmethod
     def of_box(cls, box: Box) -> "Strips":
-        """A single rectangle."""
+        """Return a single rectangle."""
         x, y, width, height = box
         return cls(places=((x, y),), width=width, height=height)
 
     def grown(self, px: int) -> "Strips":
-        """With so much more on each side."""
+        """Return the strips with a margin on each side."""
         return Strips(
             places=tuple((x - px, y - px) for x, y in self.places),
             width=self.width + 2 * px,
@@ -45,14 +45,14 @@ class Strips:
         )
 
     def inner(self, stacked: npt.NDArray[Value], px: int) -> npt.NDArray[Value]:
-        """Of what is stacked of strips that are grown by so much, what lies in these."""
+        """Crop the margin of stacked, grown strips."""
         if px == 0:
             return stacked
         whole = stacked.reshape(len(self.places), self.height + 2 * px, self.width + 2 * px, -1)
         return whole[:, px:-px, px:-px].reshape(-1, self.width, whole.shape[3])
 
     def taken_from(self, image: npt.NDArray[Value], beyond: float = 0.0) -> npt.NDArray[Value]:
-        """The image (h, w) or (h, w, channels) in them, stacked; another value beyond its borders."""
+        """Gather the image (h, w) or (h, w, channels) in the strips; `beyond` outside its borders."""
         if len(self.places) == 1:
             x, y = self.places[0]
             if 0 <= x <= image.shape[1] - self.width and 0 <= y <= image.shape[0] - self.height:
@@ -66,14 +66,14 @@ class Strips:
         return out.reshape(-1, *shape[2:])
 
     def put_into(self, image: npt.NDArray[Value], stacked: npt.NDArray[Value]) -> None:
-        """Write what is stacked to where it belongs, as far as it lies inside."""
+        """Scatter the stacked strips into an image, clipped to it."""
         for number, (x, y) in enumerate(self.places):
             part = image[y : y + self.height, x : x + self.width]
             first = number * self.height
             part[:] = stacked[first : first + part.shape[0], : part.shape[1]]
 
     def nodes(self, rays: RayGrid) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-        """Rows (n, r, 1) and columns (n, 1, c) of the nodes of each, and of one more all around.
+        """Return rows (n, r, 1) and columns (n, 1, c) of the nodes of each strip, with a margin of one.
 
         Beyond the grid of rays there are those at its border once more.
         """
@@ -84,7 +84,7 @@ class Strips:
         return np.clip(row, 0, last_row)[:, :, None], np.clip(column, 0, last_column)[:, None, :]
 
     def from_nodes(self, nodes: Image32) -> Image32:
-        """Values (n, r, c, channels) on these nodes as values on the pixels, stacked."""
+        """Interpolate node values (n, r, c, channels) to the pixels, stacked."""
         count, rows, columns, channels = nodes.shape
         size = (columns * NODE_PX, count * rows * NODE_PX)
         wide = cv2.resize(nodes.reshape(-1, columns, channels), size, interpolation=cv2.INTER_LINEAR)
@@ -94,7 +94,7 @@ class Strips:
 
 
 def strips_around(px: Array, margin_px: int, rays: RayGrid) -> Strips | None:
-    """Strips below each other around something long; None if nothing of it is in the image.
+    """Return strips that cover an elongated object; None if it is outside the image.
 
     The last one may reach beyond the lower border of the image. Something that lies level gets wide strips.
 

@@ -1,4 +1,4 @@
-"""The theatre: camera, marker, drill, vertebra and needles, and where they all are at any time."""
+"""The simulated theatre: poses of camera, marker, drill, vertebra and needles at any time."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol, TypeVar
@@ -11,12 +11,12 @@ from tracker.marker import MarkerModel
 from tracker.plan import Channel, Surface
 from tracker.pose import ToolModel
 from tracker.rehearsal.anatomy import Needle, landmark_needles, pedicle_channels, vertebra_surface
+from tracker.rehearsal.calibration_hands import PivotingHand, SpinningHand
+from tracker.rehearsal.capture_hands import landmark_hand, sweep_hand
 from tracker.rehearsal.drilling import drilling_hand
-from tracker.rehearsal.emblem import drill_emblem
 from tracker.rehearsal.events import EventKind
-from tracker.rehearsal.hands import PivotingHand, SpinningHand
-from tracker.rehearsal.journeys import sweeping_hand, touching_hand
 from tracker.rehearsal.landmarks import Landmark, check_landmark, registration_landmarks
+from tracker.rehearsal.marker_images import drill_marker_image
 from tracker.rehearsal.motion import Phase, Pose6
 from tracker.rehearsal.placement import Moves, Placement, Room
 from tracker.rehearsal.reference import (
@@ -45,11 +45,11 @@ FOCAL_OF_WIDTH = 1400.0 / 1280.0
 SQUARE_IN_MM = np.array([[-0.5, 0.5, 0], [0.5, 0.5, 0], [0.5, -0.5, 0], [-0.5, -0.5, 0]]) * MARKER_SIDE_MM
 QUIET_SQUARE_MM = SQUARE_IN_MM * (1.0 + 2.0 * QUIET_ZONE_MM / MARKER_SIDE_MM)
 VIEW_MARGIN_PX = 6.0
-STEEPEST_VIEW_COSINE = 0.26  # 75 degrees off: nobody can read a marker from there
+MIN_VIEW_COSINE = 0.26  # 75 degrees off: nobody can read a marker from there
 
 
-class _Holding(Protocol):
-    """Whatever moves the drill.
+class HandMotion(Protocol):
+    """Protocol of a hand that moves the drill.
 
     Attributes:
         cycle_s: the motion repeats after this.
@@ -58,26 +58,26 @@ class _Holding(Protocol):
     cycle_s: float
 
     def at(self, at_s: float) -> Pose6:
-        """Where the drill is held at this time."""
+        """Return the drill pose at this time."""
 
     def phase_at(self, at_s: float) -> Phase:
-        """What the hand is doing at this time."""
+        """Return the phase of the motion at this time."""
 
     def touched_at(self, at_s: float) -> str:
-        """The landmark that the tip rests on, by name; empty if it rests on none."""
+        """Return the name of the landmark under the tip; empty if there is none."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Truth:
-    """What is true in the theatre at one time.
+    """Ground truth of the theatre at one time.
 
     Attributes:
         at_s: the time.
-        phase: what the hand is doing.
+        phase: phase of the hand motion.
         camera_from_marker: the marker.
         camera_from_tool: the drill: tip and drilling direction.
-        camera_from_vertebra: the patient, who lies still until something moves.
-        camera_from_room: what stands still; the vertebra's frame before anything has moved.
+        camera_from_vertebra: the patient, constant until an event moves it.
+        camera_from_room: the static scene; the vertebra's frame before any motion.
         camera_from_reference: the marker on the patient; None where there is none.
         marker_in_view: the whole black square with its quiet zone is in the image, with a margin, faces
             the camera, and nothing lies over it.
@@ -101,11 +101,11 @@ class Truth:
 
 
 class Theatre:
-    """A theatre that exists only in software; everything in it follows from the settings.
+    """A simulated theatre, fully determined by its settings.
 
     Attributes:
-        settings: what it was built from.
-        camera: its camera, with a lens that bends lines.
+        settings: its settings.
+        camera: its camera, with lens distortion.
         marker: the square on the drill ("drill", 25 mm).
         tool: the drill behind that marker.
         channels: the left and the right pedicle's; the drill follows the first.
@@ -114,8 +114,8 @@ class Theatre:
         reference_from_vertebra: the registration to that square, exactly, whatever moves.
         surface: the vertebra.
         needles: the three landmark needles.
-        landmarks: that the tip is put on, one after the other.
-        check_landmark: the one that is left for the check.
+        landmarks: those that are captured, in order.
+        check_landmark: the one reserved for the check.
         cycle_s: the motion repeats after this.
     """
 
@@ -123,7 +123,7 @@ class Theatre:
         random = np.random.default_rng([settings.seed, 0x524F4F4D])
         self.settings = settings
         self.camera = _camera(settings, random)
-        self.marker = MarkerModel.from_image(drill_emblem(), side_mm=MARKER_SIDE_MM, name="drill")
+        self.marker = MarkerModel.from_image(drill_marker_image(), side_mm=MARKER_SIDE_MM, name="drill")
         self.tool = ToolModel.from_tip_and_axis(
             name="drill",
             marker="drill",
@@ -148,7 +148,7 @@ class Theatre:
         self.cycle_s = self._hand.cycle_s
 
     def truth_at(self, at_s: float) -> Truth:
-        """What is true at this time (any number of seconds); costs well under a millisecond."""
+        """Return the ground truth at this time (any number of seconds); well under a millisecond."""
         camera_from_marker = self.camera_from_marker_at(at_s)
         camera_from_tool = camera_from_marker @ self.tool.marker_from_tool
         corners = camera_from_marker.move_points(SQUARE_IN_MM)
@@ -174,47 +174,47 @@ class Theatre:
 
     @property
     def placement_at_rest(self) -> Placement:
-        """Where camera and patient are before anything has moved."""
+        """Return the placement of camera and patient before any motion."""
         return self._moves.at_rest
 
     def placement_at(self, at_s: float) -> Placement:
-        """Where camera and patient are at this time."""
+        """Return the placement of camera and patient at this time."""
         return self._moves.placement_at(at_s)
 
     def placements(self) -> list[Placement]:
-        """All places of camera and patient that come, the first one first."""
+        """Return all placements of camera and patient that occur, the first one first."""
         return self._moves.placements()
 
     def is_on(self, kind: EventKind, at_s: float) -> bool:
-        """Whether such an event is there at this time."""
+        """Return whether an event of this kind is active at this time."""
         return any(event.kind is kind and event.is_on(at_s) for event in self.settings.events)
 
     def renderer(
         self, after: "Renderer | BoardRenderer | None" = None, store: "StillStore | None" = None
     ) -> "Renderer | BoardRenderer":
-        """What makes the images of its scene; rendering what stands still takes about a second.
+        """Return the renderer of its scene; rendering the static scenery takes about a second.
 
-        `after` is what rendered another scene of the same theatre before: what stands still is taken from it,
-        else from the store, if it was there once.
+        `after` is the renderer of another scene of the same theatre: its static scenery is reused, else that
+        of the store, if present.
         """
         from tracker.rehearsal.board_renderer import BoardRenderer  # noqa: PLC0415  they need the theatre first
         from tracker.rehearsal.renderer import Renderer  # noqa: PLC0415
 
-        kept = None if after is None else after.backdrops
+        cached = None if after is None else after.backdrops
         kind = BoardRenderer if self.settings.scene is Scene.BOARD else Renderer
-        return kind(self, kept, store)
+        return kind(self, cached, store)
 
     def camera_from_marker_at(self, at_s: float, *, late_s: float = 0.0) -> Rigid[Camera, Marker]:
-        """Where the drill's marker is at this time; the hand follows the patient.
+        """Return the pose of the drill's marker at this time; the hand follows the patient.
 
         With `late_s` the hand has gone on for so long, and nothing has happened in it: an event comes from
         one image to the next, it is no motion.
         """
         hand = self._hand.at(at_s + late_s)
         tip_mm = np.append(hand.across_mm, hand.depth_mm) + self._moves.jump_mm_at(at_s)
-        held: Rigid[Tool, Tool] = Rigid.from_vector(np.radians(hand.turn_deg), tip_mm)
+        hand_pose: Rigid[Tool, Tool] = Rigid.from_vector(np.radians(hand.rotation_deg), tip_mm)
         placement = self.placement_at(at_s)
-        camera_from_tool = placement.camera_from_vertebra @ (self._vertebra_from_rest @ held)
+        camera_from_tool = placement.camera_from_vertebra @ (self._vertebra_from_rest @ hand_pose)
         return camera_from_tool @ self._tool_from_marker
 
     def _camera_from_reference(self, placement: Placement) -> Rigid[Camera, Reference] | None:
@@ -226,14 +226,14 @@ class Theatre:
         outline = camera_from_square.move_points(outline_mm)
         centre = camera_from_square.translation_mm
         facing = -float(camera_from_square.rotation[:, 2] @ centre) / float(np.linalg.norm(centre))
-        if outline[:, 2].min() < 50.0 or facing < STEEPEST_VIEW_COSINE:
+        if outline[:, 2].min() < 50.0 or facing < MIN_VIEW_COSINE:
             return False
         px = self.camera.px_from_camera(outline)
         last = np.array(self.camera.size_wh_px) - 1.0 - VIEW_MARGIN_PX
         return bool((px >= VIEW_MARGIN_PX).all() and (px <= last).all())
 
 
-def _hand_of(settings: TheatreSettings, rest: Rigid[Vertebra, Tool]) -> _Holding:
+def _hand_of(settings: TheatreSettings, rest: Rigid[Vertebra, Tool]) -> HandMotion:
     seed = settings.seed
     match settings.scene:
         case Scene.PIVOT:
@@ -241,11 +241,11 @@ def _hand_of(settings: TheatreSettings, rest: Rigid[Vertebra, Tool]) -> _Holding
         case Scene.SPIN | Scene.BOARD:
             return SpinningHand(seed)
         case Scene.LANDMARKS:
-            return touching_hand(registration_landmarks(), rest_s=settings.rest_s, rest=rest, seed=seed)
+            return landmark_hand(registration_landmarks(), rest_s=settings.rest_s, rest=rest, seed=seed)
         case Scene.CHECK:
-            return touching_hand((check_landmark(),), rest_s=settings.rest_s, rest=rest, seed=seed)
+            return landmark_hand((check_landmark(),), rest_s=settings.rest_s, rest=rest, seed=seed)
         case Scene.SWEEP:
-            return sweeping_hand(rest=rest, seed=seed)
+            return sweep_hand(rest=rest, seed=seed)
         case Scene.OPERATION:
             return drilling_hand(settings.skill, seed=seed, rest=rest)
 
@@ -263,10 +263,10 @@ def _camera(settings: TheatreSettings, random: np.random.Generator) -> CameraMod
 
 
 def _camera_from_vertebra(channel: Channel, random: np.random.Generator) -> Rigid[Camera, Vertebra]:
-    """The camera beside the prone patient's hip, looking obliquely at the drill from the side.
+    """Return the camera pose beside the prone patient's hip, looking obliquely at the drill.
 
-    A marker whose plane holds the drill's axis can only be read from the side: the line of sight is about 50
-    degrees off the channel.
+    A marker whose plane contains the drill's axis can only be seen from the side: the line of sight is
+    about 50 degrees off the channel.
     """
     elevation, azimuth = np.radians([random.uniform(33.0, 37.0), random.uniform(18.0, 30.0)])
     sight = -np.array(
@@ -289,7 +289,7 @@ def _camera_from_vertebra(channel: Channel, random: np.random.Generator) -> Rigi
 def _vertebra_from_rest(
     channel: Channel, camera_from_vertebra: Rigid[Camera, Vertebra]
 ) -> Rigid[Vertebra, Tool]:
-    """The drill exactly in the channel, tip on the entry point, its marker turned to the camera."""
+    """Return the drill pose in the channel, tip on the entry point, marker facing the camera."""
     down = channel.axis_in_vertebra
     to_camera = camera_from_vertebra.inverse.translation_mm - channel.entry_in_vertebra_mm
     face = to_camera - (to_camera @ down) * down

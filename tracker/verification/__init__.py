@@ -1,20 +1,20 @@
-"""The whole way from registration to navigation in theatres whose truth is known, and none of it used."""
+"""End-to-end verification: registration and navigation in simulated theatres with known ground truth."""
 
-from tracker.verification.figures import Figures, VariantFigures, figures_of, name_of
-from tracker.verification.rows import ImageRow, RegistrationRow, TheatreRows, Variant, Way
+from tracker.verification.figures import Figures, VariantFigures, drill_figures, name_of
+from tracker.verification.rows import ImageRow, RegistrationMethod, RegistrationRow, TheatreRows, Variant
 from tracker.verification.settings import VerificationSettings
 from tracker.verification.theatre import theatre_seeds, verify_theatre
 
 __all__ = [
     "Figures",
     "ImageRow",
+    "RegistrationMethod",
     "RegistrationRow",
     "TheatreRows",
     "Variant",
     "VariantFigures",
     "VerificationSettings",
-    "Way",
-    "figures_of",
+    "drill_figures",
     "name_of",
     "theatre_seeds",
     "verify_theatre",

@@ -1,15 +1,15 @@
-"""What a verified theatre leaves: a row for each image that was looked at, and each refusal."""
+"""Result records of one verified theatre: a row for each image and for each registration."""
 
 from dataclasses import dataclass
 from enum import StrEnum
 
 from tracker.registration import AnchoredTo
 from tracker.rehearsal import Phase
-from tracker.verification.held import HeldTool
+from tracker.verification.tool_errors import ToolErrors
 
 
-class Way(StrEnum):
-    """How the vertebra was found."""
+class RegistrationMethod(StrEnum):
+    """How the vertebra was registered."""
 
     POINTS = "points"
     NEEDLES = "needles"  # and the ruler, as in the paper
@@ -18,34 +18,34 @@ class Way(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Variant:
-    """What is verified.
+    """One verified configuration.
 
     Attributes:
-        way: how the vertebra was found.
+        method: how the vertebra was registered.
         anchored_to: with or without the patient reference.
         camera_moves: whether the camera is moved in the middle.
     """
 
-    way: Way
+    method: RegistrationMethod
     anchored_to: AnchoredTo
     camera_moves: bool
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ImageRow:
-    """One image.
+    """Result of one image.
 
     Attributes:
         seed: of the theatre.
         variant: what was verified.
         at_s: on the operation's clock.
         phase: what the hand did.
-        counts: whether it is one of the images that are spread over the operation.
-        since_move_s: after the camera was moved; below 0 before, and where it never was.
-        absent: why nothing is shown; empty where numbers are.
-        held: the numbers that are shown against the truth; None where none are.
+        counts: whether it enters the statistics.
+        since_move_s: time since the camera was moved; negative before, and without a move.
+        absent: reason why nothing is displayed; empty otherwise.
+        tool_errors: errors of the displayed values; None without any.
         is_through: whether the true drill is through the wall.
-        through_ratio: how probable that is said to be.
+        through_ratio: stated probability of that.
     """
 
     seed: int
@@ -55,26 +55,26 @@ class ImageRow:
     counts: bool
     since_move_s: float
     absent: str
-    held: HeldTool | None
+    tool_errors: ToolErrors | None
     is_through: bool
     through_ratio: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RegistrationRow:
-    """One registration.
+    """Result of one registration.
 
     Attributes:
         seed: of the theatre.
-        way: how.
-        anchored_to: to what.
-        refused: code of what refused it; empty where it stands.
-        check_mm: what the check on anatomy measured; not a number where nothing was checked.
-        check_passed: whether navigation would be let on.
+        method: how it was registered.
+        anchored_to: camera or reference.
+        rejected: error code; empty if it was accepted.
+        check_mm: distance of the anatomical check; NaN without a check.
+        check_passed: whether the check would allow navigation.
     """
 
     seed: int
-    way: Way
+    method: RegistrationMethod
     anchored_to: AnchoredTo
     rejected: str
     check_mm: float
@@ -83,7 +83,7 @@ class RegistrationRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TheatreRows:
-    """All of one theatre."""
+    """All results of one theatre."""
 
     seed: int
     registrations: tuple[RegistrationRow, ...]

@@ -1,11 +1,11 @@
-"""How well the people of a verified theatre work, and how often they are looked at."""
+"""Magnitude of the simulated human errors, and sampling of the simulated operation."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VerificationSettings:
-    """Spreads that errors are drawn with; each is what the software is told, or takes by itself.
+    """Standard deviations of the simulated errors, equal to what the software assumes, and sampling times.
 
     Attributes:
         tip_sd_mm: of the tool's calibrated tip, along each axis.
@@ -17,10 +17,10 @@ class VerificationSettings:
         click_sd_px: how well a needle is marked in the image.
         image_hz: how fast images come.
         capture_images: with the tip on one landmark.
-        looks: how often the operation is looked at, spread over what it takes.
-        burst_images: looked at in a row each time; the last one counts.
+        observations: number of observations of the operation, spread over its duration.
+        burst_images: consecutive images of each observation; the last one counts.
         moves_at_s: when the camera is moved.
-        watched_s: for how long after that every image is looked at.
+        observed_after_move_s: for how long after that every image is looked at.
         noticed_within_s: a move must be noticed within this.
     """
 
@@ -31,8 +31,8 @@ class VerificationSettings:
     click_sd_px: float = 1.0
     image_hz: float = 30.0
     capture_images: int = 14
-    looks: int = 12
+    observations: int = 12
     burst_images: int = 3
     moves_at_s: float = 17.0
-    watched_s: float = 1.4
+    observed_after_move_s: float = 1.4
     noticed_within_s: float = 1.2

@@ -1,4 +1,4 @@
-"""One theatre from registration to navigation, with truth and no help from it."""
+"""Verification of one theatre, from registration to navigation, without use of the ground truth."""
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
@@ -6,70 +6,70 @@ from functools import lru_cache, partial
 import numpy as np
 
 from tracker.errors import NavigationError
-from tracker.navigation import Guide
-from tracker.navigation.clearance import field_of_bone
+from tracker.navigation import DrillReference
+from tracker.navigation.clearance import bone_distance_field
 from tracker.plan import Landmark
 from tracker.pose import ToolModel
 from tracker.registration import AnchoredTo, Registration
-from tracker.registration.anchoring import fixed_to_reference
+from tracker.registration.anchoring import anchor_to_reference
 from tracker.rehearsal import Scene, Theatre
 from tracker.rehearsal.anatomy import pedicle_channels, vertebra_surface
-from tracker.verification.eyes import ANCHORS, Eyes
-from tracker.verification.navigating import moved_looks, operation_looks, rows_of
-from tracker.verification.people import calibrated_tool, marked_on_ct
-from tracker.verification.registering import (
-    Touches,
-    by_needles,
-    by_points,
-    checked,
+from tracker.verification.navigation_runs import image_rows, operation_with_camera_move, undisturbed_operation
+from tracker.verification.observer import ANCHORS, TheatreObserver
+from tracker.verification.registration_runs import (
+    Captures,
+    capture_landmarks,
+    captured_point,
+    check_registration,
     reference_beside_needles,
-    touched_point,
-    touches,
+    register_by_needles,
+    register_by_points,
 )
-from tracker.verification.rows import ImageRow, RegistrationRow, TheatreRows, Variant, Way
+from tracker.verification.rows import ImageRow, RegistrationMethod, RegistrationRow, TheatreRows, Variant
 from tracker.verification.settings import VerificationSettings
+from tracker.verification.user_errors import calibrated_tool, mark_on_ct
 
 # Far apart, on both sides.
-TOUCHED_BESIDE_NEEDLES = (0, 3)
+CAPTURED_WITH_NEEDLES = (0, 3)
 
-Registrations = dict[tuple[Way, AnchoredTo], Registration]
+Registrations = dict[tuple[RegistrationMethod, AnchoredTo], Registration]
 
 
 def theatre_seeds(seed: int, count: int) -> tuple[int, ...]:
-    """The theatres that follow from one seed; more of them begin with the same."""
+    """Return theatre seeds derived from one seed; a longer list begins with the shorter one."""
     return tuple(int(one) for one in np.random.SeedSequence(seed).generate_state(count))
 
 
 def verify_theatre(seed: int, settings: VerificationSettings | None = None) -> TheatreRows:
-    """All that one seed gives; the same seed gives the same, in whatever process."""
+    """Return all results of one seed; deterministic across processes."""
     settings = settings or VerificationSettings()
     random = np.random.default_rng([seed, 0x56455249])
-    eyes = Eyes(seed)
-    theatre = eyes.theatre
+    observer = TheatreObserver(seed)
+    theatre = observer.theatre
     tool = calibrated_tool(theatre.tool, settings, random)
     plan = _plan(theatre, settings, random)
-    touched = touches(eyes, settings, Scene.LANDMARKS)
-    registered, rejected = _registered(eyes, touched, plan, tool, settings, random)
-    eyes.register()
-    check = touches(eyes, settings, Scene.CHECK)
+    touched = capture_landmarks(observer, settings, Scene.LANDMARKS)
+    registered, rejected = _registered(observer, touched, plan, tool, settings, random)
+    observer.register()
+    check = capture_landmarks(observer, settings, Scene.CHECK)
     place = _check_landmark(theatre, settings, random)
     registrations = [
         _row(seed, key, rejected.get(key, ""), registered, check, place, tool, plan)
-        for key in ((way, anchor) for way in Way for anchor in ANCHORS)
+        for key in ((method, anchor) for method in RegistrationMethod for anchor in ANCHORS)
     ]
-    guide = _guide()
+    drill_reference = _guide()
     images: list[ImageRow] = []
-    for camera_moves, looks_at in ((False, operation_looks), (True, moved_looks)):
-        operation = looks_at(eyes, settings, random)
-        for (way, anchor), registration in registered.items():
-            variant = Variant(way=way, anchored_to=anchor, camera_moves=camera_moves)
-            images += rows_of(
+    for camera_moves, looks_at in ((False, undisturbed_operation), (True, operation_with_camera_move)):
+        operation = looks_at(observer, settings, random)
+        for (method, anchor), registration in registered.items():
+            variant = Variant(method=method, anchored_to=anchor, camera_moves=camera_moves)
+            images += image_rows(
                 operation,
                 registration,
                 variant,
-                eyes=eyes,
+                observer=observer,
                 tool=tool,
-                guide=guide,
+                drill_reference=drill_reference,
                 seed=seed,
             )
     return TheatreRows(seed=seed, registrations=tuple(registrations), images=tuple(images))
@@ -79,7 +79,7 @@ def _plan(
     theatre: Theatre, settings: VerificationSettings, random: np.random.Generator
 ) -> tuple[Landmark, ...]:
     points = np.stack([one.point_in_vertebra_mm for one in theatre.landmarks])
-    marked = marked_on_ct(points, settings.marking_sd_mm, random)
+    marked = mark_on_ct(points, settings.marking_sd_mm, random)
     return tuple(
         Landmark(name=one.name, point_lps_mm=at) for one, at in zip(theatre.landmarks, marked, strict=True)
     )
@@ -89,59 +89,66 @@ def _check_landmark(
     theatre: Theatre, settings: VerificationSettings, random: np.random.Generator
 ) -> Landmark:
     true = theatre.check_landmark
-    at = marked_on_ct(true.point_in_vertebra_mm, settings.marking_sd_mm, random)
+    at = mark_on_ct(true.point_in_vertebra_mm, settings.marking_sd_mm, random)
     return Landmark(name=true.name, point_lps_mm=at)
 
 
 def _registered(
-    eyes: Eyes,
-    touched: Touches,
+    observer: TheatreObserver,
+    touched: Captures,
     plan: Sequence[Landmark],
     tool: ToolModel,
     settings: VerificationSettings,
     random: np.random.Generator,
-) -> tuple[Registrations, dict[tuple[Way, AnchoredTo], str]]:
-    """What each way gives, and the codes of what was refused."""
-    channel = eyes.theatre.channels[0]
+) -> tuple[Registrations, dict[tuple[RegistrationMethod, AnchoredTo], str]]:
+    """Return the registration of each method, and the error codes of those that were rejected."""
+    channel = observer.theatre.channels[0]
     found: Registrations = {}
-    rejected: dict[tuple[Way, AnchoredTo], str] = {}
+    rejected: dict[tuple[RegistrationMethod, AnchoredTo], str] = {}
 
-    def attempt(way: Way, anchor: AnchoredTo, make: Callable[[], Registration]) -> None:
+    def attempt(method: RegistrationMethod, anchor: AnchoredTo, make: Callable[[], Registration]) -> None:
         try:
-            found[way, anchor] = make()
+            found[method, anchor] = make()
         except NavigationError as rejection:
-            rejected[way, anchor] = rejection.code
+            rejected[method, anchor] = rejection.code
 
     for anchor in ANCHORS:
-        attempt(Way.POINTS, anchor, partial(by_points, touched, plan, tool, anchor, channel))
-    for way, beside in ((Way.NEEDLES, ()), (Way.NEEDLES_TOUCHED, TOUCHED_BESIDE_NEEDLES)):
+        attempt(
+            RegistrationMethod.POINTS,
+            anchor,
+            partial(register_by_points, touched, plan, tool, anchor, channel),
+        )
+    for method, beside in (
+        (RegistrationMethod.NEEDLES, ()),
+        (RegistrationMethod.NEEDLES_TOUCHED, CAPTURED_WITH_NEEDLES),
+    ):
         # The same needles for both, so that they can be compared.
         state = random.bit_generator.state
 
         def needles(chosen: tuple[int, ...] = beside) -> Registration:
-            tips = [touched_point(touched[plan[i].name], plan[i], tool, settings) for i in chosen]
-            return by_needles(eyes, tips, settings, random).registration
+            tips = [captured_point(touched[plan[i].name], plan[i], tool, settings) for i in chosen]
+            return register_by_needles(observer, tips, settings, random).registration
 
-        attempt(way, AnchoredTo.CAMERA, needles)
+        attempt(method, AnchoredTo.CAMERA, needles)
         random.bit_generator.state = state
-        if (way, AnchoredTo.CAMERA) in rejected:
-            rejected[way, AnchoredTo.REFERENCE] = rejected[way, AnchoredTo.CAMERA]
+        if (method, AnchoredTo.CAMERA) in rejected:
+            rejected[method, AnchoredTo.REFERENCE] = rejected[method, AnchoredTo.CAMERA]
             continue
-        made = found[way, AnchoredTo.CAMERA]
-        attempt(way, AnchoredTo.REFERENCE, partial(_beside_reference, made, eyes))
+        made = found[method, AnchoredTo.CAMERA]
+        attempt(method, AnchoredTo.REFERENCE, partial(_beside_reference, made, observer))
     return found, rejected
 
 
-def _beside_reference(made: Registration, eyes: Eyes) -> Registration:
-    return fixed_to_reference(made, reference_beside_needles(eyes))
+def _beside_reference(made: Registration, observer: TheatreObserver) -> Registration:
+    return anchor_to_reference(made, reference_beside_needles(observer))
 
 
 def _row(
     seed: int,
-    key: tuple[Way, AnchoredTo],
+    key: tuple[RegistrationMethod, AnchoredTo],
     rejected: str,
     registered: Registrations,
-    check: Touches,
+    check: Captures,
     place: Landmark,
     tool: ToolModel,
     plan: Sequence[Landmark],
@@ -149,14 +156,14 @@ def _row(
     distance_mm, passed = np.nan, False
     if key in registered:
         try:
-            result = checked(registered[key], check[place.name], place, tool, plan)
+            result = check_registration(registered[key], check[place.name], place, tool, plan)
             distance_mm, passed = result.distance_mm, result.passed
         except NavigationError:
             # The tip was not seen on it: nothing is let on, and nothing was measured.
             passed = False
     return RegistrationRow(
         seed=seed,
-        way=key[0],
+        method=key[0],
         anchored_to=key[1],
         rejected=rejected,
         check_mm=distance_mm,
@@ -165,7 +172,7 @@ def _row(
 
 
 @lru_cache(maxsize=1)
-def _guide() -> Guide:
-    """The bone is the same in all theatres."""
+def _guide() -> DrillReference:
+    """Return the guide along the left channel; the bone is the same in all theatres."""
     [channel, _] = pedicle_channels()
-    return Guide(wall=field_of_bone(vertebra_surface(), channel))
+    return DrillReference(wall=bone_distance_field(vertebra_surface(), channel))

@@ -1,4 +1,4 @@
-"""Basler cameras, through Basler's own library (pypylon)."""
+"""Basler cameras, by Basler's own library (pypylon)."""
 
 import contextlib
 from collections.abc import Iterator
@@ -12,12 +12,12 @@ NANOSECONDS_PER_S = 1e9
 
 
 class BaslerCameras:
-    """What pylon finds. With PYLON_CAMEMU=2 in the environment it also emulates two cameras."""
+    """Cameras found by pylon. With PYLON_CAMEMU=2 in the environment it also emulates two cameras."""
 
     extra = "basler"
 
     def descriptions(self) -> tuple[IndustrialDescription, ...]:
-        """Those that are there now."""
+        """Return the connected cameras."""
         from pypylon import pylon  # noqa: PLC0415  an extra, loaded when needed
 
         with _as_os_error():
@@ -32,7 +32,7 @@ class BaslerCameras:
             )
 
     def open(self, serial: str) -> "BaslerCamera":
-        """Open the one with this serial number."""
+        """Open the camera with this serial number."""
         from pypylon import pylon  # noqa: PLC0415  an extra, loaded when needed
 
         with _as_os_error():
@@ -44,7 +44,7 @@ class BaslerCameras:
 
 
 class BaslerCamera:
-    """One Basler camera, open."""
+    """One open Basler camera."""
 
     def __init__(self, camera: Any, pylon: Any) -> None:  # noqa: ANN401  the library has no types
         self._camera = camera
@@ -54,7 +54,7 @@ class BaslerCamera:
         self._ticks_per_s = float(frequency_hz) if frequency_hz else NANOSECONDS_PER_S
 
     def value(self, name: str) -> FeatureValue | None:
-        """The value of a feature."""
+        """Return the value of a feature."""
         with contextlib.suppress(OSError), _as_os_error():
             node = self._nodes.GetNode(name)
             if node.IsReadable():
@@ -63,7 +63,7 @@ class BaslerCamera:
         return None
 
     def bounds(self, name: str) -> Bounds | None:
-        """What may be set now."""
+        """Return the present range of a feature."""
         with contextlib.suppress(OSError), _as_os_error():
             node = self._nodes.GetNode(name)
             if node.IsReadable():
@@ -73,7 +73,7 @@ class BaslerCamera:
         return None
 
     def options(self, name: str) -> tuple[str, ...]:
-        """The values of an enumeration."""
+        """Return the values of an enumeration."""
         with contextlib.suppress(OSError), _as_os_error():
             node = self._nodes.GetNode(name)
             if node.IsReadable():
@@ -91,12 +91,12 @@ class BaslerCamera:
             self._nodes.GetNode(name).Execute()
 
     def start(self) -> None:
-        """Begin to take images; the library keeps the newest one alone."""
+        """Start grabbing; the library buffers the newest image only."""
         with _as_os_error():
             self._camera.StartGrabbing(self._pylon.GrabStrategy_LatestImageOnly)
 
     def grab(self, timeout_s: float) -> GrabbedImage | None:
-        """The newest image that was not given yet.
+        """Return the newest image not returned yet.
 
         Pylon ends its wait by a timer that sends SIGALRM to this process, and has a handler for it.
         """
@@ -115,7 +115,7 @@ class BaslerCamera:
         ticks = int(result.GetTimeStamp())
         is_whole = result.GrabSucceeded()
         return GrabbedImage(
-            # A copy: the library fills the result's memory again.
+            # A copy: the library reuses the result's memory.
             pixels=np.array(result.Array, dtype=np.uint8) if is_whole else None,
             pixel_format=str(self.value("PixelFormat") or ""),
             device_s=ticks / self._ticks_per_s if ticks else None,
@@ -123,7 +123,7 @@ class BaslerCamera:
         )
 
     def close(self) -> None:
-        """Stop, and let go of the camera."""
+        """Stop, and release the camera."""
         with contextlib.suppress(OSError), _as_os_error():
             self._camera.StopGrabbing()
         with contextlib.suppress(OSError), _as_os_error():
@@ -134,7 +134,7 @@ class BaslerCamera:
 
 @contextlib.contextmanager
 def _as_os_error() -> Iterator[None]:
-    """Pylon's exceptions are many, and of no common sentence; what is asked for here either works or not."""
+    """Convert pylon's many exceptions to OSError."""
     from pypylon import genicam  # noqa: PLC0415  an extra, loaded when needed
 
     try:
@@ -144,7 +144,7 @@ def _as_os_error() -> Iterator[None]:
 
 
 def _first_sentence(text: str) -> str:
-    """Without the place in the library's source that stands behind it."""
+    """Return the message without its location in the library's source."""
     return text.split(" : ", 1)[0].split("\n", 1)[0].rstrip(". ")
 
 

@@ -1,4 +1,4 @@
-"""Exposure, gain, white balance and cut-out of an industrial camera, as controls that are locked and read."""
+"""Exposure, gain, white balance and sensor region of an industrial camera, as controls to lock and read."""
 
 import contextlib
 
@@ -7,16 +7,16 @@ from server.capture.v4l2 import ControlReading
 from server.capture.v4l2.structs import EXPOSURE_MANUAL
 from tracker.camera import CameraControl
 
-# What V4L2 reads where the camera chooses the exposure.
+# Value of V4L2 for automatic exposure.
 EXPOSURE_AUTO = 0
 OFF = "Off"
-# Automatic exposure is all that changes brightness by itself, the gain too.
+# Automatic exposure includes automatic gain.
 AUTOMATICS = {
     CameraControl.AUTO_EXPOSURE: (("ExposureAuto", "GainAuto"), EXPOSURE_MANUAL, EXPOSURE_AUTO),
     CameraControl.AUTO_WHITE_BALANCE: (("BalanceWhiteAuto",), 0, 1),
 }
-# By SFNC, then as older cameras name it; a control's value is a whole number of such parts of the feature's
-# unit. What moves the camera matrix is here, too: binning is a zoom, and the cut-out's place on the sensor
+# SFNC name, then the name of older cameras; a control's value is a whole number of such parts of the
+# feature's unit. Includes what changes the camera matrix: binning is zoom, the region's offset on the sensor
 # pan and tilt.
 NUMBERS = {
     CameraControl.ZOOM: (("BinningHorizontal",), 1),
@@ -28,13 +28,13 @@ NUMBERS = {
 
 
 class IndustrialControls:
-    """The controls of one camera: exposure in microseconds, gain in hundredths of its unit (mostly dB)."""
+    """Controls of one camera: exposure in microseconds, gain in hundredths of its unit (mostly dB)."""
 
     def __init__(self, features: Features) -> None:
         self._features = features
 
     def control(self, control: CameraControl) -> ControlReading | None:
-        """A control's value; None when the camera does not have it."""
+        """Return a control's value; None if the camera lacks it."""
         if control in AUTOMATICS:
             names, off, on = AUTOMATICS[control]
             states = [state for name in names if (state := self._features.value(name)) is not None]
@@ -54,7 +54,7 @@ class IndustrialControls:
         return None
 
     def set_control(self, control: CameraControl, value: int) -> None:
-        """Set a control; one that is so already is left alone. Raises OSError when the camera refuses."""
+        """Set a control, if it differs. Raises OSError if the camera rejects it."""
         reading = self.control(control)
         if reading is None:
             raise OSError(f"the camera has no {control.value}")

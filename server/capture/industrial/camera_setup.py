@@ -1,7 +1,7 @@
-"""What an industrial camera offers, what it is asked for, and what it granted.
+"""Capabilities of an industrial camera, and the requested and granted mode.
 
-A smaller image of such a camera is a cut-out of its sensor, in the middle, and no scaled image: it has the
-same pixels per degree and another camera matrix.
+A smaller image of such a camera is a centred region of its sensor, and no scaled image: it has the same
+pixels per degree and another camera matrix.
 """
 
 import contextlib
@@ -13,7 +13,7 @@ from server.capture.modes import WANTED_RATE_HZ, WantedMode
 from server.errors import CaptureError
 from server.live import CameraMode
 
-# By SFNC, and as older and Basler's cameras name it.
+# SFNC name, and names of older and Basler's cameras.
 RATE_NAMES = ("AcquisitionFrameRate", "AcquisitionFrameRateAbs")
 GRANTED_RATE_NAMES = (
     "ResultingFrameRate",
@@ -25,14 +25,15 @@ GRANTED_RATE_NAMES = (
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Offer:
-    """What a camera offers.
+class CameraCapabilities:
+    """Capabilities of a camera.
 
     Attributes:
-        pixel_formats: by their names in PFNC.
+        pixel_formats: PFNC names. A CameraCapabilities width_px, height_px size range; the maximum is the
+            whole sensor.
         width_px, height_px: of its images; the largest are of the whole sensor.
-        rate_hz: images a second; None where it cannot be set.
-        triggers: the inputs that can start an image.
+        rate_hz: images per second; None where it cannot be set.
+        triggers: trigger inputs.
     """
 
     pixel_formats: tuple[str, ...]
@@ -42,13 +43,13 @@ class Offer:
     triggers: tuple[str, ...]
 
 
-def offer_of(features: Features) -> Offer:
-    """What a camera offers now. Raises OSError where it does not name the size of its images."""
-    width, height = _whole(features, "Width"), _whole(features, "Height")
+def read_capabilities(features: Features) -> CameraCapabilities:
+    """Return a camera's present capabilities. Raises OSError if it does not state its image size."""
+    width, height = _full_range(features, "Width"), _full_range(features, "Height")
     if width is None or height is None:
         raise OSError("it does not name the size of its images")
     rates = (features.bounds(name) for name in RATE_NAMES)
-    return Offer(
+    return CameraCapabilities(
         pixel_formats=features.options("PixelFormat"),
         width_px=width,
         height_px=height,
@@ -57,13 +58,17 @@ def offer_of(features: Features) -> Offer:
     )
 
 
-def chosen_mode(
-    offer: Offer, wanted: WantedMode, *, calibrated_size_wh_px: tuple[int, int] | None, is_triggered: bool
+def choose_industrial_mode(
+    offer: CameraCapabilities,
+    wanted: WantedMode,
+    *,
+    calibrated_size_wh_px: tuple[int, int] | None,
+    is_triggered: bool,
 ) -> CameraMode | None:
-    """The mode to ask for; None where none of the formats can be read.
+    """Return the mode to request; None where no format can be decoded.
 
-    What is wanted, or what is nearest to it; where nothing is: the calibration's size, else the whole sensor,
-    at 30 Hz or what is nearest. A camera that is triggered has no rate of its own: 0.
+    The wanted mode, or the nearest one; by default the calibration's size, else the whole sensor, at 30 Hz or
+    the nearest rate. A triggered camera has no rate of its own: 0.
     """
     fourcc = best_format(offer.pixel_formats)
     if fourcc is None:
@@ -79,7 +84,7 @@ def chosen_mode(
 
 
 def set_mode(features: Features, mode: CameraMode) -> CameraMode:
-    """Ask for a mode, and return the one that is set then. What the camera refuses is seen in the latter."""
+    """Request a mode, and return the granted one, which shows what the camera rejected."""
     _try(features, "PixelFormat", mode.fourcc)
     for name, offset, size_px in zip(
         ("Width", "Height"), ("OffsetX", "OffsetY"), mode.size_wh_px, strict=True
@@ -97,7 +102,7 @@ def set_mode(features: Features, mode: CameraMode) -> CameraMode:
 
 
 def granted_mode(features: Features, *, has_rate: bool) -> CameraMode:
-    """The mode that is set now."""
+    """Return the present mode."""
     rates = (features.value(name) for name in GRANTED_RATE_NAMES) if has_rate else iter(())
     return CameraMode(
         fourcc=str(features.value("PixelFormat") or ""),
@@ -107,18 +112,18 @@ def granted_mode(features: Features, *, has_rate: bool) -> CameraMode:
 
 
 def set_trigger(features: Features, name: str, trigger: str | None) -> str:
-    """Have each image started by an input of the camera, or by nothing; returns the camera's name of it.
+    """Set or clear the trigger input of each image; return the camera's name of it.
 
     Args:
-        features: of the camera.
-        name: of the camera.
-        trigger: the input, in any case ("line1"); None lets it run freely.
+        features: features of the camera.
+        name: display name of the camera.
+        trigger: the input, case-insensitive ("line1"); None for free run.
 
     Raises:
         CaptureError: CAMERA_TRIGGER_NOT_OFFERED.
         OSError: the camera refuses.
     """
-    # Whoever had the camera before may have left any of them on.
+    # Triggers may be left on by another program.
     for selected in features.options("TriggerSelector"):
         with contextlib.suppress(OSError):
             features.set_value("TriggerSelector", selected)
@@ -140,8 +145,8 @@ def set_trigger(features: Features, name: str, trigger: str | None) -> str:
     return source
 
 
-def _whole(features: Features, name: str) -> Bounds | None:
-    """What may be set of width or height once the cut-out begins at the sensor's edge."""
+def _full_range(features: Features, name: str) -> Bounds | None:
+    """Return the range of width or height with the region at the sensor's edge."""
     now, largest = features.bounds(name), features.value(f"{name}Max")
     if now is None or not isinstance(largest, int | float):
         return now
@@ -149,6 +154,6 @@ def _whole(features: Features, name: str) -> Bounds | None:
 
 
 def _try(features: Features, name: str, value: FeatureValue) -> None:
-    """Set what the camera may not have; what was granted is read back afterwards."""
+    """Set an optional feature; the granted value is read back afterwards."""
     with contextlib.suppress(OSError):
         features.set_value(name, value)

@@ -1,4 +1,4 @@
-"""Reading an industrial camera's clock, where it lets its clock be read."""
+"""Reads an industrial camera's clock, where supported."""
 
 import contextlib
 from collections.abc import Callable
@@ -6,17 +6,17 @@ from collections.abc import Callable
 from server.capture.device_clock import DeviceClock
 from server.capture.industrial.device import Features
 
-# A crystal drifts by up to a millisecond in this time.
+# Interval in which a crystal drifts by up to a millisecond.
 RENEWED_EVERY_S = 10.0
-# Of so many readings the one with the shortest round trip counts: its two ends bound the error.
+# Of this many readings the one with the shortest round trip is used: its two ends bound the error.
 READINGS = 3
 NANOSECONDS_PER_S = 1e9
-# Command and value, by SFNC 2.1 in nanoseconds, and as GigE Vision 1 had it in ticks.
+# Command and value: SFNC 2.1 in nanoseconds, GigE Vision 1 in ticks.
 LATCHES = (("TimestampLatch", "TimestampLatchValue"), ("GevTimestampControlLatch", "GevTimestampValue"))
 
 
 class LatchedClock:
-    """Keeps a `DeviceClock` on the camera's clock, by latching it now and then."""
+    """Synchronises a `DeviceClock` with the camera's clock by latching it periodically."""
 
     def __init__(self, features: Features, device_clock: DeviceClock, *, clock: Callable[[], float]) -> None:
         self._features = features
@@ -26,7 +26,7 @@ class LatchedClock:
         self._is_offered = True
 
     def renew(self) -> None:
-        """Latch the camera's clock, if it is time to or it has jumped; where there is no latch, nothing."""
+        """Latch the camera's clock when due, or after a jump; do nothing where it is not supported."""
         if not self._is_offered:
             return
         now_s = self._clock()
@@ -41,7 +41,7 @@ class LatchedClock:
             self._device_clock.latch(device_s, monotonic_s=monotonic_s)
 
     def _reading(self) -> tuple[float, float, float] | None:
-        """Length of the round trip, the camera's time and this machine's in its middle."""
+        """Return the round-trip time, the camera's time, and this machine's time in its middle."""
         for command, name in LATCHES:
             before_s = self._clock()
             with contextlib.suppress(OSError):

@@ -1,8 +1,7 @@
-"""Industrial cameras as GenICam describes them: what both libraries and a test's fake have in common.
+"""Common interface of industrial cameras, for both libraries and a test's fake, as GenICam describes them.
 
-Every such camera describes itself by a tree of named features ("Width", "ExposureTime"), whose names are
-those of GenICam's Standard Features Naming Convention (SFNC). What is done with them is in the files beside
-this one, once for all libraries.
+Every such camera has a tree of named features ("Width", "ExposureTime"), with the names of GenICam's Standard
+Features Naming Convention (SFNC). The other files of this folder use them for all libraries.
 """
 
 from dataclasses import dataclass
@@ -16,13 +15,13 @@ FeatureValue: TypeAlias = int | float | str | bool
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class IndustrialDescription:
-    """Which camera it is.
+    """Identity of a camera.
 
     Attributes:
-        address: by which it is given as a source: "basler:40021234".
+        address: source address: "basler:40021234".
         name: vendor and model.
         serial: its serial number.
-        bus: how it is connected, as its library names it.
+        bus: connection type, as its library names it.
     """
 
     address: str
@@ -33,11 +32,11 @@ class IndustrialDescription:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bounds:
-    """The values that a numeric feature takes now.
+    """Present range of a numeric feature. A Bounds min_value, max_value inclusive.
 
     Attributes:
         min_value, max_value: both are allowed.
-        step: from one allowed value to the next; 0 where any value between the two is allowed.
+        step: increment; 0 for a continuous range.
     """
 
     min_value: float
@@ -45,7 +44,7 @@ class Bounds:
     step: float = 0.0
 
     def nearest(self, value: float) -> float:
-        """The allowed value that is nearest."""
+        """Return the nearest allowed value."""
         inside = min(max(value, self.min_value), self.max_value)
         if self.step <= 0.0:
             return inside
@@ -55,14 +54,13 @@ class Bounds:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GrabbedImage:
-    """One image as the camera sent it.
+    """One image as sent by the camera.
 
     Attributes:
-        pixels: (h, w) or (h, w, channels), of its own memory; None when a part of the image was lost on its
-            way.
+        pixels: (h, w) or (h, w, channels), an own copy; None when a part of the image was lost in transfer.
         pixel_format: as the camera names it.
-        device_s: when it was taken, by the camera's own clock; None where the camera does not say.
-        skipped: images before this one that the library threw away, because a newer one was there.
+        device_s: capture time by the camera's clock; None without one.
+        skipped: number of older images that the library discarded.
     """
 
     pixels: npt.NDArray[np.uint8] | None
@@ -72,52 +70,52 @@ class GrabbedImage:
 
 
 class Features(Protocol):
-    """A camera's features by their names. A feature that the camera does not have is no error to read."""
+    """A camera's features by name. Reading a missing feature is no error."""
 
     def value(self, name: str) -> FeatureValue | None:
-        """Its value; None where the camera does not have it, or does not let it be read now."""
+        """Return the value; None if it is missing, or not readable now."""
 
     def bounds(self, name: str) -> Bounds | None:
-        """What may be set now; None where there is no such number."""
+        """Return the present range; None without one."""
 
     def options(self, name: str) -> tuple[str, ...]:
-        """The values of an enumeration; empty where there is none."""
+        """Return the values of an enumeration; empty without one."""
 
     def set_value(self, name: str, value: FeatureValue) -> None:
-        """Set it. Raises OSError when the camera refuses, or has no such feature."""
+        """Set a feature. Raises OSError if the camera rejects or lacks it."""
 
     def execute(self, name: str) -> None:
-        """Run a command. Raises OSError when the camera refuses, or has no such command."""
+        """Run a command. Raises OSError if the camera rejects or lacks it."""
 
 
 class IndustrialCamera(Features, Protocol):
-    """One camera, open."""
+    """One open camera."""
 
     def start(self) -> None:
-        """Begin to take images. Raises OSError."""
+        """Start grabbing. Raises OSError."""
 
     def grab(self, timeout_s: float) -> GrabbedImage | None:
-        """The newest image that was not given yet; None when none came in time.
+        """Return the newest image not returned yet; None after the timeout.
 
         Raises:
             OSError: the camera is gone.
         """
 
     def close(self) -> None:
-        """Stop, and let go of the camera; never raises."""
+        """Stop, and release the camera; never raises."""
 
 
 class IndustrialCameras(Protocol):
-    """The cameras that one library finds at this machine and its network.
+    """Cameras that one library finds.
 
     Attributes:
-        extra: what of `pip install coaxial[...]` brings the library.
+        extra: extra of `pip install coaxial[...]` with the library.
     """
 
     extra: str
 
     def descriptions(self) -> tuple[IndustrialDescription, ...]:
-        """Those that are there now. Raises OSError; ImportError without the library."""
+        """Return the connected cameras. Raises OSError; ImportError without the library."""
 
     def open(self, serial: str) -> IndustrialCamera:
-        """Open the one with this serial number. Raises OSError; ImportError without the library."""
+        """Open the camera with this serial number. Raises OSError; ImportError without the library."""

@@ -1,7 +1,7 @@
-"""Any GenICam camera for which its vendor gives a GenTL producer (a .cti file), through harvesters.
+"""Any GenICam camera whose vendor provides a GenTL producer (a .cti file), through harvesters.
 
-Producers are found in the folders that GENICAM_GENTL64_PATH names, as GenTL defines it; the vendors'
-installers set it.
+Producers are found in the folders of GENICAM_GENTL64_PATH, as GenTL defines it; the vendors' installers set
+it.
 """
 
 import contextlib
@@ -15,25 +15,25 @@ import numpy as np
 from server.capture.industrial.device import Bounds, FeatureValue, GrabbedImage, IndustrialDescription
 
 PATH_VARIABLE = "GENICAM_GENTL64_PATH"
-# One is filled, one waits, one is copied.
+# One is being filled, one is ready, one is being copied.
 BUFFERS = 3
 MIN_TIMEOUT_S = 0.001
 NANOSECONDS_PER_S = 1e9
 
 
 def producers() -> tuple[Path, ...]:
-    """The GenTL producers of this machine."""
+    """Return the GenTL producers of this machine."""
     folders = [Path(text) for text in os.environ.get(PATH_VARIABLE, "").split(os.pathsep) if text]
     return tuple(file for folder in folders for file in sorted(folder.glob("*.cti")))
 
 
 class GenTLCameras:
-    """What the producers find."""
+    """Cameras found by the producers."""
 
     extra = "genicam"
 
     def descriptions(self) -> tuple[IndustrialDescription, ...]:
-        """Those that are there now."""
+        """Return the connected cameras."""
         with contextlib.closing(_opened()) as library:
             return tuple(
                 IndustrialDescription(
@@ -46,7 +46,7 @@ class GenTLCameras:
             )
 
     def open(self, serial: str) -> "GenTLCamera":
-        """Open the one with this serial number."""
+        """Open the camera with this serial number."""
         library = _opened()
         try:
             devices = library.harvester.device_info_list
@@ -91,12 +91,12 @@ def _index(devices: Sequence[Any], serial: str) -> int:
 
 
 def _serial(device: Any) -> str:  # noqa: ANN401  the library has no types
-    """Its serial number, or where the producer gives none, the producer's own name for the camera."""
+    """Return the serial number, or the producer's id of a camera without one."""
     return str(device.serial_number or device.id_)
 
 
 class GenTLCamera:
-    """One camera behind a GenTL producer, open."""
+    """One open camera of a GenTL producer."""
 
     def __init__(self, acquirer: Any, library: _Library) -> None:  # noqa: ANN401  the library has no types
         self._acquirer = acquirer
@@ -104,14 +104,14 @@ class GenTLCamera:
         self._nodes = acquirer.remote_device.node_map
 
     def value(self, name: str) -> FeatureValue | None:
-        """The value of a feature."""
+        """Return the value of a feature."""
         with contextlib.suppress(OSError, AttributeError), _as_os_error():
             value: FeatureValue = self._node(name).value
             return value
         return None
 
     def bounds(self, name: str) -> Bounds | None:
-        """What may be set now."""
+        """Return the present range of a feature."""
         with contextlib.suppress(OSError, AttributeError), _as_os_error():
             node = self._node(name)
             step = float(node.inc) if isinstance(node.value, int) else 0.0
@@ -119,7 +119,7 @@ class GenTLCamera:
         return None
 
     def options(self, name: str) -> tuple[str, ...]:
-        """The values of an enumeration."""
+        """Return the values of an enumeration."""
         with contextlib.suppress(OSError, AttributeError), _as_os_error():
             return tuple(self._node(name).symbolics)
         return ()
@@ -140,13 +140,13 @@ class GenTLCamera:
         return getattr(self._nodes, name)
 
     def start(self) -> None:
-        """Begin to take images."""
+        """Start grabbing."""
         with _as_os_error():
             self._acquirer.num_buffers = max(BUFFERS, self._acquirer.min_num_buffers)
             self._acquirer.start()
 
     def grab(self, timeout_s: float) -> GrabbedImage | None:
-        """The newest image that was not given yet: those that waited before it are given back unread."""
+        """Return the newest image not returned yet; older buffered ones are released unread."""
         with _as_os_error():
             buffer = self._acquirer.try_fetch(timeout=timeout_s)
             if buffer is None:
@@ -162,7 +162,7 @@ class GenTLCamera:
                 buffer.queue()
 
     def close(self) -> None:
-        """Stop, and let go of the camera."""
+        """Stop, and release the camera."""
         with contextlib.suppress(OSError), _as_os_error():
             self._acquirer.stop()
         with contextlib.suppress(OSError), _as_os_error():
@@ -177,7 +177,7 @@ def _grabbed(buffer: Any, skipped: int) -> GrabbedImage:  # noqa: ANN401  the li
         return GrabbedImage(pixels=None, pixel_format="", device_s=device_s, skipped=skipped)
     component = components[0]
     shape = (int(component.height), int(component.width), int(component.num_components_per_pixel))
-    # A copy: the producer fills the buffer again.
+    # A copy: the producer reuses the buffer.
     pixels = np.array(component.data, dtype=np.uint8).reshape(shape)
     return GrabbedImage(
         pixels=pixels[:, :, 0] if shape[2] == 1 else pixels,

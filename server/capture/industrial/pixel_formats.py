@@ -6,8 +6,8 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-# Best first: raw colour takes a third of the line that colour made in the camera takes. OpenCV names a mosaic
-# by its second row, PFNC by its first.
+# Best first: raw Bayer needs a third of the bandwidth of colour converted in the camera. OpenCV names a
+# mosaic by its second row, PFNC by its first.
 CONVERSIONS = {
     "BayerRG8": cv2.COLOR_BayerRGGB2BGR,
     "BayerGR8": cv2.COLOR_BayerGRBG2BGR,
@@ -22,19 +22,19 @@ CONVERSIONS = {
 
 
 def is_decoded(name: str) -> bool:
-    """Whether images of this format can be read."""
+    """Return whether images of this format can be decoded."""
     return _canonical(name) in CONVERSIONS
 
 
 def best_format(offered: Sequence[str]) -> str | None:
-    """Of the formats that a camera offers, the one to ask for; None where none can be read."""
+    """Return the best of the offered formats; None where none can be decoded."""
     readable = [name for name in offered if is_decoded(name)]
     order = list(CONVERSIONS)
     return min(readable, key=lambda name: order.index(_canonical(name)), default=None)
 
 
 def bgr_from_pixels(pixels: npt.NDArray[np.uint8], name: str) -> npt.NDArray[np.uint8] | None:
-    """The image as (h, w, 3) BGR; None where its format cannot be read."""
+    """Return the image as (h, w, 3) BGR; None for an unsupported format."""
     canonical = _canonical(name)
     if canonical not in CONVERSIONS:
         return None
@@ -43,5 +43,5 @@ def bgr_from_pixels(pixels: npt.NDArray[np.uint8], name: str) -> npt.NDArray[np.
 
 
 def _canonical(name: str) -> str:
-    """The name of today for one from before PFNC: "RGB8Packed", "BGRA8Packed"."""
+    """Return the PFNC name of an older name: "RGB8Packed", "BGRA8Packed"."""
     return name.removesuffix("Packed").replace("BGRA8", "BGRa8").replace("RGBA8", "RGBa8")

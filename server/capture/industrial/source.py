@@ -8,11 +8,16 @@ import numpy as np
 import structlog
 
 from server.capture.address import SourceAddress
-from server.capture.controls import ControlKeeper
+from server.capture.controls import ControlLock
 from server.capture.device_clock import DeviceClock
 from server.capture.driver_clock import DriverClock
 from server.capture.industrial.camera_controls import IndustrialControls
-from server.capture.industrial.camera_setup import chosen_mode, offer_of, set_mode, set_trigger
+from server.capture.industrial.camera_setup import (
+    choose_industrial_mode,
+    read_capabilities,
+    set_mode,
+    set_trigger,
+)
 from server.capture.industrial.clock_latch import LatchedClock
 from server.capture.industrial.device import GrabbedImage, IndustrialCamera, IndustrialCameras
 from server.capture.industrial.pixel_formats import bgr_from_pixels
@@ -24,9 +29,9 @@ from server.errors import CaptureError
 from server.live import CameraMode, CameraStatus, ImageClock
 from tracker.camera import CameraControl
 
-# So often it is looked whether to stop, and whether the camera is still there.
+# Interval of the checks for stop and a removed camera.
 GRAB_TIMEOUT_S = 0.2
-# A camera that runs freely and gives nothing for so long is opened again.
+# A free-running camera without an image for this long is reopened.
 MAX_SILENCE_S = 2.0
 MAX_TORN = 30
 
@@ -34,17 +39,17 @@ log = structlog.get_logger(__name__)
 
 
 class IndustrialCameraSource:
-    """Images of an industrial camera, the newest alone, stamped by its own clock where it has one.
+    """Images of an industrial camera, newest only, with times of its own clock where it has one.
 
     Args:
-        address: "basler:" or "genicam:" with a serial number; without one, the only camera that is there.
-        cameras: what the library finds.
-        stop: set when the source shall wait no longer.
-        wanted: what the settings ask for.
-        calibration: that is in use at the start; None while there is none.
-        trigger: the input of the camera that starts each image; None where it runs freely.
+        address: "basler:" or "genicam:" with a serial number; without one, the only connected camera.
+        cameras: cameras of the library.
+        stop: ends all waits.
+        wanted: mode of the settings.
+        calibration: calibration in use at the start; None without one.
+        trigger: trigger input of each image; None for free run.
         lock_controls: switch automatic exposure, gain and white balance off once they have settled, and set
-            the cut-out of the sensor to what it was at the calibration.
+            the sensor region of the calibration.
         first_number: number of its first image.
         clock: monotonic.
     """
@@ -63,7 +68,7 @@ class IndustrialCameraSource:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.name = address.name
-        self.waits_for_taker = False
+        self.waits_for_consumer = False
         self.stalls = True
         self._serial = address.text.partition(":")[2]
         self._cameras = cameras
@@ -77,37 +82,37 @@ class IndustrialCameraSource:
         self._number = first_number
         self._clock = clock
         self._device_clock = DeviceClock()
-        self._stamps = DriverClock()
+        self._timestamps = DriverClock()
         self._has_own_clock = False
         self._camera: IndustrialCamera | None = None
         self._latch: LatchedClock | None = None
-        self._asked: CameraMode | None = None
+        self._requested: CameraMode | None = None
         self._check: ModeCheck | None = None
-        self._keeper: ControlKeeper | None = None
+        self._control_lock: ControlLock | None = None
 
     @property
     def defect(self) -> CaptureError | None:
-        """In what its images are others than was asked for; None where they are not."""
+        """Difference between its images and the requested mode; None without one."""
         return None if self._check is None else self._check.problem
 
     @property
     def camera(self) -> CameraStatus:
-        """What is known of the camera."""
-        is_used = self._has_own_clock and self._stamps.clock is ImageClock.DRIVER
+        """Status of the camera."""
+        is_used = self._has_own_clock and self._timestamps.clock is ImageClock.DRIVER
         return CameraStatus(
             clock=ImageClock.DEVICE if is_used else ImageClock.ARRIVAL,
-            asked=self._asked,
+            requested=self._requested,
             granted=None if self._check is None else self._check.granted,
-            controls={} if self._keeper is None else self._keeper.values,
+            controls={} if self._control_lock is None else self._control_lock.values,
             trigger=self._triggered_by,
         )
 
     def adopt(self, calibration: CalibratedCamera | None) -> None:
-        """From the next image on give what this calibration was made with. From any thread."""
+        """Use the camera settings of this calibration from the next image on. From any thread."""
         self._adopted = calibration
 
     def open(self) -> None:
-        """Open the camera, ask it for format, size, rate and trigger, and start it."""
+        """Open the camera, request format, size, rate and trigger, and start it."""
         self.close()
         try:
             camera = self._opened()
@@ -120,7 +125,7 @@ class IndustrialCameraSource:
             raise self._not_opened(str(error)) from error
 
     def read(self) -> Shot | None:
-        """The newest image; None when it shall wait no longer."""
+        """Return the newest image; None when stopped."""
         self._use_adopted()
         image, captured_at_s = None, 0.0
         began_s, torn = self._clock(), 0
@@ -129,11 +134,11 @@ class IndustrialCameraSource:
                 return None
             grabbed = self._grabbed()
             now_s = self._clock()
-            if self._keeper is not None:
-                self._keeper.poll(now_s)
+            if self._control_lock is not None:
+                self._control_lock.poll(now_s)
             if grabbed is None:
                 if not self._triggered_by and now_s - began_s > MAX_SILENCE_S:
-                    raise self._stopped("no whole image came")
+                    raise self._stopped("no complete image arrived")
                 continue
             self._number += grabbed.skipped
             captured_at_s = self._captured_at_s(grabbed, now_s)
@@ -156,11 +161,11 @@ class IndustrialCameraSource:
         return shot
 
     def close(self) -> None:
-        """Let go of the camera."""
+        """Release the camera."""
         if self._camera is not None:
             self._camera.close()
             self._camera = None
-        self._keeper = None
+        self._control_lock = None
         self._latch = None
 
     def _opened(self) -> IndustrialCamera:
@@ -169,9 +174,9 @@ class IndustrialCameraSource:
         found = self._cameras.descriptions()
         if len(found) != 1:
             raise OSError(
-                f"{len(found)} cameras are there: {', '.join(one.address for one in found)}; name one"
+                f"{len(found)} cameras are connected: {', '.join(one.address for one in found)}; name one"
                 if found
-                else "no camera is there"
+                else "no camera is connected"
             )
         return self._cameras.open(found[0].serial)
 
@@ -179,21 +184,21 @@ class IndustrialCameraSource:
         controls = IndustrialControls(camera)
         calibrated = {} if self._calibration is None else self._calibration.controls
         if self._lock_controls and CameraControl.ZOOM in calibrated:
-            # Before the size, which binning limits.
+            # Binning first, because it limits the size.
             controls.set_control(CameraControl.ZOOM, calibrated[CameraControl.ZOOM])
         self._triggered_by = set_trigger(camera, self.name, self._trigger)
-        asked = self._chosen(camera)
-        if asked is None:
-            raise OSError(f"it offers no pixel format that is read here, but {camera.options('PixelFormat')}")
-        granted = set_mode(camera, asked)
-        self._asked = asked
+        requested = self._chosen(camera)
+        if requested is None:
+            raise OSError(f"it offers no supported pixel format, only {camera.options('PixelFormat')}")
+        granted = set_mode(camera, requested)
+        self._requested = requested
         wanted = WantedMode(size_wh_px=self._wanted.size_wh_px) if self._triggered_by else self._wanted
-        self._check = ModeCheck(self.name, wanted=wanted, asked=asked, granted=granted)
-        log.info("camera asked", camera=self.name, asked=str(asked), granted=str(granted))
+        self._check = ModeCheck(self.name, wanted=wanted, requested=requested, granted=granted)
+        log.info("camera mode requested", camera=self.name, requested=str(requested), granted=str(granted))
         self._device_clock.restart()
-        self._stamps.restart()
+        self._timestamps.restart()
         self._latch = LatchedClock(camera, self._device_clock, clock=self._clock)
-        self._keeper = ControlKeeper(
+        self._control_lock = ControlLock(
             controls,
             name=self.name,
             lock_focus=self._lock_controls,
@@ -203,21 +208,21 @@ class IndustrialCameraSource:
         )
 
     def _chosen(self, camera: IndustrialCamera) -> CameraMode | None:
-        return chosen_mode(
-            offer_of(camera),
+        return choose_industrial_mode(
+            read_capabilities(camera),
             self._wanted,
             calibrated_size_wh_px=None if self._calibration is None else self._calibration.size_wh_px,
             is_triggered=bool(self._triggered_by),
         )
 
     def _use_adopted(self) -> None:
-        """Take up the calibration that was adopted last, if it is another one."""
+        """Apply the calibration that was adopted last, if it differs."""
         adopted, self._adopted = self._adopted, None
         if adopted is None or adopted == self._calibration:
             return
         self._calibration = adopted
         if self._camera is not None:
-            # Size and binning cannot be changed while images come.
+            # Size and binning cannot be changed while grabbing.
             self.open()
 
     def _grabbed(self) -> GrabbedImage | None:
@@ -234,10 +239,10 @@ class IndustrialCameraSource:
         self._has_own_clock = grabbed.device_s is not None
         if grabbed.device_s is None:
             return arrived_s
-        had_given_up = self._stamps.gave_up
+        had_given_up = self._timestamps.gave_up
         at_s = self._device_clock.monotonic_s(grabbed.device_s, arrived_s=arrived_s)
-        captured_at_s = self._stamps.captured_at_s(at_s, arrived_s=arrived_s)
-        if self._stamps.gave_up and not had_given_up:
+        captured_at_s = self._timestamps.captured_at_s(at_s, arrived_s=arrived_s)
+        if self._timestamps.gave_up and not had_given_up:
             log.warning(
                 "the camera's own times are implausible; images count from their arrival",
                 code="CAMERA_CLOCK_IMPLAUSIBLE",
@@ -260,7 +265,7 @@ class IndustrialCameraSource:
             "CAMERA_NOT_OPENED",
             f"{self.name} cannot be opened: {reason}",
             "See what coaxial cameras lists; check its cable and power, and that no other program has it. "
-            "It is tried again by itself.",
+            "It is retried automatically.",
             {"camera": self.name, "reason": reason},
         )
 
@@ -268,14 +273,14 @@ class IndustrialCameraSource:
         return CaptureError(
             "CAMERA_STOPPED",
             f"{self.name} gave no image: {reason}",
-            "Check its cable and power; it is tried again by itself.",
+            "Check its cable and power; it is retried automatically.",
             {"camera": self.name, "reason": reason},
         )
 
     def _torn(self, images: int, grabbed: GrabbedImage) -> CaptureError:
         return CaptureError(
             "CAMERA_TORN",
-            f"{self.name} gave {images} images in a row of which parts are missing, or that cannot be read",
+            f"{self.name} gave {images} images in a row that are incomplete or cannot be decoded",
             "Give it a USB 3 port or a network card (jumbo frames) of its own, or a lower camera.rate_hz.",
             {"camera": self.name, "images": images, "pixel_format": grabbed.pixel_format},
         )

@@ -1,9 +1,9 @@
-"""What Linux says of its cameras (Video4Linux, V4L2): devices, modes, controls; images come through OpenCV.
+"""Linux cameras through Video4Linux (V4L2): devices, modes, controls; the images come through OpenCV.
 
-`devices` has the records and the interfaces, `kernel` asks the kernel, `structs` are its records and numbers.
+`devices` has records and interfaces, `kernel` the system calls, `structs` their structures and constants.
 
-Python libraries for V4L2 are GPL, so this is our own. Formats, granted mode and controls are asked for on a
-second descriptor of the device, behind interfaces that tests play. macOS has none of this.
+Python libraries for V4L2 are GPL, so this is our own. Formats, granted mode and controls are read on a second
+descriptor of the device, behind interfaces that tests replace. macOS has none of this.
 """
 
 from server.capture.v4l2.devices import (
@@ -12,7 +12,7 @@ from server.capture.v4l2.devices import (
     VideoDevice,
     VideoDevices,
 )
-from server.capture.v4l2.kernel import KernelDevices, NoDevices, devices_here
+from server.capture.v4l2.kernel import KernelDevices, NoDevices, system_devices
 
 __all__ = [
     "ControlReading",
@@ -21,5 +21,5 @@ __all__ = [
     "NoDevices",
     "VideoDevice",
     "VideoDevices",
-    "devices_here",
+    "system_devices",
 ]

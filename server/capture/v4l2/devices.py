@@ -1,4 +1,4 @@
-"""Cameras as V4L2 describes them, and the interfaces that the kernel and a test's fake have in common."""
+"""Interface of V4L2 devices, for the kernel and a test's fake."""
 
 from dataclasses import dataclass
 from typing import Protocol
@@ -9,14 +9,14 @@ from tracker.camera import CameraControl
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeviceDescription:
-    """Which camera it is.
+    """Identity of a camera.
 
     Attributes:
         path: its device file.
-        name: as the driver has it.
+        name: name by the driver.
         driver: name of the kernel driver.
-        bus: where it is plugged in.
-        captures: whether it gives images; a camera has further devices, of metadata, that do not.
+        bus: location on the bus.
+        captures: whether it captures images; a camera has further devices, for metadata, that do not.
     """
 
     path: str
@@ -28,12 +28,12 @@ class DeviceDescription:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ControlReading:
-    """A control at one moment.
+    """Value of a control.
 
     Attributes:
-        value: in the driver's own unit.
+        value: in the driver's unit.
         min_value, max_value: its range.
-        is_inactive: another control sets it: focus while automatic focus is on.
+        is_inactive: whether another control sets it: focus under autofocus.
     """
 
     value: int
@@ -43,32 +43,32 @@ class ControlReading:
 
 
 class VideoDevice(Protocol):
-    """One device, open beside whoever takes its images."""
+    """One device, opened beside the process that captures its images."""
 
     def description(self) -> DeviceDescription:
-        """Which camera it is. Raises OSError when it is no V4L2 device, or is gone."""
+        """Return its identity. Raises OSError if it is no V4L2 device, or was removed."""
 
     def modes(self) -> tuple[CameraMode, ...]:
-        """Every format, size and rate that it offers, as it lists them; empty when it lists none."""
+        """Return every offered format, size and rate, in its order; empty without a list."""
 
     def mode(self) -> CameraMode:
-        """The mode that is set now. Raises OSError when it is gone."""
+        """Return the present mode. Raises OSError if it was removed."""
 
     def control(self, control: CameraControl) -> ControlReading | None:
-        """A control's value; None when the device does not have it."""
+        """Return a control's value; None if the device lacks it."""
 
     def set_control(self, control: CameraControl, value: int) -> None:
-        """Set a control. Raises OSError when the device refuses."""
+        """Set a control. Raises OSError if the device rejects it."""
 
     def close(self) -> None:
         """Close it."""
 
 
 class VideoDevices(Protocol):
-    """The devices of this machine."""
+    """Devices of this machine."""
 
     def paths(self) -> tuple[str, ...]:
-        """The device files, in the order of their numbers."""
+        """Return the device files, by number."""
 
     def open(self, path: str) -> VideoDevice:
-        """Open one. Raises OSError."""
+        """Open a device. Raises OSError."""

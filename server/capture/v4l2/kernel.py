@@ -1,4 +1,4 @@
-"""V4L2 as the kernel answers it, through ioctl on a device file."""
+"""V4L2 devices of the kernel, through ioctl on a device file."""
 
 import contextlib
 import errno
@@ -48,25 +48,25 @@ from tracker.camera import CameraControl
 
 Ioctl: TypeAlias = Callable[[int, int, Structure], object]
 Record = TypeVar("Record", FormatDescription, FrameSize, FrameInterval)
-# Of a driver that lists for ever.
+# Limit for a driver with an endless list.
 MAX_LISTED = 256
-# What is tried where a device names a range of sizes.
-USUAL_SIZES_WH_PX = ((640, 480), (800, 600), (1280, 720), (1280, 960), (1920, 1080))
+# Candidates where a device offers a range of sizes.
+COMMON_SIZES_WH_PX = ((640, 480), (800, 600), (1280, 720), (1280, 960), (1920, 1080))
 
 
 def kernel_ioctl(descriptor: int, request: int, record: Structure) -> object:
-    """The system call; it fills the record. Raises OSError."""
-    # Here, because there is none elsewhere than on Unix.
+    """Run the system call, which fills the record. Raises OSError."""
+    # Imported here, because it exists on Unix only.
     import fcntl  # noqa: PLC0415
 
     return fcntl.ioctl(descriptor, request, record, True)
 
 
 class KernelDevices:
-    """The cameras of a Linux machine.
+    """Cameras of a Linux machine.
 
     Args:
-        folder: where device files are.
+        folder: folder of the device files.
         ioctl: the system call.
     """
 
@@ -75,7 +75,7 @@ class KernelDevices:
         self._ioctl = ioctl
 
     def paths(self) -> tuple[str, ...]:
-        """The device files, in the order of their numbers."""
+        """Return the device files, by number."""
         numbered = {
             int(found.group(1)): str(path)
             for path in self._folder.glob("video*")
@@ -84,24 +84,24 @@ class KernelDevices:
         return tuple(path for _, path in sorted(numbered.items()))
 
     def open(self, path: str) -> VideoDevice:
-        """Open one, beside whoever takes its images."""
+        """Open a device, beside the process that captures its images."""
         return KernelDevice(path, os.open(path, os.O_RDWR | os.O_NONBLOCK), ioctl=self._ioctl)
 
 
 class NoDevices:
-    """Where there is no V4L2: no device is known."""
+    """For systems without V4L2."""
 
     def paths(self) -> tuple[str, ...]:
-        """None."""
+        """Return no device."""
         return ()
 
     def open(self, path: str) -> VideoDevice:
-        """Raises OSError."""
+        """Raise OSError."""
         raise OSError(errno.ENOSYS, "this system has no V4L2", path)
 
 
-def devices_here() -> VideoDevices:
-    """The devices of this machine: those of the kernel on Linux, none elsewhere."""
+def system_devices() -> VideoDevices:
+    """Return the devices of this machine: the kernel's on Linux, none elsewhere."""
     return KernelDevices() if sys.platform == "linux" else NoDevices()
 
 
@@ -114,10 +114,10 @@ class KernelDevice:
         self._ioctl = ioctl
 
     def description(self) -> DeviceDescription:
-        """Which camera it is."""
+        """Return its identity."""
         found = Capability()
         self._ioctl(self._descriptor, QUERYCAP, found)
-        # Those of the whole hardware, where the driver does not name those of this device file.
+        # Capabilities of the whole hardware, where the driver does not give those of this device file.
         able = found.device_caps if found.capabilities & HAS_DEVICE_CAPS else found.capabilities
         return DeviceDescription(
             path=self._path,
@@ -128,7 +128,7 @@ class KernelDevice:
         )
 
     def modes(self) -> tuple[CameraMode, ...]:
-        """Every format, size and rate that it offers."""
+        """Return every offered format, size and rate."""
         return tuple(
             CameraMode(fourcc=fourcc_text(pixel_format), size_wh_px=size, rate_hz=rate_hz)
             for pixel_format in self._formats()
@@ -137,11 +137,11 @@ class KernelDevice:
         )
 
     def mode(self) -> CameraMode:
-        """The mode that is set now."""
+        """Return the present mode."""
         form, parameters = Format(type=VIDEO_CAPTURE), StreamParameters(type=VIDEO_CAPTURE)
         self._ioctl(self._descriptor, G_FMT, form)
         rate_hz = 0.0
-        # Some devices know no rate at all.
+        # Some devices have no rate.
         with contextlib.suppress(OSError):
             self._ioctl(self._descriptor, G_PARM, parameters)
             rate_hz = _rate_hz(parameters.numerator, parameters.denominator)
@@ -150,7 +150,7 @@ class KernelDevice:
         )
 
     def control(self, control: CameraControl) -> ControlReading | None:
-        """A control's value."""
+        """Return a control's value."""
         about, value = QueryControl(id=CONTROL_IDS[control]), Control(id=CONTROL_IDS[control])
         try:
             self._ioctl(self._descriptor, QUERYCTRL, about)
@@ -213,7 +213,7 @@ class KernelDevice:
             try:
                 self._ioctl(self._descriptor, request, record)
             except OSError as error:
-                # EINVAL ends the list, ENOTTY says that there is none.
+                # EINVAL ends the list, ENOTTY means that there is none.
                 if error.errno in (errno.EINVAL, errno.ENOTTY):
                     return
                 raise
@@ -223,10 +223,10 @@ class KernelDevice:
 def _sizes_in_range(
     min_width: int, max_width: int, step_width: int, min_height: int, max_height: int, step_height: int
 ) -> list[tuple[int, int]]:
-    """The usual sizes in a range, and its largest one."""
+    """Return the common sizes in a range, and its largest one."""
     found = [
         (width, height)
-        for width, height in USUAL_SIZES_WH_PX
+        for width, height in COMMON_SIZES_WH_PX
         if min_width <= width <= max_width
         and min_height <= height <= max_height
         and (width - min_width) % max(step_width, 1) == 0
@@ -237,7 +237,7 @@ def _sizes_in_range(
 
 
 def _rate_hz(numerator: int, denominator: int) -> float:
-    """Images a second; 0 where the driver gives no interval."""
+    """Return images per second; 0 without an interval."""
     return round(denominator / numerator, 3) if numerator > 0 else 0.0
 
 

@@ -1,4 +1,4 @@
-"""The records and request numbers of V4L2, as linux/videodev2.h and the kernel's documentation have them."""
+"""Structures and request numbers of V4L2, from linux/videodev2.h and the kernel's documentation."""
 
 import ctypes
 from typing import ClassVar, TypeAlias
@@ -34,7 +34,7 @@ CONTROL_IDS: dict[CameraControl, int] = {
 
 
 class Capability(ctypes.Structure):
-    """What a device is: struct v4l2_capability."""
+    """Capabilities of a device: struct v4l2_capability."""
 
     _fields_: ClassVar[list[Field]] = [
         ("driver", ctypes.c_char * 16),
@@ -62,9 +62,9 @@ class FormatDescription(ctypes.Structure):
 
 
 class FrameSize(ctypes.Structure):
-    """One size, or a range of them: struct v4l2_frmsizeenum.
+    """One size, or a range of sizes: struct v4l2_frmsizeenum.
 
-    `values` is width, height, or least and greatest width, its step, and likewise of the height.
+    `values` is width, height, or minimum and maximum width, its step, and likewise for the height.
     """
 
     _fields_: ClassVar[list[Field]] = [
@@ -77,9 +77,10 @@ class FrameSize(ctypes.Structure):
 
 
 class FrameInterval(ctypes.Structure):
-    """One time from image to image, or a range of them: struct v4l2_frmivalenum.
+    """One frame interval, or a range: struct v4l2_frmivalenum.
 
-    `values` is numerator, denominator in seconds; of a range those of the shortest, the longest and the step.
+    `values` is numerator, denominator in seconds; for a range those of the shortest, the longest and the
+    step.
     """
 
     _fields_: ClassVar[list[Field]] = [
@@ -94,7 +95,7 @@ class FrameInterval(ctypes.Structure):
 
 
 class Format(ctypes.Structure):
-    """The format that is set: struct v4l2_format, whose union is aligned to eight bytes."""
+    """The present format: struct v4l2_format, whose union is aligned to eight bytes."""
 
     _fields_: ClassVar[list[Field]] = [
         ("type", U32),
@@ -107,7 +108,7 @@ class Format(ctypes.Structure):
 
 
 class StreamParameters(ctypes.Structure):
-    """The time from image to image that is set: struct v4l2_streamparm."""
+    """The present frame interval: struct v4l2_streamparm."""
 
     _fields_: ClassVar[list[Field]] = [
         ("type", U32),
@@ -120,7 +121,7 @@ class StreamParameters(ctypes.Structure):
 
 
 class QueryControl(ctypes.Structure):
-    """What a control is: struct v4l2_queryctrl."""
+    """Description of a control: struct v4l2_queryctrl."""
 
     _fields_: ClassVar[list[Field]] = [
         ("id", U32),
@@ -142,7 +143,7 @@ class Control(ctypes.Structure):
 
 
 def _request(reads: bool, writes: bool, number: int, record: type[ctypes.Structure]) -> int:
-    """The number of an ioctl as asm-generic/ioctl.h makes it: direction, size, letter V, number."""
+    """Return the number of an ioctl as in asm-generic/ioctl.h: direction, size, letter V, number."""
     direction = (2 if reads else 0) | (1 if writes else 0)
     return direction << 30 | ctypes.sizeof(record) << 16 | ord("V") << 8 | number
 
@@ -159,10 +160,10 @@ ENUM_FRAMEINTERVALS = _request(True, True, 75, FrameInterval)
 
 
 def fourcc_text(code: int) -> str:
-    """The four letters of a pixel format, without blanks at the end: "MJPG"."""
+    """Return the four characters of a pixel format, without trailing blanks: "MJPG"."""
     return code.to_bytes(4, "little").decode("latin-1").rstrip(" \0")
 
 
 def fourcc_code(text: str) -> int:
-    """The number of a pixel format's letters."""
+    """Return the code of a pixel format's characters."""
     return int.from_bytes(text.ljust(4).encode("latin-1")[:4], "little")

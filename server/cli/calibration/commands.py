@@ -5,8 +5,7 @@ from typing import Annotated
 
 import typer
 
-from server.cli.board_names import BoardOptions
-from server.cli.board_typed import (
+from server.cli.board_arguments import (
     DictionaryOption,
     FiducialsOption,
     LayoutOption,
@@ -16,6 +15,7 @@ from server.cli.board_typed import (
     SizeArgument,
     SquareOption,
 )
+from server.cli.board_names import BoardOptions
 
 InsetOption = Annotated[
     str | None,

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from server.picture_file import decoded
+from server.image_file import decoded
 from tracker.errors import CalibrationError, InvalidInput
 
 ENDINGS = {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp", ".pgm", ".ppm"}
@@ -103,10 +103,10 @@ def usual_size(sizes_wh_px: Mapping[str, tuple[int, int]], unusable: Sequence[Un
     if 2 * count > len(sizes_wh_px):
         return usual
     named = {size: name for name, size in reversed(tuple(sizes_wh_px.items()))}
-    told = [f"{named[size]} has {size[0]}x{size[1]} px" for size in (usual, others[0][0])]
+    reported = [f"{named[size]} has {size[0]}x{size[1]} px" for size in (usual, others[0][0])]
     raise CalibrationError(
         "IMAGE_SIZES_DIFFER",
-        f"{', and '.join(told)}: one camera, one size",
+        f"{', and '.join(reported)}: one camera, one size",
         "Give images of one camera at one setting, not cropped or scaled.",
         {"sizes": {f"{size[0]}x{size[1]}": n for size, n in Counter(sizes_wh_px.values()).items()}},
     )

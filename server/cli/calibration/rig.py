@@ -13,7 +13,7 @@ from server.cli.board_names import BoardOptions
 from server.cli.board_options import boards_of, described
 from server.cli.calibration.images import files_of
 from server.cli.calibration.run import FAILED, Looked, flattened, looked_at
-from server.cli.output import write_whole
+from server.cli.output import write_atomically
 from server.cli.progress import shown_steps
 from server.config_file import load_config
 from tracker.camera.calibration import CalibrationReport, calibrate
@@ -60,7 +60,7 @@ def calibrate_cameras(order: RigOrder, *, as_json: bool) -> int:
     whole = _whole(report, reports)
     if passed and order.output is not None:
         text = yaml.safe_dump({**whole, "boards": [described(board) for board in boards]}, sort_keys=False)
-        write_whole(order.output, text.encode())
+        write_atomically(order.output, text.encode())
     if as_json:
         typer.echo(json.dumps({**whole, "max_rms_px": max_rms_px, "passed": passed}, allow_nan=False))
     else:

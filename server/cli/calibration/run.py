@@ -12,12 +12,17 @@ from server.camera_file import CameraFile, camera_file_text
 from server.cli.board_names import BoardOptions
 from server.cli.board_options import boards_of, described
 from server.cli.calibration.images import Picture, Unusable, files_of, names_of, read_picture, usual_size
-from server.cli.calibration.told import ImageEntry, Sight, entries_of, json_of, tell
-from server.cli.output import write_whole
+from server.cli.calibration.reported import ImageEntry, Sight, entries_of, json_of, tell
+from server.cli.output import write_atomically
 from server.cli.progress import Steps, shown_steps
 from server.config_file import load_config
 from tracker.camera import Board
-from tracker.camera.calibration import CalibrationReport, CalibrationSettings, calibrate, with_board_judged
+from tracker.camera.calibration import (
+    CalibrationReport,
+    CalibrationSettings,
+    calibrate,
+    with_board_size_warning,
+)
 from tracker.camera.detection import BoardNotFound, BoardView, board_as_seen, find_board
 from tracker.errors import CalibrationError, InvalidInput
 
@@ -80,7 +85,7 @@ def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
     )
     for at, board in enumerate(looked.boards):
         shown = [sight[at] for sight in looked.seen if at < len(sight)]
-        report = with_board_judged(report, [one for one in shown if isinstance(one, BoardView)], board)
+        report = with_board_size_warning(report, [one for one in shown if isinstance(one, BoardView)], board)
     entries = entries_of(looked.names, looked.seen, report)
     passed = report.rms_px <= max_rms_px
     written = _write(order, report, entries, looked.boards) if passed else ()
@@ -205,11 +210,11 @@ def _write(
             "boards": [described(board) for board in boards],
             "warnings": [one.code for one in report.warnings],
         }
-        write_whole(order.output, camera_file_text(file, facts).encode())
+        write_atomically(order.output, camera_file_text(file, facts).encode())
         written.append(order.output)
     if order.plots is not None:
         for name, svg in (("residuals.svg", residuals_svg(report)), ("coverage.svg", coverage_svg(report))):
-            write_whole(order.plots / name, svg.encode())
+            write_atomically(order.plots / name, svg.encode())
             written.append(order.plots / name)
     return tuple(written)
 

@@ -1,5 +1,5 @@
-"""DICOM in: which files are slices, which slices are one series, and their Hounsfield units."""
+"""Reading of DICOM: detection of slices, grouping into series, and Hounsfield units."""
 
-from server.imaging.dicom.read import list_dicom, read_dicom
+from server.imaging.dicom.reader import list_dicom, read_dicom
 
 __all__ = ["list_dicom", "read_dicom"]

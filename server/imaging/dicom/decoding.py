@@ -22,7 +22,7 @@ import numpy.typing as npt
 from server.imaging.dicom import worker
 
 # Whole numbers of any size, with or without sign, as the file holds them.
-Stored: TypeAlias = npt.NDArray[np.integer[Any]]
+StoredPixels: TypeAlias = npt.NDArray[np.integer[Any]]
 # Each holds 75 MiB while it runs.
 MAX_PROCESSES = 2
 # A decoder that is silent for so long is stuck.
@@ -44,7 +44,7 @@ class Encoded:
     content: bytes
 
 
-class DecoderEnded(Exception):
+class DecoderCrashed(Exception):
     """The process that decoded an image has died of it, or hangs."""
 
 
@@ -54,7 +54,7 @@ class _Process:
 
     process: subprocess.Popen[bytes]
 
-    def decode(self, one: Encoded) -> Stored | None:
+    def decode(self, one: Encoded) -> StoredPixels | None:
         """The pixels (rows, columns), or None where they cannot be decoded."""
         timer = threading.Timer(MAX_SECONDS, self.process.kill)
         timer.start()
@@ -66,7 +66,7 @@ class _Process:
         finally:
             timer.cancel()
         if answer is None:
-            raise DecoderEnded
+            raise DecoderCrashed
         header, content = answer
         if not header:
             return None
@@ -85,7 +85,7 @@ class _Decoders:
     idle: queue.SimpleQueue[_Process] = field(default_factory=queue.SimpleQueue)
     started: list[_Process] = field(default_factory=list)
 
-    def decode(self, one: Encoded) -> tuple[int, Stored | None]:
+    def decode(self, one: Encoded) -> tuple[int, StoredPixels | None]:
         """Decodes one image in a process that has nothing else to do."""
         try:
             process = self.idle.get_nowait()
@@ -101,7 +101,7 @@ class _Decoders:
             self.started.append(process)
         try:
             return one.index, process.decode(one)
-        except DecoderEnded:
+        except DecoderCrashed:
             return one.index, None
         finally:
             if process.process.poll() is None:
@@ -118,10 +118,10 @@ def _decoders() -> Iterator[_Decoders]:
             process.end()
 
 
-def decoded(images: Iterable[Encoded]) -> Iterator[tuple[int, Stored | None]]:
+def decode_images(images: Iterable[Encoded]) -> Iterator[tuple[int, StoredPixels | None]]:
     """Each image's index and its pixels (rows, columns), in their order; None where one cannot be decoded."""
     count = max(1, min(MAX_PROCESSES, os.cpu_count() or 1))
-    waiting: deque[Future[tuple[int, Stored | None]]] = deque()
+    waiting: deque[Future[tuple[int, StoredPixels | None]]] = deque()
     with _decoders() as decoders, ThreadPoolExecutor(count, thread_name_prefix="decode") as threads:
         for one in images:
             waiting.append(threads.submit(decoders.decode, one))

@@ -1,4 +1,4 @@
-"""One slice as its file describes it: where it lies, and what its numbers mean."""
+"""Attributes of one slice: geometry and rescaling."""
 
 from dataclasses import dataclass
 
@@ -6,15 +6,15 @@ from pydicom.dataset import Dataset
 from pydicom.uid import ImplicitVRLittleEndian
 
 from server.imaging.container import Entry
-from server.imaging.dicom.header import BAD_DICOM, CT_CLASSES, NotUsed, number, numbers, text, words
+from server.imaging.dicom.header import BAD_DICOM, CT_CLASSES, UnusedFile, number, numbers, text, words
 
 SECONDARY_CAPTURE = "1.2.840.10008.5.1.4.1.1.7"
 MAX_FRAMES = 20_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Owner:
-    """Whose image this is; compared, never told."""
+class PatientIdentity:
+    """Patient data of an image; only compared, never reported."""
 
     name: str
     identifier: str
@@ -22,17 +22,17 @@ class Owner:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Shared:
-    """What all slices of a file have in common."""
+class FileAttributes:
+    """Attributes common to all slices of a file."""
 
     entry: Entry
-    owner: Owner
+    patient_identity: PatientIdentity
     series: str
     modality: str
     words: str
     number: int
     kernel: str
-    space: str
+    frame_of_reference: str
     compression: str
     is_lossy: bool
     thickness_mm: float
@@ -48,9 +48,9 @@ class Shared:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Frame:
-    """One slice; empty tuples where its file does not say it."""
+    """One slice; missing attributes are empty tuples."""
 
-    shared: Shared
+    shared: FileAttributes
     index: int
     instance: int
     position_lps_mm: tuple[float, ...]
@@ -61,16 +61,16 @@ class Frame:
     rescale_type: str
 
 
-def frames_of(entry: Entry, header: Dataset) -> list[Frame] | NotUsed:
+def frames_of(entry: Entry, header: Dataset) -> list[Frame] | UnusedFile:
     """The slices of one file, or why it holds none."""
     reason = _no_slice(header)
     if reason:
-        return NotUsed(reason=reason)
+        return UnusedFile(reason=reason)
     shared = _shared(entry, header)
     if shared.frames == 1 and "PerFrameFunctionalGroupsSequence" not in header:
         return [_frame(shared, 0, header, header)]
     if shared.frames > MAX_FRAMES:
-        return NotUsed(reason=f"files that declare more than {MAX_FRAMES} images")
+        return UnusedFile(reason=f"files that declare more than {MAX_FRAMES} images")
     try:
         common = _only(header, "SharedFunctionalGroupsSequence")
         groups = list(header.get("PerFrameFunctionalGroupsSequence") or [])
@@ -78,7 +78,7 @@ def frames_of(entry: Entry, header: Dataset) -> list[Frame] | NotUsed:
         groups, common = [], None
     if len(groups) != shared.frames:
         # Frames without a place of their own (a film, a turntable) are no slices.
-        return NotUsed(reason="files of many images that do not tell where each lies")
+        return UnusedFile(reason="files of many images that do not tell where each lies")
     return [_grouped_frame(shared, index, group, common, header) for index, group in enumerate(groups)]
 
 
@@ -95,7 +95,7 @@ def _no_slice(header: Dataset) -> str:
     return ""
 
 
-def _shared(entry: Entry, header: Dataset) -> Shared:
+def _shared(entry: Entry, header: Dataset) -> FileAttributes:
     bits_allocated = int(number(header, "BitsAllocated", 16))
     bits_stored = int(number(header, "BitsStored", bits_allocated))
     high_bit = int(number(header, "HighBit", bits_stored - 1))
@@ -104,9 +104,9 @@ def _shared(entry: Entry, header: Dataset) -> Shared:
     modality = text(header, "Modality").upper()
     if not modality and text(header, "SOPClassUID") in CT_CLASSES:
         modality = "CT"
-    return Shared(
+    return FileAttributes(
         entry=entry,
-        owner=Owner(
+        patient_identity=PatientIdentity(
             name=_plain(text(header, "PatientName").partition("=")[0]),
             identifier=_plain(text(header, "PatientID")),
             born=_plain(text(header, "PatientBirthDate")),
@@ -116,7 +116,7 @@ def _shared(entry: Entry, header: Dataset) -> Shared:
         words=text(header, "SeriesDescription"),
         number=int(number(header, "SeriesNumber", 0)),
         kernel=(words(header, "ConvolutionKernel") or ("",))[0],
-        space=text(header, "FrameOfReferenceUID"),
+        frame_of_reference=text(header, "FrameOfReferenceUID"),
         compression=compression or str(ImplicitVRLittleEndian),
         is_lossy=text(header, "LossyImageCompression") == "01",
         thickness_mm=number(header, "SliceThickness", 0.0),
@@ -149,7 +149,7 @@ def _padding(header: Dataset) -> tuple[int, int] | None:
     return min(ends), max(ends)
 
 
-def _frame(shared: Shared, index: int, place: Dataset, values: Dataset) -> Frame:
+def _frame(shared: FileAttributes, index: int, place: Dataset, values: Dataset) -> Frame:
     return Frame(
         shared=shared,
         index=index,
@@ -164,7 +164,7 @@ def _frame(shared: Shared, index: int, place: Dataset, values: Dataset) -> Frame
 
 
 def _grouped_frame(
-    shared: Shared, index: int, group: Dataset, common: Dataset | None, header: Dataset
+    shared: FileAttributes, index: int, group: Dataset, common: Dataset | None, header: Dataset
 ) -> Frame:
     """A frame whose place stands in functional groups of its own, or in those that all share."""
 

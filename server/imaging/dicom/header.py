@@ -1,4 +1,4 @@
-"""What a DICOM file says of itself, without its pixels and without ever being believed blindly."""
+"""Robust reading of DICOM attributes, without pixel data."""
 
 import logging
 import math
@@ -84,34 +84,34 @@ DEFLATED = b"1.2.840.10008.1.2.1.99"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class NotUsed:
+class UnusedFile:
     """A file that is no slice, and what it is instead."""
 
     reason: str
 
 
 @contextmanager
-def quietly() -> Iterator[None]:
+def without_warnings() -> Iterator[None]:
     """What pydicom would warn of is judged here by what it leads to."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         yield
 
 
-def read_header(entry: Entry) -> Dataset | NotUsed:
+def read_header(entry: Entry) -> Dataset | UnusedFile:
     """The attributes of a slice that are needed here, or why this file is none."""
     try:
         head = entry.head()
         if not _is_dicom(head):
-            return NotUsed(reason="NIfTI files" if is_nifti(head) else "files that are no DICOM")
+            return UnusedFile(reason="NIfTI files" if is_nifti(head) else "files that are no DICOM")
         with entry.open() as file:
             if DEFLATED in head and not _inflates(file):
-                return NotUsed(reason="files that would unpack to more than is allowed")
+                return UnusedFile(reason="files that would unpack to more than is allowed")
             file.seek(0)
             header = pydicom.dcmread(file, stop_before_pixels=True, specific_tags=IMAGE, force=True)
-            return header if _is_complete(header) else NotUsed(reason=BROKEN)
+            return header if _is_complete(header) else UnusedFile(reason=BROKEN)
     except BAD_DICOM:
-        return NotUsed(reason=BROKEN)
+        return UnusedFile(reason=BROKEN)
 
 
 BROKEN = "DICOM files that break off or are damaged"

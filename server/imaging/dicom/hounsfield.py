@@ -1,15 +1,15 @@
-"""From stored numbers to Hounsfield units."""
+"""Conversion of stored pixel values to Hounsfield units."""
 
 import numpy as np
 import numpy.typing as npt
 
-from server.imaging.dicom.decoding import Stored
-from server.imaging.dicom.frame import Frame, Shared
+from server.imaging.dicom.decoding import StoredPixels
+from server.imaging.dicom.frame import FileAttributes, Frame
 from server.imaging.dicom.pixels import is_encoded
-from server.imaging.voxels import MAX_HU, MIN_HU, NOTHING_HU
+from server.imaging.voxels import MAX_HU, MIN_HU, PADDING_HU
 
 
-def hounsfield(stored: Stored, frame: Frame) -> tuple[npt.NDArray[np.int16], int]:
+def hounsfield(stored: StoredPixels, frame: Frame) -> tuple[npt.NDArray[np.int16], int]:
     """HU (rows, columns) int16 of the stored numbers, and how many lay beyond what int16 holds."""
     shared = frame.shared
     padded = None
@@ -23,12 +23,12 @@ def hounsfield(stored: Stored, frame: Frame) -> tuple[npt.NDArray[np.int16], int
     else:
         hu = np.rint(values.astype(np.float64) * slope + intercept)
     if padded is not None:
-        hu = np.where(padded, np.asarray(NOTHING_HU, dtype=hu.dtype), hu)
+        hu = np.where(padded, np.asarray(PADDING_HU, dtype=hu.dtype), hu)
     beyond = int(np.count_nonzero((hu < MIN_HU) | (hu > MAX_HU)))
     return np.clip(hu, MIN_HU, MAX_HU).astype(np.int16), beyond
 
 
-def _without_unused_bits(stored: Stored, shared: Shared) -> Stored:
+def _without_unused_bits(stored: StoredPixels, shared: FileAttributes) -> StoredPixels:
     """The bits above those stored may hold anything: overlays, or nothing."""
     unused = stored.dtype.itemsize * 8 - shared.bits[1]
     if unused <= 0 or is_encoded(shared):

@@ -1,4 +1,4 @@
-"""The stored pixels of slices, one by one: read here where they are plain, decoded elsewhere where not."""
+"""Stored pixels of slices: uncompressed ones are read here, compressed ones in a decoder process."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -9,9 +9,9 @@ from pydicom.pixels.decoders.base import get_decoder
 from pydicom.pixels.utils import iter_pixels
 from pydicom.uid import UID
 
-from server.imaging.dicom.decoding import Encoded, Stored, decoded
-from server.imaging.dicom.frame import Frame, Shared
-from server.imaging.dicom.header import BAD_DICOM, quietly
+from server.imaging.dicom.decoding import Encoded, StoredPixels, decode_images
+from server.imaging.dicom.frame import FileAttributes, Frame
+from server.imaging.dicom.header import BAD_DICOM, without_warnings
 from tracker.errors import InvalidInput
 
 # Of one slice, whatever else its file holds; more would be read into memory at once.
@@ -28,7 +28,7 @@ ENDS_ITSELF = frozenset(
 )
 
 
-def check_readable(shared: Shared) -> None:
+def check_readable(shared: FileAttributes) -> None:
     """Refuses pixels of a kind that cannot be read, before any is read.
 
     Raises:
@@ -64,7 +64,7 @@ def check_readable(shared: Shared) -> None:
         )
 
 
-def stored_images(frames: list[Frame]) -> Iterator[tuple[int, Stored]]:
+def stored_images(frames: list[Frame]) -> Iterator[tuple[int, StoredPixels]]:
     """The index of each slice among these, and its stored numbers (rows, columns); compressed ones last.
 
     Raises:
@@ -84,24 +84,24 @@ def stored_images(frames: list[Frame]) -> Iterator[tuple[int, Stored]]:
         if is_encoded(shared)
         for one in _encoded(shared, members, [frames[index].index for index in members])
     )
-    for index, image in decoded(encoded):
+    for index, image in decode_images(encoded):
         if image is None:
             raise _damaged(frames[index].shared)
         yield index, _sized(image, frames[index].shared)
 
 
-def is_encoded(shared: Shared) -> bool:
+def is_encoded(shared: FileAttributes) -> bool:
     """Whether its pixels are decoded by compiled code in another process."""
     syntax = UID(shared.compression)
     return syntax.is_encapsulated and syntax != pydicom.uid.RLELossless
 
 
-def _plain(shared: Shared, indexes: list[int]) -> Iterator[Stored]:
+def _plain(shared: FileAttributes, indexes: list[int]) -> Iterator[StoredPixels]:
     """The images of one file that pydicom reads by itself."""
     # pydicom would clear the bits above those stored, and with them the mark of what was not measured.
     options: dict[str, Any] = {"correct_unused_bits": False}
     try:
-        with quietly(), shared.entry.open() as file:
+        with without_warnings(), shared.entry.open() as file:
             if shared.frames > 1:
                 yield from iter_pixels(file, indices=indexes, raw=True, **options)
                 return
@@ -117,7 +117,7 @@ def _plain(shared: Shared, indexes: list[int]) -> Iterator[Stored]:
         raise _damaged(shared) from None
 
 
-def _encoded(shared: Shared, members: list[int], indexes: list[int]) -> Iterator[Encoded]:
+def _encoded(shared: FileAttributes, members: list[int], indexes: list[int]) -> Iterator[Encoded]:
     """The compressed images of one file."""
     options: dict[str, object] = {
         "transfer_syntax_uid": shared.compression,
@@ -131,7 +131,7 @@ def _encoded(shared: Shared, members: list[int], indexes: list[int]) -> Iterator
         "pixel_representation": int(shared.is_signed),
     }
     try:
-        with quietly(), shared.entry.open() as file:
+        with without_warnings(), shared.entry.open() as file:
             content = _whole(file, shared).PixelData
         images = list(generate_frames(content, number_of_frames=shared.frames))
     except EOFError:
@@ -145,7 +145,7 @@ def _encoded(shared: Shared, members: list[int], indexes: list[int]) -> Iterator
         yield Encoded(index=member, options=options, content=encapsulate([images[index]], has_bot=False))
 
 
-def _whole(file: Any, shared: Shared) -> pydicom.Dataset:  # noqa: ANN401  what pydicom reads from
+def _whole(file: Any, shared: FileAttributes) -> pydicom.Dataset:  # noqa: ANN401  what pydicom reads from
     dataset = pydicom.dcmread(file, force=True)
     if "PixelData" not in dataset:
         raise _truncated(shared)
@@ -154,14 +154,14 @@ def _whole(file: Any, shared: Shared) -> pydicom.Dataset:  # noqa: ANN401  what 
     return dataset
 
 
-def _sized(pixels: Stored, shared: Shared) -> Stored:
+def _sized(pixels: StoredPixels, shared: FileAttributes) -> StoredPixels:
     columns, rows = shared.size_wh_px
     if pixels.shape != (rows, columns) or pixels.dtype.kind not in "iu":
         raise _truncated(shared)
     return pixels
 
 
-def _damaged(shared: Shared) -> InvalidInput:
+def _damaged(shared: FileAttributes) -> InvalidInput:
     return InvalidInput(
         "CT_SLICE_DAMAGED",
         f"a slice of {shared.entry.size} bytes cannot be decoded ({UID(shared.compression).name})",
@@ -170,7 +170,7 @@ def _damaged(shared: Shared) -> InvalidInput:
     )
 
 
-def _truncated(shared: Shared, found: int = 0, needed: int = 0) -> InvalidInput:
+def _truncated(shared: FileAttributes, found: int = 0, needed: int = 0) -> InvalidInput:
     columns, rows = shared.size_wh_px
     numbers = f" ({found} bytes of pixels" + (f" of {needed})" if needed else ")") if found else ""
     return InvalidInput(

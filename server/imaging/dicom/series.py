@@ -1,4 +1,4 @@
-"""Which slices belong together, whose they are, and which series is the CT that was meant."""
+"""Grouping of slices into series, check for a single patient, and choice of the CT series."""
 
 import re
 from collections import Counter
@@ -8,8 +8,8 @@ from pydicom.uid import UID
 
 from server.imaging.container import Container, Entry
 from server.imaging.ct import Progress, SeriesDescription
-from server.imaging.dicom.frame import Frame, Owner, frames_of
-from server.imaging.dicom.header import BAD_DICOM, BROKEN, NotUsed, quietly, read_header
+from server.imaging.dicom.frame import Frame, PatientIdentity, frames_of
+from server.imaging.dicom.header import BAD_DICOM, BROKEN, UnusedFile, read_header, without_warnings
 from tracker.errors import InvalidInput
 
 # Fewer slices than this are a scout or a sample, where there is a series with more.
@@ -17,7 +17,7 @@ FEW_SLICES = 4
 GIVE_ONE = "Give the folder of one patient alone."
 
 
-def frames_by_series(container: Container, progress: Progress) -> dict[str, list[Frame]]:
+def group_frames_by_series(container: Container, progress: Progress) -> dict[str, list[Frame]]:
     """All slices that were found, by series; what takes no part is noted in the container.
 
     Raises:
@@ -25,10 +25,10 @@ def frames_by_series(container: Container, progress: Progress) -> dict[str, list
     """
     series: dict[str, list[Frame]] = {}
     for done, entry in enumerate(container.entries, start=1):
-        with quietly():
+        with without_warnings():
             header = read_header(entry)
-            frames = header if isinstance(header, NotUsed) else _frames(entry, header)
-        if isinstance(frames, NotUsed):
+            frames = header if isinstance(header, UnusedFile) else _frames(entry, header)
+        if isinstance(frames, UnusedFile):
             container.reasons[frames.reason] += 1
         else:
             series.setdefault(frames[0].shared.series, []).extend(frames)
@@ -52,11 +52,11 @@ def frames_by_series(container: Container, progress: Progress) -> dict[str, list
     return series
 
 
-def _frames(entry: Entry, header: Dataset) -> list[Frame] | NotUsed:
+def _frames(entry: Entry, header: Dataset) -> list[Frame] | UnusedFile:
     try:
         return frames_of(entry, header)
     except BAD_DICOM:
-        return NotUsed(reason=BROKEN)
+        return UnusedFile(reason=BROKEN)
 
 
 def _beforehand(container: Container) -> int:
@@ -70,13 +70,17 @@ def check_one_patient(frames: list[Frame], *, what: str) -> None:
     Raises:
         InvalidInput: CT_PATIENTS_MIXED.
     """
-    owners = {frame.shared.owner for frame in frames}
-    for field, told in (("identifier", "patient IDs"), ("name", "patient names"), ("born", "dates of birth")):
-        different = {getattr(owner, field) for owner in owners} - {""}
+    identities = {frame.shared.patient_identity for frame in frames}
+    for field, kind_of_value in (
+        ("identifier", "patient IDs"),
+        ("name", "patient names"),
+        ("born", "dates of birth"),
+    ):
+        different = {getattr(patient_identity, field) for patient_identity in identities} - {""}
         if len(different) > 1:
             raise InvalidInput(
                 "CT_PATIENTS_MIXED",
-                f"{what} holds images with {len(different)} different {told}, allowed 1",
+                f"{what} holds images with {len(different)} different {kind_of_value}, allowed 1",
                 GIVE_ONE,
                 {"patients": len(different), "images": len(frames)},
             )
@@ -84,12 +88,12 @@ def check_one_patient(frames: list[Frame], *, what: str) -> None:
 
 def describe(series: dict[str, list[Frame]]) -> tuple[SeriesDescription, ...]:
     """Every series that was found, by its number, without anything that names the patient."""
-    owners: list[Owner] = []
+    identities: list[PatientIdentity] = []
     described = []
     for identifier, frames in sorted(series.items(), key=lambda one: (one[1][0].shared.number, one[0])):
         first = frames[0].shared
-        if first.owner not in owners:
-            owners.append(first.owner)
+        if first.patient_identity not in identities:
+            identities.append(first.patient_identity)
         sizes = {frame.shared.size_wh_px for frame in frames}
         pixel = frames[0].pixel_mm
         described.append(
@@ -97,9 +101,9 @@ def describe(series: dict[str, list[Frame]]) -> tuple[SeriesDescription, ...]:
                 series=identifier,
                 kind="dicom",
                 modality=first.modality,
-                words=_without_names(first.words, [frame.shared.owner for frame in frames]),
+                words=_without_names(first.words, [frame.shared.patient_identity for frame in frames]),
                 number=first.number,
-                patient=owners.index(first.owner) + 1,
+                patient=identities.index(first.patient_identity) + 1,
                 images=len(frames),
                 size_wh_px=first.size_wh_px if len(sizes) == 1 else (0, 0),
                 pixel_mm=(pixel[1], pixel[0]) if pixel else (0.0, 0.0),
@@ -112,12 +116,12 @@ def describe(series: dict[str, list[Frame]]) -> tuple[SeriesDescription, ...]:
     return tuple(described)
 
 
-def _without_names(words: str, owners: list[Owner]) -> str:
+def _without_names(words: str, identities: list[PatientIdentity]) -> str:
     """The scanner's description, or nothing where somebody wrote who it is."""
     parts = {
         part
-        for owner in owners
-        for field in (owner.name, owner.identifier, owner.born)
+        for patient_identity in identities
+        for field in (patient_identity.name, patient_identity.identifier, patient_identity.born)
         for part in re.split(r"[\s,^]+", field)
         if len(part) >= 3
     }
@@ -135,22 +139,22 @@ def _problem(frames: list[Frame]) -> str:
     return ""
 
 
-def choose(series: dict[str, list[Frame]], asked: str | None) -> list[Frame]:
+def choose(series: dict[str, list[Frame]], requested: str | None) -> list[Frame]:
     """The slices of the series that was asked for, or of the only CT.
 
     Raises:
         InvalidInput: CT_SERIES_UNKNOWN, CT_NOT_CT, CT_SERIES_UNCLEAR.
     """
-    if asked is not None:
-        if asked not in series:
+    if requested is not None:
+        if requested not in series:
             raise InvalidInput(
                 "CT_SERIES_UNKNOWN",
                 f"none of the {len(series)} series has this identifier",
                 f"Give the identifier of one of them: {', '.join(sorted(series))}.",
                 {"series": sorted(series)},
             )
-        _check_modality(series[asked])
-        return series[asked]
+        _check_modality(series[requested])
+        return series[requested]
     found = [frames for frames in series.values() if frames[0].shared.modality == "CT" and len(frames) > 1]
     many = [frames for frames in found if len(frames) >= FEW_SLICES]
     if len(many or found) == 1:
@@ -177,10 +181,12 @@ def choose(series: dict[str, list[Frame]], asked: str | None) -> list[Frame]:
 def _check_modality(frames: list[Frame]) -> None:
     kinds = Counter(frame.shared.modality for frame in frames)
     if set(kinds) != {"CT"}:
-        told = ", ".join(f"{count} of {kind or 'unknown kind'}" for kind, count in kinds.most_common())
+        kind_of_value = ", ".join(
+            f"{count} of {kind or 'unknown kind'}" for kind, count in kinds.most_common()
+        )
         raise InvalidInput(
             "CT_NOT_CT",
-            f"the images are no CT: {told}",
+            f"the images are no CT: {kind_of_value}",
             "Give a CT; MR, PET and others have no Hounsfield units.",
             {"modalities": dict(kinds)},
         )

@@ -57,9 +57,9 @@ def read_message(stream: BinaryIO) -> tuple[dict[str, object], bytes] | None:
 
 def write_message(stream: BinaryIO, header: dict[str, object], content: bytes) -> None:
     """The counterpart of `read_message`."""
-    told = json.dumps(header).encode()
-    stream.write(LENGTHS.pack(len(told), len(content)))
-    stream.write(told)
+    encoded = json.dumps(header).encode()
+    stream.write(LENGTHS.pack(len(encoded), len(content)))
+    stream.write(encoded)
     stream.write(content)
     stream.flush()
 

@@ -1,4 +1,4 @@
-"""What a NIfTI file says of itself: its size, its place in the patient, and what its numbers mean."""
+"""NIfTI header: shape, affine, and scaling of the stored values."""
 
 import gzip
 import logging
@@ -16,7 +16,7 @@ from nibabel.spatialimages import HeaderDataError
 from nibabel.wrapstruct import WrapStructError
 
 from server.imaging.container import BAD_ARCHIVE, Entry
-from server.imaging.nifti.place import Placed, placed
+from server.imaging.nifti.affine import NiftiPlacement, placement_from_header
 from server.imaging.voxels import check_voxels
 from tracker.errors import InvalidInput
 
@@ -54,7 +54,7 @@ class NiftiHeader:
     offset: int
     slope: float
     intercept: float
-    place: Placed
+    place: NiftiPlacement
 
 
 def is_nifti(head: bytes) -> bool:
@@ -68,7 +68,7 @@ def is_nifti(head: bytes) -> bool:
 
 
 @contextmanager
-def unpacked(entry: Entry) -> Iterator[IO[bytes]]:
+def decompressed(entry: Entry) -> Iterator[IO[bytes]]:
     """The file's bytes from the beginning, unpacked on the way."""
     is_packed = entry.head()[:2] == b"\x1f\x8b"
     with entry.open() as file:
@@ -87,7 +87,7 @@ def read_nifti_header(entry: Entry) -> NiftiHeader:
             what `placed` raises.
     """
     try:
-        with unpacked(entry) as file:
+        with decompressed(entry) as file:
             start = file.read(540)
         header = (
             nib.Nifti2Header(start[:540]) if start[4:7] in {b"n+2", b"ni2"} else nib.Nifti1Header(start[:348])
@@ -107,7 +107,7 @@ def read_nifti_header(entry: Entry) -> NiftiHeader:
         )
     _check_shape(shape)
     _check_kind(stored)
-    place = placed(header, shape[:3])
+    place = placement_from_header(header, shape[:3])
     return NiftiHeader(
         shape_ijk=(shape[0], shape[1], shape[2]),
         stored=stored,

@@ -1,8 +1,8 @@
-"""The step in which a CT is sent, read and kept in the open case.
+"""The step in which a CT is uploaded, read and stored in the open case.
 
-A job reads the CT into its own folder, and the voxels are moved into the case when all are there. Both lie
-in one home, so nothing is copied, and a cancelled, killed or failed job leaves nothing behind. An upload
-that waits for a choice among several series does not outlast a restart.
+A job reads the CT into its own folder, and the voxels are moved into the case when they are complete. Both
+folders are on one file system, so nothing is copied, and a cancelled, killed or failed job leaves nothing
+behind. An upload that waits for the choice of a series is lost at a restart.
 """
 
 import secrets
@@ -15,29 +15,29 @@ from pathlib import Path
 
 from server.jobs import Job, Jobs
 from server.planning.ct import PREVIEW, VOXELS, read_upload
-from server.procedure.opened import opened_case
-from server.store import CaseStore, DocumentKind, told
+from server.procedure.open_case import require_open_case
+from server.store import CaseStore, DocumentKind, translate_errors
 from tracker.errors import NavigationError
 
 # A case has one CT; its document has this name.
 MAIN_CT = "main"
-# An upload that waits for somebody to choose a series.
-KEPT_S = 3600.0
-MAX_KEPT = 2
+# Limits for uploads that wait for the choice of a series.
+MAX_PENDING_S = 3600.0
+MAX_PENDING = 2
 UPLOAD = "upload"
 
 
 class UploadUnknown(NavigationError):
-    """There is no such upload, or not any more."""
+    """The upload does not exist, or was discarded."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ReadingBegun:
+class CtUpload:
     """An upload that is being read.
 
     Attributes:
-        upload_id: by which its first slice is asked for, and a series is chosen.
-        job: that reads it.
+        upload_id: identifier for the preview and for the choice of a series.
+        job: the job that reads it.
     """
 
     upload_id: str
@@ -46,24 +46,24 @@ class ReadingBegun:
 
 @dataclass(slots=True, kw_only=True)
 class _Upload:
-    """What was sent, until it is a CT of the case, or nobody wants it any more."""
+    """An upload, until it is stored as the CT of the case, or discarded."""
 
     id: str
     case_id: str
     made_by: str
     folder: Path
     working: Path
-    is_kept: bool
+    is_pending: bool
     began_s: float
     job_id: str = ""
 
 
 class CtStep:
-    """Takes a CT in; safe to use from any thread.
+    """Imports a CT. Thread-safe.
 
     Args:
-        store: where it is kept.
-        jobs: where it is read.
+        store: where it is stored.
+        jobs: runs the reading.
     """
 
     def __init__(self, *, store: CaseStore, jobs: Jobs) -> None:
@@ -73,28 +73,28 @@ class CtStep:
         self._uploads: dict[str, _Upload] = {}
 
     def reject_without_case(self) -> None:
-        """To be asked before much is sent.
+        """Raise if no case is open; called before a large upload.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN.
         """
-        opened_case(self._store)
+        require_open_case(self._store)
 
-    def receive(self, path: Path, *, made_by: str) -> ReadingBegun:
-        """Read what was sent, which is moved away from `path`, and keep it as the CT of the open case.
+    def receive(self, path: Path, *, made_by: str) -> CtUpload:
+        """Start a job that reads the upload at `path` (which is moved) as the CT of the open case.
 
-        Where there are several CT series, the job ends with the list of them, and the upload is kept for a
-        while, so that one can be chosen.
+        If the upload contains several CT series, the result of the job is the list of them, and the upload
+        is kept for up to `MAX_PENDING_S`, so that one can be chosen.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN.
             StoreError: STORE_FULL, STORE_READ_ONLY or STORE_FAILED.
         """
-        case = opened_case(self._store)
+        case = require_open_case(self._store)
         self._forget_old()
         upload_id = secrets.token_hex(8)
         folder = self._store.home.new_temporary(".ct")
-        with told(self._store.home.folder):
+        with translate_errors(self._store.home.folder):
             folder.mkdir()
             path.replace(folder / UPLOAD)
         upload = _Upload(
@@ -103,36 +103,36 @@ class CtStep:
             made_by=made_by,
             folder=folder,
             working=folder,
-            is_kept=False,
+            is_pending=False,
             began_s=time.monotonic(),
         )
         return self._read(upload, series=None)
 
-    def choose(self, upload_id: str, series: str) -> ReadingBegun:
-        """Read this series of an upload that was kept because it holds several.
+    def choose(self, upload_id: str, series: str) -> CtUpload:
+        """Start to read one series of an upload that contains several.
 
         Raises:
             UploadUnknown: UPLOAD_UNKNOWN.
             StoreError: STORE_FULL, STORE_READ_ONLY or STORE_FAILED.
         """
         upload = self._find(upload_id)
-        if not upload.is_kept:
+        if not upload.is_pending:
             raise _unknown(upload_id)
         upload.working = self._store.home.new_temporary(".ct")
-        with told(self._store.home.folder):
+        with translate_errors(self._store.home.folder):
             upload.working.mkdir()
         upload.began_s = time.monotonic()
         return self._read(upload, series=series)
 
     def preview(self, upload_id: str) -> Path:
-        """Where the first slice is, as a picture, as soon as it is read and until all are.
+        """Return the path of the preview image, which exists from the first slice until all are read.
 
         Raises:
             UploadUnknown: UPLOAD_UNKNOWN.
         """
         return self._find(upload_id).working / PREVIEW
 
-    def _read(self, upload: _Upload, *, series: str | None) -> ReadingBegun:
+    def _read(self, upload: _Upload, *, series: str | None) -> CtUpload:
         def keep(values: object) -> object:
             if not isinstance(values, Mapping):
                 raise TypeError(f"reading a CT gave {type(values).__name__}")
@@ -150,14 +150,14 @@ class CtStep:
             conclude=keep,
         )
         upload.job_id = job.id
-        return ReadingBegun(upload_id=upload.id, job=job)
+        return CtUpload(upload_id=upload.id, job=job)
 
     def _keep_upload(self, upload: _Upload, series: object) -> object:
-        """Out of the way of the job, which takes its folder with it."""
+        """Move the upload out of the job's folder, which is deleted with the job."""
         kept = self._store.home.new_temporary(".ct")
-        with told(self._store.home.folder):
+        with translate_errors(self._store.home.folder):
             upload.folder.replace(kept)
-        upload.folder, upload.is_kept = kept, True
+        upload.folder, upload.is_pending = kept, True
         return {"upload_id": upload.id, "series": series}
 
     def _keep_ct(self, upload: _Upload, content: Mapping[str, object]) -> object:
@@ -178,30 +178,30 @@ class CtStep:
     def _find(self, upload_id: str) -> _Upload:
         with self._lock:
             upload = self._uploads.get(upload_id)
-        if upload is None or not (upload.is_kept or upload.folder.exists()):
+        if upload is None or not (upload.is_pending or upload.folder.exists()):
             raise _unknown(upload_id)
         return upload
 
     def _forget(self, upload: _Upload) -> None:
         with self._lock:
             self._uploads.pop(upload.id, None)
-        if upload.is_kept:
+        if upload.is_pending:
             shutil.rmtree(upload.folder, ignore_errors=True)
 
     def _forget_old(self) -> None:
-        """Uploads whose time is over, those that are gone, and more than a few that wait."""
+        """Discard uploads that are too old, lost, or more than `MAX_PENDING`."""
         with self._lock:
             idle = [one for one in self._uploads.values() if not self._is_read(one)]
-        waiting = sorted((one for one in idle if one.is_kept), key=lambda one: -one.began_s)
+        waiting = sorted((one for one in idle if one.is_pending), key=lambda one: -one.began_s)
         now_s = time.monotonic()
         for upload in idle:
-            if upload not in waiting[: MAX_KEPT - 1] or now_s - upload.began_s > KEPT_S:
+            if upload not in waiting[: MAX_PENDING - 1] or now_s - upload.began_s > MAX_PENDING_S:
                 self._forget(upload)
 
     def _is_read(self, upload: _Upload) -> bool:
-        """Whether a job works on it just now."""
+        """Return whether a job is reading it."""
         return not upload.job_id or any(
-            job.id == upload.job_id and not job.state.is_over for job in self._jobs.list()
+            job.id == upload.job_id and not job.state.is_finished for job in self._jobs.list()
         )
 
 

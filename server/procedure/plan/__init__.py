@@ -1,22 +1,22 @@
 """The step in which channels and screws are planned on the CT of the open case."""
 
-from server.procedure.plan.active import ACTIVE_CHANNEL, ActiveChannel, kept_channel
-from server.procedure.plan.exchange import plan_in, plan_out
-from server.procedure.plan.kept import KeptPlan, PlanRepository
+from server.procedure.plan.active_channel import ACTIVE_CHANNEL, ActiveChannel, active_channel_from_document
+from server.procedure.plan.exchange import export_plan, import_plan
 from server.procedure.plan.picture import reference_picture, reference_slice
+from server.procedure.plan.repository import PlanRepository, StoredPlan
 from server.procedure.plan.step import Author, PlanStep, Proposal
 
 __all__ = [
     "ACTIVE_CHANNEL",
     "ActiveChannel",
     "Author",
-    "KeptPlan",
     "PlanRepository",
     "PlanStep",
     "Proposal",
-    "kept_channel",
-    "plan_in",
-    "plan_out",
+    "StoredPlan",
+    "active_channel_from_document",
+    "export_plan",
+    "import_plan",
     "reference_picture",
     "reference_slice",
 ]

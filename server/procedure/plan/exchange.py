@@ -1,8 +1,8 @@
-"""A plan as a file: written with who made it, when and on which CT, and read with distrust.
+"""Export and import of plans as files, with author, date and the checksum of their CT.
 
-What a person chose is read from the file; grades, clearances, bone, tolerances and lines are computed again
-on the CT of the case, which must be the one that the file names by the checksum of its voxels. A plan
-cannot be viewed without its CT.
+The import reads only what a person chose. Grades, clearances, bone, tolerances and lines are computed again
+on the CT of the case, which must be the CT that the file names by the checksum of its voxels. A plan cannot
+be viewed without its CT.
 """
 
 import json
@@ -11,8 +11,8 @@ from typing import NoReturn
 
 import numpy as np
 
-from server.procedure.ct import CtInUse
-from server.procedure.plan.kept import KeptPlan
+from server.procedure.ct import MappedCt
+from server.procedure.plan.repository import StoredPlan
 from tracker.errors import InvalidInput
 from tracker.plan import PlanDocument, plan_from_mapping, plan_to_mapping
 
@@ -20,14 +20,14 @@ FORMAT, FORMAT_VERSION = "coaxial plan", 1
 AGAIN = "Export the plan again from the program in which it was made."
 
 
-def plan_out(kept: KeptPlan, ct: CtInUse | None) -> dict[str, object]:
-    """The plan for a file, without anything of the case that names the patient.
+def export_plan(stored: StoredPlan, ct: MappedCt | None) -> dict[str, object]:
+    """Return the content of a plan file, without anything that identifies the patient.
 
     Args:
-        kept: the plan.
-        ct: that it stands on; None where that is not the case's CT any more.
+        stored: the plan.
+        ct: the CT that it depends on; None if the case has another CT now.
     """
-    document = kept.document
+    document = stored.document
     return {
         "format": FORMAT,
         "format_version": FORMAT_VERSION,
@@ -35,17 +35,17 @@ def plan_out(kept: KeptPlan, ct: CtInUse | None) -> dict[str, object]:
         "made_by": document.maker,
         "version": document.version,
         "ct": None if ct is None else _marks_of(ct),
-        "plan": plan_to_mapping(kept.plan),
+        "plan": plan_to_mapping(stored.plan),
     }
 
 
-def plan_in(content: bytes, ct: CtInUse, *, is_for_other_ct: bool = False) -> PlanDocument:
-    """The plan of a file, if it was made on this CT.
+def import_plan(content: bytes, ct: MappedCt, *, is_for_other_ct: bool = False) -> PlanDocument:
+    """Parse a plan file that was made on this CT.
 
     Args:
-        content: of the file.
-        ct: that it shall stand on.
-        is_for_other_ct: take a plan that was made on another CT; its author must look at it anew.
+        content: bytes of the file.
+        ct: the CT of the open case.
+        is_for_other_ct: also accept a plan that was made on another CT; it must be reviewed again.
 
     Raises:
         InvalidInput: PLAN_FILE_INVALID, PLAN_FILE_VERSION, PLAN_OF_ANOTHER_CT.
@@ -70,23 +70,23 @@ def plan_in(content: bytes, ct: CtInUse, *, is_for_other_ct: bool = False) -> Pl
     return plan_from_mapping(mapped.get("plan"))
 
 
-def _marks_of(ct: CtInUse) -> dict[str, object]:
-    """What a CT is known by: the sum of its voxels, and their place."""
+def _marks_of(ct: MappedCt) -> dict[str, object]:
+    """Return the fingerprint of a CT: checksum and placement of its voxels."""
     return {
         "voxels_sha256": ct.file.sha256,
         "lps_from_ijk": ct.document.content["lps_from_ijk"],
     }
 
 
-def _is_same(marks: object, ct: CtInUse) -> bool:
+def _is_same(marks: object, ct: MappedCt) -> bool:
     if not isinstance(marks, Mapping) or marks.get("voxels_sha256") != ct.file.sha256:
         return False
     try:
-        told = np.array(marks.get("lps_from_ijk"), dtype=np.float64)
+        reported = np.array(marks.get("lps_from_ijk"), dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
         return False
     own = np.array(ct.document.content["lps_from_ijk"], dtype=np.float64)
-    return told.shape == own.shape and bool(np.allclose(told, own, rtol=0.0, atol=1e-6))
+    return reported.shape == own.shape and bool(np.allclose(reported, own, rtol=0.0, atol=1e-6))
 
 
 def _parsed(content: bytes) -> Mapping[str, object]:

@@ -82,7 +82,7 @@ def _ends_px(one: Slice, line: SliceLine, zoom: Array) -> Array:
 
 
 def _draw(image: npt.NDArray[np.uint8], ends_px: Array, colour: tuple[int, int, int], thickness: int) -> None:
-    # Far beyond the picture OpenCV's numbers would run over.
+    # Clipped, because OpenCV's fixed-point coordinates would overflow.
     ends = np.rint(np.clip(ends_px, -20_000.0, 20_000.0) * 2**BITS).astype(int)
     start, end = ((int(x), int(y)) for x, y in ends)
     cv2.line(image, start, end, colour, thickness, cv2.LINE_AA, BITS)

@@ -9,8 +9,8 @@ import numpy as np
 from server.config import PlanConfig
 from server.jobs import Job, Jobs
 from server.planning.pedicle import measure_in_ct
-from server.procedure.ct import OpenedCt
-from server.procedure.plan.kept import KeptPlan, PlanRepository
+from server.procedure.ct import CtProvider
+from server.procedure.plan.repository import PlanRepository, StoredPlan
 from server.store import CaseStore
 from tracker.errors import PlanError
 from tracker.plan import (
@@ -24,7 +24,7 @@ from tracker.plan import (
     propose_screw,
     propose_slice,
 )
-from tracker.plan.document import changes, measure_from_mapping, reject_odd
+from tracker.plan.document import changes, measure_from_mapping, validate_plan
 from tracker.plan.pedicle import Side
 from tracker.plan.slices import reach_mm
 
@@ -64,17 +64,17 @@ class PlanStep:
         config: catalogue and margins.
     """
 
-    def __init__(self, *, store: CaseStore, jobs: Jobs, opened: OpenedCt, config: PlanConfig) -> None:
-        self.repository = PlanRepository(store, opened)
+    def __init__(self, *, store: CaseStore, jobs: Jobs, ct_provider: CtProvider, config: PlanConfig) -> None:
+        self.repository = PlanRepository(store, ct_provider)
         self._jobs = jobs
-        self._opened = opened
+        self._ct_provider = ct_provider
         self._front_margin_mm = config.front_margin_mm
         self._wall_margin_mm = config.wall_margin_mm
         self.catalogue = ScrewCatalogue(
             diameters_mm=tuple(config.screw_diameters_mm), lengths_mm=tuple(config.screw_lengths_mm)
         )
 
-    def replace(self, plan: PlanDocument, by: Author) -> KeptPlan:
+    def replace(self, plan: PlanDocument, by: Author) -> StoredPlan:
         """Store a whole plan, on the CT that is there now; what follows from its numbers is made anew.
 
         Raises:
@@ -82,16 +82,16 @@ class PlanStep:
             StoreConflict: VERSION_CONFLICT.
             PlanError: what cannot be a plan on this CT.
         """
-        reject_odd(plan)
-        ct = self._opened.current()
-        whole = changes.settled(plan, volume=ct.volume)
+        validate_plan(plan)
+        ct = self._ct_provider.current()
+        whole = changes.recomputed(plan, volume=ct.volume)
         return self.repository.put(whole, ct, made_by=by.made_by, expected_version=by.expected_version)
 
-    def add_vertebra(self, name: str, by: Author) -> KeptPlan:
+    def add_vertebra(self, name: str, by: Author) -> StoredPlan:
         """One vertebra more; PlanError PLAN_INVALID if there is one of this name."""
         return self._change(by, lambda plan, _: _rejected_odd(changes.with_vertebra(plan, name)))
 
-    def remove_vertebra(self, name: str, by: Author) -> KeptPlan:
+    def remove_vertebra(self, name: str, by: Author) -> StoredPlan:
         """One vertebra less; PlanError VERTEBRA_UNKNOWN."""
         return self._change(by, lambda plan, _: changes.without_vertebra(plan, name))
 
@@ -103,7 +103,7 @@ class PlanStep:
             OutOfDateError: PLAN_OUT_OF_DATE.
             PlanError: VERTEBRA_UNKNOWN.
         """
-        plan, _, ct = self.repository.to_change()
+        plan, _, ct = self.repository.for_editing()
         changes.vertebra_named(plan, name)
         measured_on = ct.document.id
 
@@ -111,7 +111,7 @@ class PlanStep:
             measure = measure_from_mapping(values)
 
             def put(now: PlanDocument, volume: Volume) -> PlanDocument:
-                if self._opened.current().document.id != measured_on:
+                if self._ct_provider.current().document.id != measured_on:
                     raise PlanError(
                         "CT_CHANGED",
                         "the CT was replaced while the pedicle was measured; nothing was kept",
@@ -121,8 +121,8 @@ class PlanStep:
                     now, name, measure, volume=volume, front_margin_mm=self._front_margin_mm
                 )
 
-            kept = self._change(by, put)
-            return {"version": kept.document.version, "vertebra": name, "side": side, "pedicle": values}
+            stored = self._change(by, put)
+            return {"version": stored.document.version, "vertebra": name, "side": side, "pedicle": values}
 
         return self._jobs.start(
             f"measuring the {side} pedicle",
@@ -136,7 +136,7 @@ class PlanStep:
             conclude=keep,
         )
 
-    def correct(self, name: str, side: Side, corrected: Mapping[str, float], by: Author) -> KeptPlan:
+    def correct(self, name: str, side: Side, corrected: Mapping[str, float], by: Author) -> StoredPlan:
         """These numbers in place of the measured ones, which are kept; none takes the corrections back."""
         return self._change(
             by,
@@ -147,7 +147,7 @@ class PlanStep:
 
     def lay_channel(
         self, name: str, side: Side, ends: tuple[Sequence[float], Sequence[float], float] | None, by: Author
-    ) -> KeptPlan:
+    ) -> StoredPlan:
         """The channel of the measured pedicle, or one by hand: entry and target in LPS mm, diameter in mm."""
         channel: Channel | None = None
         if ends is not None:
@@ -166,7 +166,7 @@ class PlanStep:
             ),
         )
 
-    def remove_channel(self, name: str, side: Side, by: Author) -> KeptPlan:
+    def remove_channel(self, name: str, side: Side, by: Author) -> StoredPlan:
         """No channel on this side; PlanError CHANNEL_MISSING."""
         return self._change(by, lambda plan, volume: changes.without_channel(plan, name, side, volume=volume))
 
@@ -181,7 +181,7 @@ class PlanStep:
 
     def choose_screw(
         self, name: str, side: Side, size_mm: tuple[float, float] | None, by: Author
-    ) -> KeptPlan:
+    ) -> StoredPlan:
         """A screw of the catalogue in this channel; the proposed one if no size is given.
 
         Raises:
@@ -196,7 +196,7 @@ class PlanStep:
             ),
         )
 
-    def remove_screw(self, name: str, side: Side, by: Author) -> KeptPlan:
+    def remove_screw(self, name: str, side: Side, by: Author) -> StoredPlan:
         """No screw in this channel; PlanError CHANNEL_MISSING."""
         return self._change(
             by, lambda plan, volume: changes.with_screw(plan, name, side, None, volume=volume)
@@ -204,7 +204,7 @@ class PlanStep:
 
     def propose_slice(self, name: str) -> Proposal:
         """The slice nearest to the isthmuses of a vertebra; PlanError NO_PEDICLE_MEASURED."""
-        volume = self._opened.current().volume
+        volume = self._ct_provider.current().volume
         vertebra = changes.vertebra_named(self.repository.latest().plan, name)
         measures = [record.used for record in vertebra.pedicles]
         index = propose_slice(volume, measures)
@@ -225,7 +225,7 @@ class PlanStep:
         middle_lps_mm: Sequence[float] | None,
         apart_mm: float,
         by: Author,
-    ) -> KeptPlan:
+    ) -> StoredPlan:
         """The slice that stands for a vertebra, with its lines; what is not given is as proposed.
 
         Raises:
@@ -246,14 +246,14 @@ class PlanStep:
 
         return self._change(by, change)
 
-    def set_landmarks(self, name: str, landmarks: Sequence[Landmark], by: Author) -> KeptPlan:
+    def set_landmarks(self, name: str, landmarks: Sequence[Landmark], by: Author) -> StoredPlan:
         """These landmarks in place of the old ones; PlanError LANDMARK_TWICE or LANDMARK_OUTSIDE_CT."""
         return self._change(
             by,
             lambda plan, volume: _rejected_odd(changes.with_landmarks(plan, name, landmarks, volume=volume)),
         )
 
-    def _change(self, by: Author, change: Change) -> KeptPlan:
+    def _change(self, by: Author, change: Change) -> StoredPlan:
         return self.repository.change(
             by.made_by, by.expected_version, lambda plan, ct: change(plan, ct.volume)
         )
@@ -274,16 +274,16 @@ class PlanStep:
             raise PlanError(
                 "SCREW_NOT_IN_CATALOGUE",
                 f"there is no screw of {size_mm[0]:g} x {size_mm[1]:g} mm in the catalogue",
-                f"Choose a diameter of {_told(catalogue.diameters_mm)} and a length of "
-                f"{_told(catalogue.lengths_mm)} mm, or add yours under plan in the config.",
+                f"Choose a diameter of {_reported(catalogue.diameters_mm)} and a length of "
+                f"{_reported(catalogue.lengths_mm)} mm, or add yours under plan in the config.",
                 {"diameter_mm": size_mm[0], "length_mm": size_mm[1]},
             )
 
 
 def _rejected_odd(plan: PlanDocument) -> PlanDocument:
-    reject_odd(plan)
+    validate_plan(plan)
     return plan
 
 
-def _told(numbers: Sequence[float]) -> str:
+def _reported(numbers: Sequence[float]) -> str:
     return ", ".join(f"{number:g}" for number in numbers)

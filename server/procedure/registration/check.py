@@ -1,15 +1,15 @@
-"""The check on anatomy: the tip on a landmark that was not used decides whether anybody may navigate."""
+"""The check on anatomy: the tip on a landmark that was not used for the registration verifies it."""
 
 from dataclasses import dataclass
 
 from server.config import RegistrationConfig
 from server.live import LiveHub
-from server.procedure.held import Held
-from server.procedure.registered import KeptCheck, check_name
-from server.procedure.registration.gates import capture_settings
-from server.procedure.registration.ground import Ground, GroundFinder
-from server.procedure.registration.repository import RegistrationRepository, ShelvedRegistration
-from server.procedure.registration.touching import Touch, TouchStatus
+from server.procedure.active_collection import ActiveCollection
+from server.procedure.registration.capture_settings import capture_settings
+from server.procedure.registration.context import RegistrationContext, RegistrationContextFinder
+from server.procedure.registration.landmark_capture import CaptureStatus, LandmarkCapture
+from server.procedure.registration.repository import RegistrationRepository, StoredRegistration
+from server.procedure.registration_record import CheckRecord, check_name
 from server.procedure.state import Procedure, StepName
 from server.store import CaseStore, Document, DocumentKind, OutOfDateError
 from tracker.errors import RegistrationError
@@ -20,58 +20,58 @@ from tracker.registration.check import LandmarkCheck, check_landmark
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CheckStatus:
-    """How far a check has come.
+    """Progress of a check.
 
     Attributes:
-        vertebra: that is checked.
-        tool: that touches.
-        capture: of the tip on the landmark.
-        max_mm: how far the tip may be from where the plan has the landmark.
-        max_spread_mm: standard deviation that the tip may have while it is held there.
-        outcome: what the case would keep; None until the tip was captured.
+        vertebra: the checked vertebra.
+        tool: tool whose tip is on the landmark.
+        capture: capture of the tip on the landmark.
+        max_mm: maximum distance between the tip and the planned landmark.
+        max_spread_mm: maximum standard deviation of the tip during the capture.
+        outcome: the record to store; None until the tip is captured.
     """
 
     vertebra: str
     tool: str
-    capture: TouchStatus
+    capture: CaptureStatus
     max_mm: float
     max_spread_mm: float
-    outcome: KeptCheck | None
+    outcome: CheckRecord | None
 
 
 class CheckSession:
-    """One landmark touched to check one registration; may be asked from any thread."""
+    """Check of one registration on one landmark. Thread-safe."""
 
     def __init__(
         self,
         hub: LiveHub,
         *,
-        ground: Ground,
+        context: RegistrationContext,
         landmark: str,
-        shelved: ShelvedRegistration,
+        stored: StoredRegistration,
         gate: RegistrationConfig,
         run: str,
     ) -> None:
-        self.ground = ground
-        self.shelved = shelved
-        self._landmark = ground.landmark(landmark)
+        self.context = context
+        self.stored = stored
+        self._landmark = context.landmark(landmark)
         self._gate = gate
         self._run = run
-        self._touch = Touch(
+        self._capture = LandmarkCapture(
             hub,
             landmark=landmark,
-            tool=ground.tool,
-            reference=shelved.kept.reference,
+            tool=context.tool,
+            reference=stored.record.reference,
             gate=capture_settings(gate),
         )
 
     @property
     def status(self) -> CheckStatus:
-        """How far it has come."""
-        capture = self._touch.status
+        """Progress of the check."""
+        capture = self._capture.status
         return CheckStatus(
-            vertebra=self.ground.vertebra.name,
-            tool=self.ground.tool,
+            vertebra=self.context.vertebra.name,
+            tool=self.context.tool,
             capture=capture,
             max_mm=self._gate.max_check_mm,
             max_spread_mm=self._gate.max_capture_sd_mm,
@@ -80,46 +80,46 @@ class CheckSession:
 
     def stop(self) -> None:
         """Look no more."""
-        self._touch.stop()
+        self._capture.stop()
 
-    def _outcome(self, capture: TouchStatus, touched: CapturedLandmark) -> KeptCheck:
-        held = self._held_against(touched)
-        return KeptCheck(
-            vertebra=self.ground.vertebra.name,
+    def _outcome(self, capture: CaptureStatus, touched: CapturedLandmark) -> CheckRecord:
+        result = self._measure(touched)
+        return CheckRecord(
+            vertebra=self.context.vertebra.name,
             landmark=capture.landmark,
-            tool=self.ground.tool,
-            distance_mm=held.distance_mm,
-            max_mm=held.max_mm,
-            passed=held.passed,
+            tool=self.context.tool,
+            distance_mm=result.distance_mm,
+            max_mm=result.max_mm,
+            passed=result.passed,
             run=self._run,
             from_s=capture.from_s or 0.0,
-            off_lps_mm=held.off_mm.tolist(),
-            sd_mm=held.sd_mm,
+            off_lps_mm=result.off_mm.tolist(),
+            sd_mm=result.sd_mm,
             images=touched.images,
         )
 
-    def _held_against(self, touched: CapturedLandmark) -> LandmarkCheck:
+    def _measure(self, touched: CapturedLandmark) -> LandmarkCheck:
         return check_landmark(
-            self.shelved.kept.registration,
+            self.stored.record.registration,
             self._landmark.name,
             self._landmark.point_lps_mm,
             touched.tip_in_anchor_mm,
-            used_mm=used_mm(self.shelved),
+            used_mm=used_mm(self.stored),
             tip_covariance_mm2=touched.covariance_mm2,
             max_mm=self._gate.max_check_mm,
         )
 
 
 class CheckStep:
-    """Checks registrations on anatomy; one check at a time. Safe to use from any thread.
+    """Checks registrations on anatomy; one check at a time. Thread-safe.
 
     Args:
         hub: the live images.
-        store: where checks are kept.
-        grounds: what a registration is made on.
-        shelf: where registrations are kept.
-        procedure: what may follow what.
-        gate: what a check must reach.
+        store: where checks are stored.
+        contexts: finds the context of a registration.
+        repository: where registrations are stored.
+        procedure: state of the procedure.
+        gate: acceptance limits.
     """
 
     def __init__(
@@ -127,23 +127,23 @@ class CheckStep:
         *,
         hub: LiveHub,
         store: CaseStore,
-        grounds: GroundFinder,
+        contexts: RegistrationContextFinder,
         repository: RegistrationRepository,
         procedure: Procedure,
         gate: RegistrationConfig,
     ) -> None:
         self._hub = hub
         self._store = store
-        self._grounds = grounds
+        self._contexts = contexts
         self._repository = repository
         self._procedure = procedure
         self._gate = gate
-        self._held: Held[CheckSession] = Held(
+        self._active: ActiveCollection[CheckSession] = ActiveCollection(
             "check is", remedy="Begin the check, and say on which landmark."
         )
 
     def begin(self, landmark: str, *, tool: str) -> CheckSession:
-        """Look for the tip at rest on this landmark of the vertebra that is to be drilled.
+        """Start to capture the tip on this landmark of the active vertebra.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, or what it waits for.
@@ -151,15 +151,15 @@ class CheckStep:
             InvalidInput: TOOL_UNKNOWN.
             RegistrationError: LANDMARK_WAS_USED.
         """
-        ground = self._grounds.find(vertebra=None, tool=tool, step=StepName.CHECK)
-        shelved = self._repository.current(ground.vertebra.name)
-        _reject_used(shelved, ground.landmark(landmark))
-        return self._held.begin(
+        context = self._contexts.find(vertebra=None, tool=tool, step=StepName.CHECK)
+        stored = self._repository.current(context.vertebra.name)
+        _reject_used(stored, context.landmark(landmark))
+        return self._active.begin(
             lambda: CheckSession(
                 self._hub,
-                ground=ground,
+                context=context,
                 landmark=landmark,
-                shelved=shelved,
+                stored=stored,
                 gate=self._gate,
                 run=self._procedure.run,
             )
@@ -167,29 +167,29 @@ class CheckStep:
 
     @property
     def session(self) -> CheckSession:
-        """The check that runs.
+        """The active check.
 
         Raises:
             SetupOrderError: COLLECTION_MISSING.
         """
-        return self._held.get()
+        return self._active.get()
 
     @property
     def running(self) -> bool:
         """Whether a check was begun."""
-        return self._held.is_there
+        return self._active.is_active
 
     def end(self) -> None:
         """Look no more."""
-        self._held.end()
+        self._active.end()
 
     def conclude(self, *, made_by: str) -> Document:
-        """Keep the check, passed or failed; the session ends.
+        """Store the check, passed or failed, and end the session.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, COLLECTION_MISSING.
-            OutOfDateError: REGISTRATION_CHANGED, it is not the registration any more that was checked.
-            RegistrationError: CHECK_NOT_CAPTURED, or why its capture was refused.
+            OutOfDateError: REGISTRATION_CHANGED, the checked registration is not the newest any more.
+            RegistrationError: CHECK_NOT_CAPTURED, or why the capture was rejected.
         """
         session = self.session
         status = session.status
@@ -199,26 +199,26 @@ class CheckStep:
                 raise RegistrationError(problem.code, problem.message, problem.remedy, problem.context)
             raise _not_captured(status.capture)
         document = self._repository.current(status.vertebra).document
-        if document.id != session.shelved.document.id:
+        if document.id != session.stored.document.id:
             raise OutOfDateError(
                 "REGISTRATION_CHANGED",
-                f"{session.shelved.document.title} was checked, and now there is version {document.version}",
+                f"{session.stored.document.title} was checked, and now there is version {document.version}",
                 "Check the registration that holds now.",
-                {"checked_version": session.shelved.document.version, "version": document.version},
+                {"checked_version": session.stored.document.version, "version": document.version},
             )
-        kept = self._store.put(
+        record = self._store.put(
             document.case_id,
             DocumentKind.CHECK,
             check_name(status.vertebra),
             status.outcome.model_dump(mode="json"),
             made_by=made_by,
-            stands_on=[document.id],
+            depends_on=[document.id],
         )
         self.end()
-        return kept
+        return record
 
 
-def _not_captured(capture: TouchStatus) -> RegistrationError:
+def _not_captured(capture: CaptureStatus) -> RegistrationError:
     at_rate, how_long = "", ""
     if capture.rate_hz is not None and capture.left_s is not None:
         at_rate = f" at {capture.rate_hz:.1f} images/s"
@@ -231,9 +231,9 @@ def _not_captured(capture: TouchStatus) -> RegistrationError:
     )
 
 
-def used_mm(shelved: ShelvedRegistration) -> dict[str, list[float]]:
-    """The landmarks on the CT that a registration was fitted to, by name."""
-    points = shelved.kept.made_from.get("points")
+def used_mm(stored: StoredRegistration) -> dict[str, list[float]]:
+    """Return the landmarks (LPS mm, by name) that a registration was fitted to."""
+    points = stored.record.made_from.get("points")
     return {
         str(one["landmark"]): [float(mm) for mm in one["point_lps_mm"]]
         for one in (points if isinstance(points, list) else [])
@@ -241,13 +241,13 @@ def used_mm(shelved: ShelvedRegistration) -> dict[str, list[float]]:
     }
 
 
-def _reject_used(shelved: ShelvedRegistration, landmark: Landmark) -> None:
-    """Before the tip is held on it: as if it were found exactly where it belongs."""
-    registration = shelved.kept.registration
+def _reject_used(stored: StoredRegistration, landmark: Landmark) -> None:
+    """Reject a landmark that was used, before its capture: checked as if the tip were exactly on it."""
+    registration = stored.record.registration
     check_landmark(
         registration,
         landmark.name,
         landmark.point_lps_mm,
         registration.anchor_from_vertebra.move_points(landmark.point_lps_mm),
-        used_mm=used_mm(shelved),
+        used_mm=used_mm(stored),
     )

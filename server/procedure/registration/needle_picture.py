@@ -1,11 +1,11 @@
-"""The reference slice, translucent over the live picture, with the lines on which the needles shall lie."""
+"""Overlay of the translucent reference slice and the planned needle lines on the live image."""
 
 import cv2
 import numpy as np
 import numpy.typing as npt
 
 from server.procedure.plan import reference_slice
-from server.procedure.registration.needle_records import LaidSlice
+from server.procedure.registration.needle_records import PlacedSlice
 from tracker.geometry import Array
 from tracker.plan import Volume
 from tracker.plan.slices import Window, shown
@@ -17,45 +17,45 @@ LINE = (80, 220, 255)
 BITS = 4
 
 
-def overlay_picture(laid: LaidSlice, volume: Volume | None, window: Window) -> npt.NDArray[np.uint8]:
-    """The picture (h, w, 3) in BGR.
+def overlay_picture(placed: PlacedSlice, volume: Volume | None, window: Window) -> npt.NDArray[np.uint8]:
+    """Render the overlay, (h, w, 3) BGR.
 
     Args:
-        laid: where the slice lies, and on what.
-        volume: the CT that it is cut from; None draws the lines alone.
-        window: what of it is shown in grey.
+        placed: the slice with its pose and image.
+        volume: the CT of the slice; None draws the lines only.
+        window: the grey-value window.
     """
-    image = laid.scene.image.copy()
-    reference = laid.scene.reference
+    image = placed.scene.image.copy()
+    reference = placed.scene.reference
     if volume is not None and reference is not None:
-        homography = image_from_slice(laid.camera_from_vertebra, reference, laid.scene.camera)
+        homography = image_from_slice(placed.camera_from_vertebra, reference, placed.scene.camera)
         grey = np.asarray(shown(volume.hu[reference.slice_index], window), dtype=np.uint8)
         size = image.shape[1], image.shape[0]
         slice_there = cv2.warpPerspective(cv2.cvtColor(grey, cv2.COLOR_GRAY2BGR), homography, size)
         share = cv2.warpPerspective(
-            np.full(grey.shape, laid.overlay.fade_ratio, np.float32), homography, size
+            np.full(grey.shape, placed.overlay.fade_ratio, np.float32), homography, size
         )
         mixed = image + share[..., None] * (slice_there.astype(np.float32) - image)
         image = np.clip(np.rint(mixed), 0, 255).astype(np.uint8)
-    for line in laid.lines_px:
-        # Far beyond the picture OpenCV's numbers would run over.
+    for line in placed.lines_px:
+        # Clipped, because OpenCV's fixed-point coordinates would overflow.
         points = np.rint(np.clip(line, -20_000.0, 20_000.0) * 2**BITS).astype(np.int32)
         cv2.polylines(image, [points], False, LINE, 2, cv2.LINE_AA, BITS)
     return np.asarray(image, dtype=np.uint8)
 
 
-def slice_in_image(laid: LaidSlice, volume: Volume) -> tuple[tuple[int, int], Array] | None:
+def slice_in_image(placed: PlacedSlice, volume: Volume) -> tuple[tuple[int, int], Array] | None:
     """How large the plan's picture of the slice is, in pixels of the CT, and how it lies over the image.
 
     Returns:
         (width, height), and the homography (3, 3) from its pixels, whose centres are whole numbers, to the
         image's; None where needles stand on landmarks, not on a slice's lines.
     """
-    reference = laid.scene.reference
+    reference = placed.scene.reference
     if reference is None:
         return None
-    one = reference_slice(laid.scene.ground.vertebra, volume)
-    homography = image_from_slice(laid.camera_from_vertebra, reference, laid.scene.camera)
+    one = reference_slice(placed.scene.context.vertebra, volume)
+    homography = image_from_slice(placed.camera_from_vertebra, reference, placed.scene.camera)
     # The plan's picture shows the patient's left to the right, whichever way the scanner counted.
     corners_px = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     corners_lps = np.column_stack([corners_px, np.ones(3)]) @ one.lps_from_px.T

@@ -1,86 +1,86 @@
-"""What a registration by needles is asked, what it looks at, and what it lays over the image."""
+"""Records of the needle registration: request, scene, and the slice placed over the image."""
 
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from server.procedure.registration.ground import Ground
+from server.procedure.registration.context import RegistrationContext
 from tracker.camera import CameraModel
 from tracker.geometry import Array, Camera, Rigid, Vertebra
 from tracker.navigation import NavigationSnapshot
 from tracker.plan import ReferenceSlice
 from tracker.registration.needles import (
-    MeasuredView,
     NeedleFit,
-    NeedlePlace,
-    NeedleSeen,
+    NeedleObservation,
     OverlayResidual,
+    PlannedNeedle,
+    RulerMeasurement,
     SliceOverlay,
     TouchedPoint,
-    View,
-    view_from_ruler,
+    ViewPrior,
+    view_prior_from_ruler,
 )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class NeedleOrder:
-    """What the needles are, and what a ruler tells of the camera.
+class NeedleRequest:
+    """The needles, and the camera position measured with a ruler.
 
     Attributes:
-        vertebra: its name in the plan; the one that is to be drilled if None.
-        landmarks: where the needles go in; none takes the three lines of the reference slice.
-        measured: tilt and distance of the camera.
-        radius_mm: of the needles' wire.
+        vertebra: its name in the plan; that of the active channel if None.
+        landmarks: landmarks at which the needles enter; empty for the three lines of the reference slice.
+        measured: measured tilt and distance of the camera.
+        radius_mm: radius of the needles.
     """
 
     vertebra: str | None
     landmarks: tuple[str, ...]
-    measured: MeasuredView
+    measured: RulerMeasurement
     radius_mm: float = 0.8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NeedleScene:
-    """One image, and the needles that are planned to be in it.
+    """One image with the planned needles.
 
     Attributes:
-        ground: what the registration stands on.
-        places: of the needles.
-        reference: the slice with its lines; None where the needles stand on landmarks.
-        camera: calibrated.
-        image: (h, w, 3) BGR, as the camera gave it.
-        snapshot: what the image says.
-        measured: tilt and distance of the camera.
-        touched: landmarks that the tool's tip was held on, before the camera.
+        context: context of the registration.
+        places: planned positions of the needles.
+        reference: the reference slice with its lines; None if the needles are at landmarks.
+        camera: the calibrated camera.
+        image: (h, w, 3) BGR, as captured.
+        snapshot: navigation result of the image.
+        measured: measured tilt and distance of the camera.
+        touched: landmarks captured with the tool tip, in the camera frame.
     """
 
-    ground: Ground
-    places: tuple[NeedlePlace, ...]
+    context: RegistrationContext
+    places: tuple[PlannedNeedle, ...]
     reference: ReferenceSlice | None
     camera: CameraModel
     image: npt.NDArray[np.uint8]
     snapshot: NavigationSnapshot
-    measured: MeasuredView
+    measured: RulerMeasurement
     touched: tuple[TouchedPoint, ...]
 
-    def view(self, at_px: npt.ArrayLike | None = None) -> View:
-        """Tilt and distance for needles that are seen here (2,), by default in the middle."""
+    def view(self, at_px: npt.ArrayLike | None = None) -> ViewPrior:
+        """Return the view for needles at this image position (2,), by default the image centre."""
         middle = 0.5 * np.array(self.camera.size_wh_px) if at_px is None else at_px
-        return view_from_ruler(self.measured, self.camera, middle, touched=self.touched)
+        return view_prior_from_ruler(self.measured, self.camera, middle, touched=self.touched)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LaidSlice:
-    """The slice as it lies over the image.
+class PlacedSlice:
+    """The reference slice placed over the image.
 
     Attributes:
-        scene: what it lies over.
-        overlay: where it lies.
-        camera_from_vertebra: the pose that it stands for.
-        lines_px: (needles, points, 2) where the needles' lines run.
-        residuals: how each needle that was marked lies beside its line.
-        fit: of the needles to the plan; None where it was only laid.
+        scene: the image with the planned needles.
+        overlay: position of the slice in the image.
+        camera_from_vertebra: the corresponding pose.
+        lines_px: (needles, points, 2) projected needle lines.
+        residuals: residual of each marked needle to its line.
+        fit: fit of the needles to the plan; None if the slice was only placed.
     """
 
     scene: NeedleScene
@@ -93,16 +93,16 @@ class LaidSlice:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ProposedSlice:
-    """One likely way of naming the needles that were found, for a person to pick.
+    """One likely assignment of the detected needles to the planned ones, for a person to choose.
 
     Attributes:
-        laid: the fit, if this is which needle is which.
-        found: the needles in the image, in the plan's order.
-        probability_ratio: 0..1, how likely this one is among those that are proposed.
-        lead: by how much the likeliest other one is worse, as a difference of chi squared.
+        placed: the fit with this assignment.
+        found: the detected needles, in the order of the plan.
+        probability_ratio: probability 0..1 among the proposals.
+        delta_chi2: chi-squared difference to the best other assignment.
     """
 
-    laid: LaidSlice
-    found: tuple[NeedleSeen, ...]
+    placed: PlacedSlice
+    found: tuple[NeedleObservation, ...]
     probability_ratio: float
-    lead: float
+    delta_chi2: float

@@ -1,4 +1,7 @@
-"""The step in which plan and patient are registered by three needles in the live image, as in the paper."""
+"""The needle registration step: plan and patient are registered by three needles in the live image.
+
+The method is that of the paper.
+"""
 
 from collections.abc import Sequence
 
@@ -6,28 +9,33 @@ import numpy as np
 
 from server.errors import CaptureError
 from server.live import LiveHub
-from server.procedure.registered import Value
-from server.procedure.registration.ground import Ground, GroundFinder
-from server.procedure.registration.needle_records import LaidSlice, NeedleOrder, NeedleScene, ProposedSlice
+from server.procedure.registration.context import RegistrationContext, RegistrationContextFinder
+from server.procedure.registration.needle_records import (
+    NeedleRequest,
+    NeedleScene,
+    PlacedSlice,
+    ProposedSlice,
+)
 from server.procedure.registration.repository import RegistrationRepository
+from server.procedure.registration_record import Value
 from server.store import Document
 from tracker.errors import CalibrationError, InvalidInput, PlanError, RegistrationError
 from tracker.geometry import Camera, Rigid, Vertebra
 from tracker.plan import ReferenceSlice
 from tracker.pose import Seen
-from tracker.registration.anchoring import fixed_to_reference
+from tracker.registration.anchoring import anchor_to_reference
 from tracker.registration.needles import (
     NeedleFit,
-    NeedleSeen,
+    NeedleObservation,
     SliceOverlay,
     TouchedPoint,
     first_overlay,
-    needles_under,
+    needles_from_overlay,
     overlay_lines_px,
     overlay_of_pose,
     overlay_residuals,
-    places_at_landmarks,
-    places_on_lines,
+    planned_at_landmarks,
+    planned_on_lines,
     pose_of_overlay,
     propose_needles,
     refine_marked,
@@ -36,21 +44,23 @@ from tracker.registration.needles import (
 
 
 class NeedleStep:
-    """Registers by needles in the newest image. Safe to use from any thread; holds nothing.
+    """Registers by needles in the newest image. Stateless and thread-safe.
 
     Args:
         hub: the live images.
-        grounds: what a registration is made on.
-        shelf: where it is kept.
+        contexts: finds the context of the registration.
+        repository: where it is stored.
     """
 
-    def __init__(self, *, hub: LiveHub, grounds: GroundFinder, repository: RegistrationRepository) -> None:
+    def __init__(
+        self, *, hub: LiveHub, contexts: RegistrationContextFinder, repository: RegistrationRepository
+    ) -> None:
         self._hub = hub
-        self._grounds = grounds
+        self._contexts = contexts
         self._repository = repository
 
-    def scene(self, order: NeedleOrder, touched: tuple[TouchedPoint, ...] = ()) -> NeedleScene:
-        """The newest image with the needles that are planned to be in it.
+    def scene(self, order: NeedleRequest, touched: tuple[TouchedPoint, ...] = ()) -> NeedleScene:
+        """Return the newest image with the planned needles.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, or what registration waits for.
@@ -58,7 +68,7 @@ class NeedleStep:
             CaptureError: NO_PICTURE.
             CalibrationError: CAMERA_NOT_CALIBRATED.
         """
-        ground = self._grounds.find(vertebra=order.vertebra, tool=None)
+        context = self._contexts.find(vertebra=order.vertebra, tool=None)
         newest = self._hub.newest
         if newest is None or newest.image is None or newest.snapshot is None:
             raise CaptureError(
@@ -70,17 +80,17 @@ class NeedleStep:
         if not setup.camera_calibrated:
             raise CalibrationError(
                 "CAMERA_NOT_CALIBRATED",
-                "the camera is not calibrated, so the needles say nothing in millimetres",
+                "the camera is not calibrated, so needles cannot be measured in millimetres",
                 "Calibrate the camera first, or name its file as camera.calibration.",
             )
-        reference = None if order.landmarks else _reference(ground)
+        reference = None if order.landmarks else _reference(context)
         places = (
-            places_at_landmarks([ground.landmark(name) for name in order.landmarks])
+            planned_at_landmarks([context.landmark(name) for name in order.landmarks])
             if reference is None
-            else places_on_lines(reference)
+            else planned_on_lines(reference)
         )
         return NeedleScene(
-            ground=ground,
+            context=context,
             places=places,
             reference=reference,
             camera=setup.camera,
@@ -91,7 +101,7 @@ class NeedleStep:
         )
 
     def propose(self, scene: NeedleScene, *, radius_mm: float) -> tuple[ProposedSlice, ...]:
-        """Find the needles in the image, and lay the slice over each likely naming; nothing is kept.
+        """Detect the needles, and place the slice for each likely assignment; nothing is stored.
 
         Raises:
             RegistrationError: NEEDLES_NOT_FOUND, or as `register_needles` where nothing fits.
@@ -107,21 +117,26 @@ class NeedleStep:
         out = []
         for one in proposals:
             seen = tuple(needle.seen for needle in one.needles)
-            laid = _fitted(scene, one.fit, seen)
+            placed = _fitted(scene, one.fit, seen)
             out.append(
-                ProposedSlice(laid=laid, found=seen, probability_ratio=one.probability_ratio, lead=one.lead)
+                ProposedSlice(
+                    placed=placed,
+                    found=seen,
+                    probability_ratio=one.probability_ratio,
+                    delta_chi2=one.delta_chi2,
+                )
             )
         return tuple(out)
 
     def mark(
-        self, scene: NeedleScene, marked: Sequence[NeedleSeen], *, order_is_sure: bool = False
-    ) -> LaidSlice:
-        """Fit to needles that a person has marked, each in the order of the plan; nothing is kept.
+        self, scene: NeedleScene, marked: Sequence[NeedleObservation], *, order_is_sure: bool = False
+    ) -> PlacedSlice:
+        """Fit to needles that a person has marked, in the order of the plan; nothing is stored.
 
         Args:
-            scene: the image.
-            marked: the needles.
-            order_is_sure: whether the person has picked this naming in the picture, beside others.
+            scene: the image with the planned needles.
+            marked: the marked needles.
+            order_is_sure: whether the person chose this assignment among alternatives in the image.
 
         Raises:
             InvalidInput: NEEDLES_UNPAIRED.
@@ -141,74 +156,74 @@ class NeedleStep:
         return _fitted(scene, fit, seen)
 
     def lay(
-        self, scene: NeedleScene, overlay: SliceOverlay | None, marked: Sequence[NeedleSeen] = ()
-    ) -> LaidSlice:
-        """Lay the slice where a person has it, or where the ruler has it; nothing is fitted or kept."""
+        self, scene: NeedleScene, overlay: SliceOverlay | None, marked: Sequence[NeedleObservation] = ()
+    ) -> PlacedSlice:
+        """Place the slice by the given overlay, or by the ruler; nothing is fitted or stored."""
         at_px = None if overlay is None else overlay.shift_px
         view = scene.view(at_px)
-        laid = overlay or first_overlay(scene.places, scene.camera, view)
-        pose = pose_of_overlay(laid, scene.places, scene.camera, view)
-        return LaidSlice(
+        placed = overlay or first_overlay(scene.places, scene.camera, view)
+        pose = pose_of_overlay(placed, scene.places, scene.camera, view)
+        return PlacedSlice(
             scene=scene,
-            overlay=laid,
+            overlay=placed,
             camera_from_vertebra=pose,
             lines_px=overlay_lines_px(pose, scene.places, scene.camera),
             residuals=overlay_residuals(pose, scene.places, marked, scene.camera) if marked else (),
             fit=None,
         )
 
-    def take(self, scene: NeedleScene, overlay: SliceOverlay) -> LaidSlice:
-        """Fit to needles that lie where a person has laid the lines over them; nothing is kept.
+    def take(self, scene: NeedleScene, overlay: SliceOverlay) -> PlacedSlice:
+        """Fit to needles under the lines that a person has placed over them; nothing is stored.
 
         Raises:
             RegistrationError: as `register_needles`.
         """
-        laid = self.lay(scene, overlay)
-        seen = needles_under(laid.camera_from_vertebra, scene.places, scene.camera)
+        placed = self.lay(scene, overlay)
+        seen = needles_from_overlay(placed.camera_from_vertebra, scene.places, scene.camera)
         fit = register_needles(
             scene.places, seen, scene.camera, scene.view(overlay.shift_px), order_is_sure=True
         )
         return _fitted(scene, fit, seen)
 
-    def keep(self, laid: LaidSlice, *, way: str, made_by: str) -> Document:
-        """Keep a fit in the open case as the registration of its vertebra.
+    def keep(self, placed: PlacedSlice, *, way: str, made_by: str) -> Document:
+        """Store a fit in the open case as the registration of its vertebra.
 
         Raises:
-            SetupOrderError, OutOfDateError: what it stands on is missing, or was changed.
+            SetupOrderError, OutOfDateError: a dependency is missing, or was changed.
             RegistrationError: NEEDLES_NOT_FITTED, REFERENCE_UNSEEN.
         """
-        fit, scene = laid.fit, laid.scene
+        fit, scene = placed.fit, placed.scene
         if fit is None:
             raise RegistrationError(
                 "NEEDLES_NOT_FITTED", "the slice was laid, and nothing was fitted", "Take the overlay first."
             )
-        self._grounds.reject_changed(scene.ground)
+        self._contexts.reject_changed(scene.context)
         registration = fit.registration
-        if scene.ground.reference:
-            beside = scene.snapshot.sightings.get(scene.ground.reference)
+        if scene.context.reference:
+            beside = scene.snapshot.sightings.get(scene.context.reference)
             if not isinstance(beside, Seen):
                 raise RegistrationError(
                     "REFERENCE_UNSEEN",
-                    f"the marker '{scene.ground.reference}' on the patient is not seen in this image",
+                    f"the marker '{scene.context.reference}' on the patient is not seen in this image",
                     "Clear the view to the marker on the patient, and register again.",
-                    {"reference": scene.ground.reference},
+                    {"reference": scene.context.reference},
                 )
-            registration = fixed_to_reference(registration, beside)
+            registration = anchor_to_reference(registration, beside)
         return self._repository.put(
-            scene.ground,
+            scene.context,
             registration,
-            numbers=numbers_of(laid, fit),
-            made_from=_made_from(laid, fit, way),
+            numbers=numbers_of(placed, fit),
+            made_from=_made_from(placed, fit, way),
             made_by=made_by,
             from_s=scene.snapshot.captured_at_s,
         )
 
 
-def numbers_of(laid: LaidSlice, fit: NeedleFit) -> dict[str, Value]:
-    """The numbers of the fit, what it cannot see among them."""
+def numbers_of(placed: PlacedSlice, fit: NeedleFit) -> dict[str, Value]:
+    """Return the results of the fit by name, with standard deviations."""
     entries = [
         float(np.sqrt(np.trace(fit.registration.point_covariance_mm2(entry))))
-        for entry in laid.scene.ground.entries_mm
+        for entry in placed.scene.context.entries_mm
     ]
     return {
         "needles": len(fit.residuals),
@@ -216,19 +231,19 @@ def numbers_of(laid: LaidSlice, fit: NeedleFit) -> dict[str, Value]:
         "worst_offset_mm": max(abs(one.offset_mm) for one in fit.residuals),
         "chi2": fit.chi2,
         "freedom": fit.freedom,
-        "depth_sd_mm": fit.sureness.depth.sd,
-        "across_sd_mm": fit.sureness.across.sd,
-        "tilt_sd_deg": fit.sureness.tilt.sd,
-        "turn_sd_deg": fit.sureness.turn.sd,
+        "depth_sd_mm": fit.observability.depth.sd,
+        "across_sd_mm": fit.observability.across.sd,
+        "tilt_sd_deg": fit.observability.tilt.sd,
+        "turn_sd_deg": fit.observability.turn.sd,
         "tre_at_entry_mm": max(entries, default=None),
     }
 
 
-def _fitted(scene: NeedleScene, fit: NeedleFit, seen: Sequence[NeedleSeen]) -> LaidSlice:
+def _fitted(scene: NeedleScene, fit: NeedleFit, seen: Sequence[NeedleObservation]) -> PlacedSlice:
     fixed = fit.registration.anchor_from_vertebra
     pose: Rigid[Camera, Vertebra] = Rigid(rotation=fixed.rotation, translation_mm=fixed.translation_mm)
     at_px = np.mean([one.entry_px for one in seen], axis=0)
-    return LaidSlice(
+    return PlacedSlice(
         scene=scene,
         overlay=overlay_of_pose(pose, scene.places, scene.camera, scene.view(at_px)),
         camera_from_vertebra=pose,
@@ -238,23 +253,23 @@ def _fitted(scene: NeedleScene, fit: NeedleFit, seen: Sequence[NeedleSeen]) -> L
     )
 
 
-def _made_from(laid: LaidSlice, fit: NeedleFit, way: str) -> dict[str, object]:
-    measured = laid.scene.measured
+def _made_from(placed: PlacedSlice, fit: NeedleFit, way: str) -> dict[str, object]:
+    measured = placed.scene.measured
     return {
         "way": way,
         "view": {
             "vertical_mm": measured.vertical_mm,
             "horizontal_mm": measured.horizontal_mm,
             "azimuth_deg": measured.azimuth_deg,
-            "standing": measured.standing.value,
+            "patient_end": measured.patient_end.value,
         },
         # A needle's landmark says nothing of the registration afterwards, as a touched one does not.
         "points": [
             {"landmark": place.name, "point_lps_mm": place.point_lps_mm.tolist(), "used": True}
-            for place in laid.scene.places
-            if laid.scene.reference is None
+            for place in placed.scene.places
+            if placed.scene.reference is None
         ],
-        "touched": [one.name for one in laid.scene.touched],
+        "touched": [one.name for one in placed.scene.touched],
         "needles": [
             {
                 "name": one.name,
@@ -265,20 +280,20 @@ def _made_from(laid: LaidSlice, fit: NeedleFit, way: str) -> dict[str, object]:
             for one in fit.residuals
         ],
         "overlay": {
-            "shift_px": laid.overlay.shift_px.tolist(),
-            "turn_deg": laid.overlay.turn_deg,
-            "scale_px_per_mm": laid.overlay.scale_px_per_mm,
+            "shift_px": placed.overlay.shift_px.tolist(),
+            "rotation_deg": placed.overlay.rotation_deg,
+            "scale_px_per_mm": placed.overlay.scale_px_per_mm,
         },
     }
 
 
-def _reference(ground: Ground) -> ReferenceSlice:
-    if not ground.vertebra.references:
+def _reference(context: RegistrationContext) -> ReferenceSlice:
+    if not context.vertebra.references:
         raise PlanError(
             "REFERENCE_MISSING",
-            f"{ground.vertebra.name} has no reference slice",
+            f"{context.vertebra.name} has no reference slice",
             "Choose the slice that stands for it in the plan, or name "
             "the landmarks that the needles stand on.",
-            {"vertebra": ground.vertebra.name},
+            {"vertebra": context.vertebra.name},
         )
-    return ground.vertebra.references[0]
+    return context.vertebra.references[0]

@@ -1,60 +1,61 @@
-"""Registrations as the open case keeps them, version by version, each of one vertebra.
+"""Repository of the registrations in the open case, one per vertebra, with versions.
 
 A vertebra has one registration for all its channels. It depends on the plan, the camera and the tool that
-touched: going to the other side keeps it, and any new version of the plan ends it, because landmarks may
-have moved. A failed check is stored and counts even where no check is required.
+captured the points. It stays valid when the other side becomes active, and any new version of the plan
+invalidates it, because landmarks may have moved. A failed check is stored and counts even if no check is
+required.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from server.errors import SetupOrderError
-from server.procedure.opened import opened_case
-from server.procedure.registered import KeptRegistration, Value, kept_registration
-from server.procedure.registration.ground import Ground
-from server.procedure.state import Brought, Procedure
-from server.store import CaseStore, Document, DocumentKind, Standing
+from server.procedure.open_case import require_open_case
+from server.procedure.registration.context import RegistrationContext
+from server.procedure.registration_record import RegistrationRecord, Value, registration_from_document
+from server.procedure.state import Procedure, SetupDefaults
+from server.store import CaseStore, Document, DocumentKind, Validity
 from tracker.registration import Registration
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ShelvedRegistration:
+class StoredRegistration:
     """A registration with its document.
 
     Attributes:
-        kept: what is kept of it.
-        document: as it is stored.
-        standing: whether it still holds.
+        record: its content.
+        document: the stored document.
+        validity: whether it is still valid.
     """
 
-    kept: KeptRegistration
+    record: RegistrationRecord
     document: Document
-    standing: Standing
+    validity: Validity
 
 
 class RegistrationRepository:
-    """Where registrations of the open case lie; safe to use from any thread.
+    """Reads and stores the registrations of the open case. Thread-safe.
 
     Args:
-        store: where they are kept.
-        procedure: knows which vertebra is to be drilled, and which run of the server this is.
-        brought: by the settings.
+        store: the case store.
+        procedure: provides the vertebra of the active channel, and the run of the server.
+        defaults: setup from the settings.
     """
 
-    def __init__(self, store: CaseStore, *, procedure: Procedure, brought: Brought) -> None:
+    def __init__(self, store: CaseStore, *, procedure: Procedure, defaults: SetupDefaults) -> None:
         self._store = store
         self._procedure = procedure
-        self._brought = brought
+        self._defaults = defaults
 
-    def newest(self, vertebra: str | None = None) -> ShelvedRegistration:
-        """The newest registration of a vertebra; of the one that is to be drilled if none is named.
+    def newest(self, vertebra: str | None = None) -> StoredRegistration:
+        """Return the newest registration of a vertebra; by default of that of the active channel.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, REGISTER_MISSING.
             InvalidInput: REGISTRATION_DOCUMENT_INVALID.
             RegistrationError: REFERENCE_DIFFERS.
         """
-        case = opened_case(self._store)
+        case = require_open_case(self._store)
         name = vertebra or self._procedure.active_vertebra(case.id)
         document = None if name is None else self._store.latest(case.id, DocumentKind.REGISTRATION, name)
         if document is None:
@@ -64,14 +65,14 @@ class RegistrationRepository:
                 "Register: touch the landmarks of the plan.",
                 {"vertebra": name},
             )
-        return ShelvedRegistration(
-            kept=kept_registration(document, reference=self._brought.reference),
+        return StoredRegistration(
+            record=registration_from_document(document, reference=self._defaults.reference),
             document=document,
-            standing=self._store.standing(document),
+            validity=self._store.validity(document),
         )
 
-    def current(self, vertebra: str | None = None) -> ShelvedRegistration:
-        """The same, if it holds.
+    def current(self, vertebra: str | None = None) -> StoredRegistration:
+        """Return the newest registration if it is valid.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, REGISTER_MISSING.
@@ -84,7 +85,7 @@ class RegistrationRepository:
 
     def put(
         self,
-        ground: Ground,
+        context: RegistrationContext,
         registration: Registration,
         *,
         numbers: dict[str, Value],
@@ -94,43 +95,43 @@ class RegistrationRepository:
         also_on: Sequence[str] = (),
         expected_version: int | None = None,
     ) -> Document:
-        """Keep a registration that passed its gate, as the next version of its vertebra's.
+        """Store an accepted registration as the next version for its vertebra.
 
         Raises:
             StoreConflict: VERSION_CONFLICT.
         """
-        kept = KeptRegistration.of(
+        record = RegistrationRecord.of(
             registration,
-            vertebra=ground.vertebra.name,
-            reference=ground.reference,
+            vertebra=context.vertebra.name,
+            reference=context.reference,
             run=self._procedure.run,
             numbers=numbers,
             made_from=made_from,
             from_s=from_s,
         )
         return self._store.put(
-            ground.case_id,
+            context.case_id,
             DocumentKind.REGISTRATION,
-            ground.vertebra.name,
-            kept.model_dump(mode="json"),
+            context.vertebra.name,
+            record.model_dump(mode="json"),
             made_by=made_by,
-            stands_on=[*ground.documents, *also_on],
+            depends_on=[*context.documents, *also_on],
             expected_version=expected_version,
         )
 
-    def put_again(self, shelved: ShelvedRegistration, kept: KeptRegistration, *, made_by: str) -> Document:
-        """Keep a changed registration on the same ground, as the next version.
+    def put_again(self, stored: StoredRegistration, record: RegistrationRecord, *, made_by: str) -> Document:
+        """Store a changed registration with the same dependencies, as the next version.
 
         Raises:
             StoreConflict: VERSION_CONFLICT, somebody else changed it meanwhile.
         """
-        document = shelved.document
+        document = stored.document
         return self._store.put(
             document.case_id,
             DocumentKind.REGISTRATION,
             document.name,
-            kept.model_dump(mode="json"),
+            record.model_dump(mode="json"),
             made_by=made_by,
-            stands_on=document.stands_on,
+            depends_on=document.depends_on,
             expected_version=document.version,
         )

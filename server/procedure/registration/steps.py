@@ -1,4 +1,4 @@
-"""All ways to register, and the check, made for one server."""
+"""All registration steps, created together for one server."""
 
 from dataclasses import dataclass
 
@@ -6,30 +6,30 @@ from server.config import RegistrationConfig
 from server.live import LiveHub
 from server.procedure.plan import PlanRepository
 from server.procedure.registration.check import CheckStep
-from server.procedure.registration.ground import GroundFinder
+from server.procedure.registration.context import RegistrationContextFinder
+from server.procedure.registration.monitor import RegistrationMonitor
 from server.procedure.registration.needles import NeedleStep
-from server.procedure.registration.nudging import NudgeStep
+from server.procedure.registration.nudges import NudgeStep
 from server.procedure.registration.points import PointsStep
 from server.procedure.registration.repository import RegistrationRepository
 from server.procedure.registration.sweep import SweepStep
-from server.procedure.registration.watch import MoveWatch
-from server.procedure.state import Brought, Procedure
+from server.procedure.state import Procedure, SetupDefaults
 from server.procedure.surface import SurfaceStep
 from server.store import CaseStore
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RegistrationSteps:
-    """The steps that find the vertebra on the patient.
+    """The steps that register the vertebra on the patient.
 
     Attributes:
-        shelf: where registrations lie.
-        points: by landmarks that are touched.
-        check: on a landmark that was not used.
-        needles: by three needles in the image.
-        sweep: refines it on the bone's surface.
-        nudge: by hand, in small steps.
-        watch: withdraws a registration when camera or reference were moved.
+        repository: the stored registrations.
+        points: registration by captured landmarks.
+        check: check on a landmark that was not used.
+        needles: registration by three needles in the image.
+        sweep: refinement on the bone surface.
+        nudge: manual correction in small steps.
+        monitor: withdraws a registration after a move of camera or reference.
     """
 
     repository: RegistrationRepository
@@ -38,7 +38,7 @@ class RegistrationSteps:
     needles: NeedleStep
     sweep: SweepStep
     nudge: NudgeStep
-    watch: MoveWatch
+    monitor: RegistrationMonitor
 
     @classmethod
     def of(
@@ -49,34 +49,36 @@ class RegistrationSteps:
         plans: PlanRepository,
         surfaces: SurfaceStep,
         procedure: Procedure,
-        brought: Brought,
+        defaults: SetupDefaults,
         gate: RegistrationConfig,
     ) -> "RegistrationSteps":
-        """The steps; from here on a move of camera or reference withdraws what was registered before."""
-        grounds = GroundFinder(store, hub=hub, plans=plans, procedure=procedure, brought=brought)
-        repository = RegistrationRepository(store, procedure=procedure, brought=brought)
+        """Create the steps, and start to monitor moves of camera and reference."""
+        contexts = RegistrationContextFinder(
+            store, hub=hub, plans=plans, procedure=procedure, defaults=defaults
+        )
+        repository = RegistrationRepository(store, procedure=procedure, defaults=defaults)
         return cls(
             repository=repository,
-            points=PointsStep(hub=hub, grounds=grounds, repository=repository, gate=gate),
+            points=PointsStep(hub=hub, contexts=contexts, repository=repository, gate=gate),
             check=CheckStep(
-                hub=hub, store=store, grounds=grounds, repository=repository, procedure=procedure, gate=gate
+                hub=hub, store=store, contexts=contexts, repository=repository, procedure=procedure, gate=gate
             ),
-            needles=NeedleStep(hub=hub, grounds=grounds, repository=repository),
+            needles=NeedleStep(hub=hub, contexts=contexts, repository=repository),
             sweep=SweepStep(
                 hub=hub,
-                grounds=grounds,
+                contexts=contexts,
                 repository=repository,
                 procedure=procedure,
                 surfaces=surfaces,
                 gate=gate,
             ),
-            nudge=NudgeStep(grounds=grounds, repository=repository, gate=gate),
-            watch=MoveWatch(hub, store=store, procedure=procedure, after_s=gate.moved_after_s),
+            nudge=NudgeStep(contexts=contexts, repository=repository, gate=gate),
+            monitor=RegistrationMonitor(hub, store=store, procedure=procedure, after_s=gate.moved_after_s),
         )
 
     def close(self) -> None:
-        """Look no more."""
+        """Stop all active collections and the monitor."""
         self.points.end()
         self.check.end()
         self.sweep.end()
-        self.watch.stop()
+        self.monitor.stop()

@@ -1,4 +1,4 @@
-"""The step in which a sweep of the tip over the bone refines a registration by points."""
+"""The surface registration step: a sweep of the tip over the bone refines a point registration."""
 
 import threading
 from dataclasses import dataclass
@@ -8,12 +8,12 @@ import numpy as np
 from server.config import RegistrationConfig
 from server.imaging.meshes import read_mesh
 from server.live import Instant, LiveHub, Problem
-from server.procedure.following import Follower
-from server.procedure.held import Held
-from server.procedure.registered import KeptRegistration, Value
-from server.procedure.registration.ground import Ground, GroundFinder
-from server.procedure.registration.repository import RegistrationRepository, ShelvedRegistration
-from server.procedure.registration.touching import tip_of
+from server.procedure.active_collection import ActiveCollection
+from server.procedure.live_listener import LiveListener
+from server.procedure.registration.context import RegistrationContext, RegistrationContextFinder
+from server.procedure.registration.landmark_capture import tip_of
+from server.procedure.registration.repository import RegistrationRepository, StoredRegistration
+from server.procedure.registration_record import RegistrationRecord, Value
 from server.procedure.state import Procedure, StepName
 from server.procedure.surface import SurfaceStep
 from server.store import Document
@@ -21,35 +21,35 @@ from tracker.errors import RegistrationError
 from tracker.geometry import Array
 from tracker.registration import AnchoredTo
 from tracker.registration.capture import TipSample
-from tracker.registration.points import PairedPoints
+from tracker.registration.points import PointPairs
 from tracker.registration.surface import (
-    NearestOnSurface,
+    ClosestPointQuery,
     SurfaceGate,
     SurfaceRegistration,
     register_surface,
 )
 
-# Two minutes at 30 images a second; more says nothing new.
+# Two minutes at 30 images/s; more points do not improve the fit.
 MAX_POINTS = 3600
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SweepStatus:
-    """How far a sweep has come.
+    """Progress of a sweep.
 
     Attributes:
-        ground: what it stands on.
+        context: context of the registration.
         start: the registration that it refines.
-        taking: whether the tip's places are taken.
-        points: taken so far.
-        unseen: images in which the tip was not known.
-        reach_mm: from end to end of what was swept, along each of its three axes, the longest first.
-        from_s: when the first was taken, by the clock of the images; None before.
-        trouble: why nothing is taken any more.
+        taking: whether tip positions are recorded.
+        points: number of recorded points.
+        unseen: number of images without a tip position.
+        reach_mm: extent of the points along their principal axes, the longest first.
+        from_s: time of the first point, on the image clock; None before it.
+        problem: why the sweep ended.
     """
 
-    ground: Ground
-    start: ShelvedRegistration
+    context: RegistrationContext
+    start: StoredRegistration
     taking: bool
     points: int
     unseen: int
@@ -59,10 +59,10 @@ class SweepStatus:
 
 
 class SweepSession:
-    """Takes the tip's places while it is swept over bare bone; may be asked from any thread."""
+    """Records tip positions during a sweep over exposed bone. Thread-safe."""
 
-    def __init__(self, hub: LiveHub, ground: Ground, start: ShelvedRegistration) -> None:
-        self._ground = ground
+    def __init__(self, hub: LiveHub, context: RegistrationContext, start: StoredRegistration) -> None:
+        self._context = context
         self._start = start
         self._lock = threading.Lock()
         self._taking = True
@@ -70,45 +70,45 @@ class SweepSession:
         self._unseen = 0
         self._from_s: float | None = None
         self._image_number = -1
-        self._follower = Follower(hub, self._look, name=f"sweeping {ground.vertebra.name}")
+        self._listener = LiveListener(hub, self._process, name=f"sweeping {context.vertebra.name}")
 
     def take(self, *, taking: bool) -> None:
-        """Take the tip's places, or leave it out while the tip is off the bone."""
+        """Resume or pause the recording; pause it while the tip is off the bone."""
         with self._lock:
             self._taking = taking
 
     @property
     def points_mm(self) -> Array:
-        """What was taken (n, 3), in the anchor's frame."""
+        """Recorded points (n, 3) in the anchor frame."""
         with self._lock:
             return np.array(self._points, dtype=np.float64).reshape(-1, 3)
 
     @property
     def status(self) -> SweepStatus:
-        """How far it has come."""
+        """Progress of the sweep."""
         points = self.points_mm
         with self._lock:
             return SweepStatus(
-                ground=self._ground,
+                context=self._context,
                 start=self._start,
-                taking=self._taking and self._follower.running,
+                taking=self._taking and self._listener.running,
                 points=len(points),
                 unseen=self._unseen,
                 reach_mm=_reach_mm(points),
                 from_s=self._from_s,
-                problem=self._follower.problem,
+                problem=self._listener.problem,
             )
 
     def stop(self) -> None:
-        """Take no more."""
-        self._follower.stop()
+        """Stop recording."""
+        self._listener.stop()
 
-    def _look(self, instant: Instant) -> None:
+    def _process(self, instant: Instant) -> None:
         snapshot = instant.snapshot
         if snapshot is None or snapshot.image_number == self._image_number:
             return
         self._image_number = snapshot.image_number
-        tip = tip_of(snapshot, self._ground.tool, self._ground.reference)
+        tip = tip_of(snapshot, self._context.tool, self._context.reference)
         with self._lock:
             if not self._taking or len(self._points) >= MAX_POINTS:
                 return
@@ -120,118 +120,120 @@ class SweepSession:
 
 
 class SweepStep:
-    """Refines registrations on the bone's surface; one sweep at a time. Safe to use from any thread.
+    """Refines registrations on the bone surface; one sweep at a time. Thread-safe.
 
     Args:
         hub: the live images.
-        grounds: what a registration is made on.
-        shelf: where it is kept.
-        procedure: knows which run of the server this is.
-        surfaces: the bone.
-        gate: what it must reach.
+        contexts: finds the context of the registration.
+        repository: where it is stored.
+        procedure: provides the run of the server.
+        surfaces: provides the bone surface.
+        gate: acceptance limits.
     """
 
     def __init__(
         self,
         *,
         hub: LiveHub,
-        grounds: GroundFinder,
+        contexts: RegistrationContextFinder,
         repository: RegistrationRepository,
         procedure: Procedure,
         surfaces: SurfaceStep,
         gate: RegistrationConfig,
     ) -> None:
         self._hub = hub
-        self._grounds = grounds
+        self._contexts = contexts
         self._repository = repository
         self._procedure = procedure
         self._surfaces = surfaces
         self._gate = SurfaceGate(max_rms_mm=gate.max_surface_rms_mm, max_tre_mm=gate.max_tre_mm)
         self._lock = threading.Lock()
-        self._nearest: tuple[str, NearestOnSurface] | None = None
-        self._held: Held[SweepSession] = Held("sweep is", remedy="Begin a sweep, and say with which tool.")
+        self._nearest: tuple[str, ClosestPointQuery] | None = None
+        self._active: ActiveCollection[SweepSession] = ActiveCollection(
+            "sweep is", remedy="Begin a sweep, and say with which tool."
+        )
 
     def begin(self, *, tool: str) -> SweepSession:
-        """Begin to sweep the vertebra that is to be drilled, which is registered already.
+        """Start a sweep of the active vertebra, which must be registered.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, SURFACE_MISSING, or what it waits for.
             InvalidInput: TOOL_UNKNOWN.
             RegistrationError: SWEEP_ANCHOR_DIFFERS.
         """
-        ground = self._grounds.find(vertebra=None, tool=tool, step=StepName.CHECK)
-        start = self._repository.current(ground.vertebra.name)
+        context = self._contexts.find(vertebra=None, tool=tool, step=StepName.CHECK)
+        start = self._repository.current(context.vertebra.name)
         self._surfaces.latest()
-        if start.kept.anchored_to is not ground.anchored_to:
+        if start.record.anchored_to is not context.anchored_to:
             raise RegistrationError(
                 "SWEEP_ANCHOR_DIFFERS",
-                f"{start.document.title} is fixed to the {start.kept.anchored_to}, a sweep would be to the "
-                f"{ground.anchored_to}",
+                f"{start.document.title} is fixed to the {start.record.anchored_to}, a sweep would be to the "
+                f"{context.anchored_to}",
                 "Register by points again, then sweep.",
             )
-        return self._held.begin(lambda: SweepSession(self._hub, ground, start))
+        return self._active.begin(lambda: SweepSession(self._hub, context, start))
 
     @property
     def session(self) -> SweepSession:
-        """The sweep so far.
+        """The active sweep.
 
         Raises:
             SetupOrderError: COLLECTION_MISSING.
         """
-        return self._held.get()
+        return self._active.get()
 
     @property
     def running(self) -> bool:
-        """Whether a sweep was begun."""
-        return self._held.is_there
+        """Whether there is an active sweep."""
+        return self._active.is_active
 
     def end(self) -> None:
-        """Take no more, and throw away what was taken."""
-        self._held.end()
+        """Stop the sweep and discard its points."""
+        self._active.end()
 
     def fit(self) -> tuple[SurfaceRegistration, tuple[RegistrationError, ...], str]:
-        """What the sweep gives, what keeps it from being used, and the surface that it was laid on.
+        """Fit the sweep to the surface; return the fit, the reasons to reject it, and the surface's id.
 
         Raises:
             SetupOrderError: COLLECTION_MISSING, SURFACE_MISSING.
-            RegistrationError: as `register_surface`, for one where the sweep slides.
+            RegistrationError: as `register_surface`, for example if the sweep can slide on the surface.
         """
         session = self.session
         status, points = session.status, session.points_mm
         surface_id, nearest = self._bone()
-        kept = status.start.kept
-        targets = list(status.ground.entries_mm)
+        record = status.start.record
+        targets = list(status.context.entries_mm)
         found = register_surface(
             nearest,
             points,
-            kept.registration.anchor_from_vertebra.inverse,
+            record.registration.anchor_from_vertebra.inverse,
             targets_mm=targets,
-            landmarks=self._landmarks(kept),
+            landmarks=self._landmarks(record),
         )
         return found, found.failures(self._gate, targets), surface_id
 
     def conclude(self, *, made_by: str) -> Document:
-        """Keep the refined registration as the next version, if it passes its gate; the sweep ends.
+        """Store the refined registration as the next version if it is accepted, and end the sweep.
 
         Raises:
-            SetupOrderError, OutOfDateError: what it stands on is missing, or was changed.
-            RegistrationError: as `fit`, or the gate that is not passed.
-            StoreConflict: VERSION_CONFLICT, the registration was changed since the sweep began.
+            SetupOrderError, OutOfDateError: a dependency is missing, or was changed.
+            RegistrationError: as `fit`, or a limit is exceeded.
+            StoreConflict: VERSION_CONFLICT, the registration was changed since the sweep started.
         """
         status = self.session.status
-        self._grounds.reject_changed(status.ground)
+        self._contexts.reject_changed(status.context)
         found, failures, surface_id = self.fit()
         if failures:
             raise failures[0]
         document = self._repository.put(
-            status.ground,
-            found.registration(status.ground.anchored_to),
+            status.context,
+            found.registration(status.context.anchored_to),
             numbers=self.numbers(status, found),
             made_from={
-                "tool": status.ground.tool,
+                "tool": status.context.tool,
                 "start_version": status.start.document.version,
-                "points": status.start.kept.made_from.get("points", []),
-                "weakest": found.weakest.in_words,
+                "points": status.start.record.made_from.get("points", []),
+                "weakest": found.least_observable.description,
                 "remarks": [remark.message for remark in found.remarks],
                 "sweep_in_anchor_mm": np.round(self.session.points_mm, 3).tolist(),
             },
@@ -244,47 +246,49 @@ class SweepStep:
         return document
 
     def numbers(self, status: SweepStatus, found: SurfaceRegistration) -> dict[str, Value]:
-        """The numbers of the gate."""
+        """Return the results and their limits, by name."""
         return {
             "points": len(found.used),
             "used_ratio": found.used_ratio,
             "rms_mm": found.rms_mm,
             "max_rms_mm": self._gate.max_rms_mm,
             "tre_at_entry_mm": max(
-                (found.tre_stated_mm(entry) for entry in status.ground.entries_mm), default=None
+                (found.tre_stated_mm(entry) for entry in status.context.entries_mm), default=None
             ),
             "max_tre_mm": self._gate.max_tre_mm,
             "moved_mm": found.moved_mm,
             "moved_deg": found.moved_deg,
-            "weakest_sd_mm": found.weakest.sd_mm if np.isfinite(found.weakest.sd_mm) else None,
+            "weakest_sd_mm": found.least_observable.sd_mm
+            if np.isfinite(found.least_observable.sd_mm)
+            else None,
         }
 
-    def _bone(self) -> tuple[str, NearestOnSurface]:
+    def _bone(self) -> tuple[str, ClosestPointQuery]:
         document, file = self._surfaces.latest()
         with self._lock:
             if self._nearest is None or self._nearest[0] != document.id:
-                self._nearest = document.id, NearestOnSurface(read_mesh(file.path, unit="mm").surface)
+                self._nearest = document.id, ClosestPointQuery(read_mesh(file.path, unit="mm").surface)
             return self._nearest
 
-    def _is_loose(self, kept: KeptRegistration) -> bool:
-        """Whether it was made in a run in which the camera may have stood elsewhere."""
-        return kept.anchored_to is AnchoredTo.CAMERA and kept.run != self._procedure.run
+    def _is_loose(self, record: RegistrationRecord) -> bool:
+        """Return whether the camera may have been moved since: anchored to it in an earlier run."""
+        return record.anchored_to is AnchoredTo.CAMERA and record.run != self._procedure.run
 
     def _from_s(self, status: SweepStatus) -> float | None:
-        kept = status.start.kept
-        return status.from_s if kept.run != self._procedure.run else kept.from_s
+        record = status.start.record
+        return status.from_s if record.run != self._procedure.run else record.from_s
 
-    def _landmarks(self, kept: KeptRegistration) -> PairedPoints | None:
-        """The landmarks that were touched for the registration: they pull, too."""
-        points = kept.made_from.get("points")
+    def _landmarks(self, record: RegistrationRecord) -> PointPairs | None:
+        """Return the captured landmarks of the registration, which take part in the fit."""
+        points = record.made_from.get("points")
         used = [
             one
             for one in (points if isinstance(points, list) else [])
             if isinstance(one, dict) and one.get("used") is True and "tip_in_anchor_mm" in one
         ]
-        if not used or self._is_loose(kept):
+        if not used or self._is_loose(record):
             return None
-        return PairedPoints(
+        return PointPairs(
             fixed_mm=np.array([one["point_lps_mm"] for one in used]),
             moving_mm=np.array([one["tip_in_anchor_mm"] for one in used]),
             moving_covariances_mm2=np.array([one["tip_covariance_mm2"] for one in used]),

@@ -1,18 +1,18 @@
-"""The state of the procedure: its steps in their order, what each says, and what may follow."""
+"""The state of the procedure: its steps in order, the finding of each, and which of them are allowed."""
 
-from server.procedure.state.judged import ProcedureState, judged, no_case
-from server.procedure.state.reading import Brought, Procedure
-from server.procedure.state.records import Finding, Lack, StepName, StepState, StepStatus
+from server.procedure.state.procedure import Procedure, SetupDefaults
+from server.procedure.state.procedure_state import ProcedureState, derive_state, no_case
+from server.procedure.state.records import Finding, MissingCosignature, StepName, StepState, StepStatus
 
 __all__ = [
-    "Brought",
     "Finding",
-    "Lack",
+    "MissingCosignature",
     "Procedure",
     "ProcedureState",
+    "SetupDefaults",
     "StepName",
     "StepState",
     "StepStatus",
-    "judged",
+    "derive_state",
     "no_case",
 ]

@@ -1,4 +1,4 @@
-"""What is said of one step of the procedure."""
+"""Records of the state of one step of the procedure."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -9,7 +9,7 @@ Number: TypeAlias = float | int | bool | str | None
 
 
 class StepName(StrEnum):
-    """The steps, in the order in which they follow each other."""
+    """The steps, in the order of the procedure."""
 
     CAMERA = "camera"
     TOOL = "tool"
@@ -20,47 +20,47 @@ class StepName(StrEnum):
 
 
 class StepState(StrEnum):
-    """How a step stands."""
+    """State of a step."""
 
     MISSING = "missing"
-    OUT_OF_DATE = "out_of_date"  # what it stands on was changed or withdrawn
-    FAILED = "failed"  # it was done, and its gate says no
-    DUE = "due"  # it holds, and shall be done again
+    OUT_OF_DATE = "out_of_date"  # something that it depends on was changed or withdrawn
+    FAILED = "failed"  # it was done, and did not meet its limits
+    DUE = "due"  # it is valid, and should be repeated
     DONE = "done"
 
 
-HOLDS = frozenset({StepState.DONE, StepState.DUE})
+VALID_STATES = frozenset({StepState.DONE, StepState.DUE})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Finding:
-    """What the open case says of one step, whatever the others say.
+    """State of one step in the open case, without regard to the other steps.
 
     Attributes:
-        state: how it stands.
-        said: why, in a sentence without its full stop.
-        remedy: what to do next, one full sentence; empty where there is nothing to do.
-        numbers: of its gate, by name.
-        document_id: of what was made in it; empty where nothing was.
+        state: the state.
+        message: the reason, as a sentence without its full stop.
+        remedy: what to do next, one full sentence; empty if there is nothing to do.
+        numbers: results and their limits, by name.
+        document_id: document that the step made; empty if there is none.
     """
 
     state: StepState
-    said: str
+    message: str
     remedy: str = ""
     numbers: Mapping[str, Number] = field(default_factory=dict)
     document_id: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Lack:
-    """What a step that is done still lacks before anybody may navigate by it.
+class MissingCosignature:
+    """A co-signature that a completed step needs before navigation is allowed.
 
     Attributes:
-        said: what, in a sentence without its full stop.
+        message: what is missing, as a sentence without its full stop.
         remedy: what to do, one full sentence.
     """
 
-    said: str
+    message: str
     remedy: str
 
 
@@ -69,13 +69,13 @@ class StepStatus:
     """One step among the others.
 
     Attributes:
-        step: which one.
-        finding: what is said of it.
-        allowed: whether all that it stands on holds, so that it may be done now.
-        lacks: the co-signature that is required of it and not there; None where nothing is lacking.
+        step: the step.
+        finding: its own state.
+        allowed: whether everything that it depends on is valid, so that it may be done now.
+        missing_cosignature: the required co-signature that does not exist yet; None if nothing is missing.
     """
 
     step: StepName
     finding: Finding
     allowed: bool
-    lacks: Lack | None = None
+    missing_cosignature: MissingCosignature | None = None

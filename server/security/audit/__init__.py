@@ -1,10 +1,10 @@
-"""Who did what, when, from which version to which: lines that only grow, each sealed by the next."""
+"""Append-only audit log with a hash chain: who did what and when, and what changed."""
 
 from server.security.audit.chain import Fault, Verdict, verify
+from server.security.audit.changes import collect_changes, note
 from server.security.audit.entries import Entry
+from server.security.audit.files import verify_files
 from server.security.audit.log import AUDIT_FILE, HEAD_FILE, AuditLog
-from server.security.audit.noted import note, noting
-from server.security.audit.whole import verify_files
 
 __all__ = [
     "AUDIT_FILE",
@@ -13,8 +13,8 @@ __all__ = [
     "Entry",
     "Fault",
     "Verdict",
+    "collect_changes",
     "note",
-    "noting",
     "verify",
     "verify_files",
 ]

@@ -1,4 +1,4 @@
-"""One line of the audit log before it has its number and its place in the chain."""
+"""An audit entry before it is added to the chain."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -10,16 +10,16 @@ MAX_TEXT = 200
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Entry:
-    """What somebody did, or tried.
+    """An action or attempt.
 
     Attributes:
-        who: the person; `NOBODY` where nobody was signed in.
-        what: the address as it is documented ("POST /api/plan/vertebrae/{name}"), or a word of our own.
-        address: of the machine that asked; empty where the server did it itself.
-        of: the parts of the address that name things.
-        status: of the answer; None where nothing was asked.
-        code: why it was refused; empty where it was not.
-        changes: what it changed, each with `from` and `to`.
+        who: the person; `ANONYMOUS` without a session.
+        what: route as documented ("POST /api/plan/vertebrae/{name}"), or another fixed name.
+        address: client address; empty for the server's own entries.
+        of: path parameters.
+        status: HTTP status; None without a request.
+        code: error code; empty without an error.
+        changes: the changes, each with `from` and `to`.
     """
 
     who: Person
@@ -30,8 +30,8 @@ class Entry:
     code: str = ""
     changes: tuple[Mapping[str, object], ...] = ()
 
-    def told(self) -> dict[str, object]:
-        """The line's own words, as JSON takes them; empty ones are left out."""
+    def to_json(self) -> dict[str, object]:
+        """Return the entry as a JSON object without empty fields."""
         line: dict[str, object] = {
             "who": {"id": self.who.id, "name": self.who.name, "role": self.who.role.value},
             "what": self.what[:MAX_TEXT],

@@ -1,8 +1,8 @@
-"""Who is invited, and who is signed in."""
+"""Invitations, sessions and sign-in."""
 
-from server.security.people.desk import PeopleDesk
-from server.security.people.guesses import Guesses
+from server.security.people.failed_logins import FailedLogins
 from server.security.people.records import Invitation, InvitationState, Session
+from server.security.people.service import PeopleService
 from server.security.people.tokens import Token
 
-__all__ = ["Guesses", "Invitation", "InvitationState", "PeopleDesk", "Session", "Token"]
+__all__ = ["FailedLogins", "Invitation", "InvitationState", "PeopleService", "Session", "Token"]

@@ -1,7 +1,7 @@
-"""People on the disk: one small file that is written anew, whole, with each change.
+"""File of invitations and sessions: one small file that is rewritten as a whole with each change.
 
-People and the audit log are kept outside of the cases' database: a database restored from a backup brings
-back no ended session, and a copied case carries no token. A change and its audit line are therefore not one
+People and the audit log are stored outside of the case database: a database restored from a backup revives no
+ended session, and a copied case contains no token. A change and its audit entry are therefore not one
 transaction.
 """
 
@@ -11,7 +11,7 @@ from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
-from server.security.audit.whole import write_private
+from server.security.audit.files import write_private
 from server.security.people.records import Invitation, Session
 from server.security.person import Person, Role
 from server.store import StoreError
@@ -21,7 +21,7 @@ FORM = 1
 
 
 def read_people(file: Path) -> tuple[list[Invitation], list[Session]]:
-    """What was kept; nothing where nothing was.
+    """Return the stored invitations and sessions; empty without a file.
 
     Raises:
         StoreError: PEOPLE_DAMAGED.
@@ -30,10 +30,12 @@ def read_people(file: Path) -> tuple[list[Invitation], list[Session]]:
     if not file.exists():
         return [], []
     try:
-        kept = json.loads(file.read_bytes())
-        if kept["form"] != FORM:
-            raise ValueError(f"its form is {kept['form']!r}")  # noqa: TRY301  told below with all others
-        return [_invitation(one) for one in kept["invitations"]], [_session(one) for one in kept["sessions"]]
+        stored = json.loads(file.read_bytes())
+        if stored["form"] != FORM:
+            raise ValueError(f"its form is {stored['form']!r}")  # noqa: TRY301  reported below with all others
+        return [_invitation(one) for one in stored["invitations"]], [
+            _session(one) for one in stored["sessions"]
+        ]
     except (ValueError, KeyError, TypeError) as error:
         raise StoreError(
             "PEOPLE_DAMAGED",
@@ -44,21 +46,21 @@ def read_people(file: Path) -> tuple[list[Invitation], list[Session]]:
 
 
 def write_people(file: Path, invitations: Iterable[Invitation], sessions: Iterable[Session]) -> None:
-    """Keep them.
+    """Store invitations and sessions.
 
     Raises:
         OSError: the file cannot be written.
     """
-    told = {
+    reported = {
         "form": FORM,
-        "invitations": [_told_invitation(one) for one in invitations],
-        "sessions": [_told_session(one) for one in sessions],
+        "invitations": [_invitation_json(one) for one in invitations],
+        "sessions": [_session_json(one) for one in sessions],
     }
-    write_private(file, json.dumps(told, indent=1).encode())
+    write_private(file, json.dumps(reported, indent=1).encode())
     sync_folder(file.parent)
 
 
-def _told_person(person: Person) -> dict[str, str]:
+def _person_json(person: Person) -> dict[str, str]:
     return {
         "id": person.id,
         "name": person.name,
@@ -67,19 +69,21 @@ def _told_person(person: Person) -> dict[str, str]:
     }
 
 
-def _person(told: Mapping[str, Any], *, invited_by: str = "") -> Person:
-    invited_by = str(told.get("invited_by", invited_by))
-    return Person(id=str(told["id"]), name=str(told["name"]), role=Role(told["role"]), invited_by=invited_by)
+def _person(reported: Mapping[str, Any], *, invited_by: str = "") -> Person:
+    invited_by = str(reported.get("invited_by", invited_by))
+    return Person(
+        id=str(reported["id"]), name=str(reported["name"]), role=Role(reported["role"]), invited_by=invited_by
+    )
 
 
 def _time(text: str | None) -> datetime | None:
     return None if text is None else datetime.fromisoformat(text)
 
 
-def _told_invitation(one: Invitation) -> dict[str, object]:
+def _invitation_json(one: Invitation) -> dict[str, object]:
     return {
         "id": one.id,
-        "person": _told_person(one.person),
+        "person": _person_json(one.person),
         "made_by": one.made_by,
         "made_at": one.made_at.isoformat(),
         "expires_at": one.expires_at.isoformat(),
@@ -92,26 +96,26 @@ def _told_invitation(one: Invitation) -> dict[str, object]:
     }
 
 
-def _invitation(told: Mapping[str, Any]) -> Invitation:
+def _invitation(reported: Mapping[str, Any]) -> Invitation:
     return Invitation(
-        id=str(told["id"]),
-        person=_person(told["person"], invited_by=str(told["made_by"])),
-        made_by=str(told["made_by"]),
-        made_at=datetime.fromisoformat(told["made_at"]),
-        expires_at=datetime.fromisoformat(told["expires_at"]),
-        single_use=bool(told["single_use"]),
-        for_machine=bool(told["for_machine"]),
-        session_lasts=timedelta(seconds=float(told["session_s"])),
-        token_sum=str(told["token_sum"]),
-        uses=int(told["uses"]),
-        revoked_at=_time(told["revoked_at"]),
+        id=str(reported["id"]),
+        person=_person(reported["person"], invited_by=str(reported["made_by"])),
+        made_by=str(reported["made_by"]),
+        made_at=datetime.fromisoformat(reported["made_at"]),
+        expires_at=datetime.fromisoformat(reported["expires_at"]),
+        single_use=bool(reported["single_use"]),
+        for_machine=bool(reported["for_machine"]),
+        session_lasts=timedelta(seconds=float(reported["session_s"])),
+        token_sum=str(reported["token_sum"]),
+        uses=int(reported["uses"]),
+        revoked_at=_time(reported["revoked_at"]),
     )
 
 
-def _told_session(one: Session) -> dict[str, object]:
+def _session_json(one: Session) -> dict[str, object]:
     return {
         "id": one.id,
-        "person": _told_person(one.person),
+        "person": _person_json(one.person),
         "invitation_id": one.invitation_id,
         "started_at": one.started_at.isoformat(),
         "expires_at": one.expires_at.isoformat(),
@@ -121,14 +125,14 @@ def _told_session(one: Session) -> dict[str, object]:
     }
 
 
-def _session(told: Mapping[str, Any]) -> Session:
+def _session(reported: Mapping[str, Any]) -> Session:
     return Session(
-        id=str(told["id"]),
-        person=_person(told["person"]),
-        invitation_id=str(told["invitation_id"]),
-        started_at=datetime.fromisoformat(told["started_at"]),
-        expires_at=datetime.fromisoformat(told["expires_at"]),
-        for_machine=bool(told["for_machine"]),
-        token_sum=str(told["token_sum"]),
-        ended_at=_time(told["ended_at"]),
+        id=str(reported["id"]),
+        person=_person(reported["person"]),
+        invitation_id=str(reported["invitation_id"]),
+        started_at=datetime.fromisoformat(reported["started_at"]),
+        expires_at=datetime.fromisoformat(reported["expires_at"]),
+        for_machine=bool(reported["for_machine"]),
+        token_sum=str(reported["token_sum"]),
+        ended_at=_time(reported["ended_at"]),
     )

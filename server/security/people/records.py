@@ -1,4 +1,4 @@
-"""An invitation, and a session that somebody has by one."""
+"""Records of invitations and sessions."""
 
 from dataclasses import dataclass
 from datetime import datetime, timedelta
@@ -8,7 +8,7 @@ from server.security.person import Person
 
 
 class InvitationState(StrEnum):
-    """Whether an invitation still lets somebody in."""
+    """State of an invitation."""
 
     OPEN = "open"
     USED = "used"
@@ -18,20 +18,20 @@ class InvitationState(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Invitation:
-    """Lets somebody in who has its token.
+    """A link with which its person can sign in.
 
     Attributes:
-        id: names it.
-        person: who is let in, with which role; the same over all sessions that come of it.
+        id: its id.
+        person: person and role; the same over all its sessions.
         made_by: who invited.
         made_at: when, UTC.
-        expires_at: until when it lets in.
-        single_use: it lets in once.
-        for_machine: its sessions are for scripts: the token is told, and no cookie is set.
-        session_lasts: how long a session lasts that comes of it.
-        token_sum: of its token.
-        uses: how often it has let in.
-        revoked_at: when it was taken back.
+        expires_at: end of its validity.
+        single_use: whether it allows a single sign-in.
+        for_machine: whether its sessions are for scripts: the token is returned, and no cookie is set.
+        session_lasts: lifetime of its sessions.
+        token_sum: SHA-256 of its token.
+        uses: number of sign-ins.
+        revoked_at: time of the revocation.
     """
 
     id: str
@@ -47,7 +47,7 @@ class Invitation:
     revoked_at: datetime | None = None
 
     def state(self, now: datetime) -> InvitationState:
-        """Whether it lets in now."""
+        """Return its state now."""
         if self.revoked_at is not None:
             return InvitationState.REVOKED
         if self.single_use and self.uses:
@@ -57,17 +57,17 @@ class Invitation:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Session:
-    """Somebody is signed in.
+    """A signed-in session.
 
     Attributes:
-        id: names it.
-        person: who.
-        invitation_id: by which one they came.
+        id: its id.
+        person: its person.
+        invitation_id: the invitation that was used.
         started_at: UTC.
-        expires_at: when it ends by itself.
-        for_machine: a script's.
-        token_sum: of its token.
-        ended_at: when somebody ended it.
+        expires_at: end of its validity.
+        for_machine: whether it is a script's.
+        token_sum: SHA-256 of its token.
+        ended_at: when it was ended before its expiry.
     """
 
     id: str
@@ -79,10 +79,10 @@ class Session:
     token_sum: str
     ended_at: datetime | None = None
 
-    def holds(self, now: datetime) -> bool:
-        """Whether it lets in now."""
+    def is_valid(self, now: datetime) -> bool:
+        """Return whether it is valid now."""
         return self.ended_at is None and now < self.expires_at
 
-    def over_at(self) -> datetime:
-        """When it ended, or will."""
+    def ends_at(self) -> datetime:
+        """Return when it ended, or will."""
         return self.expires_at if self.ended_at is None else min(self.ended_at, self.expires_at)

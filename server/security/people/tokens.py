@@ -1,7 +1,7 @@
-"""Tokens: what opens the door. A server keeps their sums alone, so that its disk opens nothing.
+"""Access tokens. The server stores only their SHA-256, so its disk grants no access.
 
-A token is a name, a dot, and 256 bits of chance. The name finds what the token belongs to; only the rest is
-secret. A plain SHA-256 is enough for it: nobody tries 2^256 words.
+A token is an id, a dot, and 256 random bits. The id finds its record; only the rest is secret. A plain
+SHA-256 is enough: nobody tries 2^256 values.
 """
 
 import hashlib
@@ -11,7 +11,7 @@ import secrets
 from dataclasses import dataclass
 
 SECRET_BYTES = 32
-SHAPE = re.compile(r"([0-9a-f]{12})\.([A-Za-z0-9_-]{43})")
+TOKEN_PATTERN = re.compile(r"([0-9a-f]{12})\.([A-Za-z0-9_-]{43})")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -19,8 +19,8 @@ class Token:
     """One token, in its two parts.
 
     Attributes:
-        id: of what it belongs to; no secret.
-        secret: what nobody else has.
+        id: id of its record; not secret.
+        secret: the secret part.
     """
 
     id: str
@@ -28,34 +28,34 @@ class Token:
 
     @classmethod
     def new(cls) -> "Token":
-        """One that was never there before."""
+        """Return a new random token."""
         return cls(id=new_id(), secret=secrets.token_urlsafe(SECRET_BYTES))
 
     @classmethod
     def read(cls, text: str) -> "Token | None":
-        """What somebody shows; None where it has not the shape of a token."""
-        found = SHAPE.fullmatch(text)
+        """Parse a token; None for another format."""
+        found = TOKEN_PATTERN.fullmatch(text)
         return None if found is None else cls(id=found[1], secret=found[2])
 
     @property
     def text(self) -> str:
-        """As it is written into links and cookies."""
+        """As in links and cookies."""
         return f"{self.id}.{self.secret}"
 
     @property
     def sum(self) -> str:
-        """What is kept of it: SHA-256 in hexadecimal."""
+        """SHA-256 in hexadecimal, as stored."""
         return hashlib.sha256(self.text.encode()).hexdigest()
 
-    def opens(self, kept_sum: str) -> bool:
-        """Whether this is the token that was kept; takes as long whatever is wrong with it."""
+    def matches(self, kept_sum: str) -> bool:
+        """Return whether its sum equals the stored one, in constant time."""
         return hmac.compare_digest(self.sum, kept_sum)
 
     def __repr__(self) -> str:
-        """Without the secret: it must get into no log."""
+        """Without the secret, which must not be logged."""
         return f"Token({self.id})"
 
 
 def new_id() -> str:
-    """A name for a token, an invitation, a person."""
+    """Return a random id for a token, an invitation or a person."""
     return secrets.token_hex(6)

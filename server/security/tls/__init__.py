@@ -1,5 +1,5 @@
-"""TLS: whether it is spoken here, and with which certificate."""
+"""TLS: whether it is used, and the certificate."""
 
-from server.security.tls.choose import Tls, chosen_tls, reject_unsafe
+from server.security.tls.selection import Tls, reject_unsafe, select_tls
 
-__all__ = ["Tls", "chosen_tls", "reject_unsafe"]
+__all__ = ["Tls", "reject_unsafe", "select_tls"]

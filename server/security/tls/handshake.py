@@ -1,20 +1,20 @@
-"""How long a line may take until it speaks TLS."""
+"""Timeouts of TLS handshakes."""
 
 import asyncio
 from typing import Any
 
-# A handshake is two ways there and back, on a thin line too. asyncio itself waits 60 s for it, and 30 s for
-# the farewell: each such line holds a file of the process, and when those run out nobody is let in.
-HANDSHAKE_WITHIN_S = 5.0
-FAREWELL_WITHIN_S = 5.0
+# A handshake needs two round trips, also on a slow network. asyncio itself waits 60 s for it, and 30 s for
+# the shutdown: each such connection needs a file descriptor, and when those run out nobody can connect.
+HANDSHAKE_TIMEOUT_S = 5.0
+SHUTDOWN_TIMEOUT_S = 5.0
 
 
-class ImpatientLoop(asyncio.SelectorEventLoop):
-    """The event loop of the web server: whoever connects and does not finish the handshake is cut off."""
+class HandshakeTimeoutLoop(asyncio.SelectorEventLoop):
+    """Event loop of the web server with short TLS timeouts."""
 
     async def create_server(self, *given: Any, **named: Any) -> asyncio.Server:  # noqa: ANN401  as its base
-        """As ever, with our times where TLS is spoken."""
+        """As its base, with these timeouts under TLS."""
         if named.get("ssl") is not None:
-            named.setdefault("ssl_handshake_timeout", HANDSHAKE_WITHIN_S)
-            named.setdefault("ssl_shutdown_timeout", FAREWELL_WITHIN_S)
+            named.setdefault("ssl_handshake_timeout", HANDSHAKE_TIMEOUT_S)
+            named.setdefault("ssl_shutdown_timeout", SHUTDOWN_TIMEOUT_S)
         return await super().create_server(*given, **named)

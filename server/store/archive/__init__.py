@@ -1,4 +1,4 @@
-"""A case as one file: packed for another machine, and taken in again whole or not at all."""
+"""Export of a case as one archive file, and its atomic import."""
 
 from server.store.archive.packing import Archive, pack
 from server.store.archive.unpacking import unpack

@@ -1,9 +1,9 @@
-"""A case copied out as one archive.
+"""Export of a case as an archive.
 
-It is written completely before its first byte is sent: a slow client then locks nothing of the case, the
-length is known, and a damaged file is reported instead of sent as half an archive. It takes the disk space
-of a second copy, and seconds for a CT. The patient's identity is a kind of document of its own, so that it
-can be left out.
+The archive is completed before its first byte is sent: a slow client then does not lock the case, the length
+is known, and a damaged file is reported instead of sent in a partial archive. It needs the disk space of a
+second copy, and seconds for a CT. The patient's identity is a separate kind of document, so that it can be
+left out.
 """
 
 import hashlib
@@ -14,25 +14,25 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from server.store.archive.form import (
+from server.store.archive.schema import (
     CASE,
     DOCUMENTS,
     FILES,
     FORMAT,
     MANIFEST,
     VERSION,
-    CaseForm,
-    DocumentForm,
-    FileForm,
-    ManifestForm,
-    PartForm,
-    WithdrawalForm,
+    CaseSchema,
+    DocumentSchema,
+    FileSchema,
+    ManifestSchema,
+    PartSchema,
+    WithdrawalSchema,
 )
+from server.store.case_database import CaseDatabase
 from server.store.cases import case_of, case_row
 from server.store.documents import every_document
-from server.store.errors import told
+from server.store.errors import translate_errors
 from server.store.files import CHUNK_BYTES, all_files, file_damaged
-from server.store.ledger import Ledger
 from server.store.records import Case, Document, DocumentKind, StoredFile
 
 FAST = 1  # zlib's level: half of the size for a tenth of the time
@@ -45,8 +45,8 @@ class Archive:
 
     Attributes:
         case_id: the case.
-        path: in the home's folder for temporary files; whoever asked for it takes it away.
-        size_bytes: of the file.
+        path: in the home's temporary folder; the caller deletes it.
+        size_bytes: size of the file.
     """
 
     case_id: str
@@ -55,13 +55,13 @@ class Archive:
 
 
 class _Writer:
-    """Writes parts, and remembers their sizes and sums for the manifest."""
+    """Writes parts, and records their sizes and checksums for the manifest."""
 
     def __init__(self, archive: zipfile.ZipFile) -> None:
         self._archive = archive
-        self.parts: list[PartForm] = []
+        self.parts: list[PartSchema] = []
 
-    def write(self, path: str, pieces: Iterator[bytes], *, expected_bytes: int = 0) -> PartForm:
+    def write(self, path: str, pieces: Iterator[bytes], *, expected_bytes: int = 0) -> PartSchema:
         digest, size_bytes = hashlib.sha256(), 0
         entry = zipfile.ZipInfo(path)
         entry.compress_type = zipfile.ZIP_DEFLATED
@@ -70,23 +70,23 @@ class _Writer:
                 digest.update(piece)
                 size_bytes += len(piece)
                 stream.write(piece)
-        part = PartForm(path=path, size_bytes=size_bytes, sha256=digest.hexdigest())
+        part = PartSchema(path=path, size_bytes=size_bytes, sha256=digest.hexdigest())
         self.parts.append(part)
         return part
 
 
-def pack(ledger: Ledger, case_id: str, *, with_identity: bool) -> Archive:
-    """The archive of a case; without `with_identity`, neither its name nor who the patient is are in it.
+def pack(database: CaseDatabase, case_id: str, *, with_identity: bool) -> Archive:
+    """Create the archive of a case; without `with_identity` it has neither its name nor patient identity.
 
     Raises:
-        NotStored: CASE_UNKNOWN.
+        NotFound: CASE_UNKNOWN.
         StoreError: FILE_DAMAGED, a file is not as it was stored.
     """
-    path = ledger.home.new_temporary(".zip")
-    with ledger.holding(case_id), told(ledger.home.folder):
+    path = database.home.new_temporary(".zip")
+    with database.in_use(case_id), translate_errors(database.home.folder):
         try:
             with zipfile.ZipFile(path, "x", zipfile.ZIP_DEFLATED, compresslevel=FAST) as archive:
-                _write_all(ledger, case_id, _Writer(archive), archive, with_identity=with_identity)
+                _write_all(database, case_id, _Writer(archive), archive, with_identity=with_identity)
             return Archive(case_id=case_id, path=path, size_bytes=path.stat().st_size)
         except BaseException:
             path.unlink(missing_ok=True)
@@ -94,12 +94,12 @@ def pack(ledger: Ledger, case_id: str, *, with_identity: bool) -> Archive:
 
 
 def _write_all(
-    ledger: Ledger, case_id: str, writer: _Writer, archive: zipfile.ZipFile, *, with_identity: bool
+    database: CaseDatabase, case_id: str, writer: _Writer, archive: zipfile.ZipFile, *, with_identity: bool
 ) -> None:
-    with ledger.reading() as session:
+    with database.read_session() as session:
         case = case_of(case_row(session, case_id))
-        files = all_files(ledger, session, case_id)
-        ledger.home.reject_without_room(sum(file.size_bytes for file in files))
+        files = all_files(database, session, case_id)
+        database.home.reject_without_space(sum(file.size_bytes for file in files))
         writer.write(CASE, iter([_case_text(case, files, with_identity=with_identity)]))
         lines = (
             _document_line(document)
@@ -113,18 +113,18 @@ def _write_all(
         part = writer.write(f"{FILES}{file.id}", _pieces(file.path), expected_bytes=file.size_bytes)
         if part.sha256 != file.sha256:
             raise file_damaged(file, "its SHA-256 differs")
-    manifest = ManifestForm(format=FORMAT, version=VERSION, made_at=ledger.now, parts=writer.parts)
+    manifest = ManifestSchema(format=FORMAT, version=VERSION, made_at=database.now, parts=writer.parts)
     archive.writestr(MANIFEST, manifest.model_dump_json(indent=1))
 
 
 def _case_text(case: Case, files: tuple[StoredFile, ...], *, with_identity: bool) -> bytes:
     return (
-        CaseForm(
+        CaseSchema(
             id=case.id,
             name=case.name if with_identity else f"Case {case.id[:6]}",
             created_at=case.created_at,
             changed_at=case.changed_at,
-            files=[FileForm(id=file.id, made_at=file.made_at) for file in files],
+            files=[FileSchema(id=file.id, made_at=file.made_at) for file in files],
         )
         .model_dump_json(indent=1)
         .encode()
@@ -133,7 +133,7 @@ def _case_text(case: Case, files: tuple[StoredFile, ...], *, with_identity: bool
 
 def _document_line(document: Document) -> bytes:
     withdrawn = document.withdrawn
-    form = DocumentForm(
+    form = DocumentSchema(
         id=document.id,
         kind=document.kind,
         name=document.name,
@@ -141,13 +141,13 @@ def _document_line(document: Document) -> bytes:
         content=dict(document.content),
         made_at=document.made_at,
         made_by=document.made_by,
-        stands_on=list(document.stands_on),
+        stands_on=list(document.depends_on),
         files=list(document.files),
         withdrawn=None
         if withdrawn is None
-        else WithdrawalForm(at=withdrawn.at, by=withdrawn.by, reason=withdrawn.reason),
+        else WithdrawalSchema(at=withdrawn.at, by=withdrawn.by, reason=withdrawn.reason),
     )
-    # Not by pydantic, which writes some numbers shorter than they are.
+    # Not with pydantic's serialiser, which shortens some floats.
     return json.dumps(form.model_dump(mode="python"), ensure_ascii=False).encode() + b"\n"
 
 

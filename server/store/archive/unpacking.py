@@ -1,122 +1,126 @@
-"""A case taken in from an archive."""
+"""Import of a case from an archive."""
 
 from collections.abc import Iterable
 from pathlib import Path
 
 from sqlalchemy.orm import Session
 
-from server.store.archive.form import (
+from server.store.archive.reader import Parts, open_archive, parse_part
+from server.store.archive.schema import (
     CASE,
     DOCUMENTS,
     FILES,
-    CaseForm,
-    DocumentForm,
-    WithdrawalForm,
-    rejected,
+    CaseSchema,
+    DocumentSchema,
+    WithdrawalSchema,
+    archive_error,
 )
-from server.store.archive.reading import Parts, opened, shaped
+from server.store.case_database import CaseDatabase
 from server.store.cases import add_case, case_of
-from server.store.checks import checked_name, text_of
-from server.store.errors import told
+from server.store.cleanup import remove_case
+from server.store.errors import translate_errors
 from server.store.files import READ_ONLY, UNFINISHED, make_folder
 from server.store.home import sync_file, sync_folder
-from server.store.ledger import Ledger
-from server.store.records import Case, DocumentKind, Imported, says_archive
-from server.store.sweep import remove_case
+from server.store.records import Case, DocumentKind, ImportRecord, says_archive
 from server.store.tables import (
-    ARRIVING,
-    HERE,
-    WHOLE,
+    COMPLETE,
+    IMPORTING,
+    PRESENT,
     BasisRow,
     CaseRow,
     DocumentFileRow,
     DocumentRow,
     FileRow,
 )
+from server.store.validation import content_to_json, validate_name
 from tracker.errors import InvalidInput
 
-# Who withdraws what does not count here.
-TAKING_IN = "Coaxial"
+# Author of the withdrawal of imported signatures.
+WITHDRAWN_BY = "Coaxial"
 
 
-def unpack(ledger: Ledger, archive: Path, *, by: str) -> Case:
-    """Take a case in; it is there whole when this returns, and otherwise nothing of it is.
+def unpack(database: CaseDatabase, archive: Path, *, by: str) -> Case:
+    """Import a case atomically.
 
-    Each of its documents says from then on that it came in, by whom and when: the names in an archive were
-    written by whoever wrote the archive.
+    Each of its documents is marked as imported, with person and time, because the names in an archive are not
+    authenticated.
 
     Raises:
         InvalidInput: ARCHIVE_INVALID, ARCHIVE_NEWER.
         DiskFull: STORE_FULL.
     """
-    with told(ledger.home.folder), opened(archive) as parts:
-        case, documents = _judged(parts)
-        ledger.home.reject_without_room(parts.total_bytes)
-        with ledger.writing() as session:
-            arriving = add_case(session, name=case.name, now=ledger.now, state=ARRIVING, copied_from=case.id)
+    with translate_errors(database.home.folder), open_archive(archive) as parts:
+        case, documents = _validated(parts)
+        database.home.reject_without_space(parts.total_bytes)
+        with database.write_session() as session:
+            arriving = add_case(
+                session, name=case.name, now=database.now, state=IMPORTING, copied_from=case.id
+            )
         try:
-            _write_files(ledger.home.cases / arriving.id, case, parts)
-            with ledger.writing() as session:
-                imported = Imported(by=by, at=ledger.now)
-                kept = [_doubted(document, imported.at) for document in documents]
-                return _arrive(session, arriving.id, case, kept, parts, imported)
+            _write_files(database.home.cases / arriving.id, case, parts)
+            with database.write_session() as session:
+                imported = ImportRecord(by=by, at=database.now)
+                stored = [_as_imported(document, imported.at) for document in documents]
+                return _insert_case(session, arriving.id, case, stored, parts, imported)
         except BaseException:
-            remove_case(ledger, arriving.id)
+            remove_case(database, arriving.id)
             raise
 
 
-def _judged(parts: Parts) -> tuple[CaseForm, list[DocumentForm]]:
-    """The case and its documents, if they fit together."""
-    case = shaped(CaseForm, parts.text(CASE), where=CASE)
+def _validated(parts: Parts) -> tuple[CaseSchema, list[DocumentSchema]]:
+    """Parse and validate the case and its documents."""
+    case = parse_part(CaseSchema, parts.text(CASE), where=CASE)
     files = [file.id for file in case.files]
     expected = {f"{FILES}{file}" for file in files} | {CASE, DOCUMENTS}
     if len(set(files)) != len(files) or {part.path for part in parts.manifest.parts} != expected:
-        raise rejected(f"its files are not those that {CASE} names")
+        raise archive_error(f"its files are not those that {CASE} names")
     lines = parts.text(DOCUMENTS).split(b"\n")
     if lines.pop() != b"":
-        raise rejected(f"{DOCUMENTS} ends in the middle of a line")
+        raise archive_error(f"{DOCUMENTS} ends in the middle of a line")
     documents = [
-        shaped(DocumentForm, line, where=f"{DOCUMENTS}, line {number}")
+        parse_part(DocumentSchema, line, where=f"{DOCUMENTS}, line {number}")
         for number, line in enumerate(lines, 1)
     ]
     try:
-        checked_name(case.name, of="name of the case")
+        validate_name(case.name, of="name of the case")
         _reject_misfits(documents, set(files))
     except InvalidInput as error:
         if error.code == "ARCHIVE_INVALID":
             raise
-        raise rejected(error.message) from error
+        raise archive_error(error.message) from error
     return case, documents
 
 
-def _reject_misfits(documents: Iterable[DocumentForm], files: set[str]) -> None:
-    """Each document stands on those before it, has its own version, and files that are there."""
+def _reject_misfits(documents: Iterable[DocumentSchema], files: set[str]) -> None:
+    """Reject documents with unknown dependencies, wrong versions or missing files."""
     earlier: dict[str, DocumentKind] = {}
     newest: dict[tuple[DocumentKind, str], int] = {}
     for document in documents:
-        text_of(document.content)
+        content_to_json(document.content)
         for name in (document.name, document.made_by):
-            if checked_name(name, of="name of a document") != name:
-                raise rejected(f"the name of the document {document.id} is not in its plain form")
+            if validate_name(name, of="name of a document") != name:
+                raise archive_error(f"the name of the document {document.id} is not in its plain form")
         if document.id in earlier:
-            raise rejected(f"it has two documents {document.id}")
+            raise archive_error(f"it has two documents {document.id}")
         if newest.get((document.kind, document.name), 0) + 1 != document.version:
             before = document.version - 1
-            raise rejected(f"the document {document.id} has version {before + 1}, but not version {before}")
+            raise archive_error(
+                f"the document {document.id} has version {before + 1}, but not version {before}"
+            )
         for basis in document.stands_on:
             if earlier.get(basis, DocumentKind.PATIENT) is DocumentKind.PATIENT:
-                raise rejected(f"the document {document.id} stands on {basis}, which is not before it")
+                raise archive_error(f"the document {document.id} stands on {basis}, which is not before it")
         repeated = any(len(set(ids)) != len(ids) for ids in (document.stands_on, document.files))
         if repeated or not files.issuperset(document.files):
-            raise rejected(
+            raise archive_error(
                 f"the document {document.id} has files or bases that are not there, or there twice"
             )
         earlier[document.id] = document.kind
         newest[document.kind, document.name] = document.version
 
 
-def _doubted(document: DocumentForm, now: str) -> DocumentForm:
-    """A signature no longer counts, and nobody withdrew anything here: who wrote it is not known."""
+def _as_imported(document: DocumentSchema, now: str) -> DocumentSchema:
+    """Withdraw imported signatures, and mark names as stated by the archive: they are not authenticated."""
     withdrawn = document.withdrawn
     if withdrawn is not None:
         told_so = withdrawn.model_copy(update={"by": says_archive(withdrawn.by)})
@@ -124,11 +128,11 @@ def _doubted(document: DocumentForm, now: str) -> DocumentForm:
     if document.kind is not DocumentKind.SIGNATURE:
         return document
     reason = "it came in with an archive, and has to be signed again here"
-    withdrawn = WithdrawalForm(at=now, by=TAKING_IN, reason=reason)
+    withdrawn = WithdrawalSchema(at=now, by=WITHDRAWN_BY, reason=reason)
     return document.model_copy(update={"withdrawn": withdrawn})
 
 
-def _write_files(folder: Path, case: CaseForm, parts: Parts) -> None:
+def _write_files(folder: Path, case: CaseSchema, parts: Parts) -> None:
     make_folder(folder)
     for file in case.files:
         part = folder / f"{UNFINISHED}{file.id}"
@@ -142,23 +146,23 @@ def _write_files(folder: Path, case: CaseForm, parts: Parts) -> None:
     sync_folder(folder)
 
 
-def _arrive(
+def _insert_case(
     session: Session,
     case_id: str,
-    case: CaseForm,
-    documents: Iterable[DocumentForm],
+    case: CaseSchema,
+    documents: Iterable[DocumentSchema],
     parts: Parts,
-    imported: Imported,
+    imported: ImportRecord,
 ) -> Case:
     row = session.get_one(CaseRow, case_id)
-    row.state, row.created_at, row.changed_at = HERE, case.created_at, case.changed_at
+    row.state, row.created_at, row.changed_at = PRESENT, case.created_at, case.changed_at
     for file in case.files:
         part = parts.part(f"{FILES}{file.id}")
         session.add(
             FileRow(
                 case_id=case_id,
                 id=file.id,
-                state=WHOLE,
+                state=COMPLETE,
                 size_bytes=part.size_bytes,
                 sha256=part.sha256,
                 made_at=file.made_at,
@@ -176,7 +180,7 @@ def _arrive(
     return case_of(row)
 
 
-def _document_row(case_id: str, document: DocumentForm, imported: Imported) -> DocumentRow:
+def _document_row(case_id: str, document: DocumentSchema, imported: ImportRecord) -> DocumentRow:
     withdrawn = document.withdrawn
     return DocumentRow(
         case_id=case_id,
@@ -184,7 +188,7 @@ def _document_row(case_id: str, document: DocumentForm, imported: Imported) -> D
         kind=document.kind.value,
         name=document.name,
         version=document.version,
-        content=text_of(document.content),
+        content=content_to_json(document.content),
         made_at=document.made_at,
         made_by=document.made_by,
         withdrawn_at=None if withdrawn is None else withdrawn.at,

@@ -1,8 +1,8 @@
-"""A phone's images over `WS /ws/camera`.
+"""Images of a phone over `WS /ws/camera`.
 
-page_clock.py  the page's clock against this machine's, by bounds
-messages.py    what page and server say
-sender.py      what one page sends, in order; without I/O
-receiver.py    the one sender of now, and the way of its images to the tracking process
+page_clock.py  clock offset between page and server, by round-trip bounds
+messages.py    messages of page and server
+sender.py      protocol state of one page; without I/O
+receiver.py    the one active sender, and the transfer of its images to the tracking process
 socket.py      the WebSocket
 """

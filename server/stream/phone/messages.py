@@ -1,4 +1,4 @@
-"""What a page that sends its camera's images says, and what it is told; `socket.py` has the order."""
+"""Messages between a page that sends its camera's images and the server; `socket.py` has their order."""
 
 from typing import Annotated, Literal, Self
 
@@ -15,13 +15,13 @@ Milliseconds = Annotated[float, Field(ge=0.0, le=1e12, allow_inf_nan=False)]
 
 
 class HelloMessage(Message):
-    """Which page this is, so that it gets its place back after a loss of its connection."""
+    """Identifies the page, so that it keeps its slot after a lost connection."""
 
     key: Annotated[str, Field(pattern=r"^[0-9a-f]{32}$")]
 
 
 class PongMessage(Message):
-    """The answer to a ping, sent at once."""
+    """Immediate answer to a ping."""
 
     ping: Annotated[int, Field(ge=0, le=2**53)]
     at_ms: Milliseconds
@@ -29,7 +29,7 @@ class PongMessage(Message):
 
 
 class PhoneCameraMessage(Message):
-    """What the browser granted; sent before the first image and after each change."""
+    """Camera settings granted by the browser; sent before the first image and after each change."""
 
     label: Annotated[str, Field(max_length=120)]
     width_px: Annotated[int, Field(ge=MIN_SIDE_PX, le=MAX_WIDTH_PX)]
@@ -40,7 +40,7 @@ class PhoneCameraMessage(Message):
     zoom_percent: Annotated[int, Field(ge=1, le=10**5)] | None
 
     def camera(self) -> PhoneCamera:
-        """The same as a record."""
+        """Return the same as a record."""
         return PhoneCamera(
             label=self.label,
             size_wh_px=(self.width_px, self.height_px),
@@ -52,16 +52,16 @@ class PhoneCameraMessage(Message):
 
 
 class ImageMessage(Message):
-    """An image follows, in parts."""
+    """Announces an image, which follows in parts."""
 
     bytes: Annotated[int, Field(ge=1, le=2**53)]
     captured_ms: Milliseconds
     """The page's clock."""
     clock: Literal["capture", "presentation"]
-    """capture: as the browser says; presentation: when it was presented, which is later."""
+    """capture: capture time of the browser; presentation: time of presentation, which is later."""
 
 
-class PhoneSaid(Message):
+class PhoneClientMessage(Message):
     """One text message of the page: exactly one of these."""
 
     hello: HelloMessage | None = None
@@ -77,7 +77,7 @@ class PhoneSaid(Message):
 
 
 class WelcomeMessage(Message):
-    """What the page is asked for."""
+    """Camera settings that the page shall use."""
 
     width_px: int
     height_px: int
@@ -85,33 +85,33 @@ class WelcomeMessage(Message):
     quality_ratio: float
     """Of the JPEG."""
     part_bytes: int
-    """The largest part of an image in one message."""
+    """Maximum size of a part of an image."""
     lock_focus: bool
     focus_mm: int | None
-    """At the calibration in use; null where it is not known, and then what has settled is locked."""
+    """At the calibration in use; null where unknown, and then the settled focus is locked."""
 
 
 class NoteMessage(Message):
-    """Sent for each image that came, and twice a second: ping, credit, and how it goes."""
+    """Sent for each received image, and twice a second: ping, credit, and status."""
 
     ping: int
     credit: int
-    """So many images may be sent on this connection, from its beginning."""
+    """Number of images that may be sent on this connection, since its beginning."""
     images: int
-    """So many were handed to the tracking process."""
+    """Number of images passed to the tracking process."""
     rate_hz: float
     delay_ms: float | None
-    """From the capture of the last image to its arrival, at most; null before the first."""
+    """Upper bound of the time from capture to arrival of the last image; null before the first."""
     clock_error_ms: float | None
-    """By how much `delay_ms` may be too long."""
+    """By how much `delay_ms` may be too large."""
     source_state: SourceState | None
-    """Of the camera as the server has it; null while it is not known."""
+    """State of the source on the server; null while unknown."""
     problem: ProblemMessage | None
     """Of the last image, of the camera, or of the tracking."""
 
 
-class PhoneTold(Message):
-    """One text message to the page: exactly one of these. After `refused` the connection is closed."""
+class PhoneServerMessage(Message):
+    """One text message to the page: exactly one of these. After `rejected` the connection is closed."""
 
     welcome: WelcomeMessage | None = None
     note: NoteMessage | None = None

@@ -1,4 +1,4 @@
-"""The one phone that sends now, and the way of its images to the tracking process."""
+"""The one active sender, and the transfer of its images to the tracking process."""
 
 import asyncio
 import time
@@ -10,12 +10,12 @@ from dataclasses import dataclass, field
 import structlog
 
 from server.capture.local_camera import CalibratedCamera
-from server.capture.phone import Inbound, PhoneImage
+from server.capture.phone import PhoneImage, PhoneUpdate
 from server.config import CameraConfig
 from server.live import Problem
 from server.loop.phone_inbox import PhoneInbox
 from server.security import Person
-from server.stream.connection import LARGEST_UPWARD_BYTES
+from server.stream.connection import MAX_CLIENT_MESSAGE_BYTES
 from server.stream.phone.messages import WelcomeMessage
 from server.stream.phone.sender import Received
 from tracker.camera import CameraControl
@@ -23,9 +23,9 @@ from tracker.errors import NavigationError
 
 DEFAULT_SIZE_WH_PX = (1280, 720)
 DEFAULT_RATE_HZ = 30.0
-# Artefacts of compression stay below the sensor's noise; 1280x720 takes some 150 to 300 kB.
+# Compression artefacts stay below the sensor's noise; 1280x720 needs some 150 to 300 kB.
 JPEG_QUALITY_RATIO = 0.9
-# As of a local camera: past it, an image waited somewhere.
+# As for a local camera: an older image was buffered somewhere.
 MAX_AGE_S = 1.0
 RATE_WINDOW_S = 2.0
 
@@ -33,7 +33,7 @@ _log = structlog.get_logger(__name__)
 
 
 class PhoneTaken(NavigationError):
-    """Another device sends already."""
+    """Another device is sending already."""
 
     def __init__(self, name: str) -> None:
         super().__init__(
@@ -44,19 +44,19 @@ class PhoneTaken(NavigationError):
         )
 
     def __reduce__(self) -> tuple[object, ...]:
-        """Made again from what it was made of."""
+        """Pickle by the constructor's arguments."""
         return type(self), (self.context["name"],)
 
 
 @dataclass(slots=True, eq=False)
-class Place:
-    """The place of the one who sends.
+class SenderSlot:
+    """The slot of the active sender.
 
     Attributes:
-        key: of the page.
-        person: who is signed in there.
-        replaced: set when the same page came back on another connection.
-        problem: of the last image; None when it was handed on.
+        key: key of the page.
+        person: person signed in on it.
+        replaced: set when the same page reconnects.
+        problem: problem of the last image; None when it was passed on.
     """
 
     key: str
@@ -66,11 +66,11 @@ class Place:
 
 
 class Receiver:
-    """Hands the images of one sender on, each newer than the one before. Used in one event loop.
+    """Passes on the images of one sender, each newer than the one before. For one event loop.
 
     Attributes:
-        images: that were handed on, of all senders.
-        calibrated: what the calibration in use was made with; None while there is none.
+        images: number of images passed on, of all senders.
+        calibrated: camera settings of the calibration in use; None without one.
     """
 
     def __init__(
@@ -81,13 +81,13 @@ class Receiver:
         self._inbox = inbox
         self._settings = settings
         self._clock = clock
-        self._place: Place | None = None
+        self._slot: SenderSlot | None = None
         self._captured_at_s = 0.0
         self._arrived: deque[float] = deque(maxlen=240)
 
     @property
     def rate_hz(self) -> float:
-        """Images a second that were handed on in the last two seconds."""
+        """Images per second passed on in the last two seconds."""
         since_s = self._clock() - RATE_WINDOW_S
         recent = [at_s for at_s in self._arrived if at_s >= since_s]
         if len(recent) < 2 or recent[-1] <= recent[0]:
@@ -95,7 +95,7 @@ class Receiver:
         return (len(recent) - 1) / (recent[-1] - recent[0])
 
     def welcome(self) -> WelcomeMessage:
-        """What a page is asked for: by the settings, else as the calibration in use was made."""
+        """Return the camera settings for a page: from the configuration, else those of the calibration."""
         settings, calibrated = self._settings, self.calibrated
         width, height = DEFAULT_SIZE_WH_PX if calibrated is None else calibrated.size_wh_px
         if settings.width is not None and settings.height is not None:
@@ -105,43 +105,43 @@ class Receiver:
             height_px=height,
             rate_hz=settings.rate_hz or DEFAULT_RATE_HZ,
             quality_ratio=JPEG_QUALITY_RATIO,
-            part_bytes=LARGEST_UPWARD_BYTES,
+            part_bytes=MAX_CLIENT_MESSAGE_BYTES,
             lock_focus=settings.lock_controls,
             focus_mm=None if calibrated is None else calibrated.controls.get(CameraControl.FOCUS),
         )
 
     @contextmanager
-    def sending(self, key: str, person: Person) -> Iterator[Place]:
-        """The place of the one who sends, for the time of the block.
+    def sending(self, key: str, person: Person) -> Iterator[SenderSlot]:
+        """Reserve the sender's slot for the duration of the block.
 
         Raises:
             PhoneTaken: another page has it. The same page of the same person gets its place back.
         """
-        before = self._place
+        before = self._slot
         if before is not None and (before.key, before.person.id) != (key, person.id):
             _log.warning("phone_rejected", by=person.name, sending=before.person.name)
             raise PhoneTaken(before.person.name)
         if before is not None:
             before.replaced.set()
-        place = self._place = Place(key=key, person=person)
-        self._inbox.put(Inbound(sender=person.name))
+        slot = self._slot = SenderSlot(key=key, person=person)
+        self._inbox.put(PhoneUpdate(sender=person.name))
         _log.info("phone_sends", by=person.name)
         try:
-            yield place
+            yield slot
         finally:
-            if self._place is place:
-                self._place = None
-                self._inbox.put(Inbound(sender=""))
+            if self._slot is slot:
+                self._slot = None
+                self._inbox.put(PhoneUpdate(sender=""))
                 _log.info("phone_gone", by=person.name)
 
-    def deliver(self, place: Place, received: Received | Problem) -> None:
-        """Hand an image on to the tracking process, or why it cannot be used."""
-        if self._place is not place:
+    def deliver(self, slot: SenderSlot, received: Received | Problem) -> None:
+        """Pass an image on to the tracking process, or the reason why it is unusable."""
+        if self._slot is not slot:
             return
         problem = received if isinstance(received, Problem) else self._problem_of(received)
-        if problem is not None and (place.problem is None or place.problem.code != problem.code):
-            _log.warning(problem.message, code=problem.code, remedy=problem.remedy, by=place.person.name)
-        place.problem = problem
+        if problem is not None and (slot.problem is None or slot.problem.code != problem.code):
+            _log.warning(problem.message, code=problem.code, remedy=problem.remedy, by=slot.person.name)
+        slot.problem = problem
         image = None
         if problem is None and isinstance(received, Received):
             image = PhoneImage(
@@ -154,7 +154,7 @@ class Receiver:
             self.images += 1
             self._captured_at_s = received.captured_at_s
             self._arrived.append(received.arrived_s)
-        self._inbox.put(Inbound(sender=place.person.name, image=image, problem=problem))
+        self._inbox.put(PhoneUpdate(sender=slot.person.name, image=image, problem=problem))
 
     def _problem_of(self, received: Received) -> Problem | None:
         if received.captured_at_s <= self._captured_at_s:

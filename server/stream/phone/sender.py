@@ -1,4 +1,4 @@
-"""What one page sends, in order: round trips, its camera, and images in parts. Without I/O."""
+"""Protocol state of one sending page: round trips, camera settings, images in parts. Without I/O."""
 
 from dataclasses import dataclass
 
@@ -14,27 +14,27 @@ from server.stream.phone.messages import (
     MIN_SIDE_PX,
     HelloMessage,
     ImageMessage,
-    PhoneSaid,
+    PhoneClientMessage,
     PongMessage,
 )
 from server.stream.phone.page_clock import PageClock
-from server.stream.socket import LARGEST_MESSAGE_BYTES, REJECTED, TOO_LARGE, Misbehaviour
+from server.stream.socket import MAX_MESSAGE_BYTES, REJECTED, TOO_LARGE, ProtocolViolation
 
-# One on the way and one being made: the line is never idle, and no more than these can grow old.
-MAX_IMAGES_UNDERWAY = 2
+# One in flight and one being encoded: the connection is never idle, and no more images can age.
+MAX_IMAGES_IN_FLIGHT = 2
 MAX_PINGS_OPEN = 64
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Received:
-    """A whole JPEG of a size that is allowed.
+    """A complete JPEG of an allowed size.
 
     Attributes:
         jpeg: the image.
-        captured_at_s: this machine's monotonic clock, never later than the capture.
-        arrived_s: when its last part came.
-        clock: whose time the capture is.
-        camera: that took it.
+        captured_at_s: monotonic clock of this machine, never later than the true capture.
+        arrived_s: arrival of its last part.
+        clock: clock of the capture time.
+        camera: its camera.
     """
 
     jpeg: bytes
@@ -45,15 +45,15 @@ class Received:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Grant:
-    """A ping, and how many images may be sent on this connection from its beginning."""
+class CreditUpdate:
+    """A ping, and the total number of images that may be sent on this connection."""
 
     ping: int
     credit: int
 
 
 class Sender:
-    """The side of the server of one connection, after the page has said hello. Times are passed in."""
+    """Server side of one connection, after the hello. Times are passed in."""
 
     def __init__(self) -> None:
         self.clock = PageClock()
@@ -62,49 +62,49 @@ class Sender:
         self._next_ping = 0
         self._announced = 0
         self._received = 0
-        self._granted = 0
+        self._credit = 0
         self._image: ImageMessage | None = None
         self._parts: list[bytes] = []
         self._part_bytes = 0
 
-    def grant(self, now_s: float) -> Grant:
-        """What is granted now, with a ping."""
+    def update_credit(self, now_s: float) -> CreditUpdate:
+        """Return the present credit, with a new ping."""
         ping, self._next_ping = self._next_ping, self._next_ping + 1
         self._pings[ping] = now_s
         while len(self._pings) > MAX_PINGS_OPEN:
             del self._pings[next(iter(self._pings))]
-        self._granted = self._received + MAX_IMAGES_UNDERWAY
-        return Grant(ping=ping, credit=self._granted)
+        self._credit = self._received + MAX_IMAGES_IN_FLIGHT
+        return CreditUpdate(ping=ping, credit=self._credit)
 
-    def hear(self, text: str, now_s: float) -> None:
-        """One text message.
+    def receive_text(self, text: str, now_s: float) -> None:
+        """Handle one text message.
 
         Raises:
-            Misbehaviour: it is not understood, or not due.
+            ProtocolViolation: it is invalid, or out of order.
         """
-        said = said_in(text)
-        if said.pong is not None:
-            self._take_pong(said.pong, now_s)
-        elif said.camera is not None:
-            self._camera = said.camera.camera()
-        elif said.image is not None:
-            self._begin(said.image)
+        message = parse_message(text)
+        if message.pong is not None:
+            self._take_pong(message.pong, now_s)
+        elif message.camera is not None:
+            self._camera = message.camera.camera()
+        elif message.image is not None:
+            self._begin(message.image)
         else:
-            raise Misbehaviour(REJECTED, "hello is said once, at the beginning")
+            raise ProtocolViolation(REJECTED, "hello is sent once, at the beginning")
 
     def take_part(self, part: bytes, now_s: float) -> Received | Problem | None:
-        """One part of an image: the image when it is whole, what is wrong with it, or None until then.
+        """Add one part of an image; return the image when complete, its problem, or None until then.
 
         Raises:
-            Misbehaviour: no image was announced, or it is longer than announced.
+            ProtocolViolation: no image was announced, or it is longer than announced.
         """
         image, camera = self._image, self._camera
         if image is None or camera is None or not part:
-            raise Misbehaviour(REJECTED, "an image is announced before its parts")
+            raise ProtocolViolation(REJECTED, "an image is announced before its parts")
         self._parts.append(part)
         self._part_bytes += len(part)
         if self._part_bytes > image.bytes:
-            raise Misbehaviour(TOO_LARGE, f"{image.bytes} bytes were announced, {self._part_bytes} came")
+            raise ProtocolViolation(TOO_LARGE, f"{image.bytes} bytes were announced, {self._part_bytes} came")
         if self._part_bytes < image.bytes:
             return None
         jpeg = b"".join(self._parts)
@@ -120,50 +120,54 @@ class Sender:
     def _take_pong(self, pong: PongMessage, now_s: float) -> None:
         sent_s = self._pings.pop(pong.ping, None)
         if sent_s is None:
-            raise Misbehaviour(REJECTED, f"ping {pong.ping} was answered before, or never sent")
+            raise ProtocolViolation(REJECTED, f"ping {pong.ping} was answered before, or never sent")
         self.clock.take(sent_s=sent_s, page_s=pong.at_ms / 1000.0, received_s=now_s)
 
     def _begin(self, image: ImageMessage) -> None:
         if self._image is not None:
-            raise Misbehaviour(REJECTED, f"{self._part_bytes} of {self._image.bytes} bytes came of an image")
+            raise ProtocolViolation(
+                REJECTED, f"{self._part_bytes} of {self._image.bytes} bytes came of an image"
+            )
         if self._camera is None:
-            raise Misbehaviour(REJECTED, "the camera is described before its first image")
+            raise ProtocolViolation(REJECTED, "the camera is described before its first image")
         if not self.clock.is_known:
-            raise Misbehaviour(REJECTED, "a ping is answered before the first image")
-        if self._announced >= self._granted:
-            raise Misbehaviour(REJECTED, f"{self._granted} images were granted, and one more was sent")
+            raise ProtocolViolation(REJECTED, "a ping is answered before the first image")
+        if self._announced >= self._credit:
+            raise ProtocolViolation(
+                REJECTED, f"{self._credit} images were allowed by the credit, and one more was sent"
+            )
         if image.bytes > MAX_JPEG_BYTES:
-            raise Misbehaviour(
+            raise ProtocolViolation(
                 TOO_LARGE, f"an image of {image.bytes} bytes, at most {MAX_JPEG_BYTES} are taken"
             )
         self._image = image
         self._announced += 1
 
 
-def said_in(text: str) -> PhoneSaid:
-    """A text message, understood.
+def parse_message(text: str) -> PhoneClientMessage:
+    """Parse a text message.
 
     Raises:
-        Misbehaviour: it is not.
+        ProtocolViolation: it is invalid.
     """
-    if len(text) > LARGEST_MESSAGE_BYTES:
-        raise Misbehaviour(TOO_LARGE, f"messages may have at most {LARGEST_MESSAGE_BYTES} characters")
+    if len(text) > MAX_MESSAGE_BYTES:
+        raise ProtocolViolation(TOO_LARGE, f"messages may have at most {MAX_MESSAGE_BYTES} characters")
     try:
-        return PhoneSaid.model_validate_json(text, strict=True)
+        return PhoneClientMessage.model_validate_json(text, strict=True)
     except ValidationError as error:
-        raise Misbehaviour(REJECTED, f"not understood: {error.errors()[0]['msg']}"[:120]) from None
+        raise ProtocolViolation(REJECTED, f"not understood: {error.errors()[0]['msg']}"[:120]) from None
 
 
-def hello_in(text: str) -> HelloMessage:
-    """The first message.
+def parse_hello(text: str) -> HelloMessage:
+    """Parse the first message.
 
     Raises:
-        Misbehaviour: it is another one.
+        ProtocolViolation: it is another one.
     """
-    said = said_in(text)
-    if said.hello is None:
-        raise Misbehaviour(REJECTED, "the first message is hello")
-    return said.hello
+    message = parse_message(text)
+    if message.hello is None:
+        raise ProtocolViolation(REJECTED, "the first message is hello")
+    return message.hello
 
 
 def _problem_of(jpeg: bytes) -> Problem | None:

@@ -1,38 +1,38 @@
-"""No alarm while all is well, and no chatter of a drill that is held at a limit."""
+"""False alarms during good drilling, and repeated alarms of a drill at a limit."""
 
-from tests.benchmarks.alarms.drilled import DrilledTheatre, Told
+from tests.benchmarks.alarms.drilling_theatre import AlarmCounts, DrillingTheatre
 from tests.benchmarks.tables import Table, number
 from tracker.navigation.alarms import Condition
 
 CYCLE_S = 40.0
 SIMULATED_SEEDS = range(1, 26)
 RENDERED_SEEDS = range(1, 6)
-HELD_SEEDS = range(1, 6)
+STATIONARY_SEEDS = range(1, 6)
 SIMULATED_HZ, RENDERED_HZ = 30.0, 15.0
-HELD_S = 60.0
+STATIONARY_S = 60.0
 
 
 def good_drilling_table() -> Table:
-    """A thousand seconds of good drilling, and a part of them rendered and tracked."""
+    """Table of 1000 s of good drilling, partly rendered and tracked."""
     rows = []
     for name, seeds, rate_hz in (
         ("poses as unsure as stated", SIMULATED_SEEDS, SIMULATED_HZ),
         ("rendered and tracked", RENDERED_SEEDS, RENDERED_HZ),
     ):
-        told = Told()
+        counts = AlarmCounts()
         for seed in seeds:
-            theatre = DrilledTheatre(seed)
+            theatre = DrillingTheatre(seed)
             conclude = theatre.simulated if rate_hz == SIMULATED_HZ else theatre.rendered()
-            theatre.drill(conclude, seconds=CYCLE_S, rate_hz=rate_hz, told=told)
+            theatre.drill(conclude, seconds=CYCLE_S, rate_hz=rate_hz, counts=counts)
         rows.append(
             [
                 name,
                 str(len(seeds)),
-                number(told.images / rate_hz, 0),
-                str(told.images),
-                number(told.min_mm),
-                str(sum(told.raised_in_roomy.values())),
-                str(sum(told.raised.values())),
+                number(counts.images / rate_hz, 0),
+                str(counts.images),
+                number(counts.min_mm),
+                str(sum(counts.raised_while_clear.values())),
+                str(sum(counts.raised.values())),
             ]
         )
     return Table(
@@ -50,13 +50,22 @@ def good_drilling_table() -> Table:
     )
 
 
-def held_table() -> Table:
-    """A drill that stands still at a limit, its pose trembling: how often each alarm is raised."""
+def stationary_drill_table() -> Table:
+    """Table of the alarms raised by a drill that stands still at a limit, with pose noise."""
     rows = []
     for limit_mm, condition in ((1.0, Condition.CLEARANCE_LOW), (0.0, Condition.BREACH)):
-        raised = [raised_while_held(seed, limit_mm, condition, seconds=HELD_S) for seed in HELD_SEEDS]
+        raised = [
+            raised_while_stationary(seed, limit_mm, condition, seconds=STATIONARY_S)
+            for seed in STATIONARY_SEEDS
+        ]
         rows.append(
-            [condition.value, number(limit_mm, 1), str(len(raised)), number(HELD_S, 0), str(max(raised))]
+            [
+                condition.value,
+                number(limit_mm, 1),
+                str(len(raised)),
+                number(STATIONARY_S, 0),
+                str(max(raised)),
+            ]
         )
     return Table(
         title="A drill held exactly at a limit",
@@ -69,8 +78,8 @@ def held_table() -> Table:
     )
 
 
-def raised_while_held(seed: int, limit_mm: float, condition: Condition, *, seconds: float) -> int:
-    """How often an alarm is raised by a drill that is held at its limit."""
-    theatre, told = DrilledTheatre(seed, skill="breaching"), Told()
-    theatre.drill(theatre.held_at(limit_mm), seconds=seconds, rate_hz=SIMULATED_HZ, told=told)
-    return told.raised[condition]
+def raised_while_stationary(seed: int, limit_mm: float, condition: Condition, *, seconds: float) -> int:
+    """Return how often an alarm is raised by a drill that stands still at its limit."""
+    theatre, counts = DrillingTheatre(seed, skill="breaching"), AlarmCounts()
+    theatre.drill(theatre.stationary_at(limit_mm), seconds=seconds, rate_hz=SIMULATED_HZ, counts=counts)
+    return counts.raised[condition]

@@ -1,4 +1,4 @@
-"""From the image that shows a breach to a client that hears its alarm, with a running server."""
+"""Latency from the first image of a breach to the alarm at a WebSocket client of a running server."""
 
 import time
 from collections.abc import Mapping
@@ -9,8 +9,8 @@ from websockets.sync.client import connect
 from server.config import Config
 from server.setup import build_setup
 from server.stream.messages import LiveMessage
-from tests.benchmarks.alarms.drilled import clearance_mm
-from tests.benchmarks.asked import Asked
+from tests.benchmarks.alarms.drilling_theatre import clearance_mm
+from tests.benchmarks.options import BenchmarkOptions
 from tests.benchmarks.running_server import PATIENCE_S, running_server
 from tests.benchmarks.tables import Table, number, percentile
 from tracker.navigation.alarms import Condition
@@ -21,14 +21,14 @@ RATE_HZ = 30.0
 EVERY_S, LASTS_S, JUMP_MM = 1.9, 0.5, 7.0
 # An alarm that is over clears after a second; a breach sooner than that is the same one.
 APART_S = 1.2
-# Less deep than this a breach is a matter of the tracker's noise, not of time.
+# Detection of a shallower breach depends on tracker noise, not on latency.
 MIN_MM = 0.3
 GOAL_MS = 250.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Breach:
-    """A breach that truly was, and when a client heard of it.
+    """A true breach, and when a client received its alarm.
 
     Attributes:
         first_number: of the first image that shows it.
@@ -41,9 +41,9 @@ class Breach:
     late_ms: float | None
 
 
-def breach_table(asked: Asked, *, seconds: float) -> Table:
-    """How late breaches are announced to a connected client."""
-    breaches = _breaches(asked, seconds=seconds)
+def breach_table(options: BenchmarkOptions, *, seconds: float) -> Table:
+    """Table of the latency of breach alarms at a connected client."""
+    breaches = _breaches(options, seconds=seconds)
     late = [one.late_ms for one in breaches if one.late_ms is not None]
     return Table(
         title="From the grab of the first image that shows a breach to the client that hears its alarm",
@@ -66,12 +66,12 @@ def breach_table(asked: Asked, *, seconds: float) -> Table:
     )
 
 
-def _breaches(asked: Asked, *, seconds: float) -> list[Breach]:
+def _breaches(options: BenchmarkOptions, *, seconds: float) -> list[Breach]:
     event = {"kind": "drill_jumps", "at_s": 1.0, "lasts_s": LASTS_S, "every_s": EVERY_S, "size_mm": JUMP_MM}
     played = {"skill": "good", "events": [event]}
     # A start that compiles brings images late, which is no stalled camera.
-    with running_server(asked, seed=asked.seeds[0], live_rate_hz=RATE_HZ, rehearsal=played) as server:
-        heard: dict[int, tuple[int, float, float]] = {}
+    with running_server(options, seed=options.seeds[0], live_rate_hz=RATE_HZ, rehearsal=played) as server:
+        received: dict[int, tuple[int, float, float]] = {}
         first_s = 0.0
         with connect(server.socket_address("/ws/live"), proxy=None, compression=None) as socket:
             while True:
@@ -83,25 +83,27 @@ def _breaches(asked: Asked, *, seconds: float) -> list[Breach]:
                 image, captured_s = message.snapshot.image_number, message.snapshot.captured_at_s
                 first_s = first_s or captured_s
                 for alarm in message.alarms.alarms:
-                    if alarm.condition is Condition.BREACH and alarm.number not in heard:
-                        heard[alarm.number] = (image, captured_s, came_s)
+                    if alarm.condition is Condition.BREACH and alarm.number not in received:
+                        received[alarm.number] = (image, captured_s, came_s)
                 if captured_s - first_s > seconds:
                     break
-    starts = _true_starts(asked, played, last_number=image)
-    return [_announced(start, depth, list(heard.values())) for start, depth in starts]
+    starts = _true_starts(options, played, last_number=image)
+    return [_announced(start, depth, list(received.values())) for start, depth in starts]
 
 
-def _true_starts(asked: Asked, played: Mapping[str, object], *, last_number: int) -> list[tuple[int, float]]:
-    """The first image of each breach, and how deep it becomes."""
-    rehearsal = {"seed": asked.seeds[0], "rate_hz": RATE_HZ, **played}
+def _true_starts(
+    options: BenchmarkOptions, played: Mapping[str, object], *, last_number: int
+) -> list[tuple[int, float]]:
+    """Return the first image and the maximum depth of each breach."""
+    rehearsal = {"seed": options.seeds[0], "rate_hz": RATE_HZ, **played}
     preparation = build_setup(Config.model_validate({"rehearsal": rehearsal}))
     theatre, channel = preparation.theatre, preparation.channel
     if theatre is None or not isinstance(channel, Channel):
         raise RuntimeError("the rehearsal brings neither theatre nor channel")
-    wall = preparation.guide_along(channel).wall
+    wall = preparation.drill_reference_for(channel).wall
     starts: list[tuple[int, float]] = []
     through_last = -1e9
-    # The last ones may not have been heard of yet.
+    # The alarms of the last images may not have arrived yet.
     for image in range(last_number - round(RATE_HZ)):
         truth = theatre.truth_at(image / RATE_HZ)
         placed = truth.camera_from_vertebra.inverse @ truth.camera_from_tool
@@ -115,11 +117,11 @@ def _true_starts(asked: Asked, played: Mapping[str, object], *, last_number: int
     return [one for one in starts if one[1] >= MIN_MM]
 
 
-def _announced(start: int, depth_mm: float, heard: list[tuple[int, float, float]]) -> Breach:
+def _announced(start: int, depth_mm: float, received: list[tuple[int, float, float]]) -> Breach:
     # An image that was skipped was due as long before the one that came.
     late = [
         (came_s - captured_s) * 1e3 + (image - start) / RATE_HZ * 1e3
-        for image, captured_s, came_s in heard
+        for image, captured_s, came_s in received
         if start <= image <= start + LASTS_S * RATE_HZ
     ]
     return Breach(first_number=start, depth_mm=depth_mm, late_ms=min(late, default=None))

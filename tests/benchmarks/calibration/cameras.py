@@ -1,4 +1,4 @@
-"""Cameras with known numbers, and the views that they take of a board, with known noise."""
+"""Cameras with known parameters, and noisy views of a board."""
 
 from dataclasses import dataclass
 
@@ -14,13 +14,13 @@ MAX_TILT_DEG = 40.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class KnownCamera:
-    """A camera whose numbers are known, and its true numbers by name."""
+    """A camera with known parameters."""
 
     model: CameraModel
 
     @property
     def true_value_from_name(self) -> dict[str, float]:
-        """As `CalibrationReport.parameters` names them; what is not listed is zero."""
+        """Return the parameters as `CalibrationReport.parameters` names them; others are zero."""
         k = self.model.matrix
         lens = dict(
             zip(("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"), self.model.distortion, strict=False)
@@ -29,7 +29,7 @@ class KnownCamera:
 
 
 def known_camera(rng: np.random.Generator, *, coefficients: int = 5) -> KnownCamera:
-    """An ordinary camera: pixels not quite square, a lens with barrel distortion, its middle somewhat off."""
+    """Return a random camera: slightly non-square pixels, radial distortion, offset principal point."""
     width, height = 1280, 720
     focal = rng.uniform(900.0, 1500.0)
     matrix = np.array(
@@ -53,7 +53,7 @@ def known_camera(rng: np.random.Generator, *, coefficients: int = 5) -> KnownCam
 def seen_view(
     model: CameraModel, board: Board, rng: np.random.Generator, *, noise_px: float, parallel: bool = False
 ) -> BoardView:
-    """The board somewhere in the image, tilted to any side, as far as it is inside of the image."""
+    """Return a random view of the board, tilted in any direction; points outside the image are dropped."""
     points = np.asarray(board.object_points_mm)
     width, height = model.size_wh_px
     while True:

@@ -1,25 +1,25 @@
-"""Do a calibration's 95 % intervals hold the truth in 95 of 100 cameras?"""
+"""Coverage of the 95 % intervals of a camera calibration."""
 
 from collections import Counter
 
 import numpy as np
 
-from tests.benchmarks.asked import Asked
 from tests.benchmarks.calibration.cameras import BOARD, known_camera, seen_view
-from tests.benchmarks.measured import Measured
+from tests.benchmarks.options import BenchmarkOptions
+from tests.benchmarks.section_result import SectionResult
 from tests.benchmarks.tables import Table
 from tracker.camera.calibration import calibrate
 
 RUNS, VIEWS, NOISE_PX = 400, 12, 0.2
 
 
-def measure_calibration(asked: Asked) -> Measured:
-    """Cameras with known numbers, each calibrated from views with known noise."""
+def measure_calibration(options: BenchmarkOptions) -> SectionResult:
+    """Calibrate cameras with known parameters from views with known noise."""
     inside: dict[str, list[bool]] = {}
     off_sds: dict[str, list[float]] = {}
     models: Counter[int] = Counter()
     for run in range(RUNS):
-        rng = np.random.default_rng(asked.seed + run)
+        rng = np.random.default_rng(options.seed + run)
         camera = known_camera(rng)
         views = [seen_view(camera.model, BOARD, rng, noise_px=NOISE_PX) for _ in range(VIEWS)]
         report = calibrate(views, size_wh_px=camera.model.size_wh_px)
@@ -33,7 +33,7 @@ def measure_calibration(asked: Asked) -> Measured:
         (name, f"{100 * np.mean(hits):.1f} %", f"{np.std(off_sds[name]):.2f}", f"{len(hits)}")
         for name, hits in inside.items()
     ]
-    return Measured(
+    return SectionResult(
         tables=[
             Table(
                 title=f"Calibration: {RUNS} cameras, {VIEWS} views each, {NOISE_PX:g} px of noise",

@@ -1,1 +1,1 @@
-"""What a person sees in the first minute of the theatre's page, in a browser without a graphics card."""
+"""Frame rate and latency of the theatre page in a browser without a graphics card."""

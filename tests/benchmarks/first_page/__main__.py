@@ -1,4 +1,4 @@
-"""What a person sees in the theatre's page in a browser without a graphics card, on this machine.
+"""Frame rate and latency of the theatre page in a browser without a graphics card, on this machine.
 
 python -m tests.benchmarks.first_page [--seconds 60] [--sizes 1920x1080,390x844]
 
@@ -15,11 +15,11 @@ from pathlib import Path
 
 from playwright.sync_api import Browser, sync_playwright
 
-from tests.benchmarks.asked import Asked
 from tests.benchmarks.first_page.processes import processor_time, processor_use
-from tests.benchmarks.first_page.report import Seen, report
+from tests.benchmarks.first_page.report import PageMeasurement, report
 from tests.benchmarks.first_page.stages import mean_stage_ms, stage_sums
 from tests.benchmarks.machine import machine_line
+from tests.benchmarks.options import BenchmarkOptions
 from tests.benchmarks.running_server import RunningServer, running_server
 from tests.conftest import FLAGS, chromium_path
 
@@ -32,12 +32,15 @@ PLAIN_FLAGS = ("--no-sandbox",)
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Watch the page on each screen, and print what was seen."""
+    """Measure the page at each screen size, and print the tables."""
     given = _parser().parse_args(arguments)
     flags = PLAIN_FLAGS if given.plain else FLAGS
     sys.stdout.write(f"{machine_line()} Load before: {_load()}.\n\n")
     seen = []
-    with running_server(Asked(), seed=1, live_rate_hz=RATE_HZ) as server, sync_playwright() as playwright:
+    with (
+        running_server(BenchmarkOptions(), seed=1, live_rate_hz=RATE_HZ) as server,
+        sync_playwright() as playwright,
+    ):
         browser = playwright.chromium.launch(executable_path=chromium_path(), headless=True, args=list(flags))
         for width_px, height_px in given.sizes:
             seen.append(_watch(browser, server, (width_px, height_px), given))
@@ -47,8 +50,8 @@ def main(arguments: list[str] | None = None) -> None:
 
 def _watch(
     browser: Browser, server: RunningServer, size_px: tuple[int, int], given: argparse.Namespace
-) -> Seen:
-    """One screen, from the moment at which its page has settled."""
+) -> PageMeasurement:
+    """Measure one screen, starting when its page has settled."""
     width_px, height_px = size_px
     context = browser.new_context(viewport={"width": width_px, "height": height_px}, locale="en-GB")
     context.add_init_script(path=RECORDER)
@@ -67,7 +70,7 @@ def _watch(
         given.screenshots.mkdir(parents=True, exist_ok=True)
         page.screenshot(path=given.screenshots / f"first-page-{width_px}x{height_px}.png")
     context.close()
-    return Seen.of(
+    return PageMeasurement.of(
         recorded,
         size_px=size_px,
         processor_use=processor_use(before, after, spent_s),

@@ -7,7 +7,7 @@ from pathlib import Path
 
 TICKS_PER_S = float(os.sysconf("SC_CLK_TCK"))
 PROC = Path("/proc")
-# Chromium writes its own command line anew, with blanks in place of zeros.
+# Chromium rewrites its own command line, with blanks in place of zeros.
 PROCESS_KIND = re.compile(r"--type=([\w-]+)")
 BROWSER_PARTS = {
     "": "browser: main process",
@@ -32,7 +32,7 @@ class ProcessorTime:
 
 
 def processor_time(server_pid: int, browser_pid: int) -> ProcessorTime:
-    """Of a running server, and of a browser with all that started it below this process."""
+    """Return the processor time of a running server and of a browser with its child processes."""
     own_s: dict[str, float] = {"server: web process": cpu_s_of(server_pid), "server: tracking process": 0.0}
     for pid in descendants(server_pid):
         own_s["server: tracking process"] += cpu_s_of(pid)
@@ -44,14 +44,14 @@ def processor_time(server_pid: int, browser_pid: int) -> ProcessorTime:
 
 
 def processor_use(before: ProcessorTime, after: ProcessorTime, seconds: float) -> dict[str, float]:
-    """Share of one core by process between two readings, with what other programs took."""
+    """Return the share of one core by process between two readings, and that of other programs."""
     used = {name: (spent_s - before.own_s.get(name, 0.0)) / seconds for name, spent_s in after.own_s.items()}
     machine = (after.machine_s - before.machine_s) / seconds
     return {**used, OTHER_WORK: max(0.0, machine - sum(used.values()))}
 
 
 def descendants(pid: int) -> list[int]:
-    """All processes below this one; those that end meanwhile are left out."""
+    """Return all descendants of a process; those that end meanwhile are left out."""
     found: list[int] = []
     try:
         for task in (PROC / str(pid) / "task").iterdir():
@@ -63,7 +63,7 @@ def descendants(pid: int) -> list[int]:
 
 
 def cpu_s_of(pid: int) -> float:
-    """User and system time of one process; 0 where it has ended."""
+    """Return user and system time of one process; 0 if it has ended."""
     try:
         stat = (PROC / str(pid) / "stat").read_text(encoding="ascii")
     except OSError:

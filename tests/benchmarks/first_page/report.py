@@ -1,4 +1,4 @@
-"""What was seen on one screen, and the tables of all of them."""
+"""Measurements of one screen, and tables of all screens."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -11,8 +11,8 @@ MIN_LIVE_RATIO, MIN_IMAGES_PER_S, MIN_WIDTH_PX, MAX_AGE_P95_MS = 0.99, 15.0, 640
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Seen:
-    """What stood on one screen.
+class PageMeasurement:
+    """What one screen displayed.
 
     Attributes:
         size_px: of the screen.
@@ -58,7 +58,7 @@ class Seen:
         stage_ms: Mapping[str, float],
         load: str,
     ) -> Self:
-        """From what `recorder.js` has counted."""
+        """Return the measurement from the counters of `recorder.js`."""
         span_ms, numbers_ms = recorded["spanMs"], recorded["numbersMs"]
         span_s = span_ms / 1000.0
         possible_ms = numbers_ms["live"] + numbers_ms["late"]
@@ -83,13 +83,13 @@ class Seen:
         )
 
 
-def report(seen: Sequence[Seen]) -> str:
-    """The tables as Markdown."""
+def report(seen: Sequence[PageMeasurement]) -> str:
+    """Return the tables as Markdown."""
     tables = (_page_table(seen), _processor_table(seen), _stage_table(seen))
     return "\n".join(table.markdown for table in tables)
 
 
-def _page_table(seen: Sequence[Seen]) -> Table:
+def _page_table(seen: Sequence[PageMeasurement]) -> Table:
     columns = [
         "screen",
         "numbers live",
@@ -127,7 +127,7 @@ def _page_table(seen: Sequence[Seen]) -> Table:
     return Table(title="The theatre's page", columns=columns, rows=rows, note=note)
 
 
-def _processor_table(seen: Sequence[Seen]) -> Table:
+def _processor_table(seen: Sequence[PageMeasurement]) -> Table:
     names = sorted({name for one in seen for name in one.processor_use})
     rows = [
         [f"{one.size_px[0]}x{one.size_px[1]}"]
@@ -137,7 +137,7 @@ def _processor_table(seen: Sequence[Seen]) -> Table:
     return Table(title="Processor use, of a core", columns=["screen", *names], rows=rows)
 
 
-def _stage_table(seen: Sequence[Seen]) -> Table:
+def _stage_table(seen: Sequence[PageMeasurement]) -> Table:
     names = list(dict.fromkeys(name for one in seen for name in one.stage_ms))
     rows = [
         [f"{one.size_px[0]}x{one.size_px[1]}"]

@@ -9,7 +9,7 @@ FAMILY = "coaxial_stage_seconds"
 
 
 def stage_sums(port: int) -> dict[str, tuple[float, float]]:
-    """Seconds spent so far and images, by stage."""
+    """Return total seconds and number of images, by stage."""
     with urlopen(f"http://127.0.0.1:{port}/metrics", timeout=10.0) as answer:
         text = answer.read().decode()
     sums: dict[str, list[float]] = {}
@@ -24,7 +24,7 @@ def stage_sums(port: int) -> dict[str, tuple[float, float]]:
 def mean_stage_ms(
     before: Mapping[str, tuple[float, float]], after: Mapping[str, tuple[float, float]]
 ) -> dict[str, float]:
-    """Mean milliseconds of each stage between two readings; a stage that no image had is left out."""
+    """Return the mean ms of each stage between two readings; unused stages are left out."""
     means = {}
     for stage, (seconds, images) in after.items():
         seconds_before, images_before = before.get(stage, (0.0, 0.0))

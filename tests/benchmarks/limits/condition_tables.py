@@ -1,4 +1,4 @@
-"""The tables by condition: found, kept, true, and whether the stated covariance is."""
+"""Tables by condition: detection, tracking, accuracy, and coverage of the stated covariance."""
 
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
@@ -6,7 +6,7 @@ from functools import partial
 from tests.benchmarks.figures import interval
 from tests.benchmarks.limits import goals
 from tests.benchmarks.limits.conditions_run import ConditionRun
-from tests.benchmarks.limits.judging import COVERED, Judged, Outcome
+from tests.benchmarks.limits.evaluation import COVERED, Evaluation, Outcome
 from tests.benchmarks.limits.peers import APRILTAG_ABSENT
 from tests.benchmarks.limits.run import LimitsRun
 from tests.benchmarks.scenes.bound import PARAMETERS
@@ -18,30 +18,30 @@ TWO_SD = 1.96
 
 
 def condition_tables(run: LimitsRun) -> list[Table]:
-    """All tables by condition."""
+    """Return all tables by condition."""
     tables = []
     for rig, some in run.conditions.items():
         tables += [_found_table(rig, some, run), _tip_table(rig, some, run)]
     return [*tables, _parameter_table(run), _coverage_table(run), _face_table(run)]
 
 
-def right(judgements: Iterable[Judged]) -> int:
-    """How many are right."""
-    return sum(one.outcome is Outcome.RIGHT for one in judgements)
+def right(judgements: Iterable[Evaluation]) -> int:
+    """Return the number of correct claims."""
+    return sum(one.outcome is Outcome.CORRECT for one in judgements)
 
 
-def wrong(judgements: Iterable[Judged]) -> int:
-    """How many are claims where the marker is not."""
+def wrong(judgements: Iterable[Evaluation]) -> int:
+    """Return the number of false claims."""
     return sum(one.outcome is Outcome.WRONG for one in judgements)
 
 
-def errors(judgements: Iterable[Judged], parameter: str) -> list[float]:
-    """Sizes of the errors of the right claims."""
-    return [one.errors[parameter] for one in judgements if one.outcome is Outcome.RIGHT]
+def errors(judgements: Iterable[Evaluation], parameter: str) -> list[float]:
+    """Return the error sizes of the correct claims."""
+    return [one.errors[parameter] for one in judgements if one.outcome is Outcome.CORRECT]
 
 
-def of(part: int, judgements: Sequence[Judged]) -> str:
-    """A share with three digits; a dash of none."""
+def of(part: int, judgements: Sequence[Evaluation]) -> str:
+    """Format a proportion with three digits; a dash for zero images."""
     return f"{part / len(judgements):.3f}" if judgements else NOTHING
 
 
@@ -55,10 +55,10 @@ def _found_table(rig: str, some: Sequence[ConditionRun], run: LimitsRun) -> Tabl
             *(_peer(run, one, name, lambda judgements: of(right(judgements), judgements)) for name in PEERS),
             str(len(one.stepped)) if one.stepped else NOTHING,
             of(right(one.stepped), one.stepped),
-            _goal(goals.KEPT.get(one.condition)),
+            _goal(goals.TRACKED.get(one.condition)),
             str(wrong(one.searched) + wrong(one.stepped)),
             " / ".join(_peer(run, one, name, lambda judgements: str(wrong(judgements))) for name in PEERS),
-            str(sum(judged.is_mirrored for judged in (*one.searched, *one.stepped))),
+            str(sum(evaluate.is_mirrored for evaluate in (*one.searched, *one.stepped))),
         ]
         for one in some
     ]
@@ -71,7 +71,7 @@ def _found_table(rig: str, some: Sequence[ConditionRun], run: LimitsRun) -> Tabl
             "goal",
             *PEERS,
             "n tracked",
-            "kept by step",
+            "tracked by step",
             "goal",
             "wrong",
             "wrong, peers",
@@ -151,9 +151,9 @@ def _coverage_table(run: LimitsRun) -> Table:
     )
 
 
-def coverage_groups(run: LimitsRun, rig: str) -> list[tuple[str, list[Judged]]]:
-    """The claims with a covariance: by kind of condition, of all searches and steps, of the moving hand."""
-    some, by_kind = run.conditions[rig], dict[str, list[Judged]]()
+def coverage_groups(run: LimitsRun, rig: str) -> list[tuple[str, list[Evaluation]]]:
+    """Return the claims with a covariance: by kind of condition, of all searches, steps and hands."""
+    some, by_kind = run.conditions[rig], dict[str, list[Evaluation]]()
     for one in some:
         by_kind.setdefault(_kind(one.condition), []).extend(one.searched)
     groups = list(by_kind.items())
@@ -166,17 +166,17 @@ def coverage_groups(run: LimitsRun, rig: str) -> list[tuple[str, list[Judged]]]:
 
 
 def _kind(condition: str) -> str:
-    """The condition without its step: "noise" of "noise16"."""
+    """Return the condition without its step: "noise" of "noise16"."""
     return condition.rstrip("0123456789.-")
 
 
-def stated(judgements: Iterable[Judged]) -> list[Judged]:
-    """The right claims with a covariance."""
+def stated(judgements: Iterable[Evaluation]) -> list[Evaluation]:
+    """Return the correct claims with a covariance."""
     return [one for one in judgements if one.covered]
 
 
-def coverage(judgements: Iterable[Judged]) -> list[str]:
-    """Share inside for translation, rotation and tip, with its interval."""
+def coverage(judgements: Iterable[Evaluation]) -> list[str]:
+    """Return the coverage of translation, rotation and tip, with its interval."""
     some, texts = stated(judgements), []
     for number_of in range(len(COVERED)):
         inside = sum(one.covered[number_of] for one in some)
@@ -196,7 +196,7 @@ def _face_table(run: LimitsRun) -> Table:
             by_bound = [
                 one.searched[number_of].errors["tip_mm"] / one.bounds[number_of].tip_mm
                 for one, number_of in pairs
-                if number_of < len(one.bounds) and one.searched[number_of].outcome is Outcome.RIGHT
+                if number_of < len(one.bounds) and one.searched[number_of].outcome is Outcome.CORRECT
             ]
             mirrored = sum(one.is_mirrored for one in own)
             rows.append(
@@ -220,14 +220,14 @@ def _goal(value: float | None) -> str:
     return NOTHING if value is None else f"{value:g}"
 
 
-def _tip(judgements: Sequence[Judged]) -> str:
+def _tip(judgements: Sequence[Evaluation]) -> str:
     return pair(errors(judgements, "tip_mm"), 95.0, 2)
 
 
-def _sizes(judgements: Sequence[Judged], parameter: str) -> str:
+def _sizes(judgements: Sequence[Evaluation], parameter: str) -> str:
     return pair(errors(judgements, parameter), 95.0, 4)
 
 
-def _peer(run: LimitsRun, one: ConditionRun, name: str, text: Callable[[Sequence[Judged]], str]) -> str:
-    """What a peer's column says, or that it was not there."""
+def _peer(run: LimitsRun, one: ConditionRun, name: str, text: Callable[[Sequence[Evaluation]], str]) -> str:
+    """Format a peer's column, or that the peer is not installed."""
     return text(one.peers[name]) if name in run.peers else APRILTAG_ABSENT

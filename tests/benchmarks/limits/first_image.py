@@ -1,4 +1,4 @@
-"""The first image after start against later ones, in a fresh process: nothing compiles in theatre."""
+"""Time of the first image of a fresh process against later ones: detects compilation at run time."""
 
 import json
 import subprocess
@@ -12,7 +12,7 @@ import numpy as np
 
 from tests.benchmarks.limits.finders import tracker_of
 from tests.benchmarks.scenes.faces import SAIL
-from tests.benchmarks.scenes.placing import random_scene
+from tests.benchmarks.scenes.placement import random_scene
 from tests.benchmarks.scenes.rigs import RIGS
 from tests.benchmarks.scenes.scene import image_of
 
@@ -39,7 +39,7 @@ class FirstImage:
 
 
 def measure_first_images(rigs: str, *, repeats: int = 3) -> list[FirstImage]:
-    """Fresh processes, after one that fills the cache of compiled loops."""
+    """Measure fresh processes, after one that fills the compilation cache."""
     _run("-m", "tracker.warm_up")
     return [
         FirstImage(
@@ -65,7 +65,7 @@ def _run(*arguments: str) -> str:
 
 
 def main(rig_name: str, state: str) -> None:
-    """In the fresh process: search images of a camera, and tell the times as JSON."""
+    """In the fresh process: search images of a camera, and print the times as JSON."""
     cv2.setNumThreads(1)
     rig = RIGS[rig_name]
     images = [image_of(random_scene(rig, SAIL, seed=number)) for number in range(LATER + 1)]
@@ -73,13 +73,13 @@ def main(rig_name: str, state: str) -> None:
         from tracker.warm_up import warm_up  # noqa: PLC0415, a cold process must not have it
 
         warm_up()
-    taken_ms = []
+    elapsed_ms = []
     tracker = tracker_of(rig, [SAIL])
     for image in images:
         started = time.perf_counter()
         tracker.search(image)
-        taken_ms.append((time.perf_counter() - started) * 1e3)
-    sys.stdout.write(json.dumps({"first_ms": taken_ms[0], "later_ms": float(np.median(taken_ms[1:]))}))
+        elapsed_ms.append((time.perf_counter() - started) * 1e3)
+    sys.stdout.write(json.dumps({"first_ms": elapsed_ms[0], "later_ms": float(np.median(elapsed_ms[1:]))}))
 
 
 if __name__ == "__main__":

@@ -1,11 +1,11 @@
-"""The figures of a run that the next one is held against."""
+"""Figures of a run for comparison with the next one."""
 
 from collections.abc import Iterator, Sequence
 
 from tests.benchmarks.figures import Figure, Share, size_of
 from tests.benchmarks.limits.condition_tables import errors, right, stated, wrong
-from tests.benchmarks.limits.conditions_run import SPOILT_IMAGES
-from tests.benchmarks.limits.judging import COVERED, Judged
+from tests.benchmarks.limits.conditions_run import DISTURBED_IMAGES
+from tests.benchmarks.limits.evaluation import COVERED, Evaluation
 from tests.benchmarks.limits.pace_tables import ratios
 from tests.benchmarks.limits.run import LimitsRun
 
@@ -14,7 +14,7 @@ LOST_IN_A_ROW = 10
 
 
 def limit_figures(run: LimitsRun) -> dict[str, Figure]:
-    """Each figure by its name; what was not measured is left out."""
+    """Return each figure by its name; what was not measured is left out."""
     named = [*_of_conditions(run), *_of_hands(run), *_of_paces(run), *_of_empty(run)]
     return {name: figure for name, figure in named if figure is not None}
 
@@ -28,21 +28,21 @@ def _of_conditions(run: LimitsRun) -> Iterator[Named]:
             name = f"{rig} {one.condition}"
             yield f"{name}, found by search", Share(count=right(one.searched), of=len(one.searched))
             if one.stepped:
-                kept = Share(count=right(one.stepped), of=len(one.stepped), in_a_row=SPOILT_IMAGES)
-                yield f"{name}, kept by step", kept
+                retained = Share(count=right(one.stepped), of=len(one.stepped), in_a_row=DISTURBED_IMAGES)
+                yield f"{name}, tracked by step", retained
             yield from _claims(f"{name} by search", one.searched)
-            yield from _claims(f"{name} by step", one.stepped, SPOILT_IMAGES)
+            yield from _claims(f"{name} by step", one.stepped, DISTURBED_IMAGES)
             yield f"{name}, tip mm, median", size_of(errors(one.searched, "tip_mm"))
             yield f"{name}, tip by bound, median", size_of(one.of_bound)
             yield f"{name}, tip mm by step, median", size_of(errors(one.stepped, "tip_mm"))
         for way, in_a_row, all_of in (
             ("search", 1, [each for one in some for each in one.searched]),
-            ("step", SPOILT_IMAGES, [each for one in some for each in one.stepped]),
+            ("step", DISTURBED_IMAGES, [each for one in some for each in one.stepped]),
         ):
             yield from _coverage(f"{rig} all, {way}", all_of, in_a_row)
 
 
-def _claims(name: str, judgements: Sequence[Judged], in_a_row: int = 1) -> Iterator[Named]:
+def _claims(name: str, judgements: Sequence[Evaluation], in_a_row: int = 1) -> Iterator[Named]:
     count = len(judgements)
     if not count:
         return
@@ -51,8 +51,8 @@ def _claims(name: str, judgements: Sequence[Judged], in_a_row: int = 1) -> Itera
     yield f"{name}, mirrored", Share(count=mirrored, of=count, is_good=False, in_a_row=in_a_row)
 
 
-def _coverage(name: str, judgements: Sequence[Judged], in_a_row: int) -> Iterator[Named]:
-    """Only too few inside is worse: a covariance that promises too little misleads nobody."""
+def _coverage(name: str, judgements: Sequence[Evaluation], in_a_row: int) -> Iterator[Named]:
+    """Only low coverage counts as worse: an overestimated covariance misleads nobody."""
     some = stated(judgements)
     for number, what in enumerate(COVERED):
         inside = sum(one.covered[number] for one in some)

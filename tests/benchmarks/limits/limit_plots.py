@@ -1,4 +1,4 @@
-"""The plots of a run: found by condition, the tip against its bound, and whether covariances are true."""
+"""Plots of a run: detection by condition, tip error against its bound, and covariance coverage."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -8,7 +8,7 @@ from tests.benchmarks.figures import interval
 from tests.benchmarks.limits import goals
 from tests.benchmarks.limits.condition_tables import TWO_SD, coverage_groups, errors, right
 from tests.benchmarks.limits.conditions_run import ConditionRun
-from tests.benchmarks.limits.judging import COVERED, Judged
+from tests.benchmarks.limits.evaluation import COVERED, Evaluation
 from tests.benchmarks.limits.run import LimitsRun
 from tests.benchmarks.tables import median
 
@@ -17,11 +17,11 @@ KINDS = ("#1f5fbf", "#d2691e", "#0a0a0a")
 BOUND = "#2e8b57"
 FEWEST_STATED = 5
 
-Value = Callable[[Sequence[Judged]], float]
+Value = Callable[[Sequence[Evaluation]], float]
 
 
 def limit_plots(run: LimitsRun) -> dict[str, str]:
-    """Each picture by its name."""
+    """Return each picture by its name."""
     return {
         "found": svg(
             "Share of images in which the marker is found", [_found(run, rig) for rig in run.conditions]
@@ -47,7 +47,10 @@ def _found(run: LimitsRun, rig: str) -> Panel:
             *_peers(run, some, _share),
             Series(name="search", colour=OWN, values=[_share(one.searched) for one in some]),
             Series(
-                name="kept by step", colour=STEP, values=[_share(one.stepped) for one in some], is_hollow=True
+                name="tracked by step",
+                colour=STEP,
+                values=[_share(one.stepped) for one in some],
+                is_hollow=True,
             ),
         ],
     )
@@ -64,7 +67,7 @@ def _tip(run: LimitsRun, rig: str) -> Panel:
             *_peers(run, some, _tip_mm),
             Series(name="search", colour=OWN, values=[_tip_mm(one.searched) for one in some]),
             Series(
-                name="kept by step",
+                name="tracked by step",
                 colour=STEP,
                 values=[_tip_mm(one.stepped) for one in some],
                 is_hollow=True,
@@ -109,9 +112,9 @@ def _peers(run: LimitsRun, some: Sequence[ConditionRun], value: Value) -> list[S
     ]
 
 
-def _share(judgements: Sequence[Judged]) -> float:
+def _share(judgements: Sequence[Evaluation]) -> float:
     return right(judgements) / len(judgements) if judgements else math.nan
 
 
-def _tip_mm(judgements: Sequence[Judged]) -> float:
+def _tip_mm(judgements: Sequence[Evaluation]) -> float:
     return median(errors(judgements, "tip_mm"))

@@ -1,16 +1,16 @@
-"""Time of search and step by resolution and by markers known and in view, as ratios taken image by image."""
+"""Time of search and step by resolution and by number of markers, as ratios image by image."""
 
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 
+from tests.benchmarks.limits.evaluation import Evaluation, claim_of, evaluate
 from tests.benchmarks.limits.finders import tracker_of, warm
-from tests.benchmarks.limits.judging import Judged, claim_of, judged
 from tests.benchmarks.limits.peers import Peer
 from tests.benchmarks.scenes.faces import ANVIL, CODE, FACES, ORBIT, SAIL
 from tests.benchmarks.scenes.hand import RATE_HZ, SPEEDS, hand_scenes
-from tests.benchmarks.scenes.placing import crowded_scene, empty_scene
+from tests.benchmarks.scenes.placement import crowded_scene, empty_scene
 from tests.benchmarks.scenes.rigs import RIG_A, RIG_B, RIG_HD, RIG_VGA, Rig
 from tests.benchmarks.scenes.scene import Scene, image_of
 
@@ -43,15 +43,15 @@ class PaceRun:
     by_step_ms: list[float] = field(default_factory=list)
 
 
-def taken_ms(work: Callable[[], object]) -> float:
-    """How long this takes."""
+def elapsed_ms(work: Callable[[], object]) -> float:
+    """Return the duration of a call."""
     started = time.perf_counter()
     work()
     return (time.perf_counter() - started) * 1e3
 
 
 def measure_pace(peers: Sequence[Peer], *, count: int, seed: int) -> list[PaceRun]:
-    """Every resolution with every load, `count` scenes of each; peers and tracker take turns."""
+    """Measure every resolution with every load, `count` scenes each; peers and tracker alternate."""
     runs = []
     for rig in RIGS_BY_SIZE:
         warm(rig, SAIL)
@@ -71,18 +71,18 @@ def _pace_of(run: PaceRun, scene: Scene, peers: Sequence[Peer]) -> None:
     tracker = tracker_of(run.rig, FOUR[: run.known])
     image = image_of(scene)
     for peer in peers:
-        run.peers_ms[peer.name].append(taken_ms(partial(peer.look, image)))
-    run.search_ms.append(taken_ms(partial(tracker.search, image)))
+        run.peers_ms[peer.name].append(elapsed_ms(partial(peer.detect, image)))
+    run.search_ms.append(elapsed_ms(partial(tracker.search, image)))
     tracker.step(image, captured_at_s=0.0)
     for number in range(1, STEPS_OF_A_SCENE):
         image = image_of(replace(scene, noise_seed=(*scene.noise_seed, number)))
-        run.by_step_ms.append(taken_ms(partial(peers[0].look, image)))
-        run.step_ms.append(taken_ms(partial(tracker.step, image, captured_at_s=number / RATE_HZ)))
+        run.by_step_ms.append(elapsed_ms(partial(peers[0].detect, image)))
+        run.step_ms.append(elapsed_ms(partial(tracker.step, image, captured_at_s=number / RATE_HZ)))
 
 
 @dataclass(slots=True)
 class HandRun:
-    """A moving hand, followed by `Tracker.step` from the second image on.
+    """A moving marker, tracked by `Tracker.step` from the second image on.
 
     Attributes:
         rig, speed: by what camera, and how fast.
@@ -92,12 +92,12 @@ class HandRun:
 
     rig: str
     speed: str
-    stepped: list[Judged] = field(default_factory=list)
+    stepped: list[Evaluation] = field(default_factory=list)
     ratios: list[float] = field(default_factory=list)
 
 
 def measure_hands(rig: Rig, peers: Sequence[Peer], *, count: int, seed: int) -> Iterator[HandRun]:
-    """Each speed with each face, `count` images in all."""
+    """Measure each speed with each face, `count` images in all."""
     for speed in SPEEDS:
         run = HandRun(rig=rig.name, speed=speed)
         for nth, face in enumerate(FACES):
@@ -109,6 +109,6 @@ def measure_hands(rig: Rig, peers: Sequence[Peer], *, count: int, seed: int) -> 
                 sighting = tracker.step(image, captured_at_s=at_s)[face.name]
                 step_ms = (time.perf_counter() - started) * 1e3
                 if number:
-                    run.ratios.append(step_ms / taken_ms(partial(peers[0].look, image)))
-                    run.stepped.append(judged(scene, claim_of(sighting)))
+                    run.ratios.append(step_ms / elapsed_ms(partial(peers[0].detect, image)))
+                    run.stepped.append(evaluate(scene, claim_of(sighting)))
         yield run

@@ -1,4 +1,4 @@
-"""The tables of time, of the moving hand, of the first image and of images without a marker."""
+"""Tables of times, of the moving hand, of the first image and of images without a marker."""
 
 from collections.abc import Sequence
 
@@ -11,7 +11,7 @@ from tests.benchmarks.tables import NOTHING, Table, median, number, pair
 
 
 def pace_tables(run: LimitsRun) -> list[Table]:
-    """All of them that were measured."""
+    """Return the tables of everything that was measured."""
     return [
         table
         for table in (_time_table(run), _hand_table(run), _first_table(run), _empty_table(run))
@@ -20,7 +20,7 @@ def pace_tables(run: LimitsRun) -> list[Table]:
 
 
 def ratios(times_ms: Sequence[float], others_ms: Sequence[float]) -> list[float]:
-    """Image by image."""
+    """Return the ratios image by image."""
     return [own / other for own, other in zip(times_ms, others_ms, strict=True)]
 
 
@@ -79,7 +79,7 @@ def _pair_of(goal: tuple[float, float] | None) -> str:
 
 
 def _four(run: LimitsRun, one: PaceRun) -> str:
-    """How much longer a step takes with four markers in view than with one, both by the same peer.
+    """Return the time ratio of a step with four markers in view to one with one, both by the same peer.
 
     Not in ms, because other work may slow down one of both.
     """

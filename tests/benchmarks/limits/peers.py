@@ -1,4 +1,4 @@
-"""What today's users would otherwise take: OpenCV's marker detection, and AprilTag."""
+"""Reference detectors for comparison: OpenCV's ArUco and AprilTag."""
 
 import atexit
 import contextlib
@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tests.benchmarks.limits.judging import Claim
+from tests.benchmarks.limits.evaluation import Claim
 from tests.benchmarks.scenes.faces import Face, dictionary_face
 from tests.benchmarks.scenes.rigs import Rig
 from tests.benchmarks.scenes.scene import Pose
@@ -25,7 +25,7 @@ APRILTAG_CORNERS = [1, 0, 3, 2]
 
 
 class Peer(Protocol):
-    """Another finder, which looks for a marker of its own."""
+    """A reference detector with its own marker."""
 
     name: str
     face: Face
@@ -33,12 +33,12 @@ class Peer(Protocol):
     def search(self, rig: Rig, image: Image) -> Claim | None:
         """Where its marker is in an image."""
 
-    def look(self, image: Image) -> None:
+    def detect(self, image: Image) -> None:
         """All its work on an image short of the pose, to be timed."""
 
 
 class Aruco:
-    """`cv2.aruco`: its defaults for time, corners refined to sub-pixel for everything else."""
+    """`cv2.aruco`: defaults for timing, sub-pixel corner refinement for everything else."""
 
     name = "cv2.aruco"
 
@@ -53,7 +53,7 @@ class Aruco:
             parameters.cornerRefinementWinSize = window_px
             self._fine[is_small] = cv2.aruco.ArucoDetector(known, parameters)
 
-    def look(self, image: Image) -> None:
+    def detect(self, image: Image) -> None:
         """Detection with OpenCV's own defaults."""
         self._fast.detectMarkers(image)
 
@@ -67,14 +67,14 @@ class Aruco:
 
 
 class Tag(Protocol):
-    """One tag that AprilTag found."""
+    """A tag detected by AprilTag."""
 
     tag_id: int
     corners: npt.NDArray[np.float64]
 
 
 class NativeDetector(Protocol):
-    """What is used of `pupil_apriltags.Detector`."""
+    """The used part of `pupil_apriltags.Detector`."""
 
     tag_detector_ptr: object
 
@@ -91,7 +91,7 @@ class AprilTag:
         self.face = dictionary_face("tag36h11", cv2.aruco.DICT_APRILTAG_36h11, NUMBER, 6)
         self._detector = _one_detector()
 
-    def look(self, image: Image) -> None:
+    def detect(self, image: Image) -> None:
         """Detection."""
         self._detector.detect(image)
 
@@ -105,21 +105,21 @@ class AprilTag:
 
 @cache
 def _one_detector() -> NativeDetector:
-    """The only one of the whole run, because taking one down can take the program with it."""
+    """Return a single detector for the whole run, because its destructor can crash the process."""
     from pupil_apriltags import Detector  # noqa: PLC0415, where it is not installed all else works
 
     detector: NativeDetector = Detector(families="tag36h11", nthreads=1, quad_decimate=1.0)
-    atexit.register(_let_go, detector)
+    atexit.register(_detach, detector)
     return detector
 
 
-def _let_go(detector: NativeDetector) -> None:
-    """Forget the native detector without taking it down; the process ends anyway."""
+def _detach(detector: NativeDetector) -> None:
+    """Drop the native detector without its destructor; the process ends anyway."""
     detector.tag_detector_ptr = None
 
 
 def peers() -> list[Peer]:
-    """All that are installed."""
+    """Return all installed reference detectors."""
     found: list[Peer] = [Aruco()]
     with contextlib.suppress(ImportError):
         found.append(AprilTag())
@@ -127,7 +127,7 @@ def peers() -> list[Peer]:
 
 
 def _claim(rig: Rig, face: Face, corners_px: Array) -> Claim | None:
-    """The pose of four corners: of both planar solutions the one that OpenCV calls the better."""
+    """Return the pose of four corners: of both planar solutions the one that OpenCV ranks first."""
     count, turns, moves, _ = cv2.solvePnPGeneric(
         face.corners_mm.reshape(4, 1, 3),
         corners_px.reshape(4, 1, 2),

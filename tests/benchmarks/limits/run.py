@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import cv2
 
-from tests.benchmarks.asked import Asked
 from tests.benchmarks.limits.conditions_run import ConditionRun, measure_condition, measure_empty
+from tests.benchmarks.limits.evaluation import Evaluation
 from tests.benchmarks.limits.finders import Searchers, warm
 from tests.benchmarks.limits.first_image import FirstImage, measure_first_images
-from tests.benchmarks.limits.judging import Judged
 from tests.benchmarks.limits.pace import HandRun, PaceRun, measure_hands, measure_pace
 from tests.benchmarks.limits.peers import Peer, peers
+from tests.benchmarks.options import BenchmarkOptions
 from tests.benchmarks.scenes.conditions import Condition, conditions_of
 from tests.benchmarks.scenes.faces import SAIL
 from tests.benchmarks.scenes.rigs import RIGS, Rig
@@ -22,7 +22,7 @@ from tracker.errors import InvalidInput
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LimitsRun:
-    """What was measured; what was not asked for is empty.
+    """Results of a run; what was not requested is empty.
 
     Attributes:
         peers: names of the other finders that took part.
@@ -34,38 +34,38 @@ class LimitsRun:
     conditions: dict[str, list[ConditionRun]]
     hands: list[HandRun]
     paces: list[PaceRun]
-    empty: dict[str, dict[str, list[Judged]]]
+    empty: dict[str, dict[str, list[Evaluation]]]
     first_images: list[FirstImage]
 
 
-def measure(asked: Asked) -> LimitsRun:
-    """Everything, or the named conditions alone.
+def measure(options: BenchmarkOptions) -> LimitsRun:
+    """Measure everything, or the named conditions alone.
 
     Raises:
         InvalidInput: BENCHMARK_CONDITION_UNKNOWN, BENCHMARK_RIG_UNKNOWN.
     """
-    chosen = {rig.name: _chosen(asked, rig) for rig in _rigs(asked)}
-    others, searchers, is_whole = peers(), Searchers(), not asked.conditions
+    chosen = {rig.name: _selected_conditions(options, rig) for rig in _rigs(options)}
+    others, searchers, is_complete = peers(), Searchers(), not options.conditions
     with one_thread():
         for name in chosen:
             warm(RIGS[name], SAIL)
         conditions = {
-            name: [_told(asked, RIGS[name], one, others, searchers) for one in some]
+            name: [_measure_logged(options, RIGS[name], one, others, searchers) for one in some]
             for name, some in chosen.items()
         }
         hands = [
             run
             for name in chosen
-            if is_whole
-            for run in measure_hands(RIGS[name], others, count=5 * asked.images, seed=asked.seed)
+            if is_complete
+            for run in measure_hands(RIGS[name], others, count=5 * options.images, seed=options.seed)
         ]
-        paces = measure_pace(others, count=asked.images, seed=asked.seed) if is_whole else []
+        paces = measure_pace(others, count=options.images, seed=options.seed) if is_complete else []
         empty = {
-            name: measure_empty(RIGS[name], peers=others, count=2 * asked.images, seed=asked.seed)
+            name: measure_empty(RIGS[name], peers=others, count=2 * options.images, seed=options.seed)
             for name in chosen
-            if is_whole
+            if is_complete
         }
-        first_images = measure_first_images(asked.rigs) if is_whole else []
+        first_images = measure_first_images(options.rigs) if is_complete else []
     return LimitsRun(
         peers=[peer.name for peer in others],
         conditions=conditions,
@@ -78,7 +78,7 @@ def measure(asked: Asked) -> LimitsRun:
 
 @contextmanager
 def one_thread() -> Iterator[None]:
-    """OpenCV with one thread, so that ratios compare work and not cores."""
+    """Run OpenCV with one thread, so that ratios compare work and not cores."""
     threads = cv2.getNumThreads()
     cv2.setNumThreads(1)
     try:
@@ -87,36 +87,36 @@ def one_thread() -> Iterator[None]:
         cv2.setNumThreads(threads)
 
 
-def _told(
-    asked: Asked, rig: Rig, condition: Condition, others: Sequence[Peer], searchers: Searchers
+def _measure_logged(
+    options: BenchmarkOptions, rig: Rig, condition: Condition, others: Sequence[Peer], searchers: Searchers
 ) -> ConditionRun:
-    """A condition, said on standard error, because all of them take minutes."""
+    """Measure a condition, and log its name to standard error: all of them take minutes."""
     sys.stderr.write(f"limits: {rig.name} {condition.name}\n")
     return measure_condition(
-        rig, condition, peers=others, searchers=searchers, count=asked.images, seed=asked.seed
+        rig, condition, peers=others, searchers=searchers, count=options.images, seed=options.seed
     )
 
 
-def _rigs(asked: Asked) -> list[Rig]:
-    unknown = sorted(set(asked.rigs) - set(RIGS))
-    if unknown or not asked.rigs:
+def _rigs(options: BenchmarkOptions) -> list[Rig]:
+    unknown = sorted(set(options.rigs) - set(RIGS))
+    if unknown or not options.rigs:
         raise InvalidInput(
             "BENCHMARK_RIG_UNKNOWN",
             f"no such cameras: {', '.join(unknown) or 'none named'}",
             f"Name some of {', '.join(RIGS)}, as in --rigs AB.",
         )
-    return [RIGS[name] for name in dict.fromkeys(asked.rigs)]
+    return [RIGS[name] for name in dict.fromkeys(options.rigs)]
 
 
-def _chosen(asked: Asked, rig: Rig) -> list[Condition]:
-    """The conditions of this camera that were asked for; blur and motion have other steps on another one."""
+def _selected_conditions(options: BenchmarkOptions, rig: Rig) -> list[Condition]:
+    """Return the requested conditions of this camera; blur and motion steps differ by camera."""
     known = conditions_of(rig)
     everywhere = {name for one in RIGS.values() for name in conditions_of(one)}
-    unknown = [name for name in asked.conditions if name not in everywhere]
+    unknown = [name for name in options.conditions if name not in everywhere]
     if unknown:
         raise InvalidInput(
             "BENCHMARK_CONDITION_UNKNOWN",
             f"no such conditions: {', '.join(unknown)}",
             f"Name some of {', '.join(sorted(everywhere))}.",
         )
-    return [known[name] for name in asked.conditions or known if name in known]
+    return [known[name] for name in options.conditions or known if name in known]

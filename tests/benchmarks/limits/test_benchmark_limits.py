@@ -5,33 +5,33 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.benchmarks.asked import Asked
 from tests.benchmarks.figures import Share
 from tests.benchmarks.limits.condition_tables import condition_tables
-from tests.benchmarks.limits.conditions_run import SPOILT_IMAGES, ConditionRun
-from tests.benchmarks.limits.judging import Claim, Judged, Outcome, judged
+from tests.benchmarks.limits.conditions_run import DISTURBED_IMAGES, ConditionRun
+from tests.benchmarks.limits.evaluation import Claim, Evaluation, Outcome, evaluate
 from tests.benchmarks.limits.limit_figures import limit_figures
 from tests.benchmarks.limits.limit_plots import limit_plots
 from tests.benchmarks.limits.pace import HandRun, PaceRun
 from tests.benchmarks.limits.pace_tables import pace_tables
 from tests.benchmarks.limits.peers import APRILTAG_ABSENT, Aruco
 from tests.benchmarks.limits.run import LimitsRun, measure
+from tests.benchmarks.options import BenchmarkOptions
 from tests.benchmarks.scenes.bound import PARAMETERS
 from tests.benchmarks.scenes.faces import SAIL
-from tests.benchmarks.scenes.placing import empty_scene, posed, random_scene, scene_at
+from tests.benchmarks.scenes.placement import empty_scene, posed, random_scene, scene_at
 from tests.benchmarks.scenes.rigs import RIG_A, RIG_B
 from tests.benchmarks.scenes.scene import Pose, Scene, image_of
 from tracker.errors import InvalidInput
 from tracker.geometry import Rigid, rotation_from_vector
 
-RIGHT = Judged(
-    outcome=Outcome.RIGHT,
+CORRECT = Evaluation(
+    outcome=Outcome.CORRECT,
     errors=dict.fromkeys(PARAMETERS, 0.5),
-    stated_sd2=(1.0, 2.0, 9.0),
+    mahalanobis_squared=(1.0, 2.0, 9.0),
     found_by="track",
 )
-MISSED = Judged(outcome=Outcome.MISSED, errors={})
-WRONG = Judged(outcome=Outcome.WRONG, errors={})
+MISSED = Evaluation(outcome=Outcome.MISSED, errors={})
+WRONG = Evaluation(outcome=Outcome.WRONG, errors={})
 
 
 def tilted_scene(tilt_deg: float) -> Scene:
@@ -46,8 +46,8 @@ def claim_at(pose: Pose, *, sd: float = 1.0) -> Claim:
 
 def test_the_truth_has_no_error_and_lies_inside_its_ellipsoid() -> None:
     scene = tilted_scene(35.0)
-    one = judged(scene, claim_at(scene.pose))
-    assert one.outcome is Outcome.RIGHT
+    one = evaluate(scene, claim_at(scene.pose))
+    assert one.outcome is Outcome.CORRECT
     assert max(one.errors.values()) < 1e-9
     assert one.covered == (True, True, True)
     assert not one.is_mirrored
@@ -63,7 +63,7 @@ def test_errors_are_told_by_parameter() -> None:
         rotation=rolled,
         translation_mm=pose.translation_mm + 2.0 * sight + 0.3 * across / np.linalg.norm(across),
     )
-    errors = judged(scene, claim_at(off)).errors
+    errors = evaluate(scene, claim_at(off)).errors
     assert errors["depth_mm"] == pytest.approx(2.0)
     assert errors["across_mm"] == pytest.approx(0.3)
     assert errors["roll_deg"] == pytest.approx(1.0)
@@ -76,7 +76,7 @@ def test_the_second_planar_solution_is_called_mirrored_unless_both_are_one() -> 
     for tilt_deg, expected in ((40.0, True), (2.0, False)):
         scene = tilted_scene(tilt_deg)
         other = posed(np.array(scene.pose.translation_mm), tilt_deg=-tilt_deg, about_deg=20.0, roll_deg=50.0)
-        assert judged(scene, claim_at(other)).is_mirrored is expected
+        assert evaluate(scene, claim_at(other)).is_mirrored is expected
 
 
 def test_a_claim_elsewhere_is_wrong_and_so_is_any_in_an_empty_image() -> None:
@@ -84,27 +84,27 @@ def test_a_claim_elsewhere_is_wrong_and_so_is_any_in_an_empty_image() -> None:
     moved: Pose = Rigid(
         rotation=scene.pose.rotation, translation_mm=scene.pose.translation_mm + np.array([10.0, 0.0, 0.0])
     )
-    assert judged(scene, claim_at(moved)).outcome is Outcome.WRONG
-    assert judged(empty_scene(RIG_A), claim_at(scene.pose)).outcome is Outcome.WRONG
-    assert judged(empty_scene(RIG_A), None).outcome is Outcome.MISSED
+    assert evaluate(scene, claim_at(moved)).outcome is Outcome.WRONG
+    assert evaluate(empty_scene(RIG_A), claim_at(scene.pose)).outcome is Outcome.WRONG
+    assert evaluate(empty_scene(RIG_A), None).outcome is Outcome.MISSED
     nowhere = replace(claim_at(scene.pose), corners_px=np.full((4, 2), np.nan))
-    assert judged(scene, nowhere).outcome is Outcome.WRONG
+    assert evaluate(scene, nowhere).outcome is Outcome.WRONG
 
 
 def test_a_small_covariance_does_not_hold_a_large_error() -> None:
     scene = tilted_scene(30.0)
     turned = rotation_from_vector([0.0, 0.01, 0.0]) @ scene.pose.rotation
     pose: Pose = Rigid(rotation=turned, translation_mm=scene.pose.translation_mm)
-    assert judged(scene, claim_at(pose, sd=1.0)).covered == (True, True, True)
-    assert judged(scene, claim_at(pose, sd=0.1)).covered == (True, False, False)
+    assert evaluate(scene, claim_at(pose, sd=1.0)).covered == (True, True, True)
+    assert evaluate(scene, claim_at(pose, sd=0.1)).covered == (True, False, False)
 
 
 def test_opencvs_marker_is_found_where_it_is() -> None:
     aruco = Aruco()
     for seed in range(4):
         scene = random_scene(RIG_B, aruco.face, seed=seed)
-        one = judged(scene, aruco.search(RIG_B, image_of(scene)))
-        assert one.outcome is Outcome.RIGHT
+        one = evaluate(scene, aruco.search(RIG_B, image_of(scene)))
+        assert one.outcome is Outcome.CORRECT
         assert one.errors["across_mm"] < 0.1
         assert one.errors["roll_deg"] < 0.5
 
@@ -114,10 +114,10 @@ def invented_run(*, with_apriltag: bool) -> LimitsRun:
     base = ConditionRun(
         rig="A",
         condition="base",
-        searched=[RIGHT, RIGHT, MISSED, WRONG],
+        searched=[CORRECT, CORRECT, MISSED, WRONG],
         faces=["sail", "orbit", "code", "sail"],
-        stepped=[RIGHT, RIGHT],
-        peers={name: [RIGHT, MISSED, MISSED, MISSED] for name in peers},
+        stepped=[CORRECT, CORRECT],
+        peers={name: [CORRECT, MISSED, MISSED, MISSED] for name in peers},
     )
     pace = [
         PaceRun(
@@ -134,7 +134,7 @@ def invented_run(*, with_apriltag: bool) -> LimitsRun:
     return LimitsRun(
         peers=peers,
         conditions={"A": [base]},
-        hands=[HandRun(rig="A", speed="fast", stepped=[RIGHT, MISSED], ratios=[0.1, 0.2])],
+        hands=[HandRun(rig="A", speed="fast", stepped=[CORRECT, MISSED], ratios=[0.1, 0.2])],
         paces=pace,
         empty={"A": {"coaxial": [MISSED, MISSED], **{name: [MISSED] for name in peers}}},
         first_images=[],
@@ -169,25 +169,25 @@ def test_a_peer_that_is_not_installed_has_a_column_that_says_so() -> None:
 def test_figures_count_what_the_tables_show() -> None:
     figures = limit_figures(invented_run(with_apriltag=True))
     assert figures["A base, found by search"] == Share(count=2, of=4)
-    assert figures["A base, kept by step"] == Share(count=2, of=2, in_a_row=SPOILT_IMAGES)
+    assert figures["A base, tracked by step"] == Share(count=2, of=2, in_a_row=DISTURBED_IMAGES)
     assert figures["A base by search, wrong"] == Share(count=1, of=4, is_good=False, is_strict=True)
     assert "768x576, 1 known, 1 in view, search by cv2.aruco, median" in figures
 
 
-def test_a_condition_that_does_not_exist_is_refused_by_name() -> None:
+def test_a_condition_that_does_not_exist_is_rejected_by_name() -> None:
     with pytest.raises(InvalidInput) as caught:
-        measure(Asked(conditions=("base", "fog")))
+        measure(BenchmarkOptions(conditions=("base", "fog")))
     assert caught.value.code == "BENCHMARK_CONDITION_UNKNOWN"
     assert "fog" in str(caught.value)
     with pytest.raises(InvalidInput) as caught:
-        measure(Asked(rigs="AX"))
+        measure(BenchmarkOptions(rigs="AX"))
     assert caught.value.code == "BENCHMARK_RIG_UNKNOWN"
 
 
 def test_a_condition_is_measured_from_end_to_end() -> None:
-    run = measure(Asked(rigs="A", conditions=("base",), images=3, seed=11))
+    run = measure(BenchmarkOptions(rigs="A", conditions=("base",), images=3, seed=11))
     (base,) = run.conditions["A"]
-    assert [one.outcome for one in base.searched] == [Outcome.RIGHT] * 3
-    assert [one.outcome for one in base.stepped] == [Outcome.RIGHT] * 4
+    assert [one.outcome for one in base.searched] == [Outcome.CORRECT] * 3
+    assert [one.outcome for one in base.stepped] == [Outcome.CORRECT] * 4
     assert len(base.bounds) == len(base.of_bound) == 3
     assert all(0.0 < bound.tip_mm < 1.0 for bound in base.bounds)

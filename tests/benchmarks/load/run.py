@@ -1,4 +1,4 @@
-"""A real server under viewers: what it costs the tracker, and what each viewer gets."""
+"""A server under load by viewers: cost to the tracker, and what each viewer receives."""
 
 import json
 import re
@@ -14,7 +14,7 @@ from pathlib import Path
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from tests.benchmarks.load.stalled import Stalled
+from tests.benchmarks.load.stalled_viewer import StalledViewer
 from tests.benchmarks.running_server import CHECKOUT, PATIENCE_S, RunningServer
 from tests.benchmarks.viewer import cpu_s
 
@@ -22,12 +22,12 @@ SETTLING_S = 3.0
 # What is not the tracker's work: waiting for the process to be scheduled, and what the web server does.
 NOT_TRACKER = frozenset({"waiting", "overlay", "encode"})
 RESIDENT = re.compile(r"VmRSS:\s+(\d+) kB")
-LET_GO = re.compile(r"^coaxial_viewer_let_go_total\{.*\} ([0-9.]+)$", re.MULTILINE)
+DISCONNECTED = re.compile(r"^coaxial_viewer_let_go_total\{.*\} ([0-9.]+)$", re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Got:
-    """What one viewer got; see `reading.Got`."""
+class ViewerResult:
+    """What one viewer received; see `stream_readers.ReceivedImages`."""
 
     kind: str
     is_open: bool
@@ -38,42 +38,42 @@ class Got:
 
     @property
     def images_per_s(self) -> float:
-        """How many came in a second."""
+        """Return the number of images per second."""
         return len(self.ages_ms) / self.seconds
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Loaded:
-    """One stretch of time with so many viewers.
+class LoadResult:
+    """Measurement of an interval with a number of viewers.
 
     Attributes:
-        viewers: all of them, the stalled and the thin one too.
+        viewers: all of them, including the stalled and the slow one.
         tracker_ms: time of the tracking process for each image, without waiting.
-        got: of each viewer whose line carries everything.
-        thin: of the one on 1 Mbit/s.
-        stalled_s: after what time the stalled one was let go.
-        let_go: how many viewers were let go.
+        received: by each viewer with a fast connection.
+        slow: of the viewer on 1 Mbit/s.
+        stalled_s: time until the stalled viewer was disconnected.
+        disconnected: number of viewers that were disconnected.
         resident_mb: of the web server, at the beginning and at the end.
         cpu_ratio: of the web server and of the tracking process (with the theatre's rendering), of a core.
     """
 
     viewers: int
     tracker_ms: list[float]
-    got: Sequence[Got] = ()
-    thin: Got | None = None
+    received: Sequence[ViewerResult] = ()
+    slow: ViewerResult | None = None
     stalled_s: float | None = None
-    let_go: int = 0
+    disconnected: int = 0
     resident_mb: tuple[float, float] = (float("nan"), float("nan"))
     cpu_ratio: dict[str, float] = field(default_factory=dict)
 
 
-class Gauge(threading.Thread):
-    """Listens to `/ws/live` all the while, with and without viewers, for the tracker's own times."""
+class TrackerTimes(threading.Thread):
+    """Listens to `/ws/live`, with and without viewers, for the tracker's own times."""
 
     def __init__(self, server: RunningServer) -> None:
         super().__init__(daemon=True)
         self._socket = connect(server.socket_address("/ws/live"), proxy=None, compression=None)
-        self._heard: list[float] = []
+        self._received: list[float] = []
         self.start()
 
     def run(self) -> None:
@@ -83,23 +83,23 @@ class Gauge(threading.Thread):
                 snapshot = json.loads(text)["snapshot"]
                 if snapshot is not None:
                     spent = snapshot["stage_ms"].items()
-                    self._heard.append(sum(ms for name, ms in spent if name not in NOT_TRACKER))
+                    self._received.append(sum(ms for name, ms in spent if name not in NOT_TRACKER))
         except ConnectionClosed:
             return
 
     def await_first(self) -> None:
         """Until the tracker has tracked for a while: the first images wait for loading."""
-        while len(self._heard) < 30:
+        while len(self._received) < 30:
             time.sleep(0.1)
 
     def taken_during(self, seconds: float) -> list[float]:
         """The times of all images of so many seconds from now on."""
-        before = len(self._heard)
+        before = len(self._received)
         time.sleep(seconds)
-        return self._heard[before:]
+        return self._received[before:]
 
     def close(self) -> None:
-        """Hear no more."""
+        """Close the connection."""
         self._socket.close()
         self.join(PATIENCE_S)
 
@@ -110,34 +110,36 @@ def mix(viewers: int) -> dict[str, int]:
     return {"view": viewers - mjpeg - live, "mjpeg": mjpeg, "live": live}
 
 
-def without_viewers(gauge: Gauge, *, seconds: float) -> Loaded:
-    """Nobody watches."""
-    return Loaded(viewers=0, tracker_ms=gauge.taken_during(seconds))
+def without_viewers(tracker_times: TrackerTimes, *, seconds: float) -> LoadResult:
+    """Measure without viewers."""
+    return LoadResult(viewers=0, tracker_ms=tracker_times.taken_during(seconds))
 
 
-def with_viewers(server: RunningServer, gauge: Gauge, viewers: int, *, seconds: float) -> Loaded:
-    """So many watch; from 3 on, one of them is stalled and one is on a thin line."""
+def with_viewers(
+    server: RunningServer, tracker_times: TrackerTimes, viewers: int, *, seconds: float
+) -> LoadResult:
+    """Measure with viewers; from 3 on, one is stalled and one has a slow connection."""
     special = viewers >= 3
-    resident, let_go = resident_mb(server.pid), _let_go(server)
+    resident, disconnected = resident_mb(server.pid), _disconnected_viewers(server)
     amounts = mix(viewers - 2 if special else viewers)
-    crowd = _crowd(server, seconds, *(f"--{kind}={count}" for kind, count in amounts.items()))
-    thin = _crowd(server, seconds, "--thin") if special else None
-    stalled = Stalled(server.port) if special else None
+    process = _start_viewers(server, seconds, *(f"--{kind}={count}" for kind, count in amounts.items()))
+    slow = _start_viewers(server, seconds, "--slow") if special else None
+    stalled = StalledViewer(server.port) if special else None
     time.sleep(SETTLING_S)
     cpu, began_s = cpu_s(server.pid), time.monotonic()
-    tracker_ms = gauge.taken_during(seconds)
+    tracker_ms = tracker_times.taken_during(seconds)
     spent_s, cpu_after = time.monotonic() - began_s, cpu_s(server.pid)
     resident_after = resident_mb(server.pid)
-    got = _told(crowd)
+    received = _results_of(process)
     if stalled is not None:
         stalled.close()
-    return Loaded(
+    return LoadResult(
         viewers=viewers,
         tracker_ms=tracker_ms,
-        got=got,
-        thin=None if thin is None else _told(thin)[0],
-        stalled_s=None if stalled is None else stalled.let_go_after_s,
-        let_go=_let_go(server) - let_go,
+        received=received,
+        slow=None if slow is None else _results_of(slow)[0],
+        stalled_s=None if stalled is None else stalled.disconnected_after_s,
+        disconnected=_disconnected_viewers(server) - disconnected,
         resident_mb=(resident, resident_after),
         cpu_ratio={}
         if cpu is None or cpu_after is None
@@ -145,11 +147,11 @@ def with_viewers(server: RunningServer, gauge: Gauge, viewers: int, *, seconds: 
     )
 
 
-def _crowd(server: RunningServer, seconds: float, *arguments: str) -> "subprocess.Popen[str]":
+def _start_viewers(server: RunningServer, seconds: float, *arguments: str) -> "subprocess.Popen[str]":
     return subprocess.Popen(
         [
             sys.executable,
-            *("-m", "tests.benchmarks.load.crowd", "--port", str(server.port)),
+            *("-m", "tests.benchmarks.load.viewer_process", "--port", str(server.port)),
             *("--settling", str(SETTLING_S), "--seconds", str(seconds), *arguments),
         ],
         cwd=CHECKOUT,
@@ -158,13 +160,13 @@ def _crowd(server: RunningServer, seconds: float, *arguments: str) -> "subproces
     )
 
 
-def _told(crowd: "subprocess.Popen[str]") -> list[Got]:
+def _results_of(process: "subprocess.Popen[str]") -> list[ViewerResult]:
     try:
-        told, _ = crowd.communicate(timeout=PATIENCE_S)
+        reported, _ = process.communicate(timeout=PATIENCE_S)
     finally:
-        if crowd.poll() is None:
-            crowd.kill()
-    return [Got(**one) for one in json.loads(told)]
+        if process.poll() is None:
+            process.kill()
+    return [ViewerResult(**one) for one in json.loads(reported)]
 
 
 def resident_mb(pid: int) -> float:
@@ -174,6 +176,6 @@ def resident_mb(pid: int) -> float:
     return float("nan") if found is None else int(found[1]) / 1000.0
 
 
-def _let_go(server: RunningServer) -> int:
+def _disconnected_viewers(server: RunningServer) -> int:
     with urllib.request.urlopen(f"http://127.0.0.1:{server.port}/metrics", timeout=PATIENCE_S) as answer:
-        return round(sum(float(number) for number in LET_GO.findall(answer.read().decode())))
+        return round(sum(float(number) for number in DISCONNECTED.findall(answer.read().decode())))

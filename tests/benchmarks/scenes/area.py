@@ -1,4 +1,4 @@
-"""How much of each pixel lies inside an outline: exact, so that edges move smoothly with the pose."""
+"""Exact pixel coverage of an outline, so that edges move smoothly with the pose."""
 
 from collections.abc import Sequence
 
@@ -7,8 +7,10 @@ import numpy as np
 from tracker.geometry import Array
 
 
-def painted(outlines_px: Sequence[Array], weights: Sequence[float], size_wh_px: tuple[int, int]) -> Array:
-    """Sum over closed outlines of their weight times the share of each pixel (h, w) that they cover.
+def coverage_image(
+    outlines_px: Sequence[Array], weights: Sequence[float], size_wh_px: tuple[int, int]
+) -> Array:
+    """Return the sum over closed outlines of their weight times the covered share of each pixel (h, w).
 
     Args:
         outlines_px: each (n, 2), without crossings, either way round; (0, 0) is a pixel's middle.
@@ -42,7 +44,7 @@ def painted(outlines_px: Sequence[Array], weights: Sequence[float], size_wh_px: 
 
 
 def _pieces(at: Array, by: Array, size_wh: tuple[int, int]) -> tuple[Array, Array, Array]:
-    """All edges cut where they cross a line of the grid: number of the edge, from where to where on it."""
+    """Split all edges at the grid lines: edge number, start and end parameter."""
     count = len(at)
     edges = [np.arange(count), np.arange(count)]
     cuts = [np.zeros(count), np.ones(count)]

@@ -1,4 +1,4 @@
-"""The Cramer-Rao bound: how well the six numbers of a pose can be known from an image at all."""
+"""Cramer-Rao bound of the six pose parameters from an image."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from tests.benchmarks.scenes.area import painted
+from tests.benchmarks.scenes.area import coverage_image
 from tests.benchmarks.scenes.scene import Pose, Scene, Window, noise_variance_grey2, window_mean_of, window_of
 from tracker.geometry import Array, Rigid, rotation_between, rotation_from_vector
 
@@ -22,7 +22,7 @@ PARAMETERS = ("across_mm", "depth_mm", "roll_deg", "tilt_deg", "tip_mm")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bound:
-    """What an unbiased estimate can reach on one scene.
+    """Standard deviations that an unbiased estimator can reach on one scene.
 
     Attributes:
         covariance: (6, 6) [mm, rad], translation first, then a small rotation multiplied from the left, both
@@ -40,7 +40,7 @@ class Bound:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PoseErrors:
-    """How far poses are off; arrays (n,) for draws, single numbers for one claim, all of them sizes.
+    """Absolute pose errors; arrays (n,) for draws, single numbers for one claim.
 
     Attributes:
         across_mm, depth_mm: of the marker's centre, across the line of sight and along it.
@@ -56,7 +56,7 @@ class PoseErrors:
 
 
 def pose_errors(truth: Pose, off_mm: Array, turned_rad: Array) -> PoseErrors:
-    """Errors (n,) from excess translations (n, 3) and excess small rotations (n, 3) in the camera frame."""
+    """Return errors (n,) from translations (n, 3) and small rotations (n, 3) in the camera frame."""
     sight = truth.translation_mm / np.linalg.norm(truth.translation_mm)
     along = off_mm @ sight
     in_marker = np.degrees(turned_rad @ truth.rotation)
@@ -71,7 +71,7 @@ def pose_errors(truth: Pose, off_mm: Array, turned_rad: Array) -> PoseErrors:
 
 
 def bound_of(scene: Scene) -> Bound:
-    """The bound for the first marker of a scene with a camera that answers straight and without JPEG."""
+    """Return the bound for the first marker of a scene, for a linear camera without JPEG."""
     covariance = np.asarray(np.linalg.inv(information_of(scene)), dtype=np.float64)
     draws = np.random.default_rng(0).multivariate_normal(np.zeros(6), covariance, DRAWS)
     errors = pose_errors(scene.pose, draws[:, :3], draws[:, 3:])
@@ -82,7 +82,7 @@ def bound_of(scene: Scene) -> Bound:
 
 
 def information_of(scene: Scene) -> Array:
-    """Fisher's information (6, 6) on translation [mm] and rotation [rad] in the camera frame.
+    """Return the Fisher information (6, 6) on translation [mm] and rotation [rad], camera frame.
 
     Gain, offset and blur are unknown too, so what they could explain is taken out.
     """
@@ -108,7 +108,7 @@ def information_of(scene: Scene) -> Array:
 
 
 def information_without(by_pose: Array, unknown: Array) -> Array:
-    """Information on the pose when these other numbers are not known; both (n, ...) in units of the noise."""
+    """Return the pose information with nuisance parameters; both (n, ...) in units of the noise."""
     basis, _ = np.linalg.qr(unknown)
     left = by_pose - basis @ (basis.T @ by_pose)
     return np.asarray(left.T @ left, dtype=np.float64)
@@ -119,7 +119,7 @@ def _with_blur(scene: Scene, blur_px: float) -> Scene:
 
 
 def _steps(scene: Scene) -> Array:
-    """Steps along the sight's axes that move some of the marker's image by a few hundredths of a pixel."""
+    """Return steps along the sight's axes that move the marker's image by a few hundredths of a pixel."""
     half_px = 0.5 * scene.side_px
     across_mm = STEP_PX * float(np.linalg.norm(scene.pose.translation_mm)) / scene.rig.focal_px
     turn_rad = STEP_PX / half_px
@@ -128,7 +128,7 @@ def _steps(scene: Scene) -> Array:
 
 
 def _mover(about: Pose, step: Array) -> Callable[[Pose], Pose]:
-    """Moves every pose of the shutter's opening by one step, turning about the marker's own centre."""
+    """Return the motion of every shutter pose by one step; rotations are about the marker's centre."""
     turn = rotation_from_vector(step[3:])
 
     def move(pose: Pose) -> Pose:
@@ -141,7 +141,7 @@ def _mover(about: Pose, step: Array) -> Callable[[Pose], Pose]:
 
 
 def _counted(scene: Scene, mean: Array, window: Window) -> npt.NDArray[np.bool_]:
-    """The pixels of the square and its rim that are not saturated."""
+    """Return the unsaturated pixels of the square and its rim."""
     rim = scene.board.face.corners_mm * (1.0 + 2.0 * RIM_RATIO)
     outline = scene.rig.px_of(scene.pose, rim) - [window.left, window.top]
-    return np.asarray((painted([outline], [1.0], window.size_wh) > 0.5) & (mean < SATURATED_GREY))
+    return np.asarray((coverage_image([outline], [1.0], window.size_wh) > 0.5) & (mean < SATURATED_GREY))

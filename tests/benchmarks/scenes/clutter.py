@@ -1,4 +1,4 @@
-"""Backgrounds in which much looks like a marker and nothing is one."""
+"""Cluttered backgrounds with many marker-like objects and no marker."""
 
 from collections.abc import Callable
 from functools import lru_cache
@@ -11,7 +11,7 @@ from tracker.geometry import Array
 
 Floats = npt.NDArray[np.float32]
 Canvas = npt.NDArray[np.uint8]
-FINER = 2
+SUPERSAMPLING = 2
 SHIFT_BITS = 4
 LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ0123456789+-:/"
 # Things in an image of 768 px width; a wider image has as many, larger.
@@ -20,9 +20,9 @@ CLOTHS, TOOLS, LINES, DISCS, WORDS, BOARDS, SQUARES = 12, 10, 36, 26, 9, 3, 56
 
 @lru_cache(maxsize=40)
 def clutter(size_wh_px: tuple[int, int], seed: int) -> Floats:
-    """Reflectance (h, w) of a background, 0 to 1, the same for the same seed; read-only."""
+    """Return the reflectance (h, w) of a background, 0 to 1, deterministic by seed; read-only."""
     random = np.random.default_rng([seed, 4201])
-    width, height = size_wh_px[0] * FINER, size_wh_px[1] * FINER
+    width, height = size_wh_px[0] * SUPERSAMPLING, size_wh_px[1] * SUPERSAMPLING
     canvas = _cloth(random, (width, height))
     unit = (0.8 if size_wh_px[0] > 1200 else 1.0) * width / 768.0
     draw: list[tuple[int, Callable[[Canvas, np.random.Generator, float], None]]] = [
@@ -70,7 +70,7 @@ def _blob(random: np.random.Generator, centre: Array, radius: float, corners: in
 
 
 def _leaning_square(random: np.random.Generator, centre: Array, radius: float) -> Array:
-    """A square as a camera may see one that leans: turned, foreshortened, a little keystone."""
+    """Return an oblique square as a camera sees it: rotated, foreshortened, with perspective."""
     angles = np.pi / 4.0 + np.arange(4) * (np.pi / 2.0)
     flat = np.stack([np.cos(angles), np.sin(angles)], axis=1) * random.uniform(0.85, 1.15, (4, 1))
     flat = _turned(flat, random.uniform(0.0, np.pi)) * [1.0, random.uniform(0.5, 1.0)]
@@ -141,7 +141,7 @@ def _fields(canvas: Canvas, corners: Array, dark: npt.NDArray[np.bool_], grey: f
 
 
 def _square(canvas: Canvas, random: np.random.Generator, unit: float) -> None:
-    """What a finder of squares takes for a marker: mostly dark and on paper, often with something inside."""
+    """Draw a marker-like square: mostly dark, on paper, often with something inside."""
     centre, radius = _place(canvas, random), unit * random.uniform(8.0, 36.0)
     corners = _leaning_square(random, centre, radius)
     ink, paper = random.uniform(5.0, 60.0), random.uniform(150.0, 240.0)

@@ -1,4 +1,4 @@
-"""What makes an image hard, one thing at a time and mixed, each in steps."""
+"""Image degradations, single and mixed, in steps."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ from tests.benchmarks.scenes.rigs import Rig
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Condition:
-    """How an image is made.
+    """Parameters of the image formation.
 
     Attributes:
         name: of the condition.
@@ -15,11 +15,11 @@ class Condition:
         motion_px: how far the marker moves while the shutter is open.
         read_noise_grey: standard deviation, grey levels.
         full_well_electrons: of a pixel at grey 255; decides the shot noise.
-        light_ratio: of the light, 1 lets white paper be about 215.
+        illumination_ratio: of the light, 1 lets white paper be about 215.
         gradient_ratio: change of the light from the middle of the image to its corner.
         shadow_ratio: how much light the edge of a shadow across the marker takes away.
         glare_ratio: height of a bright blob on the marker, 1 is full scale.
-        cover_ratio: share of the black square that a finger covers.
+        occlusion_ratio: share of the black square that a finger covers.
         jpeg_quality: 0 for none.
         gamma: of the camera's answer to light; 1 is straight.
         has_bent_lens: whether the lens bends straight lines.
@@ -31,11 +31,11 @@ class Condition:
     motion_px: float = 0.0
     read_noise_grey: float = 1.2
     full_well_electrons: float = 12_000.0
-    light_ratio: float = 1.0
+    illumination_ratio: float = 1.0
     gradient_ratio: float = 0.2
     shadow_ratio: float = 0.0
     glare_ratio: float = 0.0
-    cover_ratio: float = 0.0
+    occlusion_ratio: float = 0.0
     jpeg_quality: int = 0
     gamma: float = 1.0
     has_bent_lens: bool = False
@@ -46,7 +46,7 @@ BASE = Condition()
 
 
 def conditions_of(rig: Rig) -> dict[str, Condition]:
-    """All conditions by name, from easy to hard in each kind; blur and motion go with the marker's size."""
+    """Return all conditions by name, in ascending difficulty; blur and motion scale with the marker."""
     small = rig.is_small
     steps = [
         BASE,
@@ -54,10 +54,13 @@ def conditions_of(rig: Rig) -> dict[str, Condition]:
         *(Condition(name=f"noise{grey}", read_noise_grey=grey) for grey in (4, 8, 16)),
         *(Condition(name=f"defocus{px:g}", blur_px=px) for px in ((1, 1.5, 2) if small else (1.5, 3, 5))),
         *(Condition(name=f"motion{px}", motion_px=px) for px in ((2, 4, 8) if small else (4, 10, 20))),
-        *(Condition(name=f"dark{ratio:g}", light_ratio=ratio) for ratio in (0.4, 0.15, 0.06)),
+        *(Condition(name=f"dark{ratio:g}", illumination_ratio=ratio) for ratio in (0.4, 0.15, 0.06)),
         *(Condition(name=f"shadow{ratio:g}", shadow_ratio=ratio) for ratio in (0.5, 0.8)),
         *(Condition(name=f"glare{ratio:g}", glare_ratio=ratio) for ratio in (0.4, 0.8, 1.6)),
-        *(Condition(name=f"cover{percent:02d}", cover_ratio=percent / 100) for percent in (5, 10, 20, 30)),
+        *(
+            Condition(name=f"cover{percent:02d}", occlusion_ratio=percent / 100)
+            for percent in (5, 10, 20, 30)
+        ),
         *(Condition(name=f"jpeg{quality}", jpeg_quality=quality) for quality in (70, 40, 20)),
         Condition(name="gamma2.2", gamma=2.2),
         Condition(name="lens", has_bent_lens=True),
@@ -66,7 +69,7 @@ def conditions_of(rig: Rig) -> dict[str, Condition]:
             blur_px=1.0 if small else 1.5,
             motion_px=2.0 if small else 5.0,
             read_noise_grey=4.0,
-            light_ratio=0.5,
+            illumination_ratio=0.5,
             shadow_ratio=0.4,
             glare_ratio=0.3,
             jpeg_quality=70,
@@ -76,10 +79,10 @@ def conditions_of(rig: Rig) -> dict[str, Condition]:
             blur_px=1.2 if small else 2.0,
             motion_px=3.0 if small else 8.0,
             read_noise_grey=6.0,
-            light_ratio=0.4,
+            illumination_ratio=0.4,
             shadow_ratio=0.6,
             glare_ratio=0.5,
-            cover_ratio=0.1,
+            occlusion_ratio=0.1,
             jpeg_quality=50,
         ),
     ]

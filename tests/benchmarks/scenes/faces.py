@@ -1,4 +1,4 @@
-"""Printed faces of markers, drawn from outlines: shapes with edges of both polarities, rings, and codes."""
+"""Printed marker faces as outlines: shapes with edges of both polarities, rings, and codes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tests.benchmarks.scenes.area import painted
+from tests.benchmarks.scenes.area import coverage_image
 from tracker import MarkerModel
 from tracker.geometry import Array
 
@@ -48,7 +48,7 @@ class Face:
         return np.stack([x - 0.5, 0.5 - y, np.zeros(len(x))], axis=1) * self.side_mm
 
     def weights(self, black: float, white: float) -> list[float]:
-        """What each outline adds to those under it, so that ink is `black` and paper `white`."""
+        """Return the weight that each outline adds, so that ink is `black` and paper `white`."""
         step = white - black
         return [white, -step, *([step] * len(self.white)), *([-step] * len(self.black))]
 
@@ -62,12 +62,16 @@ class Face:
         """The printed face (400, 400), black 0, white 255; the black square fills it edge to edge."""
         shapes = [(outline * MODEL_PX) - 0.5 for outline in (*self.white, *self.black)]
         weights = [255.0] * len(self.white) + [-255.0] * len(self.black)
-        grey = painted(shapes, weights, (MODEL_PX, MODEL_PX)) if shapes else np.zeros((MODEL_PX, MODEL_PX))
+        grey = (
+            coverage_image(shapes, weights, (MODEL_PX, MODEL_PX))
+            if shapes
+            else np.zeros((MODEL_PX, MODEL_PX))
+        )
         return np.asarray(np.clip(np.rint(grey), 0, 255), dtype=np.uint8)
 
     @property
     def model(self) -> MarkerModel:
-        """What the tracker is told about it."""
+        """Return the tracker's model of the face."""
         return MarkerModel.from_image(self.image, side_mm=self.side_mm, name=self.name)
 
 
@@ -85,7 +89,7 @@ def polygon(*corners: tuple[float, float]) -> Array:
 
 
 def code_face(name: str, fields: Sequence[Sequence[int]], *, rim: int = 1) -> Face:
-    """A code: white where a field is 1, with `rim` black fields around."""
+    """Return a code: white for fields of 1, with a border of `rim` black fields."""
     rows = len(fields)
     size = rows + 2 * rim
     cells = [
@@ -98,7 +102,7 @@ def code_face(name: str, fields: Sequence[Sequence[int]], *, rim: int = 1) -> Fa
 
 
 def dictionary_face(name: str, dictionary: int, number: int, fields: int) -> Face:
-    """A marker of one of OpenCV's dictionaries, with so many fields a side inside its rim."""
+    """Return a marker of an OpenCV dictionary with this many fields per side inside its border."""
     printed = cv2.aruco.generateImageMarker(cv2.aruco.getPredefinedDictionary(dictionary), number, fields + 2)
     return code_face(name, (np.asarray(printed)[1:-1, 1:-1] > 0).astype(int).tolist())
 

@@ -1,10 +1,10 @@
-"""A finger that reaches into the image and covers a share of the marker."""
+"""A finger that occludes a share of the marker."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from tests.benchmarks.scenes.area import painted
+from tests.benchmarks.scenes.area import coverage_image
 from tests.benchmarks.scenes.clutter import Floats
 from tracker.geometry import Array
 
@@ -15,7 +15,7 @@ HALVINGS = 30
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Finger:
-    """A long rounded shape before the marker.
+    """A long rounded shape in front of the marker.
 
     Attributes:
         tip_px: middle (2,) of its round end.
@@ -30,7 +30,7 @@ class Finger:
     reflectance: float
 
     def outline_px(self, reach_px: float) -> Array:
-        """Its outline (n, 2), so far from its tip."""
+        """Return the outline (n, 2) down to this distance from its tip."""
         across = np.array([-self.towards[1], self.towards[0]])
         turn = np.linspace(0.5 * np.pi, 1.5 * np.pi, TIP_CORNERS)
         end = np.outer(np.cos(turn), self.towards) + np.outer(np.sin(turn), across)
@@ -38,20 +38,20 @@ class Finger:
         return np.concatenate([self.tip_px + self.half_px * end, self.tip_px + far])
 
     def share(self, left_px: float, top_px: float, size_wh: tuple[int, int], finer: int = 1) -> Array:
-        """How much of each cell (h, w) of a grid it covers, whose first pixel is (left, top)."""
+        """Return the covered share of each cell (h, w) of a grid whose first pixel is (left, top)."""
         outline = (self.outline_px(6000.0) - [left_px, top_px]) * finer + (finer - 1) / 2
-        return painted([outline], [1.0], size_wh)
+        return coverage_image([outline], [1.0], size_wh)
 
     def shade(self, left_px: float, top_px: float, size_wh: tuple[int, int], finer: int = 1) -> Floats:
-        """Its reflectance at each cell (h, w), as round as a cylinder."""
+        """Return the reflectance at each cell (h, w), shaded as a cylinder."""
         u = left_px + (np.arange(size_wh[0]) - (finer - 1) / 2) / finer - self.tip_px[0]
         v = top_px + (np.arange(size_wh[1]) - (finer - 1) / 2) / finer - self.tip_px[1]
         off = (v[:, None] * self.towards[0] - u[None, :] * self.towards[1]) / self.half_px
         return np.asarray(self.reflectance * np.sqrt(np.clip(1.0 - 0.7 * off * off, 0.1, 1.0)), np.float32)
 
 
-def finger_over(square_px: Array, cover_ratio: float, random: np.random.Generator) -> Finger:
-    """A finger from a random side, pushed in until it covers this share of the square (4, 2)."""
+def finger_over(square_px: Array, occlusion_ratio: float, random: np.random.Generator) -> Finger:
+    """Return a finger from a random side that occludes this share of the square (4, 2)."""
     angle, aside = random.uniform(0.0, 2.0 * np.pi), random.uniform(-0.35, 0.35)
     half, reflectance = random.uniform(0.45, 0.8), random.uniform(0.15, 0.75)
     towards = np.array([np.cos(angle), np.sin(angle)])
@@ -59,7 +59,7 @@ def finger_over(square_px: Array, cover_ratio: float, random: np.random.Generato
     across = np.array([-towards[1], towards[0]])
     left, top = np.floor(square_px.min(axis=0)) - 2.0
     columns, rows = ((np.ceil(square_px.max(axis=0)) - [left, top] + 2.0) * FINE).astype(int).tolist()
-    inside = painted([(square_px - [left, top]) * FINE + (FINE - 1) / 2], [1.0], (columns, rows))
+    inside = coverage_image([(square_px - [left, top]) * FINE + (FINE - 1) / 2], [1.0], (columns, rows))
 
     def at(far: float) -> Finger:
         tip = square_px.mean(axis=0) + towards * far * side + across * aside * side
@@ -69,7 +69,7 @@ def finger_over(square_px: Array, cover_ratio: float, random: np.random.Generato
     for _ in range(HALVINGS):
         middle = 0.5 * (near + far)
         share = at(middle).share(left, top, (columns, rows), FINE)
-        if float(np.sum(share * inside)) > cover_ratio * float(inside.sum()):
+        if float(np.sum(share * inside)) > occlusion_ratio * float(inside.sum()):
             near = middle
         else:
             far = middle

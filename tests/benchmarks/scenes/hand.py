@@ -1,4 +1,4 @@
-"""A hand that moves a marker: slow swings and a tremor, smooth and known at every time."""
+"""Smooth hand motion of a marker: slow swings and tremor, known at every time."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ import numpy as np
 
 from tests.benchmarks.scenes.conditions import BASE, Condition
 from tests.benchmarks.scenes.faces import Face
-from tests.benchmarks.scenes.placing import posed, scene_at, shutter_poses
+from tests.benchmarks.scenes.placement import posed, scene_at, shutter_poses
 from tests.benchmarks.scenes.rigs import Rig
 from tests.benchmarks.scenes.scene import Pose, Scene
 from tracker.geometry import Array
@@ -34,12 +34,12 @@ class Waves:
     phase: Array
 
     def at(self, time_s: float) -> float:
-        """Its height at a time."""
+        """Return the value at a time."""
         return float(np.sum(self.size * np.sin(self.rad_per_s * time_s + self.phase)))
 
 
 class Hand:
-    """Where the hand holds a marker at any time: `pose_at(time_s)`."""
+    """The marker pose at any time: `pose_at(time_s)`."""
 
     def __init__(self, rig: Rig, speed: str, *, seed: int) -> None:
         random = np.random.default_rng([seed, 61])
@@ -59,7 +59,7 @@ class Hand:
         self._turns = [_waves(random, deg_per_s, tremor_deg) for _ in range(3)]
 
     def pose_at(self, time_s: float) -> Pose:
-        """Where the marker is."""
+        """Return the marker pose."""
         moved = self._start_mm + [wave.at(time_s) for wave in self._moves]
         roll, *lean = (wave.at(time_s) for wave in self._turns)
         leaning = self._lean_deg + lean
@@ -73,7 +73,7 @@ class Hand:
 
 
 def _waves(random: np.random.Generator, speed_rms: float, tremor_rms: float) -> Waves:
-    """Swings at 0.2 to 1.8 Hz with this speed in all, and a tremor at 7 to 11 Hz of this size."""
+    """Return swings at 0.2 to 1.8 Hz of this total speed, and a tremor at 7 to 11 Hz of this size."""
     swing = 2.0 * np.pi * np.exp(random.uniform(np.log(0.2), np.log(1.8), SWINGS))
     tremor = 2.0 * np.pi * random.uniform(7.0, 11.0, TREMORS)
     speeds, sizes = random.uniform(0.5, 1.0, SWINGS), random.uniform(0.5, 1.0, TREMORS)
@@ -94,11 +94,11 @@ def hand_scenes(
     seed: int,
     count: int,
     condition: Condition = BASE,
-    sound_images: int = 0,
+    undisturbed_images: int = 0,
 ) -> Iterator[tuple[float, Scene]]:
-    """Images at 60 Hz with their times; each is blurred by what the hand does while the shutter is open.
+    """Yield scenes at 60 Hz with their times; each has the motion blur of its exposure.
 
-    The first `sound_images` are in base condition, whatever the condition of the others.
+    The first `undisturbed_images` are in base condition, whatever the condition of the others.
     """
     rig = rig.bent() if condition.has_bent_lens else rig
     hand = Hand(rig, speed, seed=seed)
@@ -107,5 +107,5 @@ def hand_scenes(
         ends = [rig.px_of(hand.pose_at(at_s + tau * SHUTTER_S), face.corners_mm) for tau in (-0.5, 0.5)]
         way_px = float(np.linalg.norm(ends[1] - ends[0], axis=1).max())
         poses = shutter_poses(hand.pose_at, way_px, at_s=at_s, opening_s=SHUTTER_S)
-        now = BASE if number < sound_images else condition
+        now = BASE if number < undisturbed_images else condition
         yield at_s, scene_at(rig, face, now, poses, seed=seed, image_number=number)

@@ -1,4 +1,4 @@
-"""The cameras of the scenes: the paper's, with a small marker far away, and a modern one."""
+"""Cameras of the scenes: the paper's, with a small distant marker, and a modern one."""
 
 from dataclasses import dataclass, replace
 
@@ -14,7 +14,7 @@ BENT = (-0.21, 0.07, 0.0005, -0.0006, 0.0)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rig:
-    """A camera and where a marker stands before it.
+    """A camera and the distance of its marker.
 
     Attributes:
         name: "A", "B", ...
@@ -32,30 +32,30 @@ class Rig:
 
     @property
     def is_small(self) -> bool:
-        """Whether a marker is some 27 px wide, and not some 70."""
+        """Return whether a marker is some 27 px wide, not some 70."""
         return self.size_wh_px[0] < 1200
 
     @property
     def is_bent(self) -> bool:
-        """Whether straight lines are seen bent."""
+        """Return whether the lens has distortion."""
         return any(self.distortion)
 
     @property
     def matrix(self) -> Array:
-        """OpenCV's camera matrix (3, 3)."""
+        """Return OpenCV's camera matrix (3, 3)."""
         width, height = self.size_wh_px
         f = self.focal_px
         return np.array([[f, 0.0, (width - 1) / 2], [0.0, f, (height - 1) / 2], [0.0, 0.0, 1.0]])
 
     @property
     def camera(self) -> CameraModel:
-        """What the tracker is told about it."""
+        """Return the camera model for the tracker."""
         return CameraModel(
             matrix=self.matrix, distortion=np.array(self.distortion), size_wh_px=self.size_wh_px
         )
 
     def px_of(self, pose: Rigid[Camera, Marker], points_mm: npt.ArrayLike) -> Array:
-        """Where points (n, 3) of the marker are seen (n, 2), by OpenCV's own projection."""
+        """Project points (n, 3) of the marker to pixels (n, 2) with OpenCV."""
         seen, _ = cv2.projectPoints(
             np.asarray(points_mm, dtype=np.float64).reshape(-1, 1, 3),
             cv2.Rodrigues(pose.rotation)[0],
@@ -66,14 +66,14 @@ class Rig:
         return np.asarray(seen, dtype=np.float64).reshape(-1, 2)
 
     def sight_through(self, at_px: npt.ArrayLike) -> Array:
-        """Direction (3,) of length 1 in which a pixel looks."""
+        """Return the unit viewing direction (3,) of a pixel."""
         points = np.asarray(at_px, dtype=np.float64).reshape(1, 1, 2)
         x, y = cv2.undistortPoints(points, self.matrix, np.array(self.distortion)).reshape(2)
         sight = np.array([x, y, 1.0])
         return np.asarray(sight / np.linalg.norm(sight), dtype=np.float64)
 
     def bent(self) -> "Rig":
-        """The same camera behind a lens that bends straight lines."""
+        """Return the same camera with lens distortion."""
         return replace(self, distortion=BENT)
 
 

@@ -1,4 +1,4 @@
-"""One image of a scene with markers whose poses are exactly known, formed the way a camera forms it.
+"""Image formation of a scene with markers of exactly known pose.
 
 Reflectance of the background, the printed boards and a finger, exactly integrated over quarters of a
 pixel; averaged over the shutter's time; blurred by the lens; integrated over the pixel; lit; then shot noise,
@@ -13,12 +13,12 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tests.benchmarks.scenes.area import painted
+from tests.benchmarks.scenes.area import coverage_image
 from tests.benchmarks.scenes.clutter import Floats, clutter
 from tests.benchmarks.scenes.conditions import Condition
 from tests.benchmarks.scenes.faces import Face
 from tests.benchmarks.scenes.finger import Finger
-from tests.benchmarks.scenes.light import Light
+from tests.benchmarks.scenes.illumination import Illumination
 from tests.benchmarks.scenes.rigs import Rig
 from tracker.geometry import Array, Camera, Marker, Rigid
 
@@ -34,14 +34,14 @@ Pose = Rigid[Camera, Marker]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Window:
-    """A part of the image: its first pixel and its size."""
+    """A part of the image: first pixel and size."""
 
     left: int
     top: int
     size_wh: tuple[int, int]
 
     def grown(self, by_px: int) -> "Window":
-        """The same with so much more on each side."""
+        """Return the window with a margin on each side."""
         width, height = self.size_wh
         return Window(
             left=self.left - by_px, top=self.top - by_px, size_wh=(width + 2 * by_px, height + 2 * by_px)
@@ -50,25 +50,25 @@ class Window:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Board:
-    """A printed marker and where it is at times spread evenly over the shutter's opening."""
+    """A printed marker with its poses spread evenly over the exposure."""
 
     face: Face
     poses: tuple[Pose, ...]
 
     @property
     def pose(self) -> Pose:
-        """Where it is at the middle of the opening: the truth."""
+        """Return the pose at the middle of the exposure: the ground truth."""
         return self.poses[len(self.poses) // 2]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scene:
-    """All that decides an image.
+    """All parameters of an image.
 
     Attributes:
         rig, condition: by what camera, and how hard.
         boards: what is to be found; none in an image without markers.
-        light, finger: drawn for the condition.
+        illumination, finger: drawn for the condition.
         background_seed: of the clutter; None for an even grey that is as bright as paper.
         noise_seed: of the noise.
     """
@@ -76,45 +76,45 @@ class Scene:
     rig: Rig
     condition: Condition
     boards: tuple[Board, ...]
-    light: Light
+    illumination: Illumination
     finger: Finger | None
     background_seed: int | None
     noise_seed: tuple[int, ...]
 
     @property
     def board(self) -> Board:
-        """The first marker."""
+        """Return the first marker."""
         return self.boards[0]
 
     @property
     def pose(self) -> Pose:
-        """Where the first marker is."""
+        """Return the pose of the first marker."""
         return self.board.pose
 
     @property
     def corners_px(self) -> Array:
-        """Where the first marker's corners are seen (4, 2)."""
+        """Return the first marker's corners in the image (4, 2)."""
         return self.rig.px_of(self.pose, self.board.face.corners_mm)
 
     @property
     def side_px(self) -> float:
-        """How wide the first marker would be seen from the front."""
+        """Return the width of the first marker as seen from the front."""
         far = float(np.linalg.norm(self.pose.translation_mm))
         return self.rig.focal_px * self.board.face.side_mm / far
 
     def moved(self, by: Callable[[Pose], Pose]) -> "Scene":
-        """The same with the first marker somewhere else, all through the opening of the shutter."""
+        """Return the scene with the first marker's pose changed throughout the exposure."""
         board = replace(self.board, poses=tuple(map(by, self.board.poses)))
         return replace(self, boards=(board, *self.boards[1:]))
 
 
 def image_of(scene: Scene) -> npt.NDArray[np.uint8]:
-    """The image (h, w) that the camera gives of a scene, the same each time."""
+    """Return the image (h, w) of a scene; deterministic."""
     return recorded(mean_of(scene), scene)
 
 
 def recorded(mean: Floats, scene: Scene) -> npt.NDArray[np.uint8]:
-    """What the camera makes of these mean grey levels (h, w): with its noise and its answer, in 8 bits."""
+    """Return the recorded 8-bit image of mean grey levels (h, w): noise, response curve, quantisation."""
     condition = scene.condition
     noise = np.random.default_rng(list(scene.noise_seed)).standard_normal(mean.shape, dtype=np.float32)
     variance = condition.read_noise_grey**2 + np.clip(mean, 0.0, FULL_SCALE) * _shot(condition)
@@ -129,7 +129,7 @@ def recorded(mean: Floats, scene: Scene) -> npt.NDArray[np.uint8]:
 
 
 def noise_variance_grey2(mean: npt.NDArray[np.floating], condition: Condition) -> Array:
-    """Variance of the camera's noise at these mean grey levels, the steps of 8 bits included."""
+    """Return the noise variance at these mean grey levels, including quantisation."""
     shot = np.clip(np.asarray(mean, dtype=np.float64), 0.0, FULL_SCALE) * _shot(condition)
     return condition.read_noise_grey**2 + shot + 1.0 / 12.0
 
@@ -139,7 +139,7 @@ def _shot(condition: Condition) -> np.float32:
 
 
 def mean_of(scene: Scene) -> Floats:
-    """The whole image (h, w) before noise, in grey levels of a camera that answers straight."""
+    """Return the whole image (h, w) before noise, in linear grey levels."""
     whole = Window(left=0, top=0, size_wh=scene.rig.size_wh_px)
     background = _background(scene, whole)
     finger = scene.finger
@@ -158,12 +158,12 @@ def mean_of(scene: Scene) -> Floats:
 
 
 def window_mean_of(scene: Scene, window: Window) -> Array:
-    """The same of a window inside the image (h, w), which may hold boards but no edge of the image."""
+    """Return the same for a window inside the image (h, w); it must not touch the image border."""
     return np.asarray(_exposed(scene, _reflectance(scene, window), window), dtype=np.float64)
 
 
 def window_of(scene: Scene, number: int = 0) -> Window:
-    """The part of the image that one of the boards can reach, with its blur."""
+    """Return the part of the image that one of the boards can reach, with its blur."""
     board, margin = scene.boards[number], _reach_px(scene.condition.blur_px) + 1
     seen = np.concatenate([scene.rig.px_of(pose, board.face.outlines_mm[0]) for pose in board.poses])
     width, height = scene.rig.size_wh_px
@@ -173,12 +173,12 @@ def window_of(scene: Scene, number: int = 0) -> Window:
 
 
 def _exposed(scene: Scene, reflectance: Floats, window: Window) -> Floats:
-    lit = scene.light.on(reflectance, window.left, window.top)
-    return np.asarray(lit * np.float32(FULL_SCALE * scene.condition.light_ratio), dtype=np.float32)
+    lit = scene.illumination.on(reflectance, window.left, window.top)
+    return np.asarray(lit * np.float32(FULL_SCALE * scene.condition.illumination_ratio), dtype=np.float32)
 
 
 def _background(scene: Scene, window: Window) -> Floats:
-    """Reflectance of the background; beyond the image's edge its last pixels go on."""
+    """Return the reflectance of the background; the border is replicated."""
     width, height = window.size_wh
     if scene.background_seed is None:
         return np.full((height, width), WHITE, np.float32)
@@ -189,7 +189,7 @@ def _background(scene: Scene, window: Window) -> Floats:
 
 
 def _reflectance(scene: Scene, window: Window) -> Floats:
-    """What the lens shows of all boards, the finger and the background in a window (h, w)."""
+    """Return the reflectance of boards, finger and background in a window (h, w), before lens blur."""
     margin = _reach_px(scene.condition.blur_px)
     wide = window.grown(margin)
     size = (wide.size_wh[0] * FINE, wide.size_wh[1] * FINE)
@@ -207,7 +207,7 @@ def _reflectance(scene: Scene, window: Window) -> Floats:
 
 
 def _board_layers(rig: Rig, board: Board, wide: Window, size: tuple[int, int]) -> tuple[Array, Array]:
-    """Share of each cell that is board, and the reflectance of that share, averaged over the shutter."""
+    """Return board coverage of each cell and its reflectance, averaged over the exposure."""
     outlines = [_cut(outline, rig, board.face) for outline in board.face.outlines_mm]
     ends = np.cumsum([len(outline) for outline in outlines])[:-1]
     seen: list[Array] = []
@@ -216,12 +216,12 @@ def _board_layers(rig: Rig, board: Board, wide: Window, size: tuple[int, int]) -
         seen += np.split(points, ends)
     share = 1.0 / len(board.poses)
     weights = [share * weight for weight in board.face.weights(BLACK, WHITE)] * len(board.poses)
-    paper = painted(seen[:: len(outlines)], [share] * len(board.poses), size)
-    return paper, painted(seen, weights, size)
+    paper = coverage_image(seen[:: len(outlines)], [share] * len(board.poses), size)
+    return paper, coverage_image(seen, weights, size)
 
 
 def _cut(outline: Array, rig: Rig, face: Face) -> Array:
-    """The outline with more points on its straight lines, where the lens bends them."""
+    """Return the outline, subdivided along its straight edges if the lens has distortion."""
     if not rig.is_bent:
         return outline
     ends = np.roll(outline, -1, axis=0)
@@ -238,7 +238,7 @@ def _reach_px(blur_px: float) -> int:
 
 @cache
 def _fine_kernel(blur_px: float) -> Array:
-    """The lens's blur on cells of a quarter of a pixel."""
+    """Return the lens blur on cells of a quarter pixel."""
     reach = _reach_px(blur_px) * FINE - 1
     at = np.arange(-reach, reach + 1) / (FINE * blur_px)
     kernel = np.exp(-0.5 * at * at)
@@ -247,7 +247,7 @@ def _fine_kernel(blur_px: float) -> Array:
 
 @cache
 def _pixel_kernel(blur_px: float) -> Array:
-    """What the same blur does to an image of even pixels: exactly what the fine cells would give."""
+    """Return the same blur for whole pixels: exactly equal on images that are constant per pixel."""
     reach = _reach_px(blur_px)
     impulse = np.zeros(2 * reach + 1)
     impulse[reach] = 1.0

@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.benchmarks.scenes.area import painted
+from tests.benchmarks.scenes.area import coverage_image
 from tests.benchmarks.scenes.bound import bound_of, information_of
 from tests.benchmarks.scenes.conditions import BASE, Condition, conditions_of
 from tests.benchmarks.scenes.faces import CODE, FACES, PLAIN, SAIL, circle
 from tests.benchmarks.scenes.hand import RATE_HZ, SPEEDS, Hand, hand_scenes
-from tests.benchmarks.scenes.placing import empty_scene, posed, random_scene, scene_at
+from tests.benchmarks.scenes.placement import empty_scene, posed, random_scene, scene_at
 from tests.benchmarks.scenes.rigs import RIG_A, RIG_B, Rig
 from tests.benchmarks.scenes.scene import (
     BLACK,
@@ -54,15 +54,19 @@ def dark_mass(scene: Scene) -> tuple[float, Array]:
 def test_coverage_of_a_triangle_is_what_a_hand_computes() -> None:
     # Half of the first pixel, whose middle is (0, 0), and of no other.
     triangle = np.array([[-0.5, -0.5], [0.5, -0.5], [-0.5, 0.5]])
-    np.testing.assert_allclose(painted([triangle], [2.0], (2, 2)), [[1.0, 0.0], [0.0, 0.0]], atol=1e-12)
-    np.testing.assert_allclose(painted([triangle[::-1]], [2.0], (2, 2)), [[1.0, 0.0], [0.0, 0.0]], atol=1e-12)
+    np.testing.assert_allclose(
+        coverage_image([triangle], [2.0], (2, 2)), [[1.0, 0.0], [0.0, 0.0]], atol=1e-12
+    )
+    np.testing.assert_allclose(
+        coverage_image([triangle[::-1]], [2.0], (2, 2)), [[1.0, 0.0], [0.0, 0.0]], atol=1e-12
+    )
 
 
 def test_coverage_beyond_the_image_is_cut_off_and_nothing_else() -> None:
     disc = circle(3.3, 2.1, 6.0)
-    whole = painted([disc + 20.0], [1.0], (60, 60))
+    whole = coverage_image([disc + 20.0], [1.0], (60, 60))
     np.testing.assert_allclose(whole.sum(), math.pi * 36.0, rtol=1e-12)
-    np.testing.assert_allclose(painted([disc], [1.0], (8, 5)), whole[20:25, 20:28], atol=1e-12)
+    np.testing.assert_allclose(coverage_image([disc], [1.0], (8, 5)), whole[20:25, 20:28], atol=1e-12)
 
 
 @RIGS
@@ -94,7 +98,7 @@ def test_nothing_of_the_background_shines_through_the_board() -> None:
     scene = random_scene(RIG_A, PLAIN, EVEN, seed=3)
     plain = replace(scene, background_seed=None)
     window = window_of(scene)
-    inside = painted([scene.corners_px - [window.left, window.top]], [1.0], window.size_wh) > 0.99
+    inside = coverage_image([scene.corners_px - [window.left, window.top]], [1.0], window.size_wh) > 0.99
     off = window_mean_of(scene, window) - window_mean_of(plain, window)
     assert np.abs(off[inside]).max() < 1e-3
 
@@ -110,10 +114,10 @@ def test_a_window_shows_what_the_whole_image_shows() -> None:
 
 @pytest.mark.parametrize("ratio", [0.05, 0.10, 0.30])
 def test_a_finger_covers_the_share_that_was_asked_for(ratio: float) -> None:
-    scene = random_scene(RIG_B, PLAIN, replace(BASE, cover_ratio=ratio), seed=8)
+    scene = random_scene(RIG_B, PLAIN, replace(BASE, occlusion_ratio=ratio), seed=8)
     assert scene.finger is not None
     window = window_of(scene)
-    inside = painted([scene.corners_px - [window.left, window.top]], [1.0], window.size_wh)
+    inside = coverage_image([scene.corners_px - [window.left, window.top]], [1.0], window.size_wh)
     share = scene.finger.share(window.left, window.top, window.size_wh)
     assert (share * inside).sum() / inside.sum() == pytest.approx(ratio, abs=0.005)
 
@@ -207,7 +211,10 @@ def test_the_bound_goes_with_noise_and_with_the_root_of_the_light() -> None:
     tips = [bound_of(frontal_of_sail(replace(quiet, read_noise_grey=grey))).tip_mm for grey in (4.0, 8.0)]
     assert tips[1] / tips[0] == pytest.approx(2.0, rel=0.01)
     shot_only = replace(EVEN, full_well_electrons=200.0, read_noise_grey=0.0)
-    tips = [bound_of(frontal_of_sail(replace(shot_only, light_ratio=ratio))).tip_mm for ratio in (1.0, 0.25)]
+    tips = [
+        bound_of(frontal_of_sail(replace(shot_only, illumination_ratio=ratio))).tip_mm
+        for ratio in (1.0, 0.25)
+    ]
     assert tips[1] / tips[0] == pytest.approx(2.0, rel=0.02)
 
 
@@ -215,8 +222,8 @@ def test_the_bound_knows_that_light_blur_and_cover_take_something_away() -> None
     plain = bound_of(frontal_of_sail(BASE)).tip_mm
     for worse in (
         replace(BASE, blur_px=1.5),
-        replace(BASE, cover_ratio=0.3),
-        replace(BASE, light_ratio=0.15),
+        replace(BASE, occlusion_ratio=0.3),
+        replace(BASE, illumination_ratio=0.15),
     ):
         assert bound_of(frontal_of_sail(worse)).tip_mm > 1.1 * plain
 

@@ -5,7 +5,7 @@ import re
 from playwright.sync_api import Browser, Page, ViewportSize
 
 from tests.browser.by_touch.tablet import Tablet
-from tests.browser.theatre import Watched
+from tests.browser.theatre import WatchedPage
 from tests.procedure.real_server import RealServer
 
 
@@ -30,16 +30,16 @@ def invite(tablet: Tablet, name: str, role: str) -> str:
     return link
 
 
-def let_in(browser: Browser, port: int, link: str, size: ViewportSize, *, patience_ms: float) -> Watched:
+def let_in(browser: Browser, port: int, link: str, size: ViewportSize, *, patience_ms: float) -> WatchedPage:
     """A browser that came in by this link."""
     context = browser.new_context(viewport=size, locale="en-GB")
     context.set_default_timeout(patience_ms)
-    watched = Watched(context.new_page(), port)
+    watched = WatchedPage(context.new_page(), port)
     watched.page.goto(link)
     return watched
 
 
-def left(watched: Watched) -> None:
+def left(watched: WatchedPage) -> None:
     """Its browser is closed; it had nothing to complain of."""
     watched.page.context.close()
     assert not watched.strangers, watched.strangers

@@ -8,7 +8,7 @@ from typing import Any
 
 from playwright.sync_api import Browser, Page, ViewportSize, expect
 
-from tests.browser.theatre import SCREENSHOTS, Watched
+from tests.browser.theatre import SCREENSHOTS, WatchedPage
 
 LANDSCAPE: ViewportSize = {"width": 1280, "height": 800}
 UPRIGHT: ViewportSize = {"width": 800, "height": 1280}
@@ -86,7 +86,7 @@ def tablet_at(browser: Browser, port: int, *, patience_ms: float) -> Iterator[Ta
     context = browser.new_context(viewport=LANDSCAPE, has_touch=True, locale="en-GB")
     context.set_default_timeout(patience_ms)
     expect.set_options(timeout=patience_ms)
-    watched = Watched(context.new_page(), port)
+    watched = WatchedPage(context.new_page(), port)
     tablet = Tablet(page=watched.page, address=f"http://127.0.0.1:{port}", patience_ms=patience_ms, faults=[])
     try:
         yield tablet

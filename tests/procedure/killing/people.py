@@ -16,7 +16,7 @@ from tests.procedure.killing.theatre import VERTEBRA
 from tests.procedure.real_server import RealServer
 from tests.procedure.team import BY, POINTS, Team
 
-HOLDS = {"done", "due"}
+VALID_STATES = {"done", "due"}
 CONFIRM = "/api/procedure/confirmation"
 SERVERS_MISTAKE, MAX_REJECTED = 500, 20
 
@@ -28,8 +28,8 @@ class KilledUnderUs(Exception):
 class Rejected(Exception):
     """The server did not do it."""
 
-    def __init__(self, told: str, status: int) -> None:
-        super().__init__(told)
+    def __init__(self, reported: str, status: int) -> None:
+        super().__init__(reported)
         self.status = status
 
 
@@ -45,10 +45,10 @@ class WatchedServer(RealServer):
         answer = self.door.request(method, path, **sent)
         if answer.status_code != status:
             raise Rejected(f"{method} {path}: {answer.status_code} {answer.text[:300]}", answer.status_code)
-        told = answer.json() if answer.content else None
+        reported = answer.json() if answer.content else None
         if method != "GET":
-            self.promised.note(told)
-        return told
+            self.promised.note(reported)
+        return reported
 
     def until(self, what: str, true: Any) -> Any:  # noqa: ANN401  whatever became true
         """As ever, or at once when the server was killed."""
@@ -138,15 +138,15 @@ class People:
 
     def act(self) -> None:
         """One thing."""
-        told = self._server.ask("GET", "/api/procedure", 200)
-        states = {one["step"]: one["state"] for one in told["steps"]}
-        due = next((step for step, state in states.items() if state not in HOLDS), "")
-        if told["case_id"] is None:
+        reported = self._server.ask("GET", "/api/procedure", 200)
+        states = {one["step"]: one["state"] for one in reported["steps"]}
+        due = next((step for step, state in states.items() if state not in VALID_STATES), "")
+        if reported["case_id"] is None:
             self.doing = "a new case"
             self._team.open_case(self._name())
             return
         self.doing = due or "navigating"
-        if told["confirmation"] is not None:
+        if reported["confirmation"] is not None:
             self.confirm()
             return
         match due:
@@ -155,7 +155,7 @@ class People:
             case "tool":
                 self._team.calibrate_tool()
             case "plan":
-                self._plan(told)
+                self._plan(reported)
             case "register":
                 self._team.touch(5)
                 self._server.ask("POST", f"{POINTS}/conclusion", 201, json=BY)
@@ -175,8 +175,8 @@ class People:
     def _snapshot(self) -> Any:  # noqa: ANN401  JSON
         return self._server.ask("GET", "/api/live", 200)["snapshot"]
 
-    def _plan(self, told: dict[str, Any]) -> None:
-        step = next(one for one in told["steps"] if one["step"] == "plan")
+    def _plan(self, reported: dict[str, Any]) -> None:
+        step = next(one for one in reported["steps"] if one["step"] == "plan")
         if step["document_id"] is None:
             self._team.plan(VERTEBRA)
         self._choose(self._probability.choice(("left", "right")))
@@ -205,10 +205,10 @@ class People:
     def _ask_to_hold_or_release(self) -> None:
         """A hold is asked for and, when it is this one's turn again, released: so kills find it standing."""
         promised, name = self._server.promised, self._name()
-        asked_by = promised.holding
+        requested_by = promised.holding
         # Until it is confirmed, nobody was promised either.
         promised.holding = None
-        if asked_by == "":
+        if requested_by == "":
             self.doing = "asking to hold"
             self._server.ask("POST", "/api/alarms/hold", 200, json={"by": name})
             promised.holding = name
@@ -220,8 +220,8 @@ class People:
 
     def _choose(self, side: str) -> None:
         name = self._name()
-        asked = {"made_by": name, "vertebra": VERTEBRA, "side": side}
-        self._server.ask("POST", "/api/plan/active-channel", 200, json=asked)
+        requested = {"made_by": name, "vertebra": VERTEBRA, "side": side}
+        self._server.ask("POST", "/api/plan/active-channel", 200, json=requested)
         self._server.promised.names.add(name)
 
     def _name(self) -> str:

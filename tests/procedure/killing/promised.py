@@ -58,12 +58,12 @@ class Promised:
 
     def broken(self, server: RealServer) -> Iterator[str]:
         """What is not as it was confirmed; to be asked right after the start."""
-        told = server.ask("GET", "/api/cases", 200)
-        if told["opened_id"] != self.opened:
-            yield f"the open case was {self.opened}, and is {told['opened_id']}"
-        asked_by = server.ask("GET", "/api/supervision/room", 200)["hold"]["asked_by"]
-        if self.holding is not None and asked_by != [name for name in [self.holding] if name]:
-            yield f"{self.holding or 'nobody'} asked to hold, and now {asked_by} does"
+        reported = server.ask("GET", "/api/cases", 200)
+        if reported["opened_id"] != self.opened:
+            yield f"the open case was {self.opened}, and is {reported['opened_id']}"
+        requested_by = server.ask("GET", "/api/supervision/room", 200)["hold"]["requested_by"]
+        if self.holding is not None and requested_by != [name for name in [self.holding] if name]:
+            yield f"{self.holding or 'nobody'} asked to hold, and now {requested_by} does"
         if self.opened is None:
             return
         outline = server.ask("GET", f"/api/cases/{self.opened}/documents", 200)["documents"]
@@ -76,7 +76,7 @@ class Promised:
         lines = _lines(server)
         if lines[: len(self.lines)] != self.lines:
             yield f"the alarm log of {len(self.lines)} lines is not continued by its {len(lines)} lines"
-        there = "\n".join([*lines, json.dumps(outline), json.dumps(told, ensure_ascii=False)])
+        there = "\n".join([*lines, json.dumps(outline), json.dumps(reported, ensure_ascii=False)])
         yield from (f"what {name} did is missing" for name in sorted(self.names) if f'"{name}"' not in there)
         damage = server.ask("POST", f"/api/cases/{self.opened}/verification", 200)["damages"]
         yield from (one["told"] for one in damage)

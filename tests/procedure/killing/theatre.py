@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from server.config import Config
-from server.procedure.registered import KeptCheck, KeptRegistration, check_name
+from server.procedure.registration_record import CheckRecord, RegistrationRecord, check_name
 from server.store import CaseStore, DocumentKind, Home
-from server.theatre import theatre_of
+from server.theatre import theatre_from_config
 from tests.procedure.real_server import BUSY_MACHINE
 from tracker.plan import Landmark, PlanDocument, plan_to_mapping
 from tracker.plan.document import PlannedChannel, VertebraPlan
@@ -23,20 +23,20 @@ def settings_of(*, reference: bool) -> dict[str, Any]:
     """Of a server that rehearses, with or without a marker on the patient."""
     return {
         **BUSY_MACHINE,
-        "rehearsal": {"seed": 3, "brings_setup": False, "reference": reference, "rate_hz": 15},
+        "rehearsal": {"seed": 3, "provides_setup": False, "reference": reference, "rate_hz": 15},
         "reference": {"marker": "reference" if reference else None},
     }
 
 
 def prepare(home_folder: Path, config: Config) -> None:
     """Make that case in this folder, and open it."""
-    theatre = theatre_of(config.rehearsal)
+    theatre = theatre_from_config(config.rehearsal)
     with Home(home_folder) as home, CaseStore(home) as store:
         case_id = store.create("prepared").id
         store.open(case_id)
 
-        def put(kind: DocumentKind, name: str, content: dict[str, Any], *stands_on: str) -> str:
-            return store.put(case_id, kind, name, content, made_by="test", stands_on=stands_on).id
+        def put(kind: DocumentKind, name: str, content: dict[str, Any], *depends_on: str) -> str:
+            return store.put(case_id, kind, name, content, made_by="test", depends_on=depends_on).id
 
         camera = put(DocumentKind.CAMERA, "main", {"camera": _camera(theatre)})
         tool = put(DocumentKind.TOOL, theatre.tool.name, _tool(theatre), camera)
@@ -100,7 +100,7 @@ def _registration(theatre: Theatre) -> dict[str, Any]:
         anchor_from_vertebra=known.anchor_from_vertebra,
         covariance=np.diag([0.04, 0.04, 0.04, 1e-5, 1e-5, 1e-5]),
     )
-    return KeptRegistration.of(
+    return RegistrationRecord.of(
         registration,
         vertebra=VERTEBRA,
         reference=theatre.reference.name if theatre.reference is not None else "",
@@ -112,7 +112,7 @@ def _registration(theatre: Theatre) -> dict[str, Any]:
 
 
 def _check(theatre: Theatre) -> dict[str, Any]:
-    return KeptCheck(
+    return CheckRecord(
         vertebra=VERTEBRA,
         landmark=theatre.check_landmark.name,
         tool=theatre.tool.name,

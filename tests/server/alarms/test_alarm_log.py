@@ -67,7 +67,7 @@ def test_lines_that_came_in_with_an_archive_say_so_of_who_did_what(
     first = store.open(store.create("L3").id)
     log.append([Entry(line={"by": "Dr Sato", "change": "acknowledged"}, by="Dr Sato"), entry(1)])
     log.flush()
-    taken = store.copy_in(store.copy_out(first.id).path, by="M. Ito")
+    taken = store.import_archive(store.export_case(first.id).path, by="M. Ito")
     store.open(taken.id)
     log.append([Entry(line={"by": "Dr Sato", "change": "acknowledged"}, by="Dr Sato")])
     log.flush()

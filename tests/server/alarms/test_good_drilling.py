@@ -2,25 +2,25 @@
 
 import pytest
 
-from tests.benchmarks.alarms.drilled import DrilledTheatre, Told
-from tests.benchmarks.alarms.good_drilling import raised_while_held
+from tests.benchmarks.alarms.drilling_theatre import AlarmCounts, DrillingTheatre
+from tests.benchmarks.alarms.good_drilling import raised_while_stationary
 from tracker.navigation.alarms import Condition
 
 
 def test_good_drilling_raises_nothing() -> None:
-    theatre, told = DrilledTheatre(7), Told()
-    theatre.drill(theatre.simulated, seconds=40.0, rate_hz=10.0, told=told)
-    assert told.roomy == told.images == 400
-    assert 1.5 < told.min_mm < 4.0
-    assert told.raised == {}
+    theatre, counts = DrillingTheatre(7), AlarmCounts()
+    theatre.drill(theatre.simulated, seconds=40.0, rate_hz=10.0, counts=counts)
+    assert counts.clear_images == counts.images == 400
+    assert 1.5 < counts.min_mm < 4.0
+    assert counts.raised == {}
 
 
 def test_a_breach_is_raised_and_no_sooner_than_it_is_true() -> None:
-    theatre, told = DrilledTheatre(7, skill="breaching"), Told()
-    theatre.drill(theatre.simulated, seconds=24.0, rate_hz=10.0, told=told)
-    assert told.min_mm < -1.0
-    assert told.raised[Condition.BREACH] == 1
-    assert told.raised_in_roomy[Condition.BREACH] == 0
+    theatre, counts = DrillingTheatre(7, skill="breaching"), AlarmCounts()
+    theatre.drill(theatre.simulated, seconds=24.0, rate_hz=10.0, counts=counts)
+    assert counts.min_mm < -1.0
+    assert counts.raised[Condition.BREACH] == 1
+    assert counts.raised_while_clear[Condition.BREACH] == 0
 
 
 @pytest.mark.parametrize(
@@ -33,4 +33,4 @@ def test_a_breach_is_raised_and_no_sooner_than_it_is_true() -> None:
     ],
 )
 def test_a_drill_held_at_a_limit_does_not_chatter(held_mm: float, condition: Condition, times: int) -> None:
-    assert raised_while_held(7, held_mm, condition, seconds=8.0) == times
+    assert raised_while_stationary(7, held_mm, condition, seconds=8.0) == times

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
-from server.alarms import AlarmDesk, StoredAlarmLog
+from server.alarms import AlarmService, StoredAlarmLog
 from server.app import AppParts, create_app
 from server.config import Config
 from server.live import Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus
@@ -28,8 +28,8 @@ class Door:
         self.hub, self.now_s, self.number = LiveHub(), 1000.0, 0
         self.snapshot_of = snapshot_of
         self.log = StoredAlarmLog(store)
-        self.desk = AlarmDesk(Config(), log=self.log, clock=lambda: self.now_s)
-        app = create_app(AppParts(hub=self.hub, config=Config(), alarms=self.desk))
+        self.service = AlarmService(Config(), log=self.log, clock=lambda: self.now_s)
+        app = create_app(AppParts(hub=self.hub, config=Config(), alarms=self.service))
         self.client = TestClient(app, base_url="http://127.0.0.1:8000", raise_server_exceptions=False)
 
     def images(self, count: int, depth_mm: float) -> None:
@@ -38,7 +38,7 @@ class Door:
             snapshot = self.snapshot_of(
                 tip_in_vertebra_mm=(0.0, 0.0, depth_mm), image_number=self.number, captured_at_s=self.now_s
             )
-            alarms = self.desk.look(snapshot, RUNS, WORKS)
+            alarms = self.service.observe(snapshot, RUNS, WORKS)
             instant = Instant(sequence=self.number, source=RUNS, process=WORKS, snapshot=snapshot)
             self.hub.publish(replace(instant, alarms=alarms))
 
@@ -77,8 +77,8 @@ def test_an_alarm_from_its_image_to_its_end(door: Door) -> None:
     paused = door.post("pause", by="nurse", seconds=60)
     assert (paused["sound"], paused["pause_left_s"]) == ("silent", 60.0)
     assert door.post("resumption", by="nurse")["sound"] == "high"
-    told = door.post("acknowledgement", by="M. Ito", numbers=[alarm["number"]])
-    assert (told["sound"], told["alarms"][0]["acknowledged_by"]) == ("silent", "M. Ito")
+    reported = door.post("acknowledgement", by="M. Ito", numbers=[alarm["number"]])
+    assert (reported["sound"], reported["alarms"][0]["acknowledged_by"]) == ("silent", "M. Ito")
     lines = door.get("/api/alarms/log")["lines"]
     changes = [(line["change"], line.get("by")) for line in lines]
     assert changes == [
@@ -104,9 +104,9 @@ def test_live_socket_and_view_socket_carry_the_alarms_of_their_image(door: Door)
 
 def test_a_hold_is_asked_and_released_and_stops_nothing(door: Door) -> None:
     door.images(3, 12.0)
-    asked = door.post("hold", by="Dr Sato")
-    assert [(a["condition"], a["kind"], a["by"]) for a in asked["alarms"]] == [
-        ("HOLD_ASKED", "advisory", "Dr Sato")
+    requested = door.post("hold", by="Dr Sato")
+    assert [(a["condition"], a["kind"], a["by"]) for a in requested["alarms"]] == [
+        ("HOLD_REQUESTED", "advisory", "Dr Sato")
     ]
     door.images(3, 12.0)
     assert door.get("/api/live")["snapshot"]["tools"][0]["deviation"]["kind"] == "deviation"

@@ -39,21 +39,21 @@ def test_the_newest_instant_is_told(
     hub.publish(instant_of(6))
     snapshot = snapshot_of(image_number=41, captured_at_s=time.monotonic())
     hub.publish(instant_of(7, snapshot=snapshot))
-    told = client.get("/api/live").json()
-    assert told["sequence"] == 7
-    assert told["snapshot"]["image_number"] == 41
-    assert told["snapshot"]["age_ms"] >= 0.0
-    assert told["snapshot"]["tools"][0]["deviation"]["kind"] == "deviation"
+    reported = client.get("/api/live").json()
+    assert reported["sequence"] == 7
+    assert reported["snapshot"]["image_number"] == 41
+    assert reported["snapshot"]["age_ms"] >= 0.0
+    assert reported["snapshot"]["tools"][0]["deviation"]["kind"] == "deviation"
 
 
 def test_the_page_is_told_names_limits_and_addresses(client: TestClient) -> None:
-    told = client.get("/api/dashboard").json()
-    assert told["product"] == "Coaxial"
-    assert told["notice"] == "research software, not a medical device"
-    assert told["cameras"] == [
+    reported = client.get("/api/dashboard").json()
+    assert reported["product"] == "Coaxial"
+    assert reported["notice"] == "research software, not a medical device"
+    assert reported["cameras"] == [
         {"name": "main", "video_path": "/video/main.mjpg", "view_path": "/ws/view?camera=main"}
     ]
-    assert told["limits"] == {
+    assert reported["limits"] == {
         "pose_stale_after_ms": 150.0,
         "video_stale_after_ms": 500.0,
         "scene_stale_after_ms": 500.0,
@@ -79,9 +79,9 @@ def test_every_refusal_has_the_one_shape(
 
 
 def test_an_unknown_camera_is_told_the_known_ones(client: TestClient) -> None:
-    told = client.get("/video/side.mjpg").json()
-    assert told["message"] == "there is no camera 'side', only main"
-    assert told["context"] == {"asked": "side", "known": ["main"]}
+    reported = client.get("/video/side.mjpg").json()
+    assert reported["message"] == "there is no camera 'side', only main"
+    assert reported["context"] == {"requested": "side", "known": ["main"]}
 
 
 def test_errors_of_the_tracker_keep_their_words(client: TestClient) -> None:
@@ -174,9 +174,9 @@ def test_health_is_one_word(
         process=ProcessStatus(state=process),
         source=SourceStatus(name="0", state=source),
     )
-    told = health_message(instant, now_s=100.0, stale_after_ms=500.0)
-    assert told.status == state
-    assert told.image_age_ms == (None if age_ms is None else pytest.approx(age_ms))
+    reported = health_message(instant, now_s=100.0, stale_after_ms=500.0)
+    assert reported.status == state
+    assert reported.image_age_ms == (None if age_ms is None else pytest.approx(age_ms))
 
 
 @pytest.mark.parametrize(

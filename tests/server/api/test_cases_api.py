@@ -120,21 +120,22 @@ def test_what_is_not_there_is_told_so(door: TestClient, method: str, path: str) 
 def test_documents_tell_what_they_stand_on_and_whether_they_hold(door: TestClient, store: CaseStore) -> None:
     case_id = made(door)
     ct = store.put(case_id, DocumentKind.CT, "main", {"voxels": [1, 2.5]}, made_by="ito")
-    plan = store.put(case_id, DocumentKind.PLAN, "L3", {}, made_by="abe", stands_on=[ct.id])
+    plan = store.put(case_id, DocumentKind.PLAN, "L3", {}, made_by="abe", depends_on=[ct.id])
     path = f"/api/cases/{case_id}/documents"
     listed = door.get(path).json()["documents"]
-    assert [(one["kind"], one["version"], one["current"], one["stands_on"]) for one in listed] == [
+    assert [(one["kind"], one["version"], one["current"], one["depends_on"]) for one in listed] == [
         ("ct", 1, True, []),
         ("plan", 1, True, [ct.id]),
     ]
     assert door.get(f"{path}/{ct.id}").json()["content"] == {"voxels": [1, 2.5]}
-    asked = {"by": "ito", "reason": "another patient"}
-    withdrawn = door.post(f"{path}/{ct.id}/withdrawal", json=asked).json()["heading"]
-    assert withdrawn["withdrawn"] == {"at": withdrawn["withdrawn"]["at"], **asked}
+    requested = {"by": "ito", "reason": "another patient"}
+    withdrawn = door.post(f"{path}/{ct.id}/withdrawal", json=requested).json()["heading"]
+    assert withdrawn["withdrawn"] == {"at": withdrawn["withdrawn"]["at"], **requested}
     assert withdrawn["current"] is False
-    told = door.get(f"{path}/{plan.id}").json()["heading"]
+    reported = door.get(f"{path}/{plan.id}").json()["heading"]
     assert (
-        told["out_of_date"] == "it stands on ct 'main' version 1, which was withdrawn by ito: another patient"
+        reported["out_of_date"]
+        == "it depends on ct 'main' version 1, which was withdrawn by ito: another patient"
     )
     assert door.get(f"{path}/{UNKNOWN}").json()["code"] == "DOCUMENT_UNKNOWN"
 
@@ -168,8 +169,8 @@ def test_damage_is_found_and_told(door: TestClient, store: CaseStore) -> None:
     store.file(case_id, file_id).path.unlink()
     (damage,) = door.post(f"{path}/verification").json()["damages"]
     assert (damage["problem"], damage["documents"]) == ("missing", ["ct 'main' version 1"])
-    for asked in ("archive", f"files/{file_id}"):
-        answer = door.get(f"{path}/{asked}")
+    for requested in ("archive", f"files/{file_id}"):
+        answer = door.get(f"{path}/{requested}")
         assert (answer.status_code, answer.json()["code"]) == (503, "FILE_DAMAGED")
 
 
@@ -185,7 +186,7 @@ def test_an_upload_that_cannot_be_leaves_nothing_behind(
     status: int,
     code: str,
 ) -> None:
-    monkeypatch.setattr(cases, "LARGEST_ARCHIVE_BYTES", 1000)
+    monkeypatch.setattr(cases, "MAX_ARCHIVE_BYTES", 1000)
 
     def in_pieces() -> Iterator[bytes]:
         # Without a length that could be believed beforehand.
@@ -218,7 +219,7 @@ def test_a_download_goes_on_when_its_case_is_deleted(
 
 
 def test_a_full_disk_has_a_status_of_its_own(door: TestClient, store: CaseStore) -> None:
-    pool = store._ledger._engine.raw_connection()
+    pool = store._database._engine.raw_connection()
     pool.driver_connection.execute("PRAGMA max_page_count = 1")  # type: ignore[union-attr]  # SQLite's own
     pool.close()
     while (answer := door.post("/api/cases", json={"name": "x" * 200})).status_code == 201:

@@ -10,7 +10,7 @@ from fastapi.testclient import TestClient
 
 from server.api.guide import guide_folder, is_guide, mount_guide
 from server.security import SecurityHeaders
-from tests.server.security.doors import guarded
+from tests.server.security.guarded_app import guarded
 
 SCRIPT = "document.title += '!'"
 DATA = '<script type="application/json">{}</script>'

@@ -10,7 +10,7 @@ from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
 from server.logs import LogSettings
-from tests.server.jobs import labour
+from tests.server.jobs import job_functions
 
 
 @pytest.fixture
@@ -24,9 +24,9 @@ def test_jobs_are_told_whole(jobs: Jobs) -> None:
     app = create_app(AppParts(hub=LiveHub(), config=Config(), jobs=jobs))
     door = TestClient(app, base_url="http://127.0.0.1:8000")
     assert door.get("/api/jobs").json() == {"jobs": []}
-    good = jobs.wait_for(jobs.start("adding", labour.add, {"a": 1, "b": 2}).id)
-    bad = jobs.wait_for(jobs.start("reading", labour.reject, {"slices": 1}).id)
-    told = {
+    good = jobs.wait_for(jobs.start("adding", job_functions.add, {"a": 1, "b": 2}).id)
+    bad = jobs.wait_for(jobs.start("reading", job_functions.reject, {"slices": 1}).id)
+    reported = {
         "id": good.id,
         "title": "adding",
         "state": "done",
@@ -35,7 +35,7 @@ def test_jobs_are_told_whole(jobs: Jobs) -> None:
         "result": {"sum": 3},
         "problem": None,
     }
-    assert door.get(f"/api/jobs/{good.id}").json() == told
+    assert door.get(f"/api/jobs/{good.id}").json() == reported
     assert [one["id"] for one in door.get("/api/jobs").json()["jobs"]] == [bad.id, good.id]
     assert door.get(f"/api/jobs/{bad.id}").json()["problem"] == {
         "code": "TOO_FEW_SLICES",
@@ -43,6 +43,6 @@ def test_jobs_are_told_whole(jobs: Jobs) -> None:
         "remedy": "Take more.",
         "context": {"slices": 1},
     }
-    assert door.delete(f"/api/jobs/{good.id}").json() == told
+    assert door.delete(f"/api/jobs/{good.id}").json() == reported
     missing = door.delete("/api/jobs/nothing")
     assert (missing.status_code, missing.json()["code"]) == (404, "JOB_UNKNOWN")

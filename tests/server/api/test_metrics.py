@@ -6,7 +6,7 @@ import pytest
 
 from server.api.metrics import Metrics
 from server.live import Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus
-from server.stream.fitting.pictures import Pictures
+from server.stream.scaling.picture_cache import PictureCache
 from server.stream.viewers import ViewerKind, Viewers
 from tracker.navigation import NavigationSnapshot
 
@@ -26,7 +26,7 @@ def viewers() -> Viewers:
 
 @pytest.fixture
 def metrics(hub: LiveHub, viewers: Viewers) -> Metrics:
-    return Metrics(hub=hub, viewers=viewers, pictures=Pictures(quality=80))
+    return Metrics(hub=hub, viewers=viewers, pictures=PictureCache(quality=80))
 
 
 def value(metrics: Metrics, name: str, **labels: str) -> float | None:
@@ -69,9 +69,9 @@ def test_what_the_source_and_the_process_count_is_passed_on(
 
 
 def test_drops_stay_counted_when_the_viewer_is_gone(metrics: Metrics, viewers: Viewers) -> None:
-    with viewers.watching(ViewerKind.VIEW) as viewer:
+    with viewers.register(ViewerKind.VIEW) as viewer:
         for sequence in (10, 11, 15):
-            viewer.took(sequence)
+            viewer.mark_taken(sequence)
         assert viewer.dropped == 3
         assert value(metrics, "coaxial_viewers", kind="view") == 1.0
     assert value(metrics, "coaxial_viewers", kind="view") == 0.0
@@ -83,5 +83,5 @@ def test_two_applications_do_not_share_counters(
     metrics: Metrics, snapshot_of: SnapshotOf, instant_of: InstantOf
 ) -> None:
     metrics.count(instant_of(0, snapshot=snapshot_of(captured_at_s=1.0)))
-    other = Metrics(hub=LiveHub(), viewers=Viewers(), pictures=Pictures(quality=80))
+    other = Metrics(hub=LiveHub(), viewers=Viewers(), pictures=PictureCache(quality=80))
     assert value(other, "coaxial_marker_seen_total", marker="drill") is None

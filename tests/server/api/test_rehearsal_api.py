@@ -7,11 +7,11 @@ import pytest
 from fastapi.testclient import TestClient
 
 from server.app import AppParts, create_app
-from server.capture.rehearsal import Begun
+from server.capture.rehearsal import PlayedScene
 from server.config import CameraConfig, Config, RehearsalConfig
 from server.imaging import read_ct
 from server.live import LiveHub
-from server.loop.rehearsed import Rehearsed
+from server.loop.rehearsal_control import RehearsalControl
 from server.loop.staging import SceneOrder
 from tracker.rehearsal.ct import rehearsal_ct
 
@@ -24,11 +24,11 @@ class Played:
 
     def __init__(self) -> None:
         self.orders: list[SceneOrder] = []
-        self.begun = Begun()
+        self.begun = PlayedScene()
 
     def play(self, order: SceneOrder) -> None:
         self.orders.append(order)
-        self.begun = Begun(scene_number=order.number, first_number=100 * order.number)
+        self.begun = PlayedScene(scene_number=order.number, first_number=100 * order.number)
 
 
 @pytest.fixture
@@ -38,23 +38,28 @@ def played() -> Played:
 
 @pytest.fixture
 def door(played: Played) -> TestClient:
-    rehearsed = Rehearsed(CONFIG.rehearsal, play=played.play, begun=lambda: played.begun)
+    rehearsed = RehearsalControl(CONFIG.rehearsal, play=played.play, played_scene=lambda: played.begun)
     app = create_app(AppParts(hub=LiveHub(), config=CONFIG, rehearsed=rehearsed))
     return TestClient(app, base_url=URL)
 
 
 def test_it_says_what_is_played_and_keeps_the_truth_to_itself(door: TestClient) -> None:
-    told = door.get("/api/rehearsal").json()
-    assert (told["scene"], told["seed"], told["reference"], told["begun"]) == ("operation", 3, True, True)
-    assert told["truth"] is None
+    reported = door.get("/api/rehearsal").json()
+    assert (reported["scene"], reported["seed"], reported["reference"], reported["begun"]) == (
+        "operation",
+        3,
+        True,
+        True,
+    )
+    assert reported["truth"] is None
 
 
 def test_another_scene_is_played_in_the_same_theatre(door: TestClient, played: Played) -> None:
     truth = door.get("/api/rehearsal?truth=1").json()["truth"]
-    asked = {"scene": "landmarks", "events": [{"kind": "camera_moves", "at_s": 5, "lasts_s": 2.5}]}
-    told = door.put("/api/rehearsal", json=asked)
-    assert told.status_code == 200
-    assert (told.json()["scene"], told.json()["first_number"]) == ("landmarks", 100)
+    requested = {"scene": "landmarks", "events": [{"kind": "camera_moves", "at_s": 5, "lasts_s": 2.5}]}
+    reported = door.put("/api/rehearsal", json=requested)
+    assert reported.status_code == 200
+    assert (reported.json()["scene"], reported.json()["first_number"]) == ("landmarks", 100)
     order = played.orders[-1]
     assert (order.rehearsal.seed, order.rehearsal.reference) == (3, True)
     assert [event.kind for event in order.rehearsal.events] == ["camera_moves"]
@@ -79,8 +84,10 @@ def test_another_scene_is_played_in_the_same_theatre(door: TestClient, played: P
         {},
     ],
 )
-def test_what_cannot_be_played_is_refused(door: TestClient, played: Played, asked: dict[str, object]) -> None:
-    answer = door.put("/api/rehearsal", json=asked)
+def test_what_cannot_be_played_is_refused(
+    door: TestClient, played: Played, requested: dict[str, object]
+) -> None:
+    answer = door.put("/api/rehearsal", json=requested)
     assert answer.status_code == 422
     assert answer.json()["code"] == "REQUEST_INVALID"
     assert played.orders == []

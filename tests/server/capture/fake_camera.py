@@ -1,4 +1,4 @@
-"""A camera that exists in a test alone: its driver (V4L2), and what OpenCV makes of it."""
+"""A fake local camera: its V4L2 driver and its OpenCV capture."""
 
 import errno
 from collections.abc import Callable
@@ -109,7 +109,7 @@ class FakeVideo:
         self.camera = camera
         self.latency_s = latency_s
         self.now_s = 100.0
-        self.asked = CameraMode(fourcc="YUYV", size_wh_px=VGA, rate_hz=30.0)
+        self.requested = CameraMode(fourcc="YUYV", size_wh_px=VGA, rate_hz=30.0)
         self.calls: list[str] = []
         self.grants: CameraMode | None = None
         self.stamp: Callable[[float], float] = lambda taken_s: taken_s
@@ -130,16 +130,16 @@ class FakeVideo:
         return self.is_open
 
     def set(self, key: int, value: float) -> bool:
-        width, height = self.asked.size_wh_px
+        width, height = self.requested.size_wh_px
         if key == cv2.CAP_PROP_FOURCC:
-            self.asked = replace(self.asked, fourcc=fourcc_text(int(value)))
+            self.requested = replace(self.requested, fourcc=fourcc_text(int(value)))
         elif key == cv2.CAP_PROP_FRAME_WIDTH:
-            self.asked = replace(self.asked, size_wh_px=(int(value), height))
+            self.requested = replace(self.requested, size_wh_px=(int(value), height))
         elif key == cv2.CAP_PROP_FRAME_HEIGHT:
-            self.asked = replace(self.asked, size_wh_px=(width, int(value)))
+            self.requested = replace(self.requested, size_wh_px=(width, int(value)))
         elif key == cv2.CAP_PROP_FPS:
-            self.asked = replace(self.asked, rate_hz=value)
-        self.camera.granted = self.grants or self.asked
+            self.requested = replace(self.requested, rate_hz=value)
+        self.camera.granted = self.grants or self.requested
         return True
 
     def get(self, key: int) -> float:

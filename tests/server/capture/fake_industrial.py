@@ -1,4 +1,4 @@
-"""An industrial camera that exists in a test alone: its features, its clock, and its images."""
+"""A fake industrial camera: features, clock and images."""
 
 from collections import deque
 from collections.abc import Callable

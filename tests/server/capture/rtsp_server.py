@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from tests.server.capture.filmed import grey_image
+from tests.server.capture.small_videos import grey_image
 
 RTP_HZ = 90_000
 MAX_PAYLOAD_BYTES = 1400

@@ -1,4 +1,4 @@
-"""Images that waited on their way are told by the rhythm in which they arrive."""
+"""Buffered images of a stream are detected by their arrival rhythm."""
 
 from collections.abc import Iterable
 

@@ -1,4 +1,4 @@
-"""Basler's library itself, with the cameras that it emulates: they give no times of their own."""
+"""Basler's library with its emulated cameras, which have no timestamps."""
 
 import threading
 import time
@@ -79,7 +79,7 @@ def emulated(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., Emulated
         one.end()
 
 
-def test_images_come_as_they_were_asked_for(emulated: Callable[..., Emulated]) -> None:
+def test_images_come_as_they_were_requested(emulated: Callable[..., Emulated]) -> None:
     one = emulated()
     one.start()
     shot = one.capture.take(30.0)
@@ -88,7 +88,7 @@ def test_images_come_as_they_were_asked_for(emulated: Callable[..., Emulated]) -
     status = one.capture.status()
     assert status.camera is not None
     mode = CameraMode(fourcc="BayerRG8", size_wh_px=(320, 240), rate_hz=100.0)
-    assert status.camera.asked == status.camera.granted == mode
+    assert status.camera.requested == status.camera.granted == mode
     assert status.camera.clock is ImageClock.ARRIVAL
     assert status.problem is None
 

@@ -1,4 +1,4 @@
-"""The newest image, the status and the log of a source that is told what to do by the test."""
+"""Newest image, status and log of a source that the test controls."""
 
 import queue
 import threading
@@ -24,20 +24,20 @@ def shot(number: int, *, grey: int | None = None, at_s: float | None = None) -> 
 class ToldSource:
     """Gives what the test puts in: a shot, an error to raise, or None for the end."""
 
-    def __init__(self, *, waits_for_taker: bool = False, stalls: bool = False) -> None:
+    def __init__(self, *, waits_for_consumer: bool = False, stalls: bool = False) -> None:
         self.name = "told"
-        self.waits_for_taker = waits_for_taker
+        self.waits_for_consumer = waits_for_consumer
         self.stalls = stalls
         self.defect: CaptureError | None = None
         self.camera: CameraStatus | None = None
-        self.told: queue.Queue[Shot | BaseException | None] = queue.Queue()
+        self.reported: queue.Queue[Shot | BaseException | None] = queue.Queue()
         self.opened = 0
 
     def open(self) -> None:
         self.opened += 1
 
     def read(self) -> Shot | None:
-        given = self.told.get()
+        given = self.reported.get()
         if isinstance(given, BaseException):
             raise given
         return given
@@ -61,7 +61,7 @@ def test_the_newest_image_wins_and_the_skipped_are_counted() -> None:
     source, stop = ToldSource(), threading.Event()
     capture = Capture(source, stop=stop)
     for number in range(5):
-        source.told.put(shot(number))
+        source.reported.put(shot(number))
     capture.start()
     until(lambda: capture.status().images == 5)
     taken = capture.take(1.0)
@@ -70,16 +70,16 @@ def test_the_newest_image_wins_and_the_skipped_are_counted() -> None:
     status = capture.status()
     assert (status.images, status.skipped_images) == (5, 4)
     stop.set()
-    source.told.put(None)
+    source.reported.put(None)
     capture.close()
 
 
 def test_a_source_that_waits_for_its_taker_skips_nothing() -> None:
-    source, stop = ToldSource(waits_for_taker=True), threading.Event()
+    source, stop = ToldSource(waits_for_consumer=True), threading.Event()
     capture = Capture(source, stop=stop)
     for number in range(5):
-        source.told.put(shot(number))
-    source.told.put(None)
+        source.reported.put(shot(number))
+    source.reported.put(None)
     capture.start()
     numbers: list[int] = []
     while capture.status().state is not SourceState.ENDED or len(numbers) < 5:
@@ -94,9 +94,9 @@ def test_a_fault_is_told_once_however_often_it_is_tried_and_it_comes_back() -> N
     source, stop = ToldSource(), threading.Event()
     capture = Capture(source, stop=stop)
     with capture_logs() as logs:
-        source.told.put(shot(0))
+        source.reported.put(shot(0))
         for _ in range(3):
-            source.told.put(gone())
+            source.reported.put(gone())
         capture.start()
         until(lambda: source.opened == 4)
         assert capture.status().state is SourceState.RECONNECTING
@@ -107,12 +107,12 @@ def test_a_fault_is_told_once_however_often_it_is_tried_and_it_comes_back() -> N
             "cable out",
             "Plug it in.",
         )
-        source.told.put(shot(1))
+        source.reported.put(shot(1))
         until(lambda: capture.status().state is SourceState.RUNNING)
         assert capture.status().problem is None
         until(lambda: any(line["event"] == "source is back" for line in logs))
     stop.set()
-    source.told.put(None)
+    source.reported.put(None)
     capture.close()
     assert [line["event"] for line in logs][:2] == ["source runs", "cable out"]
     assert [line["event"] for line in logs].count("cable out") == 1
@@ -121,7 +121,7 @@ def test_a_fault_is_told_once_however_often_it_is_tried_and_it_comes_back() -> N
 def test_a_change_of_the_status_wakes_who_waits_for_an_image() -> None:
     source, stop = ToldSource(), threading.Event()
     capture = Capture(source, stop=stop)
-    source.told.put(gone())
+    source.reported.put(gone())
     capture.start()
     # Woken by the change: the time given is longer than the test may take.
     assert capture.take(1000.0) is None
@@ -132,7 +132,7 @@ def test_a_change_of_the_status_wakes_who_waits_for_an_image() -> None:
 def test_an_unexpected_fault_is_raised_where_the_images_are_taken() -> None:
     source, stop = ToldSource(), threading.Event()
     capture = Capture(source, stop=stop)
-    source.told.put(ZeroDivisionError("a bug"))
+    source.reported.put(ZeroDivisionError("a bug"))
     capture.start()
     with pytest.raises(ZeroDivisionError):
         capture.take(1000.0)
@@ -141,7 +141,7 @@ def test_an_unexpected_fault_is_raised_where_the_images_are_taken() -> None:
 def test_a_camera_that_is_open_and_silent_counts_as_stalled(monkeypatch: pytest.MonkeyPatch) -> None:
     source, stop = ToldSource(stalls=True), threading.Event()
     capture = Capture(source, stop=stop)
-    source.told.put(shot(0))
+    source.reported.put(shot(0))
     capture.start()
     until(lambda: capture.status().state is SourceState.RUNNING)
     later_s = time.monotonic() + 2.5
@@ -152,7 +152,7 @@ def test_a_camera_that_is_open_and_silent_counts_as_stalled(monkeypatch: pytest.
     assert status.problem is not None
     assert status.problem.code == "SOURCE_STALLED"
     stop.set()
-    source.told.put(None)
+    source.reported.put(None)
 
 
 def test_a_camera_that_waits_for_its_trigger_is_not_taken_for_a_broken_one(
@@ -161,7 +161,7 @@ def test_a_camera_that_waits_for_its_trigger_is_not_taken_for_a_broken_one(
     source, stop = ToldSource(stalls=True), threading.Event()
     source.camera = CameraStatus(clock=ImageClock.DEVICE, trigger="Line1")
     capture = Capture(source, stop=stop)
-    source.told.put(shot(0))
+    source.reported.put(shot(0))
     capture.start()
     until(lambda: capture.status().state is SourceState.RUNNING)
     later_s = time.monotonic() + 2.5
@@ -170,9 +170,9 @@ def test_a_camera_that_waits_for_its_trigger_is_not_taken_for_a_broken_one(
         status = capture.status()
     assert status.problem is not None
     assert status.problem.code == "CAMERA_NOT_TRIGGERED"
-    assert status.problem.message == "told waits for a pulse on Line1, and none came for 2 s"
+    assert status.problem.message == "told waits for a pulse on Line1, and got none for 2 s"
     stop.set()
-    source.told.put(None)
+    source.reported.put(None)
 
 
 def test_an_image_that_a_frozen_camera_repeats_is_not_live() -> None:
@@ -182,7 +182,7 @@ def test_an_image_that_a_frozen_camera_repeats_is_not_live() -> None:
     # Each image twice, as of a slower camera; then one for ever.
     greys = [1, 1, 2, 2, *[3] * 40]
     for number, grey in enumerate(greys):
-        source.told.put(shot(number, grey=grey, at_s=began_s + 0.1 * number))
+        source.reported.put(shot(number, grey=grey, at_s=began_s + 0.1 * number))
     with capture_logs() as logs:
         capture.start()
         until(lambda: source.opened == 2)
@@ -193,13 +193,13 @@ def test_an_image_that_a_frozen_camera_repeats_is_not_live() -> None:
         assert status.problem is not None
         assert status.problem.code == "SOURCE_FROZEN"
         # No more of it after the source was opened again; the next new image is live.
-        until(source.told.empty)
+        until(source.reported.empty)
         assert capture.status().images == 7
-        source.told.put(shot(99))
+        source.reported.put(shot(99))
         until(lambda: capture.status().state is SourceState.RUNNING)
         assert capture.status().images == 100
     stop.set()
-    source.told.put(None)
+    source.reported.put(None)
     capture.close()
     assert [line["event"] for line in logs if line["log_level"] == "warning"] == [
         "the source told gave the same image for 2 s"
@@ -211,10 +211,10 @@ def test_a_folder_or_a_film_may_show_the_same_image_for_long() -> None:
     capture = Capture(source, stop=stop)
     began_s = time.monotonic()
     for number in range(40):
-        source.told.put(shot(number, grey=7, at_s=began_s + 0.1 * number))
+        source.reported.put(shot(number, grey=7, at_s=began_s + 0.1 * number))
     capture.start()
     until(lambda: capture.status().images == 40)
     assert capture.status().state is SourceState.RUNNING
     stop.set()
-    source.told.put(None)
+    source.reported.put(None)
     capture.close()

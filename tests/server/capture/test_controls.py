@@ -1,4 +1,4 @@
-"""A camera's controls: locked at the start, read once a second, and never set back behind a person's back."""
+"""Camera controls: locked at the start, read once a second, and never reverted after a user's change."""
 
 import errno
 from collections.abc import Mapping
@@ -6,7 +6,7 @@ from collections.abc import Mapping
 import pytest
 from structlog.testing import capture_logs
 
-from server.capture.controls import SETTLES_S, ControlKeeper
+from server.capture.controls import SETTLES_S, ControlLock
 from tests.server.capture.fake_camera import WEBCAM_CONTROLS, FakeCamera
 from tracker.camera import CameraControl
 
@@ -22,8 +22,8 @@ def keeper_of(
     lock_focus: bool = True,
     lock_light: bool = False,
     calibrated: Mapping[CameraControl, int] | None = None,
-) -> ControlKeeper:
-    return ControlKeeper(
+) -> ControlLock:
+    return ControlLock(
         camera,
         name="camera 0",
         lock_focus=lock_focus,
@@ -119,7 +119,7 @@ def test_a_camera_without_controls_has_none() -> None:
 def test_a_control_that_cannot_be_set_is_told_and_the_rest_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
     camera = FakeCamera()
 
-    def rejected(*_asked: object) -> None:
+    def rejected(*_requested: object) -> None:
         raise OSError(errno.EACCES, "Permission denied")
 
     monkeypatch.setattr(camera, "set_control", rejected)

@@ -1,4 +1,4 @@
-"""A device's own clock, of unknown beginning, mapped to the machine's; every time here is a number."""
+"""Mapping of a device's clock of unknown origin; every time is a number."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The driver's time of an image, believed as long as it is plausible."""
+"""The driver's capture time is used while it is plausible."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Video files and folders as sources, whole and broken."""
+"""Video files and folders as sources, complete and damaged."""
 
 import os
 import threading
@@ -9,14 +9,14 @@ import cv2
 import numpy as np
 import pytest
 
-from server.capture.choose import source_from_config
 from server.capture.folder import FolderSource, natural_order
 from server.capture.shot import Shot, Source
+from server.capture.source_factory import source_from_config
 from server.capture.video_file import VideoFileSource
 from server.config import CameraConfig, Config
 from server.errors import CaptureError
-from server.picture_file import decoded
-from tests.server.capture.filmed import cut_video, write_images, write_video
+from server.image_file import decoded
+from tests.server.capture.small_videos import cut_video, write_images, write_video
 
 
 @pytest.fixture
@@ -30,10 +30,10 @@ def level(shot: Shot) -> int:
     return round(float(shot.image.mean()) / 10)
 
 
-def read_all(source: Source, most: int = 100) -> list[Shot]:
+def read_all(source: Source, maximum: int = 100) -> list[Shot]:
     source.open()
     shots: list[Shot] = []
-    while len(shots) < most and (shot := source.read()) is not None:
+    while len(shots) < maximum and (shot := source.read()) is not None:
         shots.append(shot)
     source.close()
     return shots
@@ -51,7 +51,7 @@ def test_a_video_gives_every_image_once_with_its_own_time(tmp_path: Path, stop: 
 
 
 def test_a_looped_video_goes_on_counting_and_its_time_goes_on(tmp_path: Path, stop: threading.Event) -> None:
-    shots = read_all(video(write_video(tmp_path / "v.avi"), stop, loop=True), most=20)
+    shots = read_all(video(write_video(tmp_path / "v.avi"), stop, loop=True), maximum=20)
     assert [level(shot) for shot in shots] == [n % 8 for n in range(20)]
     assert [shot.number for shot in shots] == list(range(20))
     assert [shot.source_time_s for shot in shots] == pytest.approx([n / 25 for n in range(20)])

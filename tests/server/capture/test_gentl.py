@@ -1,4 +1,4 @@
-"""harvesters, with the producer that comes with it, and with a fake of what is used of it."""
+"""harvesters, with its own producer, and with a fake of the used API."""
 
 import sys
 import threading
@@ -172,7 +172,7 @@ def viky(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("viky")
-def test_the_library_itself_gives_images_as_they_were_asked_for() -> None:
+def test_the_library_itself_gives_images_as_they_were_requested() -> None:
     described = GenTLCameras().descriptions()
     assert len(described) == 3
     source = source_of(described[0].address)
@@ -182,7 +182,7 @@ def test_the_library_itself_gives_images_as_they_were_asked_for() -> None:
     finally:
         source.close()
     mode = CameraMode(fourcc="RGBa8", size_wh_px=(320, 240), rate_hz=50.0)
-    assert source.camera.asked == source.camera.granted == mode
+    assert source.camera.requested == source.camera.granted == mode
     assert [shot.image.shape for shot in shots if shot is not None] == [(240, 320, 3)] * 3
     # Opened again, as after a loss.
     source.open()

@@ -1,4 +1,4 @@
-"""An industrial camera as a source: what it is asked for, its clock, its trigger, and what goes wrong."""
+"""An industrial camera as a source: mode, clock, trigger, and errors."""
 
 import threading
 from dataclasses import replace
@@ -74,10 +74,10 @@ def code_of(source: IndustrialCameraSource) -> str:
     return caught.value.code
 
 
-def test_the_whole_sensor_is_asked_for_in_raw_colour_at_thirty_hertz(camera: FakeIndustrialCamera) -> None:
+def test_the_whole_sensor_is_requested_in_raw_colour_at_thirty_hertz(camera: FakeIndustrialCamera) -> None:
     source = opened(source_of(camera))
     mode = CameraMode(fourcc="BayerRG8", size_wh_px=SENSOR_WH_PX, rate_hz=30.0)
-    assert source.camera.asked == source.camera.granted == mode
+    assert source.camera.requested == source.camera.granted == mode
     assert read(source, camera).image.shape == (1216, 1936, 3)
     assert source.defect is None
 
@@ -92,12 +92,14 @@ def test_a_smaller_image_is_cut_from_the_middle_of_the_sensor(camera: FakeIndust
 
 def test_what_is_not_offered_is_told_and_the_nearest_taken(camera: FakeIndustrialCamera) -> None:
     source = opened(source_of(camera, wanted=WantedMode(size_wh_px=(4000, 1003), rate_hz=500.0)))
-    assert source.camera.asked == CameraMode(fourcc="BayerRG8", size_wh_px=(1936, 1000), rate_hz=160.0)
+    assert source.camera.requested == CameraMode(fourcc="BayerRG8", size_wh_px=(1936, 1000), rate_hz=160.0)
     assert source.defect is not None
     assert source.defect.code == "CAMERA_MODE_NOT_OFFERED"
 
 
-def test_a_rate_that_the_line_does_not_carry_is_read_back_and_told(camera: FakeIndustrialCamera) -> None:
+def test_a_rate_that_the_connection_does_not_carry_is_read_back_and_told(
+    camera: FakeIndustrialCamera,
+) -> None:
     camera.max_rate_hz = 12.0
     source = opened(source_of(camera))
     assert source.camera.granted is not None
@@ -106,7 +108,7 @@ def test_a_rate_that_the_line_does_not_carry_is_read_back_and_told(camera: FakeI
     assert source.defect.code == "CAMERA_MODE_NOT_GRANTED"
 
 
-def test_a_refused_pixel_format_is_told(camera: FakeIndustrialCamera) -> None:
+def test_a_rejected_pixel_format_is_told(camera: FakeIndustrialCamera) -> None:
     camera.rejected = {"PixelFormat"}
     source = opened(source_of(camera))
     assert source.defect is not None
@@ -295,7 +297,7 @@ def test_a_camera_that_is_pulled_out_is_told_and_opened_again(camera: FakeIndust
 @pytest.mark.parametrize(
     ("cameras", "reason"),
     [
-        pytest.param({}, "no camera is there", id="none"),
+        pytest.param({}, "no camera is connected", id="none"),
         pytest.param(
             {"sn1": FakeIndustrialCamera(), "sn2": FakeIndustrialCamera()}, "basler:1, basler:2", id="two"
         ),

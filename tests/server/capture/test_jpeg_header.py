@@ -1,4 +1,4 @@
-"""The size of a JPEG, read without decoding it."""
+"""The size of a JPEG, read without decoding."""
 
 import cv2
 import numpy as np

@@ -1,4 +1,4 @@
-"""A local camera as a source: what it is asked for, and whose clock stamps its images."""
+"""A local camera as a source: requested mode, and clock of its images."""
 
 import numpy as np
 import pytest
@@ -48,26 +48,26 @@ def video() -> FakeVideo:
 
 
 @pytest.mark.parametrize("text", ["0", "/dev/video0"])
-def test_full_hd_over_usb_2_is_asked_for_as_mjpg(video: FakeVideo, text: str) -> None:
+def test_full_hd_over_usb_2_is_requested_as_mjpg(video: FakeVideo, text: str) -> None:
     source = source_of(video, text=text)
     source.open()
-    assert video.asked == MJPG_FULL_HD
+    assert video.requested == MJPG_FULL_HD
     assert read(source, video).image.shape == (1080, 1920, 3)
-    assert source.camera.asked == source.camera.granted == MJPG_FULL_HD
+    assert source.camera.requested == source.camera.granted == MJPG_FULL_HD
     assert source.defect is None
 
 
 def test_the_size_of_the_calibration_comes_before_the_largest(video: FakeVideo) -> None:
     source_of(video, calibration=CalibratedCamera(size_wh_px=HD)).open()
-    assert video.asked.size_wh_px == HD
+    assert video.requested.size_wh_px == HD
 
 
 def test_what_the_settings_ask_is_asked_and_what_is_not_offered_is_told(video: FakeVideo) -> None:
     source_of(video, wanted=WantedMode(size_wh_px=HD, rate_hz=60)).open()
-    assert (video.asked.size_wh_px, video.asked.rate_hz) == (HD, 60)
+    assert (video.requested.size_wh_px, video.requested.rate_hz) == (HD, 60)
     source = source_of(video, wanted=WantedMode(size_wh_px=(1600, 1200)))
     source.open()
-    assert video.asked.size_wh_px == FULL_HD
+    assert video.requested.size_wh_px == FULL_HD
     assert source.defect is not None
     assert source.defect.code == "CAMERA_MODE_NOT_OFFERED"
 
@@ -98,11 +98,11 @@ def test_without_v4l2_what_the_settings_say_is_asked_and_opencv_tells_what_was_g
     source = source_of(video, devices=NoDevices())
     source.open()
     assert video.camera.granted.size_wh_px == VGA
-    assert source.camera.asked is None
+    assert source.camera.requested is None
     assert source.camera.granted == video.camera.granted
     wanted = source_of(video, devices=NoDevices(), wanted=WantedMode(size_wh_px=HD, rate_hz=15))
     wanted.open()
-    assert (video.asked.size_wh_px, video.asked.rate_hz) == (HD, 15)
+    assert (video.requested.size_wh_px, video.requested.rate_hz) == (HD, 15)
     assert wanted.defect is None
 
 

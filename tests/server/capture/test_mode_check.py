@@ -1,4 +1,4 @@
-"""Asked, granted and measured."""
+"""Requested, granted and measured mode."""
 
 import pytest
 
@@ -14,8 +14,8 @@ def mode(rate_hz: float, *, fourcc: str = "MJPG", size_wh_px: tuple[int, int] = 
     return CameraMode(fourcc=fourcc, size_wh_px=size_wh_px, rate_hz=rate_hz)
 
 
-def check(asked: CameraMode | None, granted: CameraMode, *, wanted: WantedMode = NOTHING) -> ModeCheck:
-    return ModeCheck("camera 0", wanted=wanted, asked=asked, granted=granted)
+def check(requested: CameraMode | None, granted: CameraMode, *, wanted: WantedMode = NOTHING) -> ModeCheck:
+    return ModeCheck("camera 0", wanted=wanted, requested=requested, granted=granted)
 
 
 def film(
@@ -33,7 +33,7 @@ def code_of(checked: ModeCheck) -> str:
 
 
 @pytest.mark.parametrize(
-    ("wanted", "asked", "granted", "code", "numbers"),
+    ("wanted", "requested", "granted", "code", "numbers"),
     [
         (NOTHING, mode(30), mode(30), "", []),
         (NOTHING, mode(30), mode(29.97), "", []),
@@ -49,7 +49,7 @@ def code_of(checked: ModeCheck) -> str:
             mode(30),
             mode(5, fourcc="YUYV"),
             "CAMERA_MODE_NOT_GRANTED",
-            ["1920x1080 MJPG at 30 Hz was asked", "1920x1080 YUYV at 5 Hz was granted"],
+            ["1920x1080 MJPG at 30 Hz was requested", "1920x1080 YUYV at 5 Hz was granted"],
         ),
         (NOTHING, mode(30), mode(30, size_wh_px=HD), "CAMERA_MODE_NOT_GRANTED", ["1920x1080", "1280x720"]),
         (NOTHING, mode(30), mode(15), "CAMERA_MODE_NOT_GRANTED", ["30 Hz", "15 Hz"]),
@@ -65,9 +65,9 @@ def code_of(checked: ModeCheck) -> str:
     ],
 )
 def test_what_was_granted_is_held_against_what_was_asked(
-    wanted: WantedMode, asked: CameraMode | None, granted: CameraMode, code: str, numbers: list[str]
+    wanted: WantedMode, requested: CameraMode | None, granted: CameraMode, code: str, numbers: list[str]
 ) -> None:
-    problem = check(asked, granted, wanted=wanted).problem
+    problem = check(requested, granted, wanted=wanted).problem
     assert ("" if problem is None else problem.code) == code
     for number in numbers:
         assert problem is not None
@@ -90,7 +90,7 @@ def test_the_sentence_names_what_was_asked_granted_and_measured_and_what_to_do()
     film(checked, 15.0)
     assert checked.problem is not None
     assert checked.problem.message == (
-        "camera 0 gives other images than asked: 1920x1080 MJPG at 30 Hz was asked of the camera, "
+        "camera 0 gives other images than requested: 1920x1080 MJPG at 30 Hz was requested, "
         "1920x1080 MJPG at 30 Hz was granted, images come as 1920x1080 at 15.0 Hz"
     )
     assert "more light" in checked.problem.remedy
@@ -107,9 +107,9 @@ def test_nothing_is_measured_while_the_camera_settles() -> None:
 def test_a_rate_that_comes_back_ends_it_and_one_that_wavers_is_not_told_anew() -> None:
     checked = check(mode(30), mode(30))
     at_s = film(checked, 15.0)
-    told = checked.problem
+    reported = checked.problem
     at_s = film(checked, 15.7, begin_s=at_s)
-    assert checked.problem is told
+    assert checked.problem is reported
     at_s = film(checked, 26.5, begin_s=at_s)
     assert code_of(checked) == "CAMERA_RATE_DIFFERS"
     film(checked, 29.0, begin_s=at_s)

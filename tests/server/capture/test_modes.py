@@ -1,4 +1,4 @@
-"""Which mode a camera is asked for."""
+"""Selection of the camera mode to request."""
 
 import pytest
 
@@ -95,7 +95,7 @@ def mode(fourcc: str, size_wh_px: tuple[int, int], rate_hz: float) -> CameraMode
         pytest.param(modes("YUYV", VGA, 0), NOTHING, None, mode("YUYV", VGA, 0), id="no rate is listed"),
     ],
 )
-def test_a_camera_is_asked_for(
+def test_the_mode_that_is_requested_of_a_camera(
     offered: list[CameraMode],
     wanted: WantedMode,
     calibrated: tuple[int, int] | None,

@@ -1,4 +1,4 @@
-"""A phone as a source: what it gives, and what it says when it gives nothing."""
+"""A phone as a source: its images, and its errors without images."""
 
 import threading
 from dataclasses import replace
@@ -6,20 +6,20 @@ from dataclasses import replace
 import pytest
 
 from server.capture.address import SourceKind, source_from_text
-from server.capture.choose import source_from_config
-from server.capture.phone import Focus, Inbound, PhoneSource, broken_image
+from server.capture.phone import Focus, PhoneSource, PhoneUpdate, broken_image
+from server.capture.source_factory import source_from_config
 from server.config import CameraConfig, Config
 from server.errors import CaptureError
 from server.live import ImageClock
-from tests.server.capture.sent_by_phone import CAMERA, Script, image
+from tests.server.capture.fake_phone import CAMERA, Script, image
 from tracker.camera import CameraControl
 
-HERE = Inbound(sender="phone")
-GONE = Inbound(sender="")
+HERE = PhoneUpdate(sender="phone")
+GONE = PhoneUpdate(sender="")
 
 
-def sent(number: int, captured_at_s: float = 1.0, **changes: object) -> Inbound:
-    return Inbound(sender="phone", image=image(number, captured_at_s, **changes))
+def sent(number: int, captured_at_s: float = 1.0, **changes: object) -> PhoneUpdate:
+    return PhoneUpdate(sender="phone", image=image(number, captured_at_s, **changes))
 
 
 def opened(script: Script, stop: threading.Event | None = None, first_number: int = 0) -> PhoneSource:
@@ -34,13 +34,13 @@ def test_the_settings_name_it_phone() -> None:
     assert source_from_text("Phone").kind is SourceKind.PHONE
     config = Config(camera=CameraConfig(source="phone"))
     source = source_from_config(config, stop=threading.Event(), inbox=Script(HERE, []))
-    assert (source.name, source.stalls, source.waits_for_taker) == ("phone", True, False)
+    assert (source.name, source.stalls, source.waits_for_consumer) == ("phone", True, False)
 
 
 def test_without_a_server_there_is_nobody_to_send_to() -> None:
-    with pytest.raises(CaptureError) as told:
+    with pytest.raises(CaptureError) as reported:
         source_from_config(Config(camera=CameraConfig(source="phone")), stop=threading.Event())
-    assert told.value.code == "PHONE_WITHOUT_SERVER"
+    assert reported.value.code == "PHONE_WITHOUT_SERVER"
 
 
 def test_an_image_comes_with_the_time_of_its_capture_and_the_browsers_word_on_its_camera() -> None:
@@ -70,10 +70,10 @@ def test_an_image_from_before_the_source_was_opened_is_not_read() -> None:
 
 def test_a_source_that_nobody_sends_to_says_how_to_begin() -> None:
     for script in (Script(None, []), Script(GONE, []), Script(None, [GONE])):
-        with pytest.raises(CaptureError) as told:
+        with pytest.raises(CaptureError) as reported:
             opened(script)
-        assert told.value.code == "PHONE_ABSENT"
-        assert "/camera" in told.value.remedy
+        assert reported.value.code == "PHONE_ABSENT"
+        assert "/camera" in reported.value.remedy
 
 
 @pytest.mark.parametrize(
@@ -83,7 +83,7 @@ def test_a_source_that_nobody_sends_to_says_how_to_begin() -> None:
         pytest.param([], "PHONE_SILENT", id="nothing-comes"),
         pytest.param([HERE, None, HERE], "PHONE_SILENT", id="it-is-there-and-sends-nothing"),
         pytest.param(
-            [Inbound(sender="phone", problem=broken_image()), None],
+            [PhoneUpdate(sender="phone", problem=broken_image()), None],
             "PHONE_IMAGE_BROKEN",
             id="what-it-sends-cannot-be-used",
         ),
@@ -92,12 +92,12 @@ def test_a_source_that_nobody_sends_to_says_how_to_begin() -> None:
         ),
     ],
 )
-def test_a_phone_that_gives_no_image_is_told(entries: list[Inbound | None], code: str) -> None:
+def test_a_phone_that_gives_no_image_is_told(entries: list[PhoneUpdate | None], code: str) -> None:
     source = opened(Script(HERE, entries))
-    with pytest.raises(CaptureError) as told:
+    with pytest.raises(CaptureError) as reported:
         source.read()
-    assert told.value.code == code
-    assert told.value.remedy
+    assert reported.value.code == code
+    assert reported.value.remedy
 
 
 def test_the_phone_is_told_silent_before_a_camera_with_a_cable_would_be() -> None:

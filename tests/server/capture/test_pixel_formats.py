@@ -1,4 +1,4 @@
-"""Pixel formats of industrial cameras, read into BGR: colours that a hand can follow."""
+"""Conversion of industrial pixel formats to BGR, with colours that are easy to check."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The rehearsal as a source of images: numbers, times, silences and scenes."""
+"""The rehearsal as a source of images: numbers, times, outages and scenes."""
 
 import threading
 from collections.abc import Sequence
@@ -32,13 +32,13 @@ def silence(kind: EventKind, at_s: float, lasts_s: float) -> Event:
     return Event(kind=kind, at_s=at_s, lasts_s=lasts_s)
 
 
-def fast_source(*silences: Event, last_number: int | None = None) -> RehearsalSource:
+def fast_source(*outages: Event, last_number: int | None = None) -> RehearsalSource:
     return RehearsalSource(
         Numbered(),
         rate_hz=25.0,
         stop=threading.Event(),
         fast=True,
-        silences=silences,
+        outages=outages,
         last_number=last_number,
     )
 
@@ -112,7 +112,7 @@ def test_a_theatre_whose_camera_stops_says_so_and_its_clock_goes_on() -> None:
         Numbered(),
         rate_hz=10.0,
         stop=clock,
-        silences=(silence(EventKind.CAMERA_STOPS, 2.0, 3.0),),
+        outages=(silence(EventKind.CAMERA_STOPS, 2.0, 3.0),),
         clock=clock,
     )
     source.open()
@@ -133,8 +133,8 @@ def test_another_scene_begins_at_zero_with_the_next_number() -> None:
     source.open()
     for _ in range(3):
         source.read()
-    source.play(Numbered(), scene_number=4, silences=(silence(EventKind.CAMERA_STALLS, 9.0, 1.0),))
-    assert (source.begun.scene_number, source.begun.first_number) == (4, 4)
+    source.play(Numbered(), scene_number=4, outages=(silence(EventKind.CAMERA_STALLS, 9.0, 1.0),))
+    assert (source.played_scene.scene_number, source.played_scene.first_number) == (4, 4)
     assert source.stalls
     shot = source.read()
     assert shot is not None

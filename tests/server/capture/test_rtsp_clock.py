@@ -1,4 +1,4 @@
-"""A network camera that speaks RTSP and lies about time: whose clock its images carry, lie or not."""
+"""Capture times of an RTSP camera with correct and wrong timestamps."""
 
 import threading
 from collections.abc import Callable, Iterator, Sequence
@@ -127,7 +127,7 @@ def test_a_clock_that_does_not_keep_time_is_given_up_and_no_image_looked_younger
     assert kept_s[-1] == pytest.approx(MIN_S, abs=1e-4)
 
 
-def test_sound_beside_the_video_is_not_asked_for_and_sender_reports_move_nothing(
+def test_sound_beside_the_video_is_not_requested_and_sender_reports_move_nothing(
     serve: Callable[..., RtspServer],
 ) -> None:
     sent = [

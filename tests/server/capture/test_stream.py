@@ -1,4 +1,4 @@
-"""Network streams, against a small MJPEG server that is stopped and started again."""
+"""Network streams, with a small MJPEG server that is stopped and restarted."""
 
 import itertools
 import socket
@@ -16,8 +16,8 @@ from server.capture.stream import StreamSource
 from server.capture.video_file import VideoFileSource
 from server.errors import CaptureError
 from server.live import SourceState
-from tests.server.capture.filmed import grey_image, write_video
-from tests.server.capture.served_images import ImageServer
+from tests.server.capture.http_image_server import ImageServer
+from tests.server.capture.small_videos import grey_image, write_video
 
 
 @pytest.fixture

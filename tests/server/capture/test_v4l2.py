@@ -1,4 +1,4 @@
-"""V4L2's records and requests, against a kernel that the test plays: it reads and fills the same memory."""
+"""V4L2 structures and requests, with a fake kernel that reads and fills the same memory."""
 
 import errno
 from collections.abc import Sequence

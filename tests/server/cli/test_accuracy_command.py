@@ -85,7 +85,7 @@ def test_a_true_camera_passes_and_says_how_it_was_checked(tmp_path: Path, camera
     status, text = typed("accuracy", grid_rows(tmp_path / "r.csv"), "--camera", camera)
     assert status == 0
     assert "Largest error 0.00 mm" in text
-    assert "left out of the fit" in text
+    assert "excluded from the fit" in text
     assert "compare it with a tape measure" in text
 
 
@@ -94,32 +94,32 @@ def test_a_plane_of_other_points_is_fitted_and_a_wrong_point_fails(tmp_path: Pat
     text = "\n".join(",".join(map(str, row)) for row in np.concatenate([other, seen_at(other)], axis=1))
     plane = table(tmp_path / "p.csv", text, "x_mm,y_mm,u_px,v_px")
     wrong = grid_rows(tmp_path / "r.csv", off_px=9.0)
-    status, told = typed("accuracy", wrong, "--camera", camera, "--plane", plane, "--json")
-    document = json.loads(told)
+    status, reported = typed("accuracy", wrong, "--camera", camera, "--plane", plane, "--json")
+    document = json.loads(reported)
     assert status == 1
     assert (document["held_out_by"], document["fit_points"], document["passed"]) == ("plane", 63, False)
     assert document["maximum_error_mm"] > 1.0
     assert document["fit_rms_px"] < 0.01
-    status, told = typed("accuracy", wrong, "--camera", camera, "--plane", plane, "--limit-mm", "9")
+    status, reported = typed("accuracy", wrong, "--camera", camera, "--plane", plane, "--limit-mm", "9")
     assert status == 0
-    assert "63 points" in told
+    assert "63 points" in reported
 
 
 def test_a_table_of_a_spreadsheet_in_any_order_is_read(tmp_path: Path) -> None:
     text = "a;18.0;422;429;406;441;164;106;150;94\n\nb;18.0;405;416;393;433;150;119;140;102"
     header = "\ufeffname;note;u1_px;v1_px;u2_px;v2_px;x1_mm;y1_mm;x2_mm;y2_mm"
-    status, told = typed(
+    status, reported = typed(
         "ruler", table(tmp_path / "r.csv", text, header), *V_AND_H, "--focal-length-px", "1028.2"
     )
     assert status == 0
-    assert "over 2 displacements" in told
+    assert "over 2 displacements" in reported
 
 
 @pytest.mark.parametrize(
     ("text", "header", "said"),
     [
         pytest.param(
-            TABLE_2, "x1,y1,x2,y2,u1,v1,u2,v2", "POINTS_INCOMPLETE: .* lack the column x1_mm", id="no-units"
+            TABLE_2, "x1,y1,x2,y2,u1,v1,u2,v2", "POINTS_INCOMPLETE: .* lacks the column x1_mm", id="no-units"
         ),
         pytest.param("", HEADER, "POINTS_INCOMPLETE: .* 0 rows", id="no-rows"),
         pytest.param("1,2,3,4,5,6,7", HEADER, "POINTS_INVALID: line 2 .* ''", id="a-short-row"),
@@ -132,17 +132,17 @@ def test_a_table_of_a_spreadsheet_in_any_order_is_read(tmp_path: Path) -> None:
 def test_a_table_that_cannot_be_is_refused_with_its_line(
     text: str, header: str, said: str, tmp_path: Path
 ) -> None:
-    status, told = typed("ruler", table(tmp_path / "r.csv", text, header), *V_AND_H)
+    status, reported = typed("ruler", table(tmp_path / "r.csv", text, header), *V_AND_H)
     assert status == 2
-    assert re.match(said, told)
+    assert re.match(said, reported)
 
 
 def test_missing_files_are_told(tmp_path: Path) -> None:
     assert typed("ruler", tmp_path / "none.csv", *V_AND_H)[1].startswith("POINTS_UNREADABLE")
     (tmp_path / "b.csv").write_bytes(b"\xff\xfe\x00\x01")
     assert typed("ruler", tmp_path / "b.csv", *V_AND_H)[1].startswith("POINTS_UNREADABLE")
-    told = typed("accuracy", table(tmp_path / "r.csv"), "--camera", tmp_path / "none.yaml")
-    assert told[1].startswith("CAMERA_FILE_UNREADABLE")
+    reported = typed("accuracy", table(tmp_path / "r.csv"), "--camera", tmp_path / "none.yaml")
+    assert reported[1].startswith("CAMERA_FILE_UNREADABLE")
 
 
 BOARD = ("--pattern", "dots", "--size", "16x14", "--pitch-mm", "8")
@@ -188,9 +188,9 @@ def test_an_image_that_cannot_be_measured_is_refused(tmp_path: Path, camera: Pat
         (text, "IMAGE_UNREADABLE"),
         (tmp_path / "none.png", "IMAGE_UNREADABLE"),
     ):
-        status, told = typed("accuracy", "--image", image, *BOARD, "--camera", camera)
+        status, reported = typed("accuracy", "--image", image, *BOARD, "--camera", camera)
         assert status == 2
-        assert re.match(code, told)
+        assert re.match(code, reported)
 
 
 @pytest.mark.parametrize(
@@ -202,10 +202,10 @@ def test_an_image_that_cannot_be_measured_is_refused(tmp_path: Path, camera: Pat
     ],
 )
 def test_a_board_half_described_is_asked_for(words: tuple[str, ...], missing: str, camera: Path) -> None:
-    status, told = typed("accuracy", "--image", "x.png", *words, "--camera", camera)
+    status, reported = typed("accuracy", "--image", "x.png", *words, "--camera", camera)
     assert status == 2
-    assert told.startswith("BOARD_OPTION_MISSING")
-    assert missing in told
+    assert reported.startswith("BOARD_OPTION_MISSING")
+    assert missing in reported
 
 
 def test_nothing_to_check_with_is_told(camera: Path) -> None:

@@ -44,16 +44,16 @@ def test_a_camera_file_plots_and_json_are_written(images: Path, tmp_path: Path) 
         *BOARD, "--output", output, "--plots", tmp_path, "--camera-name", "main", "--json", images
     )
     assert status == 0, text
-    told = json.loads(text)
-    assert told["size_wh_px"] == [640, 480]
-    assert [view["used"] for view in told["views"]] == [True] * 6 + [False]
-    assert [view["image"] for view in told["views"]] == [f"view{n}.png" for n in (0, 1, 2, 3, 4, 5, 9)]
-    assert told["views"][-1]["rms_px"] is None
-    assert "corners" in told["views"][-1]["reason"]
-    assert told["rms_px"] < 0.4
+    reported = json.loads(text)
+    assert reported["size_wh_px"] == [640, 480]
+    assert [view["used"] for view in reported["views"]] == [True] * 6 + [False]
+    assert [view["image"] for view in reported["views"]] == [f"view{n}.png" for n in (0, 1, 2, 3, 4, 5, 9)]
+    assert reported["views"][-1]["rms_px"] is None
+    assert "corners" in reported["views"][-1]["reason"]
+    assert reported["rms_px"] < 0.4
     camera = load_camera_file(output)
-    np.testing.assert_allclose(camera.matrix, told["matrix"])
-    np.testing.assert_allclose(camera.distortion, told["distortion"])
+    np.testing.assert_allclose(camera.matrix, reported["matrix"])
+    np.testing.assert_allclose(camera.distortion, reported["distortion"])
     facts = yaml.safe_load(output.read_text())
     assert facts["camera"] == {"name": "main"}
     assert facts["boards"][0]["size"] == [9, 6]
@@ -81,9 +81,9 @@ def test_a_file_of_another_camera_is_refused(images: Path, tmp_path: Path) -> No
     assert typed(*BOARD, "--output", output, "--camera-name", "side", images)[0] == 0
     file = read_camera_file(output)
     reject_other_camera(file, path=output, name="side", source=0)
-    with pytest.raises(CalibrationError) as told:
+    with pytest.raises(CalibrationError) as reported:
         reject_other_camera(file, path=output, name="main", source=0)
-    assert told.value.code == "CAMERA_DIFFERS"
+    assert reported.value.code == "CAMERA_DIFFERS"
     (tmp_path / "config.yaml").write_text(f"camera:\n  source: 0\n  calibration: {output}\n")
     result = CliRunner().invoke(app, ["run", "--config", str(tmp_path / "config.yaml")])
     assert isinstance(result.exception, NavigationError)
@@ -158,10 +158,10 @@ def test_a_rig_is_written_with_its_baseline(images: Path, tmp_path: Path) -> Non
     cameras = ("--camera", f"left={left}", "--camera", f"right={right}")
     status, text = typed(*BOARD, *cameras, "--output", output, "--json", command="calibrate-rig")
     assert status == 0, text
-    told = json.loads(text)
-    assert [camera["name"] for camera in told["cameras"]] == ["left", "right"]
-    assert told["cameras"][1]["baseline_mm"] < 0.01
-    assert told["shared_views"] == 6
+    reported = json.loads(text)
+    assert [camera["name"] for camera in reported["cameras"]] == ["left", "right"]
+    assert reported["cameras"][1]["baseline_mm"] < 0.01
+    assert reported["shared_views"] == 6
     assert yaml.safe_load(output.read_text())["cameras"][1]["name"] == "right"
     (right / "view0.png").unlink()
     assert typed(*BOARD, *cameras, command="calibrate-rig") == (2, "RIG_IMAGES_UNEVEN")

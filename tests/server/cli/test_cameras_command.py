@@ -20,7 +20,7 @@ def listed(
     words: str = "",
     industrial: FakeIndustrialCameras | None = None,
 ) -> Result:
-    monkeypatch.setattr("server.cli.cameras.devices_here", lambda: FakeDevices(*cameras))
+    monkeypatch.setattr("server.cli.cameras.system_devices", lambda: FakeDevices(*cameras))
     libraries = () if industrial is None else (industrial,)
     monkeypatch.setattr("server.cli.cameras.installed_libraries", lambda: libraries)
     monkeypatch.chdir(folder)
@@ -51,12 +51,12 @@ def test_each_camera_is_told_with_its_modes_and_the_one_that_is_taken(
         "    H264   1920 x 1080  60 Hz",
         "    controls: focus 30, autofocus 1, auto_exposure 3, exposure 250, gain 20, auto_white_balance 1, "
         "white_balance 4000",
-        "    Coaxial takes 1920x1080 MJPG at 30 Hz",
+        "    Coaxial uses 1920x1080 MJPG at 30 Hz",
         "/dev/video2  Depth  (usb-1, uvcvideo)",
         "    Z16    1280 x 720   30 Hz",
-        "    Coaxial takes none of them: it reads none of these formats",
-        "/dev/video3  cannot be asked: permission denied",
-        "    Check the right to read it (group 'video'), and its cable.",
+        "    Coaxial cannot decode any of these formats",
+        "/dev/video3  cannot be opened: permission denied",
+        "    Check the read permission (group 'video') and the cable.",
     ]
 
 
@@ -76,10 +76,10 @@ def test_the_settings_and_the_calibration_decide_which_mode_is_taken(
         "rate_hz": 30.0,
     }
     (tmp_path / "config.yaml").write_text("camera: {width: 640, height: 480, rate_hz: 60}\n")
-    asked = json.loads(listed(monkeypatch, tmp_path, FakeCamera(), words="--json").stdout)["cameras"][0]
-    assert (asked["chosen"]["width_px"], asked["chosen"]["rate_hz"]) == (640, 60.0)
-    assert asked["controls"]["focus"] == {"value": 30, "min": 0, "max": 10_000}
-    assert len(asked["modes"]) == 13
+    requested = json.loads(listed(monkeypatch, tmp_path, FakeCamera(), words="--json").stdout)["cameras"][0]
+    assert (requested["chosen"]["width_px"], requested["chosen"]["rate_hz"]) == (640, 60.0)
+    assert requested["controls"]["focus"] == {"value": 30, "min": 0, "max": 10_000}
+    assert len(requested["modes"]) == 13
 
 
 def test_a_machine_without_cameras_says_so_with_a_remedy(
@@ -89,7 +89,7 @@ def test_a_machine_without_cameras_says_so_with_a_remedy(
     result = listed(monkeypatch, tmp_path)
     assert result.exit_code == 1
     assert result.stdout == ""
-    assert result.stderr.startswith("Error: no camera is found at this machine.\nPlug one in")
+    assert result.stderr.startswith("Error: no camera was found on this computer.\nConnect a camera")
     as_json = listed(monkeypatch, tmp_path, words="--json")
     assert as_json.exit_code == 1
     assert json.loads(as_json.stdout) == {"cameras": []}
@@ -101,7 +101,7 @@ def test_elsewhere_than_on_linux_the_remedy_is_another(
     monkeypatch.setattr("sys.platform", "darwin")
     result = listed(monkeypatch, tmp_path)
     assert result.exit_code == 1
-    assert "listed on Linux alone" in result.stderr
+    assert "only be listed on Linux" in result.stderr
     assert "--source 0" in result.stderr
 
 
@@ -124,9 +124,9 @@ def test_industrial_cameras_are_told_with_what_they_offer(
         "    16 to 1936 x 16 to 1216, 1 to 160 Hz",
         "    triggers: Line1, Line3, Software",
         "    controls: zoom 1, pan 0, tilt 0, auto_exposure 0, exposure 8000, gain 325, auto_white_balance 1",
-        "    Coaxial takes 1936x1216 BayerRG8 at 30 Hz",
-        "basler:4712  cannot be asked: Width is controlled by another application",
-        "    See that no other program has it.",
+        "    Coaxial uses 1936x1216 BayerRG8 at 30 Hz",
+        "basler:4712  cannot be opened: Width is controlled by another application",
+        "    Check that no other program uses it.",
     ]
     (tmp_path / "config.yaml").write_text(
         "camera: {source: 'basler:4711', trigger: line1, width: 1001, height: 800}\n"

@@ -53,10 +53,10 @@ def typed(
         monkeypatch.setattr(sys, "argv", ["coaxial", *map(str, words)])
         with pytest.raises(SystemExit) as left:
             main()
-        told = capsys.readouterr()
+        reported = capsys.readouterr()
         status = left.value.code
         assert isinstance(status, int)
-        return Ended(words, status, told.out, told.err)
+        return Ended(words, status, reported.out, reported.err)
 
     return ended
 
@@ -139,9 +139,9 @@ def test_track_writes_a_line_for_every_image(film: Path, marker: Path, tmp_path:
     )
     assert result.returncode == 0, result.stderr
     assert result.stdout == ""
-    assert result.stderr.startswith("6 images: m-one seen in 0 (not in the others: ")
-    assert " an image, reading " in result.stderr
-    assert "no millimetres, as no camera file was given (--camera)" in result.stderr
+    assert result.stderr.startswith("6 images: m-one seen in 0 (missed: ")
+    assert " per image, reading " in result.stderr
+    assert "no result in mm without a camera file (--camera)" in result.stderr
     lines = [json.loads(line) for line in (tmp_path / "out.jsonl").read_text().splitlines()]
     assert [line["image_number"] for line in lines] == list(range(6))
     assert [line["time_s"] for line in lines] == pytest.approx([n / 25 for n in range(6)])
@@ -175,11 +175,11 @@ def test_a_stopped_track_tells_how_far_it_came_and_leaves_a_part(
     step = Tracker.step
 
     def step_with_ctrl_c(
-        tracker: Tracker, image: npt.NDArray[np.uint8], *, captured_at_s: float, whole: bool
+        tracker: Tracker, image: npt.NDArray[np.uint8], *, captured_at_s: float, full_search: bool
     ) -> dict[str, Sighting]:
         signal.raise_signal(signal.SIGINT)
         assert signal.getsignal(signal.SIGINT) == signal.SIG_DFL  # a second one ends it at once
-        return step(tracker, image, captured_at_s=captured_at_s, whole=whole)
+        return step(tracker, image, captured_at_s=captured_at_s, full_search=full_search)
 
     monkeypatch.setattr(Tracker, "step", step_with_ctrl_c)
     lines = tmp_path / "o.jsonl"
@@ -227,24 +227,24 @@ def test_a_cut_video_is_tracked_as_far_as_it_goes_and_told(
         ),
         pytest.param(
             ["v.avi", "--marker", "m one.png", "--side-mm", "4", "--json", "v.avi"],
-            "write over",
+            "overwrite",
             id="over-the-video",
         ),
         pytest.param(
             ["v.avi", "--marker", "m one.png", "--side-mm", "4", "--json", "m one.png"],
-            "write over",
+            "overwrite",
             id="over-the-marker",
         ),
     ],
 )
 @pytest.mark.usefixtures("film", "marker")
 def test_what_cannot_be_tracked_is_told_in_one_sentence(
-    typed: Callable[..., Ended], words: list[str], told: str
+    typed: Callable[..., Ended], words: list[str], reported: str
 ) -> None:
     result = typed("track", *words)
     assert result.returncode == 2
     assert is_one_sentence_with_remedy(result.stderr), result.stderr
-    assert told in result.stderr
+    assert reported in result.stderr
 
 
 @pytest.mark.usefixtures("film", "marker")

@@ -14,15 +14,15 @@ from tests.server.latency.made_run import Run
 
 LINES = """\
 camera 0, 1280x720 px, 30.3 images/s, measured 2026-11-24T11:05:00Z by ito
-  light to page 89 ms median, 104.7 ms p99, 159 codes
+  exposure to display 89 ms median, 104.7 ms p99, 159 codes
   screen and camera     57.0 ms median
   tracking              12.0 ms median
   server                 6.0 ms median
   line                   4.0 ms median
   page                  10.0 ms median
-  Resolution: one image each 33 ms; a code is seen 16.5 ms late on average, which is in the numbers, \
-as is the delay of the screen (1280x800 px, one image each 16.7 ms).
-  Clocks of page and server agree within 1.5 ms; 0 of 609 images were skipped.
+  Resolution: one image every 33 ms. A code is read 16.5 ms late on average; the numbers include this \
+and the delay of the screen (1280x800 px, one frame every 16.7 ms).
+  The clocks of page and server agree within 1.5 ms; 0 of 609 images were skipped.
 """
 
 
@@ -47,9 +47,9 @@ def file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> LatencyFile:
 
 
 def typed(*words: str) -> tuple[int, str]:
-    told = CliRunner().invoke(app, ["latency", *words])
-    assert told.exception is None or isinstance(told.exception, SystemExit), told.exception
-    return told.exit_code, told.stdout
+    reported = CliRunner().invoke(app, ["latency", *words])
+    assert reported.exception is None or isinstance(reported.exception, SystemExit), reported.exception
+    return reported.exit_code, reported.stdout
 
 
 def test_what_was_measured_is_printed_with_its_resolution(file: LatencyFile) -> None:
@@ -62,9 +62,9 @@ def test_a_machine_reads_the_same_as_json(file: LatencyFile) -> None:
     file.put(result("camera 0"))
     status, text = typed("show", "--json")
     assert status == 0
-    told = json.loads(text)
-    assert [one["camera"] for one in told] == ["camera 0", "camera 1"]
-    assert told[0]["report"]["median_ms"] == result().report.median_ms
+    reported = json.loads(text)
+    assert [one["camera"] for one in reported] == ["camera 0", "camera 1"]
+    assert reported[0]["report"]["median_ms"] == result().report.median_ms
 
 
 def test_each_camera_has_its_newest_result_and_few_are_remembered(file: LatencyFile) -> None:
@@ -81,7 +81,7 @@ def test_without_a_result_it_says_how_to_measure_with_a_page(file: LatencyFile) 
     assert file.results() == ()
     status, text = typed("show")
     assert status == 1
-    assert text.startswith("No latency is measured yet.")
+    assert text.startswith("No latency has been measured yet.")
     assert '"Measure" on the card "Latency"' in text
     assert typed("show", "--json") == (1, "[]\n")
     assert typed("measure") == (0, text.split("\n\n", 1)[1])

@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from server.cli import app
-from server.cli.background import evenly_spread
+from server.cli.background import evenly_spaced
 from server.marker_file import load_marker_image
 from tracker.errors import NavigationError
 from tracker.marker import MarkerModel
@@ -40,13 +40,13 @@ def design(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def folder_with(picture: Path | None, folder: Path) -> Path:
     """Two images of a desk; in the second one lies a print of the picture, if there is one."""
     folder.mkdir()
-    desk = np.full((240, 320), 200, np.uint8)
-    cv2.circle(desk, (60, 60), 25, 40, -1)
-    cv2.imwrite(str(folder / "1.png"), desk)
+    service = np.full((240, 320), 200, np.uint8)
+    cv2.circle(service, (60, 60), 25, 40, -1)
+    cv2.imwrite(str(folder / "1.png"), service)
     if picture is not None:
         small = cv2.resize(load_marker_image(picture), (60, 60), interpolation=cv2.INTER_AREA)
-        desk[100:160, 150:210] = np.clip(small, 20, 200)
-    cv2.imwrite(str(folder / "2.png"), cv2.GaussianBlur(desk, (0, 0), 0.7))
+        service[100:160, 150:210] = np.clip(small, 20, 200)
+    cv2.imwrite(str(folder / "2.png"), cv2.GaussianBlur(service, (0, 0), 0.7))
     return folder
 
 
@@ -129,8 +129,8 @@ def test_a_background_without_it_passes_the_check(design: Path, tmp_path: Path) 
     background = folder_with(None, tmp_path / "images")
     status, text = typed("check", design / "marker.png", "--background", background, "--output", tmp_path)
     assert status == 0, text
-    assert "nothing reaches all that is accepted" in text
-    assert "claimed in none" in text
+    assert "no place reaches all thresholds" in text
+    assert "detected in none" in text
 
 
 @pytest.mark.parametrize(
@@ -170,7 +170,7 @@ def test_help_answers(words: list[str]) -> None:
 )
 def test_images_are_evenly_spread_over_a_film_of_any_length(length: int, count: int) -> None:
     grey = np.zeros((1, 1), np.uint8)
-    numbers = [number for number, _ in evenly_spread(((k, grey) for k in range(length)), count=count)]
+    numbers = [number for number, _ in evenly_spaced(((k, grey) for k in range(length)), count=count)]
     assert len(numbers) == min(length, count)
     if len(numbers) > 1:
         gaps = np.diff(numbers)

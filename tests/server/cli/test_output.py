@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from server.cli.output import Lines, lines_to
+from server.cli.output import LineWriter, line_writer
 from tracker.errors import InvalidInput
 
 
 def write(target: str | Path, *lines: str, inputs: tuple[Path, ...] = ()) -> None:
-    with lines_to(str(target), inputs=inputs, replace=False) as out:
+    with line_writer(str(target), inputs=inputs, replace=False) as out:
         assert out is not None
         for line in lines:
             out.write(line)
@@ -22,7 +22,7 @@ def write(target: str | Path, *lines: str, inputs: tuple[Path, ...] = ()) -> Non
 def test_a_file_has_its_name_once_it_is_whole(tmp_path: Path) -> None:
     file = tmp_path / "o.jsonl"
     file.write_text("old\n")
-    with lines_to(str(file), inputs=(), replace=True) as out:
+    with line_writer(str(file), inputs=(), replace=True) as out:
         assert out is not None
         out.write("new")
         assert file.read_text() == "old\n"
@@ -33,11 +33,11 @@ def test_a_file_has_its_name_once_it_is_whole(tmp_path: Path) -> None:
 def test_a_file_that_is_there_is_written_over_only_where_that_is_said(tmp_path: Path) -> None:
     file = tmp_path / "o.jsonl"
     file.write_text("old\n")
-    with pytest.raises(InvalidInput) as told:
+    with pytest.raises(InvalidInput) as reported:
         write(file, "new")
-    assert told.value.code == "OUTPUT_EXISTS"
-    assert str(file) in told.value.message
-    assert "--replace" in told.value.remedy
+    assert reported.value.code == "OUTPUT_EXISTS"
+    assert str(file) in reported.value.message
+    assert "--replace" in reported.value.remedy
     assert (file.read_text(), list(tmp_path.iterdir())) == ("old\n", [file])
 
 
@@ -51,7 +51,7 @@ def test_an_empty_file_holds_nothing_and_is_written(tmp_path: Path) -> None:
 def test_what_was_cut_keeps_the_old_file_and_is_named_a_part(tmp_path: Path) -> None:
     file = tmp_path / "o.jsonl"
     file.write_text("old\n")
-    output = lines_to(str(file), inputs=(), replace=True)
+    output = line_writer(str(file), inputs=(), replace=True)
     out = output.__enter__()
     assert out is not None
     out.write("half")
@@ -86,9 +86,9 @@ def test_what_is_read_is_never_written_over(tmp_path: Path, name: str) -> None:
     video.write_text("film")
     (tmp_path / "link").symlink_to(video)
     (tmp_path / "folder").mkdir()
-    with pytest.raises(InvalidInput) as told:
+    with pytest.raises(InvalidInput) as reported:
         write(tmp_path / name, "a", inputs=(tmp_path / "absent", video))
-    assert told.value.code == "OUTPUT_IS_INPUT"
+    assert reported.value.code == "OUTPUT_IS_INPUT"
     assert video.read_text() == "film"
 
 
@@ -106,7 +106,7 @@ class FullDisk(io.StringIO):
 
 
 def test_a_full_disk_is_told_in_a_sentence() -> None:
-    with pytest.raises(InvalidInput) as told:
-        Lines(FullDisk(), name="o.jsonl.part", on_disk=False).write("a")
-    assert told.value.code == "OUTPUT_NOT_WRITTEN"
-    assert "no space left on device" in told.value.message
+    with pytest.raises(InvalidInput) as reported:
+        LineWriter(FullDisk(), name="o.jsonl.part", on_disk=False).write("a")
+    assert reported.value.code == "OUTPUT_NOT_WRITTEN"
+    assert "no space left on device" in reported.value.message

@@ -43,13 +43,13 @@ def typed(*words: object) -> tuple[int, str]:
 def test_a_pedicle_is_measured_as_json(ct: Path) -> None:
     status, text = typed(ct, "--side", "left", "--seed-lps-mm", "-0.5,1,-1", "--json")
     assert status == 0, text
-    told = json.loads(text)
-    assert set(told) >= KEYS
-    assert told["width_mm"] == pytest.approx(8.0, abs=0.4)
-    assert told["height_mm"] == pytest.approx(12.0, abs=0.4)
-    assert told["transverse_deg"] == pytest.approx(10.0, abs=1.0)
-    assert told["length_mm"] == pytest.approx(68.0 / np.cos(np.radians(10.0)), abs=2.0)
-    assert told["screw"]["diameter_mm"] in {6.5, 7.0}
+    reported = json.loads(text)
+    assert set(reported) >= KEYS
+    assert reported["width_mm"] == pytest.approx(8.0, abs=0.4)
+    assert reported["height_mm"] == pytest.approx(12.0, abs=0.4)
+    assert reported["transverse_deg"] == pytest.approx(10.0, abs=1.0)
+    assert reported["length_mm"] == pytest.approx(68.0 / np.cos(np.radians(10.0)), abs=2.0)
+    assert reported["screw"]["diameter_mm"] in {6.5, 7.0}
 
 
 def test_the_series_of_a_ct_are_listed(ct: Path) -> None:
@@ -67,7 +67,7 @@ def test_and_in_words(ct: Path) -> None:
     status, text = typed(ct, "--side", "left", "--seed-lps-mm", "0,0,0")
     assert status == 0, text
     assert "width" in text
-    assert "patient's axes (LPS)" in text
+    assert "mm LPS)" in text
     notes = [line for line in text.splitlines() if line.startswith("Note: ")]
     assert notes
     assert not [note for note in notes if note.endswith("..")]
@@ -97,8 +97,8 @@ def test_both_pedicles_of_a_real_thoracic_vertebra() -> None:
     for side, seed in (("right", "-23.9,-92.8,-788.5"), ("left", "11.2,-92.8,-788.5")):
         status, text = typed(folder, "--side", side, "--seed-lps-mm", seed, "--json")
         assert status == 0, text
-        told = json.loads(text)
+        reported = json.loads(text)
         # Read off the slices by eye: 7 to 10 mm wide, 16 to 22 mm high.
-        assert 7.0 < told["width_mm"] < 10.0
-        assert 15.5 < told["height_mm"] < 23.0
-        assert told["isthmus_lps_mm"][2] == pytest.approx(-788.0, abs=4.0)
+        assert 7.0 < reported["width_mm"] < 10.0
+        assert 15.5 < reported["height_mm"] < 23.0
+        assert reported["isthmus_lps_mm"][2] == pytest.approx(-788.0, abs=4.0)

@@ -22,8 +22,8 @@ REPOSITORY = Path(__file__).parents[3]
 def ask(address: str, path: str, sent: object, **headers: str) -> tuple[Any, str]:
     """Ask the running server as a page of it does; its answer, and the cookie that it gives."""
     said = {"Content-Type": "application/json", "Origin": address.rstrip("/"), **headers}
-    asked = urllib.request.Request(address + path, data=json.dumps(sent).encode(), headers=said)  # noqa: S310
-    with urllib.request.urlopen(asked, timeout=60) as answer:  # noqa: S310  our own address
+    requested = urllib.request.Request(address + path, data=json.dumps(sent).encode(), headers=said)  # noqa: S310
+    with urllib.request.urlopen(requested, timeout=60) as answer:  # noqa: S310  our own address
         return json.load(answer), str(answer.headers["Set-Cookie"])
 
 
@@ -59,7 +59,7 @@ def test_it_prints_one_address_serves_it_and_stops_without_a_word(
         assert "research software, not a medical device" in first
         found = re.fullmatch(r"Open (http://127\.0\.0\.1:\d+/)", address)
         assert found is not None
-        assert last == "Ctrl+C stops it"
+        assert last == "Press Ctrl+C to stop"
         with urllib.request.urlopen(found[1] + "health", timeout=60) as answer:  # noqa: S310  our own address
             assert answer.status == 200
         entry = re.fullmatch(
@@ -87,4 +87,4 @@ def test_it_prints_one_address_serves_it_and_stops_without_a_word(
     assert f"another Coaxial is running with the folder {tmp_path / 'home'}" in second.stderr
     assert "Traceback" not in second.stderr
     with Home(tmp_path / "home") as home, CaseStore(home) as store:
-        assert [(kept.id, kept.name) for kept in store.list()] == [(case, "one")]
+        assert [(stored.id, stored.name) for stored in store.list()] == [(case, "one")]

@@ -80,7 +80,7 @@ def test_the_offset_is_printed_with_its_sign_and_what_was_used(camera: Path, sec
     assert answer["second"]["rate_hz"] == pytest.approx(60.0, rel=1e-3)
     words = typed(camera, second)
     assert words.startswith("Offset: +12")
-    assert f"{camera} stamps one moment later than {second}" in words
+    assert f"time stamps of {camera} are later than those of {second}" in words
     assert "Add +0.12" in words
     assert words.splitlines()[-1] == "Passed."
 
@@ -90,8 +90,8 @@ def test_swapped_files_swap_the_sign_and_who_is_late(camera: Path, second: Path)
     assert json.loads(typed(second, camera, "--json"))["offset_s"] == pytest.approx(-offset_s, abs=1e-6)
     words = typed(second, camera)
     assert words.startswith("Offset: -12")
-    assert f"{camera} stamps one moment later than {second}" in words
-    assert f"to the times of {camera} to have those of {second}" in words
+    assert f"time stamps of {camera} are later than those of {second}" in words
+    assert f"to the times of {camera} to convert them to those of {second}" in words
 
 
 def test_translations_need_the_unit_of_each_file(camera: Path, second: Path) -> None:

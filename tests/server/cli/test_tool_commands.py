@@ -21,7 +21,7 @@ from tests.tracker.pose.tool.pivoted import AXIS, Hand, pivoted, spun
 from tests.tracker.scenes import perfectly_seen
 from tracker.errors import NavigationError
 from tracker.geometry import Array, Rigid
-from tracker.navigation import ToolInView, navigate
+from tracker.navigation import ToolPose, navigate
 from tracker.pose import Seen
 from tracker.pose.tool import Poses
 
@@ -59,13 +59,13 @@ def empty_config(folder: Path) -> Path:
     return folder / "none.yaml"
 
 
-def told(*words: str | Path, folder: Path, status: int = 0) -> dict[str, Any]:
+def reported(*words: str | Path, folder: Path, status: int = 0) -> dict[str, Any]:
     answer: dict[str, Any] = json.loads(typed(*words, "--json", folder=folder, status=status))
     return answer
 
 
 def test_pivot_says_the_tip_with_all_that_was_promised(tmp_path: Path, pivot_poses: Path) -> None:
-    answer = told("pivot", pivot_poses, folder=tmp_path)
+    answer = reported("pivot", pivot_poses, folder=tmp_path)
     assert set(answer) >= PIVOT_KEYS
     np.testing.assert_allclose(answer["tip_in_marker_mm"], TIP, atol=0.4)
     assert np.shape(answer["covariance_mm2"]) == (3, 3)
@@ -82,7 +82,7 @@ def test_pivot_says_the_tip_with_all_that_was_promised(tmp_path: Path, pivot_pos
 def test_a_pivot_over_the_gate_is_told_in_full_with_status_1_and_writes_no_file(tmp_path: Path) -> None:
     poses = saved(tmp_path, pivoted(Hand(shift_sd_mm=0.8)).poses)
     words = ("pivot", poses, "--marker", "drill", "--side-mm", "25", "--output", tmp_path / "tool.yaml")
-    answer = told(*words, folder=tmp_path, status=1)
+    answer = reported(*words, folder=tmp_path, status=1)
     assert answer["gate"]["passed"] is False
     assert answer["gate"]["failures"][0]["code"] == "PIVOT_RESIDUAL_TOO_LARGE"
     assert answer["written"] is None
@@ -172,11 +172,11 @@ def test_two_tools_one_drawn_and_one_calibrated_stand_in_one_snapshot(
     tips = {"drill": [0.0, -99.0, 0.0], "awl": TIP}
     for name, tip in tips.items():
         in_view = snapshot.tools[name]
-        assert isinstance(in_view, ToolInView)
+        assert isinstance(in_view, ToolPose)
         expected = places[name] + np.diag([1.0, -1.0, -1.0]) @ np.array(tip)
         np.testing.assert_allclose(in_view.camera_from_tool.translation_mm, expected, atol=0.4)
     awl = snapshot.tools["awl"]
-    assert isinstance(awl, ToolInView)
+    assert isinstance(awl, ToolPose)
     np.testing.assert_allclose(awl.camera_from_tool.rotation[:, 2], [1.0, -1.0, -1.0] * AXIS, atol=0.02)
 
 
@@ -184,7 +184,7 @@ def test_two_tools_one_drawn_and_one_calibrated_stand_in_one_snapshot(
     ("changes", "words"),
     [
         pytest.param({"side_mm": 21.0}, ["marker 'awl' of 20 mm", "of 21 mm"], id="another-side"),
-        pytest.param({"marker": "drill"}, ["marker 'awl'", "carries 'drill'"], id="another-marker"),
+        pytest.param({"marker": "drill"}, ["marker 'awl'", "the tool has 'drill'"], id="another-marker"),
         pytest.param({"tip_in_marker_mm": [0, 1, 2]}, ["tip_in_marker_mm", "one of them"], id="two-tips"),
         pytest.param({"axis_in_marker": [0, 1, 2]}, ["in the settings and in"], id="two-axes"),
         pytest.param({"calibration": "gone.yaml"}, ["gone.yaml cannot be read"], id="no-file"),
@@ -216,10 +216,10 @@ def test_a_tip_without_axis_asks_for_one_and_takes_it_from_the_drawing(
 
 
 def test_spin_says_the_axis_towards_the_tip(tmp_path: Path, spin_poses: Path) -> None:
-    answer = told("spin", spin_poses, "--tip-mm", "12,-120,6", folder=tmp_path)
+    answer = reported("spin", spin_poses, "--tip-mm", "12,-120,6", folder=tmp_path)
     np.testing.assert_allclose(answer["axis_in_marker"], AXIS, atol=0.02)
     assert answer["points_to_tip"] is True
-    assert told("spin", spin_poses, folder=tmp_path)["points_to_tip"] is False
+    assert reported("spin", spin_poses, folder=tmp_path)["points_to_tip"] is False
 
 
 def test_the_tip_check_passes_the_tip_that_was_found_and_fails_another(
@@ -227,10 +227,10 @@ def test_the_tip_check_passes_the_tip_that_was_found_and_fails_another(
 ) -> None:
     clean = saved(tmp_path, pivoted(Hand(tip_mm=TIP), seed=5).poses, "check.npy")
     file = tool_file(tmp_path, pivot_poses)
-    answer = told("tip-check", clean, "--tool", file, folder=tmp_path)
+    answer = reported("tip-check", clean, "--tool", file, folder=tmp_path)
     assert answer["rms_3d_mm"] < 0.6
     assert answer["max_mm"] > answer["rms_3d_mm"]
-    other = told("tip-check", clean, "--tip-mm", "5 -110 0", folder=tmp_path, status=1)
+    other = reported("tip-check", clean, "--tip-mm", "5 -110 0", folder=tmp_path, status=1)
     assert other["gate"]["failures"][0]["code"] == "TIP_CHECK_FAILED"
 
 
@@ -297,7 +297,7 @@ def test_poses_that_were_tracked_with_another_side_make_no_tool(tmp_path: Path) 
 
 
 def test_real_poses_are_read_and_fail_the_gate_for_what_they_are(tmp_path: Path) -> None:
-    answer = told("pivot", real_data_file("tracking", "pivot"), folder=tmp_path, status=1)
+    answer = reported("pivot", real_data_file("tracking", "pivot"), folder=tmp_path, status=1)
     assert answer["poses"] == 57
     assert answer["used"] >= 50
     assert answer["rms_3d_mm"] < 2.5

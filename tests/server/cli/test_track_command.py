@@ -60,7 +60,7 @@ def test_an_image_of_another_size_is_told_with_its_number_and_its_file(tmp_path:
     assert status == 2
     message, remedy = text.split("\n")
     assert message == "image 1 (a2.png) is 60x48 px, but the camera was calibrated at 64x48 px"
-    assert remedy.startswith("Leave the image out ")
+    assert remedy.startswith("Omit the image ")
 
 
 def test_every_image_that_cannot_be_read_is_told_and_what_can_be_is_whole(
@@ -95,6 +95,6 @@ def test_help_says_what_stands_in_a_line() -> None:
     text = " ".join(CliRunner().invoke(app, ["track", "--help"], env={"COLUMNS": "80"}).output.split())
     for reason in UnseenReason:
         assert f"{reason.value}: " in text
-    assert f"at {DEFAULT_RATE_HZ:g} Hz if that is left out" in text
+    assert f"(default {DEFAULT_RATE_HZ:g} Hz)" in text
     assert "pose_covariance: 6x6 in mm and rad, translation first, then rotation as a small" in text
     assert "left-multiplied rotation vector in the camera's frame" in text

@@ -11,26 +11,28 @@ from server.cli import verify as verify_module
 from server.cli.commands import app
 from tracker.registration import AnchoredTo
 from tracker.rehearsal import Phase
-from tracker.verification import ImageRow, RegistrationRow, TheatreRows, Variant, Way
-from tracker.verification.held import Held, HeldTool
+from tracker.verification import ImageRow, RegistrationMethod, RegistrationRow, TheatreRows, Variant
+from tracker.verification.tool_errors import ErrorSample, ToolErrors
 
 RUNNER = CliRunner()
-QUIET = Variant(way=Way.POINTS, anchored_to=AnchoredTo.CAMERA, camera_moves=False)
-MOVED = Variant(way=Way.POINTS, anchored_to=AnchoredTo.CAMERA, camera_moves=True)
+QUIET = Variant(method=RegistrationMethod.POINTS, anchored_to=AnchoredTo.CAMERA, camera_moves=False)
+MOVED = Variant(method=RegistrationMethod.POINTS, anchored_to=AnchoredTo.CAMERA, camera_moves=True)
 
 
-def _held(random: np.random.Generator, numbers: int, width: float) -> Held:
-    off = width * random.normal(size=numbers)
-    return Held(error=float(np.linalg.norm(off)), stated=1.0, surprise=float(off @ off), numbers=numbers)
+def _error_sample(random: np.random.Generator, dof: int, width: float) -> ErrorSample:
+    off = width * random.normal(size=dof)
+    return ErrorSample(
+        error=float(np.linalg.norm(off)), stated_sd=1.0, mahalanobis_squared=float(off @ off), dof=dof
+    )
 
 
 def _image(seed: int, variant: Variant, since_s: float, absent: str, width: float) -> ImageRow:
     random = np.random.default_rng([seed, 7])
-    held = HeldTool(
-        entry=_held(random, 2, width),
-        angle=_held(random, 2, width),
-        depth=_held(random, 1, width),
-        tip=_held(random, 3, width),
+    tool_errors = ToolErrors(
+        entry=_error_sample(random, 2, width),
+        angle=_error_sample(random, 2, width),
+        depth=_error_sample(random, 1, width),
+        tip=_error_sample(random, 3, width),
     )
     return ImageRow(
         seed=seed,
@@ -40,7 +42,7 @@ def _image(seed: int, variant: Variant, since_s: float, absent: str, width: floa
         counts=True,
         since_move_s=since_s,
         absent=absent,
-        held=None if absent else held,
+        tool_errors=None if absent else tool_errors,
         is_through=False,
         through_ratio=0.1,
     )
@@ -54,7 +56,7 @@ def _made(*, width: float = 1.0, stops: bool = True) -> object:
             registrations=(
                 RegistrationRow(
                     seed=seed,
-                    way=Way.POINTS,
+                    method=RegistrationMethod.POINTS,
                     anchored_to=AnchoredTo.CAMERA,
                     rejected="",
                     check_mm=0.4,
@@ -74,8 +76,8 @@ def _run(monkeypatch: pytest.MonkeyPatch, made: object, *words: str) -> tuple[in
 
 
 def test_what_holds_passes_with_its_numbers_as_json(monkeypatch: pytest.MonkeyPatch) -> None:
-    status, told = _run(monkeypatch, _made(), "--json", "--rows")
-    value = json.loads(told)
+    status, reported = _run(monkeypatch, _made(), "--json", "--rows")
+    value = json.loads(reported)
     quiet = next(one for one in value["variants"] if not one["camera_moves"])
     tip = quiet["errors"]["tip"]
     assert (status, value["passed"], value["theatres"]) == (0, True, 400)
@@ -87,14 +89,14 @@ def test_what_holds_passes_with_its_numbers_as_json(monkeypatch: pytest.MonkeyPa
 
 @pytest.mark.parametrize("width", [pytest.param(1.4, id="too-sure"), pytest.param(0.5, id="too-unsure")])
 def test_a_coverage_that_is_surely_wrong_fails(monkeypatch: pytest.MonkeyPatch, width: float) -> None:
-    status, told = _run(monkeypatch, _made(width=width))
+    status, reported = _run(monkeypatch, _made(width=width))
     assert status == 1
-    assert "does not hold" in told
+    assert "allowed 92% to 98%" in reported
 
 
 def test_wrong_numbers_after_the_camera_moved_fail(monkeypatch: pytest.MonkeyPatch) -> None:
-    status, told = _run(monkeypatch, _made(stops=False), "--json")
-    value = json.loads(told)
+    status, reported = _run(monkeypatch, _made(stops=False), "--json")
+    value = json.loads(reported)
     assert status == 1
     assert sum(one["shown_wrong"] for one in value["variants"]) == 400
 

@@ -187,8 +187,8 @@ def test_the_only_ct_among_other_series_is_taken(tmp_path: Path) -> None:
     other.write(tmp_path / "mr")
     made_ct(series="1.2.3.10", number=3, count=2).write(tmp_path / "few")
     assert_whole(made, tmp_path)
-    told = {one.series: (one.modality, one.images, one.problem) for one in list_series(tmp_path)}
-    assert told["1.2.3.9"] == ("MR", 5, "it is MR, not CT")
+    reported = {one.series: (one.modality, one.images, one.problem) for one in list_series(tmp_path)}
+    assert reported["1.2.3.9"] == ("MR", 5, "it is MR, not CT")
 
 
 def test_the_series_that_is_asked_for_is_read(tmp_path: Path) -> None:

@@ -156,7 +156,7 @@ def test_a_ct_that_cannot_be_trusted_is_refused(code: str, make: Case, tmp_path:
     assert error.code == code
     # Nothing half stored, nobody named, and something to do.
     assert list(into.iterdir()) == []
-    told = f"{error} {error.context}".casefold()
+    reported = f"{error} {error.context}".casefold()
     for secret in (
         *NAME.casefold().split("^"),
         BORN,
@@ -166,7 +166,7 @@ def test_a_ct_that_cannot_be_trusted_is_refused(code: str, make: Case, tmp_path:
         "other-9",
         str(tmp_path),
     ):
-        assert secret not in told
+        assert secret not in reported
     assert len(error.remedy) > 10
     assert not error.message[0].isupper()
 

@@ -126,9 +126,9 @@ def test_several_objects_in_one_file_come_as_parts() -> None:
     ],
 )
 def test_what_is_no_mesh_is_refused_in_a_sentence(content: bytes, file_format: str, said: str) -> None:
-    with pytest.raises(NavigationError, match=said) as told:
+    with pytest.raises(NavigationError, match=said) as reported:
         mesh_from_bytes(content, file_format=file_format)
-    assert told.value.code in {"MESH_UNREADABLE", "MESH_FORMAT_UNKNOWN", "MESH_EMPTY"}
+    assert reported.value.code in {"MESH_UNREADABLE", "MESH_FORMAT_UNKNOWN", "MESH_EMPTY"}
 
 
 @pytest.mark.parametrize(
@@ -140,9 +140,9 @@ def test_what_is_no_mesh_is_refused_in_a_sentence(content: bytes, file_format: s
     ],
 )
 def test_coordinates_that_cannot_be_are_refused(content: bytes, said: str) -> None:
-    with pytest.raises(PlanError, match=said) as told:
+    with pytest.raises(PlanError, match=said) as reported:
         mesh_from_bytes(content, file_format="obj")
-    assert told.value.code == "MESH_INVALID"
+    assert reported.value.code == "MESH_INVALID"
 
 
 def told_of(content: bytes, file_format: str) -> tuple[str, str] | None:
@@ -164,9 +164,9 @@ def test_damaged_files_end_in_a_surface_or_in_a_sentence(content: bytes, file_fo
         damaged = bytearray(content[: rng.integers(len(content) // 2, 2 * len(content))])
         for at in rng.integers(0, len(damaged), 4):
             damaged[at] = rng.integers(0, 256)
-        told = told_of(bytes(damaged), file_format)
-        assert told is None or all(told)
-        rejected += told is not None
+        reported = told_of(bytes(damaged), file_format)
+        assert reported is None or all(reported)
+        rejected += reported is not None
     assert rejected > 10
 
 
@@ -174,18 +174,18 @@ def test_a_file_too_large_is_refused_unread(tmp_path: Path, monkeypatch: pytest.
     monkeypatch.setattr("server.imaging.meshes.MAX_BYTES", 100)
     path = tmp_path / "bone.obj"
     path.write_bytes(obj())
-    with pytest.raises(InvalidInput) as told:
+    with pytest.raises(InvalidInput) as reported:
         read_mesh(path)
-    assert told.value.code == "MESH_TOO_LARGE"
+    assert reported.value.code == "MESH_TOO_LARGE"
 
 
 def test_no_message_names_the_file_which_may_name_the_patient(tmp_path: Path) -> None:
     path = tmp_path / "Doe^Jane.stl"
     path.write_bytes(b"nothing")
     for read in (path, tmp_path / "Doe^John.stl"):
-        with pytest.raises(InvalidInput) as told:
+        with pytest.raises(InvalidInput) as reported:
             read_mesh(read)
-        assert "Doe" not in f"{told.value} {told.value.context}"
+        assert "Doe" not in f"{reported.value} {reported.value.context}"
 
 
 def test_what_a_file_says_of_its_space_is_heeded() -> None:
@@ -216,10 +216,10 @@ def test_real_vertebrae_in_metres_are_recognised_and_not_scaled_unasked(
     level: str, volume_ml: float | None
 ) -> None:
     path = real_data_file("mesh", "lumbar", f"{level}_Schrumpfverpacken.obj")
-    with pytest.raises(PlanError, match="in m it is") as told:
+    with pytest.raises(PlanError, match="in m it is") as reported:
         read_mesh(path)
-    assert told.value.code == "MESH_UNIT_NEEDED"
-    assert told.value.context["proposed_unit"] == "m"
+    assert reported.value.code == "MESH_UNIT_NEEDED"
+    assert reported.value.context["proposed_unit"] == "m"
     taken = read_mesh(path, unit="m")
     assert taken.closed
     assert taken.remarks == ()

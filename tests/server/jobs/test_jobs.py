@@ -10,7 +10,7 @@ import pytest
 
 from server.jobs import Job, Jobs, JobState, JobUnknown
 from server.logs import LogSettings
-from tests.server.jobs import labour
+from tests.server.jobs import job_functions
 from tracker.errors import InvalidInput
 
 LOG = LogSettings(as_json=True)
@@ -35,11 +35,11 @@ def until_running(jobs: Jobs, job: Job, folder: Path) -> None:
     waiting = threading.Event()
     while not (folder / "half").exists() or not jobs.get(job.id).doing:
         assert not waiting.wait(0.01)
-        assert not jobs.get(job.id).state.is_over
+        assert not jobs.get(job.id).state.is_finished
 
 
 def test_work_is_done_elsewhere_and_its_result_told(jobs: Jobs) -> None:
-    job = jobs.start("adding", labour.add, {"a": 2, "b": 3})
+    job = jobs.start("adding", job_functions.add, {"a": 2, "b": 3})
     assert (job.state, job.progress_ratio, job.result) == (JobState.WAITING, 0.0, None)
     done = jobs.wait_for(job.id)
     assert done == Job(id=job.id, title="adding", state=JobState.DONE, progress_ratio=1.0, result={"sum": 5})
@@ -47,7 +47,7 @@ def test_work_is_done_elsewhere_and_its_result_told(jobs: Jobs) -> None:
 
 
 def test_work_is_polite_and_in_another_process(jobs: Jobs) -> None:
-    job = jobs.wait_for(jobs.start("looking", labour.go_back).id)
+    job = jobs.wait_for(jobs.start("looking", job_functions.go_back).id)
     assert isinstance(job.result, list)
     politeness, pid = job.result
     assert politeness == 10 + os.nice(0)
@@ -61,7 +61,7 @@ def test_the_result_is_kept_before_the_job_is_done(jobs: Jobs) -> None:
         seen.append((result, jobs.list()[0].state))
         return {"document": "id"}
 
-    done = jobs.wait_for(jobs.start("adding", labour.add, {"a": 1, "b": 1}, conclude=keep).id)
+    done = jobs.wait_for(jobs.start("adding", job_functions.add, {"a": 1, "b": 1}, conclude=keep).id)
     assert seen == [({"sum": 2}, JobState.CONCLUDING)]
     assert (done.state, done.result) == (JobState.DONE, {"document": "id"})
 
@@ -70,7 +70,7 @@ def test_what_cannot_be_kept_has_failed(jobs: Jobs) -> None:
     def keep(result: object) -> object:
         raise InvalidInput("NO", f"{result} is not wanted", "Go away.")
 
-    failed = jobs.wait_for(jobs.start("adding", labour.add, {"a": 1, "b": 1}, conclude=keep).id)
+    failed = jobs.wait_for(jobs.start("adding", job_functions.add, {"a": 1, "b": 1}, conclude=keep).id)
     assert failed.state is JobState.FAILED
     assert failed.problem is not None
     assert failed.problem.code == "NO"
@@ -78,7 +78,7 @@ def test_what_cannot_be_kept_has_failed(jobs: Jobs) -> None:
 
 
 def test_an_error_keeps_its_words(jobs: Jobs) -> None:
-    failed = jobs.wait_for(jobs.start("reading", labour.reject, {"slices": 1}).id)
+    failed = jobs.wait_for(jobs.start("reading", job_functions.reject, {"slices": 1}).id)
     assert failed.state is JobState.FAILED
     problem = failed.problem
     assert problem is not None
@@ -90,7 +90,7 @@ def test_an_error_keeps_its_words(jobs: Jobs) -> None:
     )
 
 
-@pytest.mark.parametrize("work", [labour.blunder, labour.say_nothing_sensible])
+@pytest.mark.parametrize("work", [job_functions.blunder, job_functions.say_nothing_sensible])
 def test_a_mistake_of_the_program_tells_a_stranger_nothing(jobs: Jobs, work: object) -> None:
     failed = jobs.wait_for(jobs.start("reading", work).id)  # type: ignore[arg-type]  # either of two
     assert failed.problem is not None
@@ -99,12 +99,12 @@ def test_a_mistake_of_the_program_tells_a_stranger_nothing(jobs: Jobs, work: obj
 
 
 def test_a_violent_end_is_told_and_leaves_nothing_behind(jobs: Jobs, folder: Path) -> None:
-    killed = jobs.wait_for(jobs.start("dying", labour.die, {"folder": str(folder)}, folder=folder).id)
+    killed = jobs.wait_for(jobs.start("dying", job_functions.die, {"folder": str(folder)}, folder=folder).id)
     assert killed.state is JobState.FAILED
     assert killed.problem is not None
     assert killed.problem.message == "the process that did the work ended by signal 9 (SIGKILL)"
     assert not folder.exists()
-    left = jobs.wait_for(jobs.start("leaving", labour.leave).id)
+    left = jobs.wait_for(jobs.start("leaving", job_functions.leave).id)
     assert left.problem is not None
     assert left.problem.message == "the process that did the work ended with status 3"
 
@@ -112,11 +112,11 @@ def test_a_violent_end_is_told_and_leaves_nothing_behind(jobs: Jobs, folder: Pat
 def test_cancelled_work_ends_at_once_and_leaves_nothing_behind(jobs: Jobs, folder: Path) -> None:
     concluded: list[object] = []
     work = {"folder": str(folder)}
-    job = jobs.start("waiting", labour.never_end, work, folder=folder, conclude=concluded.append)
+    job = jobs.start("waiting", job_functions.never_end, work, folder=folder, conclude=concluded.append)
     until_running(jobs, job, folder)
     assert (jobs.get(job.id).progress_ratio, jobs.get(job.id).doing) == (0.25, "waiting")
-    queued = jobs.start("adding", labour.add, {"a": 1, "b": 1})
-    dropped = jobs.start("adding", labour.add, {"a": 1, "b": 1})
+    queued = jobs.start("adding", job_functions.add, {"a": 1, "b": 1})
+    dropped = jobs.start("adding", job_functions.add, {"a": 1, "b": 1})
     assert jobs.cancel(dropped.id).state is JobState.CANCELLED
     assert jobs.get(queued.id).state is JobState.WAITING
     assert jobs.cancel(job.id).state is JobState.CANCELLED
@@ -128,18 +128,18 @@ def test_cancelled_work_ends_at_once_and_leaves_nothing_behind(jobs: Jobs, folde
 
 
 def test_what_is_over_is_not_cancelled(jobs: Jobs) -> None:
-    done = jobs.wait_for(jobs.start("adding", labour.add, {"a": 1, "b": 1}).id)
+    done = jobs.wait_for(jobs.start("adding", job_functions.add, {"a": 1, "b": 1}).id)
     assert jobs.cancel(done.id) == done
 
 
 def test_closing_ends_everything(folder: Path) -> None:
     jobs = Jobs(log=LOG)
-    job = jobs.start("waiting", labour.never_end, {"folder": str(folder)}, folder=folder)
+    job = jobs.start("waiting", job_functions.never_end, {"folder": str(folder)}, folder=folder)
     until_running(jobs, job, folder)
     jobs.close()
     assert jobs.get(job.id).state is JobState.CANCELLED
     assert not folder.exists()
-    late = jobs.start("adding", labour.add, {"a": 1, "b": 1})
+    late = jobs.start("adding", job_functions.add, {"a": 1, "b": 1})
     assert jobs.wait_for(late.id).state is not JobState.DONE
 
 
@@ -151,7 +151,7 @@ def test_an_unknown_job_is_told(jobs: Jobs) -> None:
 
 def test_a_disk_that_becomes_full_is_told_with_what_is_free(jobs: Jobs, folder: Path) -> None:
     job = jobs.wait_for(
-        jobs.start("filling", labour.fill_the_disk, {"folder": str(folder)}, folder=folder).id
+        jobs.start("filling", job_functions.fill_the_disk, {"folder": str(folder)}, folder=folder).id
     )
     assert job.problem is not None
     assert job.problem.code == "STORE_FULL"

@@ -88,7 +88,9 @@ class Run:
 
     def _compared(self, asked_ms: float) -> ClockComparison:
         return ClockComparison(
-            asked_at_ms=asked_ms, answered_at_ms=asked_ms + 3.0, server_s=self.server_s(asked_ms + 1.5)
+            requested_at_ms=asked_ms,
+            responded_at_ms=asked_ms + 3.0,
+            server_s=self.server_s(asked_ms + 1.5),
         )
 
     def server_s(self, page_ms: float) -> float:

@@ -25,7 +25,7 @@ def of_hand(painted: list[tuple[int, float]], shown: list[tuple[int, int | None,
             ShownImage(image_number=number, sent_at_s=at / 1e3, received_at_ms=at, shown_at_ms=at)
             for number, _, at in shown
         ],
-        comparisons=[ClockComparison(asked_at_ms=0.0, answered_at_ms=2.0, server_s=0.001)],
+        comparisons=[ClockComparison(requested_at_ms=0.0, responded_at_ms=2.0, server_s=0.001)],
         min_timed=1,
     )
     return [report.samples, report.median_ms, report.p99_ms]
@@ -129,11 +129,11 @@ def test_a_wrong_comparison_moves_time_between_stages_and_leaves_their_sum() -> 
 
 def test_slow_answers_say_nothing_of_the_clocks() -> None:
     fast = [
-        ClockComparison(asked_at_ms=at, answered_at_ms=at + 2.0, server_s=(at + 1.0) / 1e3)
+        ClockComparison(requested_at_ms=at, responded_at_ms=at + 2.0, server_s=(at + 1.0) / 1e3)
         for at in (0.0, 9e3)
     ]
     # All of its 300 ms on the way back.
-    slow = ClockComparison(asked_at_ms=4e3, answered_at_ms=4300.0, server_s=4.001)
+    slow = ClockComparison(requested_at_ms=4e3, responded_at_ms=4300.0, server_s=4.001)
     clock = ServerClock.of([*fast, slow])
     assert clock.page_ms(4.0) == pytest.approx(4000.0, abs=1e-6)
     assert clock.error_ms == 1.0
@@ -149,7 +149,7 @@ def test_a_moment_of_a_drifting_clock_is_right_at_both_ends(drift_ratio: float) 
 
 def test_a_slope_that_no_quartz_has_is_noise_of_the_line() -> None:
     compared = [
-        ClockComparison(asked_at_ms=at, answered_at_ms=at + 20.0, server_s=(at + late) / 1e3)
+        ClockComparison(requested_at_ms=at, responded_at_ms=at + 20.0, server_s=(at + late) / 1e3)
         for at, late in ((0.0, 0.0), (3000.0, 10.0), (6000.0, 20.0))
     ]
     clock = ServerClock.of(compared)

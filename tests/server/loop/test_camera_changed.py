@@ -1,4 +1,4 @@
-"""A camera whose lens moved: no millimetre any more, the reason in words, and an alarm by its name."""
+"""A camera whose lens moved: no measurements, a reason, and a named alarm."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from structlog.testing import capture_logs
 
-from server.alarms import AlarmDesk
+from server.alarms import AlarmService
 from server.capture.shot import Shot
 from server.config import Config, RehearsalConfig
 from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
@@ -17,7 +17,7 @@ from server.setup import CaseSetup, Preparation, build_setup
 from server.texts import alarm_text, headline_of
 from tracker.camera import CameraControl
 from tracker.navigation import Absent, AbsentReason, Deviation, NavigationSnapshot
-from tracker.navigation.alarms import AlarmPicture, Condition, Priority
+from tracker.navigation.alarms import AlarmSnapshot, Condition, Priority
 
 RUNS = SourceStatus(name="camera 0", state=SourceState.RUNNING)
 WORKS = ProcessStatus(state=ProcessState.RUNNING)
@@ -41,17 +41,17 @@ class Theatre:
         self.tracking = Tracking(replace(preparation, camera_controls=calibrated))
         self.now_s = 100.0
         self._number = 0
-        self._desk = AlarmDesk(Config(), clock=lambda: self.now_s)
+        self._service = AlarmService(Config(), clock=lambda: self.now_s)
 
-    def show(self, controls: Mapping[CameraControl, int]) -> tuple[NavigationSnapshot, AlarmPicture]:
+    def show(self, controls: Mapping[CameraControl, int]) -> tuple[NavigationSnapshot, AlarmSnapshot]:
         self._number += 1
         self.now_s += PERIOD_S
-        self._desk.screen_said("theatre", armed=True)
+        self._service.report_screen("theatre", armed=True)
         shot = Shot(
             image=self._image, number=self._number, captured_at_s=self.now_s, source_time_s=self.now_s
         )
-        snapshot = self.tracking.conclude(shot, skipped_images=0, controls=controls)
-        return snapshot, self._desk.look(snapshot, RUNS, WORKS)
+        snapshot = self.tracking.process(shot, skipped_images=0, controls=controls)
+        return snapshot, self._service.observe(snapshot, RUNS, WORKS)
 
 
 def test_a_lens_that_moved_takes_the_numbers_and_alarms_by_its_name_until_it_is_set_back() -> None:
@@ -106,20 +106,20 @@ def test_without_a_calibration_no_control_counts() -> None:
     preparation, image = prepared()
     tracking = Tracking(replace(preparation, camera=None, camera_controls=CALIBRATED))
     shot = Shot(image=image, number=0, captured_at_s=1.0, source_time_s=1.0)
-    snapshot = tracking.conclude(shot, skipped_images=0, controls={**CALIBRATED, FOCUS: 135})
-    assert snapshot.watched.camera_changes == ()
+    snapshot = tracking.process(shot, skipped_images=0, controls={**CALIBRATED, FOCUS: 135})
+    assert snapshot.motion.camera_changes == ()
     assert tracking.problem is None
 
 
 def test_the_calibration_of_a_case_brings_its_own_controls() -> None:
     preparation, _ = prepared()
-    of_settings = replace(preparation, camera_controls=CALIBRATED)
-    assert of_settings.with_case(CaseSetup()).camera_controls == CALIBRATED
+    from_settings = replace(preparation, camera_controls=CALIBRATED)
+    assert from_settings.with_case(CaseSetup()).camera_controls == CALIBRATED
     of_case = CaseSetup(camera=preparation.camera, camera_controls={FOCUS: 45})
-    assert of_settings.with_case(of_case).camera_controls == {FOCUS: 45}
+    assert from_settings.with_case(of_case).camera_controls == {FOCUS: 45}
     # A calibration of the case without controls is not held against those of the settings' one.
-    assert of_settings.with_case(CaseSetup(camera=preparation.camera)).camera_controls == {}
-    calibrated = of_settings.with_case(of_case).calibrated_camera
+    assert from_settings.with_case(CaseSetup(camera=preparation.camera)).camera_controls == {}
+    calibrated = from_settings.with_case(of_case).calibrated_camera
     assert calibrated is not None
     assert calibrated.controls == {FOCUS: 45}
 
@@ -128,11 +128,11 @@ def test_images_that_change_their_size_lose_their_millimetres_with_the_first_one
     preparation, image = prepared()
     tracking = Tracking(preparation)
     smaller = np.ascontiguousarray(image[::2, ::2])
-    told = []
+    reported = []
     for number, shown in enumerate((image, smaller, image)):
         at_s = 1.0 + number * PERIOD_S
         shot = Shot(image=shown, number=number, captured_at_s=at_s, source_time_s=at_s)
-        snapshot = tracking.conclude(shot, skipped_images=0)
+        snapshot = tracking.process(shot, skipped_images=0)
         problem = tracking.problem
-        told.append((snapshot.setup.camera_calibrated, "" if problem is None else problem.code))
-    assert told == [(True, ""), (False, "CAMERA_SIZE_MISMATCH"), (True, "")]
+        reported.append((snapshot.setup.camera_calibrated, "" if problem is None else problem.code))
+    assert reported == [(True, ""), (False, "CAMERA_SIZE_MISMATCH"), (True, "")]

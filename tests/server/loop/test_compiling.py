@@ -1,4 +1,4 @@
-"""What of the tracker is compiled is read off Numba's cache; what is not is compiled by two processes."""
+"""The state of the compilation is read from the cache; missing functions are compiled by two processes."""
 
 import os
 from pathlib import Path
@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 from server.loop import compiling
-from server.loop.compiling import SHARES, Progress, compile_tracker, progress
+from server.loop.compiling import PARTS_PER_PROCESS, Progress, compile_tracker, progress
 from tracker.warm_up import Part
 
 
@@ -22,7 +22,7 @@ def loop(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> SimpleNamespace:
         __code__=SimpleNamespace(co_filename=str(source)),
     )
     one = SimpleNamespace(py_func=function, stats=SimpleNamespace(cache_path=str(tmp_path / "cache")))
-    monkeypatch.setattr(compiling, "LOOPS", [one])
+    monkeypatch.setattr(compiling, "DISPATCHERS", [one])
     return one
 
 
@@ -58,7 +58,7 @@ def test_what_is_not_compiled_is_compiled_by_processes_that_share_all_parts(
     loop: SimpleNamespace, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     started: list[tuple[Part, ...]] = []
-    told: list[Progress] = []
+    reported: list[Progress] = []
 
     class Child:
         looks = 2
@@ -76,11 +76,11 @@ def test_what_is_not_compiled_is_compiled_by_processes_that_share_all_parts(
 
     monkeypatch.setattr(compiling, "_child", child)
     monkeypatch.setattr(compiling, "warm_up", lambda: None)
-    monkeypatch.setattr(compiling, "LOOK_EVERY_S", 0.0)
-    compile_tracker(told.append)
-    assert started == list(SHARES)
+    monkeypatch.setattr(compiling, "POLL_INTERVAL_S", 0.0)
+    compile_tracker(reported.append)
+    assert started == list(PARTS_PER_PROCESS)
     assert sorted(part for share in started for part in share) == sorted(Part)
-    assert told[0] == Progress(done=0, total=1)
-    assert told[-1] == Progress(done=1, total=1)
+    assert reported[0] == Progress(done=0, total=1)
+    assert reported[-1] == Progress(done=1, total=1)
     compile_tracker()
-    assert len(started) == len(SHARES), "what is compiled is not compiled again"
+    assert len(started) == len(PARTS_PER_PROCESS), "what is compiled is not compiled again"

@@ -1,4 +1,4 @@
-"""What is lost is gone from picture, JSON and 3-D with the image that shows it, and the right alarm comes."""
+"""A loss disappears from picture, JSON and 3-D with its image, and raises the right alarm."""
 
 import asyncio
 from collections.abc import Iterator
@@ -7,16 +7,16 @@ from dataclasses import dataclass
 import pytest
 
 from server.config import RehearsalEventConfig
-from tests.server.loop.theatre_shown import BEGIN_S, GONE, ShownTheatre
+from tests.server.loop.published_theatre import BEGIN_S, GONE, ShownTheatre
 from tracker.navigation import AbsentReason
 from tracker.navigation.alarms import Condition
-from tracker.navigation.watching import SCENE_EVERY_S
+from tracker.navigation.motion_monitor import SCENE_PERIOD_S
 from tracker.rehearsal import Renderer
 
 AT_S = BEGIN_S + 0.5
 LONGEST_S = 1.6
 # The fixed scene is looked at now and then, and twice before it is believed that the camera moved.
-SCENE_S = 3.0 * SCENE_EVERY_S
+SCENE_S = 3.0 * SCENE_PERIOD_S
 # A marker that is suddenly elsewhere is unseen in that image, and found in the next.
 SEARCH_S = 0.04
 
@@ -46,13 +46,13 @@ class Loss:
 
 LOSSES = {
     "marker": Loss(
-        event="drill_hidden",
+        event="drill_occluded",
         reason=AbsentReason.MARKER_UNSEEN,
         alarm=Condition.DRILL_UNSEEN,
         alarm_after_s=0.25,
     ),
     "reference": Loss(
-        event="reference_hidden",
+        event="reference_occluded",
         reason=AbsentReason.REFERENCE_UNSEEN,
         alarm=Condition.REFERENCE_UNSEEN,
         alarm_after_s=0.25,

@@ -1,4 +1,4 @@
-"""A phone's images through shared memory: newest wins, also across processes and restarts."""
+"""Images of a phone through shared memory: newest wins, also across processes and restarts."""
 
 import multiprocessing
 import threading
@@ -6,18 +6,18 @@ from multiprocessing.connection import Connection
 
 import pytest
 
-from server.capture.phone import Inbound, PhoneImage
+from server.capture.phone import PhoneImage, PhoneUpdate
 from server.loop.phone_inbox import MAX_JPEG_BYTES, PhoneInbox
-from tests.server.capture.sent_by_phone import image
+from tests.server.capture.fake_phone import image
 
 PATIENCE_S = 60.0
 
 
-def sent(number: int, jpeg: bytes = b"") -> Inbound:
-    return Inbound(sender="phone", image=image(number, jpeg=jpeg or b"jpeg %d" % number))
+def sent(number: int, jpeg: bytes = b"") -> PhoneUpdate:
+    return PhoneUpdate(sender="phone", image=image(number, jpeg=jpeg or b"jpeg %d" % number))
 
 
-def numbered(entry: tuple[int, Inbound] | None) -> int:
+def numbered(entry: tuple[int, PhoneUpdate] | None) -> int:
     assert entry is not None
     assert isinstance(entry[1].image, PhoneImage)
     return entry[1].image.number

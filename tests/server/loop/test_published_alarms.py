@@ -1,4 +1,4 @@
-"""Alarms go out with the image that raised them, and without an image when silence does."""
+"""Alarms are published with the image that raised them, and without an image when none comes."""
 
 import random
 from collections.abc import Callable
@@ -7,45 +7,45 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from server.alarms import AlarmDesk
+from server.alarms import AlarmService
 from server.config import Config
 from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
-from server.loop.publisher import TICK_S, Image, Picture
+from server.loop.publisher import TICK_S, Image, PictureEncoder
 from server.loop.report import Report
-from tests.server.loop.made import made_image, made_source
+from tests.server.loop.fake_workers import made_image, made_source
 from tests.server.loop.test_publisher import DEAD, Stage
 from tracker.navigation import NavigationSnapshot
-from tracker.navigation.alarms import Alarm, AlarmPicture, AlarmState, Condition, Sound
+from tracker.navigation.alarms import Alarm, AlarmSnapshot, AlarmState, Condition, Sound
 
 BREACH = Alarm(number=1, condition=Condition.BREACH, state=AlarmState.ACTIVE, raised_at_s=0.0)
-RINGS = AlarmPicture(alarms=(BREACH,), sound=Sound.HIGH, sound_number=1, revision=1)
+RINGS = AlarmSnapshot(alarms=(BREACH,), sound=Sound.HIGH, sound_number=1, revision=1)
 
 
 class Looks:
     """Says what the test wants, and remembers what it was shown."""
 
     def __init__(self) -> None:
-        self.says = AlarmPicture()
+        self.says = AlarmSnapshot()
         self.shown: list[int | None] = []
         self.states: list[tuple[SourceState, ProcessState]] = []
 
     def __call__(
         self, snapshot: NavigationSnapshot | None, source: SourceStatus, process: ProcessStatus
-    ) -> AlarmPicture:
+    ) -> AlarmSnapshot:
         self.shown.append(None if snapshot is None else snapshot.image_number)
         self.states.append((source.state, process.state))
         return self.says
 
 
 def test_an_alarm_is_drawn_into_and_sent_with_the_image_that_raised_it() -> None:
-    drawn: list[AlarmPicture] = []
+    drawn: list[AlarmSnapshot] = []
 
-    def draw(image: Image, _snapshot: NavigationSnapshot, alarms: AlarmPicture) -> Image:
+    def draw(image: Image, _snapshot: NavigationSnapshot, alarms: AlarmSnapshot) -> Image:
         drawn.append(alarms)
         return image
 
     looks = Looks()
-    stage = Stage(Picture(draw=draw, encode=lambda _: b"jpeg"), look=looks)
+    stage = Stage(PictureEncoder(draw=draw, encode=lambda _: b"jpeg"), check_alarms=looks)
     stage.report_image(0)
     stage.publisher.publish_newest()
     looks.says = RINGS
@@ -60,7 +60,7 @@ def test_an_alarm_is_drawn_into_and_sent_with_the_image_that_raised_it() -> None
 
 def test_silence_is_looked_at_and_an_alarm_of_it_goes_out_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     looks = Looks()
-    stage = Stage(look=looks)
+    stage = Stage(check_alarms=looks)
     stage.report_image(0)
     stage.publisher.publish_newest()
     stage.later(monkeypatch, 0.3)
@@ -76,7 +76,7 @@ def test_silence_is_looked_at_and_an_alarm_of_it_goes_out_at_once(monkeypatch: p
 
 def test_an_alarm_between_two_images_does_not_take_the_picture_away(monkeypatch: pytest.MonkeyPatch) -> None:
     looks = Looks()
-    stage = Stage(look=looks)
+    stage = Stage(check_alarms=looks)
     stage.report_image(0)
     stage.publisher.publish_newest()
     looks.says = RINGS
@@ -89,20 +89,20 @@ def test_an_alarm_between_two_images_does_not_take_the_picture_away(monkeypatch:
 
 def test_a_dead_process_is_looked_at_as_dead() -> None:
     looks = Looks()
-    stage = Stage(look=looks)
+    stage = Stage(check_alarms=looks)
     stage.report_image(0)
     stage.publisher.publish_newest()
-    stage.board.post(DEAD, None)
+    stage.status.post(DEAD, None)
     stage.publisher.publish_newest()
     assert looks.states[0] == (SourceState.RUNNING, ProcessState.RUNNING)
     assert looks.states[-1] == (SourceState.OPENING, ProcessState.RESTARTING)
 
 
 def test_alarms_that_fail_are_told_and_the_picture_goes_on() -> None:
-    def look(*_: object) -> AlarmPicture:
+    def look(*_: object) -> AlarmSnapshot:
         raise ZeroDivisionError("a bug")
 
-    stage = Stage(look=look)
+    stage = Stage(check_alarms=look)
     stage.report_image(0)
     stage.publisher.publish_newest()
     instant = stage.hub.instants[-1]
@@ -135,11 +135,11 @@ def test_too_deep_is_announced_within_a_quarter_of_a_second_of_its_image(
     monkeypatch.setattr("server.loop.publisher.time.monotonic", lambda: now[0])
     shots = {deep: snapshot_of(tip_in_vertebra_mm=(0.0, 0.0, 41.0 if deep else 30.0)) for deep in (0, 1)}
     for _ in range(50):
-        desk, now[0] = AlarmDesk(Config(), clock=lambda: now[0]), 0.0
-        stage, images = Stage(look=desk.look), moments(rate_hz, 0.5, rng)
+        service, now[0] = AlarmService(Config(), clock=lambda: now[0]), 0.0
+        stage, images = Stage(check_alarms=service.observe), moments(rate_hz, 0.5, rng)
         first_s = next(grabbed_s for _, grabbed_s, deep in images if deep)
         number = 0
-        while desk.picture.sound is not Sound.HIGH:
+        while service.picture.sound is not Sound.HIGH:
             now[0] = min(now[0] + TICK_S, images[number][0])
             if now[0] == images[number][0]:
                 shot = replace(shots[images[number][2]], image_number=number, captured_at_s=images[number][1])

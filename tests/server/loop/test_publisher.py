@@ -1,16 +1,16 @@
-"""From reports to instants, with the time and the process in the test's hand."""
+"""From reports to instants, with time and process controlled by the test."""
 
 import pytest
 
-from server.alarms import no_alarms
+from server.alarms import without_alarms
 from server.live import Problem, ProcessState, ProcessStatus, SourceState
-from server.loop.board import Board
-from server.loop.publisher import Image, Look, Picture, Publisher
+from server.loop.publisher import AlarmCheck, Image, PictureEncoder, Publisher
 from server.loop.report import Report, ReportPacker
 from server.loop.ring import ImageRing
-from tests.server.loop.made import Seen, made_image, made_snapshot, made_source
+from server.loop.shared_status import SharedStatus
+from tests.server.loop.fake_workers import Seen, made_image, made_snapshot, made_source
 from tracker.navigation import NavigationSnapshot
-from tracker.navigation.alarms import AlarmPicture
+from tracker.navigation.alarms import AlarmSnapshot
 
 RUNNING = ProcessStatus(state=ProcessState.STARTING)
 DEAD = ProcessStatus(
@@ -21,22 +21,24 @@ DEAD = ProcessStatus(
 class Stage:
     """A publisher on a board with a ring, and what it has published."""
 
-    def __init__(self, picture: Picture | None = None, look: Look = no_alarms) -> None:
+    def __init__(
+        self, picture: PictureEncoder | None = None, check_alarms: AlarmCheck = without_alarms
+    ) -> None:
         self.hub = Seen()
-        self.board = Board("made")
+        self.status = SharedStatus("made")
         self.ring = ImageRing(image_bytes=100_000)
         self.packer = ReportPacker()
         self.tracked = 0
         self.publisher = Publisher(
-            board=self.board,
+            status=self.status,
             hub=self.hub,
             picture=picture
-            or Picture(
+            or PictureEncoder(
                 draw=lambda image, _snapshot, _alarms: image + 1, encode=lambda image: image.tobytes()[:2]
             ),
-            look=look,
+            check_alarms=check_alarms,
         )
-        self.board.post(RUNNING, self.ring)
+        self.status.post(RUNNING, self.ring)
 
     def report_image(self, number: int) -> None:
         self.tracked += 1
@@ -68,12 +70,12 @@ def test_picture_and_snapshot_of_an_instant_belong_together() -> None:
 def test_nothing_is_drawn_for_nobody() -> None:
     drawn: list[Image] = []
 
-    def draw(image: Image, _snapshot: NavigationSnapshot, _alarms: AlarmPicture) -> Image:
+    def draw(image: Image, _snapshot: NavigationSnapshot, _alarms: AlarmSnapshot) -> Image:
         drawn.append(image)
         return image
 
     watched = False
-    stage = Stage(Picture(draw=draw, encode=lambda _: b"jpeg", is_watched=lambda: watched))
+    stage = Stage(PictureEncoder(draw=draw, encode=lambda _: b"jpeg", is_watched=lambda: watched))
     stage.report_image(0)
     stage.publisher.publish_newest()
     unwatched = stage.hub.instants[-1]
@@ -102,7 +104,7 @@ def test_a_dead_process_takes_its_picture_with_it_at_once() -> None:
     stage.report_image(0)
     stage.publisher.publish_newest()
     stage.report_image(1)
-    stage.board.post(DEAD, None)
+    stage.status.post(DEAD, None)
     stage.publisher.publish_newest()
     instant = stage.hub.instants[-1]
     assert instant.snapshot is None
@@ -113,12 +115,12 @@ def test_a_dead_process_takes_its_picture_with_it_at_once() -> None:
 
 
 def test_a_process_that_dies_while_its_picture_is_drawn_is_not_shown_any_more() -> None:
-    def draw(image: Image, snapshot: NavigationSnapshot, _alarms: AlarmPicture) -> Image:
+    def draw(image: Image, snapshot: NavigationSnapshot, _alarms: AlarmSnapshot) -> Image:
         del snapshot
-        stage.board.post(DEAD, None)
+        stage.status.post(DEAD, None)
         return image
 
-    stage = Stage(Picture(draw=draw, encode=lambda _: b"jpeg"))
+    stage = Stage(PictureEncoder(draw=draw, encode=lambda _: b"jpeg"))
     stage.report_image(0)
     stage.publisher.publish_newest()
     assert [instant.snapshot for instant in stage.hub.instants] == [None]
@@ -142,10 +144,10 @@ def test_sequences_grow_by_one_over_images_deaths_and_signs_of_life() -> None:
     stage = Stage()
     stage.report_image(0)
     stage.publisher.publish_newest()
-    stage.board.post(DEAD, None)
+    stage.status.post(DEAD, None)
     stage.publisher.publish_newest()
     stage.ring = ImageRing(image_bytes=100_000)
-    stage.board.post(RUNNING, stage.ring)
+    stage.status.post(RUNNING, stage.ring)
     stage.publisher.publish_newest()
     stage.report_image(1)
     stage.publisher.publish_newest()
@@ -154,10 +156,10 @@ def test_sequences_grow_by_one_over_images_deaths_and_signs_of_life() -> None:
 
 
 def test_a_failing_overlay_is_told_and_shows_nothing() -> None:
-    def draw(image: Image, snapshot: NavigationSnapshot, _alarms: AlarmPicture) -> Image:
+    def draw(image: Image, snapshot: NavigationSnapshot, _alarms: AlarmSnapshot) -> Image:
         raise ZeroDivisionError(f"a bug in image {snapshot.image_number} of {image.shape}")
 
-    stage = Stage(Picture(draw=draw, encode=lambda _: b"jpeg"))
+    stage = Stage(PictureEncoder(draw=draw, encode=lambda _: b"jpeg"))
     stage.report_image(0)
     stage.publisher.publish_newest()
     instant = stage.hub.instants[-1]

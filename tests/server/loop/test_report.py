@@ -1,6 +1,6 @@
 from server.live import Problem
 from server.loop.report import Report, ReportPacker, ReportUnpacker
-from tests.server.loop.made import made_setup, made_snapshot, made_source
+from tests.server.loop.fake_workers import made_setup, made_snapshot, made_source
 
 
 def test_a_report_comes_out_as_it_went_in() -> None:

@@ -26,7 +26,7 @@ def test_what_was_written_last_is_read(ring: ImageRing) -> None:
         ring.write(b"n%d" % number, image(number))
     entry = ring.newest()
     assert entry is not None
-    assert (entry.sequence, entry.note) == (10, b"n10")
+    assert (entry.sequence, entry.payload) == (10, b"n10")
     assert entry.image is not None
     assert np.array_equal(entry.image, image(10))
     assert ring.newest(after=10) is None
@@ -38,7 +38,7 @@ def test_a_note_may_come_without_an_image(ring: ImageRing) -> None:
     ring.write(b"b")
     entry = ring.newest()
     assert entry is not None
-    assert (entry.note, entry.image) == (b"b", None)
+    assert (entry.payload, entry.image) == (b"b", None)
     assert ring.images == 1
     assert ring.written_at_s > 0.0
 
@@ -68,7 +68,7 @@ def test_a_slot_whose_writer_died_half_way_is_passed_over(ring: ImageRing) -> No
     ring._heads[2 % SLOTS][LOCK] += 1  # as between the two marks of a write
     entry = ring.newest()
     assert entry is not None
-    assert entry.note == b"whole"
+    assert entry.payload == b"whole"
 
 
 def test_a_slot_written_over_while_it_is_read_is_not_given(
@@ -89,17 +89,17 @@ def test_a_slot_written_over_while_it_is_read_is_not_given(
     monkeypatch.setattr(ring, "_copied", copied_too_slowly)
     entry = ring.newest()
     assert entry is not None
-    assert entry.note == b"%d" % (1 + SLOTS)
+    assert entry.payload == b"%d" % (1 + SLOTS)
     assert entry.image is not None
     assert np.array_equal(entry.image, image(1 + SLOTS))
 
 
-def test_an_image_too_large_is_refused_with_both_sizes(ring: ImageRing) -> None:
+def test_an_image_too_large_is_rejected_with_both_sizes(ring: ImageRing) -> None:
     with pytest.raises(CaptureError) as caught:
         ring.write(b"", np.zeros((601, 600, 3), dtype=np.uint8))
     assert caught.value.code == "IMAGE_TOO_LARGE"
     assert "600x601" in caught.value.message
-    with pytest.raises(ValueError, match="note"):
+    with pytest.raises(ValueError, match="payload"):
         ring.write(b"x" * 300_000)
 
 
@@ -123,7 +123,7 @@ def test_images_of_another_process_are_never_torn(ring: ImageRing) -> None:
             assert process.is_alive()
             continue
         assert entry.image is not None
-        level = int(entry.note) % 256
+        level = int(entry.payload) % 256
         assert entry.sequence > after
         assert int(entry.image.min()) == int(entry.image.max()) == level
         after, read = entry.sequence, read + 1
@@ -143,7 +143,7 @@ def test_a_write_that_begins_between_two_looks_at_the_head_is_noticed(
     ring: ImageRing, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     ring.write(b"1", image(1))
-    whole = ring._whole
+    whole = ring._stable_slot
 
     def looked_at_then_written(slot: int) -> tuple[int, int, int] | None:
         found = whole(slot)
@@ -151,5 +151,5 @@ def test_a_write_that_begins_between_two_looks_at_the_head_is_noticed(
             ring._heads[slot][LOCK] += 1  # the writer begins, and is not done yet
         return found
 
-    monkeypatch.setattr(ring, "_whole", looked_at_then_written)
+    monkeypatch.setattr(ring, "_stable_slot", looked_at_then_written)
     assert ring.newest() is None

@@ -1,4 +1,4 @@
-"""Another scene takes the place of the one before, in a process that runs and in one that is started."""
+"""Another scene replaces the present one, in a running process and in a new one."""
 
 import threading
 import time
@@ -7,17 +7,17 @@ from multiprocessing.connection import Connection
 
 import pytest
 
-from server.capture.rehearsal import Begun, RehearsalSource
+from server.capture.rehearsal import PlayedScene, RehearsalSource
 from server.config import Config, RehearsalConfig, RehearsalEventConfig
 from server.logs import LogSettings
-from server.loop.board import Board
-from server.loop.rehearsed import Rehearsed
+from server.loop.rehearsal_control import RehearsalControl
+from server.loop.shared_status import SharedStatus
 from server.loop.staging import SceneOrder, Staging
 from server.loop.supervisor import Supervisor
-from server.loop.worker import NewestCase, NewestScene, WorkerOrder, _listen
+from server.loop.worker import LatestCase, LatestScene, WorkerOrder, _listen
 from server.setup import CaseSetup, build_setup
-from server.theatre import theatre_of
-from tests.server.loop.made import steady_worker
+from server.theatre import theatre_from_config
+from tests.server.loop.fake_workers import steady_worker
 from tracker.errors import InvalidInput
 from tracker.navigation import Absent
 from tracker.registration import AnchoredTo
@@ -27,7 +27,7 @@ SMALL = RehearsalConfig(width=160, height=160, clutter=0.0)
 
 
 def staged() -> tuple[RehearsalSource, Staging]:
-    theatre = theatre_of(SMALL)
+    theatre = theatre_from_config(SMALL)
     renderer = theatre.renderer()
     source = RehearsalSource(renderer, rate_hz=30.0, stop=threading.Event(), fast=True)
     source.open()
@@ -43,47 +43,47 @@ def test_the_newest_order_is_played_when_it_is_ready() -> None:
         settings = SMALL.model_copy(update={"scene": scene, "events": [stalls]})
         staging.order(SceneOrder(number=number, rehearsal=settings))
     deadline_s = time.monotonic() + 60.0
-    while staging.begun.scene_number != 3:
+    while staging.played_scene.scene_number != 3:
         assert time.monotonic() < deadline_s
         threading.Event().wait(0.005)
     shot = source.read()
     assert shot is not None
     assert shot.source_time_s == 0.0
-    assert shot.number == staging.begun.first_number
+    assert shot.number == staging.played_scene.first_number
     assert source.stalls
 
 
 def test_a_new_process_goes_on_with_the_scene_or_begins_it() -> None:
     order = SceneOrder(number=2, rehearsal=SMALL)
-    assert order.begun(70) == Begun(scene_number=2, first_number=70)
-    told = SceneOrder(number=2, rehearsal=SMALL, first_number=31)
-    assert told.begun(70) == Begun(scene_number=2, first_number=31)
+    assert order.played_scene(70) == PlayedScene(scene_number=2, first_number=70)
+    reported = SceneOrder(number=2, rehearsal=SMALL, first_number=31)
+    assert reported.played_scene(70) == PlayedScene(scene_number=2, first_number=31)
 
 
 def test_the_next_process_is_told_where_the_scene_began() -> None:
-    board = Board("rehearsal")
+    status = SharedStatus("rehearsal")
     order = WorkerOrder(config=Config(), log=LogSettings(as_json=True))
-    supervisor = Supervisor(order=order, board=board, target=steady_worker)
+    supervisor = Supervisor(order=order, status=status, target=steady_worker)
     supervisor.play(SceneOrder(number=1, rehearsal=SMALL))
     unbegun = supervisor._next_order().scene
     assert unbegun is not None
     assert unbegun.first_number is None
-    board.note_begun(Begun(scene_number=1, first_number=44))
-    begun = supervisor._next_order().scene
-    assert begun is not None
-    assert begun.first_number == 44
+    status.set_played_scene(PlayedScene(scene_number=1, first_number=44))
+    played_scene = supervisor._next_order().scene
+    assert played_scene is not None
+    assert played_scene.first_number == 44
 
 
 def test_scenes_and_cases_arrive_where_they_belong(monkeypatch: pytest.MonkeyPatch) -> None:
     heard: Connection
-    told: Connection
-    heard, told = Pipe(duplex=False)
-    cases, scenes, stop = NewestCase(), NewestScene(), threading.Event()
+    reported: Connection
+    heard, reported = Pipe(duplex=False)
+    cases, scenes, stop = LatestCase(), LatestScene(), threading.Event()
     monkeypatch.setattr("server.loop.worker.os._exit", lambda _status: None)
     monkeypatch.setattr("server.loop.worker.STOP_GRACE_S", 0.0)
-    told.send(CaseSetup())
-    told.send(SceneOrder(number=5, rehearsal=SMALL))
-    told.close()
+    reported.send(CaseSetup())
+    reported.send(SceneOrder(number=5, rehearsal=SMALL))
+    reported.close()
     _listen(heard, cases, scenes, stop)
     scene = scenes.take()
     assert cases.take() == CaseSetup()
@@ -94,15 +94,15 @@ def test_scenes_and_cases_arrive_where_they_belong(monkeypatch: pytest.MonkeyPat
 
 def test_truth_follows_from_the_number_of_an_image_of_the_running_scene() -> None:
     ordered: list[SceneOrder] = []
-    begun = Begun()
-    rehearsed = Rehearsed(SMALL, play=ordered.append, begun=lambda: begun)
+    played_scene = PlayedScene()
+    rehearsed = RehearsalControl(SMALL, play=ordered.append, played_scene=lambda: played_scene)
     first = rehearsed.truth_of(330)
     assert first is not None
     assert (first.at_s, first.phase) == (11.0, Phase.ALIGN)
     rehearsed.play(SMALL.model_copy(update={"scene": "landmarks"}))
     assert rehearsed.first_number is None
     assert rehearsed.truth_of(400) is None, "the scene before is still in the picture"
-    begun = Begun(scene_number=1, first_number=400)
+    played_scene = PlayedScene(scene_number=1, first_number=400)
     assert rehearsed.truth_of(399) is None
     touched = rehearsed.truth_of(400 + 90)
     assert touched is not None
@@ -114,7 +114,7 @@ def test_truth_follows_from_the_number_of_an_image_of_the_running_scene() -> Non
 
 def test_settings_make_the_theatre_that_they_say() -> None:
     event = RehearsalEventConfig(kind="patient_moves", at_s=4.0, lasts_s=2.0)
-    theatre = theatre_of(SMALL.model_copy(update={"reference": True, "events": [event]}))
+    theatre = theatre_from_config(SMALL.model_copy(update={"reference": True, "events": [event]}))
     assert theatre.reference is not None
     assert theatre.settings.events[0].kind is EventKind.PATIENT_MOVES
     assert [theatre.is_on(EventKind.PATIENT_MOVES, at_s) for at_s in (3.0, 5.0, 6.5)] == [False, True, False]

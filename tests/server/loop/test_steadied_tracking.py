@@ -1,4 +1,4 @@
-"""The setting reaches what is concluded from images, and what is concluded says its lag to everybody."""
+"""The filter setting reaches the navigation results, which report its lag."""
 
 import dataclasses
 from collections.abc import Callable
@@ -12,11 +12,11 @@ from server.loop.tracking import Tracking
 from server.overlay import draw_overlay, panel_of
 from server.setup import build_setup
 from server.stream.messages import live_message
-from server.stream.place_messages import ToolMessage
-from tracker.navigation import NavigationSnapshot, ToolInView
+from server.stream.pose_messages import ToolMessage
+from tracker.navigation import NavigationSnapshot, ToolPose
 
 
-def concluded(smoothing: SmoothingConfig) -> ToolInView:
+def concluded(smoothing: SmoothingConfig) -> ToolPose:
     """The drill of the rehearsal in the fourth of four equal images, 30 a second."""
     config = Config(rehearsal=RehearsalConfig(width=640, height=360), smoothing=smoothing)
     preparation = build_setup(config)
@@ -25,8 +25,8 @@ def concluded(smoothing: SmoothingConfig) -> ToolInView:
     image = preparation.theatre.renderer().image_at(0.0)
     for k in range(4):
         shot = Shot(image=image, number=k, captured_at_s=k / 30, source_time_s=k / 30)
-        tool = tracking.conclude(shot, skipped_images=0).tools["drill"]
-    assert isinstance(tool, ToolInView)
+        tool = tracking.process(shot, skipped_images=0).tools["drill"]
+    assert isinstance(tool, ToolPose)
     return tool
 
 
@@ -40,7 +40,7 @@ def test_the_lag_is_in_the_message_in_the_panel_and_in_the_picture(
 ) -> None:
     plain = snapshot_of()
     tool = plain.tools["drill"]
-    assert isinstance(tool, ToolInView)
+    assert isinstance(tool, ToolPose)
     late = dataclasses.replace(plain, tools={"drill": dataclasses.replace(tool, lag_ms=49.6)})
     for snapshot, note, lag_ms in ((plain, "", 0.0), (late, "steadied · 50 ms behind", 49.6)):
         message = live_message(instant_of(1, snapshot=snapshot), now_s=1.0)

@@ -1,4 +1,4 @@
-"""The rehearsal's scenery in files saves a start its rendering; nothing that is wrong with them stops it."""
+"""Cached background files save the rendering at a start; a damaged file causes no error."""
 
 import threading
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The tracking process is killed, hangs, fails for ever; and nothing of it is left behind."""
+"""The tracking process is killed, hangs, fails forever; and nothing of it is left behind."""
 
 import os
 import signal
@@ -9,13 +9,13 @@ import pytest
 from server.config import Config
 from server.live import Instant, ProcessState
 from server.logs import LogSettings
-from server.loop.board import Board
 from server.loop.compiling import Progress
-from server.loop.publisher import Picture, Publisher
-from server.loop.supervisor import Supervisor, Target, Watch
+from server.loop.publisher import PictureEncoder, Publisher
+from server.loop.shared_status import SharedStatus
+from server.loop.supervisor import Supervisor, Target, WatchdogSettings
 from server.loop.worker import WorkerOrder
 from server.setup import CaseSetup, nominal_camera
-from tests.server.loop.made import Seen, echoing_worker, failing_worker, silent_worker, steady_worker
+from tests.server.loop.fake_workers import Seen, echoing_worker, failing_worker, silent_worker, steady_worker
 
 COMPILED = Progress(done=3, total=3)
 
@@ -24,23 +24,23 @@ class Stage:
     """Supervisor and publisher around a process that the test chooses."""
 
     def __init__(
-        self, target: Target, watch: Watch, compiled: Callable[[], Progress] = lambda: COMPILED
+        self, target: Target, watchdog: WatchdogSettings, compiled: Callable[[], Progress] = lambda: COMPILED
     ) -> None:
         self.hub = Seen()
         # Stands still unless a test moves it: how long a process takes to start is not asked.
         self.now_s = 0.0
-        board = Board("made")
+        status = SharedStatus("made")
         order = WorkerOrder(config=Config(), log=LogSettings(as_json=True))
         self.supervisor = Supervisor(
             order=order,
-            board=board,
-            watch=watch,
+            status=status,
+            watchdog=watchdog,
             target=target,
             clock=lambda: self.now_s,
             compiled=compiled,
         )
-        picture = Picture(draw=lambda image, _, _alarms: image, encode=lambda _: b"jpeg")
-        self.publisher = Publisher(board=board, hub=self.hub, picture=picture)
+        picture = PictureEncoder(draw=lambda image, _, _alarms: image, encode=lambda _: b"jpeg")
+        self.publisher = Publisher(status=status, hub=self.hub, picture=picture)
         self.supervisor.start()
         self.publisher.start()
 
@@ -50,11 +50,11 @@ class Stage:
 
 
 @pytest.fixture
-def staged() -> Iterator[Callable[[Target, Watch], Stage]]:
+def staged() -> Iterator[Callable[[Target, WatchdogSettings], Stage]]:
     stages = []
 
-    def make(target: Target, watch: Watch) -> Stage:
-        stages.append(Stage(target, watch))
+    def make(target: Target, watchdog: WatchdogSettings) -> Stage:
+        stages.append(Stage(target, watchdog))
         return stages[-1]
 
     yield make
@@ -88,8 +88,10 @@ def exists(pid: int) -> bool:
     return True
 
 
-def test_a_killed_process_is_told_at_once_and_replaced(staged: Callable[[Target, Watch], Stage]) -> None:
-    stage = staged(steady_worker, Watch())
+def test_a_killed_process_is_told_at_once_and_replaced(
+    staged: Callable[[Target, WatchdogSettings], Stage],
+) -> None:
+    stage = staged(steady_worker, WatchdogSettings())
     before = stage.hub.until(shows_image)
     pid = stage.supervisor.pid
     assert pid is not None
@@ -111,8 +113,10 @@ def test_a_killed_process_is_told_at_once_and_replaced(staged: Callable[[Target,
     assert all(instant.snapshot is None for instant in between)
 
 
-def test_a_process_that_hangs_is_killed_and_replaced(staged: Callable[[Target, Watch], Stage]) -> None:
-    stage = staged(silent_worker, Watch(silent_after_s=0.3, look_every_s=0.05))
+def test_a_process_that_hangs_is_killed_and_replaced(
+    staged: Callable[[Target, WatchdogSettings], Stage],
+) -> None:
+    stage = staged(silent_worker, WatchdogSettings(silent_after_s=0.3, poll_interval_s=0.05))
     stage.hub.until(shows_image)
     pid = stage.supervisor.pid
     assert pid is not None
@@ -124,15 +128,15 @@ def test_a_process_that_hangs_is_killed_and_replaced(staged: Callable[[Target, W
 
 
 def test_a_process_that_always_fails_is_given_up_and_tried_again_later(
-    staged: Callable[[Target, Watch], Stage],
+    staged: Callable[[Target, WatchdogSettings], Stage],
 ) -> None:
-    stage = staged(failing_worker, Watch(restarts=2, window_s=60.0, look_every_s=0.01))
+    stage = staged(failing_worker, WatchdogSettings(restarts=2, window_s=60.0, poll_interval_s=0.01))
     given_up = stage.hub.until(lambda instant: instant.process.state is ProcessState.GIVEN_UP)
     problem = given_up.process.problem
     assert given_up.process.restarts == 2
     assert problem is not None
     assert problem.code == "TRACKING_GIVEN_UP"
-    assert "2 times within 60 s" in problem.message
+    assert "2 times in 60 s" in problem.message
     assert problem.message.endswith("the last time: the tracking process ended")
     assert problem.remedy
     stage.now_s = 60.0
@@ -140,8 +144,8 @@ def test_a_process_that_always_fails_is_given_up_and_tried_again_later(
     assert later.snapshot is None
 
 
-def test_stopping_ends_the_process(staged: Callable[[Target, Watch], Stage]) -> None:
-    stage = staged(steady_worker, Watch())
+def test_stopping_ends_the_process(staged: Callable[[Target, WatchdogSettings], Stage]) -> None:
+    stage = staged(steady_worker, WatchdogSettings())
     stage.hub.until(shows_image)
     pid = stage.supervisor.pid
     assert pid is not None
@@ -155,9 +159,9 @@ def width(instant: Instant) -> int:
 
 
 def test_what_the_open_case_knows_reaches_the_process_and_the_one_after_it(
-    staged: Callable[[Target, Watch], Stage],
+    staged: Callable[[Target, WatchdogSettings], Stage],
 ) -> None:
-    stage = staged(echoing_worker, Watch(restarts=5))
+    stage = staged(echoing_worker, WatchdogSettings(restarts=5))
     stage.hub.until(lambda instant: width(instant) == 64)
     stage.supervisor.adopt(CaseSetup(camera=nominal_camera((320, 240))))
     stage.hub.until(lambda instant: width(instant) == 320)
@@ -171,12 +175,14 @@ def test_what_the_open_case_knows_reaches_the_process_and_the_one_after_it(
 
 def test_while_the_tracker_is_compiled_its_progress_is_shown_and_then_it_starts() -> None:
     seen = [Progress(done=1, total=3), Progress(done=2, total=3)]
-    stage = Stage(steady_worker, Watch(look_every_s=0.01), lambda: seen.pop(0) if seen else COMPILED)
+    stage = Stage(
+        steady_worker, WatchdogSettings(poll_interval_s=0.01), lambda: seen.pop(0) if seen else COMPILED
+    )
     try:
         stage.hub.until(shows_image)
-        told = [one for one in stage.hub.instants if is_compiling(one)]
-        assert told, "somebody who opens the page meanwhile is told"
-        assert all(one.process.state is ProcessState.STARTING and one.snapshot is None for one in told)
+        reported = [one for one in stage.hub.instants if is_compiling(one)]
+        assert reported, "somebody who opens the page meanwhile is told"
+        assert all(one.process.state is ProcessState.STARTING and one.snapshot is None for one in reported)
         assert not is_compiling(stage.hub.instants[-1])
     finally:
         stage.end()
@@ -190,7 +196,7 @@ def test_compiling_that_is_stuck_is_not_waited_for() -> None:
             stage[0].now_s += 1.0
         return Progress(done=1, total=3)
 
-    stage.append(Stage(steady_worker, Watch(look_every_s=0.01, compiles_within_s=5.0), stuck))
+    stage.append(Stage(steady_worker, WatchdogSettings(poll_interval_s=0.01, compiles_within_s=5.0), stuck))
     try:
         stage[0].hub.until(shows_image)
         assert stage[0].now_s > 5.0, "it was waited for as long as that"

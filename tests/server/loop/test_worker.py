@@ -1,4 +1,4 @@
-"""What the tracking process reports, run in a thread with a source and a tracker of the test's own."""
+"""Reports of the tracking process, run in a thread with the test's source and tracker."""
 
 import multiprocessing
 import threading
@@ -19,11 +19,11 @@ from server.logs import LogSettings
 from server.loop.report import Report, ReportUnpacker
 from server.loop.ring import ImageRing
 from server.loop.tracking import Tracking
-from server.loop.worker import NewestCase, WorkerLink, WorkerOrder, work
+from server.loop.worker import LatestCase, WorkerLink, WorkerOrder, work
 from server.setup import CaseSetup, Preparation, build_setup, nominal_camera
 from tests.server.capture.fake_camera import FakeCamera, FakeDevices, FakeVideo, modes
 from tests.server.capture.fake_industrial import FakeIndustrialCamera, FakeIndustrialCameras
-from tests.server.loop.made import SIZE, made_image, made_setup
+from tests.server.loop.fake_workers import SIZE, made_image, made_setup
 from tracker.camera import CameraControl
 from tracker.errors import InvalidInput
 from tracker.marker import ScoreSettings
@@ -37,7 +37,7 @@ ORDER = WorkerOrder(config=Config(), log=LogSettings(as_json=True), first_number
 class Counting:
     """Three images, each one taken before the next, then the end."""
 
-    name, waits_for_taker, stalls, defect, camera = "counting", True, False, None, None
+    name, waits_for_consumer, stalls, defect, camera = "counting", True, False, None, None
 
     def __init__(self) -> None:
         self.number = 10
@@ -66,10 +66,12 @@ class Failing(Tracker):
         super().__init__(camera=made_setup().camera, models=[])
         self.level, self.error = level, error
 
-    def step(self, image: np.ndarray, *, captured_at_s: float, whole: bool = False) -> dict[str, Sighting]:
+    def step(
+        self, image: np.ndarray, *, captured_at_s: float, full_search: bool = False
+    ) -> dict[str, Sighting]:
         if int(image[0, 0, 0]) == self.level:
             raise self.error
-        return super().step(image, captured_at_s=captured_at_s, whole=whole)
+        return super().step(image, captured_at_s=captured_at_s, full_search=full_search)
 
 
 class Prepared(Preparation):
@@ -117,9 +119,9 @@ class KeptRing(ImageRing):
 def link() -> Iterator[tuple[WorkerLink, KeptRing]]:
     ring = KeptRing()
     notices, notice = multiprocessing.Pipe(duplex=False)
-    told, stop = multiprocessing.Pipe(duplex=False)
-    yield WorkerLink(ring=ring, notice=notice, orders=told), ring
-    for end in (notices, notice, told, stop):
+    reported, stop = multiprocessing.Pipe(duplex=False)
+    yield WorkerLink(ring=ring, notice=notice, orders=reported), ring
+    for end in (notices, notice, reported, stop):
         end.close()
 
 
@@ -128,7 +130,7 @@ def run_to_the_end(link: tuple[WorkerLink, KeptRing], tracker: Tracker) -> list[
     thread = threading.Thread(
         target=work,
         args=(ORDER, link[0], stop, Counting(), Tracking(Prepared(tracker))),
-        kwargs={"newest": NewestCase()},
+        kwargs={"newest": LatestCase()},
     )
     thread.start()
     assert link[1].ended.wait(30)
@@ -165,7 +167,7 @@ def test_a_fault_in_the_tracker_ends_the_loop_and_is_not_swallowed(
 ) -> None:
     tracking = Tracking(Prepared(Failing(11, ZeroDivisionError("a bug"))))
     with pytest.raises(ZeroDivisionError):
-        work(ORDER, link[0], threading.Event(), Counting(), tracking, newest=NewestCase())
+        work(ORDER, link[0], threading.Event(), Counting(), tracking, newest=LatestCase())
 
 
 def test_a_case_that_is_opened_sets_the_camera_to_its_calibration(
@@ -176,7 +178,7 @@ def test_a_case_that_is_opened_sets_the_camera_to_its_calibration(
     source = LocalCameraSource(
         source_from_text("0"), devices=FakeDevices(video.camera), open_video=video, clock=video.clock
     )
-    newest, stop = NewestCase(), threading.Event()
+    newest, stop = LatestCase(), threading.Event()
     controls = {CameraControl.FOCUS: 45, CameraControl.AUTOFOCUS: 0}
     newest.put(CaseSetup(camera=nominal_camera(SIZE), camera_controls=controls))
     tracking = Tracking(build_setup(Config(camera=CameraConfig(source="0"))))
@@ -205,7 +207,7 @@ def test_a_case_that_is_opened_moves_the_cut_out_of_an_industrial_camera(
         wanted=WantedMode(size_wh_px=SIZE),
         clock=camera.clock,
     )
-    newest = NewestCase()
+    newest = LatestCase()
     newest.put(CaseSetup(camera=nominal_camera(SIZE), camera_controls={CameraControl.PAN: 96}))
     tracking = Tracking(build_setup(Config(camera=CameraConfig(source="basler:4711"))))
     thread = threading.Thread(

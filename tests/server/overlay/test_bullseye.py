@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from server.overlay.bullseye import Inset, Target, draw_bullseye
-from server.overlay.ink import DRILL_ORANGE, PLAN_BLUE, Image
+from server.overlay.primitives import DRILL_ORANGE, PLAN_BLUE, Image
 from tracker.geometry import Array
-from tracker.navigation import AlongChannel
+from tracker.navigation import BullseyeView
 
-INSET = Inset(left_px=20.0, top_px=20.0, side_px=400.0, reach_mm=8.0, scale=1.0)
+INSET = Inset(left_px=20.0, top_px=20.0, side_px=400.0, extent_mm=8.0, scale=1.0)
 TURN = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)
 CIRCLE = np.stack([np.cos(TURN), np.sin(TURN)], axis=1)
 NOWHERE = np.full(2, np.inf)
@@ -16,7 +16,7 @@ NOWHERE = np.full(2, np.inf)
 
 def drawn(tip: Array, at_entry: Array, at_target: Array, covariance: Array | None = None) -> Image:
     image: Image = np.full((440, 440, 3), 110, dtype=np.uint8)
-    seen = AlongChannel(
+    seen = BullseyeView(
         tip_mm=tip,
         at_entry_mm=at_entry,
         at_target_mm=at_target,

@@ -11,10 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from server.overlay import draw_overlay, encode_jpeg
-from server.overlay.ink import DRILL_ORANGE, PLAN_BLUE
+from server.overlay.primitives import DRILL_ORANGE, PLAN_BLUE
 from tracker.errors import InvalidInput
 from tracker.geometry import Camera, Rigid, Vertebra
-from tracker.navigation import Absent, NavigationSnapshot, ToolInView
+from tracker.navigation import Absent, NavigationSnapshot, ToolPose
 from tracker.pose import Seen
 
 SnapshotOf = Callable[..., NavigationSnapshot]
@@ -45,8 +45,8 @@ def inked_near(ink: npt.NDArray[np.bool_], px: npt.NDArray[np.float64]) -> npt.N
 
 def inside_video(px: npt.NDArray[np.float64], picture: Picture) -> npt.NDArray[np.float64]:
     height, width = picture.shape[:2]
-    kept = (px > 20).all(axis=1) & (px[:, 0] < width - 5) & (px[:, 1] < height - 5)
-    return np.asarray(px[kept], dtype=np.float64)
+    stored = (px > 20).all(axis=1) & (px[:, 0] < width - 5) & (px[:, 1] < height - 5)
+    return np.asarray(px[stored], dtype=np.float64)
 
 
 def test_the_image_handed_in_is_not_written(snapshot_of: SnapshotOf) -> None:
@@ -65,7 +65,7 @@ def test_a_grey_image_is_drawn_upon_in_colour(snapshot_of: SnapshotOf) -> None:
 def test_the_drill_is_drawn_where_it_is(snapshot_of: SnapshotOf) -> None:
     snapshot = snapshot_of()
     tool = snapshot.tools["drill"]
-    assert isinstance(tool, ToolInView)
+    assert isinstance(tool, ToolPose)
     drawn = draw_overlay(grey(), snapshot)
     behind_tip_mm = np.linspace(6.0, 48.0, 40)[:, None] * [0.0, 0.0, -1.0]
     px = snapshot.setup.camera.px_from_camera(tool.camera_from_tool.move_points(behind_tip_mm))
@@ -136,10 +136,10 @@ def test_wild_corners_of_a_marker_break_nothing(snapshot_of: SnapshotOf, wild: f
 
 
 def test_an_image_of_another_size_is_refused(snapshot_of: SnapshotOf) -> None:
-    with pytest.raises(InvalidInput) as told:
+    with pytest.raises(InvalidInput) as reported:
         draw_overlay(grey((320, 180)), snapshot_of())
-    assert told.value.code == "OVERLAY_SIZE"
-    assert "320x180" in told.value.message
+    assert reported.value.code == "OVERLAY_SIZE"
+    assert "320x180" in reported.value.message
 
 
 @pytest.mark.parametrize(
@@ -173,6 +173,6 @@ def test_a_jpeg_shows_the_image() -> None:
 
 
 def test_an_image_without_pixels_is_refused() -> None:
-    with pytest.raises(InvalidInput) as told:
+    with pytest.raises(InvalidInput) as reported:
         encode_jpeg(np.zeros((0, 0, 3), np.uint8), 80)
-    assert told.value.code == "IMAGE_NOT_ENCODED"
+    assert reported.value.code == "IMAGE_NOT_ENCODED"

@@ -7,7 +7,7 @@ import pytest
 
 from server.overlay import draw_overlay, panel_of
 from server.overlay.headline import COLOURS, draw_headline
-from server.overlay.ink import GREEN, Image
+from server.overlay.primitives import GREEN, Image
 from server.texts import LANGUAGES, Headline, Tone
 from server.texts.language import NO_TEXT
 from tracker.navigation import NavigationSnapshot, Status

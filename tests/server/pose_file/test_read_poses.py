@@ -289,7 +289,7 @@ def test_decimal_commas_and_rows_of_an_unseen_marker_are_read(tmp_path: Path) ->
     flat = np.hstack([np.arange(12)[:, None] / 30.0, MATRICES.reshape(12, 16)])
     flat[3, 1:] = np.nan
     (tmp_path / "p.csv").write_text(rows(flat, ";").replace(".", ","))
-    told = read_poses(tmp_path / "p.csv")
-    assert told.unseen == 1
-    assert len(told.records) == 11
-    np.testing.assert_allclose(told.records[3].pose.matrix, MATRICES[4], atol=1e-7)
+    reported = read_poses(tmp_path / "p.csv")
+    assert reported.unseen == 1
+    assert len(reported.records) == 11
+    np.testing.assert_allclose(reported.records[3].pose.matrix, MATRICES[4], atol=1e-7)

@@ -10,7 +10,7 @@ import pytest
 from cv2.typing import MatLike
 
 from server.printing import Label, Line, board_sheet, pdf_from_sheet, svg_from_sheet
-from server.printing.board_marks import box_of, marks_of_board
+from server.printing.board_marks import bounding_box, marks_of_board
 from tracker.camera.boards import (
     Board,
     CharucoBoard,
@@ -138,7 +138,7 @@ def test_a_charuco_board_is_opencv_s_own_picture_of_it(layout: CharucoLayout) ->
     board = CharucoBoard(
         columns=5, rows=4, square_mm=24.0, marker_mm=16.0, dictionary="DICT_4X4_50", layout=layout
     )
-    (left, top), _ = box_of(marks_of_board(board))
+    (left, top), _ = bounding_box(marks_of_board(board))
     assert (left, top) == (0.0, 0.0) or layout is CharucoLayout.OLDER
     page = page_of(board)
     rows, columns = np.nonzero(page == 0)
@@ -178,9 +178,9 @@ def test_rulers_both_ways_are_100_mm_long_on_every_paper(paper: str) -> None:
     root = ElementTree.fromstring(svg.encode())  # noqa: S314  our own file
     longest = {"x": 0.0, "y": 0.0}
     for line in root.iter("{http://www.w3.org/2000/svg}line"):
-        for axis, most in longest.items():
+        for axis, maximum in longest.items():
             length = abs(float(line.attrib[f"{axis}2"]) - float(line.attrib[f"{axis}1"]))
-            longest[axis] = max(most, length)
+            longest[axis] = max(maximum, length)
     assert longest == pytest.approx({"x": 100.0, "y": 100.0})
 
 
@@ -197,28 +197,28 @@ def test_the_page_lies_as_the_board_needs_it_with_white_around(
 ) -> None:
     sheet = board_sheet(board, paper=paper)
     assert sheet.size_mm == page
-    (left, top), (right, bottom) = box_of(tuple(mark for mark in sheet.marks[1:]))
-    words = [mark for mark in sheet.marks if isinstance(mark, Label)]
+    (left, top), (right, bottom) = bounding_box(tuple(mark for mark in sheet.marks[1:]))
+    text = [mark for mark in sheet.marks if isinstance(mark, Label)]
     lines = [mark for mark in sheet.marks if isinstance(mark, Line)]
-    assert top >= 4.0 + max(mark.at_mm[1] for mark in words if mark.at_mm[1] < page[1] / 2.0)
+    assert top >= 4.0 + max(mark.at_mm[1] for mark in text if mark.at_mm[1] < page[1] / 2.0)
     assert bottom <= min(min(mark.start_mm[1], mark.end_mm[1]) for mark in lines[:102]) - 4.0
     assert left >= 4.0 + max(mark.end_mm[0] for mark in lines[102:])
     assert right <= page[0] - 12.0
 
 
 def test_a_board_that_does_not_fit_is_refused_with_both_sizes() -> None:
-    with pytest.raises(InvalidInput, match=r"308\.0 x 218\.0 mm.*186\.0 x 271\.0") as told:
+    with pytest.raises(InvalidInput, match=r"308\.0 x 218\.0 mm.*186\.0 x 271\.0") as reported:
         board_sheet(CheckerBoard(columns=9, rows=6, square_mm=30.0))
-    assert told.value.code == "BOARD_TOO_LARGE"
+    assert reported.value.code == "BOARD_TOO_LARGE"
 
 
 @pytest.mark.parametrize(
     ("dot_mm", "fiducials"), [(3.5, ()), (2.5, (3,)), (0.0, ()), (-1.0, ()), (float("nan"), ())]
 )
 def test_dots_that_touch_or_have_no_width_are_refused(dot_mm: float, fiducials: tuple[int, ...]) -> None:
-    with pytest.raises(InvalidInput) as told:
+    with pytest.raises(InvalidInput) as reported:
         board_sheet(DotBoard(columns=4, rows=3, pitch_mm=4.0, fiducials=fiducials), dot_mm=dot_mm)
-    assert told.value.code == "BOARD_DOTS_UNPRINTABLE"
+    assert reported.value.code == "BOARD_DOTS_UNPRINTABLE"
 
 
 def test_a_paper_that_nobody_has_is_refused() -> None:

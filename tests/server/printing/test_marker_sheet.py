@@ -119,7 +119,7 @@ def test_nothing_is_printed_in_the_white_margin() -> None:
 
 
 def test_words_cannot_break_out_of_their_file() -> None:
-    sheet = Sheet(title="a<b", size_mm=(10, 10), marks=(Label(words="f(x) <b> \\ 25 °", at_mm=(1, 1)),))
+    sheet = Sheet(title="a<b", size_mm=(10, 10), marks=(Label(text="f(x) <b> \\ 25 °", at_mm=(1, 1)),))
     assert r"(f\(x\) <b> \\ 25 °)" in content_of(pdf_from_sheet(sheet))
     texts = [one.text for one in parsed(svg_from_sheet(sheet)).iter(f"{SVG}text")]
     assert texts == ["f(x) <b> \\ 25 °"]
@@ -127,6 +127,6 @@ def test_words_cannot_break_out_of_their_file() -> None:
 
 @pytest.mark.parametrize("side_mm", [0.0, 4.9, 101.0, float("nan")])
 def test_a_side_that_the_page_cannot_hold_is_refused(side_mm: float) -> None:
-    with pytest.raises(InvalidInput) as told:
+    with pytest.raises(InvalidInput) as reported:
         marker_sheet(SHAPE, side_mm=side_mm, name="drill")
-    assert told.value.code == "MARKER_SIDE_UNPRINTABLE"
+    assert reported.value.code == "MARKER_SIDE_UNPRINTABLE"

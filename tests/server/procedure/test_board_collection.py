@@ -46,12 +46,14 @@ class Camera:
         at_s = self._number * 0.3
         snapshot = self._snapshot_of(image_number=self._number, captured_at_s=at_s)
         instant = self._instant_of(self._number, snapshot=None if image is None else snapshot, source=source)
-        before = self.collection.status.said
+        before = self.collection.status.message
         self.hub.publish(replace(instant, image=image))
         wanted = -1 if image is None else self._number
         deadline_s = time.monotonic() + DEADLINE_S
         while self.collection.status.problem is None and not (
-            self.collection.status.said != before if source else self.collection.status.image_number == wanted
+            self.collection.status.message != before
+            if source
+            else self.collection.status.image_number == wanted
         ):
             assert time.monotonic() < deadline_s, "the image was not looked at"
             time.sleep(0.001)
@@ -65,12 +67,12 @@ def camera(instant_of: InstantOf, snapshot_of: SnapshotOf) -> Iterator[Camera]:
 
 
 def test_each_place_is_taken_once_when_the_board_holds_still(camera: Camera) -> None:
-    said = []
+    message = []
     for image in images():
         camera.show(image)
-        said.append(camera.collection.status.said)
-    assert said[0] == "the board is seen: hold it still"
-    assert said[1] == "taken"
+        message.append(camera.collection.status.message)
+    assert message[0] == "the board is seen: hold it still"
+    assert message[1] == "taken"
     assert [one.name for one in camera.collection.taken] == ["image 2", "image 4", "image 6", "image 8"]
     status = camera.collection.status
     assert status.size_wh_px == SIZE
@@ -84,14 +86,14 @@ def test_without_a_board_or_a_picture_it_says_so_and_waits(camera: Camera) -> No
     camera.show(np.full((SIZE[1], SIZE[0], 3), 90, dtype=np.uint8))
     empty = camera.collection.status
     assert empty.points_px.shape == (0, 2)
-    assert "hold it still" not in empty.said
+    assert "hold it still" not in empty.message
     camera.show(None)
-    assert camera.collection.status.said == "there is no picture"
+    assert camera.collection.status.message == "there is no picture"
     gone = Problem(code="CAMERA_GONE", message="the camera 0 gives no image", remedy="Plug it in.")
     camera.show(None, SourceStatus(name="0", state=SourceState.RECONNECTING, problem=gone))
-    assert camera.collection.status.said == "there is no picture: the camera 0 gives no image"
+    assert camera.collection.status.message == "there is no picture: the camera 0 gives no image"
     camera.show(None, SourceStatus(name="0", state=SourceState.ENDED))
-    assert camera.collection.status.said == "there is no picture: the camera's images have ended"
+    assert camera.collection.status.message == "there is no picture: the camera's images have ended"
     for image in images()[:2]:
         camera.show(image)
     assert len(camera.collection.taken) == 1

@@ -6,9 +6,9 @@ import pytest
 
 from server.alarms import ProcedureFacts
 from server.procedure.facts import facts_of
-from server.procedure.state import Finding, StepName, StepState, judged, no_case
+from server.procedure.state import Finding, StepName, StepState, derive_state, no_case
 
-DONE = {step: Finding(state=StepState.DONE, said="done") for step in StepName}
+DONE = {step: Finding(state=StepState.DONE, message="done") for step in StepName}
 CHECKED = replace(DONE[StepName.CHECK], numbers={"age_min": 10.0})
 
 
@@ -16,9 +16,9 @@ def facts(**states: StepState) -> ProcedureFacts:
     findings = {
         **DONE,
         StepName.CHECK: CHECKED,
-        **{StepName(step): Finding(state=state, said=state.value) for step, state in states.items()},
+        **{StepName(step): Finding(state=state, message=state.value) for step, state in states.items()},
     }
-    return facts_of(judged("case", findings), now_s=5000.0)
+    return facts_of(derive_state("case", findings), now_s=5000.0)
 
 
 def test_a_procedure_that_stands_is_all_current_and_says_when_it_was_checked() -> None:
@@ -27,8 +27,8 @@ def test_a_procedure_that_stands_is_all_current_and_says_when_it_was_checked() -
 
 @pytest.mark.parametrize("step", ["camera", "tool"])
 def test_a_calibration_that_is_out_of_date_is_told(step: str) -> None:
-    told = facts(**{step: StepState.OUT_OF_DATE})
-    assert (told.calibration_current, told.registration_current) == (False, True)
+    reported = facts(**{step: StepState.OUT_OF_DATE})
+    assert (reported.calibration_current, reported.registration_current) == (False, True)
 
 
 def test_a_registration_that_is_out_of_date_is_told_and_one_that_was_never_made_is_not() -> None:

@@ -148,7 +148,7 @@ def running(
     theatre: Theatre, *, port: int = 0, stale_after_ms: float = 500.0, max_viewers: int = 32
 ) -> Iterator[Running]:
     """The scene behind a real socket on 127.0.0.1, with a page around it at `/`."""
-    hub, viewers = LiveHub(), Viewers(most=max_viewers)
+    hub, viewers = LiveHub(), Viewers(maximum=max_viewers)
 
     @asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
@@ -163,7 +163,7 @@ def running(
         setup=theatre.setup,
         surface=theatre.surface,
         stale_after_ms=stale_after_ms,
-        admit=lambda person: viewers.watching(ViewerKind.SCENE, person=person),
+        admit=lambda person: viewers.register(ViewerKind.SCENE, person=person),
     )
     listener = socket.socket()
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

@@ -9,8 +9,8 @@ from server.scene.drills import MIN_MM
 from server.scene.stage import Stage
 from tests.server.scene.scene_theatre import Theatre, block
 from tests.server.scene.test_stage import Viewer, of_kind, on_stage
-from tracker.navigation import Absent, AbsentReason, Guide, PlacedVertebra, navigate
-from tracker.navigation.certainty import Judged
+from tracker.navigation import Absent, AbsentReason, DrillReference, VertebraPose, navigate
+from tracker.navigation.uncertainty import DrillAnalysis
 from tracker.plan import Channel
 from tracker.pose import Unseen, UnseenReason
 
@@ -30,7 +30,7 @@ def judged(
         size_wh_px=(1280, 720),
         stage_ms={},
         skipped_images=0,
-        guide=Guide.of_channel(channel),
+        drill_reference=DrillReference.of_channel(channel),
     )
     return dataclasses.replace(theatre.instant(number, image_number=number), snapshot=snapshot)
 
@@ -68,7 +68,7 @@ def test_nothing_is_left_when_the_patient_is_not_seen(theatre: Theatre) -> None:
         assert instant.snapshot is not None
         gone = Absent(reason=AbsentReason.REFERENCE_UNSEEN)
         snapshot = dataclasses.replace(
-            instant.snapshot, vertebra=gone, deviations={"drill": gone}, judgements={"drill": gone}
+            instant.snapshot, vertebra=gone, deviations={"drill": gone}, analyses={"drill": gone}
         )
         stage.show(dataclasses.replace(instant, snapshot=snapshot))
         await seen_in(viewer, shown)
@@ -84,8 +84,8 @@ def test_the_ellipsoid_has_the_size_and_the_place_of_the_tips_spread(theatre: Th
         stage.show(instant)
         batch = await viewer.batches.get()
         assert instant.snapshot is not None
-        told = instant.snapshot.judgements["drill"]
-        assert isinstance(told, Judged)
+        reported = instant.snapshot.analyses["drill"]
+        assert isinstance(reported, DrillAnalysis)
         moved = of_kind(batch, "SetPositionMessage", PARTS[2])
         frame = of_kind(batch, "SetPositionMessage", PARTS[0])
         assert moved is not None
@@ -94,7 +94,7 @@ def test_the_ellipsoid_has_the_size_and_the_place_of_the_tips_spread(theatre: Th
         scaled = [m for m in batch if m["type"] == "SceneNodeUpdateMessage" and m["name"] == PARTS[2]]
         np.testing.assert_allclose(
             scaled[0]["updates"]["scale"],
-            np.maximum(np.linalg.norm(told.spread.tip_ellipsoid_mm, axis=1), MIN_MM),
+            np.maximum(np.linalg.norm(reported.spread.tip_ellipsoid_mm, axis=1), MIN_MM),
             rtol=1e-6,
         )
 
@@ -137,7 +137,7 @@ def test_views_are_told_for_the_channel_and_the_camera(theatre: Theatre) -> None
         assert eye is not None
         assert instant.snapshot is not None
         vertebra = instant.snapshot.vertebra
-        assert isinstance(vertebra, PlacedVertebra)
+        assert isinstance(vertebra, VertebraPose)
         in_camera = vertebra.camera_from_vertebra.move_points(np.array(eye["position"]))
         np.testing.assert_allclose(in_camera[:2], 0.0, atol=1e-6)
         assert in_camera[2] > 0.0

@@ -56,7 +56,7 @@ def opened(browser: Browser, address: str) -> Page:
     return page
 
 
-def told(page: Page, condition: str) -> None:
+def reported(page: Page, condition: str) -> None:
     """Wait until the page around the scene has been told something for which `condition` of m holds."""
     page.wait_for_function(f"told.some((m) => {condition})", timeout=60_000)
 
@@ -81,12 +81,12 @@ def test_the_drill_is_seen_told_about_and_hidden(browser: Browser, theatre: Thea
     with running(theatre) as server:
         page = opened(browser, server.address)
         with fed(server, theatre, first_image=99_990):
-            told(page, "m.image_number >= 100010")
+            reported(page, "m.image_number >= 100010")
             uncovered(page)
             shown = picture(page)
             hides_itself = page.frames[1].evaluate(BONE_HIDES_ITSELF)
         with fed(server, theatre, first_image=200_000, seen=False):
-            told(page, "m.image_number >= 200010")
+            reported(page, "m.image_number >= 200010")
             uncovered(page)
             hidden = picture(page)
         messages = page.evaluate("told")
@@ -106,7 +106,7 @@ def test_silence_takes_the_number_away(browser: Browser, theatre: Theatre) -> No
     with running(theatre) as server:
         page = opened(browser, server.address)
         with fed(server, theatre):
-            told(page, "m.image_number >= 5")
+            reported(page, "m.image_number >= 5")
         page.wait_for_function("told.at(-1).image_number === null && told.at(-1).connected", timeout=60_000)
         assert orange_px(picture(page)) == 0
         page.close()
@@ -121,14 +121,14 @@ def test_an_untouched_screen_comes_back_after_a_restart(browser: Browser, theatr
         other = browser.new_page()
         other.bring_to_front()
         with fed(server, theatre, first_image=1000):
-            told(page, "m.image_number >= 1005")
+            reported(page, "m.image_number >= 1005")
             frame = page.frames[1]
             assert frame.evaluate("Document.prototype.hasFocus.call(document)") is False
             frame.evaluate("window.untouched = true")
-    told(page, "!m.connected")
+    reported(page, "!m.connected")
     page.evaluate("told.length = 0")
     with running(theatre, port=port) as server, fed(server, theatre, first_image=0):
-        told(page, "m.connected && m.image_number >= 5 && m.image_number < 1000")
+        reported(page, "m.connected && m.image_number >= 5 && m.image_number < 1000")
         assert frame.evaluate("window.untouched") is True
     other.close()
     page.close()
@@ -149,11 +149,11 @@ def test_opened_alone_it_covers_itself_when_it_is_stale(browser: Browser, theatr
 def test_nothing_outside_is_called_and_no_control_of_viser_is_there(
     browser: Browser, theatre: Theatre
 ) -> None:
-    asked: list[str] = []
+    requested: list[str] = []
     with running(theatre) as server:
         page = browser.new_page(viewport={"width": 640, "height": 480})
-        page.on("request", lambda request: asked.append(request.url))
-        page.on("websocket", lambda line: asked.append(line.url))
+        page.on("request", lambda request: requested.append(request.url))
+        page.on("websocket", lambda line: requested.append(line.url))
         page.goto(f"{server.address}/scene/")
         with fed(server, theatre):
             page.locator("html[data-coaxial=live]").wait_for(state="attached", timeout=60_000)
@@ -164,8 +164,8 @@ def test_nothing_outside_is_called_and_no_control_of_viser_is_there(
         counts = dict(server.app.state.scene.counts)
         page.close()
         here = (f"http://127.0.0.1:{server.port}/", f"ws://127.0.0.1:{server.port}/", "data:", "blob:")
-    assert [url for url in asked if not url.startswith(here)] == []
-    assert f"ws://127.0.0.1:{server.port}/scene" in asked
+    assert [url for url in requested if not url.startswith(here)] == []
+    assert f"ws://127.0.0.1:{server.port}/scene" in requested
     assert set(touched) == {"CANVAS"}
     # The client of viser, left alone, says nothing but where it looks from.
     assert {verdict: count for verdict, count in counts.items() if count} == {"camera": counts["camera"]}
@@ -178,7 +178,7 @@ def test_a_line_that_fell_silent_is_asked_for_anew(
     with running(theatre, stale_after_ms=100) as server:
         page = opened(browser, server.address)
         with fed(server, theatre):
-            told(page, "m.image_number >= 5")
+            reported(page, "m.image_number >= 5")
         # A server that lost its power: the line stands, and nothing ever comes.
         follower = server.app.state.scene._follower
         page.evaluate("told.length = 0")

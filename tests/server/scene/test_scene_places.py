@@ -11,7 +11,7 @@ from server.config import Config
 from server.live import LiveHub
 from server.scene.door import SUBPROTOCOL
 from server.scene.scene import CROWDED
-from tests.server.supervision.persons import sign_people_in
+from tests.server.supervision.signed_in_people import sign_people_in
 
 
 def test_one_person_has_eight_places_and_takes_none_from_others_or_from_pictures() -> None:

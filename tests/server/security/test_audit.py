@@ -1,4 +1,4 @@
-"""The audit log: every way to change it is found, and a crash or a full disk leaves it whole."""
+"""The audit log: every change of it is detected, and a crash or a full disk leaves it intact."""
 
 import errno
 import json
@@ -11,10 +11,10 @@ import pytest
 from typer.testing import CliRunner
 
 from server.cli.commands import app
-from server.security.audit import AuditLog, Entry, Verdict, checked, note, noting, verify
-from server.security.person import ANYBODY
+from server.security.audit import AuditLog, Entry, Verdict, collect_changes, note, verification, verify
+from server.security.person import LOCAL_USER
 from server.store import Change, StoreError
-from tests.server.security.doors import Clock
+from tests.server.security.guarded_app import Clock
 
 LINES = 6
 
@@ -28,7 +28,7 @@ def folder(tmp_path: Path) -> Path:
 def log(folder: Path) -> AuditLog:
     written = AuditLog(folder, clock=Clock().now)
     for number in range(LINES):
-        written.append(Entry(who=ANYBODY, what=f"POST /api/thing/{number}", status=200))
+        written.append(Entry(who=LOCAL_USER, what=f"POST /api/thing/{number}", status=200))
     return written
 
 
@@ -71,7 +71,7 @@ def test_every_change_is_found_with_the_number_of_its_line(
     monkeypatch.setenv("COAXIAL_HOME", str(folder.parent))
     whole = CliRunner().invoke(app, ["audit", "verify"])
     assert whole.exit_code == 0
-    assert f"{LINES} lines, whole" in whole.output
+    assert f"{LINES} lines, unchanged" in whole.output
     lines = hurt(log.file.read_bytes().splitlines())
     log.file.write_bytes(b"".join(one + b"\n" for one in lines))
     found = CliRunner().invoke(app, ["audit", "verify"])
@@ -86,7 +86,7 @@ def test_a_start_does_not_cover_what_somebody_took_away(log: AuditLog, folder: P
     log.file.write_bytes(b"".join(one + b"\n" for one in log.file.read_bytes().splitlines()[:-2]))
     for _ in range(2):
         again = AuditLog(folder, clock=Clock().now)
-        again.append(Entry(who=ANYBODY, what="after"))
+        again.append(Entry(who=LOCAL_USER, what="after"))
         fault = again.verify().fault
         assert fault is not None
         assert fault.line == 5
@@ -109,23 +109,23 @@ def test_without_its_end_beside_it_a_log_is_not_called_whole(
 
 
 def test_who_asks_waits_for_nobody_who_writes(log: AuditLog) -> None:
-    with log._turn:
-        asked = threading.Thread(
-            target=lambda: told.extend(
+    with log._lock:
+        requested = threading.Thread(
+            target=lambda: reported.extend(
                 [
-                    log.is_well,
+                    log.is_writable,
                     log.head.count,
                     log.verify().fault,
                     len(log.newest(3)),
-                    log.whole().count(b"\n"),
+                    log.complete_lines().count(b"\n"),
                 ]
             ),
             daemon=True,
         )
-        told: list[object] = []
-        asked.start()
-        asked.join(20.0)
-        assert told == [True, LINES, None, 3, LINES]
+        reported: list[object] = []
+        requested.start()
+        requested.join(20.0)
+        assert reported == [True, LINES, None, 3, LINES]
 
 
 def test_what_was_verified_is_not_read_again_unless_it_was_changed(
@@ -138,12 +138,12 @@ def test_what_was_verified_is_not_read_again_unless_it_was_changed(
         return verify(lines, after=after)
 
     log.verify()
-    monkeypatch.setattr(checked, "verify", counting)
-    log.append(Entry(who=ANYBODY, what="one more"))
+    monkeypatch.setattr(verification, "verify", counting)
+    log.append(Entry(who=LOCAL_USER, what="one more"))
     assert log.verify().head.count == LINES + 1
     log.verify()
     assert read == [1, 0]
-    log.file.write_bytes(log.whole().replace(b"thing/2", b"thing/9"))
+    log.file.write_bytes(log.complete_lines().replace(b"thing/2", b"thing/9"))
     assert [fault.line for fault in [log.verify().fault] if fault] == [3]
 
 
@@ -151,12 +151,12 @@ def test_an_exported_log_is_verified_by_itself_and_against_its_last_sum(
     log: AuditLog, tmp_path: Path
 ) -> None:
     exported = tmp_path / "taken-along.jsonl"
-    exported.write_bytes(log.whole())
-    asked = ["audit", "verify", str(exported), "--sum", log.head.sum]
-    assert CliRunner().invoke(app, asked).exit_code == 0
-    exported.write_bytes(b"".join(one + b"\n" for one in log.whole().splitlines()[:-1]))
-    assert CliRunner().invoke(app, asked[:3]).exit_code == 0
-    assert CliRunner().invoke(app, asked).exit_code == 1
+    exported.write_bytes(log.complete_lines())
+    requested = ["audit", "verify", str(exported), "--sum", log.head.sum]
+    assert CliRunner().invoke(app, requested).exit_code == 0
+    exported.write_bytes(b"".join(one + b"\n" for one in log.complete_lines().splitlines()[:-1]))
+    assert CliRunner().invoke(app, requested[:3]).exit_code == 0
+    assert CliRunner().invoke(app, requested).exit_code == 1
     assert CliRunner().invoke(app, ["audit", "verify", str(tmp_path / "none")]).exit_code == 2
 
 
@@ -167,18 +167,18 @@ def test_a_line_that_a_crash_cut_is_taken_away_and_told(log: AuditLog, folder: P
     log.file.write_bytes(whole + whole.splitlines()[-1][:cut])
     again = AuditLog(folder, clock=Clock().now)
     assert again.verify().fault is None
-    told = json.loads(again.newest(1)[0])
-    assert told["changes"] == [
+    reported = json.loads(again.newest(1)[0])
+    assert reported["changes"] == [
         {"what": "audit log", "said": "the last line was cut by a crash", "bytes": cut}
     ]
 
 
 def test_a_line_whose_end_was_not_kept_beside_it_is_taken_as_it_is(log: AuditLog, folder: Path) -> None:
     head = (folder / "audit-head.json").read_bytes()
-    log.append(Entry(who=ANYBODY, what="before the crash"))
+    log.append(Entry(who=LOCAL_USER, what="before the crash"))
     (folder / "audit-head.json").write_bytes(head)
     again = AuditLog(folder, clock=Clock().now)
-    again.append(Entry(who=ANYBODY, what="after"))
+    again.append(Entry(who=LOCAL_USER, what="after"))
     assert again.verify().fault is None
     assert again.head.count == LINES + 2
 
@@ -195,17 +195,17 @@ def test_a_full_disk_spends_the_reserve_first_and_then_keeps_what_waits(
         return write(descriptor, content)
 
     monkeypatch.setattr(os, "write", writing)
-    with pytest.raises(StoreError) as told:
-        log.append(Entry(who=ANYBODY, what="first"))
-    assert told.value.code == "STORE_FULL"
-    assert [log.is_well] == [False]
+    with pytest.raises(StoreError) as reported:
+        log.append(Entry(who=LOCAL_USER, what="first"))
+    assert reported.value.code == "STORE_FULL"
+    assert [log.is_writable] == [False]
     assert not (folder / "audit-reserve").exists()
     with pytest.raises(StoreError):
         log.catch_up()
     assert log.verify().fault is None
     full.clear()
-    log.append(Entry(who=ANYBODY, what="second"))
-    assert [log.is_well] == [True]
+    log.append(Entry(who=LOCAL_USER, what="second"))
+    assert [log.is_writable] == [True]
     assert [json.loads(line)["what"] for line in log.newest(2)] == ["first", "second"]
     assert log.verify().fault is None
     assert (folder / "audit-reserve").exists()
@@ -216,41 +216,41 @@ def test_a_line_that_the_disk_takes_in_many_parts_is_whole(
 ) -> None:
     write = os.write
     monkeypatch.setattr(os, "write", lambda descriptor, content: write(descriptor, bytes(content)[:7]))
-    log.append(Entry(who=ANYBODY, what="in parts"))
+    log.append(Entry(who=LOCAL_USER, what="in parts"))
     assert json.loads(log.newest(1)[0])["what"] == "in parts"
     assert log.verify().fault is None
 
 
 def test_half_a_letter_is_written_as_its_number_and_holds_nothing_up(log: AuditLog) -> None:
-    log.append(Entry(who=ANYBODY, what="half \ud800 letter"))
-    log.append(Entry(who=ANYBODY, what="after"))
+    log.append(Entry(who=LOCAL_USER, what="half \ud800 letter"))
+    log.append(Entry(who=LOCAL_USER, what="after"))
     assert json.loads(log.newest(2)[0])["what"] == r"half \ud800 letter"
     assert log.verify().fault is None
 
 
-def test_refusals_are_written_so_often_and_no_more(log: AuditLog) -> None:
+def test_rejections_are_written_so_often_and_no_more(log: AuditLog) -> None:
     for _ in range(200):
-        log.rejected(Entry(who=ANYBODY, what="POST /api/session", status=403))
+        log.append_rejection(Entry(who=LOCAL_USER, what="POST /api/session", status=403))
     assert log.head.count == LINES + 60
     assert b"more was refused" in log.newest(1)[0]
 
 
 def test_what_is_changed_is_noted_in_its_request_and_else_has_a_line_of_its_own(log: AuditLog) -> None:
     change = Change(case_id="a", kind="plan", name="L3", before=3, after=4, by="Ito")
-    with noting() as changes:
-        log.changed(change)
+    with collect_changes() as changes:
+        log.record_change(change)
     assert changes == [{"what": "plan", "case_id": "a", "name": "L3", "by": "Ito", "from": 3, "to": 4}]
     assert log.head.count == LINES
-    log.changed(change)
+    log.record_change(change)
     assert json.loads(log.newest(1)[0])["changes"] == changes
     assert not note({"nobody": "listens"})
     # Who the patient is, and alarms, which have a log of their own.
-    log.changed(Change(case_id="a", kind="patient", name="Doe", before=None, after=1))
-    log.changed(Change(case_id="a", kind="alarm", name="log", before=1, after=2))
+    log.record_change(Change(case_id="a", kind="patient", name="Doe", before=None, after=1))
+    log.record_change(Change(case_id="a", kind="alarm", name="log", before=1, after=2))
     assert log.head.count == LINES + 2
-    assert b"Doe" not in log.whole()
+    assert b"Doe" not in log.complete_lines()
 
 
-def test_a_page_back_in_the_log_ends_before_the_number_asked_for(log: AuditLog) -> None:
+def test_a_page_back_in_the_log_ends_before_the_number_requested(log: AuditLog) -> None:
     assert [json.loads(line)["number"] for line in log.newest(2, before=4)] == [2, 3]
     assert log.newest(5, before=1) == []

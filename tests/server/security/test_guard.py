@@ -1,4 +1,4 @@
-"""The guard at work: cookies, strange pages, what is written, sessions that end while somebody watches."""
+"""The guard: cookies, cross-site requests, audit entries, sessions that end during a stream."""
 
 import asyncio
 import json
@@ -12,10 +12,10 @@ from websockets.sync.client import connect
 
 from server.security import Role
 from server.security.audit import AuditLog, Entry
-from server.security.person import ANYBODY
-from server.security.written import pass_and_write
+from server.security.audited_response import run_audited
+from server.security.person import LOCAL_USER
 from tests.served import served
-from tests.server.security.doors import HOST, Guarded, guarded, people_of
+from tests.server.security.guarded_app import HOST, Guarded, guarded, people_of
 
 OWN = {"Origin": f"http://{HOST}"}
 
@@ -34,8 +34,8 @@ def enter(house: Guarded, token: str, **headers: str) -> httpx2.Response:
 
 
 def last_line(house: Guarded) -> dict[str, object]:
-    told: dict[str, object] = json.loads(house.people.audit.newest(1)[0])
-    return told
+    reported: dict[str, object] = json.loads(house.people.audit.newest(1)[0])
+    return reported
 
 
 def test_signing_in_gives_a_cookie_that_scripts_and_strangers_do_not_get(house: Guarded) -> None:
@@ -72,11 +72,11 @@ def test_a_machine_gets_a_token_and_no_cookie(house: Guarded) -> None:
 
 def test_signing_out_ends_the_session_itself(house: Guarded) -> None:
     enter(house, house.invited())
-    kept = dict(house.door.cookies)
+    stored = dict(house.door.cookies)
     assert house.door.delete("/api/session", headers=OWN).status_code == 204
-    house.door.cookies.update(kept)
-    told = house.door.get("/api/session")
-    assert (told.status_code, told.json()["code"]) == (401, "SESSION_EXPIRED")
+    house.door.cookies.update(stored)
+    reported = house.door.get("/api/session")
+    assert (reported.status_code, reported.json()["code"]) == (401, "SESSION_EXPIRED")
     assert house.door.get("/").status_code in {200, 503}
 
 
@@ -93,8 +93,8 @@ def test_signing_out_ends_the_session_itself(house: Guarded) -> None:
 )
 def test_a_cookie_alone_changes_nothing_for_another_page(house: Guarded, headers: dict[str, str]) -> None:
     enter(house, house.invited())
-    told = house.door.post("/api/cases", json={"name": "L3"}, headers=headers)
-    assert (told.status_code, told.json()["code"]) == (403, "ORIGIN_REJECTED")
+    reported = house.door.post("/api/cases", json={"name": "L3"}, headers=headers)
+    assert (reported.status_code, reported.json()["code"]) == (403, "ORIGIN_REJECTED")
     assert house.store.list() == ()
 
 
@@ -107,15 +107,15 @@ def test_what_a_proxy_says_of_tls_is_believed_only_where_the_settings_do(tmp_pat
         cookie = enter(house, house.invited(), **says).headers["set-cookie"]
         assert cookie.startswith("__Host-coaxial-8000=")
         assert "Secure" in cookie
-        assert "203.0.113.9" not in house.people.audit.whole().decode()
+        assert "203.0.113.9" not in house.people.audit.complete_lines().decode()
 
 
 def test_too_many_wrong_links_are_told_to_wait(house: Guarded) -> None:
     for _ in range(10):
         assert enter(house, "x").json()["code"] == "INVITATION_UNKNOWN"
-    told = enter(house, "x")
-    assert (told.status_code, told.json()["code"]) == (429, "TOO_MANY_TRIES")
-    assert told.headers["retry-after"] == "60"
+    reported = enter(house, "x")
+    assert (reported.status_code, reported.json()["code"]) == (429, "TOO_MANY_TRIES")
+    assert reported.headers["retry-after"] == "60"
     assert enter(house, house.invited()).status_code == 200
     house.door.cookies.clear()
     assert house.door.get("/api/live", headers={"Authorization": "Bearer x"}).headers["retry-after"] == "60"
@@ -130,14 +130,14 @@ def test_what_is_changed_is_written_with_who_and_from_what_to_what(house: Guarde
     assert line["changes"] == [{"what": "case", "case_id": case, "from": None, "to": "here"}]
     house.door.post(f"/api/cases/{case}/open", headers=operator)
     assert last_line(house)["of"] == {"case_id": case}
-    assert "Doe" not in house.people.audit.whole().decode()
+    assert "Doe" not in house.people.audit.complete_lines().decode()
     before = house.people.audit.head.count
     house.door.get("/api/cases", headers=operator)
     house.door.post("/api/alarms/screens", json={"screen": "theatre-01", "state": "armed"}, headers=operator)
     assert house.people.audit.head.count == before
 
 
-def test_refused_tries_are_written_and_opening_the_page_is_none(house: Guarded) -> None:
+def test_rejected_tries_are_written_and_opening_the_page_is_none(house: Guarded) -> None:
     house.door.get("/api/live")
     assert house.people.audit.head.count == 0
     house.door.post("/api/cases", json={"name": "L3"}, headers=house.bearer(Role.VIEWER))
@@ -165,17 +165,17 @@ def test_where_the_disk_is_full_it_is_said_what_was_done_and_nothing_more_is_beg
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(AuditLog, "_write", full)
-    told = house.door.post("/api/cases", json={"name": "one"}, headers=operator)
-    assert (told.status_code, told.json()["code"]) == (507, "AUDIT_NOT_WRITTEN")
+    reported = house.door.post("/api/cases", json={"name": "one"}, headers=operator)
+    assert (reported.status_code, reported.json()["code"]) == (507, "AUDIT_NOT_WRITTEN")
     assert len(house.store.list()) == 1
-    told = house.door.post("/api/cases", json={"name": "two"}, headers=operator)
-    assert (told.status_code, told.json()["code"]) == (507, "STORE_FULL")
+    reported = house.door.post("/api/cases", json={"name": "two"}, headers=operator)
+    assert (reported.status_code, reported.json()["code"]) == (507, "STORE_FULL")
     assert len(house.store.list()) == 1
     # What must never wait for a disk is done.
-    told = house.door.post("/api/alarms/hold", json={}, headers=operator)
-    assert told.json()["code"] == "AUDIT_NOT_WRITTEN"
+    reported = house.door.post("/api/alarms/hold", json={}, headers=operator)
+    assert reported.json()["code"] == "AUDIT_NOT_WRITTEN"
     seen = house.door.get("/api/alarms", headers=operator).json()["alarms"]
-    assert [alarm["condition"] for alarm in seen] == ["HOLD_ASKED"]
+    assert [alarm["condition"] for alarm in seen] == ["HOLD_REQUESTED"]
     monkeypatch.undo()
     house.door.post("/api/cases", json={"name": "three"}, headers=operator)
     said = [json.loads(line)["what"] for line in house.people.audit.newest(10)]
@@ -197,7 +197,7 @@ def test_a_session_that_ends_takes_its_sockets_and_pictures_with_it(house: Guard
             pictures = video.iter_raw()
             assert next(pictures)
             house.clock.passes(hours=1)
-            house.people.end(viewer.partition(".")[0])
+            house.people.end_session(viewer.partition(".")[0])
             for socket in (live, view):
                 with pytest.raises(ConnectionClosed) as closed:
                     socket.recv(timeout=2)
@@ -232,8 +232,8 @@ def test_where_nobody_has_to_sign_in_all_is_open_and_written_all_the_same(tmp_pa
         assert house.door.get("/api/session").json()["sign_in_required"] is False
         assert house.door.post("/api/cases", json={"name": "L3"}).status_code == 201
         assert last_line(house)["who"] == {"id": "anybody", "name": "this computer", "role": "operator"}
-        told = house.door.post("/api/people/invitations", json={"name": "x", "role": "viewer"})
-        assert (told.status_code, told.json()["code"]) == (409, "SIGN_IN_OFF")
+        reported = house.door.post("/api/people/invitations", json={"name": "x", "role": "viewer"})
+        assert (reported.status_code, reported.json()["code"]) == (409, "SIGN_IN_OFF")
         assert enter(house, "x").json()["code"] == "SIGN_IN_OFF"
 
 
@@ -245,11 +245,11 @@ def test_what_was_done_for_somebody_who_has_gone_is_written(tmp_path: Path) -> N
         raise AssertionError("there is nobody left to tell")
 
     log = AuditLog(tmp_path)
-    entry = Entry(who=ANYBODY, what="POST /api/cases")
+    entry = Entry(who=LOCAL_USER, what="POST /api/cases")
 
     async def ask() -> None:
         with pytest.raises(asyncio.CancelledError):
-            await pass_and_write(left, {}, left, nobody, audit=log, entry=entry)  # type: ignore[arg-type]
+            await run_audited(left, {}, left, nobody, audit=log, entry=entry)  # type: ignore[arg-type]
 
     asyncio.run(ask())
     assert log.head.count == 1
@@ -257,13 +257,13 @@ def test_what_was_done_for_somebody_who_has_gone_is_written(tmp_path: Path) -> N
 
 def test_an_invitation_is_a_link_and_a_picture_of_it(house: Guarded) -> None:
     enter(house, house.invited())
-    asked = {"name": "Dr. Ito", "role": "supervisor", "lasts_h": 2}
-    told = house.door.post("/api/people/invitations", json=asked, headers=OWN).json()
-    address, _, token = told["link"].partition("#")
+    requested = {"name": "Dr. Ito", "role": "supervisor", "lasts_h": 2}
+    reported = house.door.post("/api/people/invitations", json=requested, headers=OWN).json()
+    address, _, token = reported["link"].partition("#")
     assert address == f"http://{HOST}/enter"
-    assert told["qr_svg"].startswith("<svg")
-    assert told["is_reachable"] is False
-    assert token not in house.people.audit.whole().decode()
+    assert reported["qr_svg"].startswith("<svg")
+    assert reported["is_reachable"] is False
+    assert token not in house.people.audit.complete_lines().decode()
     everybody = house.door.get("/api/people").json()
     assert "Dr. Ito" in [one["name"] for one in everybody["invitations"]]
     assert [one["is_own"] for one in everybody["sessions"]] == [True]
@@ -282,13 +282,15 @@ def test_an_operator_signs_in_on_a_full_disk_to_make_room(
 
     with monkeypatch.context() as disk:
         disk.setattr(AuditLog, "_write", full)
-        disk.setattr("server.security.people.desk.write_people", full)
-        assert (told := enter(house, viewer)).status_code == 507, told.text
-        told = enter(house, operator)
-        assert (told.status_code, told.json()["role"]) == (200, "operator")
+        disk.setattr("server.security.people.service.write_people", full)
+        assert (reported := enter(house, viewer)).status_code == 507, reported.text
+        reported = enter(house, operator)
+        assert (reported.status_code, reported.json()["role"]) == (200, "operator")
         assert house.door.get("/api/cases").status_code == 200
-        told = house.door.post("/api/people/invitations", json={"name": "x", "role": "viewer"}, headers=OWN)
-        assert (told.status_code, told.json()["code"]) == (507, "STORE_FULL")
+        reported = house.door.post(
+            "/api/people/invitations", json={"name": "x", "role": "viewer"}, headers=OWN
+        )
+        assert (reported.status_code, reported.json()["code"]) == (507, "STORE_FULL")
     house.people.audit.catch_up()
     assert house.people.audit.head.count > before
     # With the next change they are kept.
@@ -305,19 +307,21 @@ def test_an_operator_signs_in_on_a_full_disk_to_make_room(
         pytest.param({"session_lasts_h": 1e-10}, id="over before it begins"),
     ],
 )
-def test_nobody_is_invited_whose_deeds_could_not_be_kept(house: Guarded, asked: dict[str, object]) -> None:
-    wanted = {"name": "Dr. Ito", "role": "viewer", **asked}
-    told = house.door.post("/api/people/invitations", json=wanted, headers=house.bearer())
-    assert told.status_code == 422
-    assert told.json()["remedy"]
+def test_nobody_is_invited_whose_deeds_could_not_be_kept(
+    house: Guarded, requested: dict[str, object]
+) -> None:
+    wanted = {"name": "Dr. Ito", "role": "viewer", **requested}
+    reported = house.door.post("/api/people/invitations", json=wanted, headers=house.bearer())
+    assert reported.status_code == 422
+    assert reported.json()["remedy"]
     assert "Dr. Ito" not in [one.person.name for one, _ in house.people.invitations()]
 
 
 def test_a_name_is_kept_in_the_one_way_to_write_it(house: Guarded) -> None:
     wanted = {"name": " Mu\u0308ller", "role": "viewer", "session_lasts_h": 0.05}
-    told = house.door.post("/api/people/invitations", json=wanted, headers=house.bearer()).json()
-    assert told["invitation"]["name"] == "M\u00fcller"
-    assert enter(house, told["link"].partition("#")[2]).json()["name"] == "M\u00fcller"
+    reported = house.door.post("/api/people/invitations", json=wanted, headers=house.bearer()).json()
+    assert reported["invitation"]["name"] == "M\u00fcller"
+    assert enter(house, reported["link"].partition("#")[2]).json()["name"] == "M\u00fcller"
 
 
 def test_invitations_are_taken_back_and_sessions_ended_by_the_operator(house: Guarded) -> None:
@@ -328,17 +332,17 @@ def test_invitations_are_taken_back_and_sessions_ended_by_the_operator(house: Gu
     assert gone.status_code == 204
     assert house.door.delete(f"/api/people/sessions/{session}", headers=operator).status_code == 404
     assert house.door.delete(f"/api/people/invitations/{invitation}", headers=operator).status_code == 204
-    told = house.door.get("/api/live", headers={"Authorization": f"Bearer {guest}"})
-    assert told.json()["code"] == "SESSION_EXPIRED"
+    reported = house.door.get("/api/live", headers={"Authorization": f"Bearer {guest}"})
+    assert reported.json()["code"] == "SESSION_EXPIRED"
 
 
 def test_the_log_is_read_and_taken_along_by_overseers(house: Guarded) -> None:
     supervisor = house.bearer(Role.SUPERVISOR)
     house.door.post("/api/cases", json={"name": "L3"}, headers=house.bearer())
-    told = house.door.get("/api/audit", headers=supervisor).json()
-    assert told["is_whole"]
-    assert told["lines"][-1]["what"] == "POST /api/cases"
+    reported = house.door.get("/api/audit", headers=supervisor).json()
+    assert reported["is_intact"]
+    assert reported["lines"][-1]["what"] == "POST /api/cases"
     exported = house.door.get("/api/audit/export", headers=supervisor)
     assert exported.headers["content-disposition"].startswith("attachment")
-    assert exported.content.startswith(house.people.audit.whole().splitlines()[0])
+    assert exported.content.startswith(house.people.audit.complete_lines().splitlines()[0])
     assert last_line(house)["what"] == "GET /api/audit/export"

@@ -1,4 +1,4 @@
-"""The server answers to its own names, and opens its sockets to its own pages."""
+"""The server accepts its own host names, and opens its sockets to its own pages."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Invitations and sessions: who gets in, for how long, and who does not any more."""
+"""Invitations and sessions: who can sign in, for how long, and who no longer."""
 
 import errno
 import json
@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from server.security import PeopleDesk, Role
-from server.security.people import Token, kept
-from server.security.people.desk import PEOPLE_FILE, Wanted
+from server.security import PeopleService, Role
+from server.security.people import Token, retention
+from server.security.people.service import PEOPLE_FILE, NewInvitation
 from server.security.rejections import (
     InvitationRejected,
     PeopleRejected,
@@ -20,7 +20,7 @@ from server.security.rejections import (
     TooManyTries,
 )
 from server.store import StoreError
-from tests.server.security.doors import Clock, people_of
+from tests.server.security.guarded_app import Clock, people_of
 
 HERE = "192.0.2.7"
 
@@ -31,154 +31,154 @@ def clock() -> Clock:
 
 
 @pytest.fixture
-def desk(tmp_path: Path, clock: Clock) -> PeopleDesk:
+def desk(tmp_path: Path, clock: Clock) -> PeopleService:
     return people_of(tmp_path, clock)
 
 
-def invited(desk: PeopleDesk, *, role: Role = Role.VIEWER, single_use: bool = True) -> str:
-    wanted = Wanted(name="Dr. Ito", role=role, lasts=timedelta(hours=1), single_use=single_use)
+def invited(desk: PeopleService, *, role: Role = Role.VIEWER, single_use: bool = True) -> str:
+    wanted = NewInvitation(name="Dr. Ito", role=role, lasts=timedelta(hours=1), single_use=single_use)
     return desk.invite(wanted, by="test")[1].text
 
 
-def test_an_invitation_lets_in_once_with_its_name_and_role(desk: PeopleDesk) -> None:
+def test_an_invitation_lets_in_once_with_its_name_and_role(desk: PeopleService) -> None:
     link = invited(desk, role=Role.SUPERVISOR)
-    session, token = desk.enter(link, address=HERE)
-    assert desk.who(token.text, address=HERE) == session
+    session, token = desk.sign_in(link, address=HERE)
+    assert desk.session_of(token.text, address=HERE) == session
     assert (session.person.name, session.person.role) == ("Dr. Ito", Role.SUPERVISOR)
     with pytest.raises(InvitationRejected) as rejected:
-        desk.enter(link, address=HERE)
+        desk.sign_in(link, address=HERE)
     assert rejected.value.code == "INVITATION_USED"
 
 
 def test_who_invited_somebody_is_known_of_them_over_a_restart(tmp_path: Path, clock: Clock) -> None:
     link = invited(people_of(tmp_path, clock))
-    _, token = people_of(tmp_path, clock).enter(link, address=HERE)
-    assert people_of(tmp_path, clock).who(token.text, address=HERE).person.invited_by == "test"
+    _, token = people_of(tmp_path, clock).sign_in(link, address=HERE)
+    assert people_of(tmp_path, clock).session_of(token.text, address=HERE).person.invited_by == "test"
     # An invitation that was made before it was written down says who made it.
     link, file = invited(people_of(tmp_path, clock)), tmp_path / PEOPLE_FILE
     older = json.loads(file.read_bytes())
     for one in (*older["invitations"], *older["sessions"]):
         del one["person"]["invited_by"]
     file.write_text(json.dumps(older))
-    assert people_of(tmp_path, clock).enter(link, address=HERE)[0].person.invited_by == "test"
-    assert people_of(tmp_path, clock).who(token.text, address=HERE).person.invited_by == ""
+    assert people_of(tmp_path, clock).sign_in(link, address=HERE)[0].person.invited_by == "test"
+    assert people_of(tmp_path, clock).session_of(token.text, address=HERE).person.invited_by == ""
 
 
 def test_one_for_many_lets_in_many_as_the_same_person_until_its_time_is_over(
-    desk: PeopleDesk, clock: Clock
+    desk: PeopleService, clock: Clock
 ) -> None:
     link = invited(desk, single_use=False)
-    first, second = desk.enter(link, address=HERE)[0], desk.enter(link, address=HERE)[0]
+    first, second = desk.sign_in(link, address=HERE)[0], desk.sign_in(link, address=HERE)[0]
     assert first.id != second.id
     assert first.person == second.person
     clock.passes(hours=1)
     with pytest.raises(InvitationRejected) as rejected:
-        desk.enter(link, address=HERE)
+        desk.sign_in(link, address=HERE)
     assert rejected.value.code == "INVITATION_EXPIRED"
 
 
-def test_one_that_was_taken_back_lets_nobody_in_and_leaves_who_is_in(desk: PeopleDesk) -> None:
+def test_one_that_was_taken_back_lets_nobody_in_and_leaves_who_is_in(desk: PeopleService) -> None:
     link = invited(desk, single_use=False)
-    session, _ = desk.enter(link, address=HERE)
+    session, _ = desk.sign_in(link, address=HERE)
     desk.revoke(session.invitation_id)
-    assert desk.holds(session.id)
+    assert desk.is_valid(session.id)
     with pytest.raises(InvitationRejected) as rejected:
-        desk.enter(link, address=HERE)
+        desk.sign_in(link, address=HERE)
     assert rejected.value.code == "INVITATION_REVOKED"
 
 
-def test_a_session_ends_by_the_clock_and_when_somebody_ends_it(desk: PeopleDesk, clock: Clock) -> None:
-    session, token = desk.enter(invited(desk), address=HERE)
-    other, other_token = desk.enter(invited(desk), address=HERE)
-    desk.end(other.id)
-    assert not desk.holds(other.id)
+def test_a_session_ends_by_the_clock_and_when_somebody_ends_it(desk: PeopleService, clock: Clock) -> None:
+    session, token = desk.sign_in(invited(desk), address=HERE)
+    other, other_token = desk.sign_in(invited(desk), address=HERE)
+    desk.end_session(other.id)
+    assert not desk.is_valid(other.id)
     clock.passes(hours=11, minutes=59)
-    assert desk.holds(session.id)
+    assert desk.is_valid(session.id)
     clock.passes(minutes=1)
     for shown in (token, other_token):
         with pytest.raises(SessionRejected) as rejected:
-            desk.who(shown.text, address=HERE)
+            desk.session_of(shown.text, address=HERE)
         assert rejected.value.code == "SESSION_EXPIRED"
     with pytest.raises(PersonUnknown):
-        desk.end(session.id)
+        desk.end_session(session.id)
 
 
 def test_sessions_and_invitations_outlast_a_restart_and_the_disk_opens_nothing(
-    desk: PeopleDesk, tmp_path: Path, clock: Clock
+    desk: PeopleService, tmp_path: Path, clock: Clock
 ) -> None:
     link = invited(desk, single_use=False)
-    session, token = desk.enter(link, address=HERE)
+    session, token = desk.sign_in(link, address=HERE)
     again = people_of(tmp_path, clock)
-    assert again.who(token.text, address=HERE) == session
-    assert again.enter(link, address=HERE)[0].person == session.person
-    kept = tmp_path / "people.json"
-    assert kept.stat().st_mode & 0o077 == 0
+    assert again.session_of(token.text, address=HERE) == session
+    assert again.sign_in(link, address=HERE)[0].person == session.person
+    stored = tmp_path / "people.json"
+    assert stored.stat().st_mode & 0o077 == 0
     for secret in (link, token.text):
         assert Token.read(secret) is not None
-        assert secret.partition(".")[2] not in kept.read_text()
+        assert secret.partition(".")[2] not in stored.read_text()
 
 
-def test_a_right_name_with_a_wrong_secret_opens_nothing(desk: PeopleDesk) -> None:
-    session, token = desk.enter(invited(desk), address=HERE)
+def test_a_right_name_with_a_wrong_secret_opens_nothing(desk: PeopleService) -> None:
+    session, token = desk.sign_in(invited(desk), address=HERE)
     wrong = f"{session.id}.{'A' * 43}"
     assert wrong != token.text
     with pytest.raises(SessionRejected):
-        desk.who(wrong, address=HERE)
+        desk.session_of(wrong, address=HERE)
 
 
-def test_guesses_are_limited_by_address_and_wait_a_minute(desk: PeopleDesk, clock: Clock) -> None:
+def test_failed_logins_are_limited_by_address_and_wait_a_minute(desk: PeopleService, clock: Clock) -> None:
     link = invited(desk)
     for number in range(10):
         with pytest.raises(InvitationRejected):
-            desk.enter(f"{number:012x}.{'A' * 43}", address=HERE)
+            desk.sign_in(f"{number:012x}.{'A' * 43}", address=HERE)
         clock.passes(seconds=1)
-    with pytest.raises(TooManyTries) as told:
-        desk.enter("x", address=HERE)
-    assert told.value.context == {"wait_s": 50}
+    with pytest.raises(TooManyTries) as reported:
+        desk.sign_in("x", address=HERE)
+    assert reported.value.context == {"wait_s": 50}
     with pytest.raises(TooManyTries):
-        desk.who("nonsense", address=HERE)
+        desk.session_of("nonsense", address=HERE)
     # Somebody elsewhere is not kept waiting by that, and neither is who has the right link, or is in already.
     with pytest.raises(InvitationRejected):
-        desk.enter("x", address="192.0.2.8")
-    session, token = desk.enter(link, address=HERE)
-    assert desk.who(token.text, address=HERE) == session
+        desk.sign_in("x", address="192.0.2.8")
+    session, token = desk.sign_in(link, address=HERE)
+    assert desk.session_of(token.text, address=HERE) == session
     with pytest.raises(InvitationRejected) as used:
-        desk.enter(link, address=HERE)
+        desk.sign_in(link, address=HERE)
     assert used.value.code == "INVITATION_USED"
     clock.passes(seconds=50)
     with pytest.raises(InvitationRejected):
-        desk.enter("x", address=HERE)
+        desk.sign_in("x", address=HERE)
 
 
-def test_guesses_from_everywhere_are_limited_together(desk: PeopleDesk) -> None:
+def test_failed_logins_from_everywhere_are_limited_together(desk: PeopleService) -> None:
     for number in range(100):
         with pytest.raises(SessionRejected):
-            desk.who("x", address=f"192.0.2.{number}")
+            desk.session_of("x", address=f"192.0.2.{number}")
     with pytest.raises(TooManyTries):
-        desk.who("x", address="198.51.100.1")
+        desk.session_of("x", address="198.51.100.1")
 
 
-def test_neighbours_in_one_network_of_the_new_kind_count_as_one(desk: PeopleDesk) -> None:
+def test_neighbours_in_one_network_of_the_new_kind_count_as_one(desk: PeopleService) -> None:
     for number in range(10):
         with pytest.raises(SessionRejected):
-            desk.who("x", address=f"2001:db8::{number}")
+            desk.session_of("x", address=f"2001:db8::{number}")
     with pytest.raises(TooManyTries):
-        desk.who("x", address="2001:db8::ffff")
+        desk.session_of("x", address="2001:db8::ffff")
     with pytest.raises(SessionRejected):
-        desk.who("x", address="2001:db8:0:1::1")
+        desk.session_of("x", address="2001:db8:0:1::1")
 
 
 def test_the_operators_link_comes_until_an_operator_is_in_and_the_old_one_ends(
-    desk: PeopleDesk, clock: Clock
+    desk: PeopleService, clock: Clock
 ) -> None:
     first = desk.operator_token(wanted=False)
     second = desk.operator_token(wanted=False)
     assert first is not None
     assert second is not None
     with pytest.raises(InvitationRejected) as rejected:
-        desk.enter(first.text, address=HERE)
+        desk.sign_in(first.text, address=HERE)
     assert rejected.value.code == "INVITATION_REVOKED"
-    session, _ = desk.enter(second.text, address=HERE)
+    session, _ = desk.sign_in(second.text, address=HERE)
     assert session.person.role is Role.OPERATOR
     assert desk.operator_token(wanted=False) is None
     assert desk.operator_token(wanted=True) is not None
@@ -186,110 +186,110 @@ def test_the_operators_link_comes_until_an_operator_is_in_and_the_old_one_ends(
     assert desk.operator_token(wanted=False) is not None
 
 
-def test_what_ended_long_ago_is_forgotten(desk: PeopleDesk, tmp_path: Path, clock: Clock) -> None:
-    desk.enter(invited(desk), address=HERE)
+def test_what_ended_long_ago_is_forgotten(desk: PeopleService, tmp_path: Path, clock: Clock) -> None:
+    desk.sign_in(invited(desk), address=HERE)
     clock.passes(days=4)
     invited(desk)
-    kept = json.loads((tmp_path / "people.json").read_text())
-    assert (len(kept["sessions"]), len(kept["invitations"])) == (0, 1)
+    stored = json.loads((tmp_path / "people.json").read_text())
+    assert (len(stored["sessions"]), len(stored["invitations"])) == (0, 1)
 
 
-def test_a_damaged_file_is_told(desk: PeopleDesk, tmp_path: Path, clock: Clock) -> None:
+def test_a_damaged_file_is_told(desk: PeopleService, tmp_path: Path, clock: Clock) -> None:
     invited(desk)
     (tmp_path / "people.json").write_text('{"form": 1, "invitations": [{}]}')
-    with pytest.raises(StoreError) as told:
+    with pytest.raises(StoreError) as reported:
         people_of(tmp_path, clock)
-    assert told.value.code == "PEOPLE_DAMAGED"
+    assert reported.value.code == "PEOPLE_DAMAGED"
 
 
 def test_ended_sessions_make_room_and_the_operator_gets_in_however_many_there_are(
-    desk: PeopleDesk, tmp_path: Path, clock: Clock, monkeypatch: pytest.MonkeyPatch
+    desk: PeopleService, tmp_path: Path, clock: Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(kept, "MAX_KEPT", 12)
+    monkeypatch.setattr(retention, "MAX_RECORDS", 12)
     link = invited(desk, single_use=False)
-    held, _ = desk.enter(link, address=HERE)
+    held, _ = desk.sign_in(link, address=HERE)
     for _ in range(30):
         clock.passes(seconds=1)
-        last = desk.end(desk.enter(link, address=HERE)[0].id)
+        last = desk.end_session(desk.sign_in(link, address=HERE)[0].id)
     there = json.loads((tmp_path / "people.json").read_text())
     assert len(there["sessions"]) + len(there["invitations"]) == 12
     assert {held.id, last.id} <= {one["id"] for one in there["sessions"]}
     # Links that were used go as well; then what holds fills the room, and only that is refused.
-    desk.enter(invited(desk), address=HERE)
+    desk.sign_in(invited(desk), address=HERE)
     for _ in range(9):
         invited(desk)
-    with pytest.raises(PeopleRejected) as told:
+    with pytest.raises(PeopleRejected) as reported:
         invited(desk)
-    assert told.value.code == "TOO_MANY_PEOPLE"
+    assert reported.value.code == "TOO_MANY_PEOPLE"
     with pytest.raises(PeopleRejected):
-        desk.enter(link, address=HERE)
-    desk.end(held.id)
+        desk.sign_in(link, address=HERE)
+    desk.end_session(held.id)
     invited(desk)
     again = people_of(tmp_path, clock)
     token = again.operator_token(wanted=False)
     assert token is not None
-    assert again.enter(token.text, address=HERE)[0].person.role is Role.OPERATOR
+    assert again.sign_in(token.text, address=HERE)[0].person.role is Role.OPERATOR
 
 
-def test_one_link_lets_in_twenty_at_a_time(desk: PeopleDesk) -> None:
+def test_one_link_lets_in_twenty_at_a_time(desk: PeopleService) -> None:
     link = invited(desk, single_use=False)
-    sessions = [desk.enter(link, address=HERE)[0] for _ in range(20)]
+    sessions = [desk.sign_in(link, address=HERE)[0] for _ in range(20)]
     with pytest.raises(InvitationRejected) as rejected:
-        desk.enter(link, address=HERE)
+        desk.sign_in(link, address=HERE)
     assert rejected.value.code == "INVITATION_FULL"
-    assert "20 are signed in by this link" in rejected.value.message
-    assert all(desk.holds(one.id) for one in sessions)
-    desk.end(sessions[0].id)
-    desk.enter(link, address=HERE)
-    desk.enter(invited(desk), address=HERE)
+    assert "20 sessions are signed in by this link" in rejected.value.message
+    assert all(desk.is_valid(one.id) for one in sessions)
+    desk.end_session(sessions[0].id)
+    desk.sign_in(link, address=HERE)
+    desk.sign_in(invited(desk), address=HERE)
 
 
 def test_one_link_signs_in_forty_times_an_hour_and_its_audit_lines_end_there(
-    desk: PeopleDesk, clock: Clock
+    desk: PeopleService, clock: Clock
 ) -> None:
-    lasting = Wanted(name="Hall", role=Role.VIEWER, lasts=timedelta(hours=3), single_use=False)
+    lasting = NewInvitation(name="Hall", role=Role.VIEWER, lasts=timedelta(hours=3), single_use=False)
     link, other = desk.invite(lasting, by="test")[1].text, desk.invite(lasting, by="test")[1].text
     for _ in range(40):
         clock.passes(seconds=30)
-        session, token = desk.enter(link, address=HERE)
-        desk.end(session.id)
-    session, token = desk.enter(other, address=HERE)
-    with pytest.raises(TooManyTries) as told:
-        desk.enter(link, address=HERE)
-    assert told.value.code == "TOO_MANY_SIGN_INS"
-    assert told.value.message == (
+        session, token = desk.sign_in(link, address=HERE)
+        desk.end_session(session.id)
+    session, token = desk.sign_in(other, address=HERE)
+    with pytest.raises(TooManyTries) as reported:
+        desk.sign_in(link, address=HERE)
+    assert reported.value.code == "TOO_MANY_SIGN_INS"
+    assert reported.value.message == (
         "this link has signed in 40 times within 60 min, and signs in again in 41 min"
     )
-    assert told.value.context["wait_s"] == 3600 - 39 * 30
-    assert told.value.remedy
+    assert reported.value.context["wait_s"] == 3600 - 39 * 30
+    assert reported.value.remedy
     # Who is in stays in, and other links let in.
-    assert desk.who(token.text, address=HERE) == session
+    assert desk.session_of(token.text, address=HERE) == session
     clock.passes(seconds=3600 - 39 * 30)
-    desk.enter(link, address=HERE)
+    desk.sign_in(link, address=HERE)
     # A refused try does not make the wait longer, and each place comes back for itself.
-    with pytest.raises(TooManyTries) as told:
-        desk.enter(link, address=HERE)
-    assert told.value.context["wait_s"] == 30
+    with pytest.raises(TooManyTries) as reported:
+        desk.sign_in(link, address=HERE)
+    assert reported.value.context["wait_s"] == 30
 
 
 def test_nobody_waits_at_the_door_while_the_disk_is_slow(
-    desk: PeopleDesk, monkeypatch: pytest.MonkeyPatch
+    desk: PeopleService, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     link = invited(desk, single_use=False)
-    session, token = desk.enter(link, address=HERE)
+    session, token = desk.sign_in(link, address=HERE)
     writing, may_go_on = threading.Event(), threading.Event()
 
     def slow(*_: object) -> None:
         writing.set()
         may_go_on.wait(60.0)
 
-    monkeypatch.setattr("server.security.people.desk.write_people", slow)
+    monkeypatch.setattr("server.security.people.service.write_people", slow)
     seen: list[object] = []
 
     def ask() -> None:
-        seen.extend([desk.who(token.text, address=HERE) == session, desk.holds(session.id)])
+        seen.extend([desk.session_of(token.text, address=HERE) == session, desk.is_valid(session.id)])
 
-    entering = threading.Thread(target=desk.enter, args=(link,), kwargs={"address": HERE})
+    entering = threading.Thread(target=desk.sign_in, args=(link,), kwargs={"address": HERE})
     asking = threading.Thread(target=ask, daemon=True)
     entering.start()
     try:
@@ -303,7 +303,7 @@ def test_nobody_waits_at_the_door_while_the_disk_is_slow(
 
 
 def test_a_disk_with_room_for_a_part_keeps_the_old_file_and_says_so(
-    desk: PeopleDesk, tmp_path: Path, clock: Clock, monkeypatch: pytest.MonkeyPatch
+    desk: PeopleService, tmp_path: Path, clock: Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     link = invited(desk, single_use=False)
     before, write, room = (tmp_path / "people.json").read_bytes(), os.write, [200]
@@ -316,13 +316,13 @@ def test_a_disk_with_room_for_a_part_keeps_the_old_file_and_says_so(
         return written
 
     monkeypatch.setattr(os, "write", nearly_full)
-    with pytest.raises(StoreError) as told:
-        desk.enter(link, address=HERE)
-    assert told.value.code == "STORE_FULL"
+    with pytest.raises(StoreError) as reported:
+        desk.sign_in(link, address=HERE)
+    assert reported.value.code == "STORE_FULL"
     assert (tmp_path / "people.json").read_bytes() == before
     assert [one.name for one in tmp_path.glob(".*")] == []
     monkeypatch.setattr(os, "write", lambda descriptor, content: write(descriptor, bytes(content)[:7]))
-    people_of(tmp_path, clock).enter(link, address=HERE)
+    people_of(tmp_path, clock).sign_in(link, address=HERE)
     assert len(people_of(tmp_path, clock).sessions()) == 1
 
 

@@ -1,4 +1,4 @@
-"""TLS: where it is spoken, with which certificate, and that video goes through it as it does without."""
+"""TLS: when it is used, with which certificate, and that video works the same with it."""
 
 import contextlib
 import hashlib
@@ -23,9 +23,9 @@ from server.app import AppParts, create_app
 from server.config import Config
 from server.errors import ConfigError
 from server.live import LiveHub
-from server.security.tls import chosen_tls, handshake, reject_unsafe, self_made
-from server.security.tls.choose import PROXY_WORDS
-from server.security.tls.self_made import kept_or_made
+from server.security.tls import handshake, reject_unsafe, select_tls, self_signed
+from server.security.tls.selection import PROXY_SPEAKS_TLS
+from server.security.tls.self_signed import load_or_create
 from tests.served import served
 
 REPOSITORY = Path(__file__).parents[3]
@@ -37,36 +37,36 @@ def config_of(**server: object) -> Config:
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "::1", "localhost", "127.3.2.1"])
 def test_on_loopback_no_tls_is_spoken(tmp_path: Path, host: str) -> None:
-    assert chosen_tls(config_of(host=host), tmp_path) is None
+    assert select_tls(config_of(host=host), tmp_path) is None
 
 
 def test_on_any_other_address_it_is_with_a_certificate_of_our_own_making(tmp_path: Path) -> None:
-    tls = chosen_tls(config_of(host="0.0.0.0"), tmp_path)  # noqa: S104  nothing listens
+    tls = select_tls(config_of(host="0.0.0.0"), tmp_path)  # noqa: S104  nothing listens
     assert tls is not None
-    assert tls.self_made
+    assert tls.is_self_signed
     assert re.fullmatch(r"([0-9A-F]{2}:){31}[0-9A-F]{2}", tls.fingerprint)
     assert tls.key.stat().st_mode & 0o077 == 0
-    again = chosen_tls(config_of(host="0.0.0.0"), tmp_path)  # noqa: S104  nothing listens
+    again = select_tls(config_of(host="0.0.0.0"), tmp_path)  # noqa: S104  nothing listens
     assert again == tls, "browsers were told to believe this one"
 
 
 def test_a_proxy_speaks_it_only_where_the_settings_say_so_in_words(tmp_path: Path) -> None:
     said = config_of(host="0.0.0.0", behind_proxy="a proxy speaks TLS for this server")  # noqa: S104
-    assert chosen_tls(said, tmp_path) is None
+    assert select_tls(said, tmp_path) is None
     with pytest.raises(ValueError, match="behind_proxy"):
         config_of(behind_proxy="yes")
 
 
 def test_without_sign_in_no_other_address_is_served() -> None:
     off = Config.model_validate({"server": {"host": "192.0.2.1"}, "security": {"sign_in": "off"}})
-    with pytest.raises(ConfigError) as told:
+    with pytest.raises(ConfigError) as reported:
         reject_unsafe(off)
-    assert told.value.code == "SIGN_IN_NEEDED"
+    assert reported.value.code == "SIGN_IN_NEEDED"
     reject_unsafe(Config.model_validate({"security": {"sign_in": False}}))
-    proxied = {"server": {"behind_proxy": PROXY_WORDS}, "security": {"sign_in": "off"}}
-    with pytest.raises(ConfigError) as told:
+    proxied = {"server": {"behind_proxy": PROXY_SPEAKS_TLS}, "security": {"sign_in": "off"}}
+    with pytest.raises(ConfigError) as reported:
         reject_unsafe(Config.model_validate(proxied))
-    assert told.value.code == "SIGN_IN_NEEDED"
+    assert reported.value.code == "SIGN_IN_NEEDED"
     reject_unsafe(config_of(host="192.0.2.1"))
 
 
@@ -74,17 +74,17 @@ def test_without_sign_in_no_other_address_is_served() -> None:
 def test_nobody_is_a_second_person_where_nobody_signs_in(what: str) -> None:
     required = {"supervision": {"cosign": {what: "required"}}}
     reject_unsafe(Config.model_validate(required))
-    with pytest.raises(ConfigError) as told:
+    with pytest.raises(ConfigError) as reported:
         reject_unsafe(Config.model_validate({**required, "security": {"sign_in": "off"}}))
-    assert told.value.code == "SIGN_IN_NEEDED"
-    assert "cosign" in told.value.message
+    assert reported.value.code == "SIGN_IN_NEEDED"
+    assert "cosign" in reported.value.message
 
 
 def test_who_connects_and_does_not_finish_the_handshake_is_cut_off(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(handshake, "HANDSHAKE_WITHIN_S", 1.0)
-    tls = chosen_tls(config_of(host="0.0.0.0"), tmp_path)  # noqa: S104  nothing listens there
+    monkeypatch.setattr(handshake, "HANDSHAKE_TIMEOUT_S", 1.0)
+    tls = select_tls(config_of(host="0.0.0.0"), tmp_path)  # noqa: S104  nothing listens there
     assert tls is not None
     app = create_app(AppParts(hub=LiveHub(), config=Config()))
     trusting = ssl.create_default_context(cafile=str(tls.certificate))
@@ -99,12 +99,12 @@ def test_who_connects_and_does_not_finish_the_handshake_is_cut_off(
         silent, halting, whole = connected(), connected(), connected()
         # The first bytes of a greeting that never ends.
         halting.sendall(b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03")
-        sealed = lines.enter_context(trusting.wrap_socket(whole))
+        chained_line = lines.enter_context(trusting.wrap_socket(whole))
         wait_for_end(silent)
         wait_for_end(halting)
         # Who has finished it is not in a hurry because of that.
-        sealed.sendall(b"GET /health HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n")
-        assert sealed.recv(1024).startswith(b"HTTP/1.1 ")
+        chained_line.sendall(b"GET /health HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n")
+        assert chained_line.recv(1024).startswith(b"HTTP/1.1 ")
 
 
 def wait_for_end(line: socket.socket) -> None:
@@ -119,7 +119,7 @@ def test_a_self_made_one_is_made_anew_when_it_ends_or_a_name_is_missing(
 ) -> None:
     def pem(host: str = "192.0.2.1", **later: float) -> bytes:
         now = datetime.now(tz=UTC) + timedelta(**later)
-        return kept_or_made(tmp_path, host=host, clock=lambda: now).certificate.read_bytes()
+        return load_or_create(tmp_path, host=host, clock=lambda: now).certificate.read_bytes()
 
     first = pem()
     assert pem() == first
@@ -131,21 +131,21 @@ def test_a_self_made_one_is_made_anew_when_it_ends_or_a_name_is_missing(
     assert pem("ward-3.example", days=370) == third
     (tmp_path / "key.pem").chmod(0o644)
     assert pem("ward-3.example", days=370) != third, "others may have read the key"
-    monkeypatch.setattr(self_made, "own_address", lambda: "198.51.100.3")
+    monkeypatch.setattr(self_signed, "outbound_address", lambda: "198.51.100.3")
     assert b"BEGIN CERTIFICATE" in pem()
 
 
 @pytest.fixture
 def own(tmp_path: Path) -> dict[str, Path]:
     """Certificates that somebody brings, good and bad."""
-    one, other = (kept_or_made(tmp_path / name, host="localhost") for name in ("one", "other"))
+    one, other = (load_or_create(tmp_path / name, host="localhost") for name in ("one", "other"))
     locked, text = tmp_path / "locked.pem", tmp_path / "text.pem"
     text.write_text("no certificate at all")
     from cryptography.hazmat.primitives import serialization as forms  # noqa: PLC0415
 
     key = forms.load_pem_private_key(one.key.read_bytes(), password=None)
-    sealed = forms.BestAvailableEncryption(b"secret")
-    locked.write_bytes(key.private_bytes(forms.Encoding.PEM, forms.PrivateFormat.PKCS8, sealed))
+    chained_line = forms.BestAvailableEncryption(b"secret")
+    locked.write_bytes(key.private_bytes(forms.Encoding.PEM, forms.PrivateFormat.PKCS8, chained_line))
     return {
         "certificate": one.certificate,
         "key": one.key,
@@ -171,21 +171,21 @@ def test_a_certificate_that_cannot_be_served_is_told(
     own: dict[str, Path], tmp_path: Path, certificate: str, key: str, said: str
 ) -> None:
     files = {"certificate": own[certificate], "key": own[key]}
-    with pytest.raises(ConfigError) as told:
-        chosen_tls(config_of(tls=files), tmp_path)
-    assert told.value.code == "CERTIFICATE_UNUSABLE"
-    assert said in told.value.message
+    with pytest.raises(ConfigError) as reported:
+        select_tls(config_of(tls=files), tmp_path)
+    assert reported.value.code == "CERTIFICATE_UNUSABLE"
+    assert said in reported.value.message
 
 
-def test_a_good_one_is_served_on_loopback_too_and_half_of_one_is_refused(
+def test_a_good_one_is_served_on_loopback_too_and_half_of_one_is_rejected(
     own: dict[str, Path], tmp_path: Path
 ) -> None:
-    tls = chosen_tls(config_of(tls={"certificate": own["certificate"], "key": own["key"]}), tmp_path)
+    tls = select_tls(config_of(tls={"certificate": own["certificate"], "key": own["key"]}), tmp_path)
     assert tls is not None
-    assert not tls.self_made
-    with pytest.raises(ConfigError) as told:
+    assert not tls.is_self_signed
+    with pytest.raises(ConfigError) as reported:
         reject_unsafe(config_of(tls={"key": own["key"]}))
-    assert told.value.code == "TLS_HALF"
+    assert reported.value.code == "TLS_HALF"
 
 
 @pytest.fixture
@@ -214,7 +214,9 @@ def under_tls(own: dict[str, Path], tmp_path: Path) -> Iterator[tuple[list[str],
             server.wait(60)
 
 
-def test_video_goes_through_tls_and_a_stalled_viewer_is_let_go(under_tls: tuple[list[str], Path]) -> None:
+def test_video_goes_through_tls_and_a_stalled_viewer_is_disconnected(
+    under_tls: tuple[list[str], Path],
+) -> None:
     (_, address, link, fingerprint, _), certificate = under_tls
     found = re.fullmatch(r"Open https://127\.0\.0\.1:(\d+)/", address)
     assert found is not None
@@ -222,7 +224,7 @@ def test_video_goes_through_tls_and_a_stalled_viewer_is_let_go(under_tls: tuple[
     der = ssl.PEM_cert_to_DER_cert(certificate.read_text())
     assert fingerprint.replace(":", "").endswith(hashlib.sha256(der).hexdigest().upper())
     with _line(port, context) as line:
-        answer = _asked(line, port, link.partition("#")[2])
+        answer = _requested(line, port, link.partition("#")[2])
     assert "strict-transport-security: max-age=31536000" in answer.lower()
     cookie = re.search(rf"(__Host-coaxial-{port}=[^;]+); .*; Secure\r", answer)
     assert cookie is not None
@@ -249,13 +251,13 @@ def test_video_goes_through_tls_and_a_stalled_viewer_is_let_go(under_tls: tuple[
 
 
 def _metrics(port: int, context: ssl.SSLContext, cookie: str) -> str:
-    asked = urllib.request.Request(f"https://localhost:{port}/metrics", headers={"Cookie": cookie})
-    with urllib.request.urlopen(asked, context=context, timeout=60) as answer:  # noqa: S310  our own address
-        told: bytes = answer.read()
-        return told.decode()
+    requested = urllib.request.Request(f"https://localhost:{port}/metrics", headers={"Cookie": cookie})
+    with urllib.request.urlopen(requested, context=context, timeout=60) as answer:  # noqa: S310  our own address
+        reported: bytes = answer.read()
+        return reported.decode()
 
 
-def _asked(line: ssl.SSLSocket, port: int, invitation: str) -> str:
+def _requested(line: ssl.SSLSocket, port: int, invitation: str) -> str:
     body = json.dumps({"invitation": invitation})
     line.sendall(
         f"POST /api/session HTTP/1.1\r\nHost: localhost:{port}\r\nContent-Type: application/json\r\n"

@@ -84,7 +84,7 @@ def broken_promises(folder: Path, promised: Promised) -> Iterator[str]:
                 elif store.document(case_id, document_id).content != content:
                     yield f"document {document_id} has another content"
         for case_id in there:
-            yield from (damage.told for damage in store.verify(case_id))
+            yield from (damage.message for damage in store.verify(case_id))
         whole = {(case_id, file.id): file.sha256 for case_id in there for file in store.files(case_id)}
         for (case_id, file_id), sha256 in promised.files.items():
             if case_id in promised.cases and whole.get((case_id, file_id)) != sha256:
@@ -109,11 +109,11 @@ class Writers:
         self, folder: Path, promised: Promised, *, after_changes: int, after_s: float, seed: int
     ) -> None:
         """Let a child say so many changes, kill it so long after that, and note all that it had said."""
-        asked, said = self._forker.stdin, self._forker.stdout
-        assert asked is not None
+        requested, said = self._forker.stdin, self._forker.stdout
+        assert requested is not None
         assert said is not None
-        asked.write(f"{json.dumps([str(folder), seed])}\n".encode())
-        asked.flush()
+        requested.write(f"{json.dumps([str(folder), seed])}\n".encode())
+        requested.flush()
         pid = int(said.readline())
         lines = [said.readline().decode() for _ in range(after_changes)]
         # Not a wait for something to be done: the very moment of the kill is what is varied.
@@ -175,8 +175,8 @@ def write_for_ever(folder: Path, *, seed: int, fault: str) -> None:
                 store.delete(case_id, confirm=store.get(case_id).name)
                 _say("gone", case_id)
             elif act < 0.2:
-                archive = store.copy_out(rng.choice(cases), with_identity=True)
-                case = store.copy_in(archive.path, by="M. Ito")
+                archive = store.export_case(rng.choice(cases), with_identity=True)
+                case = store.import_archive(archive.path, by="M. Ito")
                 archive.path.unlink()
                 cases.append(case.id)
                 _say("case", case.id, name=case.name)
@@ -222,17 +222,17 @@ def _acknowledge_before_commit() -> None:
 def _record_before_naming() -> None:
     """As a store would that records a file as whole before it has its name."""
 
-    def settle(part: Path, _whole: Path) -> tuple[int, str]:
+    def commit_file(part: Path, _whole: Path) -> tuple[int, str]:
         with part.open("rb") as stream:
-            return files.measured(stream.fileno())
+            return files.size_and_sha256(stream.fileno())
 
-    def record(ledger: object, case_id: str, file_id: str, size_bytes: int, sha256: str) -> object:
-        stored = real_record(ledger, case_id, file_id, size_bytes, sha256)  # type: ignore[arg-type]  # a fault
+    def record(database: object, case_id: str, file_id: str, size_bytes: int, sha256: str) -> object:
+        stored = real_record(database, case_id, file_id, size_bytes, sha256)  # type: ignore[arg-type]  # a fault
         real_settle(stored.path.with_name(f"{files.UNFINISHED}{file_id}"), stored.path)
         return stored
 
-    real_settle, real_record = files.settle, files._record
-    files.settle, files._record = settle, record  # type: ignore[assignment]  # a fault
+    real_settle, real_record = files.commit_file, files._record
+    files.commit_file, files._record = commit_file, record  # type: ignore[assignment]  # a fault
 
 
 def _say(what: str, case_id: str, **more: object) -> None:

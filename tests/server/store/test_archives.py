@@ -39,9 +39,9 @@ def case(store: CaseStore) -> Case:
     with store.new_file(case.id, ".nii.gz") as new:
         new.path.write_bytes(bytes(range(256)) * 5000)
     ct = store.put(case.id, DocumentKind.CT, "main", {"mm": 0.1 + 0.2}, made_by="ito", files=[new.stored.id])
-    plan = store.put(case.id, DocumentKind.PLAN, "L3 😀", {}, made_by="abe", stands_on=[ct.id])
-    check = store.put(case.id, DocumentKind.CHECK, "tip", {}, made_by="abe", stands_on=[plan.id, ct.id])
-    store.put(case.id, DocumentKind.PLAN, "L3 😀", {}, made_by="abe", stands_on=[ct.id])
+    plan = store.put(case.id, DocumentKind.PLAN, "L3 😀", {}, made_by="abe", depends_on=[ct.id])
+    check = store.put(case.id, DocumentKind.CHECK, "tip", {}, made_by="abe", depends_on=[plan.id, ct.id])
+    store.put(case.id, DocumentKind.PLAN, "L3 😀", {}, made_by="abe", depends_on=[ct.id])
     store.withdraw(check, by="abe", reason="moved")
     return case
 
@@ -69,15 +69,15 @@ def written(folder: Path, parts: dict[str, bytes], *, fix_manifest: bool = True)
 
 
 def test_a_case_comes_back_as_it_was(store: CaseStore, case: Case) -> None:
-    archive = store.copy_out(case.id, with_identity=True)
-    again = store.copy_in(archive.path, by="M. Ito")
+    archive = store.export_case(case.id, with_identity=True)
+    again = store.import_archive(archive.path, by="M. Ito")
     assert again.id != case.id
     assert (again.name, again.created_at, again.copied_from) == (PATIENT, case.created_at, case.id)
 
     def alike(entries: tuple[Entry, ...]) -> str:
         """But for the case that they are in, and that they came in."""
-        told = repr([(replace(one.heading, imported=None), one.standing) for one in entries])
-        return told.replace(case.id, "").replace(again.id, "").replace(SAYS_ARCHIVE, "")
+        reported = repr([(replace(one.heading, imported=None), one.validity) for one in entries])
+        return reported.replace(case.id, "").replace(again.id, "").replace(SAYS_ARCHIVE, "")
 
     assert alike(store.outline(again.id)) == alike(store.outline(case.id))
     assert store.latest(again.id, DocumentKind.CT, "main").content == {"mm": 0.1 + 0.2}  # type: ignore[union-attr]  # there
@@ -89,7 +89,7 @@ def test_a_case_comes_back_as_it_was(store: CaseStore, case: Case) -> None:
     plan = store.latest(again.id, DocumentKind.PLAN, "L3 😀")
     assert newer.version == 2
     assert plan is not None
-    assert isinstance(store.standing(plan), OutOfDate)
+    assert isinstance(store.validity(plan), OutOfDate)
 
 
 def test_what_came_in_never_looks_as_if_somebody_here_had_made_it(
@@ -97,7 +97,7 @@ def test_what_came_in_never_looks_as_if_somebody_here_had_made_it(
 ) -> None:
     """An archive may name anybody as who made and withdrew what is in it."""
     taken_at = utc_text(clock())
-    again = store.copy_in(store.copy_out(case.id).path, by="M. Ito")
+    again = store.import_archive(store.export_case(case.id).path, by="M. Ito")
     came = [one.heading for one in store.outline(again.id)]
     assert {(one.made_by, one.maker) for one in came} == {
         ("ito", "ito, says the archive"),
@@ -111,7 +111,7 @@ def test_what_came_in_never_looks_as_if_somebody_here_had_made_it(
     assert plan is not None
     assert plan.makers == ("abe", "M. Ito")
     # What is made here afterwards was made here, also on what came in.
-    made = store.put(again.id, DocumentKind.CHECK, "tip", {}, made_by="abe", stands_on=[plan.id])
+    made = store.put(again.id, DocumentKind.CHECK, "tip", {}, made_by="abe", depends_on=[plan.id])
     assert (made.imported, made.maker, made.makers) == (None, "abe", ("abe",))
     assert [one.heading.maker for one in store.outline(case.id) if one.heading.imported is None][:1] == [
         "ito"
@@ -121,8 +121,8 @@ def test_what_came_in_never_looks_as_if_somebody_here_had_made_it(
 def test_taken_in_twice_it_is_said_once_and_who_took_it_in_last_stands_for_it(
     store: CaseStore, case: Case
 ) -> None:
-    first = store.copy_in(store.copy_out(case.id).path, by="M. Ito")
-    second = store.copy_in(store.copy_out(first.id).path, by="Dr Sato")
+    first = store.import_archive(store.export_case(case.id).path, by="M. Ito")
+    second = store.import_archive(store.export_case(first.id).path, by="Dr Sato")
     check = store.history(second.id, DocumentKind.CHECK, "tip")[0]
     assert (check.maker, check.withdrawn and check.withdrawn.by) == ("abe, says the archive",) * 2
     assert check.imported is not None
@@ -131,16 +131,16 @@ def test_taken_in_twice_it_is_said_once_and_who_took_it_in_last_stands_for_it(
 
 def test_who_takes_a_case_in_is_in_the_log_of_changes(store: CaseStore, case: Case) -> None:
     changes: list[Change] = []
-    store.tell_changes(changes.append)
-    store.copy_in(store.copy_out(case.id).path, by="M. Ito")
+    store.set_change_listener(changes.append)
+    store.import_archive(store.export_case(case.id).path, by="M. Ito")
     assert [(one.after, one.by) for one in changes] == [("copied in", "M. Ito")]
 
 
 def test_who_the_patient_is_stays_at_home_unless_asked_for(store: CaseStore, case: Case) -> None:
-    archive = store.copy_out(case.id)
+    archive = store.export_case(case.id)
     assert not any(PATIENT.encode() in part for part in parts_of(archive.path).values())
     assert PATIENT not in archive.path.name
-    again = store.copy_in(archive.path, by="M. Ito")
+    again = store.import_archive(archive.path, by="M. Ito")
     assert again.name == f"Case {case.id[:6]}"
     assert store.all(again.id, DocumentKind.PATIENT) == ()
     assert len(store.outline(again.id)) == len(store.outline(case.id)) - 1
@@ -214,7 +214,7 @@ def everything_in(home: Home) -> set[Path]:
 def test_a_hostile_archive_is_refused_whole(
     store: CaseStore, home: Home, case: Case, tmp_path: Path, change: Damaging, said: str, *, agreeing: bool
 ) -> None:
-    parts = parts_of(store.copy_out(case.id, with_identity=True).path)
+    parts = parts_of(store.export_case(case.id, with_identity=True).path)
     # The patient's line comes first and is not interesting here.
     parts["documents.jsonl"] = parts["documents.jsonl"].split(b"\n", 1)[1]
     if not agreeing:
@@ -222,7 +222,7 @@ def test_a_hostile_archive_is_refused_whole(
     change(parts)
     before = everything_in(home)
     with pytest.raises(InvalidInput) as rejected:
-        store.copy_in(written(tmp_path, parts, fix_manifest=agreeing), by="M. Ito")
+        store.import_archive(written(tmp_path, parts, fix_manifest=agreeing), by="M. Ito")
     assert said in rejected.value.message
     assert rejected.value.code == ("ARCHIVE_NEWER" if "reads form" in said else "ARCHIVE_INVALID")
     assert everything_in(home) == before
@@ -234,18 +234,18 @@ def test_what_is_no_zip_is_refused(store: CaseStore, tmp_path: Path, content: by
     path = tmp_path / "a.zip"
     path.write_bytes(content)
     with pytest.raises(InvalidInput, match="no sound zip file"):
-        store.copy_in(path, by="M. Ito")
+        store.import_archive(path, by="M. Ito")
 
 
 def test_an_archive_cut_or_changed_anywhere_is_refused(store: CaseStore, case: Case, tmp_path: Path) -> None:
-    whole = store.copy_out(case.id).path.read_bytes()
+    whole = store.export_case(case.id).path.read_bytes()
     path = tmp_path / "a.zip"
     for n in range(0, len(whole), len(whole) // 40):
         for changed in (whole[:n], whole[:n] + bytes([whole[n] ^ 0x55]) + whole[n + 1 :]):
             path.write_bytes(changed)
             with contextlib.suppress(InvalidInput):
                 # It may be a byte that means nothing, as a time inside the zip.
-                taken = store.copy_in(path, by="M. Ito")
+                taken = store.import_archive(path, by="M. Ito")
                 assert store.verify(taken.id) == ()
                 assert len(store.outline(taken.id)) == 4
 
@@ -253,17 +253,17 @@ def test_an_archive_cut_or_changed_anywhere_is_refused(store: CaseStore, case: C
 def test_a_bomb_is_refused_before_it_is_unpacked(
     store: CaseStore, home: Home, case: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    parts = parts_of(store.copy_out(case.id).path)
+    parts = parts_of(store.export_case(case.id).path)
     path = written(tmp_path, parts | {file_of(parts): b"\0" * 2**24})
     assert path.stat().st_size < 2**17
-    monkeypatch.setattr("server.store.archive.reading.LARGEST_WHOLE_BYTES", 2**23)
+    monkeypatch.setattr("server.store.archive.reader.MAX_UNPACKED_BYTES", 2**23)
     with pytest.raises(InvalidInput, match="it unpacks to"):
-        store.copy_in(path, by="M. Ito")
+        store.import_archive(path, by="M. Ito")
     assert [one.name for one in home.cases.iterdir()] == [case.id]
 
 
 def test_a_link_in_an_archive_is_refused(store: CaseStore, case: Case, tmp_path: Path) -> None:
-    parts = parts_of(store.copy_out(case.id).path)
+    parts = parts_of(store.export_case(case.id).path)
     path = written(tmp_path, parts)
     with zipfile.ZipFile(path, "w") as archive:
         for name, part in parts.items():
@@ -272,16 +272,16 @@ def test_a_link_in_an_archive_is_refused(store: CaseStore, case: Case, tmp_path:
                 entry.external_attr = (stat.S_IFLNK | 0o777) << 16
             archive.writestr(entry, part)
     with pytest.raises(InvalidInput, match="does not belong"):
-        store.copy_in(path, by="M. Ito")
+        store.import_archive(path, by="M. Ito")
 
 
 def test_a_case_without_room_is_refused_before_it_is_unpacked(
     store: CaseStore, case: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    archive = store.copy_out(case.id)
-    monkeypatch.setattr("server.disk.SPARE_BYTES", 2**60)
+    archive = store.export_case(case.id)
+    monkeypatch.setattr("server.disk.RESERVED_BYTES", 2**60)
     with pytest.raises(DiskFull) as full:
-        store.copy_in(archive.path, by="M. Ito")
+        store.import_archive(archive.path, by="M. Ito")
     assert full.value.code == "STORE_FULL"
     assert store.list() == (store.get(case.id),)
 
@@ -291,11 +291,11 @@ def test_a_damaged_file_is_not_copied_out(store: CaseStore, home: Home, case: Ca
     path.chmod(0o600)
     path.write_bytes(b"other bytes")
     with pytest.raises(StoreError, match="SHA-256 differs") as damaged:
-        store.copy_out(case.id)
+        store.export_case(case.id)
     assert damaged.value.code == "FILE_DAMAGED"
     path.unlink()
     with pytest.raises(StoreError, match="it is missing"):
-        store.copy_out(case.id)
+        store.export_case(case.id)
     assert list(home.temporary.iterdir()) == []
 
 
@@ -304,8 +304,8 @@ def test_a_case_is_not_deleted_while_it_is_copied_out(
 ) -> None:
     rejections: list[str] = []
 
-    def all_files(*asked: object) -> tuple[()]:
-        del asked
+    def all_files(*requested: object) -> tuple[()]:
+        del requested
         with pytest.raises(StoreConflict) as rejected:
             store.delete(case.id, confirm=PATIENT)
         rejections.append(rejected.value.code)
@@ -313,6 +313,6 @@ def test_a_case_is_not_deleted_while_it_is_copied_out(
 
     monkeypatch.setattr("server.store.archive.packing.all_files", all_files)
     # Inside the reading transaction a writer of the same thread must not wait for itself either.
-    store.copy_out(case.id)
+    store.export_case(case.id)
     assert rejections == ["CASE_IN_USE"]
     store.delete(case.id, confirm=PATIENT)

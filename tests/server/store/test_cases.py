@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from sqlalchemy.orm import Session
 
-from server.store import CaseStore, DocumentKind, Home, NotStored, StoreConflict, StoreError
-from server.store.ledger import Ledger
+from server.store import CaseStore, DocumentKind, Home, NotFound, StoreConflict, StoreError
+from server.store.case_database import CaseDatabase
 from tracker.errors import InvalidInput
 
 
@@ -20,9 +20,9 @@ def test_a_case_is_found_again_by_the_next_server(tmp_path: Path) -> None:
     with Home(tmp_path) as home, CaseStore(home) as store:
         assert store.list() == (case,)
         assert store.get(case.id) == case
-        assert store.opened() == case
+        assert store.get_open_case() == case
         store.close()
-        assert store.opened() is None
+        assert store.get_open_case() is None
         store.close()
 
 
@@ -35,13 +35,13 @@ def test_no_name_becomes_a_part_of_a_path(store: CaseStore, home: Home) -> None:
 
 def test_one_case_is_open_at_a_time(store: CaseStore) -> None:
     one, two = store.create("one"), store.create("two")
-    assert store.opened() is None
+    assert store.get_open_case() is None
     store.open(one.id)
     assert store.open(two.id) == two
-    assert store.opened() == two
-    with pytest.raises(NotStored):
+    assert store.get_open_case() == two
+    with pytest.raises(NotFound):
         store.open("nothing")
-    assert store.opened() == two
+    assert store.get_open_case() == two
 
 
 def test_the_list_has_the_newest_first(store: CaseStore) -> None:
@@ -86,17 +86,17 @@ def test_on_a_full_disk_a_case_can_still_be_deleted(
     store: CaseStore, home: Home, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     case = store.create("one")
-    real, room = Ledger.writing, []
+    real, room = CaseDatabase.write_session, []
 
     @contextmanager
-    def writing(ledger: Ledger) -> Iterator[Session]:
+    def writing(database: CaseDatabase) -> Iterator[Session]:
         room.append(not home.reserve.exists())
         if not room[-1]:
             raise StoreError("STORE_FULL", "full", "Make room.")
-        with real(ledger) as session:
+        with real(database) as session:
             yield session
 
-    monkeypatch.setattr(Ledger, "writing", writing)
+    monkeypatch.setattr(CaseDatabase, "write_session", writing)
     store.delete(case.id, confirm="one")
     assert room[:2] == [False, True]
     assert store.list() == ()
@@ -104,7 +104,7 @@ def test_on_a_full_disk_a_case_can_still_be_deleted(
 
 
 def test_nothing_of_a_deleted_case_is_left_on_the_disk(store: CaseStore, home: Home) -> None:
-    kept, case = store.create("kept"), store.create("Zaphod Beeblebrox")
+    stored, case = store.create("kept"), store.create("Zaphod Beeblebrox")
     store.put(case.id, DocumentKind.PATIENT, "main", {"name": "Trillian McMillan"}, made_by="ito")
     with store.new_file(case.id, ".bin") as new:
         new.path.write_bytes(b"Marvin" * 1000)
@@ -113,8 +113,8 @@ def test_nothing_of_a_deleted_case_is_left_on_the_disk(store: CaseStore, home: H
     for word in (b"Zaphod", b"Trillian", b"Marvin"):
         assert word not in left
     assert b"kept" in left
-    assert store.list() == (kept,)
-    with pytest.raises(NotStored):
+    assert store.list() == (stored,)
+    with pytest.raises(NotFound):
         store.get(case.id)
-    with pytest.raises(NotStored):
+    with pytest.raises(NotFound):
         store.all(case.id, DocumentKind.PATIENT)

@@ -12,7 +12,7 @@ from server.store import (
     Document,
     DocumentKind,
     NewDocument,
-    NotStored,
+    NotFound,
     OutOfDate,
     OutOfDateError,
     StoreConflict,
@@ -30,7 +30,7 @@ def case_id(store: CaseStore) -> str:
 @pytest.fixture
 def put(store: CaseStore, case_id: str) -> Callable[..., Document]:
     def put(kind: DocumentKind, name: str = "main", *on: Document, **content: object) -> Document:
-        return store.put(case_id, kind, name, content, made_by="ito", stands_on=[one.id for one in on])
+        return store.put(case_id, kind, name, content, made_by="ito", depends_on=[one.id for one in on])
 
     return put
 
@@ -63,15 +63,15 @@ def test_a_new_plan_puts_what_was_registered_on_the_old_one_out_of_date(store: C
     plan = put(PLAN, "L3", ct)
     registration = put(REGISTRATION, "main", plan)
     check = put(DocumentKind.CHECK, "landmark", registration)
-    assert [store.standing(one) for one in (ct, plan, registration, check)] == [Current()] * 4
+    assert [store.validity(one) for one in (ct, plan, registration, check)] == [Current()] * 4
     newer = put(PLAN, "L3", ct)
-    assert store.standing(newer) == Current()
-    assert store.standing(plan) == OutOfDate(reason="plan 'L3' version 1 was replaced by version 2")
-    replaced = OutOfDate(reason="it stands on plan 'L3' version 1, which was replaced by version 2")
-    assert store.standing(registration) == replaced
-    assert store.standing(check) == replaced
-    standings = {entry.heading.id: entry.standing for entry in store.outline(ct.case_id)}
-    assert standings == {one.id: store.standing(one) for one in (ct, plan, newer, registration, check)}
+    assert store.validity(newer) == Current()
+    assert store.validity(plan) == OutOfDate(reason="plan 'L3' version 1 was replaced by version 2")
+    replaced = OutOfDate(reason="it depends on plan 'L3' version 1, which was replaced by version 2")
+    assert store.validity(registration) == replaced
+    assert store.validity(check) == replaced
+    standings = {entry.heading.id: entry.validity for entry in store.outline(ct.case_id)}
+    assert standings == {one.id: store.validity(one) for one in (ct, plan, newer, registration, check)}
 
 
 def test_what_was_withdrawn_takes_with_it_what_stands_on_it_and_no_older_version_holds_again(
@@ -84,9 +84,9 @@ def test_what_was_withdrawn_takes_with_it_what_stands_on_it_and_no_older_version
     assert store.withdraw(ct, by="abe", reason="again") == withdrawn
     assert store.latest(ct.case_id, CT, "main") is None
     assert store.all(ct.case_id, CT) == ()
-    assert store.standing(old) == OutOfDate(reason="ct 'main' version 1 was replaced by version 2")
-    assert store.standing(plan) == OutOfDate(
-        reason="it stands on ct 'main' version 2, which was withdrawn by ito: another patient"
+    assert store.validity(old) == OutOfDate(reason="ct 'main' version 1 was replaced by version 2")
+    assert store.validity(plan) == OutOfDate(
+        reason="it depends on ct 'main' version 2, which was withdrawn by ito: another patient"
     )
     assert put(CT).version == 3
 
@@ -96,8 +96,8 @@ def test_the_reason_is_found_through_either_of_two_ways(store: CaseStore, put: P
     registration = put(REGISTRATION, "main", plan, camera)
     check = put(DocumentKind.CHECK, "a", camera, registration)
     put(DocumentKind.CAMERA)
-    assert store.standing(check) == OutOfDate(
-        reason="it stands on camera 'main' version 1, which was replaced by version 2"
+    assert store.validity(check) == OutOfDate(
+        reason="it depends on camera 'main' version 1, which was replaced by version 2"
     )
 
 
@@ -110,7 +110,7 @@ def test_a_step_gets_only_what_holds(store: CaseStore, put: Put, case_id: str) -
     assert store.current(case_id, PLAN, "L3") == plan
     put(CT)
     with pytest.raises(
-        OutOfDateError, match=r"plan 'L3' is out of date: it stands on ct 'main' version 1"
+        OutOfDateError, match=r"plan 'L3' is out of date: it depends on ct 'main' version 1"
     ) as old:
         store.current(case_id, PLAN, "L3")
     assert old.value.code == "DOCUMENT_OUT_OF_DATE"
@@ -168,16 +168,16 @@ def test_a_name_that_nobody_can_read_is_refused(store: CaseStore, case_id: str, 
 def test_documents_stand_only_on_documents_of_their_own_case(store: CaseStore, put: Put) -> None:
     ct = put(CT)
     other = store.create("two").id
-    with pytest.raises(NotStored, match=f"there is no document {ct.id} in the case {other}"):
-        store.put(other, PLAN, "a", {}, made_by="ito", stands_on=[ct.id])
+    with pytest.raises(NotFound, match=f"there is no document {ct.id} in the case {other}"):
+        store.put(other, PLAN, "a", {}, made_by="ito", depends_on=[ct.id])
     assert store.all(other, PLAN) == ()
 
 
 def test_nothing_stands_on_who_the_patient_is(store: CaseStore, put: Put, case_id: str) -> None:
     patient = put(DocumentKind.PATIENT)
     with pytest.raises(InvalidInput) as rejected:
-        store.put(case_id, PLAN, "a", {}, made_by="ito", stands_on=[patient.id])
-    assert rejected.value.code == "STANDS_ON_IDENTITY"
+        store.put(case_id, PLAN, "a", {}, made_by="ito", depends_on=[patient.id])
+    assert rejected.value.code == "DEPENDS_ON_IDENTITY"
 
 
 def test_what_a_reader_does_to_a_content_reaches_nobody_else(store: CaseStore, put: Put) -> None:
@@ -215,20 +215,20 @@ def test_what_is_stored_with_a_document_is_seen_with_it_or_not_at_all(store: Cas
     def choice_on(plan: Document) -> list[NewDocument]:
         # Another connection, while the transaction is open: neither is there.
         look()
-        return [NewDocument.checked(PLAN, "choice", {"n": 1}, made_by="ito", stands_on=[plan.id])]
+        return [NewDocument.validated(PLAN, "choice", {"n": 1}, made_by="ito", depends_on=[plan.id])]
 
-    store.call_after_writing(look)
-    plan = store.put(case_id, PLAN, "main", {}, made_by="ito", with_it=choice_on)
+    store.add_commit_listener(look)
+    plan = store.put(case_id, PLAN, "main", {}, made_by="ito", companions=choice_on)
     assert seen == [[False, False], [True, True]]
     choice = store.latest(case_id, PLAN, "choice")
     assert choice is not None
-    assert choice.stands_on == (plan.id,)
+    assert choice.depends_on == (plan.id,)
 
 
 def test_what_cannot_be_stored_with_a_document_keeps_it_out_too(store: CaseStore, case_id: str) -> None:
     def stranger(_plan: Document) -> list[NewDocument]:
-        return [NewDocument.checked(PLAN, "choice", {}, made_by="ito", stands_on=["not a document"])]
+        return [NewDocument.validated(PLAN, "choice", {}, made_by="ito", depends_on=["not a document"])]
 
-    with pytest.raises(NotStored):
-        store.put(case_id, PLAN, "main", {}, made_by="ito", with_it=stranger)
+    with pytest.raises(NotFound):
+        store.put(case_id, PLAN, "main", {}, made_by="ito", companions=stranger)
     assert store.latest(case_id, PLAN, "main") is None

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from server.store import CaseStore, DocumentKind, Home, NotStored, StoreError, files
+from server.store import CaseStore, DocumentKind, Home, NotFound, StoreError, files
 from tracker.errors import InvalidInput
 
 
@@ -73,7 +73,7 @@ def test_a_document_names_only_files_that_are_there(store: CaseStore, case_id: s
     file = put_file(store, case_id)
     other = store.create("two").id
     for case, name in ((other, file), (case_id, "0" * 16 + ".bin"), (case_id, "../x")):
-        with pytest.raises(NotStored):
+        with pytest.raises(NotFound):
             store.put(case, DocumentKind.CT, "a", {}, made_by="ito", files=[name])
     assert store.put(case_id, DocumentKind.CT, "a", {}, made_by="ito", files=[file]).files == (file,)
 
@@ -118,7 +118,7 @@ def test_files_that_the_database_does_not_know_are_left_alone(tmp_path: Path) ->
         assert all(stray.exists() for stray in strays)
 
 
-STEPS = ("make_folder", "settle", "_record", "fsync", "replace", "sync_folder")
+STEPS = ("make_folder", "commit_file", "_record", "fsync", "replace", "sync_folder")
 
 
 class Copies:
@@ -165,9 +165,9 @@ def test_power_lost_between_any_two_steps_costs_nothing_that_was_confirmed(
     first = put_file(store, case_id, b"first")
     confirmed = len(copies.taken)
     put_file(store, case_id, b"second")
-    archive = store.copy_out(case_id)
+    archive = store.export_case(case_id)
     after_second = len(copies.taken)
-    store.copy_in(archive.path, by="M. Ito")
+    store.import_archive(archive.path, by="M. Ito")
     after_copy = len(copies.taken)
     store.delete(case_id, confirm="one")
     copies.take()

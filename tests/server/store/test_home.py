@@ -16,7 +16,7 @@ from alembic.runtime.migration import MigrationContext
 from sqlalchemy import create_engine
 
 from server.clock import utc_now
-from server.store import CaseStore, DocumentKind, Home, Imported, StoreError, home_folder
+from server.store import CaseStore, DocumentKind, Home, ImportRecord, StoreError, home_folder
 from server.store.database import MIGRATIONS, open_database
 from server.store.tables import Table
 
@@ -63,7 +63,7 @@ def test_a_disk_without_locks_is_refused_with_a_remedy(
         raise said
 
     monkeypatch.setattr(filelock.FileLock, "acquire", acquire)
-    with pytest.raises(StoreError, match="gives no locks") as rejected:
+    with pytest.raises(StoreError, match="does not support file locks") as rejected:
         Home(tmp_path)
     assert rejected.value.code == "HOME_NOT_LOCKABLE"
     assert "COAXIAL_HOME" in rejected.value.remedy
@@ -102,7 +102,7 @@ def test_the_migrations_make_the_tables_that_the_program_has(store: CaseStore, h
 def test_what_is_committed_is_on_the_disk_and_documents_do_not_change(store: CaseStore, home: Home) -> None:
     case = store.create("one")
     store.put(case.id, DocumentKind.PLAN, "a", {}, made_by="ito")
-    with store._ledger.writing() as session:
+    with store._database.write_session() as session:
         pragmas = ("journal_mode", "synchronous", "foreign_keys", "secure_delete")
         got = [session.connection().exec_driver_sql(f"PRAGMA {one}").scalar() for one in pragmas]
     assert got == ["wal", 2, 1, 1]
@@ -146,7 +146,7 @@ def test_an_older_database_is_kept_before_it_is_changed_and_a_newer_one_refused(
         with closing(sqlite3.connect(backup)) as raw:
             assert raw.execute("SELECT name FROM cases").fetchall() == [("one",)]
         with pytest.raises(
-            StoreError, match=r"made by a newer Coaxial \(its form is 3, this program knows"
+            StoreError, match=r"made by a newer Coaxial \(its schema is 3, this program supports"
         ) as newer:
             CaseStore(home)
         assert newer.value.code == "STORE_NEWER"
@@ -181,7 +181,7 @@ def test_of_what_was_taken_in_before_it_was_written_down_nothing_looks_made_here
             raw.commit()
         with CaseStore(home) as store:
             assert store.document("a", "d").imported is None
-            assert store.document("b", "d").imported == Imported(by="somebody (not written down)", at="2")
+            assert store.document("b", "d").imported == ImportRecord(by="somebody (not written down)", at="2")
         with (
             closing(sqlite3.connect(home.database)) as raw,
             pytest.raises(sqlite3.IntegrityError, match="never changes"),
@@ -210,17 +210,17 @@ def test_a_damaged_database_stops_the_start_with_a_sentence(tmp_path: Path) -> N
 
 def test_a_full_disk_is_told_and_costs_nothing_that_was_confirmed(store: CaseStore) -> None:
     case = store.create("one")
-    kept = store.put(case.id, DocumentKind.PLAN, "a", {}, made_by="ito")
-    with store._ledger.writing() as session:
+    stored = store.put(case.id, DocumentKind.PLAN, "a", {}, made_by="ito")
+    with store._database.write_session() as session:
         # SQLite's own limit fails with the error of a full disk.
         pages = session.connection().exec_driver_sql("PRAGMA page_count").scalar()
-    pool = store._ledger._engine.raw_connection()
+    pool = store._database._engine.raw_connection()
     pool.driver_connection.execute(f"PRAGMA max_page_count = {pages}")  # type: ignore[union-attr]  # SQLite's own
     pool.close()
     with pytest.raises(StoreError) as full:
         store.put(case.id, DocumentKind.PLAN, "a", {"much": "x" * 100_000}, made_by="ito")
     assert full.value.code == "STORE_FULL"
-    assert store.history(case.id, DocumentKind.PLAN, "a") == (kept,)
+    assert store.history(case.id, DocumentKind.PLAN, "a") == (stored,)
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
@@ -233,7 +233,7 @@ def test_a_folder_that_may_not_be_written_is_told(tmp_path: Path) -> None:
 
 
 def test_a_database_that_may_not_be_written_is_told(store: CaseStore) -> None:
-    pool = store._ledger._engine.raw_connection()
+    pool = store._database._engine.raw_connection()
     pool.driver_connection.execute("PRAGMA query_only = ON")  # type: ignore[union-attr]  # SQLite's own
     pool.close()
     with pytest.raises(StoreError) as rejected:

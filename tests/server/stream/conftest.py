@@ -1,4 +1,4 @@
-"""The whole application for one who watches, and pictures to be watched."""
+"""The whole application for a viewer, and pictures."""
 
 import time
 from collections.abc import Callable, Iterator

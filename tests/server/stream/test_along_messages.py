@@ -1,4 +1,4 @@
-"""The page's bull's-eye has what it is drawn from, in the message of its image."""
+"""The image's message has the data of the page's bull's-eye."""
 
 from collections.abc import Callable
 from functools import partial
@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from server.overlay import reach_of
-from server.stream.along_messages import AlongMessage
+from server.stream.along_messages import BullseyeMessage
 from server.stream.snapshot_messages import snapshot_message
 from tracker.geometry import Rigid
-from tracker.navigation import NavigationSnapshot, seen_along
-from tracker.navigation.certainty import Judged
-from tracker.navigation.clearance import Nearest
+from tracker.navigation import NavigationSnapshot, bullseye_view
+from tracker.navigation.clearance import NearestWall
+from tracker.navigation.uncertainty import DrillAnalysis
 from tracker.plan import Channel
 
 SnapshotOf = Callable[..., NavigationSnapshot]
@@ -24,7 +24,7 @@ def snapshot_of(snapshot_of: SnapshotOf) -> SnapshotOf:
     return partial(snapshot_of, judged=True)
 
 
-def _along(snapshot: NavigationSnapshot) -> AlongMessage | None:
+def _along(snapshot: NavigationSnapshot) -> BullseyeMessage | None:
     return snapshot_message(snapshot, {}, now_s=1.0).tools[0].along
 
 
@@ -32,11 +32,11 @@ def test_the_view_is_the_one_that_is_burned_in(snapshot_of: SnapshotOf) -> None:
     snapshot = snapshot_of()
     sent, channel, placed = _along(snapshot), snapshot.setup.channel, snapshot.vertebra_from_tool("drill")
     assert isinstance(placed, Rigid)
-    judged = snapshot.judgements["drill"]
+    judged = snapshot.analyses["drill"]
     assert sent is not None
     assert isinstance(channel, Channel)
-    assert isinstance(judged, Judged)
-    seen = seen_along(placed, channel)
+    assert isinstance(judged, DrillAnalysis)
+    seen = bullseye_view(placed, channel)
     assert sent.tip_mm == seen.tip_mm.tolist()
     assert sent.at_entry_mm == seen.at_entry_mm.tolist()
     assert sent.at_target_mm == seen.at_target_mm.tolist()
@@ -44,7 +44,7 @@ def test_the_view_is_the_one_that_is_burned_in(snapshot_of: SnapshotOf) -> None:
     assert (sent.channel_radius_mm, sent.channel_length_mm) == (channel.radius_mm, channel.length_mm)
     assert sent.drill_radius_mm == snapshot.setup.tools["drill"].radius_mm
     now = judged.clearance.now
-    assert isinstance(now, Nearest)
+    assert isinstance(now, NearestWall)
     view = seen.view_from_vertebra @ (now.point_in_vertebra_mm - channel.entry_in_vertebra_mm)
     assert sent.nearest_mm == view.tolist()
     axes = np.array(sent.tip_half_axes_95_mm)

@@ -1,4 +1,4 @@
-"""More viewers than are allowed are refused in words, and each way of watching counts."""
+"""Viewers above the maximum are rejected with a reason; every kind of connection counts."""
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
@@ -12,7 +12,7 @@ from starlette.websockets import WebSocketDisconnect
 from server.app import AppParts, create_app
 from server.config import Config
 from server.live import Instant, LiveHub
-from tests.server.supervision.persons import sign_people_in
+from tests.server.supervision.signed_in_people import sign_people_in
 
 OpenSocket = Callable[..., WebSocketTestSession]
 
@@ -25,7 +25,7 @@ def client(hub: LiveHub) -> Iterator[TestClient]:
         yield client
 
 
-def test_the_third_of_two_is_refused_with_a_remedy(
+def test_the_third_of_two_is_rejected_with_a_remedy(
     client: TestClient, open_socket: OpenSocket, hub: LiveHub, live_instant: Callable[..., Instant]
 ) -> None:
     hub.publish(live_instant(1))
@@ -36,12 +36,15 @@ def test_the_third_of_two_is_refused_with_a_remedy(
         answer = client.get("/video/main.mjpg")
         assert answer.status_code == 503
         assert answer.json()["code"] == "TOO_MANY_VIEWERS"
-        assert answer.json()["message"] == "2 viewers watch already, at most 2 may"
+        assert answer.json()["message"] == "2 viewers are connected already, at most 2 are allowed"
         assert "video.max_viewers" in answer.json()["remedy"]
         for path in ("/ws/view", "/ws/live"):
-            with open_socket(path) as third, pytest.raises(WebSocketDisconnect) as told:
+            with open_socket(path) as third, pytest.raises(WebSocketDisconnect) as reported:
                 third.receive_bytes()
-            assert (told.value.code, told.value.reason) == (1013, "2 viewers watch already, at most 2 may")
+            assert (reported.value.code, reported.value.reason) == (
+                1013,
+                "2 viewers are connected already, at most 2 are allowed",
+            )
     # They went: there is room again.
     with open_socket("/ws/live") as live:
         assert live.receive_text()
@@ -62,20 +65,20 @@ def test_one_person_does_not_take_the_places_of_all(
             opened(path, "v1")
         seats = [opened("/ws/room?view=theatre", "v1") for _ in range(8)]
         for path in ("/ws/live", "/ws/view", "/ws/room?view=theatre"):
-            with pytest.raises(WebSocketDisconnect) as told:
+            with pytest.raises(WebSocketDisconnect) as reported:
                 opened(path, "v1").receive_text()
-            assert told.value.code == 1013
-            assert "Guest has 8 lines open already" in str(told.value.reason)
+            assert reported.value.code == 1013
+            assert "Guest has 8 connections open already" in str(reported.value.reason)
         rejected = client.get("/video/main.mjpg", headers={"x-person": "v1"})
         assert (rejected.status_code, rejected.json()["code"]) == (503, "TOO_MANY_VIEWERS")
-        assert "a page of yours" in rejected.json()["remedy"]
+        assert "one of your pages" in rejected.json()["remedy"]
         for one in (seats[0], opened("/ws/room?view=operator", "o1")):
             one.send_json({"next": True})
             assert one.receive_json()["people"]
         assert opened("/ws/live", "s1").receive_json()["sequence"] == 1
 
 
-def test_who_is_refused_does_not_count(client: TestClient, open_socket: OpenSocket) -> None:
+def test_who_is_rejected_does_not_count(client: TestClient, open_socket: OpenSocket) -> None:
     for _ in range(3):
         with open_socket("/ws/view?size=tiny") as rejected, pytest.raises(WebSocketDisconnect):
             rejected.receive_bytes()

@@ -1,4 +1,4 @@
-"""`/ws/live`: the newest at once, newest wins, and nothing is heard."""
+"""`/ws/live`: the newest at once, newest wins, and client messages are rejected."""
 
 from collections.abc import Callable
 
@@ -18,9 +18,9 @@ def test_a_late_joiner_gets_the_newest_at_once(
     for sequence in range(3):
         hub.publish(live_instant(sequence))
     with open_socket("/ws/live") as socket:
-        told = socket.receive_json()
-    assert told["sequence"] == 2
-    assert told["snapshot"]["image_number"] == 1002
+        reported = socket.receive_json()
+    assert reported["sequence"] == 2
+    assert reported["snapshot"]["image_number"] == 1002
 
 
 def test_each_instant_is_told_with_or_without_an_image(
@@ -30,9 +30,9 @@ def test_each_instant_is_told_with_or_without_an_image(
     with open_socket("/ws/live") as socket:
         assert socket.receive_json()["snapshot"]["image_number"] == 1000
         hub.publish(instant_of(1, process=ProcessStatus(state=ProcessState.RESTARTING, restarts=1)))
-        told = socket.receive_json()
-        assert told["snapshot"] is None
-        assert told["process"] == {"state": "restarting", "restarts": 1, "problem": None}
+        reported = socket.receive_json()
+        assert reported["snapshot"] is None
+        assert reported["process"] == {"state": "restarting", "restarts": 1, "problem": None}
         hub.publish(live_instant(2))
         assert socket.receive_json()["sequence"] == 2
 
@@ -40,10 +40,10 @@ def test_each_instant_is_told_with_or_without_an_image(
 def test_one_who_talks_is_told_not_to(open_socket: OpenSocket) -> None:
     with open_socket("/ws/live") as socket:
         socket.send_text("stop the drill")
-        with pytest.raises(WebSocketDisconnect) as told:
+        with pytest.raises(WebSocketDisconnect) as reported:
             socket.receive_json()
-    assert told.value.code == 1008
-    assert "only sends" in told.value.reason
+    assert reported.value.code == 1008
+    assert "only sends" in reported.value.reason
 
 
 @pytest.mark.parametrize("path", ["/ws/live", "/ws/view"])
@@ -56,13 +56,13 @@ def test_one_who_talks_is_told_not_to(open_socket: OpenSocket) -> None:
         ({"Host": "evil.example", "Origin": "http://evil.example"}, 421, "HOST_UNKNOWN"),
     ],
 )
-def test_strange_pages_do_not_get_a_socket(
+def test_foreign_pages_do_not_get_a_socket(
     open_socket: OpenSocket, path: str, headers: dict[str, str], status: int, code: str
 ) -> None:
-    with pytest.raises(WebSocketDenialResponse) as told, open_socket(path, headers=headers):
+    with pytest.raises(WebSocketDenialResponse) as reported, open_socket(path, headers=headers):
         pass
-    assert told.value.status_code == status
-    assert told.value.json()["code"] == code
+    assert reported.value.status_code == status
+    assert reported.value.json()["code"] == code
 
 
 def test_the_own_page_gets_a_socket(open_socket: OpenSocket, hub: LiveHub, live_instant: LiveInstant) -> None:

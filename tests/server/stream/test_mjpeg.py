@@ -1,4 +1,4 @@
-"""MJPEG from a real server: at once, never one late, never frozen, and a stalled viewer costs nothing."""
+"""MJPEG from a real server: at once, never an image late, never frozen; a stalled viewer costs nothing."""
 
 import dataclasses
 import http.client
@@ -16,11 +16,11 @@ from fastapi import FastAPI
 
 from server.live import Instant, LiveHub, ProcessState, ProcessStatus
 from server.stream import mjpeg
-from server.stream.fitting.pictures import Pictures
-from server.stream.fitting.sizes import Choice
 from server.stream.mjpeg import Video, with_comment
+from server.stream.scaling.picture_cache import PictureCache
+from server.stream.scaling.sizes import SizeChoice
 from server.stream.viewers import ViewerKind, Viewers
-from tests.server.stream.made_time import LoopTime, run_in_made_time
+from tests.server.stream.simulated_time import LoopTime, run_in_made_time
 
 LiveInstant = Callable[..., Instant]
 Serve = Callable[[FastAPI], int]
@@ -28,7 +28,7 @@ PART_HEAD = b"--coaxial\r\nContent-Type: image/jpeg\r\n\r\n"
 DEADLINE_S = 60.0
 
 
-class Watching:
+class MotionMonitor:
     """A viewer of the MJPEG stream that looks at each byte."""
 
     def __init__(self, port: int, query: str = "") -> None:
@@ -64,11 +64,11 @@ def port(patient_app: FastAPI, serve: Serve) -> int:
 
 
 @pytest.fixture
-def watch(port: int) -> Iterator[Callable[..., Watching]]:
-    watching: list[Watching] = []
+def watch(port: int) -> Iterator[Callable[..., MotionMonitor]]:
+    watching: list[MotionMonitor] = []
 
-    def start(query: str = "") -> Watching:
-        watching.append(Watching(port, query))
+    def start(query: str = "") -> MotionMonitor:
+        watching.append(MotionMonitor(port, query))
         return watching[-1]
 
     yield start
@@ -96,7 +96,7 @@ def received_until_cut(line: socket.socket) -> int:
 
 
 def test_a_late_joiner_sees_the_newest_image_as_it_was_published(
-    hub: LiveHub, live_instant: LiveInstant, watch: Callable[[], Watching]
+    hub: LiveHub, live_instant: LiveInstant, watch: Callable[[], MotionMonitor]
 ) -> None:
     instant = live_instant(3)
     hub.publish(live_instant(2))
@@ -111,7 +111,7 @@ def test_a_late_joiner_sees_the_newest_image_as_it_was_published(
 
 
 def test_each_viewer_gets_the_same_bytes(
-    hub: LiveHub, live_instant: LiveInstant, watch: Callable[[], Watching]
+    hub: LiveHub, live_instant: LiveInstant, watch: Callable[[], MotionMonitor]
 ) -> None:
     hub.publish(live_instant(1))
     one, other = watch(), watch()
@@ -122,7 +122,7 @@ def test_each_viewer_gets_the_same_bytes(
 
 
 def test_a_viewer_gets_the_size_that_it_asks_for(
-    hub: LiveHub, live_instant: LiveInstant, watch: Callable[..., Watching]
+    hub: LiveHub, live_instant: LiveInstant, watch: Callable[..., MotionMonitor]
 ) -> None:
     hub.publish(live_instant(1))
     for query, ratio, width_px in (("", 1.0, 160), ("?size=half", 0.5, 80), ("?size=quarter", 0.25, 40)):
@@ -134,7 +134,7 @@ def test_a_viewer_gets_the_size_that_it_asks_for(
 
 
 def test_before_the_first_image_a_card_is_shown_and_then_the_image(
-    hub: LiveHub, live_instant: LiveInstant, watch: Callable[[], Watching]
+    hub: LiveHub, live_instant: LiveInstant, watch: Callable[[], MotionMonitor]
 ) -> None:
     viewer = watch()
     assert viewer.picture()[0] == {"image_number": None}
@@ -145,7 +145,7 @@ def test_before_the_first_image_a_card_is_shown_and_then_the_image(
 
 
 def test_when_tracking_dies_a_card_replaces_the_last_image(
-    hub: LiveHub, live_instant: LiveInstant, instant_of: LiveInstant, watch: Callable[[], Watching]
+    hub: LiveHub, live_instant: LiveInstant, instant_of: LiveInstant, watch: Callable[[], MotionMonitor]
 ) -> None:
     hub.publish(live_instant(0))
     viewer = watch()
@@ -162,12 +162,12 @@ def test_when_nobody_says_anything_any_more_a_card_replaces_the_last_image(
     assert said.snapshot is not None
     # 30 ms old when it comes: at the end of the viewer's patience it is older than 500 ms.
     snapshot = dataclasses.replace(said.snapshot, captured_at_s=-0.03)
-    video = Video(hub=hub, viewers=viewers, pictures=Pictures(quality=80), stale_after_ms=500.0)
+    video = Video(hub=hub, viewers=viewers, pictures=PictureCache(quality=80), stale_after_ms=500.0)
     came: list[tuple[float, int | None]] = []
 
     async def run() -> None:
         hub.publish(dataclasses.replace(said, snapshot=snapshot))
-        with viewers.watching(ViewerKind.MJPEG, Choice.AUTO) as viewer:
+        with viewers.register(ViewerKind.MJPEG, SizeChoice.AUTO) as viewer:
             async for picture in video.pictures(viewer):
                 came.append((LoopTime.monotonic(), facts_in(picture)[0]["image_number"]))
                 if len(came) == 3:
@@ -177,8 +177,8 @@ def test_when_nobody_says_anything_any_more_a_card_replaces_the_last_image(
     assert came == [(0.0, 1000), (pytest.approx(0.5), None), (pytest.approx(1.5), None)]
 
 
-def test_a_stalled_viewer_is_let_go_and_delays_nobody(
-    hub: LiveHub, live_instant: LiveInstant, port: int, watch: Callable[[], Watching]
+def test_a_stalled_viewer_is_disconnected_and_delays_nobody(
+    hub: LiveHub, live_instant: LiveInstant, port: int, watch: Callable[[], MotionMonitor]
 ) -> None:
     noise = np.random.default_rng(1).integers(0, 255, 400_000, dtype=np.uint8).tobytes()
     sequence = 0
@@ -205,7 +205,7 @@ def test_a_stalled_viewer_is_let_go_and_delays_nobody(
 
 
 def test_a_viewer_that_goes_is_forgotten(
-    hub: LiveHub, live_instant: LiveInstant, port: int, watch: Callable[[], Watching]
+    hub: LiveHub, live_instant: LiveInstant, port: int, watch: Callable[[], MotionMonitor]
 ) -> None:
     hub.publish(live_instant(0))
     viewer = watch()

@@ -1,4 +1,4 @@
-"""MJPEG in a real browser, which shows a part only when the next one has begun."""
+"""MJPEG in a real browser, which displays a part only when the next one has begun."""
 
 import time
 from collections.abc import Callable

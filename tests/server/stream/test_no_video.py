@@ -1,4 +1,4 @@
-"""The card for no video gives the reason that stands first in the way, and is made once for all."""
+"""The card for no video has the first reason, and is made once for all viewers."""
 
 from collections.abc import Callable
 from datetime import datetime

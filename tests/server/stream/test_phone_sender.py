@@ -1,4 +1,4 @@
-"""What a page sends, in made time: its clock, its order, its size."""
+"""Messages of a sending page, in simulated time: clock, order, size."""
 
 import json
 from collections.abc import Callable
@@ -9,9 +9,9 @@ from server.capture.phone import Focus
 from server.live import ImageClock, Problem
 from server.loop.phone_inbox import MAX_JPEG_BYTES
 from server.stream.phone.page_clock import PageClock
-from server.stream.phone.sender import MAX_IMAGES_UNDERWAY, Received, Sender, hello_in
-from server.stream.socket import Misbehaviour
-from tests.server.capture.sent_by_phone import jpeg_of
+from server.stream.phone.sender import MAX_IMAGES_IN_FLIGHT, Received, Sender, parse_hello
+from server.stream.socket import ProtocolViolation
+from tests.server.capture.fake_phone import jpeg_of
 
 CAMERA = {
     "label": "back",
@@ -32,22 +32,22 @@ def said(**message: object) -> str:
 
 def pong(sender: Sender, *, sent_s: float, down_s: float = 0.004, up_s: float = 0.02) -> None:
     """A round trip with these delays."""
-    grant = sender.grant(sent_s)
+    grant = sender.update_credit(sent_s)
     at_ms = (sent_s + down_s + AHEAD_S) * 1000.0
-    sender.hear(said(pong={"ping": grant.ping, "at_ms": at_ms}), sent_s + down_s + up_s)
+    sender.receive_text(said(pong={"ping": grant.ping, "at_ms": at_ms}), sent_s + down_s + up_s)
 
 
 def introduced(at_s: float = 0.0) -> Sender:
     """A sender that may begin."""
     sender = Sender()
     pong(sender, sent_s=at_s)
-    sender.hear(said(camera=CAMERA), at_s)
+    sender.receive_text(said(camera=CAMERA), at_s)
     return sender
 
 
 def announce(sender: Sender, jpeg: bytes, *, captured_s: float, clock: str = "capture") -> None:
     image = {"bytes": len(jpeg), "captured_ms": (captured_s + AHEAD_S) * 1000.0, "clock": clock}
-    sender.hear(said(image=image), captured_s)
+    sender.receive_text(said(image=image), captured_s)
 
 
 def test_an_image_in_parts_is_whole_with_its_last_one() -> None:
@@ -89,42 +89,42 @@ def test_an_image_is_never_captured_after_it_came() -> None:
 def test_what_is_no_jpeg_is_told_and_the_next_one_is_taken(jpeg: bytes) -> None:
     sender = introduced()
     announce(sender, jpeg, captured_s=1.0)
-    told = sender.take_part(jpeg, 1.05)
-    assert isinstance(told, Problem)
-    assert told.code == "PHONE_IMAGE_BROKEN"
+    reported = sender.take_part(jpeg, 1.05)
+    assert isinstance(reported, Problem)
+    assert reported.code == "PHONE_IMAGE_BROKEN"
     announce(sender, jpeg_of(90), captured_s=1.1)
     assert isinstance(sender.take_part(jpeg_of(90), 1.15), Received)
 
 
-def test_a_size_that_nothing_could_hold_is_refused_before_it_is_decoded() -> None:
+def test_a_size_that_nothing_could_hold_is_rejected_before_it_is_decoded() -> None:
     whole = jpeg_of(90)
     at = whole.index(b"\xff\xc0") + 5
     bomb = whole[:at] + b"\xff\xff\xff\xff" + whole[at + 4 :]
     sender = introduced()
     announce(sender, bomb, captured_s=1.0)
-    told = sender.take_part(bomb, 1.05)
-    assert isinstance(told, Problem)
-    assert "65535x65535" in told.message
+    reported = sender.take_part(bomb, 1.05)
+    assert isinstance(reported, Problem)
+    assert "65535x65535" in reported.message
 
 
 def test_no_more_is_taken_than_was_granted() -> None:
     sender, jpeg = Sender(), jpeg_of(90)
     pong(sender, sent_s=0.0)
-    sender.hear(said(camera=CAMERA), 0.0)
-    for number in range(MAX_IMAGES_UNDERWAY):
+    sender.receive_text(said(camera=CAMERA), 0.0)
+    for number in range(MAX_IMAGES_IN_FLIGHT):
         announce(sender, jpeg, captured_s=1.0 + number)
         sender.take_part(jpeg, 1.5 + number)
-    with pytest.raises(Misbehaviour, match="granted"):
+    with pytest.raises(ProtocolViolation, match="allowed by the credit"):
         announce(sender, jpeg, captured_s=9.0)
     # Each one that came grants one more, as soon as that is told.
-    assert sender.grant(9.0).credit == 2 * MAX_IMAGES_UNDERWAY
+    assert sender.update_credit(9.0).credit == 2 * MAX_IMAGES_IN_FLIGHT
     announce(sender, jpeg, captured_s=9.0)
 
 
 def without_clock() -> Sender:
     sender = Sender()
-    sender.grant(0.0)
-    sender.hear(said(camera=CAMERA), 0.0)
+    sender.update_credit(0.0)
+    sender.receive_text(said(camera=CAMERA), 0.0)
     return sender
 
 
@@ -170,9 +170,9 @@ def test_what_is_not_understood_or_not_due_ends_the_connection(
     begin: Callable[[], Sender], text: str, code: int, why: str
 ) -> None:
     sender = begin()
-    with pytest.raises(Misbehaviour, match=why) as told:
-        sender.hear(text, 1.0)
-    assert told.value.code == code
+    with pytest.raises(ProtocolViolation, match=why) as reported:
+        sender.receive_text(text, 1.0)
+    assert reported.value.code == code
 
 
 @pytest.mark.parametrize(
@@ -184,15 +184,15 @@ def test_what_is_not_understood_or_not_due_ends_the_connection(
     ],
 )
 def test_a_part_that_cannot_be_ends_the_connection(begin: Callable[[], Sender], part: bytes) -> None:
-    with pytest.raises(Misbehaviour):
+    with pytest.raises(ProtocolViolation):
         begin().take_part(part, 1.0)
 
 
 def test_the_first_message_is_hello() -> None:
-    assert hello_in(said(hello={"key": "0123456789abcdef" * 2})).key.startswith("0123")
+    assert parse_hello(said(hello={"key": "0123456789abcdef" * 2})).key.startswith("0123")
     for text in (said(camera=CAMERA), said(hello={"key": "short"})):
-        with pytest.raises(Misbehaviour):
-            hello_in(text)
+        with pytest.raises(ProtocolViolation):
+            parse_hello(text)
 
 
 @pytest.mark.parametrize(

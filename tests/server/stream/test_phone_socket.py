@@ -1,4 +1,4 @@
-"""`/ws/camera` through the door: one sender, its images in the inbox, and who is refused why."""
+"""`/ws/camera` over HTTP: one sender, its images in the inbox, and rejected clients."""
 
 import json
 import time
@@ -13,7 +13,7 @@ from starlette.websockets import WebSocketDisconnect
 
 from server.app import AppParts, create_app
 from server.capture.local_camera import CalibratedCamera
-from server.capture.phone import Inbound, PhoneImage
+from server.capture.phone import PhoneImage, PhoneUpdate
 from server.config import CameraConfig, Config
 from server.live import ImageClock, LiveHub, Problem, SourceState, SourceStatus
 from server.loop.phone_inbox import PhoneInbox
@@ -21,7 +21,7 @@ from server.security import Person, Role
 from server.stream.phone import socket as phone_socket
 from server.stream.phone.receiver import MAX_AGE_S, PhoneTaken, Receiver
 from server.stream.phone.sender import Received
-from tests.server.capture.sent_by_phone import CAMERA, jpeg_of
+from tests.server.capture.fake_phone import CAMERA, jpeg_of
 from tests.server.stream.test_phone_sender import CAMERA as CAMERA_SAID
 from tracker.camera import CameraControl
 
@@ -68,7 +68,7 @@ class Phone:
     def say(self, **message: object) -> None:
         self.socket.send_text(json.dumps(message))
 
-    def told(self, what: str) -> dict[str, Any]:
+    def reported(self, what: str) -> dict[str, Any]:
         """The next message of this kind; each ping on the way is answered."""
         for _ in range(MAX_MESSAGES):
             message = self.socket.receive_json()
@@ -76,27 +76,27 @@ class Phone:
                 self.credit = message["note"]["credit"]
                 self.say(pong={"ping": message["note"]["ping"], "at_ms": time.monotonic() * 1000.0})
             if what in message:
-                told: dict[str, Any] = message[what]
-                return told
+                reported: dict[str, Any] = message[what]
+                return reported
         pytest.fail(f"the server says no {what}")
 
     def note_after(self, images: int) -> dict[str, Any]:
         """The note that counts this many images."""
         for _ in range(MAX_MESSAGES):
-            if (note := self.told("note"))["images"] >= images:
+            if (note := self.reported("note"))["images"] >= images:
                 return note
         pytest.fail(f"no {images} images were handed on")
 
     def problem(self) -> dict[str, Any]:
         """The next note that tells of something wrong."""
         for _ in range(MAX_MESSAGES):
-            if (note := self.told("note"))["problem"] is not None:
+            if (note := self.reported("note"))["problem"] is not None:
                 return note
         pytest.fail("nothing is said to be wrong")
 
     def begin(self) -> dict[str, Any]:
-        welcome = self.told("welcome")
-        self.told("note")
+        welcome = self.reported("welcome")
+        self.reported("note")
         self.say(camera=CAMERA_SAID)
         return welcome
 
@@ -116,7 +116,7 @@ def ending(socket: WebSocketTestSession) -> WebSocketDisconnect:
     pytest.fail("the server does not end it")
 
 
-def newest(inbox: PhoneInbox) -> Inbound:
+def newest(inbox: PhoneInbox) -> PhoneUpdate:
     entry = inbox.newest()
     assert entry is not None
     return entry[1]
@@ -142,7 +142,7 @@ def test_images_reach_the_inbox_with_their_time_and_each_one_grants_the_next(
         assert note["delay_ms"] >= 0.0
         assert note["problem"] is None
     # The page is closed: nobody is there, and that is told at once.
-    assert newest(inbox) == Inbound(sender="")
+    assert newest(inbox) == PhoneUpdate(sender="")
 
 
 def test_a_page_hears_what_the_server_has_against_its_images(
@@ -153,9 +153,9 @@ def test_a_page_hears_what_the_server_has_against_its_images(
         phone.begin()
         phone.send(b"no picture")
         assert phone.problem()["problem"]["code"] == "PHONE_IMAGE_BROKEN"
-        told = newest(inbox)
-        assert told.problem is not None
-        assert (told.image, told.problem.code) == (None, "PHONE_IMAGE_BROKEN")
+        reported = newest(inbox)
+        assert reported.problem is not None
+        assert (reported.image, reported.problem.code) == (None, "PHONE_IMAGE_BROKEN")
         phone.send(jpeg_of(80))
         assert phone.note_after(1)["problem"] is None
         problem = Problem(code="PHONE_FOCUS_NOT_LOCKED", message="it is not", remedy="None.")
@@ -166,14 +166,14 @@ def test_a_page_hears_what_the_server_has_against_its_images(
         assert (note["problem"]["code"], note["source_state"]) == ("PHONE_FOCUS_NOT_LOCKED", "running")
 
 
-def test_a_second_device_is_refused_with_a_sentence_and_the_first_goes_on(
+def test_a_second_device_is_rejected_with_a_sentence_and_the_first_goes_on(
     door: TestClient, inbox: PhoneInbox
 ) -> None:
     with connected(door) as socket:
         phone = Phone(socket)
         phone.begin()
         with connected(door) as second:
-            rejected = Phone(second, OTHER_KEY).told("rejected")
+            rejected = Phone(second, OTHER_KEY).reported("rejected")
             assert rejected["code"] == "PHONE_TAKEN"
             assert "STOP" in rejected["remedy"]
             assert ending(second).code == 1008
@@ -184,7 +184,7 @@ def test_a_second_device_is_refused_with_a_sentence_and_the_first_goes_on(
         assert Phone(socket, OTHER_KEY).begin()
 
 
-def test_the_page_that_lost_its_connection_gets_its_place_back(door: TestClient, inbox: PhoneInbox) -> None:
+def test_the_page_that_lost_its_connection_gets_its_slot_back(door: TestClient, inbox: PhoneInbox) -> None:
     # Its first connection hangs in the air: the server has not seen it end.
     with connected(door) as hanging, connected(door) as socket:
         first = Phone(hanging)
@@ -205,23 +205,23 @@ def test_a_page_of_which_nothing_comes_is_gone(
     with connected(door) as socket:
         socket.send_text(json.dumps({"hello": {"key": KEY}}))
         assert ending(socket).code == 1013
-    assert newest(inbox) == Inbound(sender="")
+    assert newest(inbox) == PhoneUpdate(sender="")
 
 
-def test_a_page_that_misbehaves_is_told_and_its_place_is_free(door: TestClient, inbox: PhoneInbox) -> None:
+def test_a_page_that_misbehaves_is_told_and_its_slot_is_free(door: TestClient, inbox: PhoneInbox) -> None:
     with connected(door) as socket:
         phone = Phone(socket)
         phone.begin()
         socket.send_bytes(b"x")
         ended = ending(socket)
         assert (ended.code, "announced" in ended.reason) == (1008, True)
-    assert newest(inbox) == Inbound(sender="")
+    assert newest(inbox) == PhoneUpdate(sender="")
 
 
 def test_a_server_with_another_camera_says_how_to_start_it(client: TestClient) -> None:
     with connected(client) as socket:
         rejected = socket.receive_json()["rejected"]
-    assert rejected["code"] == "PHONE_NOT_ASKED"
+    assert rejected["code"] == "PHONE_NOT_SELECTED"
     assert "rehearsal" in rejected["message"]
     assert "--source phone" in rejected["remedy"]
 
@@ -251,8 +251,8 @@ def test_an_old_image_is_not_handed_on(
     with receiver.sending(KEY, ITO) as place:
         receiver.deliver(place, received(10.0))
         receiver.deliver(place, second)
-        told = newest(inbox)
-        assert (told.image is None) == (code is not None)
+        reported = newest(inbox)
+        assert (reported.image is None) == (code is not None)
         assert (None if place.problem is None else place.problem.code) == code
 
 
@@ -262,7 +262,7 @@ def test_an_image_of_a_connection_that_was_replaced_is_not_handed_on(
     with receiver.sending(KEY, ITO) as before, receiver.sending(KEY, ITO):
         assert before.replaced.is_set()
         receiver.deliver(before, received(10.0))
-        assert newest(inbox) == Inbound(sender="Dr. Ito")
+        assert newest(inbox) == PhoneUpdate(sender="Dr. Ito")
 
 
 def test_a_key_alone_takes_nobodys_place(receiver: Receiver) -> None:
@@ -270,7 +270,7 @@ def test_a_key_alone_takes_nobodys_place(receiver: Receiver) -> None:
         pass
 
 
-def test_a_page_is_asked_for_what_the_calibration_in_use_was_made_with(inbox: PhoneInbox) -> None:
+def test_a_page_is_requested_to_use_the_settings_of_the_calibration(inbox: PhoneInbox) -> None:
     calibrated = CalibratedCamera(size_wh_px=(1920, 1080), controls={CameraControl.FOCUS: 430})
     receiver = Receiver(inbox, SETTINGS)
     receiver.calibrated = calibrated

@@ -1,4 +1,4 @@
-"""What is concluded of an image goes over the wire whole: judgement, uncertainty, what holds it together."""
+"""The navigation results of an image are sent completely: clearance, uncertainty, motion monitor."""
 
 import dataclasses
 from collections.abc import Callable
@@ -9,14 +9,14 @@ import pytest
 
 from server.live import Instant
 from server.stream.assessment_messages import AssessmentMessage
-from server.stream.judgement_messages import JudgementMessage, NearestMessage, NotEnteredMessage
+from server.stream.judgement_messages import JudgementMessage, NearestWallMessage, NotEnteredMessage
 from server.stream.messages import live_message
-from server.stream.place_messages import AbsentMessage, VertebraMessage
+from server.stream.pose_messages import AbsentMessage, VertebraMessage
 from server.stream.snapshot_messages import SnapshotMessage, snapshot_message
-from tracker.navigation import AbsentReason, Assessment, MovesSeen, NavigationSnapshot, Watched
-from tracker.navigation.certainty import Judged
-from tracker.navigation.clearance import Nearest
-from tracker.navigation.watch import NeverSeen, SceneState
+from tracker.navigation import AbsentReason, Assessment, MotionDetection, MotionState, NavigationSnapshot
+from tracker.navigation.clearance import NearestWall
+from tracker.navigation.monitoring import NeverSeen, SceneState
+from tracker.navigation.uncertainty import DrillAnalysis
 
 SnapshotOf = Callable[..., NavigationSnapshot]
 
@@ -39,17 +39,17 @@ def _judgement(snapshot: NavigationSnapshot) -> JudgementMessage:
 
 def test_the_judgement_is_sent_as_it_was_made(snapshot_of: SnapshotOf) -> None:
     snapshot = snapshot_of()
-    judged = snapshot.judgements["drill"]
-    assert isinstance(judged, Judged)
+    judged = snapshot.analyses["drill"]
+    assert isinstance(judged, DrillAnalysis)
     now = judged.clearance.now
-    assert isinstance(now, Nearest)
+    assert isinstance(now, NearestWall)
     sent = _judgement(snapshot)
-    assert isinstance(sent.clearance.now, NearestMessage)
+    assert isinstance(sent.clearance.now, NearestWallMessage)
     assert sent.clearance.now.clearance_mm == now.clearance_mm
     assert sent.clearance.now.wall is now.wall
-    assert sent.probability.soon_ratio == judged.soon.through_ratio
+    assert sent.probability.lookahead_ratio == judged.lookahead.through_ratio
     assert sum(sent.probability.at_end_grade_ratio.values()) == pytest.approx(1.0)
-    assert sent.certain.room_mm == judged.certain.room_mm
+    assert sent.certain.tolerance_mm == judged.certain.tolerance_mm
     np.testing.assert_array_equal(sent.spread.tip_ellipsoid_mm, judged.spread.tip_ellipsoid_mm)
 
 
@@ -111,31 +111,31 @@ def test_what_has_no_end_is_sent_as_nothing(
 @pytest.mark.parametrize(
     ("scene", "by"),
     [
-        (SceneState.STILL, MovesSeen.FIXED_SCENE),
-        (SceneState.MOVED, MovesSeen.FIXED_SCENE),
-        (SceneState.UNSURE, MovesSeen.NOT_AT_ALL),
-        (SceneState.NO_TEXTURE, MovesSeen.NOT_AT_ALL),
+        (SceneState.STILL, MotionDetection.FIXED_SCENE),
+        (SceneState.MOVED, MotionDetection.FIXED_SCENE),
+        (SceneState.UNSURE, MotionDetection.NONE),
+        (SceneState.NO_TEXTURE, MotionDetection.NONE),
     ],
 )
 def test_by_what_a_move_is_seen_without_a_reference(
-    snapshot_of: SnapshotOf, scene: SceneState, by: MovesSeen
+    snapshot_of: SnapshotOf, scene: SceneState, by: MotionDetection
 ) -> None:
-    assert _sent(snapshot_of(watched=Watched(scene=scene))).watched.moves_seen_by is by
+    assert _sent(snapshot_of(motion=MotionState(scene=scene))).motion.motion_detected_by is by
 
 
 def test_when_a_marker_was_seen_is_told(snapshot_of: SnapshotOf) -> None:
-    watched = Watched(unseen_s={"drill": 1.5})
-    assert _sent(snapshot_of(seen=False, watched=watched)).markers[0].unseen_s == 1.5
-    never = Watched(unseen_s={"drill": NeverSeen()})
-    assert _sent(snapshot_of(seen=False, watched=never)).markers[0].unseen_s is None
+    motion = MotionState(unseen_s={"drill": 1.5})
+    assert _sent(snapshot_of(seen=False, motion=motion)).markers[0].unseen_s == 1.5
+    never = MotionState(unseen_s={"drill": NeverSeen()})
+    assert _sent(snapshot_of(seen=False, motion=never)).markers[0].unseen_s is None
 
 
 def test_a_marker_on_the_patient_sees_moves_only_if_the_registration_is_fixed_to_it(
     snapshot_of: SnapshotOf,
 ) -> None:
     to_camera, none = snapshot_of(), snapshot_of(registered=False)
-    for snapshot, by in ((to_camera, MovesSeen.NOT_AT_ALL), (none, MovesSeen.REFERENCE)):
+    for snapshot, by in ((to_camera, MotionDetection.NONE), (none, MotionDetection.REFERENCE)):
         setup = dataclasses.replace(snapshot.setup, reference="patient")
         sent = _sent(dataclasses.replace(snapshot, setup=setup))
         assert sent.reference == "patient"
-        assert sent.watched.moves_seen_by is by
+        assert sent.motion.motion_detected_by is by

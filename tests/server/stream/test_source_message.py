@@ -1,4 +1,4 @@
-"""What the wire says of the source of images."""
+"""The wire message of the source of images."""
 
 import pytest
 
@@ -16,7 +16,7 @@ def test_a_camera_says_whose_clock_it_is_what_it_granted_and_how_it_is_set() -> 
     message = source_message(SourceStatus(name="camera 0", state=SourceState.RUNNING, camera=camera))
     assert message.model_dump(mode="json")["camera"] == {
         "clock": "driver",
-        "asked": None,
+        "requested": None,
         "granted": {"fourcc": "YUYV", "width_px": 640, "height_px": 480, "rate_hz": 15.0},
         "controls": {"focus": 30, "gain": 7},
         "note": None,

@@ -1,4 +1,4 @@
-"""A WebSocket client that takes nothing is cut off, however it watches."""
+"""A WebSocket client that reads nothing is disconnected, on every socket."""
 
 import contextlib
 import http.client
@@ -12,7 +12,7 @@ import pytest
 from fastapi import FastAPI
 
 from server.live import Instant, LiveHub, Problem, SourceState, SourceStatus
-from server.stream.connection import ViewerProtocol
+from server.stream.connection import ViewerHttpProtocol
 
 DEADLINE_S = 60.0
 # More than all buffers between the two sides hold.
@@ -21,17 +21,17 @@ HANDSHAKE = (
     "GET /ws/{kind} HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
     "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n"
 )
-GRANT = b'{"next": true}'
+NEXT_REQUEST = b'{"next": true}'
 # A text message in one frame, masked with zeros, as a client has to mask it.
-GRANT_FRAME = bytes([0x81, 0x80 | len(GRANT), 0, 0, 0, 0]) + GRANT
+GRANT_FRAME = bytes([0x81, 0x80 | len(NEXT_REQUEST), 0, 0, 0, 0]) + NEXT_REQUEST
 
 
 def let_go(port: int, kind: str) -> bool:
     connection = http.client.HTTPConnection("127.0.0.1", port, timeout=DEADLINE_S)
     connection.request("GET", "/metrics")
-    told = connection.getresponse().read().decode()
+    reported = connection.getresponse().read().decode()
     connection.close()
-    return f'coaxial_viewer_let_go_total{{kind="{kind}"}} 1.0' in told
+    return f'coaxial_viewer_let_go_total{{kind="{kind}"}} 1.0' in reported
 
 
 @pytest.mark.parametrize("kind", ["live", "view"])
@@ -66,7 +66,7 @@ def test_a_stalled_client_is_cut_off(
 def test_a_connection_without_a_request_is_cut(
     app: FastAPI, serve: Callable[[FastAPI], int], monkeypatch: pytest.MonkeyPatch, beginning: bytes
 ) -> None:
-    monkeypatch.setattr(ViewerProtocol, "request_within_s", 0.05)
+    monkeypatch.setattr(ViewerHttpProtocol, "request_within_s", 0.05)
     port = serve(app)
     with socket.create_connection(("127.0.0.1", port), timeout=DEADLINE_S) as silent:
         silent.sendall(beginning)
@@ -77,7 +77,7 @@ def test_a_connection_without_a_request_is_cut(
 def test_a_later_request_whose_head_trickles_is_cut(
     app: FastAPI, serve: Callable[[FastAPI], int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(ViewerProtocol, "request_within_s", 1.0)
+    monkeypatch.setattr(ViewerHttpProtocol, "request_within_s", 1.0)
     port = serve(app)
     with socket.create_connection(("127.0.0.1", port), timeout=DEADLINE_S) as slow:
         slow.sendall(b"GET /api/dashboard HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
@@ -100,7 +100,7 @@ def test_a_socket_outlives_the_wait_for_a_request(
     live_instant: Callable[..., Instant],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(ViewerProtocol, "request_within_s", 1.0)
+    monkeypatch.setattr(ViewerHttpProtocol, "request_within_s", 1.0)
     port = serve(app)
     hub.publish(live_instant(1))
     with socket.create_connection(("127.0.0.1", port), timeout=DEADLINE_S) as viewer:

@@ -1,4 +1,4 @@
-"""`/ws/view`: image and pose of one instant in one message, and only when asked for."""
+"""`/ws/view`: image and pose of one instant in one message, and only on request."""
 
 import json
 import struct
@@ -13,7 +13,7 @@ from starlette.testclient import WebSocketTestSession
 from starlette.websockets import WebSocketDisconnect
 
 from server.live import Instant, LiveHub
-from server.stream.view_socket import Granting
+from server.stream.view_socket import ViewRequests
 from server.stream.viewers import Viewer, ViewerKind
 
 LiveInstant = Callable[..., Instant]
@@ -39,7 +39,7 @@ def test_an_image_and_its_pose_come_in_one_message(
     assert jpeg == instant.jpeg
 
 
-def test_each_image_is_asked_for_and_is_the_newest_then(
+def test_each_image_is_requested_and_is_the_newest_then(
     client: TestClient, open_socket: OpenSocket, hub: LiveHub, live_instant: LiveInstant
 ) -> None:
     hub.publish(live_instant(0))
@@ -95,13 +95,13 @@ def test_anything_else_ends_with_a_reason(
             socket.send_bytes(said)
         else:
             socket.send_text(said)
-        with pytest.raises(WebSocketDisconnect) as told:
+        with pytest.raises(WebSocketDisconnect) as reported:
             socket.receive_bytes()
-    assert told.value.code == code
-    assert reason in told.value.reason
+    assert reported.value.code == code
+    assert reason in reported.value.reason
 
 
-def test_the_size_is_asked_for_at_the_door_and_changed_on_the_way(
+def test_the_size_is_requested_in_the_query_and_changed_later(
     open_socket: OpenSocket, hub: LiveHub, live_instant: LiveInstant
 ) -> None:
     with open_socket("/ws/view?size=half") as socket:
@@ -142,33 +142,33 @@ def test_a_client_gets_none_larger_than_it_can_show_and_none_smaller_for_being_s
         pytest.param(0.3, 11.0, 10.5, id="granted-before-it-was-noted"),
     ],
 )
-def test_what_the_client_needed_itself_is_not_the_lines(
+def test_what_the_client_needed_itself_is_not_the_connections(
     showing_s: float, drained_at_s: float, free_at_s: float
 ) -> None:
-    granting = Granting(Viewer(ViewerKind.VIEW))
+    granting = ViewRequests(Viewer(ViewerKind.VIEW))
     granting.at_s, granting.showing_s = 10.5, showing_s
-    assert granting.line_free_at_s(drained_at_s=drained_at_s) == pytest.approx(free_at_s)
+    assert granting.connection_free_at_s(drained_at_s=drained_at_s) == pytest.approx(free_at_s)
 
 
 def test_a_flood_of_questions_ends_with_a_reason(open_socket: OpenSocket) -> None:
     with open_socket("/ws/view") as socket:
         for _ in range(700):
             socket.send_text('{"next": true}')
-        with pytest.raises(WebSocketDisconnect) as told:
+        with pytest.raises(WebSocketDisconnect) as reported:
             socket.receive_bytes()
-    assert told.value.code == 1008
-    assert "a second" in told.value.reason
+    assert reported.value.code == 1008
+    assert "a second" in reported.value.reason
 
 
-def test_an_unknown_camera_is_refused_with_the_known_ones(open_socket: OpenSocket) -> None:
-    with open_socket("/ws/view?camera=side") as socket, pytest.raises(WebSocketDisconnect) as told:
+def test_an_unknown_camera_is_rejected_with_the_known_ones(open_socket: OpenSocket) -> None:
+    with open_socket("/ws/view?camera=side") as socket, pytest.raises(WebSocketDisconnect) as reported:
         socket.receive_bytes()
-    assert told.value.code == 1008
-    assert told.value.reason == "there is no camera 'side', only main"
+    assert reported.value.code == 1008
+    assert reported.value.reason == "there is no camera 'side', only main"
 
 
-def test_an_unknown_size_is_refused_with_the_known_ones(open_socket: OpenSocket) -> None:
-    with open_socket("/ws/view?size=tiny") as socket, pytest.raises(WebSocketDisconnect) as told:
+def test_an_unknown_size_is_rejected_with_the_known_ones(open_socket: OpenSocket) -> None:
+    with open_socket("/ws/view?size=tiny") as socket, pytest.raises(WebSocketDisconnect) as reported:
         socket.receive_bytes()
-    assert told.value.code == 1008
-    assert told.value.reason == "there is no size 'tiny', only auto, full, half, quarter"
+    assert reported.value.code == 1008
+    assert reported.value.reason == "there is no size 'tiny', only auto, full, half, quarter"

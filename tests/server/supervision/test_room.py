@@ -1,14 +1,14 @@
-"""The room without a network: people once, marks that go with their moment, bounds for who sends too much."""
+"""The room without a network: people once, marks that expire with their image, rate limits."""
 
 from dataclasses import dataclass, field
 
 import pytest
 
 from server.security import Person, Role
-from server.supervision.marks import MAX_DRAWINGS_A_PERSON, MAX_POINTS_A_DRAWING, Moment, Shape
-from server.supervision.people import LineState, Seat, View
-from server.supervision.room import MARKS_AT_ONCE, Room, RoomFull, Shown, Unfair
-from server.supervision.told import News, RoomPicture, Told
+from server.supervision.marks import MAX_DRAWINGS_PER_PERSON, MAX_POINTS_PER_DRAWING, Moment, Shape
+from server.supervision.participants import ConnectionState, RoomSession, View
+from server.supervision.room import MARKS_AT_ONCE, Room, RoomFull, RoomPolicyViolation, ShownImage
+from server.supervision.room_updates import RoomState, RoomUpdate, SentState
 
 SATO = Person(id="s1", name="Dr Sato", role=Role.SUPERVISOR)
 ITO = Person(id="o1", name="M. Ito", role=Role.OPERATOR)
@@ -29,30 +29,30 @@ class Scene:
         return Moment(image_number=int(self.now_s * 10), captured_at_s=self.now_s)
 
     @property
-    def shown(self) -> Shown:
-        return Shown(moment=self.moment, size_wh_px=(1280, 720))
+    def shown(self) -> ShownImage:
+        return ShownImage(moment=self.moment, size_wh_px=(1280, 720))
 
-    def enter(self, person: Person, view: View = View.SUPERVISOR) -> Seat:
+    def enter(self, person: Person, view: View = View.SUPERVISOR) -> RoomSession:
         return self.room.enter(person, view, now_s=self.now_s, at=f"at {self.now_s:g}")
 
-    def point(self, seat: Seat, at_px: tuple[float, float] = (10.0, 20.0)) -> None:
-        self.room.point(seat, at_px, self.moment, self.shown, now_s=self.now_s)
+    def point(self, session: RoomSession, at_px: tuple[float, float] = (10.0, 20.0)) -> None:
+        self.room.point(session, at_px, self.moment, self.shown, now_s=self.now_s)
 
-    def draw(self, seat: Seat, key: int = 1, shape: Shape = Shape.PEN, points: int = 2) -> bool:
+    def draw(self, session: RoomSession, key: int = 1, shape: Shape = Shape.PEN, points: int = 2) -> bool:
         line = [(10.0 + n, 20.0) for n in range(points)]
-        return self.room.draw(seat, key, shape, line, self.moment, self.shown, now_s=self.now_s)
+        return self.room.draw(session, key, shape, line, self.moment, self.shown, now_s=self.now_s)
 
     @property
     def drawn(self) -> list[str]:
         return [one.key for one in self.room.marks.drawings(self.now_s)]
 
-    def news(self, told: Told) -> News:
+    def update(self, sent: SentState) -> RoomUpdate:
         marks = self.room.marks
-        return told.news(
-            RoomPicture(
+        return sent.update(
+            RoomState(
                 now_s=self.now_s,
                 fades_after_s=FADES_S,
-                people=self.room.present(self.now_s),
+                people=self.room.participants(self.now_s),
                 pointers=marks.pointers(self.now_s),
                 drawings=marks.drawings(self.now_s),
             )
@@ -69,48 +69,48 @@ def test_somebody_with_several_pages_is_here_once(scene: Scene) -> None:
     scene.enter(GUEST, View.THEATRE)
     scene.now_s += 60
     scene.enter(SATO, View.THEATRE)
-    told = [(one.name, one.role, one.views, one.since) for one in scene.room.present(scene.now_s)]
-    assert told == [
+    reported = [(one.name, one.role, one.views, one.since) for one in scene.room.participants(scene.now_s)]
+    assert reported == [
         ("Dr Sato", Role.SUPERVISOR, (View.THEATRE, View.SUPERVISOR), "at 100"),
         ("Guest", Role.VIEWER, (View.THEATRE,), "at 100"),
     ]
     scene.room.leave(first)
-    assert scene.room.present(scene.now_s)[1].views == (View.THEATRE,)
+    assert scene.room.participants(scene.now_s)[1].views == (View.THEATRE,)
 
 
 @pytest.mark.parametrize(
     ("took_s", "waiting_s", "line"),
     [
-        pytest.param(0.1, 0.0, LineState.GOOD, id="answers-at-once"),
-        pytest.param(0.7, 0.0, LineState.SLOW, id="answered-late"),
-        pytest.param(0.1, 0.9, LineState.SLOW, id="is-late-now"),
-        pytest.param(0.1, 3.0, LineState.SILENT, id="says-nothing"),
+        pytest.param(0.1, 0.0, ConnectionState.GOOD, id="answers-at-once"),
+        pytest.param(0.7, 0.0, ConnectionState.SLOW, id="answered-late"),
+        pytest.param(0.1, 0.9, ConnectionState.SLOW, id="is-late-now"),
+        pytest.param(0.1, 3.0, ConnectionState.SILENT, id="says-nothing"),
     ],
 )
-def test_a_line_is_judged_by_its_answers(
-    scene: Scene, took_s: float, waiting_s: float, line: LineState
+def test_a_connection_is_judged_by_its_answers(
+    scene: Scene, took_s: float, waiting_s: float, line: ConnectionState
 ) -> None:
-    seat = scene.enter(SATO)
-    seat.sent_at_s = scene.now_s
+    session = scene.enter(SATO)
+    session.sent_at_s = scene.now_s
     scene.now_s += took_s
-    seat.answered(scene.now_s)
+    session.answered(scene.now_s)
     if waiting_s:
-        seat.sent_at_s = scene.now_s
+        session.sent_at_s = scene.now_s
         scene.now_s += waiting_s
-    assert scene.room.present(scene.now_s)[0].line is line
+    assert scene.room.participants(scene.now_s)[0].connection is line
 
 
-def test_the_best_of_several_lines_counts(scene: Scene) -> None:
+def test_the_best_of_several_connections_counts(scene: Scene) -> None:
     bad, good = scene.enter(SATO), scene.enter(SATO)
     bad.round_trip_s, good.round_trip_s = 5.0, 0.1
-    assert scene.room.present(scene.now_s)[0].line is LineState.GOOD
+    assert scene.room.participants(scene.now_s)[0].connection is ConnectionState.GOOD
 
 
 def test_a_pointer_goes_two_seconds_after_its_last_move(scene: Scene) -> None:
-    seat = scene.enter(SATO)
-    scene.point(seat)
+    session = scene.enter(SATO)
+    scene.point(session)
     scene.now_s += 1.9
-    scene.point(seat, (30.0, 40.0))
+    scene.point(session, (30.0, 40.0))
     scene.now_s += 1.9
     assert [one.at_px for one in scene.room.marks.pointers(scene.now_s)] == [(30.0, 40.0)]
     scene.now_s += 0.2
@@ -118,19 +118,19 @@ def test_a_pointer_goes_two_seconds_after_its_last_move(scene: Scene) -> None:
 
 
 def test_a_pointer_goes_with_its_page_but_drawings_stay_their_time(scene: Scene) -> None:
-    seat = scene.enter(SATO)
-    scene.point(seat)
-    scene.draw(seat)
-    scene.room.leave(seat)
+    session = scene.enter(SATO)
+    scene.point(session)
+    scene.draw(session)
+    scene.room.leave(session)
     assert scene.room.marks.pointers(scene.now_s) == ()
     assert scene.drawn == ["1-1"]
 
 
 def test_a_drawing_goes_with_the_image_that_it_was_made_on(scene: Scene) -> None:
-    seat = scene.enter(SATO)
+    session = scene.enter(SATO)
     seen = scene.moment
     scene.now_s += 5  # over a thin line an old image was drawn on
-    scene.room.draw(seat, 1, Shape.PEN, [(1.0, 1.0)], seen, scene.shown, now_s=scene.now_s)
+    scene.room.draw(session, 1, Shape.PEN, [(1.0, 1.0)], seen, scene.shown, now_s=scene.now_s)
     scene.now_s += 14.9
     assert scene.drawn == ["1-1"]
     scene.now_s += 0.2
@@ -139,44 +139,44 @@ def test_a_drawing_goes_with_the_image_that_it_was_made_on(scene: Scene) -> None
 
 @pytest.mark.parametrize("person", [GUEST, SCREEN])
 def test_who_only_watches_is_cut_off(scene: Scene, person: Person) -> None:
-    seat = scene.enter(person)
+    session = scene.enter(person)
     for act in (scene.point, scene.draw):
-        with pytest.raises(Unfair, match="only watches"):
-            act(seat)
-    with pytest.raises(Unfair):
-        scene.room.extend(seat, 1, [(1.0, 1.0)], scene.shown, now_s=scene.now_s)
-    with pytest.raises(Unfair):
-        scene.room.undo(seat, now_s=scene.now_s)
-    with pytest.raises(Unfair):
-        scene.room.clear(seat, everybodys=False, now_s=scene.now_s)
+        with pytest.raises(RoomPolicyViolation, match="may not mark"):
+            act(session)
+    with pytest.raises(RoomPolicyViolation):
+        scene.room.extend(session, 1, [(1.0, 1.0)], scene.shown, now_s=scene.now_s)
+    with pytest.raises(RoomPolicyViolation):
+        scene.room.undo(session, now_s=scene.now_s)
+    with pytest.raises(RoomPolicyViolation):
+        scene.room.clear(session, everybodys=False, now_s=scene.now_s)
 
 
 def test_too_many_marks_are_cut_off_and_a_steady_hand_is_not(scene: Scene) -> None:
-    seat = scene.enter(SATO)
+    session = scene.enter(SATO)
     for _ in range(600):
         scene.now_s += 1 / 50
-        scene.point(seat)
+        scene.point(session)
     hasty = scene.enter(SATO)
     for _ in range(int(MARKS_AT_ONCE)):
         scene.point(hasty)
-    with pytest.raises(Unfair, match="a second"):
+    with pytest.raises(RoomPolicyViolation, match="a second"):
         scene.point(hasty)
 
 
 def test_a_drawing_has_an_end(scene: Scene) -> None:
-    seat = scene.enter(SATO)
-    scene.draw(seat, points=50)
-    for _ in range(MAX_POINTS_A_DRAWING // 50 - 1):
-        scene.room.extend(seat, 1, [(1.0, 1.0)] * 50, scene.shown, now_s=scene.now_s)
-    with pytest.raises(Unfair, match=str(MAX_POINTS_A_DRAWING)):
-        scene.room.extend(seat, 1, [(1.0, 1.0)], scene.shown, now_s=scene.now_s)
+    session = scene.enter(SATO)
+    scene.draw(session, points=50)
+    for _ in range(MAX_POINTS_PER_DRAWING // 50 - 1):
+        scene.room.extend(session, 1, [(1.0, 1.0)] * 50, scene.shown, now_s=scene.now_s)
+    with pytest.raises(RoomPolicyViolation, match=str(MAX_POINTS_PER_DRAWING)):
+        scene.room.extend(session, 1, [(1.0, 1.0)], scene.shown, now_s=scene.now_s)
 
 
 def test_the_oldest_of_too_many_drawings_goes(scene: Scene) -> None:
-    seat = scene.enter(SATO)
-    for key in range(MAX_DRAWINGS_A_PERSON + 3):
-        scene.draw(seat, key)
-    assert scene.drawn == [f"1-{key}" for key in range(3, MAX_DRAWINGS_A_PERSON + 3)]
+    session = scene.enter(SATO)
+    for key in range(MAX_DRAWINGS_PER_PERSON + 3):
+        scene.draw(session, key)
+    assert scene.drawn == [f"1-{key}" for key in range(3, MAX_DRAWINGS_PER_PERSON + 3)]
 
 
 def test_own_drawings_are_taken_back_and_the_operator_clears_all(scene: Scene) -> None:
@@ -186,7 +186,7 @@ def test_own_drawings_are_taken_back_and_the_operator_clears_all(scene: Scene) -
     scene.draw(ito, 1)
     assert scene.room.undo(sato, now_s=scene.now_s)
     assert scene.drawn == ["1-1", "2-1"]
-    with pytest.raises(Unfair, match="operator"):
+    with pytest.raises(RoomPolicyViolation, match="operator"):
         scene.room.clear(sato, everybodys=True, now_s=scene.now_s)
     assert scene.room.clear(sato, everybodys=False, now_s=scene.now_s) == 1
     scene.draw(sato, 3)
@@ -206,18 +206,18 @@ def test_own_drawings_are_taken_back_and_the_operator_clears_all(scene: Scene) -
 def test_what_lies_on_no_picture_is_not_shown(
     scene: Scene, points: list[tuple[float, float]], moved: Moment
 ) -> None:
-    seat = scene.enter(SATO)
-    assert not scene.room.draw(seat, 1, Shape.PEN, points, moved, scene.shown, now_s=scene.now_s)
-    scene.room.point(seat, points[0], moved, scene.shown, now_s=scene.now_s)
-    assert not scene.room.draw(seat, 1, Shape.PEN, [(1.0, 1.0)], scene.moment, None, now_s=scene.now_s)
+    session = scene.enter(SATO)
+    assert not scene.room.draw(session, 1, Shape.PEN, points, moved, scene.shown, now_s=scene.now_s)
+    scene.room.point(session, points[0], moved, scene.shown, now_s=scene.now_s)
+    assert not scene.room.draw(session, 1, Shape.PEN, [(1.0, 1.0)], scene.moment, None, now_s=scene.now_s)
     assert scene.drawn == []
     assert scene.room.marks.pointers(scene.now_s) == ()
 
 
 def test_an_arrow_has_two_ends(scene: Scene) -> None:
-    seat = scene.enter(SATO)
-    with pytest.raises(Unfair, match="two points"):
-        scene.draw(seat, 1, Shape.ARROW, points=3)
+    session = scene.enter(SATO)
+    with pytest.raises(RoomPolicyViolation, match="two points"):
+        scene.draw(session, 1, Shape.ARROW, points=3)
 
 
 def test_the_room_has_an_end(scene: Scene) -> None:
@@ -228,20 +228,20 @@ def test_the_room_has_an_end(scene: Scene) -> None:
     scene.enter(ITO)
 
 
-def test_a_page_is_told_only_what_is_new(scene: Scene) -> None:
-    sato, told = scene.enter(SATO), Told()
+def test_a_page_gets_only_what_is_new(scene: Scene) -> None:
+    sato, reported = scene.enter(SATO), SentState()
     scene.draw(sato, points=3)
-    first = scene.news(told)
+    first = scene.update(reported)
     assert first.people is not None
-    assert [(one.from_point, len(one.points_px)) for one in first.grown] == [(0, 3)]
+    assert [(one.from_point, len(one.points_px)) for one in first.extensions] == [(0, 3)]
     scene.room.extend(sato, 1, [(1.0, 2.0)], scene.shown, now_s=scene.now_s)
-    second = scene.news(told)
+    second = scene.update(reported)
     assert (second.people, second.signable) == (None, None)
-    assert [(one.from_point, list(one.points_px)) for one in second.grown] == [(3, [(1.0, 2.0)])]
+    assert [(one.from_point, list(one.points_px)) for one in second.extensions] == [(3, [(1.0, 2.0)])]
     scene.enter(GUEST)
-    third = scene.news(told)
+    third = scene.update(reported)
     assert third.people is not None
-    assert third.grown == ()
-    assert [one.key for one in third.picture.drawings] == ["1-1"]
-    late = scene.news(Told())
-    assert [(one.from_point, len(one.points_px)) for one in late.grown] == [(0, 4)]
+    assert third.extensions == ()
+    assert [one.key for one in third.state.drawings] == ["1-1"]
+    late = scene.update(SentState())
+    assert [(one.from_point, len(one.points_px)) for one in late.extensions] == [(0, 4)]

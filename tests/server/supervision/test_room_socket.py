@@ -1,4 +1,4 @@
-"""`/ws/room` through the door: what one page marks another is told, and who misbehaves goes."""
+"""`/ws/room` over HTTP: marks of one page reach another; protocol violations are closed."""
 
 import json
 import time
@@ -13,7 +13,7 @@ from starlette.websockets import WebSocketDisconnect
 from server.app import AppParts, create_app
 from server.config import Config
 from server.live import Instant, LiveHub
-from tests.server.supervision.persons import sign_people_in
+from tests.server.supervision.signed_in_people import sign_people_in
 from tracker.navigation import NavigationSnapshot
 
 Open = Callable[..., WebSocketTestSession]
@@ -31,21 +31,21 @@ class Page:
 
     def hear(self) -> dict[str, Any]:
         self.socket.send_json(NEXT)
-        told: dict[str, Any] = self.socket.receive_json()
-        return told
+        reported: dict[str, Any] = self.socket.receive_json()
+        return reported
 
     def until(self, true: Callable[[dict[str, Any]], Any]) -> dict[str, Any]:
         deadline = time.monotonic() + 60
-        while not true(told := self.hear()):
-            assert time.monotonic() < deadline, told
-        return told
+        while not true(reported := self.hear()):
+            assert time.monotonic() < deadline, reported
+        return reported
 
     def reason(self) -> str:
         """Why it is closed."""
-        with pytest.raises(WebSocketDisconnect) as told:
+        with pytest.raises(WebSocketDisconnect) as reported:
             self.socket.receive_json()
-        assert told.value.code in (1008, 1009)
-        return str(told.value.reason)
+        assert reported.value.code in (1008, 1009)
+        return str(reported.value.reason)
 
 
 @pytest.fixture
@@ -84,40 +84,43 @@ def page(client: TestClient, image: dict[str, Any]) -> Iterator[Callable[..., Pa
 def test_what_a_supervisor_marks_is_told_in_theatre(page: Callable[..., Page], image: dict[str, Any]) -> None:
     sato, theatre = page("s1"), page("v1", "theatre")
     assert sato.hear()["you"]["name"] == "Dr Sato"
-    told = theatre.until(lambda told: told["people"] and len(told["people"]) == 2)
-    assert [(one["name"], one["role"], one["views"], one["is_you"]) for one in told["people"]] == [
+    reported = theatre.until(lambda reported: reported["people"] and len(reported["people"]) == 2)
+    assert [(one["name"], one["role"], one["views"], one["is_you"]) for one in reported["people"]] == [
         ("Dr Sato", "supervisor", ["supervisor"], False),
         ("Guest", "viewer", ["theatre"], True),
     ]
     sato.say(point={"at_px": [640.5, 300], **image})
-    (pointer,) = theatre.until(lambda told: told["pointers"])["pointers"]
+    (pointer,) = theatre.until(lambda reported: reported["pointers"])["pointers"]
     assert (pointer["name"], pointer["at_px"], pointer["image_number"]) == ("Dr Sato", [640.5, 300.0], 500)
     assert 0.0 <= pointer["still_ms"] < 2000.0
     sato.say(lift=True)
-    theatre.until(lambda told: not told["pointers"])
+    theatre.until(lambda reported: not reported["pointers"])
     sato.say(draw={"key": 1, "shape": "pen", "points_px": [[1, 2], [3, 4]], **image})
-    (begun,) = theatre.until(lambda told: told["grown"])["grown"]
+    (begun,) = theatre.until(lambda reported: reported["grown"])["grown"]
     assert (begun["from_point"], begun["points_px"]) == (0, [[1.0, 2.0], [3.0, 4.0]])
     assert (begun["name"], begun["is_yours"], begun["shape"]) == ("Dr Sato", False, "pen")
     assert 10.0 < begun["left_s"] <= 20.0
     sato.say(extend={"key": 1, "points_px": [[5, 6]]})
-    (more,) = theatre.until(lambda told: told["grown"])["grown"]
+    (more,) = theatre.until(lambda reported: reported["grown"])["grown"]
     assert (more["key"], more["from_point"], more["points_px"]) == (begun["key"], 2, [[5.0, 6.0]])
     sato.say(undo=True)
-    theatre.until(lambda told: not told["drawings"])
+    theatre.until(lambda reported: not reported["drawings"])
 
 
 def test_the_operator_clears_what_others_drew(page: Callable[..., Page], image: dict[str, Any]) -> None:
     sato, ito = page("s1"), page("o1", "operator")
     sato.say(draw={"key": 7, "shape": "circle", "points_px": [[100, 100], [150, 100]], **image})
-    (drawn,) = ito.until(lambda told: told["grown"])["grown"]
+    (drawn,) = ito.until(lambda reported: reported["grown"])["grown"]
     assert (drawn["name"], drawn["is_yours"], drawn["shape"]) == ("Dr Sato", False, "circle")
-    assert sato.until(lambda told: told["drawings"])["drawings"] == [drawn["key"]]
+    assert sato.until(lambda reported: reported["drawings"])["drawings"] == [drawn["key"]]
     ito.say(clear="all")
-    assert [page.until(lambda told: not told["drawings"])["drawings"] for page in (sato, ito)] == [[], []]
+    assert [page.until(lambda reported: not reported["drawings"])["drawings"] for page in (sato, ito)] == [
+        [],
+        [],
+    ]
     # Nothing of it comes back with what is drawn next.
     sato.say(draw={"key": 8, "shape": "circle", "points_px": [[200, 100], [250, 100]], **image})
-    (after,) = ito.until(lambda told: told["drawings"])["drawings"]
+    (after,) = ito.until(lambda reported: reported["drawings"])["drawings"]
     assert after != drawn["key"]
 
 
@@ -128,8 +131,8 @@ DRAW = {**{key: POINT[key] for key in ("image_number", "captured_at_s")}, "key":
 @pytest.mark.parametrize(
     ("person", "said", "reason"),
     [
-        pytest.param("v1", json.dumps({"point": POINT}), "only watches", id="a viewer points"),
-        pytest.param("v1", '{"clear": "own"}', "only watches", id="a viewer clears"),
+        pytest.param("v1", json.dumps({"point": POINT}), "may not mark", id="a viewer points"),
+        pytest.param("v1", '{"clear": "own"}', "may not mark", id="a viewer clears"),
         pytest.param("s1", '{"clear": "all"}', "operator", id="a supervisor clears all"),
         pytest.param("s1", "hello", "not understood", id="no JSON"),
         pytest.param("s1", "[" * 1000, "not understood", id="deep"),
@@ -146,7 +149,7 @@ DRAW = {**{key: POINT[key] for key in ("image_number", "captured_at_s")}, "key":
         pytest.param("s1", json.dumps({"undo": True}).ljust(1025), "1024", id="too long"),
     ],
 )
-def test_who_misbehaves_is_told_why_and_goes(
+def test_who_violates_the_protocol_is_disconnected_with_a_reason(
     page: Callable[..., Page], person: str, said: str, reason: str
 ) -> None:
     one = page(person)
@@ -161,46 +164,46 @@ def test_a_flood_of_marks_is_cut_off(page: Callable[..., Page], image: dict[str,
     assert "a second" in sato.reason()
 
 
-def test_a_view_that_is_not_there_is_refused(page: Callable[..., Page]) -> None:
+def test_a_view_that_is_not_there_is_rejected(page: Callable[..., Page]) -> None:
     assert "theatre, operator, supervisor" in page("s1", "ceiling").reason()
 
 
 def test_the_room_is_told_once_over_http_too(client: TestClient, page: Callable[..., Page]) -> None:
     sato = page("s1")
     sato.hear()
-    told = client.get("/api/supervision/room", headers={"x-person": "v1"}).json()
-    assert [one["name"] for one in told["people"]] == ["Dr Sato"]
-    assert told["you"] == {"seat": 0, "name": "Guest", "role": "viewer"}
-    assert told["signable"] is None
+    reported = client.get("/api/supervision/room", headers={"x-person": "v1"}).json()
+    assert [one["name"] for one in reported["people"]] == ["Dr Sato"]
+    assert reported["you"] == {"seat": 0, "name": "Guest", "role": "viewer"}
+    assert reported["signable"] is None
 
 
 def test_who_leaves_is_not_here_any_more(page: Callable[..., Page], client: TestClient) -> None:
     theatre = page("v1", "theatre")
     with client.websocket_connect("ws://127.0.0.1:8000/ws/room?view=supervisor&person=s1"):
-        theatre.until(lambda told: told["people"] and len(told["people"]) == 2)
-    theatre.until(lambda told: told["people"] and len(told["people"]) == 1)
+        theatre.until(lambda reported: reported["people"] and len(reported["people"]) == 2)
+    theatre.until(lambda reported: reported["people"] and len(reported["people"]) == 1)
     assert 'coaxial_viewers{kind="room"} 1.0' in client.get("/metrics").text
 
 
 def test_holds_of_several_stand_until_each_has_released(client: TestClient) -> None:
     def post(path: str, person: str, status: int = 200) -> Any:  # noqa: ANN401  JSON
-        asked = {"by": "somebody else"}
-        answer = client.post(f"/api/alarms/{path}", json=asked, headers={"x-person": person})
+        requested = {"by": "somebody else"}
+        answer = client.post(f"/api/alarms/{path}", json=requested, headers={"x-person": person})
         assert answer.status_code == status, answer.text
         return answer.json()
 
-    def by(told: Any) -> list[str]:  # noqa: ANN401  JSON
-        return [one["by"] for one in told["alarms"] if one["condition"] == "HOLD_ASKED"]
+    def by(reported: Any) -> list[str]:  # noqa: ANN401  JSON
+        return [one["by"] for one in reported["alarms"] if one["condition"] == "HOLD_REQUESTED"]
 
     # The session's name counts, whatever was typed.
     assert by(post("hold", "s1")) == ["Dr Sato"]
     rejected = post("release", "s2", 409)
     assert (rejected["code"], "Dr Sato" in rejected["message"]) == ("HOLD_NOT_YOURS", True)
     post("hold", "s2")
-    told = client.get("/api/supervision/room", headers={"x-person": "s2"}).json()
-    since = told["hold"].pop("since")
+    reported = client.get("/api/supervision/room", headers={"x-person": "s2"}).json()
+    since = reported["hold"].pop("since")
     assert since.endswith("Z")
-    assert told["hold"] == {"asked_by": ["Dr Sato", "Dr Kim"], "is_yours": True}
+    assert reported["hold"] == {"requested_by": ["Dr Sato", "Dr Kim"], "is_yours": True}
     assert by(post("release", "s1")) == ["Dr Kim"]
     assert by(post("hold", "s1")) == ["Dr Kim, Dr Sato"]
     assert by(post("release", "o1")) == []

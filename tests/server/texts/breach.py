@@ -3,11 +3,11 @@
 from dataclasses import replace
 
 from tracker.navigation.alarms import Alarm, AlarmState, Condition, Measure, Peak, Site
-from tracker.navigation.clearance import MeasuredAgainst
+from tracker.navigation.clearance import WallSource
 from tracker.navigation.directions import Wall
 
 NOON_S = 1_700_000_000.0
-MEDIAL = Site(depth_mm=29.0, wall=Wall.MEDIAL, against=MeasuredAgainst.BONE)
+MEDIAL = Site(depth_mm=29.0, wall=Wall.MEDIAL, against=WallSource.BONE)
 
 
 def mm(value: float, limit: float = 0.0) -> Measure:

@@ -9,14 +9,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import inf
 
+from server.number_format import NOT_KNOWN, format_number
 from server.overlay import panel_of
-from server.shown import NOT_KNOWN, shown_number
 from server.stream.alarm_messages import AlarmMessage
 from server.stream.assessment_messages import AssessmentMessage, FigureMessage
 from server.stream.snapshot_messages import SnapshotMessage
 from tests.server.texts.random_drilling import Moment
 from tracker.navigation import FigureName, Verdict
-from tracker.navigation.alarms import AlarmState, Condition, Showing
+from tracker.navigation.alarms import AlarmState, Condition, Presence
 
 # From an image that shows a breach to its alarm: two images, or 80 ms and the next look.
 MAX_UNANNOUNCED = 2
@@ -59,7 +59,7 @@ class ContradictionCheck:
 
     def _headline(self, moment: Moment, assessments: Mapping[str, AssessmentMessage]) -> None:
         headline = moment.message.headline
-        shown = moment.message.snapshot.shown_tool if moment.message.snapshot else None
+        shown = moment.message.snapshot.displayed_tool if moment.message.snapshot else None
         if shown is None:
             assert headline.verdict is None
             assert not assessments
@@ -79,7 +79,7 @@ class ContradictionCheck:
         not_present = [
             one
             for one in moment.message.alarms.alarms
-            if one.condition in (Condition.BREACH, Condition.PAST_DEPTH) and one.presence is not Showing.YES
+            if one.condition in (Condition.BREACH, Condition.PAST_DEPTH) and one.presence is not Presence.YES
         ]
         assert bool(headline.event.en) == bool(not_present)
         for alarm in not_present:
@@ -92,9 +92,9 @@ class ContradictionCheck:
         sentence, remedy = alarm.sentence.en, alarm.remedy.en
         assert _numbers(sentence) == _numbers(alarm.sentence.de)
         assert bool(remedy) == bool(alarm.remedy.de)
-        if alarm.presence is Showing.NO or alarm.state is AlarmState.LATCHED:
-            assert alarm.presence is Showing.YES or not remedy, "what is over instructs nobody"
-        if alarm.presence is Showing.YES and alarm.condition in PHYSIOLOGICAL:
+        if alarm.presence is Presence.NO or alarm.state is AlarmState.LATCHED:
+            assert alarm.presence is Presence.YES or not remedy, "what is over instructs nobody"
+        if alarm.presence is Presence.YES and alarm.condition in PHYSIOLOGICAL:
             assert " was " not in f" {sentence.lower()}", "what is there is not moment in the past tense"
         elif alarm.condition in PHYSIOLOGICAL:
             assert "was " in sentence.lower(), "what is not there is moment in the past tense"
@@ -103,13 +103,13 @@ class ContradictionCheck:
         name, is_over = _FIGURE_OF[alarm.condition]
         figures = [getattr(each.figures, name) for each in assessments.values()]
         known = [figure for figure in figures if figure.value is not None]
-        if alarm.presence is Showing.YES and alarm.measure is not None:
+        if alarm.presence is Presence.YES and alarm.measure is not None:
             assert any(is_over(figure) for figure in known), f"{sentence} beside {known}"
             digits = {_text(abs(figure.value or 0.0), name) for figure in known if is_over(figure)}
             assert any(text in sentence for text in digits), f"{sentence} beside {digits}"
-        if alarm.presence is Showing.NO and alarm.condition in (Condition.BREACH, Condition.PAST_DEPTH):
+        if alarm.presence is Presence.NO and alarm.condition in (Condition.BREACH, Condition.PAST_DEPTH):
             assert not any(is_over(figure) for figure in known), f"{sentence} beside {known}"
-        if alarm.presence is Showing.UNKNOWN and alarm.condition in PHYSIOLOGICAL:
+        if alarm.presence is Presence.UNKNOWN and alarm.condition in PHYSIOLOGICAL:
             all_seen = len(assessments) == len(moment.snapshot.tools)
             assert not (known and all_seen), "of a drill that is seen, it is known"
 
@@ -152,14 +152,14 @@ class ContradictionCheck:
                 shown = by_number[_number(line)]
                 # The line is of this occurrence; the screen names those before it, too.
                 for language, word in (("en", "Earlier"), ("de", "Zuvor")):
-                    own, told = sentence[language], getattr(shown.sentence, language)
+                    own, reported = sentence[language], getattr(shown.sentence, language)
                     is_again = shown.earlier_worst is not None
-                    assert told.startswith(f"{own} {word} ") if is_again else told == own
+                    assert reported.startswith(f"{own} {word} ") if is_again else reported == own
                 self.again += 1 if shown.earlier_worst is not None else 0
             if condition == Condition.BREACH and change == "latched":
-                assert line["presence"] != Showing.YES
+                assert line["presence"] != Presence.YES
                 assert "was " in sentence["en"].lower()
-                assert shown_number(abs(_worst(line))) in sentence["en"]
+                assert format_number(abs(_worst(line))) in sentence["en"]
 
 
 def _assessments(snapshot: SnapshotMessage | None) -> Mapping[str, AssessmentMessage]:
@@ -215,15 +215,15 @@ def _overlay(moment: Moment, snapshot: SnapshotMessage) -> None:
                 getattr(headline, field_name), language
             )
         assert panel.headline.tone == headline.tone
-        if snapshot.shown_tool is None:
+        if snapshot.displayed_tool is None:
             assert panel.readings == ()
             continue
-        figures = _assessments(snapshot)[snapshot.shown_tool].figures
+        figures = _assessments(snapshot)[snapshot.displayed_tool].figures
         shown: Sequence[FigureMessage] = [
             getattr(figures, name) for name in ("entry", "angle", "depth", "to_go", "wall")
         ]
         assert [reading.value for reading in panel.readings] == [
-            NOT_KNOWN if figure.value is None else shown_number(figure.value) for figure in shown
+            NOT_KNOWN if figure.value is None else format_number(figure.value) for figure in shown
         ]
 
 
@@ -237,7 +237,7 @@ def _less(figure: FigureMessage, than: float | None) -> bool:
 
 def _text(value: float, name: str) -> str:
     decimals = {"risk": 0, "error": 2}.get(name, 1)
-    return shown_number(value, decimals=decimals)
+    return format_number(value, decimals=decimals)
 
 
 def _numbers(text: str) -> set[str]:
@@ -251,7 +251,7 @@ def _digits(assessment: AssessmentMessage) -> set[str]:
         value = getattr(assessment.figures, name.value).value
         if value is not None:
             digits.add(_text(abs(value), name.value))
-    return digits | {shown_number(one.amount) for one in assessment.corrections if one.amount is not None}
+    return digits | {format_number(one.amount) for one in assessment.corrections if one.amount is not None}
 
 
 def _number(line: Mapping[str, object]) -> int:

@@ -10,7 +10,7 @@ from tests.tracker.navigation.assessed import drill
 from tests.tracker.navigation.bones import ROD_CHANNEL, drill_at
 from tracker.camera import CameraModel
 from tracker.geometry import Camera, Marker, Rigid, Vertebra
-from tracker.navigation import Guide, NavigationSnapshot, Setup, navigate
+from tracker.navigation import DrillReference, NavigationSnapshot, Setup, navigate
 from tracker.pose import Seen, Sighting, ToolModel, Unseen, UnseenReason
 from tracker.registration import Registration
 
@@ -68,7 +68,12 @@ def seen_at(where: Where, tool: ToolModel) -> Seen:
 
 
 def concluded(
-    setup: Setup, guide: Guide, sightings: Mapping[str, Sighting], *, number: int, captured_at_s: float
+    setup: Setup,
+    drill_reference: DrillReference,
+    sightings: Mapping[str, Sighting],
+    *,
+    number: int,
+    captured_at_s: float,
 ) -> NavigationSnapshot:
     """The snapshot of an image in which these were seen."""
     return navigate(
@@ -79,5 +84,5 @@ def concluded(
         size_wh_px=SIZE_WH_PX,
         stage_ms={},
         skipped_images=0,
-        guide=guide,
+        drill_reference=drill_reference,
     )

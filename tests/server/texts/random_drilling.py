@@ -13,16 +13,16 @@ from datetime import UTC, datetime, timedelta
 
 import numpy as np
 
-from server.alarms import AlarmDesk, ProcedureFacts
+from server.alarms import AlarmService, ProcedureFacts
 from server.alarms.entries import Entry
 from server.alarms.log import NoLog
 from server.config import Config
 from server.live import Instant, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.stream.messages import LiveMessage, live_message
 from tests.server.texts.drilled_rod import UNSEEN, concluded, seen_at, setup_of
-from tests.tracker.navigation.assessed import guide
+from tests.tracker.navigation.assessed import drill_reference
 from tracker.navigation import NavigationSnapshot
-from tracker.navigation.alarms import AlarmPicture
+from tracker.navigation.alarms import AlarmSnapshot
 from tracker.pose import Sighting
 
 RUNS = SourceStatus(name="rehearsal", state=SourceState.RUNNING)
@@ -74,7 +74,7 @@ class Moment:
 
     at_s: float
     snapshot: NavigationSnapshot | None
-    alarms: AlarmPicture
+    alarms: AlarmSnapshot
     message: LiveMessage
     lines: Sequence[Mapping[str, object]]
 
@@ -87,10 +87,10 @@ class RandomDrilling:
         self.rate_hz = self.random.choice([5.0, 12.0, 30.0])
         names = ["drill"] if seed % 3 else ["drill", "awl"]
         self.setup = setup_of(names)
-        self.guide = guide(self.random.choice([1.0, 1.8]))
+        self.drill_reference = drill_reference(self.random.choice([1.0, 1.8]))
         self.at_s = 1000.0
         self.log = KeptLog()
-        self.desk = AlarmDesk(
+        self.service = AlarmService(
             Config(),
             log=self.log,
             clock=lambda: self.at_s,
@@ -126,21 +126,23 @@ class RandomDrilling:
         for name, tool in self.setup.tools.items():
             is_hidden = hidden and (name == "drill" or self.random.random() < 0.5)
             sightings[name] = UNSEEN if is_hidden else seen_at(self.where[name], tool)
-        return concluded(self.setup, self.guide, sightings, number=number, captured_at_s=self.at_s - 0.02)
+        return concluded(
+            self.setup, self.drill_reference, sightings, number=number, captured_at_s=self.at_s - 0.02
+        )
 
     def _person(self) -> Iterator[Moment]:
         """Now and then somebody acknowledges, pauses, or changes what the registration depends on."""
         probability = self.random.random()
         if probability < 0.02:
-            numbers = [alarm.number for alarm in self.desk.picture.alarms]
+            numbers = [alarm.number for alarm in self.service.picture.alarms]
             if numbers:
-                self.desk.acknowledge(
+                self.service.acknowledge(
                     self.random.sample(numbers, self.random.randint(1, len(numbers))), by="Ito"
                 )
         elif probability < 0.025:
-            self.desk.pause(self.random.uniform(1.0, 60.0), by="Ito")
+            self.service.pause(self.random.uniform(1.0, 60.0), by="Ito")
         elif probability < 0.03:
-            self.desk.know(ProcedureFacts(registration_current=self.random.random() < 0.7))
+            self.service.set_facts(ProcedureFacts(registration_current=self.random.random() < 0.7))
         else:
             return
         yield self._moment(None)
@@ -152,7 +154,7 @@ class RandomDrilling:
 
     def _moment(self, snapshot: NavigationSnapshot | None) -> Moment:
         before = len(self.log.lines)
-        alarms = self.desk.look(snapshot, RUNS, WORKS)
+        alarms = self.service.observe(snapshot, RUNS, WORKS)
         self.sequence += 1
         instant = Instant(
             sequence=self.sequence, source=RUNS, process=WORKS, snapshot=snapshot, alarms=alarms
@@ -182,16 +184,16 @@ def main() -> None:
     parser = ArgumentParser()
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--images", type=int, default=1500)
-    asked = parser.parse_args()
+    requested = parser.parse_args()
     states: set[tuple[object, ...]] = set()
     moments = 0
-    for seed in range(asked.seeds):
+    for seed in range(requested.seeds):
         check = ContradictionCheck()
-        for moment in RandomDrilling(seed).moments(asked.images):
+        for moment in RandomDrilling(seed).moments(requested.images):
             check.check(moment)
             states.add(state_of(moment))
             moments += 1
-    print(f"seeds 0 to {asked.seeds - 1}: {moments} moments in {len(states)} states, no contradiction")  # noqa: T201
+    print(f"seeds 0 to {requested.seeds - 1}: {moments} moments in {len(states)} states, no contradiction")  # noqa: T201
 
 
 if __name__ == "__main__":

@@ -2,14 +2,24 @@
 
 import pytest
 
-from server.texts import LANGUAGES, Language, alarm_text, alarm_title, without_live_figures
+from server.texts import LANGUAGES, Language, alarm_text, alarm_title, with_unknown_presence
 from server.texts.controls import CONTROLS
 from server.texts.language import clock_text
 from server.texts.phrases import PHRASES
 from tests.server.texts.breach import MEDIAL, NOON_S, alarm, breach, mm, peak
 from tracker.camera import CameraControl
-from tracker.navigation.alarms import TRAITS, Alarm, AlarmState, Condition, Kind, Measure, Peak, Showing, Site
-from tracker.navigation.clearance import MeasuredAgainst
+from tracker.navigation.alarms import (
+    ALARM_RULES,
+    Alarm,
+    AlarmState,
+    Condition,
+    Kind,
+    Measure,
+    Peak,
+    Presence,
+    Site,
+)
+from tracker.navigation.clearance import WallSource
 from tracker.navigation.directions import Wall
 
 TIME = clock_text(NOON_S + 3.0)
@@ -26,37 +36,37 @@ TIME = clock_text(NOON_S + 3.0)
         ),
         pytest.param(
             # The sentence of this moment once was "the drill is through the pedicle wall: 7.3 mm".
-            breach(measure=mm(7.3), presence=Showing.NO),
+            breach(measure=mm(7.3), presence=Presence.NO),
             f"Was 0.8 mm through the medial wall at 29.0 mm depth, {TIME}. Not through now.",
             "",
             id="being cleared, the wall 7.3 mm away",
         ),
         pytest.param(
-            breach(measure=mm(7.3), presence=Showing.NO, state=AlarmState.LATCHED),
+            breach(measure=mm(7.3), presence=Presence.NO, state=AlarmState.LATCHED),
             f"Was 0.8 mm through the medial wall at 29.0 mm depth, {TIME}. Not through now.",
             "",
             id="over, and not acknowledged",
         ),
         pytest.param(
-            breach(presence=Showing.UNKNOWN, state=AlarmState.LATCHED),
+            breach(presence=Presence.UNKNOWN, state=AlarmState.LATCHED),
             f"Was 0.8 mm through the medial wall at 29.0 mm depth, {TIME}.",
             "",
             id="over, and not seen any more: nothing is said of now",
         ),
         pytest.param(
-            breach(presence=Showing.UNKNOWN),
+            breach(presence=Presence.UNKNOWN),
             f"Not tracked. Was 0.8 mm through the medial wall at 29.0 mm depth, {TIME}.",
             "Stop.",
             id="tracking lost in a breach",
         ),
         pytest.param(
-            breach(site=Site(depth_mm=29.0, wall=Wall.MEDIAL, against=MeasuredAgainst.CHANNEL)),
+            breach(site=Site(depth_mm=29.0, wall=Wall.MEDIAL, against=WallSource.CHANNEL)),
             "Drill 0.4 mm outside the planned channel at 29.0 mm depth.",
             "Stop. Withdraw the drill.",
             id="no bone is known",
         ),
         pytest.param(
-            breach(state=AlarmState.LATCHED, presence=Showing.NO, earlier_peak=peak(-1.2, at_s=1.0)),
+            breach(state=AlarmState.LATCHED, presence=Presence.NO, earlier_peak=peak(-1.2, at_s=1.0)),
             f"Was 0.8 mm through the medial wall at 29.0 mm depth, {TIME}. Not through now. "
             f"Earlier 1.2 mm, {clock_text(NOON_S + 1.0)}.",
             "",
@@ -78,7 +88,7 @@ TIME = clock_text(NOON_S + 3.0)
         pytest.param(
             alarm(Condition.POSE_UNCERTAIN, measure=mm(1.94, 1.5)),
             "95 % error ±1.94 mm, limit 1.50 mm.",
-            "Show the marker nearer, steadier, more tilted.",
+            "Hold the marker closer, steadier and more tilted.",
             id="with the digits of its figure",
         ),
         pytest.param(
@@ -104,7 +114,7 @@ TIME = clock_text(NOON_S + 3.0)
         pytest.param(
             alarm(
                 Condition.DRILL_UNSEEN,
-                presence=Showing.NO,
+                presence=Presence.NO,
                 peak=Peak(measure=Measure(value=3.2, limit=1.0, unit="s"), severity=3.2, at_s=3.0),
             ),
             "Drill marker was not seen for 3.2 s.",
@@ -113,8 +123,8 @@ TIME = clock_text(NOON_S + 3.0)
         ),
     ],
 )
-def test_an_alarm_in_words(told: Alarm, sentence: str, remedy: str) -> None:
-    words = alarm_text(told, unix_offset_s=NOON_S)
+def test_an_alarm_in_words(reported: Alarm, sentence: str, remedy: str) -> None:
+    words = alarm_text(reported, unix_offset_s=NOON_S)
     assert words.sentence["en"] == sentence
     assert words.remedy["en"] == remedy
 
@@ -124,10 +134,12 @@ def test_an_alarm_in_words(told: Alarm, sentence: str, remedy: str) -> None:
 def test_beside_figures_that_are_not_live_nothing_that_they_show_is_said_of_now(
     condition: Condition, language: Language
 ) -> None:
-    now = alarm(condition, measure=mm(-0.4), peak=peak(-0.8), presence=Showing.YES)
+    now = alarm(condition, measure=mm(-0.4), peak=peak(-0.8), presence=Presence.YES)
     said = alarm_text(now, unix_offset_s=NOON_S)
-    without = alarm_text(without_live_figures(now), unix_offset_s=NOON_S)
-    is_of_figures = TRAITS[condition].kind is Kind.PHYSIOLOGICAL or TRAITS[condition].of_newest_image
+    without = alarm_text(with_unknown_presence(now), unix_offset_s=NOON_S)
+    is_of_figures = (
+        ALARM_RULES[condition].kind is Kind.PHYSIOLOGICAL or ALARM_RULES[condition].needs_current_image
+    )
     assert (without.sentence[language] != said.sentence[language]) == is_of_figures
     assert (without.remedy[language] != said.remedy[language]) == is_of_figures
     assert without.title == said.title
@@ -139,7 +151,7 @@ def test_every_condition_has_words_in_every_state(condition: Condition, language
     values = {"measure": mm(0.3, 0.5), "peak": peak(0.2)}
     has_number = "{value}" in PHRASES[language][condition].present
     for numbers in (values,) if has_number and not PHRASES[language][condition].bare else ({}, values):
-        for presence in Showing:
+        for presence in Presence:
             for state in (AlarmState.ACTIVE, AlarmState.ACKNOWLEDGED, AlarmState.LATCHED):
                 words = alarm_text(alarm(condition, state, presence=presence, **numbers), unix_offset_s=0.0)
                 assert words.title[language].isupper()
@@ -148,11 +160,11 @@ def test_every_condition_has_words_in_every_state(condition: Condition, language
                 assert sentence.endswith(".")
                 assert "{" not in sentence
                 assert "  " not in sentence
-                is_present = presence is Showing.YES
+                is_present = presence is Presence.YES
                 assert remedy.endswith(".") == (is_present or bool(remedy))
                 if is_present:
                     assert remedy
-                if presence is Showing.NO:
+                if presence is Presence.NO:
                     assert not remedy
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from server.shown import shown_number
+from server.number_format import format_number
 from server.texts import flicker_note
 from server.texts.flicker import even_exposures_ms
 from tracker.camera import LampFlicker
@@ -27,7 +27,7 @@ def test_exposures_are_whole_periods_of_the_light(
     mains_hz: int, exposure_ms: float | None, rate_hz: float, exposures_ms: list[str]
 ) -> None:
     found = even_exposures_ms(mains_hz, exposure_ms=exposure_ms, rate_hz=rate_hz)
-    assert [shown_number(ms, decimals=1) for ms in found] == exposures_ms
+    assert [format_number(ms, decimals=1) for ms in found] == exposures_ms
 
 
 def test_the_note_says_mains_depth_exposure_and_what_to_set_in_both_languages() -> None:

@@ -7,14 +7,14 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 
-from server.alarms import AlarmDesk
-from server.alarms.desk import alarm_limits
+from server.alarms import AlarmService
+from server.alarms.service import alarm_limits
 from server.config import Config
 from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.texts import Headline, alarm_text, headline_of
 from tests.server.texts.drilled_rod import CAMERA_FROM_VERTEBRA, UNSEEN, concluded, seen_at, setup_of
-from tests.tracker.navigation.alarms.theatre_of_alarms import Stream
-from tests.tracker.navigation.assessed import drill, guide
+from tests.tracker.navigation.alarms.alarm_stream import Stream
+from tests.tracker.navigation.assessed import drill, drill_reference
 from tests.tracker.navigation.bones import ROD_CHANNEL
 from tracker.geometry import Rigid, Tool, Vertebra, rotation_between
 from tracker.navigation import (
@@ -25,17 +25,17 @@ from tracker.navigation import (
     FigureName,
     NavigationSnapshot,
     Verdict,
-    seen_along,
+    bullseye_view,
 )
 from tracker.navigation.alarms import (
     NOT_KNOWN,
     Alarm,
-    AlarmPicture,
+    AlarmSnapshot,
     AlarmState,
     Condition,
-    Showing,
+    Presence,
 )
-from tracker.navigation.directions import Wall, directions_of
+from tracker.navigation.directions import Wall, channel_directions
 from tracker.plan.pedicle import Side
 
 RUNS = SourceStatus(name="rehearsal", state=SourceState.RUNNING)
@@ -53,14 +53,14 @@ class Theatre:
     def __init__(self, *names: str) -> None:
         self.setup = setup_of(names or ("drill",))
         self.at_s, self.number = 100.0, 0
-        self.desk = AlarmDesk(
+        self.desk = AlarmService(
             Config(), clock=lambda: self.at_s, wall_clock=lambda: datetime.fromtimestamp(self.at_s, tz=UTC)
         )
         self.snapshot: NavigationSnapshot | None = None
 
     def images(
         self, seconds: float, where: Mapping[str, tuple[float, ...]], **changes: object
-    ) -> AlarmPicture:
+    ) -> AlarmSnapshot:
         """Tools that are not named are not seen."""
         setup = replace(self.setup, **changes)  # type: ignore[arg-type]  # any field of it
         for _ in range(round(seconds * 10)):
@@ -71,9 +71,9 @@ class Theatre:
                 for name, tool in setup.tools.items()
             }
             self.snapshot = concluded(
-                setup, guide(), sightings, number=self.number, captured_at_s=self.at_s - 0.01
+                setup, drill_reference(), sightings, number=self.number, captured_at_s=self.at_s - 0.01
             )
-            self.desk.look(self.snapshot, RUNS, WORKS)
+            self.desk.observe(self.snapshot, RUNS, WORKS)
         return self.desk.picture
 
     @property
@@ -89,7 +89,7 @@ class Theatre:
 
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_medial_is_medial_beside_a_channel_that_runs_straight_forwards(side: Side) -> None:
-    across = directions_of(ROD_CHANNEL, side)
+    across = channel_directions(ROD_CHANNEL, side)
     for depth_mm, verdict in ((-10.0, Verdict.CORRECT_ENTRY), (29.0, Verdict.NEAR_WALL)):
         theatre = Theatre()
         placed: Rigid[Vertebra, Tool] = Rigid(
@@ -101,13 +101,15 @@ def test_medial_is_medial_beside_a_channel_that_runs_straight_forwards(side: Sid
             camera_from_marker=CAMERA_FROM_VERTEBRA @ placed @ drill().marker_from_tool.inverse,
         )
         setup = replace(theatre.setup, side=side)
-        snapshot = concluded(setup, replace(guide(), side=side), {"drill": seen}, number=1, captured_at_s=0.0)
+        snapshot = concluded(
+            setup, replace(drill_reference(), side=side), {"drill": seen}, number=1, captured_at_s=0.0
+        )
         assessment = snapshot.assessments["drill"]
         assert isinstance(assessment, Assessment)
         assert assessment.verdict is verdict
         assert [one.towards for one in assessment.corrections] == [Direction.LATERAL]
         assert assessment.wall in (None, Wall.MEDIAL)
-        along = seen_along(placed, ROD_CHANNEL, side)
+        along = bullseye_view(placed, ROD_CHANNEL, side)
         assert along.medial_is_right == (along.tip_mm[0] > 0.0)
 
 
@@ -158,8 +160,8 @@ def test_a_number_that_is_not_measured_any_more_is_not_told_as_of_now() -> None:
 def test_when_tracking_dies_in_a_breach_its_number_is_at_once_of_the_past() -> None:
     theatre = Theatre()
     before = theatre.images(1.0, {"drill": BREACH})
-    picture = theatre.desk.look(None, RUNS, DIED)
-    assert theatre.alarm(Condition.BREACH).presence is Showing.UNKNOWN
+    picture = theatre.desk.observe(None, RUNS, DIED)
+    assert theatre.alarm(Condition.BREACH).presence is Presence.UNKNOWN
     assert theatre.sentence(Condition.BREACH).startswith("Not tracked. Was ")
     # Whoever publishes on a change publishes this one.
     assert picture.revision > before.revision

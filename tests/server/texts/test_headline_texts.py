@@ -10,15 +10,15 @@ from server.texts.language import clock_text
 from tests.server.texts.breach import NOON_S, breach
 from tests.tracker.navigation.assessed import assessed_at
 from tracker.navigation import Absent, AbsentReason, NavigationSnapshot
-from tracker.navigation.alarms import QUIET, Alarm, AlarmPicture, AlarmState, Showing
+from tracker.navigation.alarms import QUIET, Alarm, AlarmSnapshot, AlarmState, Presence
 from tracker.pose import Unseen, UnseenReason
 
 SnapshotOf = Callable[..., NavigationSnapshot]
 ON_THE_AXIS: dict[str, object] = {"tip_in_vertebra_mm": (0.0, 0.0, 12.0), "tilt_rad": 0.0, "judged": True}
 
 
-def alarms(*them: Alarm) -> AlarmPicture:
-    return AlarmPicture(alarms=them, unix_offset_s=NOON_S)
+def alarms(*them: Alarm) -> AlarmSnapshot:
+    return AlarmSnapshot(alarms=them, unix_offset_s=NOON_S)
 
 
 def headline_at(snapshot_of: SnapshotOf, depth_mm: float, **off: float) -> Headline:
@@ -110,12 +110,12 @@ def test_of_several_drills_the_worst_is_shown_and_named(snapshot_of: SnapshotOf)
     ("alarm", "event"),
     [
         pytest.param(
-            breach(state=AlarmState.LATCHED, presence=Showing.NO),
+            breach(state=AlarmState.LATCHED, presence=Presence.NO),
             f"BREACH {clock_text(NOON_S + 3.0)} not acknowledged",
             id="over",
         ),
-        pytest.param(breach(presence=Showing.NO), f"BREACH {clock_text(NOON_S + 3.0)} clearing", id="going"),
-        pytest.param(breach(presence=Showing.UNKNOWN), "BREACH when last seen", id="lost"),
+        pytest.param(breach(presence=Presence.NO), f"BREACH {clock_text(NOON_S + 3.0)} clearing", id="going"),
+        pytest.param(breach(presence=Presence.UNKNOWN), "BREACH when last seen", id="lost"),
         pytest.param(breach(), "", id="present, and then the headline says so itself"),
     ],
 )
@@ -153,6 +153,6 @@ def test_a_marker_that_is_not_seen_is_named_with_its_reason(
 
 
 def test_without_an_image_only_the_alarms_are_told() -> None:
-    headline = headline_of(None, alarms(breach(presence=Showing.UNKNOWN)))
+    headline = headline_of(None, alarms(breach(presence=Presence.UNKNOWN)))
     assert (headline.verdict, headline.title["en"]) == (None, "NO IMAGE")
     assert headline.event["en"] == "BREACH when last seen"

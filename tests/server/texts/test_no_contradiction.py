@@ -9,7 +9,7 @@ from server.texts import alarm_text
 from tests.server.texts.contradictions import ContradictionCheck
 from tests.server.texts.random_drilling import RandomDrilling, state_of
 from tracker.navigation import Verdict, assessment
-from tracker.navigation.alarms import AlarmState, Condition, Showing
+from tracker.navigation.alarms import AlarmState, Condition, Presence
 
 IMAGES = 500
 SEEDS = range(6)
@@ -17,7 +17,7 @@ SEEDS = range(6)
 
 def test_no_moment_of_a_random_drilling_contradicts_itself() -> None:
     verdicts: Counter[Verdict | None] = Counter()
-    breaches: Counter[tuple[AlarmState, Showing]] = Counter()
+    breaches: Counter[tuple[AlarmState, Presence]] = Counter()
     states = set()
     again = 0
     for seed in SEEDS:
@@ -35,11 +35,11 @@ def test_no_moment_of_a_random_drilling_contradicts_itself() -> None:
     # It is worth nothing where nothing happened.
     assert set(verdicts) == {None, *Verdict} - {Verdict.NOT_ASSESSED}
     assert set(breaches) >= {
-        (AlarmState.ACTIVE, Showing.YES),
-        (AlarmState.ACTIVE, Showing.NO),
-        (AlarmState.ACTIVE, Showing.UNKNOWN),
-        (AlarmState.ACKNOWLEDGED, Showing.YES),
-        (AlarmState.LATCHED, Showing.NO),
+        (AlarmState.ACTIVE, Presence.YES),
+        (AlarmState.ACTIVE, Presence.NO),
+        (AlarmState.ACTIVE, Presence.UNKNOWN),
+        (AlarmState.ACKNOWLEDGED, Presence.YES),
+        (AlarmState.LATCHED, Presence.NO),
     }
     assert len(states) > 150
     assert again > 0
@@ -63,7 +63,7 @@ def test_an_alarm_that_tells_the_present_number_of_what_is_over_is_found(
     """Once it was "the drill is through the wall: 7.3 mm", with the wall 7.3 mm away."""
     monkeypatch.setattr(
         "server.stream.alarm_messages.alarm_text",
-        lambda alarm, **when: alarm_text(replace(alarm, presence=Showing.YES), **when),
+        lambda alarm, **when: alarm_text(replace(alarm, presence=Presence.YES), **when),
     )
     with pytest.raises(AssertionError):
         _check_all()

@@ -7,7 +7,7 @@ import numpy as np
 
 from tracker.camera import CameraModel, DotBoard
 from tracker.camera.detection import BoardView
-from tracker.camera.readout import TimedView
+from tracker.camera.readout_time import TimedView
 from tracker.geometry import Array, rotation_from_vector
 
 CAMERA = CameraModel(
@@ -28,7 +28,7 @@ def shaken(
     upwards_mm: float = 0.0,
     tilt_deg: float = 8.0,
     hz: float = 1.8,
-    turn_deg: float = 0.0,
+    rotation_deg: float = 0.0,
 ) -> Motion:
     """A hand that shakes the board to and fro, with a little of everything else."""
 
@@ -37,7 +37,7 @@ def shaken(
         turns = [
             tilt_deg + 3.0 * np.sin(0.7 * phase),
             4.0 * np.sin(0.9 * phase + 1.0),
-            turn_deg * np.sin(phase),
+            rotation_deg * np.sin(phase),
         ]
         rotation = rotation_from_vector(np.radians(turns))
         points = np.asarray(BOARD.object_points_mm)

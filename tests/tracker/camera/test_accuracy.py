@@ -85,9 +85,9 @@ def test_points_that_displacements_share_are_left_out_of_the_fit() -> None:
 def test_a_fit_to_the_measured_points_is_refused() -> None:
     measured = rows(4)
     fit = np.concatenate([GRID + 3.5, measured.first_mm[:2]])
-    with pytest.raises(InvalidInput, match="2 of the 65") as told:
+    with pytest.raises(InvalidInput, match="2 of the 65") as reported:
         accuracy_on_plane(CAMERA, measured, fit_mm=fit, fit_px=seen_at(fit))
-    assert told.value.code == "ACCURACY_NOT_INDEPENDENT"
+    assert reported.value.code == "ACCURACY_NOT_INDEPENDENT"
 
 
 def test_a_grid_is_split_into_what_fits_and_what_is_measured() -> None:

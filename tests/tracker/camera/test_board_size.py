@@ -5,7 +5,7 @@ import pytest
 
 from tests.tracker.camera.rendered import POSES, picture
 from tracker.camera import Board, CheckerBoard, DotBoard
-from tracker.camera.calibration import calibrate, with_board_judged
+from tracker.camera.calibration import calibrate, with_board_size_warning
 from tracker.camera.calibration.board_size import likely_size
 from tracker.camera.detection import BoardView, find_board
 
@@ -25,11 +25,11 @@ def part(board: Board, columns: int, rows: int) -> BoardView:
 def test_squares_counted_in_place_of_inner_corners_are_told_with_the_likely_size() -> None:
     found = [find_board(picture(SHOWN, pose), SQUARES) for pose in POSES[:3]]
     views = [one for one in found if isinstance(one, BoardView)]
-    report = with_board_judged(calibrate(views, size_wh_px=(640, 480)), views, SQUARES)
-    told = report.warnings[0]
-    assert told.code == "BOARD_SIZE_UNLIKELY"
-    assert "no view shows more than 9 x 6 of the 10 x 7 inner corners" in told.message
-    assert told.remedy == (
+    report = with_board_size_warning(calibrate(views, size_wh_px=(640, 480)), views, SQUARES)
+    reported = report.warnings[0]
+    assert reported.code == "BOARD_SIZE_UNLIKELY"
+    assert "no view shows more than 9 x 6 of the 10 x 7 inner corners" in reported.message
+    assert reported.remedy == (
         "Count inner corners again, one fewer each way than squares: the board seems to have 9 x 6."
     )
 

@@ -27,8 +27,8 @@ def test_charuco_corners_are_those_of_opencv(columns: int, rows: int) -> None:
 
 
 def test_odd_by_even_corners_tell_which_way_up() -> None:
-    assert CheckerBoard(columns=9, rows=6, square_mm=1).tells_its_way_up
-    assert not CheckerBoard(columns=8, rows=6, square_mm=1).tells_its_way_up
+    assert CheckerBoard(columns=9, rows=6, square_mm=1).has_unique_orientation
+    assert not CheckerBoard(columns=8, rows=6, square_mm=1).has_unique_orientation
 
 
 @pytest.mark.parametrize(
@@ -54,6 +54,6 @@ def test_odd_by_even_corners_tell_which_way_up() -> None:
     ],
 )
 def test_what_cannot_be_a_board_is_refused(make: object) -> None:
-    with pytest.raises(InvalidInput) as told:
+    with pytest.raises(InvalidInput) as reported:
         make()  # type: ignore[operator]  # a table of makers
-    assert told.value.code == "BOARD_INVALID"
+    assert reported.value.code == "BOARD_INVALID"

@@ -53,7 +53,7 @@ def test_the_rms_is_the_noise_and_all_views_are_used(camera: KnownCamera, views:
     assert report.views_used == len(views)
     assert report.noise_px == pytest.approx(0.2, rel=0.05)
     assert report.rms_px == pytest.approx(0.2 * np.sqrt(2.0), rel=0.05)
-    assert not report.is_noise_alike
+    assert not report.is_noise_correlated
     assert report.pixel_aspect_ratio == pytest.approx(
         camera.model.matrix[1, 1] / camera.model.matrix[0, 0], 2e-3
     )
@@ -65,7 +65,7 @@ def test_a_view_that_is_good_in_any_photo_stays_among_better_ones(camera: KnownC
     views = [seen_view(camera.model, BOARD, rng, noise_px=noise_px) for noise_px in noises_px]
     report = calibrated(views, camera)
     assert report.views_used == 10
-    assert report.is_noise_alike
+    assert report.is_noise_correlated
 
 
 def test_errors_that_are_alike_within_a_view_widen_the_intervals(
@@ -81,7 +81,7 @@ def test_errors_that_are_alike_within_a_view_widen_the_intervals(
         for view in views
     ]
     report = calibrated(bent, camera)
-    assert report.is_noise_alike
+    assert report.is_noise_correlated
     assert report.parameter("fx").degrees_of_freedom == len(views) - 1
     assert report.parameter("fx").sd > 2.0 * calibrated(views, camera).parameter("fx").sd
 
@@ -125,7 +125,7 @@ def test_blurred_views_stay(camera: KnownCamera, views: list[BoardView]) -> None
     blurred = replace(views[1], image_points_px=px + rng.normal(0, 0.4, px.shape))
     report = calibrated([views[0], blurred, *views[2:]], camera)
     assert report.views_used == len(views)
-    assert report.is_noise_alike
+    assert report.is_noise_correlated
 
 
 @pytest.mark.parametrize(("lens", "taken"), [(4, (4, 5)), (5, (4, 5)), (8, (5, 8))])
@@ -154,16 +154,16 @@ def test_what_the_views_cannot_tell_is_warned_of(camera: KnownCamera) -> None:
             BoardView(ids=np.arange(30), object_points_mm=small.object_points_mm, image_points_px=noisy)
         )
     report = calibrated(seen, camera, coefficients=4)
-    assert {"FEW_VIEWS", "ONE_DISTANCE", "CORNERS_UNCOVERED", "FOCAL_LENGTH_UNSURE"} <= {
+    assert {"FEW_VIEWS", "ONE_DISTANCE", "CORNERS_UNCOVERED", "FOCAL_LENGTH_UNCERTAIN"} <= {
         one.code for one in report.warnings
     }
 
 
 def test_too_few_views_are_refused(camera: KnownCamera, views: list[BoardView]) -> None:
     for some in ([], views[:1], views[:2]):
-        with pytest.raises(CalibrationError) as told:
+        with pytest.raises(CalibrationError) as reported:
             calibrated(some, camera)
-        assert told.value.code == "TOO_FEW_VIEWS"
+        assert reported.value.code == "TOO_FEW_VIEWS"
 
 
 def test_views_from_one_place_and_parallel_views_are_refused(camera: KnownCamera) -> None:
@@ -175,13 +175,13 @@ def test_views_from_one_place_and_parallel_views_are_refused(camera: KnownCamera
         )
         for _ in range(6)
     ]
-    with pytest.raises(CalibrationError) as told:
+    with pytest.raises(CalibrationError) as reported:
         calibrated(same, camera)
-    assert told.value.code == "VIEWS_FROM_ONE_PLACE"
+    assert reported.value.code == "VIEWS_FROM_ONE_PLACE"
     parallel = [seen_view(camera.model, BOARD, rng, noise_px=0.2, parallel=True) for _ in range(6)]
-    with pytest.raises(CalibrationError) as told:
+    with pytest.raises(CalibrationError) as reported:
         calibrated(parallel, camera)
-    assert told.value.code == "VIEWS_ALL_PARALLEL"
+    assert reported.value.code == "VIEWS_ALL_PARALLEL"
 
 
 def test_views_of_two_cameras_show_in_the_rms(camera: KnownCamera, views: list[BoardView]) -> None:
@@ -194,9 +194,9 @@ def test_views_of_two_cameras_show_in_the_rms(camera: KnownCamera, views: list[B
 
 
 def test_an_odd_number_of_coefficients_is_refused(camera: KnownCamera, views: list[BoardView]) -> None:
-    with pytest.raises(InvalidInput) as told:
+    with pytest.raises(InvalidInput) as reported:
         calibrated(views, camera, coefficients=6)
-    assert told.value.code == "COEFFICIENTS_INVALID"
+    assert reported.value.code == "COEFFICIENTS_INVALID"
 
 
 @pytest.mark.parametrize(

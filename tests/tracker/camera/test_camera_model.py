@@ -9,7 +9,7 @@ import pytest
 
 from tests.tracker.scenes import STRAIGHT, camera_of
 from tracker import CameraModel, InvalidInput
-from tracker.camera.kernels import project_with_derivative
+from tracker.camera.projection_kernels import project_with_derivative
 
 K = ((800.0, 0.0, 320.0), (0.0, 790.0, 240.0), (0.0, 0.0, 1.0))
 LENSES = {

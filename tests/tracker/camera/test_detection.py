@@ -10,7 +10,7 @@ from tracker.camera.detection import (
     BoardNotFound,
     BoardView,
     NotFoundReason,
-    Sureness,
+    PlacementAmbiguity,
     board_as_seen,
     find_board,
 )
@@ -47,7 +47,7 @@ def found(board: Board, pose: int) -> BoardView:
 @pytest.mark.parametrize("pose", [0, 4, 6])
 def test_every_point_is_where_and_which_it_is(board: Board, pose: int, within_px: float) -> None:
     view = found(board, pose)
-    assert view.sureness is Sureness.CERTAIN
+    assert view.ambiguity is PlacementAmbiguity.NONE
     assert view.ids.size > 0.9 * len(board.object_points_mm)
     off = np.linalg.norm(view.image_points_px - true_px(board, POSES[pose])[view.ids], axis=1)
     # Larger than the noise of a corner, far smaller than a step: no point has another one's name.
@@ -66,7 +66,7 @@ def test_corners_of_large_charuco_squares_are_placed_to_a_few_hundredths_of_a_pi
 
 
 def test_a_grid_of_equal_dots_may_be_turned_by_half_and_says_so() -> None:
-    assert found(PLAIN_DOTS, 1).sureness is Sureness.HALF_TURN
+    assert found(PLAIN_DOTS, 1).ambiguity is PlacementAmbiguity.HALF_TURN
 
 
 def test_larger_dots_tell_a_board_that_is_upside_down() -> None:
@@ -83,7 +83,7 @@ def test_a_board_partly_out_of_view_gives_what_is_seen(board: Board) -> None:
     view = find_board(picture(board, aside), board)
     assert isinstance(view, BoardView), view
     assert 12 <= view.ids.size < len(board.object_points_mm)
-    if view.sureness is Sureness.CERTAIN:
+    if view.ambiguity is PlacementAmbiguity.NONE:
         off = np.linalg.norm(view.image_points_px - true_px(board, aside)[view.ids], axis=1)
         assert off.max() < 2.0
     else:
@@ -161,6 +161,6 @@ def test_noise_alone_is_no_board() -> None:
 
 
 def test_what_is_no_image_is_refused() -> None:
-    with pytest.raises(InvalidInput) as told:
+    with pytest.raises(InvalidInput) as reported:
         find_board(np.zeros((4, 4), np.uint8), DOTS)
-    assert told.value.code == "IMAGE_INVALID"
+    assert reported.value.code == "IMAGE_INVALID"

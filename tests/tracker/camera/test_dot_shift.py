@@ -41,9 +41,9 @@ def middle_of_image(turn_rad: Array) -> Array:
     return np.asarray(px[(at[:, :2] ** 2).sum(axis=1) < 36.0][:, :2].mean(axis=0) - middle)
 
 
-@pytest.mark.parametrize("turn_deg", [(0, 0, 0), (40, 0, 0), (-25, 30, 10)])
-def test_the_shift_is_what_counting_cells_gives(turn_deg: tuple[float, float, float]) -> None:
-    turn = np.radians(turn_deg)
+@pytest.mark.parametrize("rotation_deg", [(0, 0, 0), (40, 0, 0), (-25, 30, 10)])
+def test_the_shift_is_what_counting_cells_gives(rotation_deg: tuple[float, float, float]) -> None:
+    turn = np.radians(rotation_deg)
     fit, view = one_dot(turn)
     np.testing.assert_allclose(dot_shifts_px(fit, 0, view)[0], middle_of_image(turn), atol=0.01)
 

@@ -7,7 +7,13 @@ import numpy as np
 import pytest
 
 from tests.tracker.camera.lamps import lit
-from tracker.camera.flicker import FlickerMonitor, LightState, LightVerdict, judge_light, light_means
+from tracker.camera.flicker import (
+    FlickerMonitor,
+    FlickerState,
+    FlickerVerdict,
+    brightness_grid,
+    detect_flicker,
+)
 from tracker.geometry import Array
 from tracker.rehearsal import Scene, Theatre, TheatreSettings
 
@@ -23,8 +29,10 @@ def _film(scene: Scene, rate_hz: float) -> tuple[tuple[float, Image], ...]:
     return tuple((float(at_s), renderer.image_at(float(at_s))) for at_s in times_s)
 
 
-def _judged(film: Sequence[tuple[float, Image]], change: Change) -> LightVerdict:
-    return judge_light([at_s for at_s, _ in film], [light_means(change(image, at_s)) for at_s, image in film])
+def _judged(film: Sequence[tuple[float, Image]], change: Change) -> FlickerVerdict:
+    return detect_flicker(
+        [at_s for at_s, _ in film], [brightness_grid(change(image, at_s)) for at_s, image in film]
+    )
 
 
 @pytest.mark.parametrize(("mains_hz", "rate_hz"), [(50.1, 30.0), (59.9, 25.0)])
@@ -99,7 +107,7 @@ def test_nothing_else_that_changes_an_image_is_taken_for_a_lamp(scene: Scene, ch
 
 
 def test_a_quiet_scene_under_even_light_is_said_to_be_steady() -> None:
-    assert _judged(_film(Scene.OPERATION, 30.0), _unchanged).state is LightState.STEADY
+    assert _judged(_film(Scene.OPERATION, 30.0), _unchanged).state is FlickerState.STEADY
 
 
 def test_bands_that_stand_still_are_not_told() -> None:
@@ -119,7 +127,7 @@ def _grey(level: float, at_s: float, depth_ratio: float) -> Image:
 def test_where_the_rate_cannot_tell_the_mains_both_are_named() -> None:
     # At 27.5 images/s light at 100 Hz and at 120 Hz beat alike, 10 Hz up and down.
     times_s = np.arange(0.0, WINDOW_S, 1.0 / 27.5)
-    verdict = judge_light(list(times_s), [light_means(_grey(120.0, at_s, 0.1)) for at_s in times_s])
+    verdict = detect_flicker(list(times_s), [brightness_grid(_grey(120.0, at_s, 0.1)) for at_s in times_s])
     assert verdict.flicker is not None
     assert verdict.flicker.mains_hz == (50, 60)
 
@@ -127,13 +135,13 @@ def test_where_the_rate_cannot_tell_the_mains_both_are_named() -> None:
 @pytest.mark.parametrize("level", [2.0, 255.0])
 def test_black_and_full_images_say_nothing(level: float) -> None:
     times_s = np.arange(0.0, WINDOW_S, 1.0 / 30.0)
-    verdict = judge_light(list(times_s), [light_means(_grey(level, at_s, 0.0)) for at_s in times_s])
-    assert verdict.state is LightState.UNSURE
+    verdict = detect_flicker(list(times_s), [brightness_grid(_grey(level, at_s, 0.0)) for at_s in times_s])
+    assert verdict.state is FlickerState.UNSURE
 
 
 def test_too_small_an_image_says_nothing() -> None:
-    means: list[Array] = [light_means(np.full((20, 20), 100, np.uint8))] * 130
-    assert judge_light([number / 30.0 for number in range(130)], means).state is LightState.UNSURE
+    means: list[Array] = [brightness_grid(np.full((20, 20), 100, np.uint8))] * 130
+    assert detect_flicker([number / 30.0 for number in range(130)], means).state is FlickerState.UNSURE
 
 
 def test_a_monitor_tells_flicker_until_light_is_seen_steady() -> None:

@@ -17,7 +17,7 @@ def views_of(camera: KnownCamera, count: int, rng: np.random.Generator) -> list[
     return [seen_view(camera.model, BOARD, rng, noise_px=0.2) for _ in range(count)]
 
 
-def told(report: CalibrationReport) -> list[str]:
+def reported(report: CalibrationReport) -> list[str]:
     return [one.message for one in report.warnings if one.code == "TWO_CAMERAS"]
 
 
@@ -32,10 +32,10 @@ def test_a_second_camera_of_one_make_is_told_with_its_images(seed: int) -> None:
     size = one.model.size_wh_px
     names = [*(f"a{n}" for n in range(9)), *(f"b{n}" for n in range(4))]
     report = calibrate([*views_of(one, 9, rng), *views_of(other, 4, rng)], size_wh_px=size, names=names)
-    (message,) = told(report)
+    (message,) = reported(report)
     assert "4 of 13 views (b0, b1, b2, b3) are clearly better explained" in message
     # The same camera alone, with as many views.
-    assert told(calibrate(views_of(one, 13, rng), size_wh_px=size)) == []
+    assert reported(calibrate(views_of(one, 13, rng), size_wh_px=size)) == []
 
 
 def test_two_cameras_of_a_real_pair_are_told_and_one_alone_is_not() -> None:
@@ -45,9 +45,9 @@ def test_two_cameras_of_a_real_pair_are_told_and_one_alone_is_not() -> None:
     for side in ("left", "right"):
         found, size = seen(folder, f"{side}*.jpg", board)
         views = [one for one in found if isinstance(one, BoardView)]
-        assert told(calibrate(views, size_wh_px=size)) == []
+        assert reported(calibrate(views, size_wh_px=size)) == []
         both += views[: 10 if side == "left" else 5]
     report = calibrate(both, size_wh_px=size)
     assert report.rms_px < 0.23
-    (message,) = told(report)
+    (message,) = reported(report)
     assert "5 of 15 views (11, 12, 13, 14 and 1 more)" in message

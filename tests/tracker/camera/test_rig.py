@@ -76,7 +76,7 @@ def test_three_cameras_stand_where_they_are_within_what_is_said() -> None:
     shots, reports = rig_of("left", "right", "third")
     rig = calibrate_rig(shots, reports)
     assert rig.rms_px == pytest.approx(NOISE_PX * np.sqrt(2.0), rel=0.05)
-    assert not rig.is_noise_alike
+    assert not rig.is_noise_correlated
     for camera in rig.cameras[1:]:
         assert off_in_sds(camera.camera_from_first.matrix, PLACES[camera.name], camera.covariance) < 2.0
         assert camera.baseline_mm == pytest.approx(np.linalg.norm(PLACES[camera.name][1]), abs=3 * 0.5)
@@ -104,17 +104,17 @@ def test_two_pairs_that_were_swapped_are_left_out_with_the_reason() -> None:
 def test_pairs_that_do_not_belong_together_are_refused() -> None:
     shots, reports = rig_of("left", "right")
     rolled = [{**shot, "right": shots[n - 1]["right"]} for n, shot in enumerate(shots)]
-    with pytest.raises(CalibrationError) as told:
+    with pytest.raises(CalibrationError) as reported:
         calibrate_rig(rolled, reports)
-    assert told.value.code == "RIG_VIEWS_DISAGREE"
+    assert reported.value.code == "RIG_VIEWS_DISAGREE"
 
 
 def test_cameras_that_share_no_views_are_refused() -> None:
     shots, reports = rig_of("left", "right")
     apart = [{name: shot[name]} for shot in shots for name in shot]
-    with pytest.raises(CalibrationError) as told:
+    with pytest.raises(CalibrationError) as reported:
         calibrate_rig(apart, reports)
-    assert told.value.code == "RIG_UNCONNECTED"
+    assert reported.value.code == "RIG_UNCONNECTED"
 
 
 def test_one_camera_is_no_rig() -> None:

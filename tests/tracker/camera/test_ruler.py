@@ -48,9 +48,9 @@ def test_what_made_the_ruler_is_what_it_measures(
 def test_a_ruler_that_cannot_be_is_refused(
     vertical: float, horizontal: float, focal: float, said: str
 ) -> None:
-    with pytest.raises(InvalidInput, match=said) as told:
+    with pytest.raises(InvalidInput, match=said) as reported:
         Ruler(vertical_mm=vertical, horizontal_mm=horizontal, focal_length_px=focal)
-    assert told.value.code == "RULER_INVALID"
+    assert reported.value.code == "RULER_INVALID"
 
 
 @pytest.mark.parametrize(("moved_px", "moved_mm"), [(0.0, 20.0), (20.0, 0.0), (math.nan, 1.0)])

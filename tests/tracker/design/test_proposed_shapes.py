@@ -1,4 +1,4 @@
-"""Proposed shapes keep the rules that let them survive being small, and a seed gives the same ones again."""
+"""Proposed shapes satisfy the design rules and are reproducible by seed."""
 
 import itertools
 from collections.abc import Sequence
@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 import pytest
 
-from tracker.design import Patch, Shape, keeps_the_rules, picture_of, proposed_shapes
+from tracker.design import Patch, Shape, proposed_shapes, rendered_face, satisfies_rules
 from tracker.marker import MarkerModel
 
 BODY = ((0.17, 0.5), (0.45, 0.17), (0.83, 0.25), (0.8, 0.6), (0.5, 0.83))
@@ -26,7 +26,7 @@ def first(seed: int, count: int = 5) -> list[Shape]:
 
 
 def pictures(shapes: list[Shape]) -> list[bytes]:
-    return [picture_of(shape, 64).tobytes() for shape in shapes]
+    return [rendered_face(shape, 64).tobytes() for shape in shapes]
 
 
 def test_a_seed_gives_the_same_shapes_again_and_another_seed_others() -> None:
@@ -35,9 +35,9 @@ def test_a_seed_gives_the_same_shapes_again_and_another_seed_others() -> None:
 
 
 @pytest.mark.parametrize("seed", [1, 2])
-def test_what_is_proposed_is_a_marker_whose_parts_are_still_there_at_25_px(seed: int) -> None:
+def test_parts_of_a_proposed_marker_remain_visible_at_25_px(seed: int) -> None:
     for shape in first(seed, 4):
-        picture = picture_of(shape, 400)
+        picture = rendered_face(shape, 400)
         MarkerModel.from_image(picture, side_mm=25.0, name="proposed")
         small = cv2.resize(picture, (25, 25), interpolation=cv2.INTER_AREA)
         seen = cv2.GaussianBlur(small, (0, 0), 0.7)
@@ -62,16 +62,16 @@ def test_what_is_proposed_is_a_marker_whose_parts_are_still_there_at_25_px(seed:
         pytest.param(Shape(patches=()), id="nothing"),
     ],
 )
-def test_a_shape_that_would_not_survive_is_refused(shape: Shape) -> None:
-    assert not keeps_the_rules(shape)
+def test_a_shape_that_blur_destroys_is_rejected(shape: Shape) -> None:
+    assert not satisfies_rules(shape)
 
 
-def test_a_shape_of_large_parts_is_kept() -> None:
-    assert keeps_the_rules(shape_of(BODY))
+def test_a_shape_of_large_parts_satisfies_the_rules() -> None:
+    assert satisfies_rules(shape_of(BODY))
 
 
-def test_the_black_square_fills_the_picture_and_a_patch_lies_where_it_is_said_to() -> None:
-    picture = picture_of(shape_of(((0.25, 0.5), (0.75, 0.5), (0.75, 0.75), (0.25, 0.75))), 400)
+def test_the_black_square_fills_the_picture_and_a_patch_lies_at_its_corners() -> None:
+    picture = rendered_face(shape_of(((0.25, 0.5), (0.75, 0.5), (0.75, 0.75), (0.25, 0.75))), 400)
     white = np.argwhere(picture > 127)
     assert white.min(axis=0) == pytest.approx([200, 100], abs=1)
     assert white.max(axis=0) == pytest.approx([299, 299], abs=1)

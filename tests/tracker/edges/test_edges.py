@@ -1,4 +1,4 @@
-"""Edges: edgels on steps of known place, chains with the dark on their right, straight pieces."""
+"""Edges: edgels on known steps, chains with the dark side on the right, straight segments."""
 
 import cv2
 import numpy as np
@@ -14,8 +14,8 @@ from tracker.edges import (
     joined_segments,
     segments_of,
 )
+from tracker.edges.edge_kernels import crossing
 from tracker.edges.gradient import MAX_THRESHOLD, MIN_THRESHOLD, SOBEL_GAIN
-from tracker.edges.kernels import crossing
 
 FINE = 8
 SIDE_PX = 80
@@ -23,21 +23,21 @@ Floats = npt.NDArray[np.float64]
 
 
 def _area_sampled(bright: npt.NDArray[np.bool_], *, blur_px: float = 0.8) -> Image8:
-    """A picture of 8x8 samples a pixel as a camera sees it: averaged over pixels, blurred, rounded."""
+    """Average 8 x 8 samples per pixel, blur and round, as a camera does."""
     height, width = bright.shape[0] // FINE, bright.shape[1] // FINE
     mean = bright.reshape(height, FINE, width, FINE).mean(axis=(1, 3)) * 160.0 + 40.0
     return np.asarray(np.rint(cv2.GaussianBlur(mean, (0, 0), blur_px)), dtype=np.uint8)
 
 
 def _samples(side_px: int = SIDE_PX) -> tuple[Floats, Floats]:
-    """Coordinates in px of the samples' middles; (0, 0) is the middle of the first pixel."""
+    """Return the pixel coordinates of the sample centres; (0, 0) is the centre of the first pixel."""
     at = (np.arange(side_px * FINE) + 0.5) / FINE - 0.5
     u, v = np.meshgrid(at, at)
     return u, v
 
 
 def _step(angle_deg: float, offset_px: float) -> tuple[Image8, Floats]:
-    """A step whose normal, from dark to bright, has this angle, `offset_px` from the middle of the image."""
+    """Return a step edge: angle of the normal, dark to bright, and `offset_px` from the image centre."""
     normal = np.array([np.cos(np.radians(angle_deg)), np.sin(np.radians(angle_deg))])
     u, v = _samples()
     middle = (SIDE_PX - 1) / 2
@@ -52,18 +52,18 @@ def _away_from_border(edgels: Edgels, margin_px: float = 6.0) -> npt.NDArray[np.
 @pytest.mark.parametrize("angle_deg", [0, 7, 20, 45, 70, 90, 135, 180, 200, 225, 290, 333])
 @pytest.mark.parametrize("offset_px", [0.0, 0.25, 0.375, -0.25])
 def test_edgels_lie_on_the_step_and_point_from_dark_to_bright(angle_deg: float, offset_px: float) -> None:
-    """A half-pixel shift, x and y exchanged or a turned sign would each be far over a tenth of a pixel."""
+    """A half-pixel shift, swapped axes or a wrong sign would exceed a tenth of a pixel."""
     image, normal = _step(angle_deg, offset_px)
     edgels = edgels_of(gradient_of(image))
-    kept = _away_from_border(edgels)
-    assert kept.sum() > 50
+    retained = _away_from_border(edgels)
+    assert retained.sum() > 50
     middle = (SIDE_PX - 1) / 2
     off = (edgels.x - middle) * normal[0] + (edgels.y - middle) * normal[1] - offset_px
-    assert np.abs(off[kept]).max() < 0.1
+    assert np.abs(off[retained]).max() < 0.1
     # A parabola through three samples of a blurred step is off by up to 0.04 px between two pixels.
-    assert abs(off[kept].mean()) < 0.05
+    assert abs(off[retained].mean()) < 0.05
     along = edgels.nx * normal[0] + edgels.ny * normal[1]
-    assert along[kept].min() > np.cos(np.radians(4.0))
+    assert along[retained].min() > np.cos(np.radians(4.0))
 
 
 def test_the_strength_of_a_sharp_step_is_four_times_its_height() -> None:
@@ -74,7 +74,7 @@ def test_the_strength_of_a_sharp_step_is_four_times_its_height() -> None:
     np.testing.assert_allclose(edgels.x, 19.5)
 
 
-def test_each_edgel_is_found_again_in_its_pixel() -> None:
+def test_the_index_image_refers_to_each_edgel() -> None:
     image, _ = _step(30, 0.2)
     edgels = edgels_of(gradient_of(image))
     for i in range(len(edgels.x)):
@@ -84,7 +84,7 @@ def test_each_edgel_is_found_again_in_its_pixel() -> None:
     assert (edgels.at >= 0).sum() == len(edgels.x)
 
 
-def test_an_even_image_has_no_edges() -> None:
+def test_a_uniform_image_has_no_edges() -> None:
     edgels = edgels_of(gradient_of(np.full((50, 60), 128, np.uint8)))
     chains = chains_of(edgels)
     assert len(edgels.x) == 0
@@ -107,7 +107,7 @@ def test_the_threshold_follows_the_noise_between_its_limits() -> None:
     assert thresholds[3] == MAX_THRESHOLD
 
 
-def test_little_of_pure_noise_becomes_edgels_and_less_a_straight_piece() -> None:
+def test_pure_noise_yields_few_edgels_and_fewer_segments() -> None:
     random = np.random.default_rng(9)
     image = np.asarray(np.clip(120 + random.normal(0, 5.0, (240, 320)), 0, 255), np.uint8)
     edgels = edgels_of(gradient_of(image))
@@ -122,9 +122,9 @@ def test_a_step_of_opposite_polarity_has_opposite_normals() -> None:
     np.testing.assert_allclose(one.nx.mean(), -other.nx.mean(), atol=0.02)
 
 
-def _dark_square(side_px: float, turn_deg: float, *, bright: bool = False) -> tuple[Image8, Floats]:
+def _dark_square(side_px: float, rotation_deg: float, *, bright: bool = False) -> tuple[Image8, Floats]:
     """A dark square in the middle of the image and its corners (4, 2), clockwise on the screen."""
-    c, s = np.cos(np.radians(turn_deg)), np.sin(np.radians(turn_deg))
+    c, s = np.cos(np.radians(rotation_deg)), np.sin(np.radians(rotation_deg))
     u, v = _samples()
     middle = (SIDE_PX - 1) / 2
     du, dv = u - middle, v - middle
@@ -139,9 +139,9 @@ def _area(points: Floats) -> float:
     return 0.5 * float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
 
 
-@pytest.mark.parametrize("turn_deg", [0, 3, 12, 30, 44, 45, 60, 80, 89])
-def test_a_dark_square_is_four_segments_clockwise_with_its_corners(turn_deg: float) -> None:
-    image, corners = _dark_square(40.0, turn_deg)
+@pytest.mark.parametrize("rotation_deg", [0, 3, 12, 30, 44, 45, 60, 80, 89])
+def test_a_dark_square_is_four_segments_clockwise_with_its_corners(rotation_deg: float) -> None:
+    image, corners = _dark_square(40.0, rotation_deg)
     edgels = edgels_of(gradient_of(image))
     chains = chains_of(edgels)
     segments = segments_of(edgels, chains, min_length_px=6.0).astype(np.float64)
@@ -161,17 +161,17 @@ def test_a_dark_square_is_four_segments_clockwise_with_its_corners(turn_deg: flo
         assert np.linalg.norm(end - corners[b]) < 2.5
 
 
-@pytest.mark.parametrize("turn_deg", [7, 12, 30, 44, 45, 60, 80])
-def test_the_outline_of_a_turned_square_is_one_closed_chain(turn_deg: float) -> None:
-    """Along the rows of pixels a corner may cut it in two; turned, blur rounds it and the chain goes on."""
-    image, _ = _dark_square(40.0, turn_deg)
+@pytest.mark.parametrize("rotation_deg", [7, 12, 30, 44, 45, 60, 80])
+def test_the_outline_of_a_rotated_square_is_one_closed_chain(rotation_deg: float) -> None:
+    """Along pixel rows a corner may split it; rotated, blur rounds the corner and the chain continues."""
+    image, _ = _dark_square(40.0, rotation_deg)
     chains = chains_of(edgels_of(gradient_of(image)))
     assert chains.closed.tolist() == [True]
     # Four sides of 40 px, an edgel for each row or column that they cross.
     assert len(chains.order) > 105
 
 
-def test_a_bright_square_is_walked_the_other_way_round() -> None:
+def test_a_bright_square_is_traced_in_the_opposite_direction() -> None:
     image, _ = _dark_square(40.0, 10.0, bright=True)
     edgels = edgels_of(gradient_of(image))
     segments = segments_of(edgels, chains_of(edgels), min_length_px=6.0).astype(np.float64)
@@ -185,9 +185,9 @@ def test_a_bright_square_is_walked_the_other_way_round() -> None:
     assert max(turns) < 0
 
 
-@pytest.mark.parametrize("turn_deg", range(0, 360, 30))
-def test_the_dark_side_of_a_chain_is_on_its_right_hand(turn_deg: float) -> None:
-    image, normal = _step(turn_deg, 0.1)
+@pytest.mark.parametrize("rotation_deg", range(0, 360, 30))
+def test_the_dark_side_of_a_chain_is_on_its_right_hand(rotation_deg: float) -> None:
+    image, normal = _step(rotation_deg, 0.1)
     edgels = edgels_of(gradient_of(image))
     segments = segments_of(edgels, chains_of(edgels), min_length_px=20.0)
     assert len(segments) >= 1
@@ -237,7 +237,7 @@ def test_two_squares_side_by_side_are_two_chains() -> None:
         pytest.param([[0, 10, 20, 10], [22, 10, 40, 20]], [], id="turned by thirty degrees"),
     ],
 )
-def test_pieces_of_one_side_are_joined_and_others_are_not(
+def test_collinear_segments_are_joined_and_others_are_not(
     segments: list[list[float]], joined: list[list[float]]
 ) -> None:
     out = joined_segments(np.array(segments, dtype=np.float32))
@@ -255,7 +255,7 @@ def test_the_crossing_of_a_normal_is_the_distance_to_the_step(offset_px: float, 
     assert response > 150.0
 
 
-def test_a_step_of_the_wrong_polarity_or_out_of_reach_or_image_is_none() -> None:
+def test_a_step_of_wrong_polarity_or_out_of_reach_or_image_is_not_found() -> None:
     image, normal = _step(0, 2.0)
     gradient = gradient_of(image)
     middle = (SIDE_PX - 1) / 2
@@ -274,8 +274,8 @@ def test_of_two_edges_the_nearer_is_the_expected_one() -> None:
     assert crossing(gradient.x, gradient.y, 34.0, 30.0, 1.0, 0.0, 6.0)[0] == pytest.approx(0.5, abs=0.05)
 
 
-def test_pure_noise_of_full_contrast_has_more_edgels_than_half_its_pixels_and_room_for_all() -> None:
-    """An unplugged analogue camera sends this. Room for half of the pixels was once written past its end."""
+def test_pure_noise_of_full_contrast_does_not_overflow_the_edgel_buffer() -> None:
+    """An unplugged analogue camera sends this. A buffer for half of the pixels was once overflowed."""
     image = np.random.default_rng(1).integers(0, 256, (360, 480)).astype(np.uint8)
     edgels = edgels_of(gradient_of(image))
     assert len(edgels.x) > image.size / 2

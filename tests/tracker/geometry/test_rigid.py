@@ -50,13 +50,13 @@ def test_directions_are_differences_of_points(
     a: Motion, p: tuple[float, float, float], q: tuple[float, float, float]
 ) -> None:
     difference = a.move_points(q) - a.move_points(p)
-    np.testing.assert_allclose(a.turn_directions(np.subtract(q, p)), difference, atol=1e-9)
+    np.testing.assert_allclose(a.rotate_directions(np.subtract(q, p)), difference, atol=1e-9)
 
 
 def test_a_quarter_turn_about_z_takes_x_to_y_and_then_shifts() -> None:
     a = Rigid[Camera, Marker].from_vector([0, 0, np.pi / 2], [10, 20, 30])
     np.testing.assert_allclose(a.move_points([1, 0, 0]), [10, 21, 30], atol=1e-12)
-    np.testing.assert_allclose(a.turn_directions([1, 0, 0]), [0, 1, 0], atol=1e-12)
+    np.testing.assert_allclose(a.rotate_directions([1, 0, 0]), [0, 1, 0], atol=1e-12)
     np.testing.assert_allclose(a.inverse.move_points([10, 21, 30]), [1, 0, 0], atol=1e-12)
     np.testing.assert_array_equal(Rigid.from_matrix(a.matrix).matrix, a.matrix)
     np.testing.assert_array_equal(Motion.identity().matrix, np.eye(4))
@@ -193,7 +193,7 @@ def test_the_covariance_of_a_point_is_that_of_many_shaken_poses() -> None:
     covariance = spread @ spread.T
     point = np.array([3.0, -120.0, -10.0])
     shaken = random.multivariate_normal(np.zeros(6), covariance, size=40_000)
-    arm = pose.turn_directions(point)
+    arm = pose.rotate_directions(point)
     # Rodrigues to second order: the angles are under 2 degrees.
     turned = arm + np.cross(shaken[:, 3:], arm) + np.cross(shaken[:, 3:], np.cross(shaken[:, 3:], arm)) / 2
     measured = np.cov((turned + shaken[:, :3] + pose.translation_mm).T)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tracker.geometry.kernels import pose_rows, solve_banded, solve_positive
+from tracker.geometry.geometry_kernels import pose_rows, solve_banded, solve_positive
 
 # 20 numbers that meet those less than 4 away, and 5 that meet all.
 BANDED, WIDE, REST = 20, 4, 5
@@ -42,9 +42,9 @@ def test_a_matrix_that_is_not_positive_has_no_answer() -> None:
 def test_the_rows_of_a_pose_do_not_depend_on_the_order_in_which_they_are_solved() -> None:
     matrix = np.roll(bordered_matrix(), (REST, REST), axis=(0, 1))
     count = len(matrix)
-    fields_first = np.roll(np.arange(count), -REST)
+    illumination_first = np.roll(np.arange(count), -REST)
 
-    rows, is_told = pose_rows(matrix, fields_first, (BANDED, WIDE), 0.0)
+    rows, is_told = pose_rows(matrix, illumination_first, (BANDED, WIDE), 0.0)
 
     assert is_told
     assert rows == pytest.approx(pose_rows(matrix, np.arange(count), (0, 0), 0.0)[0], rel=1e-6)

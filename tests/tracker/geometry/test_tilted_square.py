@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tracker.geometry.kernels import could_be_tilted
+from tracker.geometry.geometry_kernels import is_plausible_foreshortening
 
 
 @pytest.mark.parametrize("tilt_deg", [10.0, 50.0, 70.0])
@@ -13,5 +13,5 @@ def test_the_squash_is_the_cosine_of_the_tilt_however_it_is_rolled(tilt_deg: flo
     a = 30.0 * np.array([np.cos(roll), cosine * np.sin(roll)])
     b = 30.0 * np.array([-np.sin(roll), cosine * np.cos(roll)])
     squares, squared_area = float(a @ a + b @ b), float(a[0] * b[1] - a[1] * b[0]) ** 2
-    assert could_be_tilted(squares, squared_area, 0.99 * cosine)
-    assert not could_be_tilted(squares, squared_area, 1.01 * cosine)
+    assert is_plausible_foreshortening(squares, squared_area, 0.99 * cosine)
+    assert not is_plausible_foreshortening(squares, squared_area, 1.01 * cosine)

@@ -1,4 +1,4 @@
-"""Candidates: where in an image a marker could be, found without knowing anything before."""
+"""Candidate search without any prior knowledge of the marker's position."""
 
 from collections.abc import Iterator
 
@@ -8,7 +8,7 @@ import pytest
 
 from tests.benchmarks.scenes.conditions import conditions_of
 from tests.benchmarks.scenes.faces import FACES, Face
-from tests.benchmarks.scenes.placing import random_scene
+from tests.benchmarks.scenes.placement import random_scene
 from tests.benchmarks.scenes.rigs import RIGS
 from tests.benchmarks.scenes.scene import image_of
 from tests.tracker.scenes import (
@@ -23,15 +23,20 @@ from tests.tracker.scenes import (
     in_clutter,
     rendered,
 )
-from tracker.edges import kernels as edges_loops
+from tracker.edges import edge_kernels
 from tracker.geometry import Array
-from tracker.marker import Candidate, MarkerModel, candidate_rounds, templates_of, thorough_rounds
-from tracker.marker import kernels as marker_loops
-from tracker.marker.looks import kernels as looks_loops
-from tracker.marker.sampling import kernels as sampling_loops
-from tracker.outlines import kernels as outlines_loops
-from tracker.regions import kernels as regions_loops
-from tracker.regions.borders import kernels as borders_loops
+from tracker.marker import (
+    Candidate,
+    MarkerModel,
+    candidate_rounds,
+    sampling_kernels,
+    score_kernels,
+    templates_of,
+    thorough_rounds,
+)
+from tracker.marker.template_matching import template_kernels
+from tracker.quads import quad_kernels
+from tracker.regions import border_kernels, region_kernels
 from tracker.warm_up import warm_up
 
 CAMERA = camera_of((480, 360), focal_px=500.0)
@@ -55,7 +60,7 @@ def _off_px(candidate: Candidate, corners: Array) -> float:
 
 @pytest.mark.parametrize("roll_deg", range(0, 360, 45))
 @pytest.mark.parametrize(("side_px", "tilt_deg"), [(16, 0), (27, 55), (40, 20), (90, 60), (200, 30)])
-def test_the_first_candidate_of_the_first_round_is_the_marker_with_its_own_top(
+def test_the_first_candidate_of_the_first_round_is_the_marker_upright(
     side_px: float, tilt_deg: float, roll_deg: int
 ) -> None:
     image, corners = _scene(side_px, tilt_deg=tilt_deg, roll_deg=roll_deg, seed=roll_deg)
@@ -65,7 +70,7 @@ def test_the_first_candidate_of_the_first_round_is_the_marker_with_its_own_top(
 
 
 def _found_in(image: Image8, corners: Array, side_px: float) -> int | None:
-    """The round that gives the marker, near enough for a fit to start from."""
+    """Return the round that yields the marker closely enough for a fit to start."""
     for k, one in enumerate(_rounds(image)):
         if any(_off_px(candidate, corners) < max(2.5, 0.1 * side_px) for candidate in one[0]):
             return k
@@ -74,7 +79,7 @@ def _found_in(image: Image8, corners: Array, side_px: float) -> int | None:
 
 @pytest.mark.parametrize("from_deg", range(0, 360, 45))
 @pytest.mark.parametrize("grey", [20, 140])
-def test_a_finger_over_a_part_of_it_does_not_hide_it(from_deg: int, grey: int) -> None:
+def test_a_marker_partly_occluded_by_a_finger_is_found(from_deg: int, grey: int) -> None:
     image, corners = _scene(40, tilt_deg=20, roll_deg=25)
     toward = np.array([np.cos(np.radians(from_deg)), np.sin(np.radians(from_deg))])
     tip = corners.mean(axis=0) + 30.0 * toward
@@ -84,21 +89,21 @@ def test_a_finger_over_a_part_of_it_does_not_hide_it(from_deg: int, grey: int) -
 
 
 @pytest.mark.parametrize("roll_deg", range(0, 360, 60))
-def test_a_shadow_s_edge_across_it_does_not_hide_it(roll_deg: int) -> None:
+def test_a_marker_under_a_shadow_edge_is_found(roll_deg: int) -> None:
     image, corners = _scene(40, roll_deg=roll_deg)
     ramp = 1.0 - 0.8 / (1.0 + np.exp(-(np.arange(480) - corners[:, 0].mean()) / 4.0))
     assert _found_in(np.asarray(image * ramp, np.uint8), corners, 40) is not None
 
 
 @pytest.mark.parametrize(("side_px", "blur_px"), [(27, 2.0), (60, 4.0)])
-def test_a_lens_out_of_focus_does_not_hide_it(side_px: float, blur_px: float) -> None:
+def test_a_marker_out_of_focus_is_found(side_px: float, blur_px: float) -> None:
     for roll_deg in range(0, 360, 60):
         image, corners = _scene(side_px, roll_deg=roll_deg, blur_px=blur_px, seed=roll_deg)
         assert _found_in(image, corners, side_px) is not None, roll_deg
 
 
-def test_motion_along_two_sides_does_not_hide_a_thin_frame() -> None:
-    """The other two sides are smeared away, and with them all four corners."""
+def test_a_thin_frame_motion_blurred_along_two_sides_is_found() -> None:
+    """The other two sides are blurred away, and with them all four corners."""
     thin = Face(
         name="thin",
         white=(np.array([(0.08, 0.08), (0.92, 0.08), (0.92, 0.92), (0.08, 0.92)]),),
@@ -112,8 +117,8 @@ def test_motion_along_two_sides_does_not_hide_a_thin_frame() -> None:
     assert found >= 11
 
 
-def test_what_an_image_over_a_megapixel_shows_is_told_in_its_own_pixels() -> None:
-    """A half-size pixel's middle lies between four: half a pixel off would be seen here."""
+def test_candidates_of_a_large_image_are_in_full_resolution_pixels() -> None:
+    """The centre of a half-size pixel lies between four: an error of half a pixel would fail here."""
     camera = camera_of((1400, 1000), focal_px=1400.0)
     pose = facing_at_px(camera, (900.0, 400.0), 80, tilt_deg=30, roll_deg=70)
     image = rendered(camera, [Print(picture=code_image(), pose=pose)])
@@ -123,7 +128,7 @@ def test_what_an_image_over_a_megapixel_shows_is_told_in_its_own_pixels() -> Non
     assert _off_px(first, corners) < 1.5
 
 
-def test_each_round_gives_few_and_only_new_ones_the_likeliest_first() -> None:
+def test_each_round_yields_few_new_candidates_the_best_first() -> None:
     image, _ = _scene(40, roll_deg=30)
     given = _rounds(image)
     assert len(given) >= 2
@@ -136,7 +141,7 @@ def test_each_round_gives_few_and_only_new_ones_the_likeliest_first() -> None:
         assert all(np.abs(a - b).max() > 1.0 for b in every[:i])
 
 
-def test_several_models_have_each_their_own_first() -> None:
+def test_each_of_several_models_has_its_own_best_candidate() -> None:
     places = ((120.0, 120.0), (330.0, 220.0))
     fields = (code_image(), code_image(OTHER))
     poses = [facing_at_px(CAMERA, place, 40, roll_deg=100) for place in places]
@@ -146,8 +151,8 @@ def test_several_models_have_each_their_own_first() -> None:
         assert _off_px(candidates[0], corners_px_of(CAMERA, pose)) < 1.5
 
 
-def test_thorough_rounds_give_markers_that_the_usual_ones_miss_in_poor_light() -> None:
-    """Shadow, highlight, smear, noise and a cover at once, in the benchmark's hardest scenes."""
+def test_thorough_rounds_find_markers_that_standard_rounds_miss_in_poor_light() -> None:
+    """Shadow, highlight, motion blur, noise and occlusion together: the benchmark's hardest scenes."""
     missed, given = 0, 0
     for seed in range(700, 712):
         face = FACES[seed % len(FACES)]
@@ -161,13 +166,13 @@ def test_thorough_rounds_give_markers_that_the_usual_ones_miss_in_poor_light() -
 
 
 @pytest.mark.parametrize("seed", [707, 721])
-def test_the_edges_of_the_softened_image_give_what_noise_takes_from_all_other_outlines(seed: int) -> None:
+def test_edges_of_the_smoothed_image_find_markers_under_noise(seed: int) -> None:
     face = FACES[seed % len(FACES)]
     scene = random_scene(RIGS["A"], face, conditions_of(RIGS["A"])["hard2"], seed=seed)
     assert _is_among(thorough_rounds(image_of(scene), templates_of((face.model,))), scene.corners_px)
 
 
-def test_thorough_rounds_give_nothing_that_the_border_cuts() -> None:
+def test_thorough_rounds_yield_nothing_cut_by_the_image_border() -> None:
     image, corners = _scene(60, roll_deg=20)
     cut = np.ascontiguousarray(image[: int(corners[:, 1].mean())])
     templates = templates_of((MODEL,))
@@ -180,7 +185,7 @@ def _is_among(rounds: Iterator[list[list[Candidate]]], corners: Array) -> bool:
     return any(_off_px(candidate, corners) < 3.5 for one in rounds for candidate in one[0])
 
 
-def test_an_image_gives_the_same_candidates_each_time() -> None:
+def test_candidates_are_deterministic() -> None:
     image, _ = _scene(30, roll_deg=20)
     once, again = _rounds(image), _rounds(image)
     for a, b in zip(once, again, strict=True):
@@ -195,11 +200,11 @@ def test_a_tiny_image_has_no_candidates(size_wh: tuple[int, int]) -> None:
 
 
 @pytest.mark.parametrize("grey", [0, 128, 255])
-def test_an_even_image_has_none(grey: int) -> None:
+def test_a_uniform_image_has_no_candidates(grey: int) -> None:
     assert all(one == [[]] for one in _rounds(np.full((360, 480), grey, np.uint8)))
 
 
-def test_no_models_ask_for_nothing() -> None:
+def test_no_models_yield_no_candidates() -> None:
     assert all(one == [] for one in _rounds(_scene(40)[0], ()))
 
 
@@ -220,7 +225,7 @@ def test_no_models_ask_for_nothing() -> None:
         ),
     ],
 )
-def test_images_full_of_edges_break_nothing(image: Image8) -> None:
+def test_images_full_of_edges_yield_finite_candidates(image: Image8) -> None:
     for one in _rounds(image):
         assert len(one[0]) <= 4
         for candidate in one[0]:
@@ -230,12 +235,12 @@ def test_images_full_of_edges_break_nothing(image: Image8) -> None:
 def test_after_the_warm_up_a_search_compiles_nothing() -> None:
     def versions() -> dict[str, int]:
         return {
-            f"{room.__name__}.{name}": len(loop.signatures)
-            for room in (
-                *(borders_loops, edges_loops, looks_loops, marker_loops),
-                *(outlines_loops, regions_loops, sampling_loops),
+            f"{module.__name__}.{name}": len(loop.signatures)
+            for module in (
+                *(border_kernels, edge_kernels, template_kernels, score_kernels),
+                *(quad_kernels, region_kernels, sampling_kernels),
             )
-            for name, loop in vars(room).items()
+            for name, loop in vars(module).items()
             if hasattr(loop, "signatures")
         }
 

@@ -1,4 +1,4 @@
-"""The marker's model: which pictures are refused, and where its active edges lie."""
+"""Marker model: rejected images, and the position of its active edges."""
 
 import cv2
 import numpy as np
@@ -7,7 +7,7 @@ import pytest
 from tests.tracker.scenes import CODE, Image8, code_image
 from tracker import InvalidInput, MarkerModel
 from tracker.marker import ActiveEdges
-from tracker.rehearsal.emblem import drill_emblem
+from tracker.rehearsal.marker_images import drill_marker_image
 
 SIDE_MM = 40.0
 
@@ -38,7 +38,7 @@ def _faint() -> Image8:
         pytest.param(code_image().astype(np.float64), "float64", id="not 8 bits"),
     ],
 )
-def test_a_picture_that_cannot_be_a_marker_is_refused_with_numbers(picture: Image8, says: str) -> None:
+def test_an_unusable_marker_image_is_rejected_with_numbers(picture: Image8, says: str) -> None:
     with pytest.raises(InvalidInput, match=says) as caught:
         MarkerModel.from_image(picture, side_mm=SIDE_MM, name="mine")
     assert caught.value.code == "MARKER_IMAGE_INVALID"
@@ -46,7 +46,7 @@ def test_a_picture_that_cannot_be_a_marker_is_refused_with_numbers(picture: Imag
 
 
 @pytest.mark.parametrize("side_mm", [0.0, -1.0, float("nan"), float("inf")])
-def test_a_side_that_is_no_length_is_refused(side_mm: float) -> None:
+def test_an_invalid_side_is_rejected(side_mm: float) -> None:
     with pytest.raises(InvalidInput) as caught:
         MarkerModel.from_image(code_image(), side_mm=side_mm, name="mine")
     assert caught.value.code == "MARKER_SIDE_INVALID"
@@ -61,7 +61,7 @@ def test_a_side_that_is_no_length_is_refused(side_mm: float) -> None:
         pytest.param(((1, 1, 1), (0, 0, 0), (1, 1, 1)), 180, id="two bars"),
     ],
 )
-def test_a_shape_with_more_than_one_top_is_refused(
+def test_a_rotationally_symmetric_shape_is_rejected(
     fields: tuple[tuple[int, ...], ...], turned_deg: int
 ) -> None:
     with pytest.raises(InvalidInput, match="looks the same when turned") as caught:
@@ -70,7 +70,7 @@ def test_a_shape_with_more_than_one_top_is_refused(
     assert caught.value.context["turned_deg"] == turned_deg
 
 
-def test_a_mirror_symmetric_shape_has_one_top_and_is_taken() -> None:
+def test_a_mirror_symmetric_shape_is_accepted() -> None:
     MarkerModel.from_image(code_image(((1, 1, 0), (0, 0, 1), (1, 1, 0))), side_mm=SIDE_MM, name="mine")
 
 
@@ -79,7 +79,7 @@ def test_corners_go_clockwise_from_the_top_left_with_y_up() -> None:
     np.testing.assert_array_equal(model.corners_mm, [[-20, 20, 0], [20, 20, 0], [20, -20, 0], [-20, -20, 0]])
 
 
-def test_the_picture_is_kept_as_given_and_not_shared() -> None:
+def test_the_image_is_stored_as_a_copy() -> None:
     picture = code_image()
     model = MarkerModel.from_image(picture, side_mm=SIDE_MM, name="mine")
     np.testing.assert_array_equal(model.image, code_image())
@@ -88,7 +88,7 @@ def test_the_picture_is_kept_as_given_and_not_shared() -> None:
 
 
 @pytest.mark.parametrize("side_px", [12, 50, 120, 359, 361, 500])
-def test_any_size_of_picture_gives_the_same_edges(side_px: int) -> None:
+def test_any_image_size_gives_the_same_edges(side_px: int) -> None:
     picture = cv2.resize(code_image(field_px=100), (side_px, side_px), interpolation=cv2.INTER_AREA)
     model = MarkerModel.from_image(np.asarray(picture, np.uint8), side_mm=SIDE_MM, name="mine")
     whole = MarkerModel.from_image(code_image(), side_mm=SIDE_MM, name="mine")
@@ -103,7 +103,7 @@ FIELD_MM = SIDE_MM / 6.0
 
 
 def _distance_to_true_edges_mm(points: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> float:
-    """The farthest that any of these points (n, 2) lies from an edge of the code as it was drawn."""
+    """Return the largest distance of these points (n, 2) from the true edges of the code."""
     segments = []
     cells = np.pad(np.array(CODE), 1)
     for row in range(5):
@@ -146,7 +146,7 @@ def test_their_length_is_that_of_the_shape(side_px: int) -> None:
 
 
 @pytest.mark.parametrize("side_px", [24, 34, *LARGE])
-def test_the_outline_is_told_from_what_is_inside(side_px: int) -> None:
+def test_the_outline_is_distinguished_from_inner_edges(side_px: int) -> None:
     active = _level(side_px)
     far = np.abs(active.points_mm).max(axis=1)
     assert far[~active.inner].min() > 0.46 * SIDE_MM
@@ -172,12 +172,12 @@ def test_their_normals_point_from_dark_to_bright(side_px: int) -> None:
     [(1, 12), (12, 12), (14, 12), (15, 17), (30, 34), (60, 68), (192, 192), (900, 192)],
 )
 def test_the_level_is_that_of_the_nearest_size(side_px: float, level_px: int) -> None:
-    model = MarkerModel.from_image(drill_emblem(), side_mm=25.0, name="drill")
+    model = MarkerModel.from_image(drill_marker_image(), side_mm=25.0, name="drill")
     assert model.level_for(side_px).level_px == level_px
 
 
 def test_no_level_has_too_many_edgels_or_none() -> None:
-    for level in MarkerModel.from_image(drill_emblem(), side_mm=25.0, name="drill").levels:
+    for level in MarkerModel.from_image(drill_marker_image(), side_mm=25.0, name="drill").levels:
         count = len(level.points_mm)
         assert 12 < count <= 360
         assert {len(level.normals), len(level.length_mm), len(level.inner), len(level.straight)} == {count}

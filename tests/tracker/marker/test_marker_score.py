@@ -1,4 +1,4 @@
-"""The two scores of the paper, by hand and on rendered markers."""
+"""The paper's two scores, by hand and on rendered markers."""
 
 from dataclasses import replace
 
@@ -22,9 +22,9 @@ from tracker.geometry import Camera, Marker, Rigid
 from tracker.marker import (
     Agreement,
     ScoreSettings,
-    contradiction_of,
     model_agreement,
     reach_px,
+    shape_mismatch_of,
     target_coverage_ratio,
 )
 from tracker.pose import side_px_of
@@ -72,12 +72,12 @@ def test_score_is_coverage_less_the_weighted_fit_error(
         "accept_score_ratio",
         "accept_target_score_ratio",
         "accept_inner_coverage_ratio",
-        "explained_share",
+        "verified_threshold_ratio",
         "fit_error_weight",
     ],
 )
 @pytest.mark.parametrize("value", [-0.01, 1.01, float("nan")])
-def test_a_setting_that_is_no_ratio_is_refused_by_name(name: str, value: float) -> None:
+def test_a_setting_outside_0_to_1_is_rejected_by_name(name: str, value: float) -> None:
     with pytest.raises(InvalidInput, match=name) as caught:
         replace(ScoreSettings(), **{name: value})
     assert caught.value.code == "SCORE_SETTING_INVALID"
@@ -93,7 +93,7 @@ def test_the_reach_grows_with_the_marker_within_its_limits(side_px: float, reach
 def _laid(
     image: Image8, model: MarkerModel, pose: Rigid[Camera, Marker], *, camera: CameraModel = CAMERA
 ) -> Agreement:
-    """The model laid on the image at this pose, with its target coverage."""
+    """Return the agreement of the model with the image at this pose, with its target coverage."""
     gradient = gradient_of(image)
     corners = camera.px_from_camera(pose.move_points(model.corners_mm))
     side = side_px_of(corners)
@@ -114,7 +114,7 @@ def _laid(
 
 @pytest.mark.parametrize("side_px", [30, 48, 70, 110])
 @pytest.mark.parametrize("tilt_deg", [0, 40])
-def test_the_model_laid_on_its_own_picture_agrees_wholly(side_px: float, tilt_deg: float) -> None:
+def test_the_model_agrees_fully_with_its_own_image(side_px: float, tilt_deg: float) -> None:
     pose = placed(CAMERA, MIDDLE, side_px, tilt_deg=tilt_deg, about_deg=30, roll_deg=25)
     image = rendered(CAMERA, [Print(picture=code_image(), pose=pose)])
     agreement = _laid(image, code_model(), pose)
@@ -134,14 +134,14 @@ def test_the_contrast_is_that_of_the_ink() -> None:
 
 
 @pytest.mark.parametrize("shift_px", [2.5, 4.0, 6.0])
-def test_beside_the_marker_the_coverage_falls(shift_px: float) -> None:
+def test_coverage_falls_beside_the_marker(shift_px: float) -> None:
     pose = placed(CAMERA, MIDDLE, 50)
     image = rendered(CAMERA, [Print(picture=code_image(), pose=pose)])
     beside = placed(CAMERA, (MIDDLE[0] + shift_px, MIDDLE[1] + shift_px), 50)
     assert _laid(image, code_model(), beside).model_coverage_ratio < 0.45
 
 
-def test_a_quarter_of_a_turn_keeps_the_outline_and_loses_the_inside() -> None:
+def test_a_quarter_rotation_matches_the_outline_but_not_the_inside() -> None:
     pose = placed(CAMERA, MIDDLE, 60)
     image = rendered(CAMERA, [Print(picture=code_image(), pose=pose)])
     turned = _laid(image, code_model(), placed(CAMERA, MIDDLE, 60, roll_deg=90))
@@ -149,7 +149,7 @@ def test_a_quarter_of_a_turn_keeps_the_outline_and_loses_the_inside() -> None:
     assert turned.model_coverage_ratio > 0.6
 
 
-def test_an_edge_that_the_model_has_not_lowers_the_target_coverage_only() -> None:
+def test_an_extra_edge_lowers_only_the_target_coverage() -> None:
     pose = placed(CAMERA, MIDDLE, 70)
     picture = code_image()
     picture[5:25, 40:60] = 255  # a white spot in the black border
@@ -158,7 +158,7 @@ def test_an_edge_that_the_model_has_not_lowers_the_target_coverage_only() -> Non
     assert 0.6 < agreement.target_coverage_ratio < 0.93
 
 
-def test_an_even_image_agrees_with_nothing() -> None:
+def test_a_uniform_image_has_no_coverage() -> None:
     image = np.full((240, 320), 128, np.uint8)
     agreement = _laid(image, code_model(), placed(CAMERA, MIDDLE, 50))
     assert agreement == Agreement(
@@ -171,7 +171,7 @@ def test_an_even_image_agrees_with_nothing() -> None:
     )
 
 
-def test_a_shift_common_to_all_edges_is_no_error_of_the_fit() -> None:
+def test_a_shift_common_to_all_edges_is_no_fit_error() -> None:
     pose = placed(CAMERA, MIDDLE, 60)
     gradient = gradient_of(rendered(CAMERA, [Print(picture=code_image(), pose=pose)]))
     active = code_model().level_for(60)
@@ -188,12 +188,12 @@ def test_a_shift_common_to_all_edges_is_no_error_of_the_fit() -> None:
 def _contradicts(image: Image8, pose: Rigid[Camera, Marker]) -> tuple[bool, float, float]:
     model = code_model()
     corners = CAMERA.px_from_camera(pose.move_points(model.corners_mm))
-    answer = contradiction_of(image, model.square, corners, side_px=side_px_of(corners))
-    return answer.is_other_shape, answer.inside_ratio, answer.covered_ratio
+    answer = shape_mismatch_of(image, model.square, corners, side_px=side_px_of(corners))
+    return answer.is_other_shape, answer.inside_ratio, answer.occluded_ratio
 
 
 @pytest.mark.parametrize(("side_px", "tilt_deg"), [(36, 0), (36, 45), (70, 20)])
-def test_one_flipped_field_is_another_shape(side_px: float, tilt_deg: float) -> None:
+def test_one_inverted_field_is_another_shape(side_px: float, tilt_deg: float) -> None:
     pose = placed(CAMERA, MIDDLE, side_px, tilt_deg=tilt_deg, about_deg=70, roll_deg=12)
     for fields in NEIGHBOURS:
         image = rendered(CAMERA, [Print(picture=code_image(fields), pose=pose)])
@@ -204,7 +204,7 @@ def test_one_flipped_field_is_another_shape(side_px: float, tilt_deg: float) -> 
 
 
 @pytest.mark.parametrize(("side_px", "tilt_deg"), [(24, 0), (36, 50), (60, 35), (90, 10)])
-def test_the_marker_itself_is_not_contradicted(side_px: float, tilt_deg: float) -> None:
+def test_the_marker_itself_has_no_shape_mismatch(side_px: float, tilt_deg: float) -> None:
     for seed in range(4):
         pose = placed(
             CAMERA, MIDDLE, side_px, tilt_deg=tilt_deg, about_deg=seed * 50, roll_deg=12 + 61 * seed
@@ -214,7 +214,7 @@ def test_the_marker_itself_is_not_contradicted(side_px: float, tilt_deg: float) 
 
 
 @pytest.mark.parametrize("about_deg", [0, 60, 135, 250])
-def test_light_that_varies_over_the_marker_does_not_contradict(about_deg: float) -> None:
+def test_uneven_illumination_is_no_shape_mismatch(about_deg: float) -> None:
     pose = placed(CAMERA, MIDDLE, 80, roll_deg=20)
     image = rendered(CAMERA, [Print(picture=code_image(), pose=pose)], noise_grey=0.0).astype(np.float64)
     v, u = np.mgrid[0:240, 0:320]
@@ -224,14 +224,14 @@ def test_light_that_varies_over_the_marker_does_not_contradict(about_deg: float)
     assert not _contradicts(lit, pose)[0]
 
 
-def test_half_the_contrast_does_not_contradict() -> None:
+def test_half_the_contrast_is_no_shape_mismatch() -> None:
     pose = placed(CAMERA, MIDDLE, 60)
     image = rendered(CAMERA, [Print(picture=code_image(), pose=pose)])
     assert not _contradicts(np.asarray(image // 3 + 100, np.uint8), pose)[0]
 
 
 @pytest.mark.parametrize("grey", [180, 230])
-def test_a_bright_finger_that_comes_over_the_border_covers_and_does_not_contradict(grey: int) -> None:
+def test_a_bright_finger_over_the_border_is_an_occlusion_and_no_shape_mismatch(grey: int) -> None:
     pose = placed(CAMERA, MIDDLE, 90)
     image = rendered(CAMERA, [Print(picture=code_image(), pose=pose)])
     image[100:130, 170:] = grey
@@ -242,7 +242,7 @@ def test_a_bright_finger_that_comes_over_the_border_covers_and_does_not_contradi
     assert 0.08 < covered < 0.14
 
 
-def test_a_spot_wholly_inside_contradicts() -> None:
+def test_a_spot_wholly_inside_is_a_shape_mismatch() -> None:
     pose = placed(CAMERA, MIDDLE, 90)
     picture = code_image()
     picture[45:80, 90:110] = 255  # in the black of the right border, not touching the outline
@@ -252,7 +252,7 @@ def test_a_spot_wholly_inside_contradicts() -> None:
     assert covered == 0.0
 
 
-def test_the_negative_and_an_even_image_contradict() -> None:
+def test_the_negative_and_a_uniform_image_are_shape_mismatches() -> None:
     pose = placed(CAMERA, MIDDLE, 90)
     image = rendered(CAMERA, [Print(picture=code_image(), pose=pose)])
     negative = np.asarray(255 - image, np.uint8)
@@ -261,7 +261,7 @@ def test_the_negative_and_an_even_image_contradict() -> None:
         assert _contradicts(other, pose)[2] == 1.0
 
 
-def test_without_a_bending_lens_the_model_agrees_as_well() -> None:
+def test_the_model_agrees_without_lens_distortion() -> None:
     camera = camera_of((320, 240), focal_px=400.0, distortion=STRAIGHT)
     pose = placed(camera, (60.0, 60.0), 60, tilt_deg=30)
     image = rendered(camera, [Print(picture=code_image(), pose=pose)])

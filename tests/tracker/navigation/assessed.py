@@ -1,13 +1,13 @@
-"""Drills assessed in a bone that a hand can measure: a rod of 5 mm radius, 55 mm deep, a drill of 2 mm."""
+"""Assessments of drills in a simple bone: a rod of 5 mm radius, 55 mm deep, a drill of 2 mm radius."""
 
 from functools import cache
 
 import numpy as np
 
 from tests.tracker.navigation.bones import ROD_CHANNEL, drill_at, rod
-from tracker.navigation import Assessment, DrillLimits, Guide, assess, deviation_from_channel
-from tracker.navigation.certainty import Judged, Placed, Room
-from tracker.navigation.clearance import field_of_bone
+from tracker.navigation import Assessment, DrillLimits, DrillReference, assess, deviation_from_channel
+from tracker.navigation.clearance import bone_distance_field
+from tracker.navigation.uncertainty import DrillAnalysis, PedicleTolerance, UncertainPose
 from tracker.pose import ToolModel
 
 DRILL_RADIUS_MM = 2.0
@@ -17,11 +17,11 @@ LIMITS = DrillLimits(warning_distance_mm=1.0, breach_ratio=0.05)
 
 
 @cache
-def guide(room_mm: float = 1.8, lever_mm: float = 18.0) -> Guide:
+def drill_reference(tolerance_mm: float = 1.8, lever_mm: float = 18.0) -> DrillReference:
     """The rod as bone, with this room for error."""
-    return Guide(
-        wall=field_of_bone(rod(), ROD_CHANNEL),
-        room=Room(room_mm=room_mm, lever_mm=lever_mm),
+    return DrillReference(
+        wall=bone_distance_field(rod(), ROD_CHANNEL),
+        tolerance=PedicleTolerance(tolerance_mm=tolerance_mm, lever_mm=lever_mm),
         side="left",
     )
 
@@ -42,22 +42,24 @@ def judged_at(
     depth_mm: float,
     *,
     unsure: float = 1.0,
-    room_mm: float = 1.8,
+    tolerance_mm: float = 1.8,
     **off: float,
-) -> Judged:
+) -> DrillAnalysis:
     """The judgement of a drill at a depth, off by `medial_mm`, `cranial_mm`, `medial_deg`, `cranial_deg`.
 
     `unsure`: how many times as large its standard deviations are as 0.1 mm and 0.1 degrees.
     """
-    placed = Placed(pose=drill_at(ROD_CHANNEL, depth_mm, **off), covariance=SURE * unsure**2)
-    return guide(room_mm).judged(placed, drill(), ROD_CHANNEL)
+    placed = UncertainPose(pose=drill_at(ROD_CHANNEL, depth_mm, **off), covariance=SURE * unsure**2)
+    return drill_reference(tolerance_mm).analyse(placed, drill(), ROD_CHANNEL)
 
 
-def assessed_at(depth_mm: float, *, unsure: float = 1.0, room_mm: float = 1.8, **off: float) -> Assessment:
+def assessed_at(
+    depth_mm: float, *, unsure: float = 1.0, tolerance_mm: float = 1.8, **off: float
+) -> Assessment:
     """The assessment of such a drill."""
     return assess(
         deviation_from_channel(drill_at(ROD_CHANNEL, depth_mm, **off), ROD_CHANNEL, "left"),
-        judged_at(depth_mm, unsure=unsure, room_mm=room_mm, **off),
+        judged_at(depth_mm, unsure=unsure, tolerance_mm=tolerance_mm, **off),
         ROD_CHANNEL,
         LIMITS,
     )

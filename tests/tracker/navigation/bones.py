@@ -1,11 +1,11 @@
-"""Bones that a hand can measure, and drills placed on their channels."""
+"""Simple bones with known dimensions, and drills placed on their channels."""
 
 import numpy as np
 import numpy.typing as npt
 import trimesh
 
 from tracker.geometry import Array, Rigid, Tool, Vertebra, rotation_between
-from tracker.navigation.directions import directions_of
+from tracker.navigation.directions import channel_directions
 from tracker.plan import Channel, Surface
 
 # A rod straight forwards, from y = 20 behind to y = -40 in front.
@@ -59,7 +59,7 @@ def drill_at(
     cranial_deg: float = 0.0,
 ) -> Rigid[Vertebra, Tool]:
     """A drill that goes in at an offset, turned by angles, with its tip at a depth along the channel."""
-    across = directions_of(channel, "left" if "left" in channel.name else "right")
+    across = channel_directions(channel, "left" if "left" in channel.name else "right")
     slope = np.tan(np.radians([medial_deg, cranial_deg]))
     way = across.axis + slope[0] * across.medial + slope[1] * across.cranial
     entry = channel.entry_in_vertebra_mm + medial_mm * across.medial + cranial_mm * across.cranial

@@ -1,4 +1,4 @@
-"""One verdict: it follows from the figures as they are shown, rounded, and from nothing else."""
+"""The verdict follows from the displayed, rounded figures only."""
 
 import math
 from dataclasses import replace
@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.tracker.navigation.assessed import LIMITS, assessed_at, drill, guide, judged_at
+from tests.tracker.navigation.assessed import LIMITS, assessed_at, drill, drill_reference, judged_at
 from tests.tracker.navigation.bones import ROD_CHANNEL, drill_at
 from tracker.navigation import (
     Assessment,
@@ -21,10 +21,10 @@ from tracker.navigation import (
     assess,
     deviation_from_channel,
 )
-from tracker.navigation.certainty import Placed
-from tracker.navigation.clearance import MeasuredAgainst, Nearest
+from tracker.navigation.clearance import NearestWall, WallSource
 from tracker.navigation.directions import Wall
 from tracker.navigation.figures import rounded, rounded_down, rounded_up
+from tracker.navigation.uncertainty import UncertainPose
 
 OVER = {Status.OVER, Status.THROUGH}
 
@@ -77,7 +77,7 @@ OVER = {Status.OVER, Status.THROUGH}
             id="near-the-medial-wall",
         ),
         pytest.param(
-            {"depth_mm": 30.0, "cranial_mm": 1.8, "unsure": 7.0, "room_mm": 2.9},
+            {"depth_mm": 30.0, "cranial_mm": 1.8, "unsure": 7.0, "tolerance_mm": 2.9},
             Verdict.BREACH_LIKELY,
             ((math.nan, Direction.CAUDAL),),
             id="probably-through",
@@ -111,7 +111,7 @@ def test_a_drill_has_the_verdict_of_its_figures_and_the_way_back(
 
 def test_the_wall_that_is_meant_is_named_and_so_is_what_it_was_measured_against() -> None:
     assessment = assessed_at(30.0, cranial_mm=-2.3)
-    assert (assessment.wall, assessment.against) == (Wall.CAUDAL, MeasuredAgainst.BONE)
+    assert (assessment.wall, assessment.against) == (Wall.CAUDAL, WallSource.BONE)
     assert assessed_at(-10.0).wall is None
 
 
@@ -141,16 +141,16 @@ def test_depth_to_go_is_rounded_down_too(remaining_mm: float, shown: float) -> N
 
 def test_a_figure_equal_to_its_limit_on_the_screen_is_within_it() -> None:
     # 1.84 against 1.85 and 1.75: shown as 1.8 of 1.8, and as 1.8 of 1.7.
-    for room_mm, status in ((1.85, Status.WITHIN), (1.75, Status.OVER)):
-        entry = assessed_at(-10.0, medial_mm=1.84, room_mm=room_mm).figures[FigureName.ENTRY]
-        assert (entry.value, entry.limit, entry.status) == (1.8, math.floor(room_mm * 10) / 10, status)
+    for tolerance_mm, status in ((1.85, Status.WITHIN), (1.75, Status.OVER)):
+        entry = assessed_at(-10.0, medial_mm=1.84, tolerance_mm=tolerance_mm).figures[FigureName.ENTRY]
+        assert (entry.value, entry.limit, entry.status) == (1.8, math.floor(tolerance_mm * 10) / 10, status)
 
 
 def test_the_error_is_that_of_the_whole_chain_and_not_of_the_marker_alone() -> None:
     # A registration that is unsure by 0.5 mm, with a marker that is sure to 0.01 mm.
     registered = np.diag([0.5**2] * 3 + [0.0] * 3)
     place = drill_at(ROD_CHANNEL, 30.0)
-    judged = guide().judged(Placed(pose=place, covariance=registered), drill(), ROD_CHANNEL)
+    judged = drill_reference().analyse(UncertainPose(pose=place, covariance=registered), drill(), ROD_CHANNEL)
     assessment = assess(deviation_from_channel(place, ROD_CHANNEL), judged, ROD_CHANNEL, LIMITS)
     error = assessment.figures[FigureName.ERROR]
     assert error.value == pytest.approx(0.5 * 2.4478, abs=0.011)
@@ -178,11 +178,11 @@ DRILLS = st.fixed_dictionaries(
 
 
 @settings(deadline=None, max_examples=60)
-@given(drill=DRILLS, scale=st.floats(0.2, 12.0), room_mm=st.floats(0.0, 3.0))
+@given(drill=DRILLS, scale=st.floats(0.2, 12.0), tolerance_mm=st.floats(0.0, 3.0))
 def test_the_verdict_is_the_worst_that_the_figures_say_and_on_path_only_within_all(
-    drill: dict[str, float], scale: float, room_mm: float
+    drill: dict[str, float], scale: float, tolerance_mm: float
 ) -> None:
-    assessment = assessed_at(**drill, unsure=scale, room_mm=room_mm)
+    assessment = assessed_at(**drill, unsure=scale, tolerance_mm=tolerance_mm)
     assert_consistent(assessment)
 
 
@@ -238,7 +238,7 @@ def test_rounding_has_its_direction_and_never_a_negative_zero(value: float, deci
 def _with_clearance(clearance_mm: float) -> Assessment:
     judged = judged_at(30.0)
     now = judged.clearance.now
-    assert isinstance(now, Nearest)
+    assert isinstance(now, NearestWall)
     clearance = replace(judged.clearance, now=replace(now, clearance_mm=clearance_mm))
     deviation = deviation_from_channel(drill_at(ROD_CHANNEL, 30.0), ROD_CHANNEL)
     return assess(deviation, replace(judged, clearance=clearance), ROD_CHANNEL, LIMITS)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tracker.navigation import Lag
-from tracker.navigation.lag import MIN_IMAGES, TipSpeed
+from tracker.navigation.lag import MIN_IMAGES, TipSpeedEstimator
 
 RATE_HZ = 30.0
 
@@ -15,7 +15,7 @@ def speeds(
     *, mm_s: float, noise_mm: float, rate_hz: float = RATE_HZ, images: int = 60, seed: int = 1
 ) -> list[float]:
     """What is said of a tip that moves evenly, seen with this noise."""
-    random, tip = np.random.default_rng(seed), TipSpeed()
+    random, tip = np.random.default_rng(seed), TipSpeedEstimator()
     direction = np.array([0.6, 0.0, 0.8])
     said = []
     for number in range(images):
@@ -44,7 +44,7 @@ def test_a_tip_at_rest_has_no_speed(noise_mm: float) -> None:
 def test_until_five_images_are_known_there_is_no_speed_and_none_across_a_gap() -> None:
     said = speeds(mm_s=40.0, noise_mm=0.02)
     assert [isnan(one) for one in said[: MIN_IMAGES + 1]] == [True] * (MIN_IMAGES - 1) + [False] * 2
-    tip = TipSpeed()
+    tip = TipSpeedEstimator()
     for number in range(8):
         tip.take(np.array([number * 1.0, 0.0, 0.0]), at_s=number / RATE_HZ)
     assert isnan(tip.take(np.array([200.0, 0.0, 0.0]), at_s=3.0))

@@ -13,9 +13,9 @@ from tracker.navigation import (
     Absent,
     AbsentReason,
     NavigationSnapshot,
-    PlacedVertebra,
     Setup,
-    ToolInView,
+    ToolPose,
+    VertebraPose,
     deviation_from_channel,
     navigate,
 )
@@ -152,7 +152,7 @@ def test_the_tool_s_z_is_its_drilling_direction_and_its_origin_the_tip(
 ) -> None:
     pose = _drill((1, 2, 3), axis)
     np.testing.assert_allclose(
-        pose.turn_directions([0, 0, 1]), np.array(axis) / np.linalg.norm(axis), atol=1e-9
+        pose.rotate_directions([0, 0, 1]), np.array(axis) / np.linalg.norm(axis), atol=1e-9
     )
     np.testing.assert_allclose(pose.move_points([0, 0, 0]), [1, 2, 3])
 
@@ -261,7 +261,7 @@ def test_one_snapshot_is_made_of_one_pose() -> None:
     """Tool, covariance and deviation all follow from the sighting that lies beside them."""
     snapshot = _snapshot(SETUP, SEEN)
     tool, deviation = snapshot.tools["drill"], snapshot.deviations["drill"]
-    assert isinstance(tool, ToolInView)
+    assert isinstance(tool, ToolPose)
     assert snapshot.sightings["square"] is SEEN
     np.testing.assert_allclose(
         tool.camera_from_tool.matrix, (CAMERA_FROM_MARKER @ TOOL.marker_from_tool).matrix
@@ -273,7 +273,7 @@ def test_one_snapshot_is_made_of_one_pose() -> None:
         tool.tip_covariance_mm2,
         point_covariance_mm2(CAMERA_FROM_MARKER, SEEN.pose_covariance, [0, -120, -10]),
     )
-    assert isinstance(snapshot.vertebra, PlacedVertebra)
+    assert isinstance(snapshot.vertebra, VertebraPose)
     assert deviation == deviation_from_channel(
         snapshot.vertebra.camera_from_vertebra.inverse @ tool.camera_from_tool, CHANNEL
     )

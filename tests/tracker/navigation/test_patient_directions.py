@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from tracker.geometry import Rigid, Tool, Vertebra, rotation_between
 from tracker.navigation import deviation_from_channel
-from tracker.navigation.directions import Wall, directions_of, side_of
+from tracker.navigation.directions import Wall, channel_directions, side_of
 from tracker.plan import Channel
 from tracker.plan.pedicle import Side, axis_from_angles
 
@@ -90,7 +90,7 @@ def test_a_drill_across_the_channel_has_no_offset_to_split() -> None:
 def test_the_plan_s_side_is_believed_over_the_way_the_channel_runs() -> None:
     straying = _channel("left", -3.0)
     assert side_of(straying) == "right"
-    assert directions_of(straying, "left").medial[0] < 0.0
+    assert channel_directions(straying, "left").medial[0] < 0.0
 
 
 @pytest.mark.parametrize(
@@ -104,7 +104,7 @@ def test_the_plan_s_side_is_believed_over_the_way_the_channel_runs() -> None:
     ],
 )
 def test_a_wall_is_called_by_its_direction(towards: tuple[float, float, float], wall: Wall) -> None:
-    assert directions_of(_channel("left", 0.0)).wall_towards(np.array(towards)) is wall
+    assert channel_directions(_channel("left", 0.0)).wall_towards(np.array(towards)) is wall
 
 
 def test_a_channel_along_the_body_still_has_directions() -> None:
@@ -114,6 +114,6 @@ def test_a_channel_along_the_body_still_has_directions() -> None:
         target_in_vertebra_mm=np.array([0, 0, 30.0]),
         radius_mm=3,
     )
-    across = directions_of(up)
+    across = channel_directions(up)
     basis = np.stack([across.axis, across.medial, across.cranial])
     np.testing.assert_allclose(basis @ basis.T, np.eye(3), atol=1e-12)

@@ -1,4 +1,4 @@
-"""In theatre nothing compiles: whatever image or CT shows, the warm-up has run each loop on such arrays."""
+"""The warm-up compiles each kernel for every argument type, so that nothing compiles in theatre."""
 
 import json
 import subprocess
@@ -37,7 +37,9 @@ def _see_everything() -> None:
     for nth, condition in enumerate(conditions_of(RIG).values()):
         face = FACES[nth % len(FACES)]
         tracker = tracker_of(RIG, [face])
-        scenes = hand_scenes(RIG, face, "still", seed=nth, count=IMAGES, condition=condition, sound_images=1)
+        scenes = hand_scenes(
+            RIG, face, "still", seed=nth, count=IMAGES, condition=condition, undisturbed_images=1
+        )
         for at_s, scene in scenes:
             image = image_of(scene)
             tracker.step(image, captured_at_s=at_s)
@@ -51,14 +53,14 @@ def _measure_a_pedicle() -> None:
 
 def test_after_the_warm_up_no_image_and_no_ct_makes_anything_compile() -> None:
     # In a process of its own: other tests call the loops with other arrays, which would hide it.
-    told = subprocess.run(
+    reported = subprocess.run(
         [sys.executable, "-m", "tests.tracker.pipeline.test_nothing_compiles"],
         cwd=CHECKOUT,
         check=True,
         capture_output=True,
         text=True,
     ).stdout
-    before, after = json.loads(told)
+    before, after = json.loads(reported)
     assert len(before) > 40
     assert {name: kinds for name, kinds in after.items() if kinds != before.get(name, 0)} == {}
 

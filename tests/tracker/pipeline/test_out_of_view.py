@@ -1,4 +1,4 @@
-"""Markers that are known and out of view, while another is tracked."""
+"""Idle search: known markers out of view while another is tracked."""
 
 from collections.abc import Iterator
 
@@ -20,9 +20,9 @@ from tests.tracker.scenes import (
 from tracker import MarkerModel, Seen, Tracker, Unseen
 from tracker.geometry import Camera, Marker, Rigid
 from tracker.marker import Candidate, candidate_rounds
-from tracker.marker.looks import Templates
+from tracker.marker.template_matching import Templates
 from tracker.pipeline.fitter import Fitter
-from tracker.pose import Pixels
+from tracker.pose import ImageContext
 
 ABSENT = ((1, 1, 0), (0, 1, 0), (1, 0, 0))
 HERE = pose_of((130.0, 180.0))
@@ -61,17 +61,17 @@ def test_what_is_out_of_view_costs_a_part_of_a_search_in_less_than_half_of_the_i
             rounds[-1] += 1
             yield candidates
 
-    looked = Fitter.each_of
+    looked = Fitter.fit_candidates
 
     def counted_look(
-        fitter: Fitter, pixels: Pixels, model: MarkerModel, candidates: list[Candidate], *, most: int
+        fitter: Fitter, pixels: ImageContext, model: MarkerModel, candidates: list[Candidate], *, maximum: int
     ) -> Iterator[Seen | Unseen]:
         looks[-1] += 1
-        return looked(fitter, pixels, model, candidates, most=most)
+        return looked(fitter, pixels, model, candidates, maximum=maximum)
 
     tracker = _tracker()
     monkeypatch.setattr("tracker.pipeline.search.candidate_rounds", counted)
-    monkeypatch.setattr(Fitter, "each_of", counted_look)
+    monkeypatch.setattr(Fitter, "fit_candidates", counted_look)
     for k in range(14):
         sightings = tracker.step(_two(None, seed=k), captured_at_s=k / 30)
         assert isinstance(sightings["other"], Unseen)
@@ -96,11 +96,11 @@ def test_no_score_of_an_image_before_is_told_as_this_ones() -> None:
 def test_where_each_image_is_searched_whole_a_marker_is_found_as_soon_as_it_is_there() -> None:
     tracker = _tracker()
     for k in range(6):
-        said = tracker.step(_two(None, seed=k), captured_at_s=k / 30, whole=True)["other"]
+        said = tracker.step(_two(None, seed=k), captured_at_s=k / 30, full_search=True)["other"]
         assert isinstance(said, Unseen)
         assert said.best_score_ratio is not None
     there = pose_of((260.0, 150.0))
-    sightings = tracker.step(_two(there, seed=7), captured_at_s=0.2, whole=True)
+    sightings = tracker.step(_two(there, seed=7), captured_at_s=0.2, full_search=True)
     assert {name for name, one in sightings.items() if isinstance(one, Seen)} == {"code", "other"}
 
 

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from tests.benchmarks.claims import ELLIPSOID_95
-from tests.benchmarks.limits.judging import Judged, claim_of, judged
+from tests.benchmarks.limits.evaluation import Evaluation, claim_of, evaluate
 from tests.benchmarks.scenes.conditions import BASE
 from tests.benchmarks.scenes.faces import FACES
 from tests.benchmarks.scenes.hand import Hand
-from tests.benchmarks.scenes.placing import scene_at
+from tests.benchmarks.scenes.placement import scene_at
 from tests.benchmarks.scenes.rigs import Rig
 from tests.benchmarks.scenes.scene import (
     Board,
@@ -65,17 +65,17 @@ def _shown(seed: int) -> tuple[tuple[float, Scene, Image], ...]:
     return tuple(shown)
 
 
-def _followed(readout_s: float) -> Iterator[list[Judged]]:
+def _followed(readout_s: float) -> Iterator[list[Evaluation]]:
     """What is said of each image, a sequence at a time."""
     for seed in range(SEEDS):
         tracker = Tracker(camera=RIG.camera, models=[FACE.model], readout_s=readout_s)
         said = []
         for at_s, scene, image in _shown(seed):
-            said.append(judged(scene, claim_of(tracker.step(image, captured_at_s=at_s)[FACE.name])))
+            said.append(evaluate(scene, claim_of(tracker.step(image, captured_at_s=at_s)[FACE.name])))
         yield said
 
 
-def _inside(judgements: list[Judged]) -> list[float]:
+def _inside(judgements: list[Evaluation]) -> list[float]:
     """Shares of translation, rotation and tip inside their stated 95 % ellipsoid."""
     return [float(share) for share in np.mean([one.covered for one in judgements], axis=0)]
 
@@ -101,25 +101,28 @@ def test_of_the_first_image_alone_it_is_said_how_unsure_a_moving_hand_makes_it()
     tracker = Tracker(camera=RIG.camera, models=[FACE.model], readout_s=READOUT_S)
     for seed in range(SEEDS):
         _, scene, image = _shown(seed)[3]
-        assert max(judged(scene, claim_of(tracker.search(image)[FACE.name])).stated_sd2) < ELLIPSOID_95
+        assert (
+            max(evaluate(scene, claim_of(tracker.search(image)[FACE.name])).mahalanobis_squared)
+            < ELLIPSOID_95
+        )
 
 
 def test_a_marker_at_rest_is_told_as_by_any_other_camera_and_hardly_less_surely() -> None:
     hand = Hand(RIG, "still", seed=1)
     rest = hand.pose_at(0.0)
     scenes = [_scene(rest, 1, number) for number in range(4)]
-    told = []
+    reported = []
     for readout_s in (0.0, READOUT_S):
         tracker = Tracker(camera=RIG.camera, models=[FACE.model], readout_s=readout_s)
         for number, scene in enumerate(scenes):
             image = _image(lambda _: rest, scene, 0.0)
             sighting = tracker.step(image, captured_at_s=number / RATE_HZ)[FACE.name]
         assert isinstance(sighting, Seen)
-        told.append(sighting)
-    by_global, by_rolling = told
+        reported.append(sighting)
+    by_global, by_rolling = reported
     apart_mm = by_rolling.camera_from_marker.translation_mm - by_global.camera_from_marker.translation_mm
     assert float(np.linalg.norm(apart_mm)) < 0.05
-    sd = [np.sqrt(np.diag(one.pose_covariance)) for one in told]
+    sd = [np.sqrt(np.diag(one.pose_covariance)) for one in reported]
     assert (sd[1] >= sd[0]).all()
     assert float(np.degrees(sd[1][3:]).max()) < 0.25
 

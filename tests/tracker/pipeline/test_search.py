@@ -22,7 +22,7 @@ from tests.tracker.scenes import (
 )
 from tracker import MarkerModel, Seen, Tracker, Unseen, UnseenReason
 from tracker.marker import Candidate, Templates, thorough_rounds
-from tracker.rehearsal.emblem import drill_emblem
+from tracker.rehearsal.marker_images import drill_marker_image
 
 
 @pytest.mark.parametrize("roll_deg", range(0, 360, 15))
@@ -122,10 +122,10 @@ def test_of_a_marker_among_its_look_alikes_only_it_is_taken() -> None:
 def test_in_poor_light_a_search_looks_once_more_for_what_it_does_not_find_and_a_step_does_not(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    asked: list[int] = []
+    requested: list[int] = []
 
     def counted(image: Image8, templates: Templates) -> Iterator[list[list[Candidate]]]:
-        asked.append(len(templates))
+        requested.append(len(templates))
         return thorough_rounds(image, templates)
 
     monkeypatch.setattr("tracker.pipeline.search.thorough_rounds", counted)
@@ -133,16 +133,16 @@ def test_in_poor_light_a_search_looks_once_more_for_what_it_does_not_find_and_a_
     tracker = Tracker(camera=CAMERA, models=models)
     image = image_of(pose_of())
     assert isinstance(tracker.search(image)["code"], Seen)
-    assert asked == [], "where one is found for certain the light is good"
+    assert requested == [], "where one is found for certain the light is good"
     # Seen, yet not for certain.
-    monkeypatch.setattr("tracker.pipeline.fitter.CERTAIN_WORTH", 4.0)
+    monkeypatch.setattr("tracker.pipeline.fitter.CERTAIN_RANK_SCORE", 4.0)
     tracker.step(image, captured_at_s=0.0)
     tracker_of().search(image)
-    assert asked == []
+    assert requested == []
     assert isinstance(tracker.search(image)["code"], Seen)
-    assert asked == [2], "for those alone that are not seen"
+    assert requested == [2], "for those alone that are not seen"
     tracker.search(np.full_like(image, 128))
-    assert asked == [2, 3]
+    assert requested == [2, 3]
 
 
 def test_where_nothing_is_sure_the_fourth_likeliest_of_a_round_is_fitted_too(
@@ -174,14 +174,14 @@ def test_the_negative_is_not_taken() -> None:
 
 
 def test_several_markers_are_told_from_one_another_in_one_image() -> None:
-    drill = MarkerModel.from_image(drill_emblem(), side_mm=25.0, name="drill")
+    drill = MarkerModel.from_image(drill_marker_image(), side_mm=25.0, name="drill")
     models = [MODEL, code_model(OTHER, name="other"), drill, code_model(NEIGHBOURS[4], name="absent")]
     places = {
         "code": pose_of((100, 100)),
         "other": pose_of((350, 110), roll_deg=100),
         "drill": pose_of((230, 270)),
     }
-    pictures = {"code": code_image(), "other": code_image(OTHER), "drill": drill_emblem()}
+    pictures = {"code": code_image(), "other": code_image(OTHER), "drill": drill_marker_image()}
     image = rendered(CAMERA, [Print(picture=pictures[name], pose=pose) for name, pose in places.items()])
     tracker = Tracker(camera=CAMERA, models=models)
     for sightings in (

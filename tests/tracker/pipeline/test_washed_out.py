@@ -1,4 +1,4 @@
-"""A marker that was seen, and of which glare then hides a half."""
+"""Tracking of a marker that is half saturated by glare."""
 
 import numpy as np
 import pytest

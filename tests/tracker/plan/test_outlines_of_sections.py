@@ -5,14 +5,14 @@ import pytest
 from scipy import ndimage
 
 from tracker.geometry import Array
-from tracker.plan.pedicle.kernels import number_at, walls_around
+from tracker.plan.pedicle.wall_kernels import trilinear_at, walls_around
 
 BLOCK = np.random.default_rng(4).normal(size=(5, 6, 7)).astype(np.float32)
 
 
 def test_between_voxels_and_beyond_the_block_a_number_is_that_of_the_common_library() -> None:
     at = np.random.default_rng(5).uniform(-2.0, 9.0, size=(200, 3))
-    own = [number_at(BLOCK, *one) for one in at]
+    own = [trilinear_at(BLOCK, *one) for one in at]
     common = ndimage.map_coordinates(BLOCK, at[:, ::-1].T, output=np.float64, order=1, mode="nearest")
     assert own == pytest.approx(common, abs=1e-9)
 

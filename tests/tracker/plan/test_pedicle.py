@@ -1,4 +1,4 @@
-"""A pedicle is measured from one click: truth first, then what it is refused for."""
+"""Pedicle measurement from one click: accuracy against phantoms, then rejections."""
 
 import functools
 from typing import Any
@@ -133,7 +133,7 @@ def test_clicks_anywhere_in_the_pedicle_give_the_same_pedicle() -> None:
     assert np.mean(widths) == pytest.approx(8.0, abs=0.25)
 
 
-def test_the_stated_spread_holds_the_error() -> None:
+def test_the_stated_sd_covers_the_error() -> None:
     made, volume = usual()
     for side, width in (("left", 8.0), ("right", 7.0)):
         measure = measure_pedicle(volume, made.seed_lps_mm(side), side)
@@ -151,7 +151,7 @@ def test_the_stated_spread_holds_the_error() -> None:
         pytest.param((15.0, 0.0, 3.0), "right", "SEED_ON_OTHER_SIDE", id="the-other-side"),
     ],
 )
-def test_a_wrong_order_is_refused(seed: tuple[float, float, float], side: str, code: str) -> None:
+def test_invalid_arguments_are_rejected(seed: tuple[float, float, float], side: str, code: str) -> None:
     with pytest.raises(NavigationError) as caught:
         measure_pedicle(usual()[1], seed, side)
     assert caught.value.code == code
@@ -165,7 +165,7 @@ def test_a_wrong_order_is_refused(seed: tuple[float, float, float], side: str, c
         pytest.param((24.0, 0.0, 9.0), id="muscle"),
     ],
 )
-def test_a_click_that_is_in_no_pedicle_is_refused(seed: tuple[float, float, float]) -> None:
+def test_a_click_outside_a_pedicle_is_rejected(seed: tuple[float, float, float]) -> None:
     with pytest.raises(NavigationError) as caught:
         measure_pedicle(usual()[1], seed, "left")
     assert caught.value.code in {
@@ -176,7 +176,7 @@ def test_a_click_that_is_in_no_pedicle_is_refused(seed: tuple[float, float, floa
     }
 
 
-def test_air_is_told_as_air() -> None:
+def test_a_click_in_air_is_reported_as_air() -> None:
     made = phantom(tissue_hu=-1000.0)
     volume = scan(made.hu_at, grid((1.0, 1.0, 1.5)))
     with pytest.raises(NavigationError) as caught:
@@ -184,7 +184,7 @@ def test_air_is_told_as_air() -> None:
     assert caught.value.code == "SEED_IN_AIR"
 
 
-def test_a_pedicle_cut_by_the_end_of_the_ct_is_refused() -> None:
+def test_a_pedicle_cut_by_the_end_of_the_ct_is_rejected() -> None:
     made, volume = usual()
     cut = Volume(hu=volume.hu[:20], lps_from_ijk=volume.lps_from_ijk)
     with pytest.raises(NavigationError) as caught:

@@ -1,4 +1,4 @@
-"""Real pedicles: where the axis leads, and that clicks beside one another find the same pedicle."""
+"""Real pedicles: direction of the axis, and repeatability over neighbouring clicks."""
 
 import functools
 from pathlib import Path
@@ -67,7 +67,7 @@ def test_lumbar_pedicles_converge_as_their_level_does_even_in_thick_voxels(
     assert 40.0 <= one.length_mm <= 70.0
 
 
-def test_a_section_on_the_side_wall_of_the_body_is_refused_and_not_measured() -> None:
+def test_a_section_on_the_side_wall_of_the_body_is_rejected() -> None:
     # L5's process joins the side wall of its body, where a narrow closed section stands beside no canal.
     with pytest.raises(PlanError) as caught:
         measure_pedicle(lumbar(), (-23.0, -120.0, 251.0), "right")

@@ -13,7 +13,7 @@ from tracker.rehearsal.ct import (
     scan,
     usual_bones,
 )
-from tracker.rehearsal.ct.parts import Part
+from tracker.rehearsal.ct.distance_fields import Part
 
 UP = np.array([0.0, 0.0, 60.0])
 

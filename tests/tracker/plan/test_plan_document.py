@@ -1,4 +1,4 @@
-"""The plan as a document: what is written is read back, and what is wrong is named."""
+"""The plan document survives a round trip, and errors name their place."""
 
 import dataclasses
 import json
@@ -23,9 +23,9 @@ from tracker.plan import (
     propose_middle,
     propose_slice,
 )
-from tracker.plan.document import FORMAT_VERSION, reject_odd
-from tracker.plan.document.changes import channel_name, settled, with_landmarks
-from tracker.plan.document.checks import MAX_LANDMARKS
+from tracker.plan.document import FORMAT_VERSION, validate_plan
+from tracker.plan.document.changes import channel_name, recomputed, with_landmarks
+from tracker.plan.document.validation import MAX_LANDMARKS
 
 
 def volume() -> Volume:
@@ -109,7 +109,7 @@ FIRST = ("vertebrae", 0)
         ),
     ],
 )
-def test_a_plan_that_cannot_be_read_is_refused_with_the_place(mapped: object, said: str) -> None:
+def test_a_plan_that_cannot_be_read_is_rejected_with_the_place(mapped: object, said: str) -> None:
     with pytest.raises(PlanError) as caught:
         plan_from_mapping(mapped)
     assert said in caught.value.message
@@ -126,7 +126,7 @@ def test_a_plan_that_cannot_be_read_is_refused_with_the_place(mapped: object, sa
         ),
     ],
 )
-def test_what_is_refused_is_not_repeated_at_length(mapped: object) -> None:
+def test_rejected_input_is_not_repeated_at_length(mapped: object) -> None:
     with pytest.raises(PlanError) as caught:
         plan_from_mapping(mapped)
     assert len(caught.value.message) < 2000
@@ -156,31 +156,31 @@ def test_landmarks_are_replaced_as_a_whole_and_leave_all_else_alone() -> None:
     )
 
 
-def test_a_landmark_beside_the_ct_is_refused_in_a_change_and_in_a_whole_plan() -> None:
+def test_a_landmark_beside_the_ct_is_rejected_in_a_change_and_in_a_whole_plan() -> None:
     far = Landmark(name="tip", point_lps_mm=np.array([0.0, 0.0, 400.0]))
     with pytest.raises(PlanError, match=r"'tip' was set at \(0.0, 0.0, 400.0\) mm") as caught:
         with_landmarks(document(), "L3", [far], volume=volume())
     assert caught.value.code == "LANDMARK_OUTSIDE_CT"
     plan = PlanDocument(vertebrae=(VertebraPlan(name="L3", landmarks=(far,)),))
     with pytest.raises(PlanError, match="not within the CT"):
-        settled(plan, volume=volume())
+        recomputed(plan, volume=volume())
 
 
 @pytest.mark.parametrize("count", [41, 40])
-def test_more_landmarks_than_anybody_sets_are_refused(count: int) -> None:
+def test_more_landmarks_than_anybody_sets_are_rejected(count: int) -> None:
     landmarks = tuple(Landmark(name=f"{n}", point_lps_mm=np.zeros(3)) for n in range(count))
     plan = PlanDocument(vertebrae=(VertebraPlan(name="L3", landmarks=landmarks),))
     if count <= MAX_LANDMARKS:
-        reject_odd(plan)
+        validate_plan(plan)
     else:
         with pytest.raises(PlanError, match="41 landmarks"):
-            reject_odd(plan)
+            validate_plan(plan)
 
 
 @pytest.mark.parametrize("name", ["L4/5", "..", ".", "L4\u202e", "L" * 41, ""])
-def test_a_vertebra_that_no_address_could_name_is_refused(name: str) -> None:
+def test_a_vertebra_that_no_address_could_name_is_rejected(name: str) -> None:
     with pytest.raises(PlanError):
-        reject_odd(PlanDocument(vertebrae=(VertebraPlan(name=name),)))
+        validate_plan(PlanDocument(vertebrae=(VertebraPlan(name=name),)))
 
 
 def test_a_channel_is_called_after_the_longest_name_of_a_vertebra() -> None:
@@ -188,13 +188,13 @@ def test_a_channel_is_called_after_the_longest_name_of_a_vertebra() -> None:
     channel = dataclasses.replace(shifted(0.0), name=channel_name(name, "right"))
     planned = PlannedChannel(side="right", channel=channel)
     plan = PlanDocument(vertebrae=(VertebraPlan(name=name, channels=(planned,)),))
-    reject_odd(plan)
+    validate_plan(plan)
     back = plan_from_mapping(json.loads(json.dumps(plan_to_mapping(plan))))
     assert back.vertebrae[0].channels[0].channel.name == f"{'L' * 40} right"
 
 
 @pytest.mark.parametrize("middle", [(9000.0, 0.0, 0.0), (-14.0, 60.0, 0.0)])
-def test_lines_beside_the_slice_are_refused_and_not_found_out_by_the_next_change(
+def test_lines_beside_the_slice_are_rejected_and_not_found_out_by_the_next_change(
     middle: tuple[float, float, float],
 ) -> None:
     with pytest.raises(PlanError, match="not on slice 10") as caught:

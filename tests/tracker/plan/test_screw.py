@@ -136,7 +136,7 @@ def test_the_thickest_and_longest_that_fit_are_proposed() -> None:
     assert propose_screw(shifted(0.0), pedicle(), USUAL_CATALOGUE, wall_margin_mm=1.0) == (6.0, 45.0)
 
 
-def test_where_none_fits_that_is_told_with_numbers() -> None:
+def test_without_a_fitting_screw_the_error_has_the_numbers() -> None:
     with pytest.raises(PlanError, match=r"4\.0 mm to the nearest wall") as caught:
         propose_screw(shifted(0.0), pedicle(), ScrewCatalogue(diameters_mm=(9.0,), lengths_mm=(40.0,)))
     assert caught.value.code == "NO_SCREW_FITS"
@@ -158,7 +158,7 @@ def test_bone_along_the_screw_is_read_from_the_ct() -> None:
     assert screw.bone.inside_ratio == 1.0
 
 
-def test_a_screw_in_other_units_is_refused() -> None:
+def test_a_screw_in_other_units_is_rejected() -> None:
     volume = Volume(hu=np.zeros((3, 3, 3), np.int16), lps_from_ijk=np.eye(4))
     with pytest.raises(PlanError, match="allowed are diameters"):
         plan_screw(volume, shifted(0.0), pedicle(), diameter_mm=55.0, length_mm=45.0)

@@ -1,4 +1,4 @@
-"""A slice shows what lies in its plane, the patient's way round, and knows where each pixel is."""
+"""A slice shows its plane in radiological orientation, with the LPS position of each pixel."""
 
 import numpy as np
 import pytest
@@ -44,7 +44,7 @@ def placed(linear: np.ndarray, middle: tuple[float, float, float] = (5.0, -8.0, 
     return affine
 
 
-def pixels_of(one: Slice) -> np.ndarray:
+def image_context_of(one: Slice) -> np.ndarray:
     columns, rows = one.size_wh_px
     u, v = np.meshgrid(np.arange(columns), np.arange(rows))
     return one.lps_from_pixel(np.stack([u, v], axis=-1))
@@ -69,8 +69,8 @@ def test_every_pixel_shows_what_lies_where_it_says(linear: np.ndarray, plane: Pl
     low, high, step = reach_mm(volume, plane)
     for at_mm in (low + 0.5 * (high - low), low + 0.371 * (high - low), low + 2.0 * step):
         one = patient_slice(volume, plane, at_mm)
-        points = pixels_of(one)
-        inside = volume.holds(points)
+        points = image_context_of(one)
+        inside = volume.contains(points)
         assert inside.sum() > 10
         assert np.abs(one.hu - expected(points))[inside].max() <= 1.0 + 1e-6
         assert (one.hu[~inside] == -1024).all()
@@ -94,7 +94,7 @@ def test_the_scanners_own_pixels_are_not_touched(name: str, plane: Plane) -> Non
     volume = Volume(hu=noise, lps_from_ijk=volume.lps_from_ijk)
     low, _, step = reach_mm(volume, plane)
     one = patient_slice(volume, plane, low + 3.0 * step)
-    index = np.rint(volume.index_from_lps(pixels_of(one))).astype(int)
+    index = np.rint(volume.index_from_lps(image_context_of(one))).astype(int)
     assert np.array_equal(one.hu, noise[index[..., 2], index[..., 1], index[..., 0]])
 
 
@@ -133,7 +133,7 @@ def test_a_slice_along_a_channel_holds_its_axis_at_any_turn(
     entry = np.array([5.0, -4.0, 61.0])
     target = entry + 12.0 * np.array(aim) / np.linalg.norm(aim)
     channel = Channel(name="L3", entry_in_vertebra_mm=entry, target_in_vertebra_mm=target, radius_mm=3.0)
-    one = along_channel(volume, channel, turn_deg=turn, size_mm=(20.0, 20.0), pixel_mm=1.0)
+    one = along_channel(volume, channel, rotation_deg=turn, size_mm=(20.0, 20.0), pixel_mm=1.0)
     assert np.abs(one.beyond_mm(np.array([entry, target]))).max() < 1e-9
     # Entry below, target above, both in the middle column.
     assert one.pixel_from_lps(entry) == pytest.approx([10.0, 16.0])
@@ -142,8 +142,8 @@ def test_a_slice_along_a_channel_holds_its_axis_at_any_turn(
     across = across_channel(volume, channel, depth_mm=5.0, size_mm=(20.0, 20.0), pixel_mm=1.0)
     assert across.normal_lps == pytest.approx(channel.axis_in_vertebra)
     assert across.lps_from_pixel([10.0, 10.0]) == pytest.approx(entry + 5.0 * channel.axis_in_vertebra)
-    points = pixels_of(one)
-    inside = volume.holds(points)
+    points = image_context_of(one)
+    inside = volume.contains(points)
     assert np.abs(one.hu - expected(points))[inside].max(initial=0.0) <= 1.0 + 1e-6
 
 
@@ -155,7 +155,7 @@ def test_a_channel_forwards_is_shown_as_in_an_axial_slice() -> None:
         target_in_vertebra_mm=np.array([5.0, -12.0, 60.0]),
         radius_mm=3.0,
     )
-    flat, turned = (along_channel(volume, channel, turn_deg=turn).edges for turn in (0.0, 90.0))
+    flat, turned = (along_channel(volume, channel, rotation_deg=turn).edges for turn in (0.0, 90.0))
     across = across_channel(volume, channel, depth_mm=3.0).edges
     assert flat.left + flat.right + flat.top + flat.bottom == "RLAP"
     assert turned.left + turned.right + turned.top + turned.bottom == "FHAP"
@@ -221,7 +221,7 @@ def test_window_and_level(hu: int, window: str, grey: int) -> None:
         ),
     ],
 )
-def test_what_cannot_be_shown_is_refused(code: str, ask: object) -> None:
+def test_what_cannot_be_shown_is_rejected(code: str, ask: object) -> None:
     with pytest.raises(PlanError) as caught:
         ask(mountains(placed(VOLUMES["head-first"])))  # type: ignore[operator]  # the table holds functions
     assert caught.value.code == code

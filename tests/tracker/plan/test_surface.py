@@ -1,4 +1,4 @@
-"""Surfaces that can be used, and those that are refused."""
+"""Valid surfaces, and those that are rejected."""
 
 import numpy as np
 import pytest
@@ -31,7 +31,9 @@ def test_arrays_cannot_be_written() -> None:
         pytest.param(TETRAHEDRON, OUTWARDS[:0], "(m, 3)", id="no-faces"),
     ],
 )
-def test_a_broken_mesh_is_refused_with_the_reason(vertices: np.ndarray, faces: np.ndarray, word: str) -> None:
+def test_a_broken_mesh_is_rejected_with_the_reason(
+    vertices: np.ndarray, faces: np.ndarray, word: str
+) -> None:
     with pytest.raises(PlanError) as caught:
         Surface(vertices_mm=vertices, faces=faces)
     assert caught.value.code == "SURFACE_INVALID"

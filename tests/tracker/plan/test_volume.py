@@ -1,4 +1,4 @@
-"""A volume knows where its voxels lie, whatever the direction of its axes."""
+"""Voxel positions of a volume for any direction of its axes."""
 
 import numpy as np
 import pytest
@@ -34,7 +34,7 @@ def test_outside_there_is_air() -> None:
     volume = ramp(np.eye(4))
     points = [[-1.0, 0.0, 0.0], [3.0, 3.0, 40.0], [6.0, 5.0, 4.0]]
     assert volume.sample_hu(points) == pytest.approx([-1024.0, -1024.0, 456.0])
-    assert volume.holds(points).tolist() == [False, False, True]
+    assert volume.contains(points).tolist() == [False, False, True]
 
 
 def test_the_outermost_voxels_are_inside_however_they_are_rounded() -> None:
@@ -74,7 +74,7 @@ def test_index_and_millimetre_undo_each_other(
         pytest.param(np.zeros((4, 4, 4), np.int16), np.full((4, 4), np.nan), "finite", id="no-numbers"),
     ],
 )
-def test_what_is_no_volume_is_refused(hu: np.ndarray, affine: np.ndarray, said: str) -> None:
+def test_what_is_no_volume_is_rejected(hu: np.ndarray, affine: np.ndarray, said: str) -> None:
     with pytest.raises(PlanError, match=said):
         Volume(hu=hu, lps_from_ijk=affine)
 

@@ -20,13 +20,13 @@ class HandMotion:
 
     Attributes:
         shift_mm: RMS of each coordinate.
-        turn_deg: RMS of each component of the rotation vector.
+        rotation_deg: RMS of each component of the rotation vector.
         rates_hz: the slowest and the fastest sine.
     """
 
     seed: int
     shift_mm: float = 15.0
-    turn_deg: float = 6.0
+    rotation_deg: float = 6.0
     rates_hz: tuple[float, float] = (0.2, 1.8)
 
     def __call__(self, times_s: Array) -> tuple[Rotation, Array]:
@@ -37,7 +37,7 @@ class HandMotion:
         # A hand is slower the farther it goes.
         sizes = 1.0 / rates / np.sqrt((rates**-2.0).sum(axis=0) / 2.0)
         waves = (sizes * np.sin(2.0 * np.pi * rates * times_s[:, None, None] + starts)).sum(axis=1)
-        turned = Rotation.from_rotvec(np.radians(self.turn_deg) * waves[:, 3:])
+        turned = Rotation.from_rotvec(np.radians(self.rotation_deg) * waves[:, 3:])
         return turned, self.shift_mm * waves[:, :3]
 
 

@@ -17,11 +17,18 @@ from tests.tracker.scenes import (
     smeared,
 )
 from tracker import Seen, Sighting
-from tracker.appearance import textures_of
 from tracker.edges import edgels_of, gradient_of
 from tracker.geometry import Camera, Marker, Rigid
 from tracker.marker import ScoreSettings
-from tracker.pose import Pixels, Scene, judged, occurrence_near, pose_from_corners, with_target
+from tracker.photometric import textures_of
+from tracker.pose import (
+    ImageContext,
+    OccurrenceContext,
+    occurrence_near,
+    pose_from_corners,
+    verify_occurrence,
+    with_target_coverage,
+)
 
 CAMERA = camera_of((200, 160), focal_px=400.0)
 MODEL = code_model()
@@ -35,17 +42,17 @@ def _accepted(image: Image8, pose: Rigid[Camera, Marker]) -> Sighting:
     gradient = gradient_of(image)
     found = occurrence_near(CAMERA, MODEL, gradient, start, first_reach_px=2.5)
     assert found is not None
-    found = with_target(CAMERA, MODEL, gradient, edgels_of(gradient), found)
-    scene = Scene(
+    found = with_target_coverage(CAMERA, MODEL, gradient, edgels_of(gradient), found)
+    scene = OccurrenceContext(
         camera=CAMERA,
         model=MODEL,
-        pixels=Pixels(image=image, noise_grey=1.5, textures={MODEL.name: textures_of(MODEL.square)}),
+        pixels=ImageContext(image=image, noise_grey=1.5, textures={MODEL.name: textures_of(MODEL.square)}),
         window=image,
         gradient=gradient,
         settings=ScoreSettings(),
         expected=None,
     )
-    return judged(scene, found)
+    return verify_occurrence(scene, found)
 
 
 @pytest.mark.parametrize("from_deg", [10, 55, 100, 145])

@@ -31,8 +31,8 @@ from tracker.geometry import (
     rotation_from_vector,
     vector_from_rotation,
 )
-from tracker.pose import Prior, other_solution, pose_from_corners, refined_pose, side_px_of
-from tracker.pose.rivals import DECIDED_COST
+from tracker.pose import Prior, fit_pose_to_edges, flipped_pose, pose_from_corners, side_px_of
+from tracker.pose.pose_ambiguity import DECIDED_COST
 from tracker.rehearsal import Theatre, TheatreSettings
 
 CAMERA = camera_of()
@@ -64,7 +64,7 @@ def _scene(
 
 
 @pytest.mark.parametrize(
-    ("side_px", "corner_px", "turn_deg", "across_mm", "depth_mm"),
+    ("side_px", "corner_px", "rotation_deg", "across_mm", "depth_mm"),
     [
         pytest.param(30, 0.20, 2.0, 0.25, 2.5, id="thirty pixels wide"),
         pytest.param(60, 0.15, 0.7, 0.10, 0.6, id="sixty pixels wide"),
@@ -72,13 +72,13 @@ def _scene(
     ],
 )
 def test_a_rendered_pose_is_recovered(
-    side_px: int, corner_px: float, turn_deg: float, across_mm: float, depth_mm: float
+    side_px: int, corner_px: float, rotation_deg: float, across_mm: float, depth_mm: float
 ) -> None:
     """Half a pixel of a wrong pixel centre is over twice the corner limit, and so is a lens left out."""
     for seed in (1, 2, 3, 4, 5, 7):
         sighting, pose = _scene(side_px, seed)
         assert np.abs(sighting.corners_px - corners_px_of(CAMERA, pose)).max() < corner_px, seed
-        assert _turned_deg(sighting.camera_from_marker, pose) < turn_deg, seed
+        assert _turned_deg(sighting.camera_from_marker, pose) < rotation_deg, seed
         off = np.abs(sighting.camera_from_marker.translation_mm - pose.translation_mm)
         assert off[:2].max() < across_mm, seed
         assert off[2] < depth_mm, seed
@@ -148,15 +148,15 @@ def test_corners_without_an_area_give_no_pose(corners: Array) -> None:
 
 @given(poses)
 def test_the_other_solution_of_the_other_solution_is_the_first(pose: Rigid[Camera, Marker]) -> None:
-    other = other_solution(pose)
-    np.testing.assert_allclose(other_solution(other).rotation, pose.rotation, atol=1e-9)
+    other = flipped_pose(pose)
+    np.testing.assert_allclose(flipped_pose(other).rotation, pose.rotation, atol=1e-9)
     np.testing.assert_array_equal(other.translation_mm, pose.translation_mm)
     assert np.linalg.det(other.rotation) == pytest.approx(1.0)
 
 
 @given(poses)
 def test_both_solutions_are_tilted_alike_and_look_alike_from_afar(pose: Rigid[Camera, Marker]) -> None:
-    other = other_solution(pose)
+    other = flipped_pose(pose)
     sight = pose.translation_mm
     assert angle_between_deg(other.rotation[:, 2], sight) == pytest.approx(
         angle_between_deg(pose.rotation[:, 2], sight), abs=1e-6
@@ -239,10 +239,10 @@ def test_the_side_is_the_root_of_the_area() -> None:
 
 def test_what_moved_evenly_is_expected_farther_on() -> None:
     prior = Prior()
-    assert prior.expected(0.0) is None
+    assert prior.predict(0.0) is None
     for k in range(3):
-        prior.learn(_sighting([2.0 * k, 0, 400]), 0.1 * k)
-    expected = prior.expected(0.3)
+        prior.update(_sighting([2.0 * k, 0, 400]), 0.1 * k)
+    expected = prior.predict(0.3)
     assert expected is not None
     np.testing.assert_allclose(expected.translation_mm, [6, 0, 400])
 
@@ -251,18 +251,18 @@ def test_what_moved_evenly_is_expected_farther_on() -> None:
 def test_nothing_is_expected_long_after_or_before_what_was_seen(at_s: float) -> None:
     prior = Prior()
     for k in range(3):
-        prior.learn(_sighting([0, 0, 400]), 0.1 * k)
-    assert prior.expected(at_s) is None
+        prior.update(_sighting([0, 0, 400]), 0.1 * k)
+    assert prior.predict(at_s) is None
 
 
 def test_a_marker_that_is_not_seen_is_forgotten() -> None:
     prior = Prior()
-    prior.learn(_sighting([0, 0, 400]), 0.0)
-    assert prior.expected(0.1) is not None
-    prior.learn(Unseen(reason=UnseenReason.NO_CANDIDATE), 0.1)
-    assert prior.expected(0.2) is None
-    prior.learn(_sighting([50, 0, 400]), 0.2)
-    expected = prior.expected(0.3)
+    prior.update(_sighting([0, 0, 400]), 0.0)
+    assert prior.predict(0.1) is not None
+    prior.update(Unseen(reason=UnseenReason.NO_CANDIDATE), 0.1)
+    assert prior.predict(0.2) is None
+    prior.update(_sighting([50, 0, 400]), 0.2)
+    expected = prior.predict(0.3)
     assert expected is not None
     # Its speed before it was lost is forgotten too.
     np.testing.assert_allclose(expected.translation_mm, [50, 0, 400])
@@ -271,14 +271,14 @@ def test_a_marker_that_is_not_seen_is_forgotten() -> None:
 def test_a_marker_that_is_hidden_for_an_image_is_expected_where_it_was_going() -> None:
     prior = Prior()
     for k in range(2):
-        prior.learn(_sighting([2.0 * k, 0, 400]), 0.03 * k)
-    prior.learn(Unseen(reason=UnseenReason.SHAPE_DIFFERS), 0.06)
-    expected = prior.expected(0.09)
+        prior.update(_sighting([2.0 * k, 0, 400]), 0.03 * k)
+    prior.update(Unseen(reason=UnseenReason.SHAPE_DIFFERS), 0.06)
+    expected = prior.predict(0.09)
     assert expected is not None
     np.testing.assert_allclose(expected.translation_mm, [6, 0, 400])
-    prior.learn(Unseen(reason=UnseenReason.SHAPE_DIFFERS), 0.09)
-    prior.learn(Unseen(reason=UnseenReason.SHAPE_DIFFERS), 0.12)
-    assert prior.expected(0.15) is None
+    prior.update(Unseen(reason=UnseenReason.SHAPE_DIFFERS), 0.09)
+    prior.update(Unseen(reason=UnseenReason.SHAPE_DIFFERS), 0.12)
+    assert prior.predict(0.15) is None
 
 
 def _sighting(at_mm: list[float]) -> Seen:
@@ -292,17 +292,17 @@ def _sighting(at_mm: list[float]) -> Seen:
 def test_from_the_wrong_one_of_both_solutions_the_fit_comes_to_the_right_one(about_deg: float) -> None:
     pose = facing([20, -15, 180], tilt_deg=40, about_deg=about_deg, roll_deg=15)
     gradient = gradient_of(rendered(CAMERA, [Print(picture=code_image(), pose=pose)]))
-    fit = refined_pose(
+    fit = fit_pose_to_edges(
         CAMERA,
         gradient,
         MODEL.level_for(90),
-        other_solution(pose),
+        flipped_pose(pose),
         contrast=500.0,
         side_px=90.0,
         first_reach_px=6.0,
     )
     assert fit is not None
-    assert fit.lead_sd2 > DECIDED_COST
+    assert fit.delta_chi2 > DECIDED_COST
     assert _turned_deg(fit.camera_from_marker, pose) < 0.5
 
 
@@ -317,7 +317,7 @@ def test_a_fit_that_ends_early_is_where_a_fit_without_end_would_be(side_px: floa
     )
     ends = []
     for _ in range(6):
-        fit = refined_pose(
+        fit = fit_pose_to_edges(
             CAMERA,
             gradient,
             MODEL.level_for(side_px),

@@ -1,4 +1,4 @@
-"""Dark regions: four corners of a dark square on light, nothing of what is round or cut."""
+"""Dark regions: corners of dark squares on a bright ground, none of round or cut shapes."""
 
 import cv2
 import numpy as np
@@ -7,7 +7,14 @@ import pytest
 
 from tests.tracker.scenes import Image8, Print, camera_of, code_image, corners_px_of, facing_at_px, rendered
 from tracker.geometry import Array
-from tracker.regions import border_segments, dark_mask, even_image, noise_grey, quads_of, regions_of_mask
+from tracker.regions import (
+    border_segments,
+    dark_mask,
+    noise_grey,
+    normalise_illumination,
+    quads_of,
+    regions_of_mask,
+)
 
 CAMERA = camera_of((320, 240), focal_px=400.0)
 
@@ -59,7 +66,7 @@ def test_a_dark_square_has_its_corners(
 
 
 def test_its_middle_is_not_shifted() -> None:
-    """Half a pixel beyond the outermost dark pixel on all sides alike."""
+    """The border lies half a pixel beyond the outermost dark pixel on all sides."""
     for roll_deg in range(0, 90, 10):
         pose = facing_at_px(CAMERA, (160.3, 119.6), 60, roll_deg=roll_deg)
         image = rendered(CAMERA, [Print(picture=code_image(), pose=pose)], noise_grey=0.5)
@@ -89,7 +96,7 @@ def test_corners_are_clockwise_on_the_screen() -> None:
         pytest.param(lambda p: p, id="nothing"),
     ],
 )
-def test_what_is_no_dark_square_has_none(shape: object) -> None:
+def test_other_shapes_have_no_quad(shape: object) -> None:
     assert callable(shape)
     picture = np.asarray(shape(np.full((120, 160), 200, np.uint8)), dtype=np.uint8)
     soft = np.asarray(cv2.GaussianBlur(picture, (0, 0), 0.8), dtype=np.uint8)
@@ -103,18 +110,18 @@ def test_the_noise_is_measured(noise: float) -> None:
     assert noise_grey(image) == pytest.approx(noise, rel=0.15, abs=0.3)
 
 
-def test_a_shadow_vanishes_in_even_light() -> None:
-    """Ink and paper look the same on both sides of a shadow that takes half of the light."""
+def test_illumination_normalisation_removes_a_shadow() -> None:
+    """Ink and paper are equal on both sides of a shadow that takes half of the light."""
     tile = np.kron(np.indices((12, 16)).sum(axis=0) % 2 * 160 + 40, np.ones((10, 10)))
     tile[:, 80:] *= 0.5
-    even = even_image(tile.astype(np.uint8), window_px=41, noise_grey=0.0).astype(float)
+    even = normalise_illumination(tile.astype(np.uint8), window_px=41, noise_grey=0.0).astype(float)
     lit, shaded = even[30:90, 20:50], even[30:90, 110:140]
     for share in (10, 90):
         assert np.percentile(lit, share) == pytest.approx(np.percentile(shaded, share), rel=0.15)
 
 
 @pytest.mark.parametrize("period_px", [1, 2, 3, 8])
-def test_a_picture_full_of_runs_fits_the_room(period_px: int) -> None:
+def test_an_image_full_of_runs_fits_the_buffer(period_px: int) -> None:
     board = np.indices((91, 133)).sum(axis=0) // period_px % 2 * 255
     assert np.isfinite(quads_of(regions_of_mask(board.astype(np.uint8)))).all()
     assert np.isfinite(quads_of(regions_of_mask(np.full((91, 133), 255, np.uint8)))).all()
@@ -139,8 +146,8 @@ def test_the_border_of_a_square_is_its_four_sides_with_the_dark_on_the_right_han
         assert nearest[across].max() < 0.3
 
 
-def test_the_border_of_a_hole_goes_the_other_way_round() -> None:
-    """A light square in the dark is walked with the dark outside on the right hand."""
+def test_the_border_of_a_hole_has_the_opposite_direction() -> None:
+    """A bright square in the dark is traced with the dark outside on the right."""
     mask = np.full((60, 80), 255, np.uint8)
     mask[10:40, 20:60] = 0
     pieces = border_segments(regions_of_mask(mask))
@@ -149,7 +156,7 @@ def test_the_border_of_a_hole_goes_the_other_way_round() -> None:
 
 
 @pytest.mark.parametrize("roll_deg", range(0, 90, 15))
-def test_a_slanting_border_is_one_piece(roll_deg: int) -> None:
+def test_a_slanted_border_is_one_segment(roll_deg: int) -> None:
     angle = np.radians(roll_deg)
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     corners = np.array([[-30, -30], [30, -30], [30, 30], [-30, 30]]) @ turn.T + np.array([80.0, 60.0])
@@ -167,7 +174,7 @@ def test_a_mask_of_specks_has_no_borders() -> None:
     assert len(border_segments(regions_of_mask(mask))) == 0
 
 
-def test_two_regions_that_meet_at_a_corner_end_the_walk() -> None:
+def test_tracing_ends_where_two_regions_meet_at_a_corner() -> None:
     mask = np.zeros((80, 80), np.uint8)
     mask[10:40, 10:40] = 255
     mask[40:70, 40:70] = 255

@@ -8,7 +8,7 @@ import numpy as np
 from tests.tracker.registration.constellations import any_pose
 from tracker.geometry import Anchor, Array, Rigid, Vertebra, rotation_from_vector
 from tracker.plan import Surface
-from tracker.registration.surface import NearestOnSurface
+from tracker.registration.surface import ClosestPointQuery
 from tracker.rehearsal.anatomy import vertebra_surface
 
 
@@ -18,8 +18,8 @@ def vertebra() -> Surface:
 
 
 @cache
-def nearest_on_vertebra() -> NearestOnSurface:
-    return NearestOnSurface(vertebra())
+def closest_points_on_vertebra() -> ClosestPointQuery:
+    return ClosestPointQuery(vertebra())
 
 
 @cache

@@ -1,4 +1,4 @@
-"""A landmark is captured at any image rate that a hand can wait for; a refusal names the rate."""
+"""A landmark can be captured at any usual image rate; an error message states the rate."""
 
 from collections.abc import Iterator
 

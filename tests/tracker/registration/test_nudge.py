@@ -1,4 +1,4 @@
-"""Nudges by hand: what they move, how far they lead, and that they can be undone."""
+"""Manual adjustments: effect, bounds and undo."""
 
 import numpy as np
 import pytest
@@ -32,7 +32,7 @@ def turn(axis: NudgeAxis, amount: float) -> Nudge:
 def moved_mm(nudged: NudgedRegistration, at: Array) -> Array:
     """How a point of the plan moves, on the patient's axes."""
     before, after = nudged.made.anchor_from_vertebra, nudged.registration.anchor_from_vertebra
-    return before.inverse.turn_directions(after.move_points(at) - before.move_points(at))
+    return before.inverse.rotate_directions(after.move_points(at) - before.move_points(at))
 
 
 @pytest.mark.parametrize(
@@ -69,7 +69,7 @@ def test_nudges_there_and_back_cancel() -> None:
     for amount in (0.5, -0.5):
         nudged = nudged.nudged(turn(NudgeAxis.LEFT, amount)).nudged(shift(NudgeAxis.HEAD, amount))
     assert nudged.shift_mm < 0.01
-    assert nudged.turn_deg < 0.01
+    assert nudged.rotation_deg < 0.01
 
 
 def test_all_together_are_bounded_and_leading_back_is_not() -> None:
@@ -102,7 +102,7 @@ def test_what_is_nudged_is_stated_as_less_sure_along_the_nudge() -> None:
     grown = after.point_covariance_mm2(PIVOT) - before.point_covariance_mm2(PIVOT)
     values, ways = np.linalg.eigh(grown)
     assert values == pytest.approx([0.0, 0.0, 3.0], abs=1e-6)
-    along = after.anchor_from_vertebra.turn_directions([0.0, 1.0, 0.0])
+    along = after.anchor_from_vertebra.rotate_directions([0.0, 1.0, 0.0])
     assert abs(ways[:, -1] @ along) == pytest.approx(1.0)
 
 
@@ -117,8 +117,8 @@ def test_a_turn_widens_the_far_end_and_not_the_pivot() -> None:
     # 40 mm by 4 degrees is 2.8 mm, whose third of a square is 2.6.
     assert np.allclose(near, 0.0, atol=1e-9)
     assert np.trace(far) - np.trace(before.point_covariance_mm2(PIVOT)) == pytest.approx(2.6, abs=0.2)
-    axis = before.anchor_from_vertebra.turn_directions([0.0, 1.0, 0.0])
-    turned = after.anchor_from_vertebra.turn_directions([0.0, 1.0, 0.0])
+    axis = before.anchor_from_vertebra.rotate_directions([0.0, 1.0, 0.0])
+    turned = after.anchor_from_vertebra.rotate_directions([0.0, 1.0, 0.0])
     assert angle_between_deg(axis, turned) == pytest.approx(4.0)
 
 

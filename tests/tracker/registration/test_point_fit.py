@@ -1,4 +1,4 @@
-"""Registration by points: the motion, its residuals, and the laws that it keeps."""
+"""Point-based registration: transform, residuals, and invariants."""
 
 import numpy as np
 import pytest
@@ -8,11 +8,11 @@ from hypothesis import strategies as st
 from tests.tracker.registration.constellations import VERTEBRA, random_landmarks, touched
 from tracker.geometry import angle_between_deg
 from tracker.registration import AnchoredTo, Method
-from tracker.registration.points import PairedPoints, PointGate, PointSettings, register_points
+from tracker.registration.points import PointGate, PointPairs, PointSettings, register_points
 
 
-def pairs(fixed: np.ndarray, moving: np.ndarray, covariances: np.ndarray | None = None) -> PairedPoints:
-    return PairedPoints(fixed_mm=fixed, moving_mm=moving, moving_covariances_mm2=covariances)
+def pairs(fixed: np.ndarray, moving: np.ndarray, covariances: np.ndarray | None = None) -> PointPairs:
+    return PointPairs(fixed_mm=fixed, moving_mm=moving, moving_covariances_mm2=covariances)
 
 
 @settings(max_examples=25, deadline=None)
@@ -85,8 +85,8 @@ def test_a_point_that_is_left_out_shows_its_whole_error() -> None:
     moving = truth.moving_mm.copy()
     moving[1] += [0.0, 2.0, 0.0]
     found = register_points(pairs(truth.fixed_mm, moving))
-    assert found.left_out_mm[1] == pytest.approx(2.0, abs=1e-9)
-    assert max(found.left_out_mm, key=lambda index: found.left_out_mm[index]) == 1
+    assert found.leave_one_out_mm[1] == pytest.approx(2.0, abs=1e-9)
+    assert max(found.leave_one_out_mm, key=lambda index: found.leave_one_out_mm[index]) == 1
     assert found.distances_mm[1] < 1.9
 
 
@@ -98,12 +98,12 @@ def test_an_excluded_point_has_no_say_and_still_shows_its_distance() -> None:
     assert found.fre_rms_mm < 1e-9
     assert found.distances_mm[3] == pytest.approx(4.0)
     assert found.used.tolist() == [True, True, True, False, True, True]
-    assert 3 not in found.left_out_mm
+    assert 3 not in found.leave_one_out_mm
 
 
 def test_three_points_leave_none_out() -> None:
     truth = touched(VERTEBRA[[0, 3, 4]], np.random.default_rng(7), 0.3)
-    assert dict(register_points(pairs(truth.fixed_mm, truth.moving_mm)).left_out_mm) == {}
+    assert dict(register_points(pairs(truth.fixed_mm, truth.moving_mm)).leave_one_out_mm) == {}
 
 
 def test_the_gate_names_the_worst_point_and_the_target() -> None:

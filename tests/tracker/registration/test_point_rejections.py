@@ -1,16 +1,16 @@
-"""Points that say no motion, or say it in the wrong order, are refused with the reason."""
+"""Points that determine no transform, or are in the wrong order, are rejected with the reason."""
 
 import numpy as np
 import pytest
 
 from tests.tracker.registration.constellations import VERTEBRA, random_landmarks, touched
 from tracker.errors import RegistrationError
-from tracker.registration.points import PairedPoints, register_points
+from tracker.registration.points import PointPairs, register_points
 
 
 def rejected(fixed: np.ndarray, moving: np.ndarray) -> RegistrationError:
     with pytest.raises(RegistrationError) as caught:
-        register_points(PairedPoints(fixed_mm=fixed, moving_mm=moving))
+        register_points(PointPairs(fixed_mm=fixed, moving_mm=moving))
     assert caught.value.remedy.endswith(".")
     return caught.value
 
@@ -28,7 +28,7 @@ def test_too_few_points_are_refused(count: int) -> None:
 
 def test_excluding_too_many_is_refused_too() -> None:
     with pytest.raises(RegistrationError, match="needed 3"):
-        register_points(PairedPoints(fixed_mm=VERTEBRA[:4], moving_mm=VERTEBRA[:4]), excluded=[0, 2])
+        register_points(PointPairs(fixed_mm=VERTEBRA[:4], moving_mm=VERTEBRA[:4]), excluded=[0, 2])
 
 
 @pytest.mark.parametrize(
@@ -82,7 +82,7 @@ def test_thousands_of_points_are_fitted_too() -> None:
     rng = np.random.default_rng(6)
     fixed = np.asarray(np.stack(np.meshgrid(*[np.arange(18.0) * 5.0] * 3), axis=-1).reshape(-1, 3))
     truth = touched(fixed, rng, 0.2)
-    found = register_points(PairedPoints(fixed_mm=fixed, moving_mm=truth.moving_mm))
+    found = register_points(PointPairs(fixed_mm=fixed, moving_mm=truth.moving_mm))
     assert found.fre_rms_mm == pytest.approx(0.2 * np.sqrt(3.0), rel=0.05)
     assert rejected(fixed, np.roll(truth.moving_mm, 1, axis=0)).code == "POINTS_SWAPPED"
 
@@ -100,21 +100,21 @@ def test_mirrored_points_are_told(axis: int) -> None:
 
 def test_two_signs_are_a_turn_and_no_mirror() -> None:
     ras = VERTEBRA * [-1.0, -1.0, 1.0]
-    assert register_points(PairedPoints(fixed_mm=VERTEBRA, moving_mm=ras)).fre_rms_mm < 1e-9
+    assert register_points(PointPairs(fixed_mm=VERTEBRA, moving_mm=ras)).fre_rms_mm < 1e-9
 
 
 def test_sides_that_look_alike_are_a_warning_and_no_refusal() -> None:
     fixed = np.array([[20.0, 0.0, 10.0], [-20.0, 0.0, 10.0], [0.0, 30.0, -5.0]])
     truth = touched(fixed, np.random.default_rng(3), 0.3)
-    found = register_points(PairedPoints(fixed_mm=fixed, moving_mm=truth.moving_mm))
-    assert [one.code for one in found.remarks] == ["POINTS_ALIKE"]
+    found = register_points(PointPairs(fixed_mm=fixed, moving_mm=truth.moving_mm))
+    assert [one.code for one in found.remarks] == ["POINTS_SWAP_UNDETECTABLE"]
     assert "points 1 and 2" in found.remarks[0].message
 
 
 def test_points_that_differ_raise_no_warning() -> None:
     fixed = np.array([[20.0, 0.0, 10.0], [-35.0, 0.0, 10.0], [0.0, 30.0, -5.0], [8.0, 12.0, 30.0]])
     truth = touched(fixed, np.random.default_rng(4), 0.2)
-    assert register_points(PairedPoints(fixed_mm=fixed, moving_mm=truth.moving_mm)).remarks == ()
+    assert register_points(PointPairs(fixed_mm=fixed, moving_mm=truth.moving_mm)).remarks == ()
 
 
 def test_a_bad_fit_that_no_order_mends_is_ambiguous_where_another_order_is_better() -> None:
@@ -130,7 +130,7 @@ def test_noise_of_a_bad_hand_is_never_called_a_swap() -> None:
     rng = np.random.default_rng(5)
     for _ in range(150):
         truth = touched(VERTEBRA, rng, 0.8)
-        fit = register_points(PairedPoints(fixed_mm=VERTEBRA, moving_mm=truth.moving_mm))
+        fit = register_points(PointPairs(fixed_mm=VERTEBRA, moving_mm=truth.moving_mm))
         assert fit.used.all()
 
 
@@ -144,9 +144,9 @@ def test_noise_of_a_bad_hand_is_never_called_a_swap() -> None:
 )
 def test_covariances_that_are_none_are_refused(covariances: np.ndarray) -> None:
     with pytest.raises(RegistrationError, match="covariances"):
-        PairedPoints(fixed_mm=VERTEBRA, moving_mm=VERTEBRA, moving_covariances_mm2=covariances)
+        PointPairs(fixed_mm=VERTEBRA, moving_mm=VERTEBRA, moving_covariances_mm2=covariances)
 
 
 def test_names_that_occur_twice_are_refused() -> None:
     with pytest.raises(RegistrationError, match="different names"):
-        PairedPoints(fixed_mm=VERTEBRA[:3], moving_mm=VERTEBRA[:3], labels=("a", "b", "a"))
+        PointPairs(fixed_mm=VERTEBRA[:3], moving_mm=VERTEBRA[:3], labels=("a", "b", "a"))

@@ -1,4 +1,4 @@
-"""What is stated of a registration by points holds: simulated landmarks with a known truth."""
+"""The stated uncertainty of point-based registration, against simulated landmarks."""
 
 from dataclasses import dataclass, field
 
@@ -17,14 +17,14 @@ from tracker.geometry import (
     vector_from_rotation,
 )
 from tracker.registration import AnchoredTo
-from tracker.registration.points import PairedPoints, PointRegistration, PointSettings, register_points
+from tracker.registration.points import PointPairs, PointRegistration, PointSettings, register_points
 from tracker.registration.points.uncertainty import expected_tre_mm
 
 RUNS = 500
 # Along the camera's depth noise is four times as large as across it.
 LIKE_A_NEEDLE = np.diag([0.3, 0.3, 1.2]) ** 2
 # No floor, and no order is judged: here the noise itself is looked at.
-BARE = PointSettings(min_fle_mm=1e-3, wrong_fre_mm=20.0)
+BARE = PointSettings(min_fle_mm=1e-3, max_accepted_fre_mm=20.0)
 
 
 @dataclass
@@ -66,7 +66,7 @@ def simulated(
     seen = Simulated()
     for _ in range(RUNS):
         truth = touched(random_landmarks(rng, count), rng, noise)
-        pairs = PairedPoints(
+        pairs = PointPairs(
             fixed_mm=truth.fixed_mm,
             moving_mm=truth.moving_mm,
             moving_covariances_mm2=None if stated is None else np.broadcast_to(stated, (count, 3, 3)),
@@ -102,7 +102,7 @@ def test_fitzpatricks_formula_is_what_targets_are_off(count: int) -> None:
     off, expected = [], []
     for _ in range(RUNS):
         truth = touched(fixed, rng, 0.4)
-        found = register_points(PairedPoints(fixed_mm=fixed, moving_mm=truth.moving_mm), settings=BARE)
+        found = register_points(PointPairs(fixed_mm=fixed, moving_mm=truth.moving_mm), settings=BARE)
         tip = truth.fixed_from_moving.inverse.move_points(target)
         off.append(float(((found.fixed_from_moving.move_points(tip) - target) ** 2).sum()))
         expected.append(found.tre_expected_mm(target) ** 2)
@@ -122,7 +122,7 @@ def test_the_formula_on_a_constellation_by_hand() -> None:
 def test_a_lucky_fit_is_not_surer_than_a_landmark_can_be_found() -> None:
     truth = touched(VERTEBRA, np.random.default_rng(1))
     found = register_points(
-        PairedPoints(fixed_mm=VERTEBRA, moving_mm=truth.moving_mm), settings=PointSettings(min_fle_mm=0.6)
+        PointPairs(fixed_mm=VERTEBRA, moving_mm=truth.moving_mm), settings=PointSettings(min_fle_mm=0.6)
     )
     middle = VERTEBRA.mean(axis=0)
     assert found.tre_expected_mm(middle) < 1e-9
@@ -136,7 +136,7 @@ def test_what_tips_state_is_nearly_a_floor_and_residuals_widen_it() -> None:
     at = VERTEBRA.mean(axis=0)
     found = [
         register_points(
-            PairedPoints(fixed_mm=VERTEBRA, moving_mm=one.moving_mm, moving_covariances_mm2=stated),
+            PointPairs(fixed_mm=VERTEBRA, moving_mm=one.moving_mm, moving_covariances_mm2=stated),
             settings=PointSettings(min_fle_mm=1e-6),
         ).tre_stated_mm(at)
         for one in (exact, rough)

@@ -21,7 +21,7 @@ from tracker.geometry import (
     skew,
     vector_from_rotation,
 )
-from tracker.navigation import Absent, AbsentReason, NavigationSnapshot, PlacedVertebra, Setup, navigate
+from tracker.navigation import Absent, AbsentReason, NavigationSnapshot, Setup, VertebraPose, navigate
 from tracker.registration import AnchoredTo, Method, Registration
 
 RANDOM = np.random.default_rng(5)
@@ -82,7 +82,7 @@ def shaken(pose: Rigid[Camera, Marker], by: Array) -> Rigid[Camera, Marker]:
 
 def test_the_vertebra_is_placed_through_the_reference_as_it_is_seen_in_this_image() -> None:
     placed = concluded(SETUP, SEEN).vertebra
-    assert isinstance(placed, PlacedVertebra)
+    assert isinstance(placed, VertebraPose)
     through = CAMERA_FROM_REFERENCE.matrix @ REFERENCE_FROM_VERTEBRA.matrix
     np.testing.assert_allclose(placed.camera_from_vertebra.matrix, through, atol=1e-12)
 
@@ -115,7 +115,7 @@ def test_the_uncertainty_is_that_of_reference_and_registration_together() -> Non
         found = Rigid[Camera, Vertebra].from_matrix(seen.matrix @ anchor.matrix)
         errors.append(off(true, found))
     placed = concluded(SETUP, SEEN).vertebra
-    assert isinstance(placed, PlacedVertebra)
+    assert isinstance(placed, VertebraPose)
     whitened = np.linalg.solve(np.linalg.cholesky(placed.covariance), np.array(errors).T)
     # Of white noise each variance is 1 within four of its own standard deviations.
     np.testing.assert_allclose(whitened.var(axis=1), 1.0, atol=4.0 * np.sqrt(2.0 / runs))

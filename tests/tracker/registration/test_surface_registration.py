@@ -1,4 +1,4 @@
-"""Registration by surface: a sweep with a known truth, and sweeps that say too little."""
+"""Surface-based registration: sweeps with known truth, and insufficient sweeps."""
 
 import numpy as np
 import pytest
@@ -7,8 +7,8 @@ from scipy import stats
 from tests.tracker.registration.constellations import VERTEBRA
 from tests.tracker.registration.sweeps import (
     SweepTruth,
+    closest_points_on_vertebra,
     corners_from_behind,
-    nearest_on_vertebra,
     plate,
     sweep_over,
     vertebra,
@@ -16,22 +16,22 @@ from tests.tracker.registration.sweeps import (
 from tracker.errors import RegistrationError
 from tracker.plan import Surface
 from tracker.registration import AnchoredTo, Method
-from tracker.registration.points import PairedPoints
+from tracker.registration.points import PointPairs
 from tracker.registration.surface import (
-    NearestOnSurface,
+    ClosestPointQuery,
     SurfaceGate,
     SurfaceRegistration,
     SurfaceSettings,
     register_surface,
 )
-from tracker.registration.surface.nearest import nearest_on_triangles
+from tracker.registration.surface.closest_points import closest_points_on_triangles
 
 TARGET = np.array([15.0, 10.0, 5.0])
 
 
 def laid(truth: SweepTruth, settings: SurfaceSettings | None = None) -> SurfaceRegistration:
     return register_surface(
-        nearest_on_vertebra(), truth.moving_mm, truth.start, targets_mm=[TARGET], settings=settings
+        closest_points_on_vertebra(), truth.moving_mm, truth.start, targets_mm=[TARGET], settings=settings
     )
 
 
@@ -41,11 +41,11 @@ def off_at_target(found: SurfaceRegistration, truth: SweepTruth) -> np.ndarray:
 
 
 def rejected(
-    surface: Surface, truth: SweepTruth, *, landmarks: PairedPoints | None = None
+    surface: Surface, truth: SweepTruth, *, landmarks: PointPairs | None = None
 ) -> RegistrationError:
     with pytest.raises(RegistrationError) as caught:
         register_surface(
-            NearestOnSurface(surface), truth.moving_mm, truth.start, targets_mm=[TARGET], landmarks=landmarks
+            ClosestPointQuery(surface), truth.moving_mm, truth.start, targets_mm=[TARGET], landmarks=landmarks
         )
     return caught.value
 
@@ -78,7 +78,7 @@ def test_a_third_of_outliers_does_not_pull() -> None:
     truth = sweep_over(corners_from_behind(), rng, count=60, sd_mm=0.2)
     moving = truth.moving_mm.copy()
     moving[:15] += rng.uniform(3.0, 8.0, (15, 3))
-    found = register_surface(nearest_on_vertebra(), moving, truth.start, targets_mm=[TARGET])
+    found = register_surface(closest_points_on_vertebra(), moving, truth.start, targets_mm=[TARGET])
     assert np.linalg.norm(off_at_target(found, truth)) < 0.5
     assert 0.6 < found.used_ratio < 0.9
 
@@ -96,7 +96,7 @@ def test_a_place_that_was_dwelt_upon_counts_once() -> None:
     truth = sweep_over(corners_from_behind(), rng, count=40, sd_mm=0.2)
     dwelt = np.vstack([truth.moving_mm, truth.moving_mm[:1] + 0.05 * rng.normal(size=(200, 3))])
     once = laid(truth)
-    often = register_surface(nearest_on_vertebra(), dwelt, truth.start, targets_mm=[TARGET])
+    often = register_surface(closest_points_on_vertebra(), dwelt, truth.start, targets_mm=[TARGET])
     apart = np.linalg.norm(off_at_target(once, truth) - off_at_target(often, truth))
     assert apart < 0.15
     assert often.tre_stated_mm(TARGET) > 0.8 * once.tre_stated_mm(TARGET)
@@ -136,11 +136,11 @@ def test_landmarks_hold_what_slides_and_that_is_told() -> None:
     corners = surface.vertices_mm[surface.faces]
     inner = corners[(np.abs(corners.mean(axis=1)) < 18.0).all(axis=1)]
     truth = sweep_over(inner, np.random.default_rng(8), sd_mm=0.1, off_mm=0.5, off_deg=0.5)
-    pairs = PairedPoints(fixed_mm=VERTEBRA, moving_mm=truth.fixed_from_moving.inverse.move_points(VERTEBRA))
+    pairs = PointPairs(fixed_mm=VERTEBRA, moving_mm=truth.fixed_from_moving.inverse.move_points(VERTEBRA))
     found = register_surface(
-        NearestOnSurface(surface), truth.moving_mm, truth.start, targets_mm=[TARGET], landmarks=pairs
+        ClosestPointQuery(surface), truth.moving_mm, truth.start, targets_mm=[TARGET], landmarks=pairs
     )
-    assert [one.code for one in found.remarks] == ["SURFACE_HELD_BY_LANDMARKS"]
+    assert [one.code for one in found.remarks] == ["SURFACE_CONSTRAINED_BY_LANDMARKS"]
     assert np.linalg.norm(off_at_target(found, truth)) < 0.1
 
 
@@ -164,7 +164,7 @@ def test_a_patch_of_one_lamina_is_not_believed() -> None:
 def test_what_is_no_sweep_is_refused(points: np.ndarray, code: str) -> None:
     truth = sweep_over(corners_from_behind(), np.random.default_rng(10))
     with pytest.raises(RegistrationError) as caught:
-        register_surface(nearest_on_vertebra(), points, truth.start)
+        register_surface(closest_points_on_vertebra(), points, truth.start)
     assert caught.value.code == code
 
 
@@ -179,9 +179,9 @@ def test_a_sweep_that_mostly_left_the_bone_is_refused() -> None:
     moving = truth.moving_mm + rng.uniform(-12.0, 12.0, (60, 3)) * (np.arange(60) % 4 > 0)[:, None]
     found: RegistrationError | tuple[RegistrationError, ...]
     try:
-        found = register_surface(nearest_on_vertebra(), moving, truth.start, targets_mm=[TARGET]).failures(
-            SurfaceGate(), [TARGET]
-        )
+        found = register_surface(
+            closest_points_on_vertebra(), moving, truth.start, targets_mm=[TARGET]
+        ).failures(SurfaceGate(), [TARGET])
     except RegistrationError as error:
         found = error
     assert found
@@ -210,8 +210,8 @@ def test_nearest_points_are_the_nearest_of_all_triangles() -> None:
     )
     surface = Surface(vertices_mm=corners.reshape(-1, 3), faces=np.arange(180).reshape(-1, 3))
     points = rng.uniform(-60.0, 60.0, (200, 3))
-    found = np.linalg.norm(NearestOnSurface(surface).at(points).points_mm - points, axis=1)
-    every = nearest_on_triangles(points[:, None], corners[None])
+    found = np.linalg.norm(ClosestPointQuery(surface).at(points).points_mm - points, axis=1)
+    every = closest_points_on_triangles(points[:, None], corners[None])
     assert np.allclose(found, np.linalg.norm(every - points[:, None], axis=2).min(axis=1))
     # No point of a triangle's own grid is nearer than what is called its nearest.
     shares = rng.dirichlet([0.5, 0.5, 0.5], 3000)

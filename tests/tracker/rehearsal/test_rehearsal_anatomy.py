@@ -13,7 +13,7 @@ from tracker.rehearsal.anatomy import (
     pedicle_channels,
     vertebra_surface,
 )
-from tracker.rehearsal.emblem import drill_emblem
+from tracker.rehearsal.marker_images import drill_marker_image
 from tracker.rehearsal.meshing import surface_net
 
 # The entry lies on a slope of the bone: the cylinder's rim is inside from here on.
@@ -111,20 +111,20 @@ def test_a_ball_is_netted_as_a_ball() -> None:
     assert volume == pytest.approx(4.0 / 3.0 * np.pi * 216.0, rel=0.01)
 
 
-def test_no_turn_or_mirror_takes_the_emblem_to_itself() -> None:
-    emblem = drill_emblem(100).astype(np.float64)
+def test_no_rotation_or_reflection_maps_the_marker_to_itself() -> None:
+    emblem = drill_marker_image(100).astype(np.float64)
     others = [np.rot90(face, turns) for face in (emblem, emblem[:, ::-1]) for turns in range(4)][1:]
     for other in others:
         assert np.abs(emblem - other).mean() > 12.0
 
 
-def test_the_emblem_is_black_all_along_its_edge_and_strong_when_small() -> None:
-    emblem = drill_emblem()
+def test_the_marker_is_black_along_its_edge_and_has_contrast_when_small() -> None:
+    emblem = drill_marker_image()
     assert emblem.shape == (400, 400)
     rim = np.concatenate(
         [emblem[:60].ravel(), emblem[-60:].ravel(), emblem[:, :60].ravel(), emblem[:, -60:].ravel()]
     )
     assert rim.max() == 0
-    small = drill_emblem(30)
+    small = drill_marker_image(30)
     assert small.max() == 255
     assert 0.15 < (small > 127).mean() < 0.45

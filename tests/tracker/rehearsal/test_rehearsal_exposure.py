@@ -1,4 +1,4 @@
-"""Noise, blur and strips: what makes an image cheap changes nothing that is measured in it."""
+"""Noise, blur and strips: optimisations of the renderer do not change what is measured."""
 
 from functools import lru_cache
 from itertools import pairwise
@@ -9,8 +9,8 @@ import pytest
 
 from tracker.geometry import Array
 from tracker.rehearsal import Event, EventKind, Renderer, Skill, Theatre, TheatreSettings, strips
-from tracker.rehearsal.point_spread import DEFOCUS_PX, EXPOSURE_S, LONGEST_EXPOSURE_S, point_spread
-from tracker.rehearsal.printed import PrintedPlane
+from tracker.rehearsal.point_spread import DEFOCUS_PX, EXPOSURE_S, MAX_EXPOSURE_S, point_spread
+from tracker.rehearsal.printed_plane import PrintedPlane
 
 SIZE = (960, 540)
 DRILL_AWAY_S = 34.0
@@ -105,7 +105,7 @@ def test_noise_never_wraps_around_black_or_white(light: float) -> None:
         assert np.abs(off).max() < 6.0 * 10.0 * 1.85
 
 
-def test_what_jumps_is_not_smeared() -> None:
+def test_a_jump_causes_no_motion_blur() -> None:
     jump = Event(kind=EventKind.DRILL_JUMPS, at_s=20.0, size_mm=20.0)
     theatre, renderer = staged(0.0, events=(jump,))
     steepest = []
@@ -136,7 +136,7 @@ def test_a_point_is_spread_as_defocus_and_motion_spread_it(
     at = np.arange(kernel.shape[0]) - kernel.shape[0] // 2
     mean = np.array([(kernel * at[None, :]).sum(), (kernel * at[:, None]).sum()])
     np.testing.assert_allclose(mean, 0.0, atol=1e-6)
-    path = np.array(speed_px_s) * min(EXPOSURE_S * blur, LONGEST_EXPOSURE_S)
+    path = np.array(speed_px_s) * min(EXPOSURE_S * blur, MAX_EXPOSURE_S)
     expected = (DEFOCUS_PX * blur) ** 2 * np.eye(2) + np.outer(path, path) / 12.0
     found = np.array(
         [

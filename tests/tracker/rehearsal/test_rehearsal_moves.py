@@ -1,4 +1,4 @@
-"""The reference on the patient, and what goes wrong: moves, covers, a jump; pictures and truth agree."""
+"""Patient reference and events (moves, occlusions, a jump): images and ground truth agree."""
 
 import math
 from functools import lru_cache
@@ -11,7 +11,7 @@ from tracker.geometry import angle_between_deg
 from tracker.pipeline import Tracker
 from tracker.pose import Seen, Sighting
 from tracker.rehearsal import Event, EventKind, Renderer, Scene, Skill, Theatre, TheatreSettings
-from tracker.rehearsal.emblem import drill_emblem, reference_emblem
+from tracker.rehearsal.marker_images import drill_marker_image, reference_marker_image
 
 SIZE = (960, 540)
 AT_S = 20.0
@@ -33,7 +33,7 @@ def found(theatre: Theatre, renderer: Renderer, at_s: float) -> dict[str, Sighti
 
 
 @pytest.mark.parametrize("seed", range(1, 13))
-def test_the_reference_is_seen_askew_in_the_picture_and_free(seed: int) -> None:
+def test_the_reference_is_seen_obliquely_and_unoccluded(seed: int) -> None:
     theatre = Theatre(TheatreSettings(seed=seed, reference=True))
     truth = theatre.truth_at(AT_S)
     pose = truth.camera_from_reference
@@ -58,8 +58,8 @@ def test_without_a_reference_there_is_none_anywhere() -> None:
 
 
 def test_the_two_markers_look_nothing_like_each_other() -> None:
-    drill = drill_emblem(100).astype(np.float64)
-    for face in (reference_emblem(100), reference_emblem(100)[:, ::-1]):
+    drill = drill_marker_image(100).astype(np.float64)
+    for face in (reference_marker_image(100), reference_marker_image(100)[:, ::-1]):
         for turns in range(4):
             assert np.corrcoef(drill.ravel(), np.rot90(face, turns).ravel())[0, 1] < 0.75
 
@@ -109,7 +109,7 @@ def test_a_patient_moves_in_a_room_that_stands_still() -> None:
 @pytest.mark.parametrize(
     ("kind", "hidden"), [(EventKind.DRILL_HIDDEN, "drill"), (EventKind.REFERENCE_HIDDEN, "reference")]
 )
-def test_a_cloth_hides_one_marker_and_not_the_other(kind: EventKind, hidden: str) -> None:
+def test_a_cloth_occludes_one_marker_and_not_the_other(kind: EventKind, hidden: str) -> None:
     theatre, renderer = eventful(Event(kind=kind, at_s=10.0))
     truth, sightings = theatre.truth_at(AT_S), found(theatre, renderer, AT_S)
     in_view = {"drill": truth.marker_in_view, "reference": truth.reference_in_view}
@@ -125,7 +125,7 @@ def test_the_drill_jumps_and_comes_back() -> None:
         assert np.linalg.norm(here.translation_mm - there.translation_mm) == pytest.approx(jump_mm, abs=1e-9)
 
 
-def test_events_come_and_go_when_they_say() -> None:
+def test_events_begin_and_end_on_schedule() -> None:
     once = Event(kind=EventKind.DRILL_HIDDEN, at_s=5.0, lasts_s=2.0)
     assert [once.is_on(at_s) for at_s in (4.9, 5.0, 6.9, 7.0, 25.0)] == [False, True, True, False, False]
     again = Event(kind=EventKind.DRILL_HIDDEN, at_s=5.0, lasts_s=2.0, every_s=10.0)
@@ -137,7 +137,7 @@ def test_events_come_and_go_when_they_say() -> None:
 @pytest.mark.parametrize(
     ("key", "value"), [("at_s", -1.0), ("lasts_s", 0.0), ("size_mm", 1e3), ("size_deg", float("nan"))]
 )
-def test_an_event_out_of_range_is_refused_by_name(key: str, value: float) -> None:
+def test_an_event_out_of_range_is_rejected_by_name(key: str, value: float) -> None:
     with pytest.raises(InvalidInput) as caught:
         Event(**{"kind": EventKind.CAMERA_MOVES, "at_s": 1.0, key: value})  # type: ignore[arg-type]  # wrong on purpose
     assert caught.value.code == "REHEARSAL_SETTING_INVALID"

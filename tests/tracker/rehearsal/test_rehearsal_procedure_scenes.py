@@ -38,7 +38,7 @@ def test_landmarks_lie_on_the_bone_far_apart_and_the_check_is_none_of_them() -> 
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_the_tip_rests_on_each_landmark_as_a_hand_does(seed: int) -> None:
+def test_the_tip_rests_on_each_landmark_with_hand_tremor(seed: int) -> None:
     theatre, truths = played(Scene.LANDMARKS, seed, 0.02)
     order = [truth.touched for truth in truths if truth.touched]
     assert list(dict.fromkeys(order)) == [one.name for one in theatre.landmarks]
@@ -54,7 +54,7 @@ def test_the_tip_rests_on_each_landmark_as_a_hand_does(seed: int) -> None:
 
 
 @pytest.mark.parametrize("scene", [Scene.LANDMARKS, Scene.CHECK])
-def test_a_tip_rests_as_long_as_asked(scene: Scene) -> None:
+def test_a_tip_rests_for_the_configured_time(scene: Scene) -> None:
     theatre = Theatre(TheatreSettings(scene=scene, rest_s=5.0))
     step_s = 0.05
     touched = [theatre.truth_at(at_s).touched for at_s in np.arange(0.0, theatre.cycle_s, step_s)]

@@ -190,7 +190,7 @@ def test_clutter_fills_the_drapes() -> None:
     assert edges[0] < edges[1] < edges[2]
 
 
-def test_the_bone_hides_the_burr_once_it_is_inside() -> None:
+def test_the_bone_occludes_the_burr_once_it_is_inside() -> None:
     theatre, renderer = staged()
     tip_is_dark = []
     for at_s in (9.0, 20.0):
@@ -205,7 +205,7 @@ def test_the_bone_hides_the_burr_once_it_is_inside() -> None:
 
 
 @pytest.mark.parametrize("size", [(640, 360), (641, 363), (1920, 1080)], ids=str)
-def test_images_have_the_size_that_was_asked_for(size: tuple[int, int]) -> None:
+def test_images_have_the_requested_size(size: tuple[int, int]) -> None:
     theatre, renderer = staged(size=size)
     for at_s in (1.0, 30.8, 37.6):
         image = renderer.image_at(at_s)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tracker.camera import Board, CharucoBoard, CheckerBoard, DotBoard
-from tracker.camera.collecting import BoardCollector
+from tracker.camera.board_collector import BoardCollector
 from tracker.geometry import angle_between_deg
 from tracker.rehearsal import BoardKind, Phase, Scene, Theatre, TheatreSettings
 from tracker.rehearsal.board_renderer import BoardRenderer
@@ -96,7 +96,7 @@ def test_one_round_of_the_board_is_all_that_a_calibration_needs(seed: int) -> No
     for at_s in np.arange(0.0, hand.cycle_s, 0.1):
         points = board.object_points_mm
         px = theatre.camera.px_from_camera(hand.camera_from_board_at(at_s).move_points(points))
-        collector.judge(
+        collector.offer(
             ids=np.arange(len(points)), object_points_mm=points, image_points_px=px, captured_at_s=at_s
         )
     assert collector.progress.missing == ()

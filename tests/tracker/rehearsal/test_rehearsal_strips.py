@@ -10,22 +10,22 @@ from tracker.rehearsal.strips import STRIP_PX, Strips, strips_around
 WIDTH, HEIGHT = 322, 182
 RAYS = RayGrid(Theatre(TheatreSettings(size_wh_px=(WIDTH, HEIGHT))).camera)
 U, V = (axis.astype(np.float32) for axis in np.meshgrid(np.arange(WIDTH), np.arange(HEIGHT)))
-ASKEW = Strips(places=((40, 60), (52, 72), (64, 84)), width=24, height=12)
+OBLIQUE = Strips(places=((40, 60), (52, 72), (64, 84)), width=24, height=12)
 
 
 def test_pixels_from_nodes_with_a_margin_are_those_of_the_image() -> None:
-    grown = ASKEW.grown(4)
+    grown = OBLIQUE.grown(4)
     row, column = grown.nodes(RAYS)
     # Each node's own place: in the middle of a block, the first one four blocks outside of the image.
     places = np.stack(np.broadcast_arrays(column, row), axis=-1).astype(np.float32) * 4.0 - 16.0 + 1.5
-    inner = ASKEW.inner(grown.from_nodes(places), 4)
-    np.testing.assert_allclose(inner[..., 0], ASKEW.taken_from(U), atol=1e-3)
-    np.testing.assert_allclose(inner[..., 1], ASKEW.taken_from(V), atol=1e-3)
+    inner = OBLIQUE.inner(grown.from_nodes(places), 4)
+    np.testing.assert_allclose(inner[..., 0], OBLIQUE.taken_from(U), atol=1e-3)
+    np.testing.assert_allclose(inner[..., 1], OBLIQUE.taken_from(V), atol=1e-3)
 
 
 def test_what_is_put_back_is_what_was_taken_also_over_the_borders() -> None:
     over = Strips(places=((-8, -4), (0, 176), (312, 90)), width=24, height=12)
-    for strips in (ASKEW, over, Strips.of_box((300, 170, 24, 12)), Strips.of_box((20, 20, 40, 30))):
+    for strips in (OBLIQUE, over, Strips.of_box((300, 170, 24, 12)), Strips.of_box((20, 20, 40, 30))):
         stacked = strips.taken_from(V, -1.0)
         assert stacked.shape == (len(strips.places) * strips.height, strips.width)
         x, y = strips.places[-1]

@@ -64,7 +64,7 @@ def test_the_marker_is_away_for_two_seconds_and_in_view_while_it_matters(seed: i
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_the_marker_is_seen_askew_but_readable(seed: int) -> None:
+def test_the_marker_is_seen_obliquely_but_readable(seed: int) -> None:
     theatre = Theatre(TheatreSettings(seed=seed))
     for at_s in TIMES_S:
         truth = theatre.truth_at(at_s)
@@ -120,7 +120,7 @@ def test_the_lens_bends_lines_visibly() -> None:
         pytest.param("size_wh_px", (1280, 10), id="image-too-flat"),
     ],
 )
-def test_a_setting_out_of_range_is_refused_by_name(key: str, value: object) -> None:
+def test_a_setting_out_of_range_is_rejected_by_name(key: str, value: object) -> None:
     with pytest.raises(InvalidInput) as caught:
         TheatreSettings(**{key: value})  # type: ignore[arg-type]  # wrong on purpose
     assert caught.value.code == "REHEARSAL_SETTING_INVALID"

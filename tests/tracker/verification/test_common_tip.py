@@ -1,4 +1,4 @@
-"""A tip whose calibration errs both touches the landmarks and drills: what is stated must know that."""
+"""A tip calibration error enters both capture and drilling: the covariance must include the correlation."""
 
 from dataclasses import replace
 
@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from tracker.geometry import Array, Camera, Marker, Rigid, Vertebra, rotation_from_vector
-from tracker.navigation.certainty import Placed
-from tracker.navigation.guide import placed_tool
+from tracker.navigation.drill_reference import tool_in_vertebra
+from tracker.navigation.uncertainty import UncertainPose
 from tracker.plan import Channel
 from tracker.pose import ToolModel
 from tracker.registration import AnchoredTo, Registration
-from tracker.registration.points import CommonTip, PairedPoints, register_points
-from tracker.verification.held import held
+from tracker.registration.points import CommonTip, PointPairs, register_points
+from tracker.verification.tool_errors import tool_errors
 
 LANDMARKS = np.array(
     [[40, 13, 6], [20, 13, 21], [0, 46, -7], [-40, 13, 6], [-13, 17, -24], [0, 46, -17], [13, 17, -24.0]]
@@ -66,7 +66,7 @@ def _registered(
         tips.append(marker.move_points(tool.marker_from_tool.translation_mm))
         turns.append(lean)
     fit = register_points(
-        PairedPoints(
+        PointPairs(
             fixed_mm=LANDMARKS + random.normal(0.0, FLE_SD_MM, LANDMARKS.shape),
             moving_mm=np.array(tips),
             moving_covariances_mm2=np.tile(NOISE_SD_MM**2 * np.eye(3), (len(LANDMARKS), 1, 1)),
@@ -79,7 +79,7 @@ def _registered(
 
 
 def _covered(*, turned_deg: float, knows: bool = True, width: float = 1.0) -> dict[str, float]:
-    """How often what is stated of the drill holds the truth, when it drills turned from how it touched."""
+    """Return the coverage of the stated regions for a drill rotated between capture and drilling."""
     inside: dict[str, list[bool]] = {}
     for draw in range(DRAWS):
         random = np.random.default_rng([draw, 0x544950])
@@ -92,7 +92,7 @@ def _covered(*, turned_deg: float, knows: bool = True, width: float = 1.0) -> di
         registration = replace(
             registration,
             covariance=width * registration.covariance,
-            tip_slope=np.sqrt(width) * registration.tip_slope,
+            tip_jacobian=np.sqrt(width) * registration.tip_jacobian,
         )
         turn = rotation_from_vector(np.radians(turned_deg) * np.array([0.6, 0.0, 0.8])) @ turn
         at = pose.move_points(CHANNEL.entry_in_vertebra_mm)
@@ -101,29 +101,29 @@ def _covered(*, turned_deg: float, knows: bool = True, width: float = 1.0) -> di
         found: Rigid[Camera, Vertebra] = Rigid(
             rotation=anchored.rotation, translation_mm=anchored.translation_mm
         )
-        shown = placed_tool(
-            Placed(pose=found, covariance=registration.covariance),
-            Placed(pose=seen, covariance=MARKER_COVARIANCE),
+        shown = tool_in_vertebra(
+            UncertainPose(pose=found, covariance=registration.covariance),
+            UncertainPose(pose=seen, covariance=MARKER_COVARIANCE),
             tool,
-            tip_slope=registration.tip_slope if knows else None,
+            tip_jacobian=registration.tip_jacobian if knows else None,
         )
-        off = held(shown, pose.inverse @ (true @ _tool(TIP_MM).marker_from_tool), CHANNEL)
-        inside.setdefault("tip", []).append(off.tip.is_covered)
-        inside.setdefault("depth", []).append(off.depth.is_covered)
+        off = tool_errors(shown, pose.inverse @ (true @ _tool(TIP_MM).marker_from_tool), CHANNEL)
+        inside.setdefault("tip", []).append(off.tip.is_within_95)
+        inside.setdefault("depth", []).append(off.depth.is_within_95)
     return {name: float(np.mean(each)) for name, each in inside.items()}
 
 
 @pytest.mark.parametrize("turned_deg", [0.0, 60.0, 180.0])
-def test_however_the_drill_is_turned_since_it_touched_95_per_cent_hold_the_truth(turned_deg: float) -> None:
+def test_coverage_is_95_per_cent_for_any_rotation_between_capture_and_drilling(turned_deg: float) -> None:
     covered = _covered(turned_deg=turned_deg)
     assert 0.92 <= covered["tip"] <= 0.985
     assert 0.92 <= covered["depth"] <= 0.985
 
 
-def test_without_knowing_of_the_common_tip_too_much_is_stated_or_too_little() -> None:
+def test_ignoring_the_common_tip_error_over_or_underestimates_the_covariance() -> None:
     assert _covered(turned_deg=0.0, knows=False)["tip"] > 0.99
     assert _covered(turned_deg=180.0, knows=False)["tip"] < 0.92
 
 
-def test_a_quarter_of_the_covariance_would_be_noticed() -> None:
+def test_a_quarter_of_the_covariance_fails_the_coverage() -> None:
     assert _covered(turned_deg=180.0, width=0.25)["tip"] < 0.9

@@ -1,4 +1,4 @@
-"""One theatre from registration to navigation: what is shown is true, and stops where it is not."""
+"""One theatre from registration to navigation: displayed values are true, or absent."""
 
 from collections.abc import Sequence
 
@@ -9,16 +9,16 @@ from tracker.registration import AnchoredTo
 from tracker.verification import (
     Figures,
     ImageRow,
+    RegistrationMethod,
     TheatreRows,
     VerificationSettings,
-    Way,
-    figures_of,
+    drill_figures,
     theatre_seeds,
     verify_theatre,
 )
 from tracker.verification.figures import share_of
 
-SETTINGS = VerificationSettings(looks=6)
+SETTINGS = VerificationSettings(observations=6)
 
 
 @pytest.fixture(scope="module")
@@ -28,14 +28,16 @@ def theatre() -> TheatreRows:
 
 @pytest.fixture(scope="module")
 def figures(theatre: TheatreRows) -> Figures:
-    return figures_of([theatre], noticed_within_s=SETTINGS.noticed_within_s)
+    return drill_figures([theatre], noticed_within_s=SETTINGS.noticed_within_s)
 
 
-def _shown(theatre: TheatreRows, way: Way, anchor: AnchoredTo, *, moves: bool) -> Sequence[ImageRow]:
+def _shown(
+    theatre: TheatreRows, method: RegistrationMethod, anchor: AnchoredTo, *, moves: bool
+) -> Sequence[ImageRow]:
     return [
         row
         for row in theatre.images
-        if (row.variant.way, row.variant.anchored_to, row.variant.camera_moves) == (way, anchor, moves)
+        if (row.variant.method, row.variant.anchored_to, row.variant.camera_moves) == (method, anchor, moves)
     ]
 
 
@@ -43,42 +45,44 @@ def _shown(theatre: TheatreRows, way: Way, anchor: AnchoredTo, *, moves: bool) -
     ("anchor", "moves"),
     [(AnchoredTo.CAMERA, False), (AnchoredTo.REFERENCE, False), (AnchoredTo.REFERENCE, True)],
 )
-def test_by_points_the_drill_is_shown_where_it_is(
+def test_registration_by_points_displays_the_true_drill(
     theatre: TheatreRows, anchor: AnchoredTo, moves: bool
 ) -> None:
-    looks = [row for row in _shown(theatre, Way.POINTS, anchor, moves=moves) if row.counts]
-    held = [row.held for row in looks if row.held is not None]
-    assert len(held) >= 0.8 * len(looks) > 0
+    observations = [
+        row for row in _shown(theatre, RegistrationMethod.POINTS, anchor, moves=moves) if row.counts
+    ]
+    tool_errors = [row.tool_errors for row in observations if row.tool_errors is not None]
+    assert len(tool_errors) >= 0.8 * len(observations) > 0
     # Seven landmarks, each wrong by half a millimetre: nobody can do much better either.
-    assert 0.01 < np.median([one.entry.error for one in held]) < 0.6
-    assert np.median([one.angle.error for one in held]) < 1.2
-    assert np.median([one.tip.error for one in held]) < 0.7
-    assert np.median([one.tip.stated for one in held]) < 1.0
-    assert np.mean([one.tip.surprise for one in held]) < 3.0 * 3.0
+    assert 0.01 < np.median([one.entry.error for one in tool_errors]) < 0.6
+    assert np.median([one.angle.error for one in tool_errors]) < 1.2
+    assert np.median([one.tip.error for one in tool_errors]) < 0.7
+    assert np.median([one.tip.stated_sd for one in tool_errors]) < 1.0
+    assert np.mean([one.tip.mahalanobis_squared for one in tool_errors]) < 3.0 * 3.0
 
 
-def test_by_needles_it_says_how_little_it_knows(theatre: TheatreRows) -> None:
-    looks = _shown(theatre, Way.NEEDLES, AnchoredTo.CAMERA, moves=False)
-    for row in looks:
-        if row.held is not None:
-            assert row.held.tip.stated > 5.0
-            assert row.held.tip.surprise < 20.0
+def test_registration_by_needles_states_a_large_covariance(theatre: TheatreRows) -> None:
+    observations = _shown(theatre, RegistrationMethod.NEEDLES, AnchoredTo.CAMERA, moves=False)
+    for row in observations:
+        if row.tool_errors is not None:
+            assert row.tool_errors.tip.stated_sd > 5.0
+            assert row.tool_errors.tip.mahalanobis_squared < 20.0
 
 
-def test_where_the_camera_moved_numbers_stop_without_a_reference_and_stay_true_with_one(
+def test_after_a_camera_move_values_stop_without_a_reference_and_stay_true_with_one(
     theatre: TheatreRows, figures: Figures
 ) -> None:
-    alone = _shown(theatre, Way.POINTS, AnchoredTo.CAMERA, moves=True)
+    alone = _shown(theatre, RegistrationMethod.POINTS, AnchoredTo.CAMERA, moves=True)
     late = [row for row in alone if row.since_move_s > SETTINGS.noticed_within_s]
     assert late
     assert {row.absent for row in late} == {"CAMERA_MOVED"}
     assert {one.shown_wrong for one in figures.variants} == {0}
-    with_reference = _shown(theatre, Way.POINTS, AnchoredTo.REFERENCE, moves=True)
+    with_reference = _shown(theatre, RegistrationMethod.POINTS, AnchoredTo.REFERENCE, moves=True)
     absent = [row.absent for row in with_reference if row.since_move_s > 0.3 and row.absent]
     assert absent == []
 
 
-def test_images_of_one_theatre_do_not_count_as_if_each_stood_alone() -> None:
+def test_images_of_one_theatre_are_not_independent_samples() -> None:
     alone = share_of([True] * 95 + [False] * 5, list(range(100)))
     together = share_of([True] * 95 + [False] * 5, [number // 5 for number in range(100)])
     assert alone.ratio == together.ratio == 0.95

@@ -1,6 +1,6 @@
-"""A camera calibrated from views of a board, with a report of how far it can be trusted."""
+"""Camera calibration from views of a board, with a report of its uncertainty."""
 
-from tracker.camera.calibration.board_size import with_board_judged
+from tracker.camera.calibration.board_size import with_board_size_warning
 from tracker.camera.calibration.calibrate import CalibrationSettings, calibrate
 from tracker.camera.calibration.report import (
     CalibrationReport,
@@ -20,5 +20,5 @@ __all__ = [
     "ParameterEstimate",
     "ViewReport",
     "calibrate",
-    "with_board_judged",
+    "with_board_size_warning",
 ]

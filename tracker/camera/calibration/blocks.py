@@ -1,4 +1,4 @@
-"""What each view says about what all views share, with the view's own pose taken out (Schur complement)."""
+"""Information of each view about the shared parameters, with its pose marginalised (Schur complement)."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ class Block:
 
     Attributes:
         information: (p, p), in units of 1 / px2 before scaling by the noise.
-        gradient: (p,), what this view pulls.
+        gradient: (p,), right-hand side of the normal equations.
         squares_px2: the sum of its squared residuals.
         coordinates: how many numbers it measured (two a point).
         own: how many numbers it has for itself alone.
@@ -58,7 +58,7 @@ def blocks_of(fit: Fit, views: Sequence[BoardView]) -> list[Block]:
 def derivatives(
     points_mm: Array, rotation_rad: Array, translation_mm: Array, matrix: Array, lens: Array
 ) -> tuple[Array, Array]:
-    """Of projected coordinates (2n,) by the pose (2n, 6) and by fx, fy, cx, cy and the lens (2n, 4 + k)."""
+    """Return the Jacobians of projected points (2n,) by the pose (2n, 6) and the camera (2n, 4 + k)."""
     _, derivative = cv2.projectPoints(points_mm.reshape(-1, 1, 3), rotation_rad, translation_mm, matrix, lens)
     by: Array = np.asarray(derivative, dtype=np.float64)
     return by[:, :6], by[:, 6 : 10 + lens.size]

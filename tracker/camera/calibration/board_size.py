@@ -1,4 +1,4 @@
-"""Whether the board has the columns and rows that were said, told by what no view ever shows."""
+"""Detect a wrong number of columns and rows from what no view shows."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -9,10 +9,10 @@ from tracker.camera.boards import Board, CharucoBoard, CheckerBoard
 from tracker.camera.calibration.report import CalibrationReport, CalibrationWarning
 from tracker.camera.detection.view import BoardView
 
-MIN_ALIKE, MIN_ALIKE_RATIO = 3, 0.5
+MIN_EQUAL_VIEWS, MIN_EQUAL_VIEWS_RATIO = 3, 0.5
 
 
-def with_board_judged(
+def with_board_size_warning(
     report: CalibrationReport, views: Sequence[BoardView], board: Board
 ) -> CalibrationReport:
     """The report, with a warning where the views of a board all end at the same smaller size.
@@ -46,10 +46,13 @@ def likely_size(views: Sequence[BoardView], board: Board) -> tuple[int, int] | N
     for view in views:
         row, column = np.divmod(view.ids, board.columns)
         spans.append((int(np.ptp(column)) + 1, int(np.ptp(row)) + 1))
-    most = max(wide for wide, _ in spans), max(high for _, high in spans)
+    maximum = max(wide for wide, _ in spans), max(high for _, high in spans)
     alike = sum(
-        span == most and view.ids.size == most[0] * most[1] for span, view in zip(spans, views, strict=True)
+        span == maximum and view.ids.size == maximum[0] * maximum[1]
+        for span, view in zip(spans, views, strict=True)
     )
-    if most == (board.columns, board.rows) or alike < max(MIN_ALIKE, MIN_ALIKE_RATIO * len(views)):
+    if maximum == (board.columns, board.rows) or alike < max(
+        MIN_EQUAL_VIEWS, MIN_EQUAL_VIEWS_RATIO * len(views)
+    ):
         return None
-    return most
+    return maximum

@@ -1,4 +1,4 @@
-"""From views of a board to a camera with its report."""
+"""Calibrate a camera from views of a board, with a report."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracker.camera.calibration.blocks import blocks_of
-from tracker.camera.calibration.choice import choose_model
 from tracker.camera.calibration.coverage import coverage_of, warnings_of, widest_tilt_deg
 from tracker.camera.calibration.fit import MODELS, NAMES, Fit, board_pose, projected
-from tracker.camera.calibration.one_camera import two_cameras_told
-from tracker.camera.calibration.order import PARALLEL_DEG, fault_of, reject_one_pose
+from tracker.camera.calibration.model_selection import choose_model
+from tracker.camera.calibration.one_camera import two_camera_warnings
+from tracker.camera.calibration.outliers import InlierViews, reject_outlier_points, reject_outlier_views
 from tracker.camera.calibration.report import (
     CalibrationReport,
     ModelChoice,
@@ -18,8 +18,8 @@ from tracker.camera.calibration.report import (
     ViewReport,
     rms,
 )
-from tracker.camera.calibration.robust import Kept, without_odd_points, without_odd_views
-from tracker.camera.calibration.sureness import Uncertainty, noise_is_alike, uncertainty
+from tracker.camera.calibration.uncertainty import Uncertainty, noise_is_correlated, uncertainty
+from tracker.camera.calibration.view_checks import PARALLEL_DEG, fault_of, reject_one_pose
 from tracker.camera.detection.view import BoardView
 from tracker.camera.model import CameraModel
 from tracker.errors import CalibrationError, InvalidInput
@@ -33,7 +33,7 @@ MAX_FOCAL_SD_RATIO = 0.1
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CalibrationSettings:
-    """How a camera is calibrated.
+    """Settings of a camera calibration.
 
     Attributes:
         coefficients: 4, 5 or 8 of the lens; None takes what describes views held out best.
@@ -49,10 +49,10 @@ def calibrate(
     names: Sequence[str] | None = None,
     settings: CalibrationSettings | None = None,
 ) -> CalibrationReport:
-    """The camera that took these views of a board, and how far it can be trusted.
+    """Return the camera calibrated from views of a board, with its uncertainty.
 
-    Views are left out where their points are in a wrong order or do not fit to the others, never for a
-    better figure: a view stays up to three times the usual error.
+    Views are rejected where their points are in a wrong order or are outliers: beyond three times the median
+    error of the views.
 
     Args:
         views: of one board or of several; each has its own pose.
@@ -73,32 +73,34 @@ def calibrate(
     _reject_few(len(sound), views, faults)
     usable = [views[index] for index in sound]
     reject_one_pose(usable, size_wh_px)
-    first = without_odd_views(usable, size_wh_px, FIRST_MODEL)
+    first = reject_outlier_views(usable, size_wh_px, FIRST_MODEL)
     reach_px = float(np.linalg.norm(size_wh_px)) / 2.0
     choice = _choice(settings, first, size_wh_px, reach_px)
-    kept = without_odd_points(usable, first, size_wh_px, choice.coefficients)
+    retained = reject_outlier_points(usable, first, size_wh_px, choice.coefficients)
     out = {index: fault for index, fault in enumerate(faults) if fault}
-    out |= {sound[index]: reason for index, reason in kept.out.items()}
-    _reject_disagreement(kept, len(usable))
-    blocks = blocks_of(kept.fit, kept.views)
-    alike = noise_is_alike(kept.views, kept.fit.residuals_px, blocks)
-    sure = uncertainty(blocks, is_noise_alike=alike)
-    parameters = _parameters(kept.fit, sure)
-    camera = CameraModel(matrix=kept.fit.matrix, distortion=kept.fit.distortion, size_wh_px=size_wh_px)
-    reports = _view_reports(views, names, kept, sound, out)
+    out |= {sound[index]: reason for index, reason in retained.out.items()}
+    _reject_disagreement(retained, len(usable))
+    blocks = blocks_of(retained.fit, retained.views)
+    alike = noise_is_correlated(retained.views, retained.fit.residuals_px, blocks)
+    sure = uncertainty(blocks, is_noise_correlated=alike)
+    parameters = _parameters(retained.fit, sure)
+    camera = CameraModel(
+        matrix=retained.fit.matrix, distortion=retained.fit.distortion, size_wh_px=size_wh_px
+    )
+    reports = _view_reports(views, names, retained, sound, out)
     _reject_undetermined(reports, parameters)
-    coverage = coverage_of(np.concatenate([view.image_points_px for view in kept.views]), size_wh_px)
+    coverage = coverage_of(np.concatenate([view.image_points_px for view in retained.views]), size_wh_px)
     return CalibrationReport(
         camera=camera,
-        rms_px=rms(np.concatenate(kept.fit.residuals_px)),
+        rms_px=rms(np.concatenate(retained.fit.residuals_px)),
         noise_px=sure.noise_px,
-        is_noise_alike=alike,
+        is_noise_correlated=alike,
         parameters=parameters,
         covariance=_read_only(sure.covariance),
         views=reports,
         coverage=coverage,
         choice=choice,
-        warnings=two_cameras_told(kept.fit, blocks, [view.name for view in reports if view.used])
+        warnings=two_camera_warnings(retained.fit, blocks, [view.name for view in reports if view.used])
         + warnings_of(reports, parameters, coverage, choice, size_wh_px),
     )
 
@@ -110,7 +112,7 @@ def _read_only(array: Array) -> Array:
 
 
 def _choice(
-    settings: CalibrationSettings, kept: Kept, size_wh_px: tuple[int, int], reach_px: float
+    settings: CalibrationSettings, retained: InlierViews, size_wh_px: tuple[int, int], reach_px: float
 ) -> ModelChoice:
     if settings.coefficients is not None:
         return ModelChoice(
@@ -118,7 +120,7 @@ def _choice(
             held_out_rms_px=(),
             reason=f"{settings.coefficients} were asked for",
         )
-    return choose_model(kept.views, size_wh_px, reach_px)
+    return choose_model(retained.views, size_wh_px, reach_px)
 
 
 def _parameters(fit: Fit, sure: Uncertainty) -> tuple[ParameterEstimate, ...]:
@@ -139,24 +141,30 @@ def _parameters(fit: Fit, sure: Uncertainty) -> tuple[ParameterEstimate, ...]:
 
 
 def _view_reports(
-    views: Sequence[BoardView], names: Sequence[str], kept: Kept, sound: Sequence[int], out: dict[int, str]
+    views: Sequence[BoardView],
+    names: Sequence[str],
+    retained: InlierViews,
+    sound: Sequence[int],
+    out: dict[int, str],
 ) -> tuple[ViewReport, ...]:
-    at_of = {sound[index]: at for at, index in enumerate(kept.indexes)}
+    at_of = {sound[index]: at for at, index in enumerate(retained.indexes)}
     sound_at = {index: at for at, index in enumerate(sound)}
     reports = []
     for index, (view, name) in enumerate(zip(views, names, strict=True)):
         at = at_of.get(index)
         if at is not None:
-            pose = kept.fit.rotations_rad[at], kept.fit.translations_mm[at]
-            shown, residuals = kept.views[at], kept.fit.residuals_px[at]
-            dropped = int((~kept.points[sound_at[index]]).sum())
+            pose = retained.fit.rotations_rad[at], retained.fit.translations_mm[at]
+            shown, residuals = retained.views[at], retained.fit.residuals_px[at]
+            dropped = int((~retained.points[sound_at[index]]).sum())
         else:
-            found = board_pose(view, kept.fit.matrix, kept.fit.distortion) if index in sound_at else None
+            found = (
+                board_pose(view, retained.fit.matrix, retained.fit.distortion) if index in sound_at else None
+            )
             pose = found or (np.zeros(3), np.zeros(3))
             shown, dropped = view, 0
             residuals = np.full((view.ids.size, 2), np.nan)
             if found is not None:
-                fit = kept.fit
+                fit = retained.fit
                 residuals = view.image_points_px - projected(
                     view.object_points_mm, *pose, fit.matrix, fit.distortion
                 )
@@ -213,7 +221,7 @@ def _reject_few(sound: int, views: Sequence[BoardView], faults: Sequence[str]) -
 
 
 def _reject_undetermined(reports: Sequence[ViewReport], parameters: Sequence[ParameterEstimate]) -> None:
-    """A bent picture of parallel boards looks tilted before the lens is known: so once more with the lens."""
+    """Reject parallel views again with the lens known: lens distortion can look like a tilt before."""
     widest = widest_tilt_deg([view for view in reports if view.used])
     unsure = max(one.sd / one.value for one in parameters if one.name in ("fx", "fy"))
     if widest >= PARALLEL_DEG and unsure <= MAX_FOCAL_SD_RATIO:
@@ -227,8 +235,8 @@ def _reject_undetermined(reports: Sequence[ViewReport], parameters: Sequence[Par
     )
 
 
-def _reject_disagreement(kept: Kept, usable: int) -> None:
-    left = len(kept.indexes)
+def _reject_disagreement(retained: InlierViews, usable: int) -> None:
+    left = len(retained.indexes)
     if left >= MIN_VIEWS and usable - left <= MAX_OUT_RATIO * usable:
         return
     raise CalibrationError(

@@ -1,4 +1,4 @@
-"""Where in the image the board was seen, and what the views cannot tell because of where it was not."""
+"""Image coverage of the calibration views, and warnings about what they determine poorly."""
 
 from collections.abc import Sequence
 
@@ -19,13 +19,13 @@ FEW_VIEWS = 8
 LITTLE_TILT_DEG = 15.0
 ONE_DISTANCE_RATIO = 1.15
 MIN_CORNER_REACH_RATIO = 0.7
-UNSURE_FOCAL_RATIO, UNSURE_MIDDLE_RATIO = 0.01, 0.01
+MAX_FOCAL_SD_WARNING_RATIO, MAX_MIDDLE_SD_WARNING_RATIO = 0.01, 0.01
 MANY_OUT_RATIO = 0.25
 MORE_VIEWS = "Take 10 to 20 views; a few views determine the lens poorly."
 
 
 def coverage_of(points_px: Array, size_wh_px: tuple[int, int]) -> Coverage:
-    """What part of the image the points (n, 2) of all views cover."""
+    """Return the coverage of the image by the points (n, 2) of all views."""
     size = np.array(size_wh_px, dtype=np.float64)
     cells = np.clip((points_px / size * GRID).astype(int), 0, np.array(GRID) - 1)
     hull = cv2.convexHull(points_px.astype(np.float32))
@@ -51,12 +51,12 @@ def warnings_of(
     choice: ModelChoice,
     size_wh_px: tuple[int, int],
 ) -> tuple[CalibrationWarning, ...]:
-    """What these views determine poorly."""
+    """Return warnings about what these views determine poorly."""
     used = [view for view in views if view.used]
-    told: list[CalibrationWarning] = []
+    reported: list[CalibrationWarning] = []
 
     def warn(code: str, message: str, remedy: str) -> None:
-        told.append(CalibrationWarning(code=code, message=message, remedy=remedy))
+        reported.append(CalibrationWarning(code=code, message=message, remedy=remedy))
 
     if len(used) < FEW_VIEWS:
         warn("FEW_VIEWS", f"{len(used)} views are used, advised are {FEW_VIEWS} and more", MORE_VIEWS)
@@ -91,36 +91,36 @@ def warnings_of(
         if reach < MIN_CORNER_REACH_RATIO
     ]
     if low:
-        least = 100 * min(coverage.corner_reach_ratios)
+        minimum = 100 * min(coverage.corner_reach_ratios)
         warn(
             "CORNERS_UNCOVERED",
-            f"towards the image's {', '.join(low)} corner points reach {least:.0f} % of the way, advised are "
-            f"{100 * MIN_CORNER_REACH_RATIO:.0f} %",
-            "Add views with the board there: beyond its points the lens is a guess.",
+            f"towards the image's {', '.join(low)} corner points reach {minimum:.0f} % of the way, "
+            f"advised are {100 * MIN_CORNER_REACH_RATIO:.0f} %",
+            "Add views with the board there: beyond its points the lens is extrapolated.",
         )
-    told.extend(_unsure(parameters, size_wh_px))
+    reported.extend(_unsure(parameters, size_wh_px))
     if not choice.held_out_rms_px:
         warn("MODEL_NOT_TRIED", f"lens model: {choice.reason}", MORE_VIEWS)
-    return tuple(told)
+    return tuple(reported)
 
 
 def _unsure(parameters: Sequence[ParameterEstimate], size_wh_px: tuple[int, int]) -> list[CalibrationWarning]:
-    told = []
+    reported = []
     for one in parameters:
         limit = {
-            "f": UNSURE_FOCAL_RATIO * one.value,
-            "c": UNSURE_MIDDLE_RATIO * max(size_wh_px),
+            "f": MAX_FOCAL_SD_WARNING_RATIO * one.value,
+            "c": MAX_MIDDLE_SD_WARNING_RATIO * max(size_wh_px),
         }.get(one.name[0])
         if limit is not None and one.sd > limit:
-            told.append(
+            reported.append(
                 CalibrationWarning(
-                    code="FOCAL_LENGTH_UNSURE" if one.name[0] == "f" else "PRINCIPAL_POINT_UNSURE",
+                    code="FOCAL_LENGTH_UNCERTAIN" if one.name[0] == "f" else "PRINCIPAL_POINT_UNCERTAIN",
                     message=f"{one.name} is {one.value:.1f} px with a standard deviation of {one.sd:.1f} px, "
                     f"advised is {limit:.1f} px",
                     remedy="Add views with the board tilted in other directions and filling the image.",
                 )
             )
-    return told
+    return reported
 
 
 def widest_tilt_deg(views: Sequence[ViewReport]) -> float:

@@ -41,12 +41,12 @@ class Fit:
 
     @property
     def view_rms_px(self) -> Array:
-        """Of each view the root mean square distance."""
+        """Return the RMS distance of each view."""
         return np.array([np.sqrt((r**2).sum(axis=1).mean()) for r in self.residuals_px])
 
 
 def fit_camera(views: Sequence[BoardView], size_wh_px: tuple[int, int], coefficients: int) -> Fit:
-    """The camera that these views fit best to, with so many lens coefficients.
+    """Return the camera fitted to these views with `coefficients` of the lens.
 
     Raises:
         CalibrationError: CALIBRATION_DIVERGED, the numbers run away.
@@ -82,7 +82,7 @@ def fit_camera(views: Sequence[BoardView], size_wh_px: tuple[int, int], coeffici
 def projected(
     points_mm: Array, rotation_rad: Array, translation_mm: Array, matrix: Array, lens: Array
 ) -> Array:
-    """Where board points (n, 3) land, in px (n, 2)."""
+    """Project board points (n, 3) to px (n, 2)."""
     px, _ = cv2.projectPoints(points_mm.reshape(-1, 1, 3), rotation_rad, translation_mm, matrix, lens)
     return np.asarray(px, dtype=np.float64).reshape(-1, 2)
 

@@ -1,10 +1,8 @@
-"""Whether all views were taken by one camera, or two cameras explain them clearly better.
+"""Detect views of two different cameras.
 
-Two cameras of one make, or one whose zoom was touched, agree to within tenths of a pixel: each view alone
-fits, and the camera that comes out is none of both.
-
-Two cameras of one make fit together to 0.22 px, and the result is neither of them. A bent board pulls views
-apart in the same way, so this is a warning and no error.
+Two cameras of one make, or one whose zoom was changed, agree to within tenths of a pixel: they fit together
+to 0.22 px, and the result is neither of them. A bent board separates views in the same way, so this is a
+warning and not an error.
 """
 
 from collections.abc import Sequence
@@ -63,7 +61,7 @@ def two_groups(blocks: Sequence[Block]) -> TwoGroups | None:
     """The two groups into which the views of a fitted camera fall, None where they are of one camera.
 
     To first order about the common camera: each view's own pull (`Block`) says which of two it prefers. A
-    bent board, too, pulls views apart, in the same ways; so this warns and never refuses.
+    bent board, too, pulls views apart, in the same ways; so this warns and never rejects.
     """
     if len(blocks) < MIN_VIEWS:
         return None
@@ -88,7 +86,7 @@ def two_groups(blocks: Sequence[Block]) -> TwoGroups | None:
     )
 
 
-def two_cameras_told(
+def two_camera_warnings(
     fit: Fit, blocks: Sequence[Block], names: Sequence[str]
 ) -> tuple[CalibrationWarning, ...]:
     """A warning with numbers where two cameras explain clearly better the views (of these names) of a fit."""
@@ -122,7 +120,9 @@ def _best_split(blocks: Sequence[Block]) -> _Split | None:
     informations = np.array([block.information for block in blocks])
     gradients = np.array([block.gradient for block in blocks])
     scale = 1.0 / np.sqrt(np.maximum(np.diag(total_information(blocks)), 1e-300))
-    settled = (_settled(start, informations * scale * scale[:, None], gradients * scale) for start in starts)
+    settled = (
+        _converged(start, informations * scale * scale[:, None], gradients * scale) for start in starts
+    )
     found = [split for split in settled if split is not None]
     if not found:
         return None
@@ -130,7 +130,7 @@ def _best_split(blocks: Sequence[Block]) -> _Split | None:
     return replace(best, first_step=best.first_step * scale, second_step=best.second_step * scale)
 
 
-def _settled(second: Members, informations: Array, gradients: Array) -> _Split | None:
+def _converged(second: Members, informations: Array, gradients: Array) -> _Split | None:
     split: _Split | None = None
     for _ in range(ROUNDS):
         if min(int(second.sum()), int((~second).sum())) < MIN_MEMBERS:
@@ -158,7 +158,7 @@ def _fitted(second: Members, informations: Array, gradients: Array) -> _Split:
 
 
 def _costs(step: Array, informations: Array, gradients: Array) -> Array:
-    """What each view's squared residuals change by, if the camera takes this step."""
+    """Return the change of each view's squared residuals under a step of the camera."""
     return np.asarray(np.einsum("i,nij,j->n", step, informations, step) - 2.0 * gradients @ step)
 
 

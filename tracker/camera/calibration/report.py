@@ -1,4 +1,4 @@
-"""What a calibration gives, and what is told about it."""
+"""Result of a camera calibration, with its uncertainty and warnings."""
 
 from dataclasses import dataclass
 
@@ -10,14 +10,14 @@ from tracker.geometry import Array, Camera, Pattern, Rigid
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ParameterEstimate:
-    """One number of the camera and how sure it is.
+    """Estimate of one camera parameter with its uncertainty.
 
     Attributes:
         name: fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6.
         value: focal lengths and principal point in px, the lens without unit.
         sd: standard deviation, of the same unit.
         low_95, high_95: between these it lies with 95 % (Student's t with `degrees_of_freedom`).
-        degrees_of_freedom: that the standard deviation stands on.
+        degrees_of_freedom: of the standard deviation.
     """
 
     name: str
@@ -30,21 +30,21 @@ class ParameterEstimate:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ViewReport:
-    """What became of one view.
+    """Report of one view.
 
     Attributes:
         name: as the caller named it.
-        used: whether the camera stands on it.
+        used: whether the calibration uses it.
         reason: why it is not used, with numbers, or an empty string.
         rms_px: root mean square distance between seen and expected points; of a view that is not used, as
             its best pose leaves it, and NaN where it has none.
         points: that were seen.
-        dropped_points: of them, that lie off by more than noise and have no say.
+        dropped_points: number of outlier points among them.
         tilt_deg: between the board's face and the image plane.
         distance_mm: from the camera to the middle of what is seen of the board.
         camera_from_pattern: the board's pose; identity where there is none.
         image_points_px: (n, 2) seen, with the bias of tilted dots taken out.
-        residuals_px: (n, 2) seen minus expected, of the points that have a say.
+        residuals_px: (n, 2) seen minus expected, of the inlier points.
     """
 
     name: str
@@ -62,7 +62,7 @@ class ViewReport:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Coverage:
-    """Where in the image points were seen.
+    """Image coverage of the points.
 
     Attributes:
         cells_ratio: of the image's cells (8 x 6), those with a point.
@@ -78,7 +78,7 @@ class Coverage:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ModelChoice:
-    """Which lens model was taken, and what it did on views that it was not fitted to.
+    """The selected lens model, with its cross-validation errors.
 
     Attributes:
         coefficients: 4, 5 or 8.
@@ -93,7 +93,7 @@ class ModelChoice:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CalibrationWarning:
-    """What these views cannot determine well, with numbers, and what would mend it."""
+    """A warning about what these views determine poorly, with a remedy."""
 
     code: str
     message: str
@@ -102,14 +102,14 @@ class CalibrationWarning:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CalibrationReport:
-    """A calibrated camera and what it stands on.
+    """A calibrated camera with its report.
 
     Attributes:
         camera: the result.
         rms_px: root mean square distance between seen and expected points, over all views used.
         noise_px: standard deviation of one coordinate of one point.
-        is_noise_alike: errors of neighbouring points, or of whole views, are alike (a bent board, blur); the
-            standard deviations then come from how the views differ from each other, not from the points.
+        is_noise_correlated: whether errors of neighbouring points, or within a view, are correlated (a bent
+            board, blur); the standard deviations then come from a jackknife over the views.
         parameters: each estimated number.
         covariance: (n, n) of `parameters`, in their order.
         views: all of them, in the order given.
@@ -121,7 +121,7 @@ class CalibrationReport:
     camera: CameraModel
     rms_px: float
     noise_px: float
-    is_noise_alike: bool
+    is_noise_correlated: bool
     parameters: tuple[ParameterEstimate, ...]
     covariance: Array
     views: tuple[ViewReport, ...]
@@ -135,12 +135,12 @@ class CalibrationReport:
 
     @property
     def views_used(self) -> int:
-        """How many views the camera stands on."""
+        """Return the number of views in use."""
         return sum(view.used for view in self.views)
 
     @property
     def pixel_aspect_ratio(self) -> float:
-        """How high the focal length is to how wide, fy / fx: above 1 where pixels are wider than high."""
+        """Return fy / fx: above 1 where pixels are wider than high."""
         return float(self.camera.matrix[1, 1] / self.camera.matrix[0, 0])
 
 

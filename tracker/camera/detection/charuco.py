@@ -1,4 +1,4 @@
-"""ChArUco boards: every corner is known by the markers around it, so that a part of the board is enough."""
+"""ChArUco boards: markers identify every corner, so a part of the board is enough."""
 
 from collections.abc import Sequence
 
@@ -10,7 +10,7 @@ from tracker.camera.detection.blobs import GreyImage
 from tracker.camera.detection.corners import refined
 from tracker.camera.detection.lattice import Cells, step_lengths_px
 from tracker.camera.detection.plane import off_plane_px
-from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason, Sureness
+from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason, PlacementAmbiguity
 from tracker.geometry import Array
 
 MIN_CORNERS, MIN_MARKERS = 6, 4
@@ -24,13 +24,13 @@ MIN_WINDOW_PX = 3.0
 def find_charuco(grey: GreyImage, board: CharucoBoard) -> BoardView | BoardNotFound:
     """The corners of the board in an image, or why not; the layout is found out where it is not told."""
     layout = board.layout
-    sureness = Sureness.CERTAIN
+    ambiguity = PlacementAmbiguity.NONE
     if layout is None:
         misfits = layout_misfits(grey, board)
         layout = charuco_layout([misfits])
         # A patch in the middle of the board looks alike in both, one square farther.
         if board.rows % 2 == 0 and min(misfits) > 0.5 * max(misfits):
-            sureness = Sureness.PLACE
+            ambiguity = PlacementAmbiguity.PLACE
     ids, corners, max_markers = _detected(grey, board, layout)
     if len(ids) < MIN_CORNERS:
         return BoardNotFound(
@@ -40,7 +40,7 @@ def find_charuco(grey: GreyImage, board: CharucoBoard) -> BoardView | BoardNotFo
             seen_points=len(ids),
         )
     return BoardView(
-        ids=ids, object_points_mm=board.object_points_mm[ids], image_points_px=corners, sureness=sureness
+        ids=ids, object_points_mm=board.object_points_mm[ids], image_points_px=corners, ambiguity=ambiguity
     )
 
 
@@ -51,7 +51,7 @@ def charuco_layout(misfits: list[tuple[float, float]]) -> CharucoLayout:
 
 
 def layout_misfits(grey: GreyImage, board: CharucoBoard) -> tuple[float, float]:
-    """How far markers lie from a flat board (median, px) if it is of the newer, and of the older layout."""
+    """Return the median deviation of markers from a flat board [px] for the newer and the older layout."""
     corners, ids, _ = cv2.aruco.ArucoDetector(board.opencv_dictionary).detectMarkers(grey)
     if _count(ids) < MIN_MARKERS:
         return 0.0, 0.0
@@ -96,8 +96,8 @@ def _detected(
     px = np.asarray(found, dtype=np.float64).reshape(-1, 2)
     row, column = np.divmod(named, board.columns - 1)
     cells = np.column_stack([column, row])
-    kept = _with_neighbours(px, cells)
-    named, px, cells = named[kept], px[kept], cells[kept]
+    retained = _with_neighbours(px, cells)
+    named, px, cells = named[retained], px[retained], cells[retained]
     if len(named) < MIN_CORNERS:
         return np.zeros(0, dtype=np.int64), np.zeros((0, 2)), markers
     return named, _placed_finely(grey, px, cells, board), markers
@@ -120,16 +120,16 @@ def _count(found: object) -> int:
 
 
 def _with_neighbours(px: Array, cells: Cells) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Which corners stand where those around them expect them: a wrong one stands off its plane's map."""
-    kept = np.ones(len(px), dtype=bool)
+    """Return the mask of corners that fit the homography of the others."""
+    retained = np.ones(len(px), dtype=bool)
     for _ in range(4):
-        off = _off_map(px[kept], cells[kept])
-        side, _ = step_lengths_px(px[kept], cells[kept])
+        off = _off_map(px[retained], cells[retained])
+        side, _ = step_lengths_px(px[retained], cells[retained])
         bad = off > OFF_NEIGHBOURS_RATIO * np.median(side) + 3.0 * np.median(off)
-        if not bad.any() or kept.sum() - bad.sum() < MIN_CORNERS:
-            return kept
-        kept[np.flatnonzero(kept)[bad]] = False
-    return kept
+        if not bad.any() or retained.sum() - bad.sum() < MIN_CORNERS:
+            return retained
+        retained[np.flatnonzero(retained)[bad]] = False
+    return retained
 
 
 def _off_map(px: Array, cells: Cells) -> Array:

@@ -6,16 +6,16 @@ import numpy.typing as npt
 
 from tracker.camera.boards import CheckerBoard
 from tracker.camera.detection.blobs import GreyImage
+from tracker.camera.detection.board_placement import place_on_board, trim_to_board
 from tracker.camera.detection.corners import SADDLE_SMOOTHING_PX, quarter_signs, refined, saddles
 from tracker.camera.detection.lattice import Cells, lattices, step_lengths_px
-from tracker.camera.detection.placing import placed, within
-from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason, Sureness
+from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason, PlacementAmbiguity
 from tracker.geometry import Array
 
 SECTOR_FLAGS = cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.CALIB_CB_EXHAUSTIVE | cv2.CALIB_CB_ACCURACY
 QUAD_FLAGS = cv2.CALIB_CB_ADAPTIVE_THRESH | cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.CALIB_CB_FAST_CHECK
 MIN_CORNERS = 12
-ENLARGED, LARGEST_ENLARGED_PX = 1.5, 2_000_000
+ENLARGEMENT, MAX_ENLARGED_PX = 1.5, 2_000_000
 MIN_SIDE = 3
 MAX_GRIDS = 4
 MIN_REGULAR_RATIO, MIN_CONTRAST_RATIO = 0.75, 0.6
@@ -75,8 +75,8 @@ def _part_viewed(
     points, cells = points[clear], cells[clear]
     odd = (_looks(grey, points, cells) + cells.sum(axis=1)) % 2
     usual = odd == round(float(odd.mean()))
-    inside, kept = within(cells[usual], board.columns, board.rows)
-    seen = points[usual][kept]
+    inside, retained = trim_to_board(cells[usual], board.columns, board.rows)
+    seen = points[usual][retained]
     needed = min(MIN_CORNERS, board.columns * board.rows)
     if len(seen) < needed or usual.mean() < MIN_REGULAR_RATIO:
         few = f"{len(seen)} corners where dark and light take turns, at least {needed} are needed"
@@ -108,14 +108,14 @@ def _whole_enlarged(grey: GreyImage, board: CheckerBoard) -> Array | None:
     Its squares hang together only where the gaps between them are wide enough to be opened: enlarged.
     """
     size = (board.columns, board.rows)
-    if min(size) < MIN_SIDE or grey.size > LARGEST_ENLARGED_PX:
+    if min(size) < MIN_SIDE or grey.size > MAX_ENLARGED_PX:
         return None
-    larger = cv2.resize(grey, None, fx=ENLARGED, fy=ENLARGED, interpolation=cv2.INTER_CUBIC)
+    larger = cv2.resize(grey, None, fx=ENLARGEMENT, fy=ENLARGEMENT, interpolation=cv2.INTER_CUBIC)
     found, corners = cv2.findChessboardCorners(larger, size, flags=QUAD_FLAGS & ~cv2.CALIB_CB_FAST_CHECK)
     if not found:
         return None
     # The middle of the first pixel is at (0, 0) in both.
-    return (np.asarray(corners, dtype=np.float64).reshape(-1, 2) + 0.5) / ENLARGED - 0.5
+    return (np.asarray(corners, dtype=np.float64).reshape(-1, 2) + 0.5) / ENLARGEMENT - 0.5
 
 
 def _viewed(
@@ -134,7 +134,7 @@ def _viewed(
     if min(wide, high) >= min(MIN_SIDE, board.columns, board.rows):
         # Where the shape leaves a choice, the outermost square at the first corner is taken to be dark.
         looks = _looks(grey, corners, cells)
-        place = placed(cells, corners, looks, grid, names, quarters_swap_looks=True)
+        place = place_on_board(cells, corners, looks, grid, names, quarters_swap_looks=True)
     if place is None:
         return BoardNotFound(
             reason=NotFoundReason.OTHER_SIZE,
@@ -153,7 +153,7 @@ def _viewed(
         object_points_mm=board.object_points_mm[place.ids],
         image_points_px=corners,
         # A corner too many or too few at the rim, and the rest is one step off.
-        sureness=place.sureness if is_whole else Sureness.PLACE,
+        ambiguity=place.ambiguity if is_whole else PlacementAmbiguity.PLACE,
     )
 
 

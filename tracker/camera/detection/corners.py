@@ -11,7 +11,7 @@ REFINE_CRITERIA = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 100, 1e-4)
 # Half the window in which a corner is placed, as a part of the shortest side of the squares around it: the
 # next corner, and most of what a lens bends, stay outside.
 WINDOW_RATIO = 0.3
-SMALLEST_WINDOW_PX, LARGEST_WINDOW_PX = 2, 12
+MIN_WINDOW_SIDE_PX, MAX_WINDOW_PX = 2, 12
 SADDLE_SMOOTHING_PX = (1.5, 3.0)
 MAX_SADDLES = 3000
 # Light on a ring around a corner, so many smoothings away, is a wave of two periods before all others.
@@ -22,8 +22,8 @@ def refined(
     grey: GreyImage, corners_px: Array, sides_px: Array, *, window_ratio: float = WINDOW_RATIO
 ) -> Array:
     """Corners (n, 2) where the edges around them point to; `sides_px` (n,) is the shortest side at each."""
-    windows = np.clip(np.rint(window_ratio * sides_px), SMALLEST_WINDOW_PX, LARGEST_WINDOW_PX).astype(int)
-    placed = corners_px.copy()
+    windows = np.clip(np.rint(window_ratio * sides_px), MIN_WINDOW_SIDE_PX, MAX_WINDOW_PX).astype(int)
+    moved_corners = corners_px.copy()
     for window in np.unique(windows):
         some = windows == window
         start = corners_px[some].astype(np.float32).reshape(-1, 1, 2)
@@ -31,8 +31,8 @@ def refined(
         moved = np.asarray(found, dtype=np.float64).reshape(-1, 2)
         # A corner that runs away stays where it was.
         near = np.linalg.norm(moved - corners_px[some], axis=1) < max(1.5, 0.5 * window)
-        placed[some] = np.where(near[:, None], moved, corners_px[some])
-    return placed
+        moved_corners[some] = np.where(near[:, None], moved, corners_px[some])
+    return moved_corners
 
 
 def saddles(grey: GreyImage, *, smoothing_px: float) -> Array:

@@ -5,8 +5,8 @@ import numpy.typing as npt
 
 from tracker.camera.boards import DotBoard, DotLayout
 from tracker.camera.detection.blobs import WINDOW_RATIOS, Blobs, GreyImage, dark_blobs
+from tracker.camera.detection.board_placement import place_on_board, trim_to_board
 from tracker.camera.detection.lattice import BASES, Cells, Lattice, largest_lattice, step_lengths_px
-from tracker.camera.detection.placing import placed, within
 from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason
 from tracker.geometry import Array
 
@@ -44,9 +44,9 @@ def find_dots(grey: GreyImage, board: DotBoard) -> BoardView | BoardNotFound:
     looks = larger.astype(np.int64) if board.fiducials else np.full(len(px), -1, dtype=np.int64)
     board_looks = np.zeros(board.columns * board.rows, dtype=np.int64)
     board_looks[list(board.fiducials)] = 1
-    cells, kept = _on_board(lattice.cells, board)
-    px, looks, share, larger = px[kept], looks[kept], share[kept], larger[kept]
-    place = placed(cells, px, looks, _cells_of(board), board_looks)
+    cells, retained = _on_board(lattice.cells, board)
+    px, looks, share, larger = px[retained], looks[retained], share[retained], larger[retained]
+    place = place_on_board(cells, px, looks, _cells_of(board), board_looks)
     if place is None:
         wide, high = cells.max(axis=0) + 1
         return BoardNotFound(
@@ -67,7 +67,7 @@ def find_dots(grey: GreyImage, board: DotBoard) -> BoardView | BoardNotFound:
         object_points_mm=board.object_points_mm[place.ids],
         image_points_px=px,
         dot_radii_mm=_radii_mm(share, larger, board),
-        sureness=place.sureness,
+        ambiguity=place.ambiguity,
     )
 
 
@@ -101,7 +101,7 @@ def _on_board(cells: Cells, board: DotBoard) -> tuple[Cells, npt.NDArray[np.bool
     asymmetric = board.layout is DotLayout.ASYMMETRIC
     if asymmetric:
         cells = max((_across(cells, basis) for basis in BASES), key=_fill)
-    return within(cells, 2 * board.columns if asymmetric else board.columns, board.rows)
+    return trim_to_board(cells, 2 * board.columns if asymmetric else board.columns, board.rows)
 
 
 def _across(cells: Cells, basis: npt.NDArray[np.int64]) -> Cells:
@@ -111,7 +111,7 @@ def _across(cells: Cells, basis: npt.NDArray[np.int64]) -> Cells:
 
 
 def _fill(cells: Cells) -> float:
-    """How full the rectangle around the cells is: counted slantwise, a board leaves much of it empty."""
+    """Return the filled share of the cells' bounding rectangle; low for a diagonal basis."""
     return len(cells) / float(np.prod(cells.max(axis=0) - cells.min(axis=0) + 1))
 
 

@@ -1,4 +1,4 @@
-"""One door to all detectors."""
+"""Common entry point of all board detectors."""
 
 from collections import Counter
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""Which of many points form a regular grid, and where in it each one stands."""
+"""Find regular grids among points, and the cell of each point."""
 
 from collections import deque
 from collections.abc import Iterator
@@ -79,7 +79,7 @@ def largest_lattice(points_px: Array) -> Lattice:
 
 
 def step_lengths_px(points_px: Array, cells: Cells) -> tuple[Array, Array]:
-    """Of each point of a lattice the shortest step to a neighbour, and the area of its cell in px2."""
+    """Return the shortest step to a neighbour of each point [px], and the area of its cell [px2]."""
     place = {(int(x), int(y)): index for index, (x, y) in enumerate(cells)}
     lengths, areas = np.zeros(len(cells)), np.zeros(len(cells))
     for index, (x, y) in enumerate(cells):
@@ -103,7 +103,7 @@ def step_lengths_px(points_px: Array, cells: Cells) -> tuple[Array, Array]:
 
 
 def _seeds(points_px: Array) -> list[int]:
-    """Where to begin: near the middle of all points, and spread over them."""
+    """Return seed points near the centre and spread over all points."""
     from_middle = np.argsort(np.linalg.norm(points_px - np.median(points_px, axis=0), axis=1))
     spread = np.linspace(0, len(points_px) - 1, min(SEEDS, len(points_px))).astype(int)
     return [int(i) for i in from_middle[: SEEDS // 4]] + [int(i) for i in from_middle[spread]]
@@ -171,10 +171,10 @@ def _smooth_part(points_px: Array, lattice: Lattice) -> Lattice:
         px = points_px[lattice.members]
         off = _off_smooth(px, lattice.cells)
         lengths, _ = step_lengths_px(px, lattice.cells)
-        kept = off < np.maximum(OFF_GRID_RATIO * lengths, 4.0 * np.median(off))
-        if kept.all():
+        retained = off < np.maximum(OFF_GRID_RATIO * lengths, 4.0 * np.median(off))
+        if retained.all():
             return lattice
-        lattice = Lattice(members=lattice.members[kept], cells=lattice.cells[kept])
+        lattice = Lattice(members=lattice.members[retained], cells=lattice.cells[retained])
     return lattice
 
 
@@ -200,7 +200,7 @@ def _off_smooth(px: Array, cells: Cells) -> Array:
 
 
 def _upright(points_px: Array, lattice: Lattice) -> Lattice:
-    """The same grid with sides along its rows and columns, counted from 0."""
+    """Return the grid with axes along its rows and columns, counted from 0."""
     if len(lattice.members) < 4:
         return lattice
     best, best_fill = lattice.cells, 0.0

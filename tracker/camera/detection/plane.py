@@ -1,4 +1,4 @@
-"""The map from a flat board into its image, without a lens."""
+"""Homography from a flat board to its image."""
 
 from typing import cast
 
@@ -11,7 +11,7 @@ from tracker.geometry import Array
 def plane_map(board: Array, px: Array, *, is_robust: bool) -> Array | None:
     """The homography (3, 3) from board points (n, 2) to px (n, 2), or None where there is none.
 
-    A robust one is told by the better half of the points.
+    With `is_robust`, least median of squares.
     """
     method = cv2.LMEDS if is_robust else 0
     # OpenCV gives None for nothing, whatever its types say.
@@ -20,7 +20,7 @@ def plane_map(board: Array, px: Array, *, is_robust: bool) -> Array | None:
 
 
 def off_plane_px(board: Array, px: Array, *, is_robust: bool) -> Array | None:
-    """How far (n, 2) points lie from where that map puts them, or None where there is none."""
+    """Return the residuals (n, 2) of the homography, or None where there is none."""
     found = plane_map(board, px, is_robust=is_robust)
     if found is None:
         return None

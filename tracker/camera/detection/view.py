@@ -1,4 +1,4 @@
-"""What was seen of a board in one image, or why nothing was."""
+"""The detected points of a board in one image, or the reason why it was not found."""
 
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -23,18 +23,17 @@ class NotFoundReason(StrEnum):
     """The larger dots stand where the board has none."""
 
 
-class Sureness(StrEnum):
-    """How surely each seen point is known to be that point of the board.
+class PlacementAmbiguity(StrEnum):
+    """Ambiguity of which point of the board each seen point is.
 
-    One camera is calibrated as well by a board that was taken for itself turned by half; between two cameras
-    it makes all the difference.
+    A half turn of the board does not affect the calibration of one camera; between two cameras it does.
     """
 
-    CERTAIN = "certain"
+    NONE = "none"
     HALF_TURN = "half_turn"
-    """The board turned about its middle by 180 degrees (a square one by 90) looks the same."""
+    """The board rotated about its centre by 180 degrees (a square one by 90) looks the same."""
     PLACE = "place"
-    """Only a part was seen, and it could be any part of the board."""
+    """Only a part was seen, which may be any part of the board."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,7 +60,7 @@ class BoardView:
         object_points_mm: (n, 3) where they are on the board.
         image_points_px: (n, 2) where they are in the image.
         dot_radii_mm: (n,) of the dots, (0,) where points are corners.
-        sureness: how surely the ids are the right ones.
+        ambiguity: of the ids.
 
     Raises:
         InvalidInput: VIEW_INVALID, shapes do not agree or a number is not finite.
@@ -71,7 +70,7 @@ class BoardView:
     object_points_mm: Array
     image_points_px: Array
     dot_radii_mm: Array = field(default_factory=lambda: np.zeros(0))
-    sureness: Sureness = Sureness.CERTAIN
+    ambiguity: PlacementAmbiguity = PlacementAmbiguity.NONE
 
     def __post_init__(self) -> None:
         ids = np.array(self.ids, dtype=np.int64).ravel()
@@ -98,12 +97,12 @@ class BoardView:
             value.setflags(write=False)
             object.__setattr__(self, name, value)
 
-    def part(self, kept: npt.NDArray[np.bool_]) -> "BoardView":
-        """The same view with some of its points."""
+    def part(self, retained: npt.NDArray[np.bool_]) -> "BoardView":
+        """Return the view with some of its points."""
         return BoardView(
-            ids=self.ids[kept],
-            object_points_mm=self.object_points_mm[kept],
-            image_points_px=self.image_points_px[kept],
-            dot_radii_mm=self.dot_radii_mm[kept] if self.dot_radii_mm.size else self.dot_radii_mm,
-            sureness=self.sureness,
+            ids=self.ids[retained],
+            object_points_mm=self.object_points_mm[retained],
+            image_points_px=self.image_points_px[retained],
+            dot_radii_mm=self.dot_radii_mm[retained] if self.dot_radii_mm.size else self.dot_radii_mm,
+            ambiguity=self.ambiguity,
         )

@@ -1,4 +1,4 @@
-"""Several cameras that stand still to each other: where each is, and how sure that is."""
+"""Extrinsic calibration of several fixed cameras, with uncertainty."""
 
 from tracker.camera.rig.calibrate import RigCamera, RigReport, ShotReport, calibrate_rig
 

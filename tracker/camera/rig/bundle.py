@@ -1,4 +1,4 @@
-"""All cameras of a rig and all poses of the board, fitted to all points at once.
+"""Bundle adjustment of all cameras of a rig and all board poses.
 
 Lenses are fitted with the places of the cameras, after most pairs agree on them (`consensus`): the
 uncertainty of the lens is then part of the baseline's, and a swapped pair is reported instead of averaged
@@ -25,7 +25,7 @@ From = TypeVar("From")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bundle:
-    """A rig's numbers.
+    """Parameters of a rig.
 
     Attributes:
         models: by camera; the first is the origin.
@@ -72,7 +72,7 @@ def _damped(own: Array, damping: float) -> Array:
 
 
 def rig_blocks(bundle: Bundle, shots: Shots) -> list[Block]:
-    """What each instant says of the shared numbers: lens after lens, then place after place."""
+    """Return the information of each instant about the shared parameters: lenses, then camera poses."""
     return [reduced(*_linear(bundle, shot, index)) for index, shot in enumerate(shots)]
 
 
@@ -95,7 +95,7 @@ def squares_px2(bundle: Bundle, shots: Shots) -> float:
 
 
 def places_of(bundle: Bundle) -> dict[str, slice]:
-    """Where the place of each camera but the first stands among the shared numbers."""
+    """Return the slice of each camera's pose, except the first, in the shared parameters."""
     at = sum(4 + model.distortion.size for model in bundle.models.values())
     names = list(bundle.models)[1:]
     return {name: slice(at + POSE * n, at + POSE * (n + 1)) for n, name in enumerate(names)}
@@ -160,6 +160,6 @@ def _moved(bundle: Bundle, shared: Array, own: Sequence[Array]) -> Bundle:
 
 def _stepped(pose: Rigid[Camera, From], step: Array) -> Rigid[Camera, From]:
     rotation = rotation_from_vector(step[3:]) @ pose.rotation
-    # Many small turns in a row must stay a rotation.
+    # Orthonormalise, because small rotations accumulate rounding errors.
     left, _, right = np.linalg.svd(rotation)
     return Rigid(rotation=left @ right, translation_mm=pose.translation_mm + step[:3])

@@ -1,4 +1,4 @@
-"""A rig calibrated, with its report."""
+"""Calibrate a camera rig, with a report."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tracker.camera.calibration.report import CalibrationReport, rms
-from tracker.camera.calibration.sureness import noise_is_alike, uncertainty
+from tracker.camera.calibration.uncertainty import noise_is_correlated, uncertainty
 from tracker.camera.detection.view import BoardView
 from tracker.camera.model import CameraModel
 from tracker.camera.rig.bundle import Bundle, adjusted, places_of, residuals_px, rig_blocks
@@ -45,12 +45,12 @@ class RigCamera:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ShotReport:
-    """What became of one instant.
+    """Report of one instant.
 
     Attributes:
         name: as the caller named it.
-        used: the cameras whose views have a say.
-        reason: why another has none, or an empty string.
+        used: the cameras whose views are used.
+        reason: why another is not, or an empty string.
         rms_px: over all its points; NaN where none is used.
     """
 
@@ -67,15 +67,15 @@ class RigReport:
     Attributes:
         cameras: in the order given.
         rms_px: over all points of all cameras.
-        shared_shots: how many instants two cameras or more have a say in.
-        is_noise_alike: the uncertainty comes from how instants differ, not from the points.
+        shared_shots: number of instants used from two or more cameras.
+        is_noise_correlated: whether the uncertainty comes from a jackknife over instants.
         shots: in the order given.
     """
 
     cameras: tuple[RigCamera, ...]
     rms_px: float
     shared_shots: int
-    is_noise_alike: bool
+    is_noise_correlated: bool
     shots: tuple[ShotReport, ...]
 
 
@@ -85,7 +85,7 @@ def calibrate_rig(
     *,
     names: Sequence[str] | None = None,
 ) -> RigReport:
-    """Where the cameras stand to the first one; all cameras and poses of the board are fitted together.
+    """Return the poses of the cameras relative to the first; cameras and board poses are fitted together.
 
     Args:
         shots: for each instant, by camera, the board as that camera saw it.
@@ -107,9 +107,9 @@ def calibrate_rig(
     agreed = agreement(shots, {name: report.camera for name, report in reports.items()})
     used = [index for index, shot in enumerate(agreed.shots) if shot]
     views = [{name: one.view for name, one in agreed.shots[index].items()} for index in used]
-    bundle, out = _without_odd_shots(_start(agreed, used, reports), views)
+    bundle, out = _reject_outlier_shots(_start(agreed, used, reports), views)
     agreed, used, views = _left(agreed, used, views, out)
-    views = _without_odd_points(bundle, views)
+    views = _reject_outlier_points(bundle, views)
     bundle = adjusted(bundle, views)
     return _report(bundle, views, used, agreed, names)
 
@@ -126,13 +126,15 @@ def _start(agreed: Agreement, used: Sequence[int], reports: Mapping[str, Calibra
     )
 
 
-def _without_odd_shots(start: Bundle, views: Sequence[dict[str, BoardView]]) -> tuple[Bundle, dict[int, str]]:
-    """Fitted to the instants that fit one rig; the worst is taken out and all is fitted anew."""
-    kept = list(range(len(views)))
+def _reject_outlier_shots(
+    start: Bundle, views: Sequence[dict[str, BoardView]]
+) -> tuple[Bundle, dict[int, str]]:
+    """Return the bundle of the inlier instants: reject the worst instant and refit, until the rest agree."""
+    retained = list(range(len(views)))
     out: dict[int, str] = {}
     while True:
-        some = [views[at] for at in kept]
-        first = replace(start, first_from_pattern=tuple(start.first_from_pattern[at] for at in kept))
+        some = [views[at] for at in retained]
+        first = replace(start, first_from_pattern=tuple(start.first_from_pattern[at] for at in retained))
         bundle = adjusted(first, some)
         typical = [
             float(np.median(np.concatenate([_lengths(bundle, n, *seen) for seen in shot.items()])))
@@ -142,17 +144,17 @@ def _without_odd_shots(start: Bundle, views: Sequence[dict[str, BoardView]]) -> 
         shared = sum(len(shot) > 1 for shot in some)
         if typical[worst] <= max(MAX_SHOT_RATIO * usual, GOOD_SHOT_PX) or shared <= MIN_PAIRS:
             return bundle, out
-        out[kept[worst]] = (
+        out[retained[worst]] = (
             f"its points lie off by {typical[worst]:.2f} px where others have {usual:.2f} px, allowed "
             f"{max(MAX_SHOT_RATIO * usual, GOOD_SHOT_PX):.2f} px: not of the same instant, or other order"
         )
-        del kept[worst]
+        del retained[worst]
 
 
 def _left(
     agreed: Agreement, used: Sequence[int], views: Sequence[dict[str, BoardView]], out: dict[int, str]
 ) -> tuple[Agreement, list[int], list[dict[str, BoardView]]]:
-    """The same without the instants that are out."""
+    """Return the input without the outlier instants."""
     if len(out) > MAX_OUT_RATIO * len(views):
         raise CalibrationError(
             "RIG_VIEWS_DISAGREE",
@@ -175,19 +177,19 @@ def _lengths(bundle: Bundle, index: int, name: str, view: BoardView) -> Array:
     return np.asarray(np.linalg.norm(residuals_px(bundle, index, name, view), axis=1))
 
 
-def _without_odd_points(bundle: Bundle, views: list[dict[str, BoardView]]) -> list[dict[str, BoardView]]:
+def _reject_outlier_points(bundle: Bundle, views: list[dict[str, BoardView]]) -> list[dict[str, BoardView]]:
     every = [
         (index, name, residuals_px(bundle, index, name, view))
         for index, shot in enumerate(views)
         for name, view in shot.items()
     ]
     sigma_px = 1.4826 * float(np.median(np.abs(np.concatenate([r.ravel() for _, _, r in every])))) + 1e-9
-    kept: list[dict[str, BoardView]] = [{} for _ in views]
+    retained: list[dict[str, BoardView]] = [{} for _ in views]
     for index, name, residual in every:
         near = np.linalg.norm(residual, axis=1) <= MAX_POINT_SDS * sigma_px
         # A view of which most is odd is told by the RMS of its instant, not made smaller.
-        kept[index][name] = views[index][name].part(near if near.mean() > 0.75 else np.ones_like(near))
-    return kept
+        retained[index][name] = views[index][name].part(near if near.mean() > 0.75 else np.ones_like(near))
+    return retained
 
 
 def _report(
@@ -204,8 +206,8 @@ def _report(
     flat_views = [view for shot in views for view in shot.values()]
     flat = [residual for shot in by_shot for residual in shot.values()]
     blocks = rig_blocks(bundle, views)
-    alike = noise_is_alike(flat_views, flat, blocks)
-    sure = uncertainty(blocks, is_noise_alike=alike)
+    alike = noise_is_correlated(flat_views, flat, blocks)
+    sure = uncertainty(blocks, is_noise_correlated=alike)
     places = places_of(bundle)
     cameras = []
     for name, model in bundle.models.items():
@@ -223,7 +225,7 @@ def _report(
         cameras=tuple(cameras),
         rms_px=rms(np.concatenate(flat)),
         shared_shots=sum(len(shot) > 1 for shot in views),
-        is_noise_alike=alike,
+        is_noise_correlated=alike,
         shots=tuple(
             ShotReport(
                 name=name,

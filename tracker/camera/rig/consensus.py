@@ -1,4 +1,4 @@
-"""Where most instants place the cameras to each other, and which instants do not agree."""
+"""Relative camera poses by consensus over instants, and the outlier instants."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tracker.camera.calibration.fit import board_pose
-from tracker.camera.detection.view import BoardView, Sureness
+from tracker.camera.detection.view import BoardView, PlacementAmbiguity
 from tracker.camera.model import CameraModel
 from tracker.errors import CalibrationError
 from tracker.geometry import Array, Camera, Pattern, Rigid
@@ -21,7 +21,7 @@ Shot = Mapping[str, BoardView]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Seen:
+class PosedView:
     """A board in one camera at one instant, and its pose."""
 
     view: BoardView
@@ -30,21 +30,21 @@ class Seen:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Agreement:
-    """What most instants agree on.
+    """Consensus of the instants.
 
     Attributes:
         camera_from_first: by camera.
-        shots: for each instant, by camera, what is kept, turned the right way up.
+        shots: for each instant, by camera, the inlier views, in their resolved orientation.
         reasons: for each instant why something is left out, or an empty string.
     """
 
     camera_from_first: dict[str, Rigid[Camera, Camera]]
-    shots: tuple[dict[str, Seen], ...]
+    shots: tuple[dict[str, PosedView], ...]
     reasons: tuple[str, ...]
 
 
 # Which instant, what the far camera sees, where it then stands, and how far the board is.
-Way = tuple[int, Seen, Rigid[Camera, Camera], float]
+Way = tuple[int, PosedView, Rigid[Camera, Camera], float]
 
 
 def agreement(shots: Sequence[Shot], models: Mapping[str, CameraModel]) -> Agreement:
@@ -54,19 +54,19 @@ def agreement(shots: Sequence[Shot], models: Mapping[str, CameraModel]) -> Agree
         CalibrationError: RIG_UNCONNECTED or RIG_VIEWS_DISAGREE.
     """
     cameras = list(models)
-    kept: list[dict[str, Seen]] = []
+    retained: list[dict[str, PosedView]] = []
     reasons = [""] * len(shots)
     for index, shot in enumerate(shots):
         posed = {name: _posed(view, models[name]) for name, view in shot.items()}
-        kept.append({name: one for name, one in posed.items() if one is not None})
+        retained.append({name: one for name, one in posed.items() if one is not None})
         unsure = [name for name, one in posed.items() if one is None]
         if unsure:
             reasons[index] = f"which part of the board {', '.join(unsure)} sees cannot be told"
     places: dict[str, Rigid[Camera, Camera]] = {cameras[0]: Rigid.identity()}
-    whole = _whole_board(kept)
+    whole = _whole_board(retained)
     while len(places) < len(cameras):
         counts = {
-            (near, far): sum(near in shot and far in shot for shot in kept)
+            (near, far): sum(near in shot and far in shot for shot in retained)
             for near in places
             for far in cameras
             if far not in places
@@ -80,33 +80,33 @@ def agreement(shots: Sequence[Shot], models: Mapping[str, CameraModel]) -> Agree
                 "Take views in which both cameras see the board at the same time.",
                 {"camera": far, "views": counts[near, far]},
             )
-        far_from_near, odd = _place(kept, near, far, whole)
+        far_from_near, odd = _place(retained, near, far, whole)
         _reject_disagreement(near, far, len(odd), counts[near, far])
         for index in odd:
-            del kept[index][far]
+            del retained[index][far]
             reasons[index] = (
                 f"{far} does not see the board where {near} does (off the rest by more than "
                 f"{MAX_TURN_DEG:g} deg or {100 * MAX_SHIFT_RATIO:g} %): wrong pair, or other order"
             )
         places[far] = far_from_near @ places[near]
-    return Agreement(camera_from_first=places, shots=tuple(kept), reasons=tuple(reasons))
+    return Agreement(camera_from_first=places, shots=tuple(retained), reasons=tuple(reasons))
 
 
 def _place(
-    kept: list[dict[str, Seen]], near: str, far: str, whole: tuple[Array, int]
+    retained: list[dict[str, PosedView]], near: str, far: str, whole: tuple[Array, int]
 ) -> tuple[Rigid[Camera, Camera], list[int]]:
-    """Where most instants place one camera to another, and those that do not; ambiguous ones are turned."""
+    """Return the pose of one camera relative to another by most votes, and the outlier instants."""
     ways: list[Way] = []
-    for index, shot in enumerate(kept):
+    for index, shot in enumerate(retained):
         if near not in shot or far not in shot:
             continue
-        turnable = Sureness.HALF_TURN in (shot[near].view.sureness, shot[far].view.sureness)
+        turnable = PlacementAmbiguity.HALF_TURN in (shot[near].view.ambiguity, shot[far].view.ambiguity)
         for other in (shot[far], *([_turned(shot[far], whole)] if turnable else [])):
             relation = other.camera_from_pattern @ shot[near].camera_from_pattern.inverse
             ways.append((index, other, relation, _distance_mm(shot[near])))
     agree = [[_is_near(one[2], two[2], one[3]) for two in ways] for one in ways]
     votes = [sum(row) for row in agree]
-    # Of equally many votes counts the way in the middle of them.
+    # Among equal votes, the pose nearest to the others is chosen.
     middle = [
         sum(float(np.linalg.norm(one[2].translation_mm - two[2].translation_mm)) for two in _of(ways, row))
         for one, row in zip(ways, agree, strict=True)
@@ -114,7 +114,7 @@ def _place(
     best = min(range(len(ways)), key=lambda at: (-votes[at], middle[at]))
     fitting = {ways[at][0]: ways[at][1] for at in range(len(ways)) if agree[best][at]}
     for index, other in fitting.items():
-        kept[index][far] = other
+        retained[index][far] = other
     return ways[best][2], sorted({way[0] for way in ways} - set(fitting))
 
 
@@ -129,31 +129,31 @@ def _is_near(one: Rigid[Camera, Camera], two: Rigid[Camera, Camera], distance_mm
     return bool(np.degrees(np.arccos(cosine)) <= MAX_TURN_DEG and shift <= MAX_SHIFT_RATIO * distance_mm)
 
 
-def _posed(view: BoardView, model: CameraModel) -> Seen | None:
-    if view.sureness is Sureness.PLACE:
+def _posed(view: BoardView, model: CameraModel) -> PosedView | None:
+    if view.ambiguity is PlacementAmbiguity.PLACE:
         return None
     pose = board_pose(view, model.matrix, model.distortion)
-    return None if pose is None else Seen(view=view, camera_from_pattern=Rigid.from_vector(*pose))
+    return None if pose is None else PosedView(view=view, camera_from_pattern=Rigid.from_vector(*pose))
 
 
-def _whole_board(kept: Sequence[Mapping[str, Seen]]) -> tuple[Array, int]:
+def _whole_board(retained: Sequence[Mapping[str, PosedView]]) -> tuple[Array, int]:
     """The far corner of the board in mm, and its last id, as far as any view tells."""
-    views = [one.view for shot in kept for one in shot.values()]
+    views = [one.view for shot in retained for one in shot.values()]
     if not views:
         return np.zeros(3), 0
     corner = np.max([view.object_points_mm.max(axis=0) for view in views], axis=0)
     return np.asarray(corner), max(int(view.ids.max()) for view in views)
 
 
-def _turned(seen: Seen, whole: tuple[Array, int]) -> Seen:
-    """The same view of the board named from its other end."""
+def _turned(seen: PosedView, whole: tuple[Array, int]) -> PosedView:
+    """Return the view with the board rotated by half a turn."""
     corner, last = whole
     view = replace(seen.view, ids=last - seen.view.ids, object_points_mm=corner - seen.view.object_points_mm)
     half: Rigid[Pattern, Pattern] = Rigid(rotation=np.diag([-1.0, -1.0, 1.0]), translation_mm=corner)
-    return Seen(view=view, camera_from_pattern=seen.camera_from_pattern @ half)
+    return PosedView(view=view, camera_from_pattern=seen.camera_from_pattern @ half)
 
 
-def _distance_mm(seen: Seen) -> float:
+def _distance_mm(seen: PosedView) -> float:
     middle = seen.view.object_points_mm.mean(axis=0)
     pose = seen.camera_from_pattern
     return float(np.linalg.norm(pose.rotation @ middle + pose.translation_mm))

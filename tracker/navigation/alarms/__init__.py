@@ -1,43 +1,43 @@
-"""The alarms: which conditions raise them, how they come, sound, are acknowledged and go.
+"""Alarms: their conditions, and how they are raised, sounded, acknowledged and cleared.
 
-Pure: moments and commands with their time go in, pictures come out, and a recording replayed gives the same
-alarms. Priorities, sounds and states follow what manuals quote of IEC 60601-1-8; no conformity is claimed.
+Pure functions of inputs and commands with their times: replaying a recording reproduces the alarms.
+Priorities, sounds and states follow what manuals quote of IEC 60601-1-8; no conformity is claimed.
 """
 
-from tracker.navigation.alarms.conditions import TRAITS, Condition, Kind, Priority, Trait
 from tracker.navigation.alarms.engine import AlarmEngine
-from tracker.navigation.alarms.evidence import Measure, Showing
+from tracker.navigation.alarms.evidence import Measure, Presence
+from tracker.navigation.alarms.input_builder import AlarmInputHistory, alarm_inputs, update_history
+from tracker.navigation.alarms.inputs import NOT_KNOWN, AlarmInputs, NotKnown, Reading, Site
 from tracker.navigation.alarms.limits import MAX_PAUSE_S, AlarmLimits
-from tracker.navigation.alarms.observed import NOT_KNOWN, NotKnown, Observed, Reading, Site
-from tracker.navigation.alarms.observing import Memory, observed_of, remembered
 from tracker.navigation.alarms.occurrence import AlarmState, Peak
-from tracker.navigation.alarms.picture import QUIET, Alarm, AlarmEvent, AlarmPicture, Change, Sound
+from tracker.navigation.alarms.rules import ALARM_RULES, AlarmRule, Condition, Kind, Priority
+from tracker.navigation.alarms.snapshot import QUIET, Alarm, AlarmEvent, AlarmSnapshot, Change, Sound
 
 __all__ = [
+    "ALARM_RULES",
     "MAX_PAUSE_S",
     "NOT_KNOWN",
     "QUIET",
-    "TRAITS",
     "Alarm",
     "AlarmEngine",
     "AlarmEvent",
+    "AlarmInputHistory",
+    "AlarmInputs",
     "AlarmLimits",
-    "AlarmPicture",
+    "AlarmRule",
+    "AlarmSnapshot",
     "AlarmState",
     "Change",
     "Condition",
     "Kind",
     "Measure",
-    "Memory",
     "NotKnown",
-    "Observed",
     "Peak",
+    "Presence",
     "Priority",
     "Reading",
-    "Showing",
     "Site",
     "Sound",
-    "Trait",
-    "observed_of",
-    "remembered",
+    "alarm_inputs",
+    "update_history",
 ]

@@ -1,41 +1,41 @@
-"""The clearance of the whole drill: distances to the bone made once, looked up in each image.
+"""Clearance of the whole drill, from a distance field that is computed once and sampled in each image.
 
-field = choose_wall(channel, surface, measure, radius_mm=...).wall    # once for a channel: a second or two
-rings = drill_rings(pose, channel, field, ...)    # each image: tens of microseconds
-clearance = clearance_of_drill(rings, pose, channel)
+field = select_wall(channel, surface, measure, radius_mm=...).wall    # once per channel: one to two seconds
+rings = drill_rings(pose, channel, field, ...)    # per image: tens of microseconds clearance =
+clearance_of_drill(rings, pose, channel)
 """
 
-from tracker.navigation.clearance.choice import ChosenWall, choose_wall, on_plan_mm
+from tracker.navigation.clearance.distance_field import WallDistanceField, WallSource, bone_distance_field
 from tracker.navigation.clearance.drill import (
-    SOON_MM,
-    Closest,
+    LOOKAHEAD_MM,
     DrillClearance,
     DrillRings,
-    Nearest,
+    NearestWall,
     NotEntered,
+    WallProximity,
     clearance_of_drill,
     drill_rings,
 )
-from tracker.navigation.clearance.field import MeasuredAgainst, WallField, field_of_bone
-from tracker.navigation.clearance.outline import field_of_channel, field_of_outline
+from tracker.navigation.clearance.outline_field import channel_distance_field, outline_distance_field
 from tracker.navigation.clearance.rings import Rings
+from tracker.navigation.clearance.wall_selection import WallSelection, planned_clearance_mm, select_wall
 
 __all__ = [
-    "SOON_MM",
-    "ChosenWall",
-    "Closest",
+    "LOOKAHEAD_MM",
     "DrillClearance",
     "DrillRings",
-    "MeasuredAgainst",
-    "Nearest",
+    "NearestWall",
     "NotEntered",
     "Rings",
-    "WallField",
-    "choose_wall",
+    "WallDistanceField",
+    "WallProximity",
+    "WallSelection",
+    "WallSource",
+    "bone_distance_field",
+    "channel_distance_field",
     "clearance_of_drill",
     "drill_rings",
-    "field_of_bone",
-    "field_of_channel",
-    "field_of_outline",
-    "on_plan_mm",
+    "outline_distance_field",
+    "planned_clearance_mm",
+    "select_wall",
 ]

@@ -1,22 +1,22 @@
-"""The triangles of a surface that matter around a channel."""
+"""Select and subdivide the triangles of a surface around a channel."""
 
 import numpy as np
 
 from tracker.geometry import Array
-from tracker.navigation.clearance.inside import Flags, Grid
+from tracker.navigation.clearance.voxels import Flags, Grid
 from tracker.plan.surface import Surface
 
 MAX_ROUNDS = 12
 
 
-def near_box(surface: Surface, grid: Grid) -> Array:
-    """Corners (m, 3, 3) in mm of the triangles whose box meets that of the grid, or a line through it."""
+def triangles_near_grid(surface: Surface, grid: Grid) -> Array:
+    """Return corners (m, 3, 3) in mm of the triangles whose bounding box meets that of the grid."""
     corners = surface.vertices_mm[surface.faces]
     return np.asarray(corners[_meets(corners, grid)])
 
 
-def split_to(corners: Array, longest_mm: float, grid: Grid) -> Array:
-    """The same triangles, each side at most so long; what is split off outside of the grid is left out."""
+def subdivide_triangles(corners: Array, longest_mm: float, grid: Grid) -> Array:
+    """Subdivide triangles until no side is longer than a limit; drop pieces outside of the grid."""
     done = []
     for _ in range(MAX_ROUNDS):
         side = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).max(axis=1)

@@ -1,6 +1,6 @@
 """The bone's surface out of a CT: threshold, region, triangles, smoothing, fewer triangles.
 
-It is not imported by `tracker.plan`, so that what tracks images does not load what cuts CTs.
+`tracker.plan` does not import it, so that the tracking process does not load the CT libraries.
 """
 
 from tracker.plan.bone.extraction import BoneSettings, BoneSurface, bone_surface

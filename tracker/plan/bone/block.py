@@ -1,4 +1,4 @@
-"""The voxels that a surface is made of: cut out of the CT, and averaged where there are too many."""
+"""Extraction of the voxels for surface reconstruction: cropped from the CT and downsampled if too many."""
 
 from dataclasses import dataclass
 
@@ -15,7 +15,7 @@ MAX_VOXELS = 24_000_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Block:
-    """A part of a CT, as marching cubes wants it.
+    """A cropped part of a CT, padded for marching cubes.
 
     Attributes:
         hu: (slices, rows, columns) float32.
@@ -30,14 +30,14 @@ class Block:
     cut_ijk: npt.NDArray[np.bool_]
 
     def index_in_volume(self, index_kji: Array) -> Array:
-        """Indexes (n, 3) as i, j, k of the CT for indexes (n, 3) as k, j, i of this block."""
-        # The centre of an averaged voxel lies in the middle of those that it was made of.
+        """Convert block indexes (n, 3) as k, j, i to CT indexes (n, 3) as i, j, k."""
+        # The centre of an averaged voxel is the mean of its source voxels' centres.
         own = index_kji[:, ::-1] * self.averaged_ijk + (self.averaged_ijk - 1) / 2.0
         return np.asarray(own + self.first_ijk)
 
 
 def block_of(volume: Volume, region: Region | None, *, max_voxels: int = MAX_VOXELS) -> Block:
-    """The voxels of a region, or of the whole CT; neighbours are averaged until they are few enough.
+    """Return the voxels of a region, or of the whole CT; average neighbours until `max_voxels` is met.
 
     Only these voxels are read, some slices at a time, so that a mapped CT stays on disk.
 
@@ -47,7 +47,7 @@ def block_of(volume: Volume, region: Region | None, *, max_voxels: int = MAX_VOX
     size = np.array(volume.shape_ijk)
     first, last = (np.zeros(3, dtype=np.int64), size) if region is None else region.indexes_in(volume)
     averaged = _averaged(last - first, volume.spacing_mm, max_voxels)
-    # What is left over at the end of an axis is less than one averaged voxel.
+    # The remainder at the end of an axis, less than one averaged voxel, is dropped.
     shape = (last - first) // averaged
     last = first + shape * averaged
     hu = np.empty(tuple(shape[::-1]), dtype=np.float32)
@@ -64,10 +64,10 @@ def block_of(volume: Volume, region: Region | None, *, max_voxels: int = MAX_VOX
     )
 
 
-def _averaged(shape_ijk: npt.NDArray[np.int64], spacing_mm: Array, most: int) -> npt.NDArray[np.int64]:
-    """How many voxels become one along each axis: those that are closest together first."""
+def _averaged(shape_ijk: npt.NDArray[np.int64], spacing_mm: Array, maximum: int) -> npt.NDArray[np.int64]:
+    """Return the downsampling factor of each axis; the finest axis is averaged first."""
     averaged = np.ones(3, dtype=np.int64)
-    while np.prod(shape_ijk // averaged) > most:
+    while np.prod(shape_ijk // averaged) > maximum:
         can = shape_ijk // (averaged + 1) >= 2
         spacing = np.where(can, spacing_mm * averaged, np.inf)
         averaged[int(spacing.argmin())] += 1

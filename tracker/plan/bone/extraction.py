@@ -1,4 +1,4 @@
-"""The surface of the bone in a CT, with a record of how it was made."""
+"""Isosurface of the bone in a CT (marching cubes), with a record of how it was computed."""
 
 from dataclasses import dataclass
 
@@ -9,13 +9,13 @@ from skimage.measure import marching_cubes
 from tracker.errors import PlanError
 from tracker.geometry import Array
 from tracker.plan.bone.block import MAX_VOXELS, Block, block_of
-from tracker.plan.bone.notes import notes_of
 from tracker.plan.bone.region import Region
+from tracker.plan.bone.remarks import remarks_of
 from tracker.plan.bone.threshold import ThresholdProposal, proposed_threshold
 from tracker.plan.remark import Remark
 from tracker.plan.surface import Surface
-from tracker.plan.triangles import decimated, largest_part, links_of, referenced, smoothed
-from tracker.plan.triangles.links import Faces, parts_of
+from tracker.plan.triangles import connectivity_of, decimated, largest_part, referenced, smoothed
+from tracker.plan.triangles.connectivity import Faces, parts_of
 from tracker.plan.volume import Volume
 
 # Marching cubes makes two triangles for each vertex; 3 million of them take about 1 GB on the way.
@@ -24,15 +24,15 @@ MAX_VERTICES = 3_000_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoneSettings:
-    """How the surface is made.
+    """Parameters of the surface extraction.
 
     Attributes:
-        threshold_hu: from where on a voxel is bone; None takes what the histogram proposes.
-        region: the part of the CT that is looked at; None is all of it.
-        largest_part_only: leave out what does not hang together with the largest piece.
+        threshold_hu: minimum HU of bone; None takes the proposal from the histogram.
+        region: region of interest; None is the whole CT.
+        largest_part_only: keep only the largest connected component.
         smoothing_rounds: of Taubin's smoothing; 0 for none.
         max_faces: triangles of the result; None leaves all.
-        max_voxels: more than these are averaged.
+        max_voxels: a larger volume is downsampled.
 
     Raises:
         PlanError: BONE_SETTINGS_INVALID.
@@ -58,28 +58,28 @@ class BoneSettings:
         if problem:
             raise PlanError(
                 "BONE_SETTINGS_INVALID",
-                f"a bone's surface cannot be made so: {problem}",
+                f"the bone surface cannot be extracted: {problem}",
                 "Give a threshold in HU, 0 to 200 rounds of smoothing, and 100 triangles or more.",
             )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoneSurface:
-    """The bone's surface, and what was done to make it.
+    """The bone surface and the processing that produced it.
 
     Attributes:
         surface: in the vertebra's frame, wound outwards.
-        threshold_hu: from where on a voxel was taken for bone.
-        proposal: what the histogram proposes, taken or not.
-        region: what was looked at; None is the whole CT.
-        averaged_ijk: how many voxels along i, j, k were made one; all 1 where nothing was averaged.
-        voxel_mm: (3,) distance between the voxels that were used.
+        threshold_hu: minimum HU of bone that was used.
+        proposal: the proposal from the histogram, used or not.
+        region: region of interest; None is the whole CT.
+        averaged_ijk: downsampling factors along i, j, k; all 1 without downsampling.
+        voxel_mm: (3,) spacing of the voxels after downsampling.
         smoothing_rounds: of Taubin's smoothing.
-        parts: how many separate pieces of bone there were.
-        faces_before: triangles before they were made fewer.
-        closed: whether the surface has an inside.
+        parts: number of connected components.
+        faces_before: number of triangles before decimation.
+        closed: whether the surface is closed.
         cut_at: which ends of the CT the bone reaches, as "first slice", "last column" and so on.
-        remarks: what the user should know.
+        remarks: warnings for the user.
     """
 
     surface: Surface
@@ -97,7 +97,7 @@ class BoneSurface:
 
 
 def bone_surface(volume: Volume, settings: BoneSettings | None = None) -> BoneSurface:
-    """The surface of what is brighter than a threshold, from the voxels of a region.
+    """Extract the isosurface at a threshold from the voxels of a region.
 
     It is open where the region or the CT ends: no wall is invented there.
 
@@ -124,7 +124,7 @@ def bone_surface(volume: Volume, settings: BoneSettings | None = None) -> BoneSu
         vertices, faces = decimated(vertices, faces, max_faces=settings.max_faces)
     averaged = (int(block.averaged_ijk[0]), int(block.averaged_ijk[1]), int(block.averaged_ijk[2]))
     voxel_mm = volume.spacing_mm * block.averaged_ijk
-    ends, remarks = notes_of(cut_at, averaged, voxel_mm, threshold, proposal, given=settings.threshold_hu)
+    ends, remarks = remarks_of(cut_at, averaged, voxel_mm, threshold, proposal, given=settings.threshold_hu)
     return BoneSurface(
         surface=Surface(vertices_mm=vertices, faces=faces),
         threshold_hu=float(threshold),
@@ -135,7 +135,7 @@ def bone_surface(volume: Volume, settings: BoneSettings | None = None) -> BoneSu
         smoothing_rounds=settings.smoothing_rounds,
         parts=parts,
         faces_before=faces_before,
-        closed=links_of(faces).closed,
+        closed=connectivity_of(faces).closed,
         cut_at=ends,
         remarks=remarks,
     )
@@ -146,12 +146,12 @@ def _as_int16(hu: npt.NDArray[np.float32]) -> npt.NDArray[np.int16]:
 
 
 def _triangles(hu: npt.NDArray[np.float32], threshold_hu: float) -> tuple[Array, Faces]:
-    """Marching cubes: vertices (n, 3) as k, j, i and faces (m, 3), wound outwards as i, j, k."""
+    """Run marching cubes: vertices (n, 3) as k, j, i and faces (m, 3), outward as i, j, k."""
     low, high = float(hu.min()), float(hu.max())
     if not low < threshold_hu <= high:
         raise PlanError(
             "BONE_THRESHOLD_OUTSIDE",
-            f"a threshold of {threshold_hu:.0f} HU parts nothing here, the voxels go from {low:.0f} to "
+            f"a threshold of {threshold_hu:.0f} HU separates nothing here, voxels range from {low:.0f} to "
             f"{high:.0f} HU",
             "Give a threshold between them, or a region in which there is bone.",
             {"threshold_hu": threshold_hu, "lowest_hu": low, "highest_hu": high},
@@ -179,7 +179,7 @@ def _triangles(hu: npt.NDArray[np.float32], threshold_hu: float) -> tuple[Array,
 def _placed(
     vertices_kji: Array, faces: Faces, block: Block, volume: Volume, region: Region | None
 ) -> tuple[Array, Faces, npt.NDArray[np.bool_]]:
-    """In millimetres, cut to the region; and which vertices (n, 6) lie at which end of the CT."""
+    """Return vertices in mm, clipped to the region, and which (n, 6) lie at which end of the CT."""
     last = np.array(block.hu.shape)[::-1] - 1
     own = vertices_kji[:, ::-1]
     at_end = np.stack([own < 1e-3, own > last - 1e-3], axis=1) & block.cut_ijk
@@ -187,7 +187,7 @@ def _placed(
     if np.linalg.det(volume.lps_from_ijk[:3, :3]) < 0.0:
         faces = faces[:, ::-1]
     if region is not None:
-        inside = region.holds(vertices)
+        inside = region.contains(vertices)
         faces = faces[inside[faces].all(axis=1)]
         if faces.shape[0] == 0:
             raise _not_found(None)
@@ -197,7 +197,7 @@ def _placed(
 def _not_found(threshold_hu: float | None) -> PlanError:
     return PlanError(
         "BONE_NOT_FOUND",
-        "there is no surface of bone in this region"
+        "there is no bone surface in this region"
         + ("" if threshold_hu is None else f" at {threshold_hu:.0f} HU"),
         "Give a region in which there is bone, or another threshold.",
     )

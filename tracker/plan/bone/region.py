@@ -1,4 +1,4 @@
-"""The part of the patient that is looked at: a box in millimetres."""
+"""The region of interest: an axis-aligned box in LPS mm."""
 
 from dataclasses import dataclass
 
@@ -15,7 +15,7 @@ VERTEBRA_REACH_MM = 55.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Region:
-    """A box along the patient's axes.
+    """An axis-aligned box in the patient frame.
 
     Attributes:
         low_lps_mm: (3,), the corner with the smallest coordinates.
@@ -42,19 +42,20 @@ class Region:
         ):
             raise PlanError(
                 "REGION_INVALID",
-                f"the region from {_told(low)} to {_told(high)} mm is no box, each side must be above 0 mm",
+                f"the region from {_formatted(low)} to {_formatted(high)} mm is no box, "
+                "each side must be above 0 mm",
                 "Give the corner with the smallest left, posterior and superior coordinates first.",
                 {"low_lps_mm": low.tolist(), "high_lps_mm": high.tolist()},
             )
 
     @classmethod
     def between(cls, low_lps_mm: npt.ArrayLike, high_lps_mm: npt.ArrayLike) -> "Region":
-        """The box between two corners. Raises as the class."""
+        """Return the box between two corners. Raises as the class."""
         return cls(low_lps_mm=np.asarray(low_lps_mm), high_lps_mm=np.asarray(high_lps_mm))
 
     @classmethod
     def around(cls, points_lps_mm: npt.ArrayLike, *, reach_mm: float = VERTEBRA_REACH_MM) -> "Region":
-        """The box that holds each point (n, 3) and what is within reach of it along the axes.
+        """Return the bounding box of points (n, 3), enlarged by a margin along the axes.
 
         Raises:
             PlanError: REGION_INVALID, there is no point, or it is not finite.
@@ -64,13 +65,13 @@ class Region:
             points = np.full((1, 3), np.nan)
         return cls(low_lps_mm=points.min(axis=0) - reach_mm, high_lps_mm=points.max(axis=0) + reach_mm)
 
-    def holds(self, points_lps_mm: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-        """Which points (..., 3) lie in the box: (...) bool."""
+    def contains(self, points_lps_mm: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+        """Return which points (..., 3) lie in the box: (...) bool."""
         points = np.asarray(points_lps_mm, dtype=np.float64)
         return np.asarray(((points >= self.low_lps_mm) & (points <= self.high_lps_mm)).all(axis=-1))
 
     def indexes_in(self, volume: Volume) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-        """First and past-the-last index (i, j, k) of the voxels around the box, cut to the volume.
+        """Return first and past-the-last index (i, j, k) of the voxels in the box, clipped to the volume.
 
         Raises:
             PlanError: REGION_OUTSIDE, no two voxels along each axis lie in it.
@@ -82,16 +83,17 @@ class Region:
         last = np.clip(np.ceil(corners.max(axis=0)) + 2, 0, size).astype(np.int64)
         if (last - first < 2).any():
             ends = np.stack(np.meshgrid(*[[0, n - 1] for n in size], indexing="ij"), axis=-1).reshape(-1, 3)
-            held = volume.lps_from_index(ends)
+            extent = volume.lps_from_index(ends)
             raise PlanError(
                 "REGION_OUTSIDE",
-                f"the region from {_told(self.low_lps_mm)} to {_told(self.high_lps_mm)} mm lies outside of "
-                f"the CT, which reaches from {_told(held.min(axis=0))} to {_told(held.max(axis=0))} mm",
+                f"the region from {_formatted(self.low_lps_mm)} to {_formatted(self.high_lps_mm)} mm lies "
+                f"outside of the CT, which reaches from {_formatted(extent.min(axis=0))} to "
+                f"{_formatted(extent.max(axis=0))} mm",
                 "Give a region inside of the CT, in its own coordinates (LPS).",
                 {"low_lps_mm": self.low_lps_mm.tolist(), "high_lps_mm": self.high_lps_mm.tolist()},
             )
         return first, last
 
 
-def _told(point: Array) -> str:
+def _formatted(point: Array) -> str:
     return "(" + ", ".join(f"{value:.1f}" for value in np.ravel(point)) + ")"

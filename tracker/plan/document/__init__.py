@@ -1,6 +1,5 @@
-"""The plan as one document: plain records, to and from what JSON can hold."""
+"""The plan document: records, validation and conversion to and from JSON-compatible mappings."""
 
-from tracker.plan.document.checks import reject_odd
 from tracker.plan.document.corrections import CORRECTABLE, PedicleRecord, corrected_measure
 from tracker.plan.document.mapping import (
     channel_from_mapping,
@@ -10,6 +9,7 @@ from tracker.plan.document.mapping import (
     plan_to_mapping,
 )
 from tracker.plan.document.records import FORMAT_VERSION, PlanDocument, PlannedChannel, VertebraPlan
+from tracker.plan.document.validation import validate_plan
 
 __all__ = [
     "CORRECTABLE",
@@ -24,5 +24,5 @@ __all__ = [
     "plain",
     "plan_from_mapping",
     "plan_to_mapping",
-    "reject_odd",
+    "validate_plan",
 ]

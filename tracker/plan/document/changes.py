@@ -1,4 +1,4 @@
-"""One change of a plan at a time; what follows from it is worked out anew, and the rest stays."""
+"""Edit operations on a plan; each returns a new plan with all dependent values recomputed."""
 
 import dataclasses
 from collections.abc import Mapping, Sequence
@@ -13,13 +13,13 @@ from tracker.plan.document.corrections import PedicleRecord
 from tracker.plan.document.records import PlanDocument, PlannedChannel, VertebraPlan
 from tracker.plan.landmark import Landmark, reject_landmarks_outside
 from tracker.plan.pedicle import PedicleMeasure, Side
-from tracker.plan.reference_slice import AHEAD_MM, BEHIND_MM, ReferenceSlice, draw_reference
+from tracker.plan.reference_slice import AHEAD_MM, MAX_BEHIND_ENTRY_MM, ReferenceSlice, draw_reference
 from tracker.plan.screw import ScrewPlan, channel_from_measure, plan_screw
 from tracker.plan.volume import Volume
 
 
 def vertebra_named(plan: PlanDocument, name: str) -> VertebraPlan:
-    """One vertebra of the plan.
+    """Return one vertebra of the plan.
 
     Raises:
         PlanError: VERTEBRA_UNKNOWN.
@@ -37,7 +37,7 @@ def vertebra_named(plan: PlanDocument, name: str) -> VertebraPlan:
 
 
 def pedicle_of(vertebra: VertebraPlan, side: Side) -> PedicleRecord:
-    """The pedicle of a side.
+    """Return the pedicle of a side.
 
     Raises:
         PlanError: PEDICLE_MISSING.
@@ -54,7 +54,7 @@ def pedicle_of(vertebra: VertebraPlan, side: Side) -> PedicleRecord:
 
 
 def channel_of(vertebra: VertebraPlan, side: Side) -> PlannedChannel:
-    """The channel of a side.
+    """Return the channel of a side.
 
     Raises:
         PlanError: CHANNEL_MISSING.
@@ -71,7 +71,7 @@ def channel_of(vertebra: VertebraPlan, side: Side) -> PlannedChannel:
 
 
 def with_vertebra(plan: PlanDocument, name: str) -> PlanDocument:
-    """One vertebra more.
+    """Return the plan with one more vertebra.
 
     Raises:
         PlanError: PLAN_INVALID, there is one of this name; VERTEBRA_INVALID.
@@ -80,7 +80,7 @@ def with_vertebra(plan: PlanDocument, name: str) -> PlanDocument:
 
 
 def without_vertebra(plan: PlanDocument, name: str) -> PlanDocument:
-    """One vertebra less.
+    """Return the plan without this vertebra.
 
     Raises:
         PlanError: VERTEBRA_UNKNOWN.
@@ -92,10 +92,10 @@ def without_vertebra(plan: PlanDocument, name: str) -> PlanDocument:
 def with_measure(
     plan: PlanDocument, name: str, measure: PedicleMeasure, *, volume: Volume, front_margin_mm: float
 ) -> PlanDocument:
-    """A pedicle as it was measured now; what was corrected before is gone with what it corrected."""
+    """Return the plan with a new pedicle measurement; earlier corrections of it are discarded."""
     vertebra = vertebra_named(plan, name)
     changed = _with_pedicle(vertebra, PedicleRecord(measured=measure))
-    return _with(plan, _followed(changed, measure.side, volume, front_margin_mm))
+    return _with(plan, _with_updated_channel(changed, measure.side, volume, front_margin_mm))
 
 
 def with_corrections(
@@ -107,14 +107,14 @@ def with_corrections(
     volume: Volume,
     front_margin_mm: float,
 ) -> PlanDocument:
-    """These numbers in place of the measured ones, which stay beside them; none takes all corrections back.
+    """Return the plan with these corrections of the measured values; an empty mapping removes all.
 
     Raises:
         PlanError: VERTEBRA_UNKNOWN, PEDICLE_MISSING, CORRECTION_INVALID.
     """
     vertebra = vertebra_named(plan, name)
     record = dataclasses.replace(pedicle_of(vertebra, side), corrected=dict(corrected))
-    return _with(plan, _followed(_with_pedicle(vertebra, record), side, volume, front_margin_mm))
+    return _with(plan, _with_updated_channel(_with_pedicle(vertebra, record), side, volume, front_margin_mm))
 
 
 def with_channel(
@@ -126,7 +126,7 @@ def with_channel(
     volume: Volume,
     front_margin_mm: float,
 ) -> PlanDocument:
-    """A channel set by hand, or that of the measured pedicle where none is given; a screw in it goes along.
+    """Return the plan with a manual channel, or with that of the measured pedicle; keeps the screw.
 
     Raises:
         PlanError: VERTEBRA_UNKNOWN, PEDICLE_MISSING, CHANNEL_INVALID, CHANNEL_OUTSIDE_CT.
@@ -138,11 +138,11 @@ def with_channel(
         channel = channel_from_measure(channel_name(name, side), measure, front_margin_mm=front_margin_mm)
     screws = tuple(screw for one in vertebra.channels if one.side == side for screw in one.screws)
     planned = PlannedChannel(side=side, channel=channel, by_hand=by_hand, screws=screws)
-    return _with(plan, _followed(_with_channel(vertebra, planned), side, volume, front_margin_mm))
+    return _with(plan, _with_updated_channel(_with_channel(vertebra, planned), side, volume, front_margin_mm))
 
 
 def without_channel(plan: PlanDocument, name: str, side: Side, *, volume: Volume) -> PlanDocument:
-    """No channel on this side.
+    """Return the plan without a channel on this side.
 
     Raises:
         PlanError: VERTEBRA_UNKNOWN, CHANNEL_MISSING.
@@ -156,7 +156,7 @@ def without_channel(plan: PlanDocument, name: str, side: Side, *, volume: Volume
 def with_screw(
     plan: PlanDocument, name: str, side: Side, size_mm: tuple[float, float] | None, *, volume: Volume
 ) -> PlanDocument:
-    """A screw of this diameter and length in the channel, with all that follows from it; or none.
+    """Return the plan with a screw of this size in the channel, or without a screw.
 
     Raises:
         PlanError: VERTEBRA_UNKNOWN, CHANNEL_MISSING, PEDICLE_MISSING, SCREW_INVALID.
@@ -179,7 +179,7 @@ def with_reference(
     middle_lps_mm: npt.ArrayLike,
     apart_mm: float,
 ) -> PlanDocument:
-    """The slice that stands for the vertebra, with its three lines and the paths of its channels.
+    """Return the plan with the vertebra's reference slice, its three lines and the channel paths.
 
     Raises:
         PlanError: VERTEBRA_UNKNOWN, SLICE_OUTSIDE_CT, LINES_INVALID.
@@ -198,7 +198,7 @@ def with_reference(
 def with_landmarks(
     plan: PlanDocument, name: str, landmarks: Sequence[Landmark], *, volume: Volume
 ) -> PlanDocument:
-    """These landmarks in place of those that were there; none takes them all out.
+    """Return the plan with these landmarks instead of the present ones; empty removes all.
 
     Raises:
         PlanError: VERTEBRA_UNKNOWN, LANDMARK_TWICE, LANDMARK_OUTSIDE_CT.
@@ -208,8 +208,8 @@ def with_landmarks(
     return _with(plan, changed)
 
 
-def settled(plan: PlanDocument, *, volume: Volume) -> PlanDocument:
-    """A plan from elsewhere with everything worked out anew that follows from its other numbers.
+def recomputed(plan: PlanDocument, *, volume: Volume) -> PlanDocument:
+    """Return an imported plan with all dependent values recomputed.
 
     Grades, clearances, bone, tolerances and lines are not believed but made again, from pedicles, channels
     and the sizes of the screws, on this CT.
@@ -224,41 +224,43 @@ def settled(plan: PlanDocument, *, volume: Volume) -> PlanDocument:
         changed = vertebra
         for planned in vertebra.channels:
             reject_outside(planned.channel, volume)
-            changed = _with_screw_anew(changed, planned.side, volume)
+            changed = _with_screw_recomputed(changed, planned.side, volume)
         vertebrae.append(_redrawn(changed, volume))
     return dataclasses.replace(plan, vertebrae=tuple(vertebrae))
 
 
 def reject_outside(channel: Channel, volume: Volume) -> None:
-    """A channel that does not lie in the CT was planned on another one.
+    """Reject a channel that does not lie in the CT: it was planned on another one.
 
     Raises:
         PlanError: CHANNEL_OUTSIDE_CT.
     """
     ends = np.stack([channel.entry_in_vertebra_mm, channel.target_in_vertebra_mm])
-    if not volume.holds(ends).all():
+    if not volume.contains(ends).all():
         raise PlanError(
             "CHANNEL_OUTSIDE_CT",
-            f"channel '{channel.name}' runs from {_told(ends[0])} to {_told(ends[1])} mm, which is not all "
-            "within the CT",
+            f"channel '{channel.name}' runs from {_formatted(ends[0])} to {_formatted(ends[1])} mm, "
+            "which is not all within the CT",
             "Give its ends in mm of this CT (LPS).",
             {"entry_lps_mm": ends[0].tolist(), "target_lps_mm": ends[1].tolist()},
         )
 
 
 def middle_of(reference: ReferenceSlice) -> Array:
-    """The point (3,) through which the middle line was laid."""
+    """Return the point (3,) that the middle line passes through."""
     start, end = next(line for line in reference.lines if line.name == "middle").ends_lps_mm
-    return np.asarray(start + AHEAD_MM / (AHEAD_MM + BEHIND_MM) * (end - start))
+    return np.asarray(start + AHEAD_MM / (AHEAD_MM + MAX_BEHIND_ENTRY_MM) * (end - start))
 
 
 def channel_name(vertebra: str, side: Side) -> str:
-    """What the screen calls a channel."""
+    """Return the display name of a channel."""
     return f"{vertebra} {side}"
 
 
-def _followed(vertebra: VertebraPlan, side: Side, volume: Volume, front_margin_mm: float) -> VertebraPlan:
-    """The channel of a side after its pedicle or itself has changed, its screw, and the paths."""
+def _with_updated_channel(
+    vertebra: VertebraPlan, side: Side, volume: Volume, front_margin_mm: float
+) -> VertebraPlan:
+    """Return the vertebra with channel, screw and paths recomputed after a change of the pedicle."""
     planned = next((one for one in vertebra.channels if one.side == side), None)
     if planned is None:
         return vertebra
@@ -267,10 +269,10 @@ def _followed(vertebra: VertebraPlan, side: Side, volume: Volume, front_margin_m
         channel = channel_from_measure(planned.channel.name, measure, front_margin_mm=front_margin_mm)
         planned = dataclasses.replace(planned, channel=channel)
     reject_outside(planned.channel, volume)
-    return _redrawn(_with_screw_anew(_with_channel(vertebra, planned), side, volume), volume)
+    return _redrawn(_with_screw_recomputed(_with_channel(vertebra, planned), side, volume), volume)
 
 
-def _with_screw_anew(vertebra: VertebraPlan, side: Side, volume: Volume) -> VertebraPlan:
+def _with_screw_recomputed(vertebra: VertebraPlan, side: Side, volume: Volume) -> VertebraPlan:
     planned = channel_of(vertebra, side)
     screws = tuple(
         plan_screw(
@@ -315,5 +317,5 @@ def _with(plan: PlanDocument, vertebra: VertebraPlan) -> PlanDocument:
     )
 
 
-def _told(point: Array) -> str:
+def _formatted(point: Array) -> str:
     return "(" + ", ".join(f"{value:.1f}" for value in point) + ")"

@@ -1,4 +1,4 @@
-"""What a person put in place of a measured number; what was measured stays beside it."""
+"""Manual corrections of measured pedicle values; the measured values are preserved."""
 
 import dataclasses
 from collections.abc import Mapping
@@ -10,7 +10,7 @@ from tracker.errors import PlanError
 from tracker.geometry import Array
 from tracker.plan.pedicle import PedicleMeasure, axis_from_angles
 
-# Each number that may be corrected, and what it may be.
+# Each correctable value and its allowed range.
 CORRECTABLE: Mapping[str, tuple[float, float]] = {
     "width_mm": (1.0, 30.0),
     "height_mm": (1.0, 40.0),
@@ -22,7 +22,7 @@ CORRECTABLE: Mapping[str, tuple[float, float]] = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PedicleRecord:
-    """A pedicle as it was measured, and the numbers that a person corrected.
+    """A measured pedicle and its manual corrections.
 
     Attributes:
         measured: never changed by a correction.
@@ -55,12 +55,12 @@ class PedicleRecord:
 
     @property
     def used(self) -> PedicleMeasure:
-        """The pedicle with the corrected numbers in place of the measured ones."""
+        """Return the pedicle with the corrections applied."""
         return corrected_measure(self.measured, self.corrected)
 
 
 def corrected_measure(measure: PedicleMeasure, corrected: Mapping[str, float]) -> PedicleMeasure:
-    """The pedicle with these numbers: outline scaled, axis turned about the isthmus, end moved.
+    """Return the pedicle with these values: outline scaled, axis rotated about the isthmus, end moved.
 
     The entry keeps its distance from the isthmus; a corrected length moves the front.
     """

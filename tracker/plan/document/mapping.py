@@ -1,4 +1,4 @@
-"""A plan to and from plain mappings, lists, numbers and words, which JSON can hold."""
+"""Conversion of a plan to and from JSON-compatible mappings."""
 
 import dataclasses
 import math
@@ -14,18 +14,18 @@ from tracker.plan.channel import Channel
 from tracker.plan.document.records import FORMAT_VERSION, READABLE_VERSIONS, PlanDocument
 from tracker.plan.pedicle import PedicleMeasure
 
-LARGEST = 1e300
+MAX_INTEGER = 1e300
 
 
 def plan_to_mapping(plan: PlanDocument) -> dict[str, Any]:
-    """The plan as JSON can hold it; `plan_from_mapping` gives the same plan back."""
+    """Return the plan as a JSON-compatible mapping; the inverse of `plan_from_mapping`."""
     mapped = plain(plan)
     assert isinstance(mapped, dict)  # noqa: S101  a record becomes a mapping; said for the type checker
     return mapped
 
 
 def plain(value: object) -> Any:  # noqa: ANN401  what JSON holds has no narrower type
-    """Records as mappings, arrays and tuples as lists, names as words."""
+    """Convert records to mappings, arrays and tuples to lists, enums to strings."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         return {field.name: plain(getattr(value, field.name)) for field in dataclasses.fields(value)}
     if isinstance(value, np.ndarray):
@@ -40,11 +40,11 @@ def plain(value: object) -> Any:  # noqa: ANN401  what JSON holds has no narrowe
 
 
 def plan_from_mapping(mapped: object) -> PlanDocument:
-    """The plan of a mapping; every record checks itself again.
+    """Return the plan of a mapping; every record validates itself.
 
     Raises:
         PlanError: PLAN_INVALID, a key is missing, unknown or of a wrong kind; PLAN_VERSION_UNKNOWN; or what
-            a record refuses.
+            a record rejects it.
     """
     if isinstance(mapped, Mapping):
         mapped = _in_newest_version(mapped)
@@ -54,7 +54,7 @@ def plan_from_mapping(mapped: object) -> PlanDocument:
 
 
 def _in_newest_version(mapped: Mapping[str, object]) -> Mapping[str, object]:
-    """What an older program wrote, as this one writes it."""
+    """Migrate a mapping of an older format version."""
     version = mapped.get("format_version")
     if type(version) is not int or version not in READABLE_VERSIONS:
         raise PlanError(
@@ -67,7 +67,7 @@ def _in_newest_version(mapped: Mapping[str, object]) -> Mapping[str, object]:
 
 
 def measure_from_mapping(mapped: object) -> PedicleMeasure:
-    """The measured pedicle of what `plain` made of it.
+    """Return the pedicle measurement from the output of `plain`.
 
     Raises:
         PlanError: PLAN_INVALID.
@@ -78,7 +78,7 @@ def measure_from_mapping(mapped: object) -> PedicleMeasure:
 
 
 def channel_from_mapping(mapped: object) -> Channel:
-    """The channel of what `plain` made of it.
+    """Return the channel from the output of `plain`.
 
     Raises:
         PlanError: PLAN_INVALID, CHANNEL_INVALID.
@@ -88,7 +88,7 @@ def channel_from_mapping(mapped: object) -> Channel:
     return channel
 
 
-def _read(kind: Any, value: object, where: str) -> Any:  # noqa: ANN401  kinds are told by annotations
+def _read(kind: Any, value: object, where: str) -> Any:  # noqa: ANN401  the annotation decides the type
     origin, given = typing.get_origin(kind), typing.get_args(kind)
     if dataclasses.is_dataclass(kind) and isinstance(kind, type):
         return _record(kind, value, where)
@@ -117,7 +117,7 @@ def _single(kind: Any, value: object, where: str) -> object:  # noqa: ANN401  as
             ) from error
     if kind is float and isinstance(value, int | float) and not isinstance(value, bool):
         # A whole number of JSON may have more digits than a float holds.
-        number = float(value) if abs(value) < LARGEST else math.inf
+        number = float(value) if abs(value) < MAX_INTEGER else math.inf
         if not math.isfinite(number):
             raise _invalid(where, "is no finite number")
         return number

@@ -1,23 +1,23 @@
-"""What a plan holds. Who made it, and when, is kept by whoever stores it."""
+"""Records of the plan document. The storage layer adds author and time."""
 
 from dataclasses import dataclass
 
 from tracker.errors import PlanError
 from tracker.plan.channel import Channel
 from tracker.plan.document.corrections import PedicleRecord
-from tracker.plan.landmark import Landmark, reject_twins
+from tracker.plan.landmark import Landmark, reject_duplicate_names
 from tracker.plan.pedicle import Side
 from tracker.plan.reference_slice import ReferenceSlice
 from tracker.plan.screw import ScrewPlan
 
-# 2 brought the landmarks; what 1 holds is read as having none.
+# Version 2 added landmarks; version 1 is read without any.
 FORMAT_VERSION, READABLE_VERSIONS = 2, (1, 2)
 MAX_CHANNELS = 2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlannedChannel:
-    """A channel, whether a person set it, and the screw in it where one is chosen.
+    """A channel, whether it was set manually, and its screws.
 
     Attributes:
         side: of the patient.
@@ -34,7 +34,7 @@ class PlannedChannel:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VertebraPlan:
-    """One vertebra: its reference slice, its landmarks, and to a side at most one pedicle and one channel.
+    """One vertebra: reference slice, landmarks, and at most one pedicle and one channel on each side.
 
     Attributes:
         name: `L3`.
@@ -70,15 +70,15 @@ class VertebraPlan:
                 f"vertebra '{self.name[:40]}' has pedicles {sides[:9]}, channels {ways[:9]}, "
                 f"{len(self.references)} reference slices and up to {screws} screws to a channel; "
                 "needed a name and at most one of each to a side",
-                "Take away what is there twice.",
+                "Remove the duplicates.",
                 {"name": self.name[:40]},
             )
-        reject_twins(self.landmarks)
+        reject_duplicate_names(self.landmarks)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanDocument:
-    """The whole plan: every vertebra that is fused.
+    """The whole plan: all instrumented vertebrae.
 
     Attributes:
         vertebrae: from the head down, or as they were planned; names differ.

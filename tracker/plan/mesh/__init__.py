@@ -1,4 +1,4 @@
-"""A mesh that somebody else made: is it a vertebra, in which unit, wound which way, and is it whole?"""
+"""Import of a surface mesh: size, unit, orientation and completeness checks."""
 
 from tracker.plan.mesh.intake import MeshSurface, surface_from_mesh
 from tracker.plan.mesh.units import MM_FROM_UNIT, FittingUnit, fitting_units

@@ -1,4 +1,4 @@
-"""A mesh from elsewhere becomes a surface of the plan, or is refused with what must be said first."""
+"""Validation and clean-up of an imported mesh; rejected with what is missing."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -8,16 +8,16 @@ import numpy.typing as npt
 
 from tracker.errors import PlanError
 from tracker.geometry import Array
-from tracker.plan.mesh.notes import Findings, remarks_of
+from tracker.plan.mesh.remarks import Findings, remarks_of
 from tracker.plan.mesh.units import MM_FROM_UNIT, FittingUnit, Kind, fitting_units, kind_of
 from tracker.plan.remark import Remark
 from tracker.plan.surface import Surface
-from tracker.plan.triangles import links_of, referenced, wound_outwards
-from tracker.plan.triangles.links import Faces, areas_of, equal_rows, parts_of
+from tracker.plan.triangles import connectivity_of, referenced, wound_outwards
+from tracker.plan.triangles.connectivity import Faces, areas_of, equal_rows, parts_of
 
 
 class Space(StrEnum):
-    """Which way a file's first two axes run: to the patient's left and back, or right and front."""
+    """Axis convention of a file: LPS or RAS."""
 
     LPS = "LPS"
     RAS = "RAS"
@@ -25,19 +25,19 @@ class Space(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeshSurface:
-    """A mesh as the plan uses it, and what was found in it.
+    """An imported mesh, cleaned, with the findings about it.
 
     Attributes:
-        surface: in LPS, in mm, wound outwards as far as that can be told.
+        surface: in LPS, in mm, wound outwards if the orientation can be determined.
         kind: a vertebra or several, by its size.
-        unit: that its numbers were in.
-        unit_given: whether a person said so; otherwise they are plausible in mm.
-        space: that its numbers were in.
-        size_mm: (3,) the sides of the box around it.
-        parts: how many pieces do not touch.
-        closed: whether it has an inside.
-        turned_faces: triangles that were wound the other way.
-        remarks: what the user should know.
+        unit: of the imported coordinates.
+        unit_given: whether the user gave the unit; otherwise mm are plausible.
+        space: axis convention of the imported coordinates.
+        size_mm: (3,) size of the bounding box.
+        parts: number of connected components.
+        closed: whether the mesh is closed.
+        flipped_faces: number of triangles whose winding was flipped.
+        remarks: warnings for the user.
     """
 
     surface: Surface
@@ -48,7 +48,7 @@ class MeshSurface:
     size_mm: Array
     parts: int
     closed: bool
-    turned_faces: int
+    flipped_faces: int
     remarks: tuple[Remark, ...]
 
 
@@ -59,7 +59,7 @@ def surface_from_mesh(
     unit: str | None = None,
     space: Space = Space.LPS,
 ) -> MeshSurface:
-    """The surface of a mesh; nothing is scaled unless its unit is given.
+    """Return the surface of a mesh; it is scaled only if its unit is given.
 
     Args:
         vertices: (n, 3) in the mesh's own unit.
@@ -77,12 +77,12 @@ def surface_from_mesh(
     kind = _kind(np.ptp(points, axis=0), unit)
     signs = np.array([-1.0, -1.0, 1.0]) if space is Space.RAS else np.ones(3)
     points = points * signs * MM_FROM_UNIT[unit or "mm"]
-    links = links_of(corners)
-    corners, turned = wound_outwards(points, corners)
+    connectivity = connectivity_of(corners)
+    corners, flipped = wound_outwards(points, corners)
     parts, _ = parts_of(corners, points.shape[0])
     size_mm = np.ptp(points, axis=0)
     found = Findings(
-        kind=kind, size_mm=size_mm, parts=parts, links=links, turned=turned,
+        kind=kind, size_mm=size_mm, parts=parts, connectivity=connectivity, flipped=flipped,
         faces=int(corners.shape[0]), dropped=dropped, mirrored=space is Space.RAS,
     )  # fmt: skip
     return MeshSurface(
@@ -93,18 +93,18 @@ def surface_from_mesh(
         space=space,
         size_mm=size_mm,
         parts=parts,
-        closed=links.closed,
-        turned_faces=turned,
+        closed=connectivity.closed,
+        flipped_faces=flipped,
         remarks=remarks_of(found),
     )
 
 
 def _checked(points: Array, corners: Faces) -> tuple[Array, Faces]:
-    """Arrays that name what is there."""
+    """Validate shapes, values and indexes."""
     if points.size == 0 or corners.size == 0:
         raise PlanError(
             "MESH_EMPTY",
-            f"the mesh holds {points.size // 3} vertices and {corners.size // 3} triangles",
+            f"the mesh has {points.size // 3} vertices and {corners.size // 3} triangles",
             "Export the bone's surface again as triangles in STL, OBJ or PLY.",
         )
     problem = ""
@@ -127,7 +127,7 @@ def _checked(points: Array, corners: Faces) -> tuple[Array, Faces]:
 
 
 def _cleaned(points: Array, corners: Faces) -> tuple[Array, Faces, int]:
-    """Equal vertices joined, triangles without area or that are there twice left out, and how many were."""
+    """Merge equal vertices, remove degenerate and duplicate triangles, and count those removed."""
     before = int(corners.shape[0])
     points, corners = referenced(points, corners)
     first, renamed = equal_rows(points)
@@ -138,7 +138,7 @@ def _cleaned(points: Array, corners: Faces) -> tuple[Array, Faces, int]:
     if corners.shape[0] < 4:
         raise PlanError(
             "MESH_EMPTY",
-            f"the mesh holds {corners.shape[0]} triangles with an area, needed 4 or more",
+            f"the mesh has {corners.shape[0]} triangles with an area, needed 4 or more",
             "Export the bone's surface again as triangles in STL, OBJ or PLY.",
             {"faces": before},
         )
@@ -146,7 +146,7 @@ def _cleaned(points: Array, corners: Faces) -> tuple[Array, Faces, int]:
 
 
 def _kind(size: Array, unit: str | None) -> Kind:
-    """What the mesh is in the unit that was given, or in mm."""
+    """Return what the mesh is by its size in the given unit, or in mm."""
     if unit is not None and unit not in MM_FROM_UNIT:
         raise PlanError(
             "MESH_UNIT_INVALID",
@@ -165,18 +165,18 @@ def _kind(size: Array, unit: str | None) -> Kind:
         "possible_units": [fit.unit for fit in fits],
     }
     message = (
-        f"the mesh is {_sides(size)} in its own numbers, which in {unit or 'mm'} is "
+        f"the mesh is {_sides(size)} in its own units, which in {unit or 'mm'} is "
         "neither a vertebra nor several"
     )
     if not fits:
         remedy = "It fits in no unit: export one vertebra, with its unit, and nothing else."
         raise PlanError("MESH_SIZE_IMPLAUSIBLE", message, remedy, context)
-    told = "; ".join(_told(fit) for fit in fits)
+    formatted = "; ".join(_formatted(fit) for fit in fits)
     code = "MESH_UNIT_NEEDED" if unit is None else "MESH_SIZE_IMPLAUSIBLE"
-    raise PlanError(code, message, f"Say its unit, after measuring it: {told}.", context)
+    raise PlanError(code, message, f"Measure it and give its unit: {formatted}.", context)
 
 
-def _told(fit: FittingUnit) -> str:
+def _formatted(fit: FittingUnit) -> str:
     return f"in {fit.unit} it is {_sides(fit.size_mm)} mm, the size of {_words(fit.kind)}"
 
 

@@ -1,4 +1,4 @@
-"""Which unit a mesh can be in, judged by the size that a vertebra or a spine has."""
+"""Plausible units of a mesh, by the size of a vertebra or a spine."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -19,7 +19,7 @@ SPINE_USUAL_MM = 350.0
 
 
 class Kind(StrEnum):
-    """What a mesh can be by its size."""
+    """Anatomical extent of a mesh, by its size."""
 
     VERTEBRA = "vertebra"
     SPINE = "several vertebrae"
@@ -31,8 +31,8 @@ class FittingUnit:
 
     Attributes:
         unit: a key of `MM_FROM_UNIT`.
-        kind: what it is then.
-        size_mm: (3,) the sides of the box around it then.
+        kind: extent of the mesh in this unit.
+        size_mm: (3,) size of the bounding box in this unit.
     """
 
     unit: str
@@ -41,7 +41,7 @@ class FittingUnit:
 
 
 def kind_of(size_mm: Array) -> Kind | None:
-    """What is as large as this box (3,), if anything of a spine is."""
+    """Return what a bounding box (3,) in mm fits: a vertebra, a spine or neither."""
     shortest, middle, longest = np.sort(size_mm)
     if (
         VERTEBRA_LONGEST_MM[0] <= longest <= VERTEBRA_LONGEST_MM[1]
@@ -59,7 +59,7 @@ def kind_of(size_mm: Array) -> Kind | None:
 
 
 def fitting_units(size: Array) -> tuple[FittingUnit, ...]:
-    """The units in which a box (3,) of so many of them is a vertebra or a spine, the likeliest first."""
+    """Return the plausible units of a bounding box (3,), the most probable first."""
     found = []
     for unit, mm in MM_FROM_UNIT.items():
         size_mm = np.asarray(size, dtype=np.float64) * mm

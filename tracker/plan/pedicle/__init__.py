@@ -1,4 +1,4 @@
-"""A pedicle measured from one click: the isthmus found in 3-D, its walls placed below a voxel."""
+"""Pedicle measurement from one click: 3-D isthmus search and sub-voxel wall fit."""
 
 from tracker.plan.pedicle.measure import measure_pedicle
 from tracker.plan.pedicle.record import (

@@ -1,7 +1,7 @@
-"""Which way a pedicle leads, by what stands around it: the canal, the body, and the clearance to its walls.
+"""Prior of the pedicle axis from its surroundings: canal, vertebral body, and clearance to the walls.
 
-A real pedicle is hardly longer than it is wide, so that its own walls tell little of its direction. Its axis
-is then what an anatomist means: from behind through the middle of the isthmus into the body, inside bone.
+A real pedicle is hardly longer than it is wide, so that its walls hardly constrain its direction. The axis
+is then anatomical: from behind through the centre of the isthmus into the body, inside bone.
 """
 
 from dataclasses import dataclass
@@ -12,18 +12,18 @@ from tracker.geometry import Array
 from tracker.plan.pedicle.outlines import planes_across
 from tracker.plan.pedicle.solid import Solid
 
-# The path of a screw around the isthmus, over which bone must stand around it.
-BEHIND_MM, AHEAD_MM, STEP_MM = 10.0, 28.0, 1.5
+# The part of a screw path around the isthmus that bone must surround.
+MAX_BEHIND_ENTRY_MM, AHEAD_MM, STEP_MM = 10.0, 28.0, 1.5
 MAX_DEPTH_MM, MIN_DEPTH_MM = 6.0, -3.0
-# What one mm of mean clearance is worth.
+# Scale of the mean clearance in the score.
 CLEARANCE_MM = 0.3
 CANAL_MM = (8.0, 34.0)
 WALL_FROM_MM, WALL_TO_MM = -14.0, 8.0
-# Nearer to the middle pedicles run straight, further aside they converge, as from the thoracic spine to L5.
+# Pedicles near the midline run straight, lateral ones converge: the trend from the thoracic spine to L5.
 USUAL_DEG, USUAL_AT_MM, TURN_DEG_PER_MM = 6.0, 16.0, 2.2
 USUAL_RANGE_DEG = (0.0, 28.0)
 KNOWN_SD_DEG, UNKNOWN_SD_DEG = 6.0, 11.0
-# Nothing around a pedicle tells its direction better than this.
+# Lower limit of the sd: the surroundings determine the direction no better.
 MIN_SD_DEG = 3.0
 ASIDE_MM = np.arange(-5.0, 5.1, 1.0)
 TRANSVERSE_DEG = np.arange(-24.0, 45.0, 3.0)
@@ -32,9 +32,9 @@ SAGITTAL_DEG = np.arange(-30.0, 31.0, 3.0)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Course:
-    """The direction that is expected, as `PedicleMeasure` defines its angles, with standard deviations.
+    """Expected axis direction with standard deviations, angles as in `PedicleMeasure`.
 
-    `usual_ratio` is by how much the transverse angle follows if what is usual is another one: 1 is all.
+    `usual_ratio` is the influence of the anatomical prior on the transverse angle: 1 is full.
     """
 
     transverse_deg: float
@@ -44,13 +44,13 @@ class Course:
     usual_ratio: float
 
     def axis(self, side: str) -> Array:
-        """The unit axis (3,) of these angles, forwards."""
+        """Return the unit axis (3,) of these angles, pointing forwards."""
         outwards = 1.0 if side == "left" else -1.0
         ways = _ways(np.array([self.transverse_deg]), np.array([self.sagittal_deg]), outwards)
         return np.asarray(ways[0])
 
     def off_deg(self, axis: Array, side: str) -> Array:
-        """By how many degrees (n, 2) unit axes (n, 3) are off, transverse and sagittal."""
+        """Return the deviations (n, 2) of unit axes (n, 3), transverse and sagittal, in degrees."""
         medial = -axis[:, 0] if side == "left" else axis[:, 0]
         transverse = np.degrees(np.arctan2(medial, -axis[:, 1])) - self.transverse_deg
         sagittal = np.degrees(np.arctan2(axis[:, 2], -axis[:, 1])) - self.sagittal_deg
@@ -58,7 +58,7 @@ class Course:
 
 
 def course_through(solid: Solid, isthmus_mm: Array, side: str) -> Course:
-    """The course through a point in a pedicle: what is usual there, where bone stands around the path."""
+    """Return the expected direction through a point: the usual one, weighted by the bone around the path."""
     outwards = 1.0 if side == "left" else -1.0
     middle = _middle_mm(solid, isthmus_mm, outwards)
     transverse, transverse_sd = 10.0, UNKNOWN_SD_DEG
@@ -87,31 +87,31 @@ def course_through(solid: Solid, isthmus_mm: Array, side: str) -> Course:
 
 
 def middle_of_bone(solid: Solid, point_mm: Array, axis: Array) -> Array:
-    """The deepest place (3,) across an axis within a few mm of a point."""
+    """Return the deepest point (3,) within a few mm of a point, across an axis."""
     (across,), (up,) = planes_across(axis[None])
     x, y = (grid.ravel() for grid in np.meshgrid(ASIDE_MM, ASIDE_MM))
     near_by = point_mm + x[:, None] * across + y[:, None] * up
-    # Of equal places the nearest, so that nothing is left for one just as good.
+    # Among equal depths choose the nearest, so that the point moves only for a better one.
     return np.asarray(near_by[np.argmax(solid.depth_at(near_by) - 0.3 * np.hypot(x, y))])
 
 
 def _ways(transverse: Array, sagittal: Array, outwards: float) -> Array:
-    """Unit directions (n, 3) of angles (n,) in degrees."""
+    """Return unit directions (n, 3) of angles (n,) in degrees."""
     medial = np.tan(np.radians(transverse))
     way = np.stack([-outwards * medial, -np.ones_like(medial), np.tan(np.radians(sagittal))], axis=1)
     return np.asarray(way / np.linalg.norm(way, axis=1, keepdims=True))
 
 
 def _clearance_mm(solid: Solid, at: Array, transverse: Array, sagittal: Array, outwards: float) -> Array:
-    """Mean clearance (n,) of paths through a point, as far as clearance matters."""
+    """Return the mean clearance (n,) of paths through a point, clipped at the relevant maximum."""
     way = _ways(transverse, sagittal, outwards)
-    along = np.arange(-BEHIND_MM, AHEAD_MM + 0.1, STEP_MM)
+    along = np.arange(-MAX_BEHIND_ENTRY_MM, AHEAD_MM + 0.1, STEP_MM)
     depth = solid.depth_at(at + along[:, None, None] * way)
     return np.asarray(np.clip(depth, MIN_DEPTH_MM, MAX_DEPTH_MM).mean(axis=0))
 
 
 def _middle_mm(solid: Solid, at: Array, outwards: float) -> float | None:
-    """The patient's x half-way across the canal, or None where no canal is seen beside the point."""
+    """Return the x coordinate of the canal's centre, or None if no canal is beside the point."""
     along = np.arange(0.0, 48.0, 0.5)
     found = []
     for back in (-3.0, 0.0, 3.0, 7.0, 11.0):
@@ -127,7 +127,7 @@ def _middle_mm(solid: Solid, at: Array, outwards: float) -> float | None:
 
 
 def _body_tilt_deg(solid: Solid, at: Array, middle_mm: float) -> float | None:
-    """How the body is tilted in the sagittal plane, by its wall towards the canal."""
+    """Return the sagittal tilt of the body, from its posterior wall."""
     along = np.arange(-8.0, 24.0, 0.5)
     level, wall = [], []
     for lift in np.arange(WALL_FROM_MM, WALL_TO_MM + 0.1, 2.0):

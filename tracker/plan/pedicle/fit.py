@@ -1,4 +1,4 @@
-"""Fits the bar to the voxels themselves, so that walls are placed far below a voxel, in thick slices too.
+"""Least-squares fit of the bar model to the voxels, for sub-voxel wall positions even in thick slices.
 
 A wall of 1 mm is blurred to half of its Hounsfield units, in thick slices to a third, so no threshold finds
 it; a fit that contains the voxel's box places it to a tenth of a voxel. Rays give the start only. It takes
@@ -12,43 +12,43 @@ import numpy.typing as npt
 from scipy.optimize import least_squares
 
 from tracker.geometry import Array
-from tracker.plan.pedicle import tube
+from tracker.plan.pedicle import tube_model
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
 from tracker.plan.pedicle.outlines import planes_across
 from tracker.plan.pedicle.search import Bar
 
 MIN_HALF_MM, MAX_HALF_MM = 3.0, 6.0
-# The rounds that only find the place need fewer voxels than the one that tells the numbers.
+# Iterations that only locate the section need fewer voxels than the final fit.
 MAX_VOXELS = (900, 1200, 3500)
 # Bone that is not like the bar pulls it away in many steps: the first rounds are kept short. What is like it
 # may need so many more of the first to be explained, as where walls stand high above what is around them.
 MAX_STEPS, MORE_STEPS = (8, 10, 20), 80
-# Where the narrowest place is still so far from the window's middle, the window is moved there once more.
+# If the narrowest place is still this far from the window's centre, the window is moved once more.
 SETTLED, MORE_ROUNDS, MIN_WAIST = 0.15, 2, 0.02
-# Only where bone is like the bar; where it is not, a window that wanders settles on what joins it.
+# Only with a low misfit: otherwise a moving window converges on adjacent bone.
 MAX_MISFIT_RATIO = 0.04
 OUTSIDE_BAND_MM = 1.2
 MIN_VOXELS = 60
 COARSE_SD_DEG = 4.0
-# Bone is not made of even layers: what a voxel may differ by before it counts less.
+# Scale of the robust loss: bone is not homogeneous.
 MIN_SCALE_HU, SCALE_RATIO = 12.0, 0.06
-# Noise is alike in neighbouring voxels only; bone that is not as the model has it, over a few millimetres.
-ALIKE_VOXELS, ALIKE_MM3 = 2.0, 20.0
-_HELD_SLOPES: Array = np.array([0.0, 0.0, 0.02])
+# Noise correlates between neighbouring voxels only; model errors correlate over a few millimetres.
+SIMILAR_VOXELS, SIMILAR_MM3 = 2.0, 20.0
+_FIXED_SLOPES: Array = np.array([0.0, 0.0, 0.02])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FittedBar:
-    """A bar fitted to voxels.
+    """A bar model fitted to voxels.
 
     Attributes:
         origin_mm: (3,), LPS; axis, left and up are unit (3,).
         half_mm: half the length of the window.
-        parameters: (26,), see `tube`.
+        parameters: (26,), see `tube_model`.
         covariance: (26, 26).
-        residual_hu: robust standard deviation of what the fit leaves.
-        misfit_ratio: what it leaves beyond noise, by the contrast of bone: how unlike a bar this is.
-        fitted: whether the fit came to an end; if not, these are the coarse numbers.
+        residual_hu: robust standard deviation of the residuals.
+        misfit_ratio: residual beyond noise, relative to the contrast of bone: deviation from the bar model.
+        fitted: whether the fit converged; if not, these are the coarse values.
     """
 
     origin_mm: Array
@@ -63,8 +63,8 @@ class FittedBar:
     fitted: bool
 
 
-def fit_bar(near: Neighbourhood, bar: Bar, *, held: bool = False) -> FittedBar:
-    """The bar around its narrowest section, refitted until window and axis agree with themselves.
+def fit_bar(near: Neighbourhood, bar: Bar, *, fixed_axis: bool = False) -> FittedBar:
+    """Fit the bar around its narrowest section; iterate until window and axis are consistent.
 
     Held, it keeps the direction that it was given, and only the place and shape of its section are fitted.
     """
@@ -79,7 +79,7 @@ def fit_bar(near: Neighbourhood, bar: Bar, *, held: bool = False) -> FittedBar:
         samples = _samples(near, bar, parameters, origin, frame, half, MAX_VOXELS[round_number])
         if len(samples.hu) < MIN_VOXELS:
             break
-        slopes = _HELD_SLOPES if held else _coarse_slopes(bar, axis, left, up, half)
+        slopes = _FIXED_SLOPES if fixed_axis else _coarse_slopes(bar, axis, left, up, half)
         solved = _solve(near, samples, parameters, slopes, MAX_STEPS[round_number])
         if fitted is None and _misfit_ratio(near, solved[2]) > MAX_MISFIT_RATIO:
             ended = _solve(near, samples, solved[0], slopes, MORE_STEPS)
@@ -101,32 +101,32 @@ def fit_bar(near: Neighbourhood, bar: Bar, *, held: bool = False) -> FittedBar:
         if round_number == last and settled:
             break
         origin, turned, parameters = _moved(fitted)
-        axis = axis if held else turned
+        axis = axis if fixed_axis else turned
     return fitted if fitted is not None else _unfitted(near, bar, parameters, half)
 
 
 def voxel_across_mm(near: Neighbourhood, fitted: FittedBar) -> float:
-    """The size of a voxel across the bar, from side to side."""
+    """Return the size of a voxel across the bar, from side to side."""
     return float(np.linalg.norm(near.voxel_width_mm(fitted.left)))
 
 
 def narrowest(fitted: FittedBar) -> float:
-    """Where the bar is narrowest: from -1 to 1 over the window; its middle where it does not narrow.
+    """Return the position of the minimum section, -1..1 over the window; 0 if it does not narrow.
 
-    A waist that is too faint to be told surely counts as one of a fiftieth, so that the place moves as far as
-    the bar narrows, and never jumps.
+    The curvature of a weak waist is bounded below by `MIN_WAIST`, so that the place is a continuous function
+    of the fit.
     """
-    slope, bend = fitted.parameters[tube.GROWTH][:2]
+    slope, bend = fitted.parameters[tube_model.GROWTH][:2]
     waist = np.hypot(max(float(bend), 0.0), MIN_WAIST)
     return float(np.clip(-slope / (2.0 * waist), -0.6, 0.6))
 
 
 def _moved(fitted: FittedBar) -> tuple[Array, Array, Array]:
-    """Origin, axis and first parameters of the next round: at the narrowest place, along its tangent."""
+    """Return origin, axis and initial parameters of the next iteration, at the narrowest place."""
     at = narrowest(fitted)
     parameters = fitted.parameters.copy()
-    c = parameters[tube.CENTRE]
-    section = tube.section_at(parameters, np.array([at]))
+    c = parameters[tube_model.CENTRE]
+    section = tube_model.section_at(parameters, np.array([at]))
     origin = (
         fitted.origin_mm
         + at * fitted.half_mm * fitted.axis
@@ -135,10 +135,10 @@ def _moved(fitted: FittedBar) -> tuple[Array, Array, Array]:
     )
     slope = np.array([c[1] + 2 * c[2] * at, c[4] + 2 * c[5] * at]) / fitted.half_mm
     axis = fitted.axis + slope[0] * fitted.left + slope[1] * fitted.up
-    parameters[tube.AXES][:2] = np.log([section.half_width_mm[0], section.half_height_mm[0]])
-    parameters[tube.CENTRE] = [0.0, 0.0, c[2], 0.0, 0.0, c[5]]
-    growth = parameters[tube.GROWTH]
-    parameters[tube.GROWTH] = [0.0, growth[1], 0.0, growth[3]]
+    parameters[tube_model.AXES][:2] = np.log([section.half_width_mm[0], section.half_height_mm[0]])
+    parameters[tube_model.CENTRE] = [0.0, 0.0, c[2], 0.0, 0.0, c[5]]
+    growth = parameters[tube_model.GROWTH]
+    parameters[tube_model.GROWTH] = [0.0, growth[1], 0.0, growth[3]]
     return origin, axis / np.linalg.norm(axis), parameters
 
 
@@ -147,7 +147,7 @@ def _first_parameters(near: Neighbourhood, bar: Bar) -> Array:
     smooth = bar.sections.smooth_mm[row]
     quarter = len(smooth) // 4
     angle = 2.0 * np.pi * np.arange(len(smooth)) / len(smooth)
-    # Second moments of a star-shaped outline give an ellipse for the start.
+    # The second moments of the star-shaped outline give the initial ellipse.
     fourth = smooth**4
     xx, yy = (fourth * np.cos(angle) ** 2).mean(), (fourth * np.sin(angle) ** 2).mean()
     xy = (fourth * np.cos(angle) * np.sin(angle)).mean()
@@ -156,25 +156,25 @@ def _first_parameters(near: Neighbourhood, bar: Bar) -> Array:
     wide = int(np.argmax(np.abs(vectors[0])))
     direction = vectors[:, wide] * np.sign(vectors[0, wide])
     round_shape = abs(half[0] - half[1]) < 0.06 * half.sum()
-    out = np.zeros(tube.COUNT)
-    out[tube.AXES] = [
+    out = np.zeros(tube_model.COUNT)
+    out[tube_model.AXES] = [
         np.log(half[wide]),
         np.log(half[1 - wide]),
         0.0 if round_shape else np.arctan2(direction[1], direction[0]),
     ]
     if not np.isfinite(out).all() or quarter == 0:
-        out[tube.AXES] = [np.log(4.0), np.log(6.0), 0.0]
+        out[tube_model.AXES] = [np.log(4.0), np.log(6.0), 0.0]
     centre = near.smooth_hu(bar.centre_mm[None])[0]
-    out[tube.CORTEX] = max(near.cortex_hu, centre)
-    out[tube.THICKNESS] = np.log(1.2)
-    out[tube.MARROW] = centre
-    out[tube.BLUR] = np.log(_usual_blur_mm(near))
-    out[tube.OUTSIDE.start] = near.tissue_hu
+    out[tube_model.CORTEX] = max(near.cortex_hu, centre)
+    out[tube_model.THICKNESS] = np.log(1.2)
+    out[tube_model.MARROW] = centre
+    out[tube_model.BLUR] = np.log(_usual_blur_mm(near))
+    out[tube_model.OUTSIDE.start] = near.tissue_hu
     return out
 
 
 def _coarse_slopes(bar: Bar, axis: Array, left: Array, up: Array, half: float) -> Array:
-    """How the coarse line runs against this axis over the window, and how far the fit may leave it, in mm."""
+    """Return the slopes of the coarse line against this axis, and the allowed change of the fit, in mm."""
     forwards = bar.axis @ axis
     to_left, to_up = bar.axis @ left / forwards, bar.axis @ up / forwards
     return np.array([to_left * half, to_up * half, np.tan(np.radians(COARSE_SD_DEG)) * half])
@@ -187,25 +187,25 @@ def _usual_blur_mm(near: Neighbourhood) -> float:
 
 def _samples(
     near: Neighbourhood, bar: Bar, parameters: Array, origin: Array, frame: Array, half: float, most: int
-) -> tube.Samples:
-    """Voxels of the window that lie in the bar, or in a thin band around it that holds no other bone."""
+) -> tube_model.Samples:
+    """Return the voxels of the window in the bar, or in a thin band around it without other bone."""
     points, hu = _voxels(near, origin, half)
     local = (points - origin) @ frame.T
     along = local[:, 0] / half
-    distance, angle = tube.wall_distance_mm(parameters, along, local[:, 1:])
-    a, b = np.exp(parameters[tube.AXES][:2])
+    distance, angle = tube_model.wall_distance_mm(parameters, along, local[:, 1:])
+    a, b = np.exp(parameters[tube_model.AXES][:2])
     normal = np.stack([np.cos(angle) / a, np.sin(angle) / b], axis=1)
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    roll = parameters[tube.AXES][2]
+    roll = parameters[tube_model.AXES][2]
     turn = np.array([[np.cos(roll), np.sin(roll)], [-np.sin(roll), np.cos(roll)]])
     direction = (normal @ turn) @ frame[1:]
     box = (near.voxel_width_mm(direction) ** 2).sum(axis=1) / 12.0
-    band = OUTSIDE_BAND_MM + 2.2 * np.sqrt(box + np.exp(2.0 * parameters[tube.BLUR]))
+    band = OUTSIDE_BAND_MM + 2.2 * np.sqrt(box + np.exp(2.0 * parameters[tube_model.BLUR]))
     used = (np.abs(along) <= 1.0) & (distance < band) & ~_open(bar, points)
     rows = np.flatnonzero(used)
     if len(rows) > most:
         rows = np.random.default_rng(1).choice(rows, most, replace=False)
-    return tube.Samples(along=along[rows], across_mm=local[rows, 1:], hu=hu[rows], box_mm2=box[rows])
+    return tube_model.Samples(along=along[rows], across_mm=local[rows, 1:], hu=hu[rows], box_mm2=box[rows])
 
 
 def _voxels(near: Neighbourhood, origin: Array, half: float) -> tuple[Array, Array]:
@@ -223,7 +223,7 @@ def _voxels(near: Neighbourhood, origin: Array, half: float) -> tuple[Array, Arr
 
 
 def _open(bar: Bar, points: Array) -> npt.NDArray[np.bool_]:
-    """Points (n,) where the coarse outline found no wall, or one that is no part of the bar."""
+    """Return points (n,) where the coarse outline has no wall, or one that is not part of the bar."""
     cut = bar.sections
     along = (points - bar.centre_mm) @ bar.axis
     row = np.argmin(np.abs(along[:, None] - bar.along_mm), axis=1)
@@ -234,21 +234,21 @@ def _open(bar: Bar, points: Array) -> npt.NDArray[np.bool_]:
     ray = np.round(np.arctan2(y, x) / (2.0 * np.pi) * rays).astype(int) % rays
     radius, smooth = cut.radius_mm[row, ray], cut.smooth_mm[row, ray]
     stray = ~(np.abs(radius - smooth) < 0.8 + 0.15 * smooth)
-    # Only outside: what lies inside the bar is the bar, whatever a ray met behind it.
+    # Exclude only outside voxels: inside, the voxels belong to the bar in any case.
     return np.asarray(stray & (np.hypot(x, y) > 0.75 * smooth))
 
 
-WALL = [tube.CORTEX, tube.THICKNESS]
+WALL = [tube_model.CORTEX, tube_model.THICKNESS]
 
 
 def _solve(
-    near: Neighbourhood, samples: tube.Samples, start: Array, slopes: Array, max_steps: int
+    near: Neighbourhood, samples: tube_model.Samples, start: Array, slopes: Array, max_steps: int
 ) -> tuple[Array, Array, float, bool]:
     scale = max(MIN_SCALE_HU, near.noise_hu, SCALE_RATIO * (near.cortex_hu - near.tissue_hu))
     centre, width = _expected(near, start, slopes)
 
     def residuals(parameters: Array) -> Array:
-        fit = (tube.model_hu(parameters, samples) - samples.hu) / scale
+        fit = (tube_model.model_hu(parameters, samples) - samples.hu) / scale
         off = (parameters - centre) / width
         # The loss forgives what is far off. Of a wall thinner than the blur only dense times thick is seen,
         # so that these two must not be forgiven: so written, the loss counts them by their square.
@@ -264,19 +264,19 @@ def _solve(
         x_scale=np.minimum(width, 50.0),
         max_nfev=max_steps,
     )
-    left = tube.model_hu(result.x, samples) - samples.hu
+    left = tube_model.model_hu(result.x, samples) - samples.hu
     residual = float(1.4826 * np.median(np.abs(left)))
     information = result.jac.T @ result.jac
     spread = max(residual, 2.0) / scale
-    covariance = np.linalg.pinv(information) * max(spread, 0.2) ** 2 * _alike(near, residual)
+    covariance = np.linalg.pinv(information) * max(spread, 0.2) ** 2 * _similarity_groups(near, residual)
     return result.x, covariance, residual, bool(result.status >= 0)
 
 
-def _alike(near: Neighbourhood, residual: float) -> float:
-    """How many voxels are off alike, so that they tell no more than one."""
+def _similarity_groups(near: Neighbourhood, residual: float) -> float:
+    """Return the number of voxels with correlated residuals, which count as one observation."""
     noise = min(near.noise_hu / max(residual, 1e-6), 1.0) ** 2
     voxel = float(abs(np.linalg.det(near.lps_from_index[:3, :3])))
-    return noise * ALIKE_VOXELS + (1.0 - noise) * max(ALIKE_VOXELS, ALIKE_MM3 / voxel)
+    return noise * SIMILAR_VOXELS + (1.0 - noise) * max(SIMILAR_VOXELS, SIMILAR_MM3 / voxel)
 
 
 def _misfit_ratio(near: Neighbourhood, residual: float) -> float:
@@ -285,41 +285,44 @@ def _misfit_ratio(near: Neighbourhood, residual: float) -> float:
 
 
 def _expected(near: Neighbourhood, start: Array, slopes: Array) -> tuple[Array, Array]:
-    """What is expected before looking, and how far each parameter may be from it.
+    """Return prior mean and standard deviation of each parameter.
 
     `slopes` are those of the coarse line over the window, and how far the fit may leave them: left, up, sd.
     """
-    centre, width = np.zeros(tube.COUNT), np.full(tube.COUNT, 1e3)
-    centre[tube.CENTRE] = [0.0, slopes[0], 0.0, 0.0, slopes[1], 0.0]
-    width[tube.CENTRE] = [5.0, slopes[2], 0.6, 5.0, slopes[2], 0.6]
-    centre[tube.AXES], width[tube.AXES] = start[tube.AXES], [1.0, 1.0, 1.0]
-    width[tube.GROWTH] = [0.15, 0.2, 0.15, 0.2]
-    width[tube.SHAPE] = 0.04
-    centre[tube.CORTEX] = near.cortex_hu
-    width[tube.CORTEX] = max(0.25 * (near.cortex_hu - near.tissue_hu), 30.0)
-    centre[tube.THICKNESS], width[tube.THICKNESS] = np.log(1.3), 0.7
-    centre[tube.MARROW], width[tube.MARROW] = start[tube.MARROW], 400.0
-    centre[tube.BLUR], width[tube.BLUR] = np.log(_usual_blur_mm(near)), 0.6
-    centre[tube.OUTSIDE] = [near.tissue_hu, 0.0, 0.0, 0.0, 0.0]
-    width[tube.OUTSIDE] = [300.0, 150.0, 150.0, 100.0, 100.0]
+    centre, width = np.zeros(tube_model.COUNT), np.full(tube_model.COUNT, 1e3)
+    centre[tube_model.CENTRE] = [0.0, slopes[0], 0.0, 0.0, slopes[1], 0.0]
+    width[tube_model.CENTRE] = [5.0, slopes[2], 0.6, 5.0, slopes[2], 0.6]
+    centre[tube_model.AXES], width[tube_model.AXES] = start[tube_model.AXES], [1.0, 1.0, 1.0]
+    width[tube_model.GROWTH] = [0.15, 0.2, 0.15, 0.2]
+    width[tube_model.SHAPE] = 0.04
+    centre[tube_model.CORTEX] = near.cortex_hu
+    width[tube_model.CORTEX] = max(0.25 * (near.cortex_hu - near.tissue_hu), 30.0)
+    centre[tube_model.THICKNESS], width[tube_model.THICKNESS] = np.log(1.3), 0.7
+    centre[tube_model.MARROW], width[tube_model.MARROW] = start[tube_model.MARROW], 400.0
+    centre[tube_model.BLUR], width[tube_model.BLUR] = np.log(_usual_blur_mm(near)), 0.6
+    centre[tube_model.OUTSIDE] = [near.tissue_hu, 0.0, 0.0, 0.0, 0.0]
+    width[tube_model.OUTSIDE] = [300.0, 150.0, 150.0, 100.0, 100.0]
     return centre, width
 
 
 def _bounds(start: Array) -> tuple[Array, Array]:
-    low, high = np.full(tube.COUNT, -np.inf), np.full(tube.COUNT, np.inf)
-    low[tube.AXES], high[tube.AXES] = start[tube.AXES] - [0.7, 0.7, 1.0], start[tube.AXES] + [0.7, 0.7, 1.0]
-    low[tube.CENTRE], high[tube.CENTRE] = -6.0, 6.0
-    low[tube.GROWTH], high[tube.GROWTH] = -0.7, 1.5
-    low[tube.SHAPE], high[tube.SHAPE] = -0.2, 0.2
-    low[tube.THICKNESS], high[tube.THICKNESS] = np.log(0.25), np.log(8.0)
-    low[tube.BLUR], high[tube.BLUR] = np.log(0.05), np.log(1.5)
+    low, high = np.full(tube_model.COUNT, -np.inf), np.full(tube_model.COUNT, np.inf)
+    low[tube_model.AXES], high[tube_model.AXES] = (
+        start[tube_model.AXES] - [0.7, 0.7, 1.0],
+        start[tube_model.AXES] + [0.7, 0.7, 1.0],
+    )
+    low[tube_model.CENTRE], high[tube_model.CENTRE] = -6.0, 6.0
+    low[tube_model.GROWTH], high[tube_model.GROWTH] = -0.7, 1.5
+    low[tube_model.SHAPE], high[tube_model.SHAPE] = -0.2, 0.2
+    low[tube_model.THICKNESS], high[tube_model.THICKNESS] = np.log(0.25), np.log(8.0)
+    low[tube_model.BLUR], high[tube_model.BLUR] = np.log(0.05), np.log(1.5)
     return low, high
 
 
 def _unfitted(near: Neighbourhood, bar: Bar, parameters: Array, half: float) -> FittedBar:
     (left,), (up,) = planes_across(bar.axis[None])
-    spread = np.zeros(tube.COUNT)
-    spread[tube.CENTRE], spread[tube.AXES] = 0.7, 0.2
+    spread = np.zeros(tube_model.COUNT)
+    spread[tube_model.CENTRE], spread[tube_model.AXES] = 0.7, 0.2
     return FittedBar(
         origin_mm=bar.centre_mm,
         axis=bar.axis,

@@ -1,4 +1,4 @@
-"""From one click to the pedicle's numbers."""
+"""Measurement of a pedicle from one click."""
 
 from dataclasses import replace
 
@@ -6,19 +6,19 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array
-from tracker.plan.pedicle import rejections, tube
+from tracker.plan.pedicle import rejections, tube_model
 from tracker.plan.pedicle.course import Course, course_through, middle_of_bone
 from tracker.plan.pedicle.fit import FittedBar, fit_bar, voxel_across_mm
 from tracker.plan.pedicle.length import WallAhead, back_wall, front_wall
 from tracker.plan.pedicle.neighbourhood import Neighbourhood, neighbourhood_of
-from tracker.plan.pedicle.plausible import (
+from tracker.plan.pedicle.plausibility import (
     agrees,
     beyond_medial_wall_mm,
     is_beside_canal,
     max_beyond_mm,
     medial_wall_mm,
-    unsure_as,
     usual_beyond_mm,
+    with_widened_uncertainty,
 )
 from tracker.plan.pedicle.record import (
     MIN_AHEAD_MM,
@@ -46,24 +46,24 @@ from tracker.plan.volume import Volume
 
 WALL_SD_VOXELS = 0.3
 MIN_FACED_SD = 0.15
-# A smaller turn of the axis changes no section.
+# A smaller rotation of the axis does not change a section.
 TURNED_DEG = 1.0
 MAX_OFF_COURSE_DEG, MAX_TURN_DEG = 32.0, 25.0
 MIN_ASIDE_MM = 1.0
 MAX_MOVE_MM, MAX_GROWTH = 3.0, 1.25
-# A second start, where the first is at the isthmus already.
+# Offset of the second start if the first is already at the isthmus.
 AGAIN_MM = -2.0
 
 
 def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> PedicleMeasure:
-    """Measure the pedicle that holds a click: width, height, angles, length, and how sure each is.
+    """Measure the pedicle at a click: width, height, angles, length and their standard deviations.
 
-    The click may lie anywhere in the pedicle. Sections in all likely directions are outlined around it; the
-    smallest closed one begins a line that is refitted through the sections' centres; around the narrowest
-    section a bar with cortex, marrow and what lies around is fitted to the voxels themselves, with the
-    blur of voxel and scanner in it, so that walls are placed far below a voxel. No number of the scanner
-    and no threshold is presumed: cortex, marrow and outside are each fitted where they are. What was found is
-    judged by what the fit has not seen: the canal beside it, and where voxels are few, a second start.
+    The click may lie anywhere in the pedicle. Sections in all plausible directions are outlined around it;
+    the smallest closed one starts a line that is refitted through the section centres. Around the narrowest
+    section a bar of cortex, marrow and surroundings, blurred by voxel and scanner, is fitted to the voxels,
+    which gives sub-voxel walls. No scanner parameter and no threshold is assumed: the HU of cortex, marrow
+    and outside are fitted locally. The result is verified by independent evidence: the canal beside it, and
+    for few voxels a second start.
 
     Args:
         volume: the CT.
@@ -101,7 +101,7 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
 def _found_from(
     near: Neighbourhood, solid: Solid, at: Array, side: Side
 ) -> tuple[Bar, FittedBar, Isthmus] | None:
-    """Bar, fit and isthmus from a start, or None where no section around it is closed."""
+    """Return bar, fit and isthmus from a start point, or None if no section around it is closed."""
     bar = _bar_at(near, solid, at, side)
     if bar is None:
         return None
@@ -113,7 +113,7 @@ def _found_from(
 
 
 def _agreed(near: Neighbourhood, solid: Solid, seed: Array, side: Side, isthmus: Isthmus) -> Isthmus:
-    """The isthmus as unsure as a second start in the same pedicle differs; refused where that is elsewhere.
+    """Return the isthmus with the uncertainty of a second start; reject it if that finds another place.
 
     Of few voxels a fit states its noise, and not that another section near by would have done as well.
     """
@@ -126,11 +126,11 @@ def _agreed(near: Neighbourhood, solid: Solid, seed: Array, side: Side, isthmus:
     other = found[2]
     if not agrees(isthmus, other):
         raise rejections.disagreeing(isthmus, other)
-    return unsure_as(isthmus, other)
+    return with_widened_uncertainty(isthmus, other)
 
 
 def _bar_at(near: Neighbourhood, solid: Solid, seed: Array, side: Side) -> Bar | None:
-    """The bar at the click; where it is doubtful, the one at the middle of the bone that holds the click."""
+    """Return the bar at the click; if ambiguous, the one at the centre of the bone around the click."""
     bars: list[tuple[bool, bool, float, Bar]] = []
     course = course_through(solid, seed, side)
     middle = middle_of_bone(solid, seed, course.axis(side))
@@ -141,25 +141,25 @@ def _bar_at(near: Neighbourhood, solid: Solid, seed: Array, side: Side) -> Bar |
             continue
         off_deg = float(np.linalg.norm(course.off_deg(bar.axis[None], side)))
         beside = is_beside_canal(near, solid, bar, side)
-        if beside and bar.is_clear and off_deg <= MAX_OFF_COURSE_DEG and bar.holds(seed):
+        if beside and bar.is_clear and off_deg <= MAX_OFF_COURSE_DEG and bar.contains(seed):
             return bar
         score = min(bar.behind_mm, bar.ahead_mm) - 0.1 * off_deg
-        bars.append((beside, bar.holds(seed), score, bar))
+        bars.append((beside, bar.contains(seed), score, bar))
     return max(bars, key=lambda one: one[:3])[3] if bars else None
 
 
 def _fitted(near: Neighbourhood, bar: Bar) -> FittedBar:
-    """The fit to the voxels; one that turned right away from its sections is made again, held."""
+    """Return the fit to the voxels; repeat it with fixed slopes if it rotated away from its sections."""
     fitted = fit_bar(near, bar)
     if fitted.axis @ bar.axis >= np.cos(np.radians(MAX_TURN_DEG)):
         return fitted
-    return replace(fit_bar(near, bar, held=True), misfit_ratio=1.0)
+    return replace(fit_bar(near, bar, fixed_axis=True), misfit_ratio=1.0)
 
 
 def _along_course(
     near: Neighbourhood, bar: Bar, fitted: FittedBar, isthmus: Isthmus, course: Course, side: Side
 ) -> tuple[Isthmus, FittedBar]:
-    """The isthmus across the axis that walls and surroundings tell together, each as surely as it is."""
+    """Return the isthmus across the combined axis of walls and surroundings, weighted by precision."""
     own = np.array([transverse_deg_of(isthmus.axis, side), sagittal_deg_of(isthmus.axis)])
     expected = np.array([course.transverse_deg, course.sagittal_deg])
     own_weight = 1.0 / np.square(isthmus.slope_sd_deg)
@@ -170,10 +170,10 @@ def _along_course(
     axis = axis_from_angles(side, transverse_deg=float(both[0]), sagittal_deg=float(both[1]))
     turned_deg = float(np.degrees(np.arccos(np.clip(axis @ isthmus.axis, -1.0, 1.0))))
     if turned_deg >= TURNED_DEG:
-        held = fit_bar(near, bar_along(near, bar, isthmus.centre_mm, axis), held=True)
-        across = isthmus_of(held, voxel_across_mm(near, held))
+        refitted = fit_bar(near, bar_along(near, bar, isthmus.centre_mm, axis), fixed_axis=True)
+        across = isthmus_of(refitted, voxel_across_mm(near, refitted))
         if _is_same(isthmus, across):
-            isthmus, fitted = _narrower(across, isthmus), held
+            isthmus, fitted = _narrower(across, isthmus), refitted
     return replace(
         isthmus,
         axis=axis,
@@ -183,10 +183,10 @@ def _along_course(
 
 
 def _narrower(one: Isthmus, other: Isthmus) -> Isthmus:
-    """The first section with the lesser of both widths and heights, and as unsure as they differ.
+    """Return the first section with the smaller width and height; the difference adds uncertainty.
 
-    Which of two near directions is the pedicle's own is not known so well, and a rib that touches the wall
-    widens it in one of them: what is too narrow costs a thinner screw, what is too wide costs the wall.
+    The direction is uncertain, and a rib at the wall widens the section in one of them: an underestimate
+    costs a thinner screw, an overestimate the wall.
     """
     return replace(
         one,
@@ -198,7 +198,7 @@ def _narrower(one: Isthmus, other: Isthmus) -> Isthmus:
 
 
 def _is_same(one: Isthmus, other: Isthmus) -> bool:
-    """Whether two sections across different axes are of one pedicle, and not of what joins it."""
+    """Return whether two sections across different axes belong to one pedicle."""
     moved_mm = float(np.linalg.norm(one.centre_mm - other.centre_mm))
     ratios = np.array([other.width_mm / one.width_mm, other.height_mm / one.height_mm])
     return moved_mm <= MAX_MOVE_MM and bool((np.abs(np.log(ratios)) <= np.log(MAX_GROWTH)).all())
@@ -232,7 +232,7 @@ def _record(
         front_lps_mm=isthmus.centre_mm + front.distance_mm * isthmus.axis,
         outline_lps_mm=isthmus.outline_mm,
         seed_lps_mm=seed,
-        cortex_mm=float(np.exp(fitted.parameters[tube.THICKNESS])),
+        cortex_mm=float(np.exp(fitted.parameters[tube_model.THICKNESS])),
         sd=PedicleSpread(
             width_mm=isthmus.width_sd_mm,
             height_mm=isthmus.height_sd_mm,
@@ -247,13 +247,13 @@ def _record(
 
 
 def _opens_ahead_mm(bar: Bar, isthmus: Isthmus) -> float:
-    """From the isthmus to where the bar opens, or as far as it was followed."""
+    """Return the distance from the isthmus to where the bar opens, or to where tracing ended."""
     ahead = float((bar.centre_mm - isthmus.centre_mm) @ isthmus.axis) + bar.ahead_mm
     return max(ahead, MIN_AHEAD_MM)
 
 
 def _side_warnings(near: Neighbourhood, isthmus: Isthmus, fitted: FittedBar, side: Side) -> list[str]:
-    """What speaks against the side that was named; refused where canal and body both do."""
+    """Return what contradicts the given side; reject it if canal and body both do."""
     expected = -1 if side == "left" else 1
     canal = canal_side(near, isthmus.centre_mm, fitted.left, 0.5 * isthmus.width_mm, fitted.up)
     body = body_side(near, isthmus.centre_mm, isthmus.axis, fitted.left)
@@ -267,12 +267,12 @@ def _side_warnings(near: Neighbourhood, isthmus: Isthmus, fitted: FittedBar, sid
 
 
 def _length_sd_mm(front: WallAhead, back: WallAhead, isthmus: Isthmus, wall_sd_mm: float) -> float:
-    """Each wall's own spread and the axis's, and what they make along the axis of a wall met aslant."""
+    """Return the sd of the length: from each wall and from the axis where a wall is met obliquely."""
     parts = []
     for wall in (front, back):
         faced = max(abs(wall.faced_ratio), MIN_FACED_SD)
-        aslant = np.sqrt(1.0 - min(faced, 1.0) ** 2) / max(faced, MIN_FACED)
+        obliquity = np.sqrt(1.0 - min(faced, 1.0) ** 2) / max(faced, MIN_FACED)
         parts.append(wall_sd_mm / faced)
-        parts.append(wall.distance_mm * aslant * np.radians(float(np.hypot(*isthmus.slope_sd_deg))))
+        parts.append(wall.distance_mm * obliquity * np.radians(float(np.hypot(*isthmus.slope_sd_deg))))
         parts.append(wall.sd_mm)
     return float(np.linalg.norm(parts))

@@ -1,4 +1,4 @@
-"""The part of a CT around a click, and what its numbers are like there: noise, soft tissue, cortex."""
+"""The part of a CT around a click, with its noise level and the HU of soft tissue and cortex."""
 
 from dataclasses import dataclass
 
@@ -11,22 +11,22 @@ from tracker.plan.volume import Volume
 
 REACH_MM = 70.0
 NEAR_MM = 14.0
-# Metal shines far above any bone; what is above this is no longer told apart.
+# Metal is far above any bone; values are clipped here.
 MAX_HU = 1600.0
 SMOOTH_MM = 0.45
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Neighbourhood:
-    """A block of the CT around a point, as it is and slightly smoothed.
+    """A block of the CT around a point, unfiltered and slightly smoothed.
 
     Attributes:
-        block: (slices, rows, columns) float32, HU, clipped to what bone can have.
+        block: (slices, rows, columns) float32, HU, clipped to the range of bone.
         smooth: the same, smoothed by about half a millimetre where voxels are finer than that.
         lps_from_index: (4, 4), from index (i, j, k) of the block to LPS mm.
         noise_hu: standard deviation of a voxel's noise.
-        tissue_hu: the usual number of soft tissue around.
-        cortex_hu: the number of the densest bone near the point.
+        tissue_hu: typical HU of the soft tissue around.
+        cortex_hu: HU of the densest bone near the point.
     """
 
     block: npt.NDArray[np.float32]
@@ -38,40 +38,40 @@ class Neighbourhood:
 
     @property
     def min_fall_hu(self) -> float:
-        """By how much a wall must fall to its outside to be taken for one."""
+        """Return the minimum fall in HU of a wall to its outside."""
         return float(max(80.0, 2.5 * self.noise_hu, 0.2 * (self.cortex_hu - self.tissue_hu)))
 
     @property
     def soft_below_hu(self) -> float:
-        """Below this number lies what is soft."""
+        """Return the HU below which a voxel is soft tissue."""
         return self.tissue_hu + max(60.0, 0.12 * (self.cortex_hu - self.tissue_hu))
 
     @property
     def bone_above_hu(self) -> float:
-        """Above this number lies what is surely bone, where metal and contrast are left aside."""
+        """Return the HU above which a voxel is bone (metal and contrast excepted)."""
         return self.tissue_hu + max(120.0, 0.4 * (self.cortex_hu - self.tissue_hu))
 
     def voxel_width_mm(self, directions: Array) -> Array:
-        """Widths (..., 3) of a voxel's three sides along unit directions (..., 3)."""
+        """Return the extent (..., 3) of a voxel's three sides along unit directions (..., 3)."""
         return np.abs(directions @ self.lps_from_index[:3, :3])
 
     def index_of(self, points_lps_mm: Array) -> Array:
-        """Indexes (..., 3) as i, j, k in the block."""
+        """Return the block indexes (..., 3) as i, j, k."""
         return self.index_step(points_lps_mm - self.lps_from_index[:3, 3])
 
     def index_step(self, steps_lps_mm: Array) -> Array:
-        """By how many indexes (..., 3), as i, j, k, steps (..., 3) go."""
+        """Return steps (..., 3) in indexes (i, j, k)."""
         inverse = np.linalg.inv(self.lps_from_index[:3, :3])
         return np.asarray(steps_lps_mm @ inverse.T)
 
-    def holds(self, points_lps_mm: Array) -> npt.NDArray[np.bool_]:
-        """Which points (..., 3) lie in the block."""
+    def contains(self, points_lps_mm: Array) -> npt.NDArray[np.bool_]:
+        """Return which points (..., 3) lie in the block."""
         index = self.index_of(points_lps_mm)
         most = np.array(self.block.shape[::-1]) - 1.0
         return np.asarray(((index >= 0.0) & (index <= most)).all(axis=-1))
 
     def smooth_hu(self, points_lps_mm: Array) -> Array:
-        """Smoothed HU (...) at points (..., 3); beyond the block its outermost voxels go on."""
+        """Return the smoothed HU (...) at points (..., 3); the border is replicated."""
         index = self.index_of(points_lps_mm)
         flat = index.reshape(-1, 3)[:, ::-1]
         values = ndimage.map_coordinates(self.smooth, flat.T, output=np.float64, order=1, mode="nearest")
@@ -79,7 +79,7 @@ class Neighbourhood:
 
 
 def neighbourhood_of(volume: Volume, centre_lps_mm: Array) -> Neighbourhood:
-    """The block within 70 mm of a point that lies in the volume."""
+    """Return the block within 70 mm of a point, clipped to the volume."""
     index = volume.index_from_lps(centre_lps_mm)
     # The block must hold a ball of this reach, so along each index axis as many voxels as the ball covers.
     inverse = np.linalg.inv(volume.lps_from_ijk[:3, :3])
@@ -91,7 +91,7 @@ def neighbourhood_of(volume: Volume, centre_lps_mm: Array) -> Neighbourhood:
     affine = np.array(volume.lps_from_ijk)
     affine[:3, 3] = volume.lps_from_index(low.astype(np.float64))
     spacing = volume.spacing_mm[::-1]
-    # Only where voxels are finer than the walls that are looked for.
+    # Smooth only if voxels are finer than the walls.
     sigma = np.sqrt(np.maximum(SMOOTH_MM**2 - (0.5 * spacing) ** 2, 0.0)) / spacing
     near = _near(block, affine, centre_lps_mm)
     noise = _noise_hu(block)
@@ -109,7 +109,7 @@ def neighbourhood_of(volume: Volume, centre_lps_mm: Array) -> Neighbourhood:
 
 
 def _near(block: npt.NDArray[np.float32], affine: Array, centre: Array) -> Array:
-    """HU of the voxels within 14 mm."""
+    """Return the HU of the voxels within 14 mm."""
     slices, rows, columns = block.shape
     k, j, i = np.ogrid[:slices, :rows, :columns]
     offset = affine[:3, 3] - centre
@@ -121,7 +121,7 @@ def _near(block: npt.NDArray[np.float32], affine: Array, centre: Array) -> Array
 
 
 def _noise_hu(block: npt.NDArray[np.float32]) -> float:
-    """From differences of neighbours within a slice; edges are few, and do not move a median."""
+    """Estimate noise from differences of neighbours within a slice; the median is robust to edges."""
     step = np.abs(np.diff(block[:, ::2, ::2], n=2, axis=2))
     real = step[block[:, ::2, 1:-1:1][:, :, ::2][:, :, : step.shape[2]] > -900.0]
     return float(np.median(real) / (0.6745 * np.sqrt(6.0))) if real.size else 0.0

@@ -1,4 +1,4 @@
-"""Outlines of sections through bone: rays from a centre to where the wall falls to its outside."""
+"""Outlines of sections through bone: rays from a centre to the half-height point of the wall."""
 
 import functools
 from dataclasses import dataclass
@@ -7,20 +7,20 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array
-from tracker.plan.pedicle.kernels import walls_around
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
+from tracker.plan.pedicle.wall_kernels import walls_around
 
 STEP_MM = 0.4
-FARTHEST_MM = 17.0
-# Behind a wall the outside is looked for so far; further away another bone may begin.
-BEHIND_MM = 2.8
+MAX_DISTANCE_MM = 17.0
+# Maximum distance behind a wall at which its outside is sampled; beyond it another bone may begin.
+MAX_BEHIND_ENTRY_MM = 2.8
 HARMONICS = 4
 ROUNDS = 4
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outlines:
-    """Sections across given directions, all at once.
+    """Outlines of several sections across given directions.
 
     Attributes:
         centre_mm: (m, 3), LPS.
@@ -41,7 +41,7 @@ class Outlines:
     gap_deg: Array
 
     def only(self, row: int) -> "Outlines":
-        """One of the sections alone."""
+        """Return one of the sections."""
         one = slice(row, row + 1)
         return Outlines(
             centre_mm=self.centre_mm[one],
@@ -55,12 +55,12 @@ class Outlines:
 
     @property
     def area_mm2(self) -> Array:
-        """Area (m,) inside the smooth curve."""
+        """Return the area (m,) inside the smooth curve."""
         return np.asarray(np.pi * (self.smooth_mm**2).mean(axis=1))
 
     @property
     def centroid_mm(self) -> Array:
-        """Centre of area (m, 3), LPS."""
+        """Return the centroid (m, 3), LPS."""
         angle = angles(self.smooth_mm.shape[1])
         cubed = self.smooth_mm**3
         weight = 1.5 * np.maximum((self.smooth_mm**2).mean(axis=1), 1e-9)
@@ -70,12 +70,12 @@ class Outlines:
 
 
 def angles(rays: int) -> Array:
-    """Directions (rays,) of the rays in their plane, in rad."""
+    """Return the directions (rays,) of the rays in their plane, in rad."""
     return 2.0 * np.pi * np.arange(rays) / rays
 
 
 def planes_across(axis: Array) -> tuple[Array, Array]:
-    """For unit axes (m, 3): directions across, nearest to the patient's left, and to the head."""
+    """Return directions across unit axes (m, 3): nearest to the patient's left, and to the head."""
     up = np.array([0.0, 0.0, 1.0]) - axis * axis[:, 2:3]
     up /= np.linalg.norm(up, axis=1, keepdims=True)
     across = np.cross(up, axis)
@@ -86,7 +86,7 @@ def planes_across(axis: Array) -> tuple[Array, Array]:
 def outlines_of(
     near: Neighbourhood, centre_mm: Array, axis: Array, *, rays: int = 24, recentred: int = 2
 ) -> Outlines:
-    """Outlines across unit axes (m, 3) around centres (m, 3), each of which moves into its outline."""
+    """Return outlines across unit axes (m, 3) around centres (m, 3), each recentred in its outline."""
     centre = np.array(centre_mm, dtype=np.float64)
     across, up = planes_across(axis)
     for turn in range(recentred + 1):
@@ -107,7 +107,7 @@ def outlines_of(
 
 
 def _wall_radius(near: Neighbourhood, centre: Array, across: Array, up: Array, rays: int) -> Array:
-    """How far (m, rays) from centres (m, 3) the wall has fallen halfway to its outside; NaN if nowhere."""
+    """Return the half-height distance (m, rays) of the wall from centres (m, 3); NaN if there is none."""
     angle = angles(rays)
     direction = np.cos(angle)[:, None] * across[:, None, :] + np.sin(angle)[:, None] * up[:, None, :]
     out = np.empty(direction.shape[:2])
@@ -115,7 +115,7 @@ def _wall_radius(near: Neighbourhood, centre: Array, across: Array, up: Array, r
         np.ascontiguousarray(near.smooth),
         near.index_of(centre),
         near.index_step(STEP_MM * direction),
-        int(np.ceil(FARTHEST_MM / STEP_MM)),
+        int(np.ceil(MAX_DISTANCE_MM / STEP_MM)),
         near.min_fall_hu,
         _behind_steps(near),
         out,
@@ -125,11 +125,11 @@ def _wall_radius(near: Neighbourhood, centre: Array, across: Array, up: Array, r
 
 def _behind_steps(near: Neighbourhood) -> int:
     slice_mm = float(np.linalg.norm(near.lps_from_index[:3, 2]))
-    return int(np.ceil(max(BEHIND_MM, 1.1 * slice_mm) / STEP_MM))
+    return int(np.ceil(max(MAX_BEHIND_ENTRY_MM, 1.1 * slice_mm) / STEP_MM))
 
 
 def _widest_gap_deg(near_curve: npt.NDArray[np.bool_]) -> Array:
-    """The longest run (m,) of rays that met no wall of the curve, around the circle, in degrees."""
+    """Return the longest run (m,) of rays without a wall on the curve, cyclic, in degrees."""
     rays = near_curve.shape[1]
     twice = np.concatenate([near_curve, near_curve], axis=1)
     run, longest = np.zeros(len(twice)), np.zeros(len(twice))
@@ -140,13 +140,13 @@ def _widest_gap_deg(near_curve: npt.NDArray[np.bool_]) -> Array:
 
 
 def _smooth_curve(radius: Array) -> tuple[Array, npt.NDArray[np.bool_]]:
-    """The smooth curve (m, rays) that most rays agree on, and which rays (m, rays) do."""
+    """Return the robust Fourier fit (m, rays) of the radius, and its inlier rays (m, rays)."""
     rays = radius.shape[1]
     basis, squares = _basis(rays)
     met = np.isfinite(radius)
     filled = np.where(met, radius, 0.0)
-    # Begin from below: leaks lead outwards, so the lower half of the radii tells more than the mean.
-    usual = np.nanmedian(np.where(met, radius, FARTHEST_MM), axis=1, keepdims=True)
+    # Start from the lower half of the radii: leaks only increase a radius, so it is the robust start.
+    usual = np.nanmedian(np.where(met, radius, MAX_DISTANCE_MM), axis=1, keepdims=True)
     weight = np.where(met & (radius < 1.9 * usual), 1.0, 0.0)
     ridge = np.diag([1e-6, *[0.02 * rays * (1 + n // 2) ** 2 / 40.0 for n in range(2 * HARMONICS)]])
     smooth = np.repeat(usual, rays, axis=1)
@@ -157,13 +157,13 @@ def _smooth_curve(radius: Array) -> tuple[Array, npt.NDArray[np.bool_]]:
         off = np.abs(filled - smooth)
         limit = 0.35 + 0.12 * usual
         weight = np.where(met, np.clip(1.0 - (off / (3.0 * limit)) ** 2, 0.0, 1.0) ** 2, 0.0)
-    smooth = np.clip(smooth, 0.3, FARTHEST_MM)
+    smooth = np.clip(smooth, 0.3, MAX_DISTANCE_MM)
     return smooth, met & (np.abs(filled - smooth) < 0.8 + 0.15 * usual)
 
 
 @functools.cache
 def _basis(rays: int) -> tuple[Array, Array]:
-    """The waves of a closed curve at its rays (rays, waves), and all their products (rays, waves squared)."""
+    """Return the Fourier basis at the rays (rays, waves), and all products (rays, waves squared)."""
     angle = angles(rays)
     columns = [np.ones(rays)]
     for n in range(1, HARMONICS + 1):

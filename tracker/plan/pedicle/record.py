@@ -1,4 +1,4 @@
-"""What is known of one pedicle: its numbers, how sure they are, and what must be said with them."""
+"""Record of one measured pedicle: values, standard deviations and warnings."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -10,13 +10,13 @@ from tracker.geometry import Array
 
 Side = Literal["left", "right"]
 SIDES: tuple[Side, ...] = ("left", "right")
-# Of a pedicle, what is surely no wider than the isthmus.
+# Length of a pedicle that is certainly no wider than the isthmus.
 MIN_AHEAD_MM = 3.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PedicleSpread:
-    """Standard deviation of each number: of the fit, and of what else there would have done as well."""
+    """Standard deviation of each value: of the fit, and of the alternative solutions."""
 
     width_mm: float
     height_mm: float
@@ -30,8 +30,8 @@ class PedicleSpread:
 class PedicleMeasure:
     """One pedicle, measured at its isthmus: the narrowest section across its own axis.
 
-    Angles stand against the patient's axes (LPS) as they show on an axial and on a sagittal slice, not
-    against the vertebra's own endplates.
+    Angles are relative to the patient's axes (LPS), projected onto an axial and a sagittal slice, not
+    relative to the vertebra's endplates.
 
     Attributes:
         side: the patient's left or right.
@@ -50,10 +50,10 @@ class PedicleMeasure:
         front_lps_mm: (3,), where it leaves the body in front.
         outline_lps_mm: (n, 3), the section's outer wall.
         seed_lps_mm: (3,), the click.
-        cortex_mm: mean thickness of the wall, where voxels are fine enough to tell.
+        cortex_mm: mean thickness of the wall; valid only for fine voxels.
         sd: standard deviations.
         opens_ahead_mm: how far in front of the isthmus the pedicle opens into the body.
-        warnings: sentences that belong to these numbers.
+        warnings: messages about these values.
     """
 
     side: Side
@@ -91,7 +91,7 @@ _ARRAYS = (
 
 
 def checked_side(side: str) -> Side:
-    """The side by its name.
+    """Validate the name of a side.
 
     Raises:
         InvalidInput: SIDE_INVALID.
@@ -109,18 +109,18 @@ def checked_side(side: str) -> Side:
 
 
 def transverse_deg_of(axis_lps: Array, side: Side) -> float:
-    """Angle from straight forwards on an axial slice, positive to the middle."""
+    """Return the angle to the anterior direction in the axial plane, positive medially."""
     medial = -axis_lps[0] if side == "left" else axis_lps[0]
     return float(np.degrees(np.arctan2(medial, -axis_lps[1])))
 
 
 def sagittal_deg_of(axis_lps: Array) -> float:
-    """Angle from straight forwards on a sagittal slice, positive to the head."""
+    """Return the angle to the anterior direction in the sagittal plane, positive cranially."""
     return float(np.degrees(np.arctan2(axis_lps[2], -axis_lps[1])))
 
 
 def axis_from_angles(side: Side, *, transverse_deg: float, sagittal_deg: float) -> Array:
-    """The unit axis (3,) in LPS, forwards, that shows these angles on an axial and a sagittal slice."""
+    """Return the unit axis (3,) in LPS, pointing forwards, with these projected angles."""
     medial = np.tan(np.radians(transverse_deg))
     axis = np.array([-medial if side == "left" else medial, -1.0, np.tan(np.radians(sagittal_deg))])
     return np.asarray(axis / np.linalg.norm(axis))

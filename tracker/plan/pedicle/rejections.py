@@ -1,11 +1,11 @@
-"""When no number is given: each refusal with what was found there and what to do."""
+"""Rejections of a pedicle measurement, each with what was found and a remedy."""
 
 import numpy as np
 import numpy.typing as npt
 
 from tracker.errors import InvalidInput, PlanError
 from tracker.geometry import Array
-from tracker.plan.pedicle import tube
+from tracker.plan.pedicle import tube_model
 from tracker.plan.pedicle.fit import FittedBar
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
 from tracker.plan.pedicle.outlines import angles
@@ -14,14 +14,14 @@ from tracker.plan.pedicle.section import Isthmus
 from tracker.plan.volume import Volume
 
 AIR_HU = -300.0
-BESIDE_MM = 1.0
+MAX_BESIDE_MM = 1.0
 MAX_ASPECT = 3.5
 WIDTH_MM, HEIGHT_MM = (1.5, 26.0), (2.0, 32.0)
 CLICK = "Click into the middle of the pedicle, on a slice that shows it joined to body and arch."
 
 
 def checked_seed(volume: Volume, seed_lps_mm: npt.ArrayLike) -> Array:
-    """The click as three finite numbers that lie in the CT.
+    """Return the click as three finite numbers in the CT.
 
     Raises:
         InvalidInput: SEED_INVALID.
@@ -35,15 +35,15 @@ def checked_seed(volume: Volume, seed_lps_mm: npt.ArrayLike) -> Array:
             "Give x, y, z in mm of the patient's LPS coordinates.",
             {"shape": list(seed.shape)},
         )
-    if not bool(volume.holds(seed)):
+    if not bool(volume.contains(seed)):
         last = np.array(volume.shape_ijk) - 1.0
         corners = np.array([[a, b, c] for a in (0, last[0]) for b in (0, last[1]) for c in (0, last[2])])
         box = volume.lps_from_index(corners)
         low, high = box.min(axis=0), box.max(axis=0)
         raise PlanError(
             "SEED_OUTSIDE_CT",
-            f"the click at {_words(seed)} mm lies outside the CT, which reaches from {_words(low)} "
-            f"to {_words(high)} mm (LPS)",
+            f"the click at {_formatted(seed)} mm lies outside the CT, which reaches from {_formatted(low)} "
+            f"to {_formatted(high)} mm (LPS)",
             "Give a point inside the CT, in LPS mm (x to the patient's left, y backwards).",
             {"seed_lps_mm": seed.tolist(), "low_lps_mm": low.tolist(), "high_lps_mm": high.tolist()},
         )
@@ -51,7 +51,7 @@ def checked_seed(volume: Volume, seed_lps_mm: npt.ArrayLike) -> Array:
 
 
 def reject_air(near: Neighbourhood, seed: Array) -> None:
-    """Raises PlanError SEED_IN_AIR where the click lies in air or lung."""
+    """Reject a click in air or lung: SEED_IN_AIR."""
     hu = _hu_around(near, seed)
     if hu < AIR_HU:
         raise PlanError(
@@ -63,7 +63,7 @@ def reject_air(near: Neighbourhood, seed: Array) -> None:
 
 
 def not_found(near: Neighbourhood, seed: Array) -> PlanError:
-    """No section around the click is closed: in soft tissue, or in bone that opens everywhere."""
+    """Return the error for a click without a closed section: soft tissue, or bone that is open everywhere."""
     hu, limit = _hu_around(near, seed), near.soft_below_hu
     if hu < limit:
         return PlanError(
@@ -82,42 +82,42 @@ def not_found(near: Neighbourhood, seed: Array) -> PlanError:
 
 
 def reject_cut(near: Neighbourhood, bar: Bar) -> None:
-    """Raises PlanError PEDICLE_CUT where the CT ends within the narrow part."""
+    """Reject a pedicle that the CT cuts: PEDICLE_CUT."""
     cut = bar.sections
     rows = np.abs(bar.along_mm) <= max(2.0, 0.5 * bar.length_mm)
     angle = angles(cut.smooth_mm.shape[1])
     direction = np.cos(angle)[:, None] * cut.across[:, None, :] + np.sin(angle)[:, None] * cut.up[:, None, :]
     wall = cut.centre_mm[:, None, :] + cut.smooth_mm[..., None] * direction
-    outside = float(1.0 - near.holds(wall[rows]).mean())
+    outside = float(1.0 - near.contains(wall[rows]).mean())
     if outside > 0.02:
         raise PlanError(
             "PEDICLE_CUT",
             f"the CT ends within the pedicle: {100.0 * outside:.0f} % of its wall lie outside, none may",
-            "Use a series that holds the whole vertebra.",
+            "Use a series that contains the whole vertebra.",
             {"outside_ratio": outside},
         )
 
 
 def reject_outside(near: Neighbourhood, bar: Bar, fitted: FittedBar, seed: Array) -> None:
-    """Raises PlanError SEED_NOT_IN_PEDICLE where the bar that was found does not hold the click."""
+    """Reject a bar that does not contain the click: SEED_NOT_IN_PEDICLE."""
     local = seed - fitted.origin_mm
     along = float(local @ fitted.axis)
     if (
         -bar.behind_mm - 0.5 <= along <= bar.ahead_mm + 0.5
         and abs(along) > fitted.half_mm
-        and bar.holds(seed)
+        and bar.contains(seed)
     ):
         return
     across = np.array([[local @ fitted.left, local @ fitted.up]])
     place = np.array([np.clip(along / fitted.half_mm, -1.0, 1.0)])
-    distance = float(tube.wall_distance_mm(fitted.parameters, place, across)[0][0])
+    distance = float(tube_model.wall_distance_mm(fitted.parameters, place, across)[0][0])
     voxel = float(np.linalg.norm(near.lps_from_index[:3, :2], axis=0).mean())
-    allowed = BESIDE_MM + 0.5 * voxel
+    allowed = MAX_BESIDE_MM + 0.5 * voxel
     beyond = max(-bar.behind_mm - along, along - bar.ahead_mm, 0.0)
     if distance > allowed + 0.35 * beyond or beyond > 9.0:
         raise PlanError(
             "SEED_NOT_IN_PEDICLE",
-            "the nearest bar of bone does not hold the click: it lies "
+            "the nearest bar of bone does not contain the click: it lies "
             f"{max(distance, 0.0):.1f} mm beside its wall (allowed {allowed:.1f} mm) "
             f"and {beyond:.1f} mm beyond its end (allowed 9 mm)",
             CLICK,
@@ -126,7 +126,7 @@ def reject_outside(near: Neighbourhood, bar: Bar, fitted: FittedBar, seed: Array
 
 
 def reject_no_isthmus(near: Neighbourhood, bar: Bar, isthmus: Isthmus) -> None:
-    """Raises PlanError PEDICLE_NOT_FOUND where what was found has not the shape of a pedicle."""
+    """Reject a fit without the shape of a pedicle: PEDICLE_NOT_FOUND."""
     aspect = max(isthmus.width_mm, isthmus.height_mm) / max(min(isthmus.width_mm, isthmus.height_mm), 1e-6)
     shaped = (
         WIDTH_MM[0] <= isthmus.width_mm <= WIDTH_MM[1]
@@ -149,21 +149,21 @@ def reject_no_isthmus(near: Neighbourhood, bar: Bar, isthmus: Isthmus) -> None:
 
 
 def reject_without_canal(isthmus: Isthmus, beyond_mm: float, allowed_mm: float) -> None:
-    """Raises PlanError PEDICLE_DOUBTFUL where bone goes on beside the section, and no canal begins."""
+    """Reject a section without a canal beside it: PEDICLE_DOUBTFUL."""
     if beyond_mm <= allowed_mm:
         return
     raise PlanError(
         "PEDICLE_DOUBTFUL",
         f"the narrowest section that was found, {isthmus.width_mm:.1f} x {isthmus.height_mm:.1f} mm at "
-        f"{_words(isthmus.centre_mm)} mm, is hardly the pedicle's: beyond its medial wall bone goes on for "
-        f"{beyond_mm:.0f} mm (allowed {allowed_mm:.0f} mm), where the canal should begin",
+        f"{_formatted(isthmus.centre_mm)} mm, is hardly the pedicle's: beyond its medial wall bone "
+        f"goes on for {beyond_mm:.0f} mm (allowed {allowed_mm:.0f} mm), where the canal should begin",
         "Click nearer to the canal, into the middle of the pedicle; or give its numbers by hand.",
         {"beyond_mm": beyond_mm, "allowed_mm": allowed_mm, "isthmus_lps_mm": isthmus.centre_mm.tolist()},
     )
 
 
 def disagreeing(one: Isthmus, other: Isthmus | None) -> PlanError:
-    """Two starts in the same bone lead to sections that differ by more than their spreads allow."""
+    """Return the error for two starts whose sections differ by more than their sds allow."""
     apart = 0.0 if other is None else float(np.linalg.norm(one.centre_mm - other.centre_mm))
     second = (
         "from 2 mm aside none is found"
@@ -180,7 +180,7 @@ def disagreeing(one: Isthmus, other: Isthmus | None) -> PlanError:
 
 
 def other_side(side: str) -> PlanError:
-    """Canal and body both lie as they do on the other side."""
+    """Return the error for a click on the other side, by canal and body."""
     other = "right" if side == "left" else "left"
     return PlanError(
         "SEED_ON_OTHER_SIDE",
@@ -195,5 +195,5 @@ def _hu_around(near: Neighbourhood, seed: Array) -> float:
     return float(np.median(near.smooth_hu(seed + offsets)))
 
 
-def _words(point: Array) -> str:
+def _formatted(point: Array) -> str:
     return ", ".join(f"{value:.1f}" for value in point)

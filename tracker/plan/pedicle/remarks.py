@@ -1,4 +1,4 @@
-"""The sentences that belong to a pedicle's numbers: what makes them less sure, and what to look at."""
+"""Warnings about a measured pedicle: what reduces its accuracy, and what to check."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from tracker.plan.pedicle.solid import Solid
 
 USUAL_LENGTH_MM = (25.0, 75.0)
 FEW_VOXELS = 5.0
-# From here on it is said that the angle follows what is usual: a degree for ten.
+# From here on a warning states that the angle follows the anatomical prior: one degree for ten.
 USUAL_RATIO = 0.1
 MIN_FACED, ENDPLATE_RATIO = 0.5, 0.7
 BODY_WITHIN_MM, BODY_GROWTH = 36.0, 1.4
@@ -19,11 +19,11 @@ TOUCHED_MM, PROCESS_MM = 4.0, 4.0
 
 
 def canal_remarks(beyond_mm: float, usual_mm: float) -> list[str]:
-    """What is said where bone seems to go on beside the medial wall, and the canal begins late."""
+    """Return the warning if bone continues beyond the medial wall, so that the canal begins late."""
     if beyond_mm <= usual_mm:
         return []
     return [
-        f"bone seems to go on for {beyond_mm:.0f} mm beyond the medial wall ({usual_mm:.0f} mm are usual in "
+        f"bone seems to extend {beyond_mm:.0f} mm beyond the medial wall ({usual_mm:.0f} mm are usual in "
         "such voxels); the isthmus may lie too far in front, check it on the slices"
     ]
 
@@ -31,58 +31,58 @@ def canal_remarks(beyond_mm: float, usual_mm: float) -> list[str]:
 def fit_remarks(
     near: Neighbourhood, solid: Solid, bar: Bar, fitted: FittedBar, isthmus: Isthmus
 ) -> list[str]:
-    """What makes the section and its axis less sure."""
+    """Return the warnings that concern section and axis."""
     out = []
     voxels = isthmus.width_mm / voxel_across_mm(near, fitted)
     if voxels < FEW_VOXELS:
         out.append(
-            f"the pedicle is only {voxels:.1f} voxels wide, {FEW_VOXELS:.0f} or more tell its width surely; "
-            "use finer slices if there are any"
+            f"the pedicle is only {voxels:.1f} voxels wide, a reliable width needs {FEW_VOXELS:.0f} or more; "
+            "use finer slices if available"
         )
-    if isthmus.is_aslant:
+    if isthmus.is_oblique:
         out.append(
-            f"its section stands aslant, {isthmus.width_mm:.1f} x {isthmus.height_mm:.1f} mm across its own "
-            "axes; the lesser is given as its width"
+            f"its section is oblique, {isthmus.width_mm:.1f} x {isthmus.height_mm:.1f} mm across its own "
+            "axes; the smaller extent is given as its width"
         )
     if isthmus.usual_ratio >= USUAL_RATIO:
         out.append(
-            "its own walls tell little of its transverse angle: were what is usual there another by 10 deg, "
-            f"it would be another by {10.0 * isthmus.usual_ratio:.0f} deg; look at the axis on the slices"
+            "its walls hardly determine its transverse angle: 10 deg of difference in the usual angle there "
+            f"would change it by {10.0 * isthmus.usual_ratio:.0f} deg; check the axis on the slices"
         )
     if not fitted.fitted:
-        out.append("too few voxels to fit its walls; the numbers are those of coarse sections")
+        out.append("too few voxels to fit its walls; the values are those of coarse sections")
     if not bar.opens_ahead and not _widens(solid, isthmus):
         out.append(
             f"it does not widen within {BODY_WITHIN_MM:.0f} mm in front; "
             "check that the click lies in a pedicle"
         )
     if fitted.half_mm <= 3.0 and bar.length_mm < 4.0:
-        out.append(f"its narrow part is only {bar.length_mm:.1f} mm long; its direction is less sure")
+        out.append(f"its narrow part is only {bar.length_mm:.1f} mm long; its direction is less certain")
     return out
 
 
 def _widens(solid: Solid, isthmus: Isthmus) -> bool:
-    """Whether more bone stands around the axis in front than at the isthmus: the body, though far ahead."""
+    """Return whether more bone surrounds the axis anteriorly than at the isthmus: the vertebral body."""
     line = isthmus.centre_mm + np.arange(0.0, BODY_WITHIN_MM, 1.0)[:, None] * isthmus.axis
     depth = solid.depth_at(line)
     return bool(depth.max() > BODY_GROWTH * max(float(depth[0]), 1.0))
 
 
 def front_remarks(front: WallAhead) -> list[str]:
-    """Where the axis does not leave through the front wall."""
+    """Return the warning if the axis does not exit through the anterior wall."""
     if not front.found or front.faced_ratio >= MIN_FACED:
         return []
     up = float(front.outwards[2])
     where = "side" if abs(up) < ENDPLATE_RATIO else ("upper endplate" if up > 0.0 else "lower endplate")
     slant_deg = float(np.degrees(np.arccos(np.clip(front.faced_ratio, -1.0, 1.0))))
     return [
-        f"the axis leaves the body through its {where} ({slant_deg:.0f} deg aslant), not through the front "
+        f"the axis leaves the body through its {where} (at {slant_deg:.0f} deg to its normal), not the front "
         "wall; the length ends there, check it"
     ]
 
 
 def length_remarks(front: WallAhead, back: WallAhead) -> list[str]:
-    """What makes the length less sure."""
+    """Return the warnings that concern the length."""
     out = []
     if front.found and front.beyond_mm > TOUCHED_MM:
         out.append(
@@ -95,9 +95,9 @@ def length_remarks(front: WallAhead, back: WallAhead) -> list[str]:
             "the length begins where the arch around it ends"
         )
     if not front.found:
-        out.append("no front wall was met surely; the length ends where bone may end, check it")
+        out.append("no front wall was found with certainty; the length ends where bone may end, check it")
     if not back.found:
-        out.append("no bone surface was met behind; entry and length reach to the end of what can be seen")
+        out.append("no bone surface was found behind; entry and length extend to the end of the visible part")
     length = front.distance_mm + back.distance_mm
     if front.found and back.found and not USUAL_LENGTH_MM[0] <= length <= USUAL_LENGTH_MM[1]:
         out.append(

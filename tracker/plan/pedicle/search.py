@@ -1,4 +1,4 @@
-"""From a click to the bar of bone that holds it: a coarse line, by sections in all likely directions."""
+"""Search for the bar of bone at a click: a coarse centre line from sections in all plausible directions."""
 
 from dataclasses import dataclass, replace
 
@@ -13,9 +13,9 @@ from tracker.plan.pedicle.outlines import Outlines, outlines_of, planes_across
 
 TRANSVERSE_DEG = np.arange(-24.0, 49.0, 12.0)
 SAGITTAL_DEG = np.arange(-36.0, 37.0, 12.0)
-# First around the click itself, then further away.
+# Search distances: first at the click, then further away.
 ALONG_MM = ((0.0,), (-3.5, 3.5), (-7.0, 7.0))
-# A direction that is so far from the expected one is as good, and how quickly it becomes worse beyond.
+# Deviation from the expected direction without penalty, and the sd of the penalty beyond.
 USUAL_DEG, UNUSUAL_SD_DEG = 12.0, 20.0
 ASIDE_MM = (-3.0, -1.5, 0.0, 1.5, 3.0)
 MIN_MM2 = 12.0
@@ -23,21 +23,21 @@ MIN_FOUND, MIN_FOUND_ALONG = 0.8, 0.72
 SHORT_MM, MIN_END_MM = 5.0, 2.0
 MAX_GAP_DEG = 75.0
 WALK_MM, WALK_STEP_MM = 16.0, 1.0
-# A section that is so much larger than the narrowest one belongs to body or arch already.
+# A section larger than the narrowest one by this factor belongs to body or arch.
 GROWN = 1.4
 GROWTH_SD = 0.3
 COLLAPSED, OPENED = 0.65, 2.2
-BESIDE_MM = (-2.0, 0.0, 2.0)
-# How far a section's centre may lie off the axis, and how far the first direction may.
+MAX_BESIDE_MM = (-2.0, 0.0, 2.0)
+# Sd of a section's centre about the axis, and of the first direction.
 CENTRE_SD_MM, FIRST_SD_DEG = 0.4, 6.0
-# A line that turns makes other sections; half of each turn is taken, so that it settles.
+# A rotated line changes the sections; damping by this share makes the iteration converge.
 TURN_SHARE = 0.6
 MAX_ROUNDS = 8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Start:
-    """Where a walk along the bar begins: a section's centre, its area, the axis now and the axis at first."""
+    """Start of the tracing along a bar: section centre, area, current and first axis."""
 
     centre_mm: Array
     axis: Array
@@ -47,7 +47,7 @@ class Start:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bar:
-    """A bar of bone around a straight line, between where it opens into body and arch.
+    """A bar of bone around a straight line, between its openings into body and arch.
 
     Attributes:
         centre_mm: (3,), middle of its narrowest part.
@@ -73,12 +73,12 @@ class Bar:
 
     @property
     def length_mm(self) -> float:
-        """From where it opens behind to where it opens in front."""
+        """Return the distance between the openings behind and in front."""
         return self.behind_mm + self.ahead_mm
 
     @property
     def is_clear(self) -> bool:
-        """Whether it opens at both ends, and not at once."""
+        """Return whether the bar opens at both ends, with some length between them."""
         return (
             self.opens_ahead
             and self.opens_behind
@@ -86,8 +86,8 @@ class Bar:
             and min(self.behind_mm, self.ahead_mm) >= MIN_END_MM
         )
 
-    def holds(self, point_mm: Array) -> bool:
-        """Whether a point lies inside the outlines, or less than half a millimetre outside."""
+    def contains(self, point_mm: Array) -> bool:
+        """Return whether a point lies inside the outlines, or less than half a millimetre outside."""
         along = float((point_mm - self.centre_mm) @ self.axis)
         row = int(np.argmin(np.abs(self.along_mm - along)))
         one = self.sections.only(row)
@@ -95,7 +95,7 @@ class Bar:
 
 
 def forward_directions(side: str) -> Array:
-    """Unit directions (n, 3) that pedicles can have, forwards, by side."""
+    """Return the unit directions (n, 3) that a pedicle of this side can have, forwards."""
     mirror = 1.0 if side == "left" else -1.0
     transverse, sagittal = np.meshgrid(np.radians(TRANSVERSE_DEG), np.radians(SAGITTAL_DEG), indexing="ij")
     ways = np.stack([-mirror * np.tan(transverse), -np.ones_like(transverse), np.tan(sagittal)], axis=-1)
@@ -104,10 +104,10 @@ def forward_directions(side: str) -> Array:
 
 
 def find_bar(near: Neighbourhood, seed_mm: Array, side: str, course: Course) -> Bar | None:
-    """The bar of bone around a click, or None where no section around it is closed.
+    """Return the bar of bone around a click, or None if no section around it is closed.
 
-    The section through the click itself tells most; those before and behind it are looked at where that one
-    leads to nothing that opens at both ends, as a click near the body does.
+    The section through the click comes first. Sections before and behind it are tried if its bar does not
+    open at both ends, as for a click near the body.
     """
     bars: list[Bar] = []
     for some_mm in ALONG_MM:
@@ -115,14 +115,14 @@ def find_bar(near: Neighbourhood, seed_mm: Array, side: str, course: Course) -> 
         bar = None if start is None else _settled(near, start)
         if bar is None:
             continue
-        if bar.is_clear and bar.holds(seed_mm):
+        if bar.is_clear and bar.contains(seed_mm):
             return bar
         bars.append(bar)
-    return max(bars, key=lambda bar: (bar.holds(seed_mm), bar.length_mm)) if bars else None
+    return max(bars, key=lambda bar: (bar.contains(seed_mm), bar.length_mm)) if bars else None
 
 
 def bar_along(near: Neighbourhood, bar: Bar, centre_mm: Array, axis: Array) -> Bar:
-    """The same bar, with its sections across another axis that is kept; as it was where none is closed."""
+    """Return the bar with sections across a fixed axis; unchanged if no section is closed."""
     start = Start(centre_mm=centre_mm, axis=axis, first_axis=axis, area_mm2=bar.area_mm2)
     walked = _walk(near, start)
     if walked is None:
@@ -131,7 +131,7 @@ def bar_along(near: Neighbourhood, bar: Bar, centre_mm: Array, axis: Array) -> B
 
 
 def _settled(near: Neighbourhood, first: Start) -> Bar | None:
-    """The bar, with its line fitted until it stays."""
+    """Return the bar with its line refitted until convergence."""
     bar, start = None, first
     for _ in range(MAX_ROUNDS):
         bar = _walk(near, start)
@@ -148,7 +148,7 @@ def _settled(near: Neighbourhood, first: Start) -> Bar | None:
 def _best_start(
     near: Neighbourhood, seed_mm: Array, side: str, some_mm: tuple[float, ...], course: Course
 ) -> Start | None:
-    """Centre and direction of the smallest closed section around the click, of nested ones the outer."""
+    """Return centre and direction of the smallest closed section at the click; of nested ones the outer."""
     directions = forward_directions(side)
     grid = (len(TRANSVERSE_DEG), len(SAGITTAL_DEG))
     away = np.linalg.norm(course.off_deg(directions, side), axis=1)
@@ -156,10 +156,10 @@ def _best_start(
     best: tuple[float, Start] | None = None
     for along_mm in some_mm:
         areas, centres = _largest_around(near, seed_mm, directions, along_mm)
-        # Much smaller than what closes in most directions is a piece of a wall.
+        # An outline much smaller than that of most directions is a part of a wall.
         usual = float(np.nanmedian(areas)) if np.isfinite(areas).any() else 0.0
         known = np.where(np.isfinite(areas) & (areas >= 0.4 * usual), areas, 1e6)
-        # The area changes slowly with direction; one that stands out has closed around something else.
+        # The area is a smooth function of direction; an outlier has closed around another structure.
         steady = ndimage.median_filter(known.reshape(grid), size=3, mode="nearest").ravel()
         score = np.log(steady) + unusual + 0.03 * abs(along_mm)
         score = np.where(np.abs(np.log(known / steady)) < 0.25, score, np.inf)
@@ -174,7 +174,7 @@ def _best_start(
 def _largest_around(
     near: Neighbourhood, seed_mm: Array, directions: Array, along_mm: float
 ) -> tuple[Array, Array]:
-    """For each direction (n, 3) the largest closed outline around the click: its area (n,), NaN, and centre.
+    """Return for each direction (n, 3) the largest closed outline at the click: area (n,), NaN, and centre.
 
     A start inside a wall closes around a piece of that wall; a start between the walls around both.
     """
@@ -193,7 +193,7 @@ def _largest_around(
 
 
 def _around(cut: Outlines, seed_mm: Array, axis: Array) -> npt.NDArray[np.bool_]:
-    """Which outlines (m,) have the click inside, looked at along their axis."""
+    """Return which outlines (m,) contain the click, projected along their axis."""
     away = seed_mm - cut.centre_mm
     away = away - (away * axis).sum(axis=1, keepdims=True) * axis
     x, y = (away * cut.across).sum(axis=1), (away * cut.up).sum(axis=1)
@@ -204,10 +204,10 @@ def _around(cut: Outlines, seed_mm: Array, axis: Array) -> npt.NDArray[np.bool_]
 
 
 def _walk(near: Neighbourhood, start: Start) -> Bar | None:
-    """Sections along the line, each begun where the one before had its centre, and the line through them.
+    """Trace sections along the line, each started at the previous centre, and fit the line through them.
 
-    From one section to the next the area changes little; what suddenly closes around much less has closed
-    around a piece of a wall, and is looked for again from places beside.
+    The area changes slowly from section to section; a sudden collapse means an outline around a piece of a
+    wall, and the section is searched again from shifted starts.
     """
     first = _section(near, start.centre_mm, start.axis, start.area_mm2)
     if not _is_closed(first):
@@ -215,17 +215,17 @@ def _walk(near: Neighbourhood, start: Start) -> Bar | None:
     rows = {0: first}
     for way in (1, -1):
         at, area = first.centroid_mm[0], float(first.area_mm2[0])
-        least, missed = area, 0
+        minimum, missed = area, 0
         for n in range(1, int(WALK_MM / WALK_STEP_MM) + 1):
             at = at + way * WALK_STEP_MM * start.axis
             cut = _section(near, at, start.axis, area)
             rows[way * n] = cut
             if _is_closed(cut) and float(cut.area_mm2[0]) > COLLAPSED * area:
                 at, area, missed = cut.centroid_mm[0], float(cut.area_mm2[0]), 0
-                least = min(least, area)
+                minimum = min(minimum, area)
             else:
                 missed += 1
-            if missed == 2 or area > OPENED * least:
+            if missed == 2 or area > OPENED * minimum:
                 break
     order = sorted(rows)
     return _line(_stacked([rows[n] for n in order]), np.array(order) * WALK_STEP_MM, start)
@@ -236,15 +236,15 @@ def _is_closed(cut: Outlines) -> bool:
 
 
 def _section(near: Neighbourhood, at: Array, axis: Array, like_mm2: float) -> Outlines:
-    """The section there; if it collapses, the one among starts beside that is most like the one before."""
+    """Return the section there; if it collapses, the most similar one from shifted starts."""
     cut = outlines_of(near, at[None], axis[None], rays=40, recentred=1)
     if _is_closed(cut) and cut.area_mm2[0] > COLLAPSED * like_mm2:
         return cut
     (across,), (up,) = planes_across(axis[None])
-    starts = np.array([at + x * across + y * up for x in BESIDE_MM for y in BESIDE_MM])
+    starts = np.array([at + x * across + y * up for x in MAX_BESIDE_MM for y in MAX_BESIDE_MM])
     cuts = outlines_of(near, starts, np.tile(axis, (len(starts), 1)), rays=40, recentred=2)
     closed = (cuts.found_ratio >= MIN_FOUND_ALONG) & (cuts.gap_deg <= MAX_GAP_DEG)
-    # One that has wandered off is another bone.
+    # A section whose centre moved away belongs to another bone.
     near_by = np.linalg.norm(cuts.centroid_mm - at, axis=1) < 3.5
     unlike = np.where(closed & near_by, np.abs(np.log(cuts.area_mm2 / like_mm2)), np.inf)
     row = int(np.argmin(unlike))
@@ -258,25 +258,25 @@ def _line(sections: Outlines, along: Array, start: Start) -> Bar | None:
     )
     if not np.isfinite(area).any():
         return None
-    # The narrowest section that is met going downhill from the start.
+    # The local minimum of the area, descending from the start.
     lowest = _downhill(_running_median(area), int(np.argmin(np.abs(along))))
     if not np.isfinite(area[lowest]):
         lowest = int(np.argmin(area))
-    least = float(area[max(lowest - 1, 0) : lowest + 2].min())
-    within = area <= GROWN * least
+    minimum = float(area[max(lowest - 1, 0) : lowest + 2].min())
+    within = area <= GROWN * minimum
     first, last = lowest, lowest
     while first > 0 and within[first - 1]:
         first -= 1
     while last < len(area) - 1 and within[last + 1]:
         last += 1
     reach = slice(max(first - 2, 0), last + 3)
-    weight = np.exp(-(np.maximum(area[reach] / least - 1.0, 0.0) ** 2) / (2.0 * GROWTH_SD**2))
+    weight = np.exp(-(np.maximum(area[reach] / minimum - 1.0, 0.0) ** 2) / (2.0 * GROWTH_SD**2))
     at, turned = _line_through(sections.centroid_mm[reach], weight, along[lowest], start, along[reach])
     half = 0.5 * WALK_STEP_MM
     return Bar(
         centre_mm=at,
         axis=turned,
-        area_mm2=least,
+        area_mm2=minimum,
         behind_mm=float(along[lowest] - along[first] + half),
         ahead_mm=float(along[last] - along[lowest] + half),
         opens_ahead=last < len(area) - 1,
@@ -289,7 +289,7 @@ def _line(sections: Outlines, along: Array, start: Start) -> Bar | None:
 def _line_through(
     points: Array, weight: Array, lowest: float, start: Start, along: Array
 ) -> tuple[Array, Array]:
-    """The line through centres (n, 3), point and direction; where they are few, the first direction holds."""
+    """Fit a line to centres (n, 3); the first direction is a prior for few centres."""
     axis = start.axis
     mean = (weight[:, None] * points).sum(axis=0) / weight.sum()
     from_mean = (points - mean) @ axis

@@ -1,4 +1,4 @@
-"""From a fitted bar to a pedicle's numbers, and how sure they are."""
+"""Isthmus of a fitted bar: width, height, centre and axis with standard deviations."""
 
 from dataclasses import dataclass
 
@@ -6,19 +6,19 @@ import numpy as np
 from scipy.special import ndtr
 
 from tracker.geometry import Array
-from tracker.plan.pedicle import tube
+from tracker.plan.pedicle import tube_model
 from tracker.plan.pedicle.fit import FittedBar, narrowest
 
 ROUND_RATIO = 1.08
 # Real sections are no ellipses: how far their own axes may be turned. Where it is so likely that the other
 # axis is the one nearer to left-right, the lesser extent is called the width.
 ROLL_SD_DEG, EITHER_RATIO = 6.0, 0.2
-# What the model of a bar leaves out moves a wall by this share of a voxel, whatever the noise.
+# Model error of a wall position, as a share of a voxel, independent of noise.
 MODEL_VOXELS, MODEL_DEG = 0.06, 0.08
-# Bone that is unlike a bar by this share of its contrast may lead elsewhere by so much, over a short window.
+# Axis and wall errors for a misfit of this share of the contrast, over a short window.
 UNLIKE_RATIO, UNLIKE_DEG, UNLIKE_HALF_MM, MAX_UNLIKE_DEG = 0.1, 10.0, 3.0, 20.0
 
-# A bar without a waist is measured in its middle; that may be off by this share of half its window.
+# A bar without a waist is measured at its centre, with an sd of this share of half its window.
 MAX_PLACE_SHARE = 0.5
 
 
@@ -33,9 +33,9 @@ class Isthmus:
         outline_mm: (n, 3).
         width_sd_mm: and height_sd_mm, centre_sd_mm: standard deviations.
         slope_sd_deg: of the axis's direction, to the left and up.
-        bent_sd_deg: what is added where the bar bends and hardly narrows, so that its place is unsure.
-        other_way_ratio: how likely width and height change places, as where the section stands aslant.
-        usual_ratio: by how much the transverse angle follows what is usual where it lies, from 0 to 1.
+        bent_sd_deg: additional sd for a bent bar that hardly narrows, whose narrowest place is uncertain.
+        other_way_ratio: probability that width and height are swapped, as for an oblique section.
+        usual_ratio: influence of the anatomical prior on the transverse angle, 0 to 1.
     """
 
     centre_mm: Array
@@ -52,13 +52,13 @@ class Isthmus:
     usual_ratio: float = 0.0
 
     @property
-    def is_aslant(self) -> bool:
-        """Whether either of the section's own axes may be called its width; the lesser one is."""
+    def is_oblique(self) -> bool:
+        """Return whether either principal axis can be the width; the smaller one is used."""
         return self.other_way_ratio > EITHER_RATIO
 
 
 def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
-    """The narrowest section of a fitted bar; `voxel_mm` is the size of a voxel across the axis."""
+    """Return the narrowest section of a fitted bar; `voxel_mm` is the voxel size across the axis."""
     at = narrowest(fitted)
     numbers = _numbers(fitted.parameters, at, fitted.half_mm)
     spread = _spread(fitted, at)
@@ -69,7 +69,7 @@ def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
         + numbers[3] * fitted.up
     )
     axis = fitted.axis + numbers[4] * fitted.left + numbers[5] * fitted.up
-    points = tube.outline(fitted.parameters, at)
+    points = tube_model.outline(fitted.parameters, at)
     outline = (
         fitted.origin_mm
         + at * fitted.half_mm * fitted.axis
@@ -83,7 +83,7 @@ def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
     model_deg = float(np.hypot(MODEL_DEG, min(unlike, MAX_UNLIKE_DEG)))
     other_way = _other_way_ratio(fitted, at)
     either = abs(numbers[0] - numbers[1]) * np.sqrt(other_way * (1.0 - other_way))
-    # Too narrow costs a thinner screw, too wide costs the wall.
+    # An underestimate costs a thinner screw, an overestimate the wall.
     wide, high = (1, 0) if other_way > EITHER_RATIO and numbers[0] > numbers[1] else (0, 1)
     return Isthmus(
         centre_mm=centre,
@@ -101,27 +101,27 @@ def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
 
 
 def _bend_per_mm(fitted: FittedBar) -> Array:
-    """How the axis turns along the bar, to the left and up, in rad per mm."""
-    c = fitted.parameters[tube.CENTRE]
+    """Return the curvature of the axis, to the left and up, in rad per mm."""
+    c = fitted.parameters[tube_model.CENTRE]
     return np.asarray(np.abs([c[2], c[5]]) * 2.0 / fitted.half_mm**2)
 
 
 def _place_sd_mm(fitted: FittedBar) -> float:
-    """How unsure it is where along the bar it is narrowest; where it bends, so is its axis."""
-    slope, bend = fitted.parameters[tube.GROWTH][:2]
-    slope_sd, bend_sd = np.sqrt(np.diag(fitted.covariance)[tube.GROWTH][:2])
+    """Return the sd of the narrowest place along the bar; on a bent bar it adds to that of the axis."""
+    slope, bend = fitted.parameters[tube_model.GROWTH][:2]
+    slope_sd, bend_sd = np.sqrt(np.diag(fitted.covariance)[tube_model.GROWTH][:2])
     waist = max(float(bend), float(bend_sd), 1e-6)
     place = np.hypot(slope_sd / (2.0 * waist), slope * bend_sd / (2.0 * waist**2))
     return float(min(place, MAX_PLACE_SHARE) * fitted.half_mm)
 
 
 def _numbers(parameters: Array, at: float, half_mm: float) -> Array:
-    """Width, height, centre (x, y) and slope (x, y) of the section at one place."""
-    points = tube.outline(parameters, at)
-    section = tube.section_at(parameters, np.array([at]))
+    """Return width, height, centre (x, y) and slope (x, y) of the section at one place."""
+    points = tube_model.outline(parameters, at)
+    section = tube_model.section_at(parameters, np.array([at]))
     direction = _width_direction(parameters, section)
     across = np.array([-direction[1], direction[0]])
-    c = parameters[tube.CENTRE]
+    c = parameters[tube_model.CENTRE]
     return np.array(
         [
             _extent(points - [section.x_mm[0], section.y_mm[0]], direction),
@@ -135,7 +135,7 @@ def _numbers(parameters: Array, at: float, half_mm: float) -> Array:
 
 
 def _extent(points: Array, direction: Array) -> float:
-    """From wall to wall (mm) along a direction (2,): the mean of callipers and of the chord by the centre.
+    """Return the extent (mm) along a direction (2,): mean of calliper width and chord through the centre.
 
     For an ellipse both are the same. A few waves cannot follow a corner: callipers are too wide there, and
     the chord between the corners too narrow.
@@ -148,29 +148,29 @@ def _extent(points: Array, direction: Array) -> float:
 
 
 def _other_way_ratio(fitted: FittedBar, at: float) -> float:
-    """The chance that the section's other axis is the one nearer to left-right, as its turn is unsure."""
-    section = tube.section_at(fitted.parameters, np.array([at]))
+    """Return the probability that the other principal axis is the left-right one, given the roll sd."""
+    section = tube_model.section_at(fitted.parameters, np.array([at]))
     direction = _width_direction(fitted.parameters, section)
     turned_deg = abs(float(np.degrees(np.arctan2(direction[1], direction[0]))))
-    own_deg = float(np.degrees(np.sqrt(fitted.covariance[tube.AXES, tube.AXES][2, 2])))
+    own_deg = float(np.degrees(np.sqrt(fitted.covariance[tube_model.AXES, tube_model.AXES][2, 2])))
     return float(ndtr(-(45.0 - turned_deg) / np.hypot(own_deg, ROLL_SD_DEG)))
 
 
-def _width_direction(parameters: Array, section: tube.Section) -> Array:
-    """The section's own axis that is nearest to left-right; left-right itself where it is nearly round."""
+def _width_direction(parameters: Array, section: tube_model.Section) -> Array:
+    """Return the principal axis nearest to left-right; left-right itself if the section is round."""
     a, b = section.half_width_mm[0], section.half_height_mm[0]
     if max(a, b) < ROUND_RATIO * min(a, b):
         return np.array([1.0, 0.0])
-    roll = float(parameters[tube.AXES][2])
+    roll = float(parameters[tube_model.AXES][2])
     roll = (roll + np.pi / 4.0) % (np.pi / 2.0) - np.pi / 4.0
     return np.array([np.cos(roll), np.sin(roll)])
 
 
 def _spread(fitted: FittedBar, at: float) -> Array:
-    """Standard deviations of `_numbers`, by how each parameter moves them."""
+    """Return the standard deviations of `_numbers`, by propagation of the parameter covariance."""
     base = _numbers(fitted.parameters, at, fitted.half_mm)
-    slopes = np.zeros((len(base), tube.COUNT))
-    for n in range(tube.OUTSIDE.start):
+    slopes = np.zeros((len(base), tube_model.COUNT))
+    for n in range(tube_model.OUTSIDE.start):
         step = 1e-4 * max(1.0, abs(float(fitted.parameters[n])))
         moved = fitted.parameters.copy()
         moved[n] += step

@@ -1,4 +1,4 @@
-"""Which side of the patient a pedicle is on, by what lies beside it: the canal, and the rest of the body."""
+"""Side of a pedicle, from the canal and the vertebral body beside it."""
 
 import numpy as np
 
@@ -7,14 +7,14 @@ from tracker.plan.pedicle.neighbourhood import Neighbourhood
 
 STEP_MM = 0.5
 CANAL_MM = (8.0, 34.0)
-SEEN_MM = 48.0
+MAX_VIEW_DEPTH_MM = 48.0
 BODY_AHEAD_MM = (16.0, 20.0, 24.0, 28.0)
 CLEARLY_MM = 8.0
 AIR_HU = -300.0
 
 
 def canal_side(near: Neighbourhood, isthmus_mm: Array, left: Array, half_width_mm: float, up: Array) -> int:
-    """+1 where the canal lies to the patient's left, -1 to the right, 0 where that cannot be told.
+    """Return +1 if the canal lies to the patient's left, -1 to the right, 0 if undetermined.
 
     On the canal's side a gap as wide as a canal is followed by bone: the other pedicle.
     """
@@ -23,7 +23,7 @@ def canal_side(near: Neighbourhood, isthmus_mm: Array, left: Array, half_width_m
 
 
 def body_side(near: Neighbourhood, isthmus_mm: Array, axis: Array, left: Array) -> int:
-    """+1 where the body reaches further to the patient's left than to the right of the axis, -1, or 0."""
+    """Return +1 if the body extends further to the patient's left of the axis, -1 to the right, else 0."""
     apart = []
     for ahead in BODY_AHEAD_MM:
         point = isthmus_mm + ahead * axis
@@ -36,8 +36,8 @@ def body_side(near: Neighbourhood, isthmus_mm: Array, axis: Array, left: Array) 
 
 
 def _profile(near: Neighbourhood, point: Array, direction: Array) -> Array:
-    line = point + np.arange(0.0, SEEN_MM, STEP_MM)[:, None] * direction
-    inside = near.holds(line)
+    line = point + np.arange(0.0, MAX_VIEW_DEPTH_MM, STEP_MM)[:, None] * direction
+    inside = near.contains(line)
     return np.where(inside, near.smooth_hu(line), -1024.0)
 
 
@@ -57,6 +57,6 @@ def _is_canal(near: Neighbourhood, isthmus: Array, way: Array, half_width_mm: fl
 
 
 def _bone_reach_mm(near: Neighbourhood, point: Array, way: Array) -> float:
-    """How far the body reaches: to the last bone before a gap wider than the marrow of a body."""
+    """Return the extent of the body, up to the last bone before a gap wider than marrow."""
     bone = np.flatnonzero(_profile(near, point, way) > near.bone_above_hu)
     return float(bone[-1]) * STEP_MM if len(bone) else 0.0

@@ -1,4 +1,4 @@
-"""The vertebra as a solid: bone with its marrow filled in, the canal and what lies around left out."""
+"""The vertebra as a solid: bone with its marrow filled in, without canal and surroundings."""
 
 from dataclasses import dataclass
 
@@ -11,8 +11,8 @@ from tracker.plan.pedicle.neighbourhood import Neighbourhood
 
 STEP_MM = 1.25
 # Around the isthmus: to both sides, ahead and behind, to head and feet.
-ASIDE_MM, AHEAD_MM, BEHIND_MM, UP_MM = 50.0, 62.0, 36.0, 32.0
-# What is soft reaches inwards only through gaps wider than twice this: not through a vein's foramen.
+ASIDE_MM, AHEAD_MM, MAX_BEHIND_ENTRY_MM, UP_MM = 50.0, 62.0, 36.0, 32.0
+# Soft tissue enters only through gaps wider than twice this: not through a vascular foramen.
 GAP_MM = 2.0
 AIR_HU = -200.0
 SOFT_HU, ABOVE_TISSUE_HU = (-50.0, 110.0), (40.0, 80.0)
@@ -22,7 +22,7 @@ NORMAL_MM = 2.5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Solid:
-    """A grid in LPS around an isthmus.
+    """A signed depth grid in LPS around an isthmus.
 
     Attributes:
         corner_mm: (3,), where the first voxel lies.
@@ -33,20 +33,20 @@ class Solid:
     depth_mm: npt.NDArray[np.float32]
 
     def depth_at(self, points_mm: Array) -> Array:
-        """Depth (...) at points (..., 3); far outside beyond the grid."""
+        """Return the depth (...) at points (..., 3); far outside beyond the grid."""
         index = (points_mm.reshape(-1, 3) - self.corner_mm) / STEP_MM
         values = ndimage.map_coordinates(
             self.depth_mm, index.T, output=np.float64, order=1, mode="constant", cval=-20.0
         )
         return np.asarray(values.reshape(points_mm.shape[:-1]))
 
-    def holds(self, points_mm: Array) -> npt.NDArray[np.bool_]:
-        """Which points (..., 3) lie within the grid."""
+    def contains(self, points_mm: Array) -> npt.NDArray[np.bool_]:
+        """Return which points (..., 3) lie within the grid."""
         index = (points_mm - self.corner_mm) / STEP_MM
         return np.asarray(((index >= 0.0) & (index <= np.array(self.depth_mm.shape) - 1.0)).all(axis=-1))
 
     def outwards_at(self, point_mm: Array) -> Array:
-        """The surface's normal (3,) near a point, outwards, over a few millimetres."""
+        """Return the outward surface normal (3,) near a point, averaged over a few millimetres."""
         offsets = NORMAL_MM * np.concatenate([np.eye(3), -np.eye(3)])
         depth = self.depth_at(point_mm + offsets)
         normal = depth[3:] - depth[:3]
@@ -54,18 +54,18 @@ class Solid:
 
 
 def solid_around(near: Neighbourhood, isthmus_mm: Array) -> Solid:
-    """What is bone or lies within it; soft is what can be reached from the sides through wide gaps.
+    """Return the solid of bone and enclosed marrow; soft tissue is what wide gaps connect to the sides.
 
     Nothing enters from above or below, where a CT may end within the marrow.
     """
     low = np.array([-ASIDE_MM, -AHEAD_MM, -UP_MM])
-    high = np.array([ASIDE_MM, BEHIND_MM, UP_MM])
+    high = np.array([ASIDE_MM, MAX_BEHIND_ENTRY_MM, UP_MM])
     count = np.ceil((high - low) / STEP_MM).astype(int)
     corner = isthmus_mm + low
     index = np.moveaxis(np.indices(count), 0, -1).reshape(-1, 3)
     points = corner + STEP_MM * index
     hu = ndimage.gaussian_filter(near.smooth_hu(points).reshape(count), SMOOTH_VOXELS)
-    inside = near.holds(points).reshape(count)
+    inside = near.contains(points).reshape(count)
     soft_hu = hu[(hu > SOFT_HU[0]) & (hu < SOFT_HU[1])]
     tissue = float(np.median(soft_hu)) if len(soft_hu) else near.tissue_hu
     limit = tissue + float(np.clip(0.1 * (near.cortex_hu - tissue), *ABOVE_TISSUE_HU))

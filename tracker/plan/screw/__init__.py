@@ -1,4 +1,4 @@
-"""The screw of a channel: which one fits, what stands around it, and what navigation must keep."""
+"""Screw planning: selection from the catalogue, clearance, bone density and navigation tolerance."""
 
 from tracker.plan.screw.catalogue import USUAL_CATALOGUE, ScrewCatalogue
 from tracker.plan.screw.channel import channel_from_measure, channel_from_points

@@ -1,4 +1,4 @@
-"""Which screws there are."""
+"""The screw catalogue."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ from tracker.errors import PlanError
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ScrewCatalogue:
-    """Diameters and lengths that can be had, every diameter in every length.
+    """Available diameters and lengths; every diameter is available in every length.
 
     Attributes:
         diameters_mm: rising.

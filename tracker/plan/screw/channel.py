@@ -1,4 +1,4 @@
-"""From a measured pedicle, or two points set by hand, to the channel."""
+"""Channel from a measured pedicle, or from two manual points."""
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +12,7 @@ FRONT_MARGIN_MM = 5.0
 def channel_from_measure(
     name: str, measure: PedicleMeasure, *, front_margin_mm: float = FRONT_MARGIN_MM
 ) -> Channel:
-    """The cylinder along the pedicle's axis, with the least width of the pedicle as diameter (paper, 2.1).
+    """Return the cylinder along the pedicle's axis with its minimum width as diameter (paper, 2.1).
 
     It ends `front_margin_mm` before the front wall of the body.
 
@@ -30,7 +30,7 @@ def channel_from_measure(
 def channel_from_points(
     name: str, *, entry_lps_mm: npt.ArrayLike, target_lps_mm: npt.ArrayLike, diameter_mm: float
 ) -> Channel:
-    """The cylinder between two points set by hand.
+    """Return the cylinder between two manual points.
 
     Raises:
         PlanError: CHANNEL_INVALID.

@@ -1,4 +1,4 @@
-"""How much bone stands around a screw in the pedicle, wall by wall, and the grade of what breaks out."""
+"""Clearance of a screw to each pedicle wall, and the grade of a breach."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -15,7 +15,7 @@ WALLS = ("medial", "lateral", "superior", "inferior")
 
 
 class GertzbeinRobbins(StrEnum):
-    """How far a screw breaks through the pedicle's wall (Gertzbein and Robbins, Spine 1990)."""
+    """Grade of a pedicle wall breach (Gertzbein and Robbins, Spine 1990)."""
 
     A = "A"
     B = "B"
@@ -26,7 +26,7 @@ class GertzbeinRobbins(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Clearance:
-    """Bone from the screw's surface to each outer wall, in mm; negative where it breaks through.
+    """Distance from the screw's surface to each outer wall, in mm; negative for a breach.
 
     Attributes:
         medial_mm: towards the canal; likewise lateral_mm, superior_mm, inferior_mm.
@@ -45,7 +45,7 @@ class Clearance:
 
     @property
     def min_mm(self) -> float:
-        """The smallest clearance to a wall of the pedicle."""
+        """Return the minimum clearance to a wall of the pedicle."""
         return min(self.medial_mm, self.lateral_mm, self.superior_mm, self.inferior_mm)
 
 
@@ -62,9 +62,9 @@ def grade_of_breach(breach_mm: float) -> GertzbeinRobbins:
 def clearance_of(
     channel: Channel, measure: PedicleMeasure, *, diameter_mm: float, length_mm: float
 ) -> Clearance:
-    """Clearance of a screw that lies on the channel's axis and begins at its entry.
+    """Return the clearance of a screw on the channel's axis, starting at its entry.
 
-    The screw's cylinder is held against the isthmus's outline, taken as it is from 3 mm behind it to where
+    The screw's cylinder is compared with the isthmus's outline, taken as it is from 3 mm behind it to where
     the pedicle opens into the body; in front against the plane of the front wall, across its axis.
     """
     gaps = wall_gaps_mm(channel, measure) - 0.5 * diameter_mm
@@ -89,7 +89,7 @@ def clearance_of(
 
 
 def wall_gaps_mm(channel: Channel, measure: PedicleMeasure) -> Array:
-    """From the channel's axis outwards to each point (n,) of the outline: the least within the pedicle.
+    """Return the minimum distance from the channel's axis to each outline point (n,) in the pedicle.
 
     Negative where the axis itself lies outside the pedicle.
     """
@@ -97,7 +97,7 @@ def wall_gaps_mm(channel: Channel, measure: PedicleMeasure) -> Array:
 
 
 def gaps_along_mm(channel: Channel, measure: PedicleMeasure) -> tuple[Array, Array]:
-    """Places within the pedicle (m,), from the isthmus forwards, and gaps (m, n) to the outline there.
+    """Return places in the pedicle (m,), from the isthmus forwards, and distances (m, n) to the outline.
 
     The isthmus's outline stands for each section, from 3 mm behind it to where the pedicle opens into the
     body; each of them is wider than that.
@@ -126,7 +126,7 @@ def _outward_normals(wall: Array, measure: PedicleMeasure) -> Array:
 
 
 def _towards(measure: PedicleMeasure) -> Array:
-    """The wall (n,) that each point of the outline belongs to, as an index into `WALLS`, by its normal."""
+    """Return the wall (n,) of each outline point, as an index into `WALLS`, by its normal."""
     normal = _outward_normals(measure.outline_lps_mm, measure)
     up = np.array([0.0, 0.0, 1.0]) - measure.axis_lps * measure.axis_lps[2]
     up /= np.linalg.norm(up)

@@ -1,4 +1,4 @@
-"""How dense the bone is along a screw."""
+"""Bone density along a screw."""
 
 from dataclasses import dataclass
 
@@ -15,7 +15,7 @@ ROUND = 8
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoneAlong:
-    """Hounsfield units along a screw: means over its section, from the entry on.
+    """HU along a screw: means over its section, starting at the entry.
 
     Attributes:
         along_mm: (n,), from the entry.
@@ -33,7 +33,7 @@ class BoneAlong:
 
 
 def bone_along(volume: Volume, channel: Channel, *, diameter_mm: float, length_mm: float) -> BoneAlong:
-    """The bone that a screw on the channel's axis takes the place of."""
+    """Return the HU of the bone that a screw on the channel's axis replaces."""
     along = np.arange(0.0, max(length_mm, STEP_MM) + 1e-9, STEP_MM)
     axis = channel.axis_in_vertebra
     helper = np.eye(3)[int(np.argmin(np.abs(axis)))]
@@ -44,7 +44,7 @@ def bone_along(volume: Volume, channel: Channel, *, diameter_mm: float, length_m
     ring = np.cos(angle)[:, None] * first + np.sin(angle)[:, None] * second
     offsets = np.concatenate([share * 0.5 * diameter_mm * ring for share in RINGS])
     points = channel.entry_in_vertebra_mm + along[:, None, None] * axis + offsets
-    # Each ring stands for the area around it, so that the mean is that of the section.
+    # Rings are weighted by area, so that the mean is that of the section.
     weight = np.repeat([0.25, 1.0, 0.75], ROUND)
     hu = volume.sample_hu(points) @ weight / weight.sum()
     hu.setflags(write=False)
@@ -54,5 +54,5 @@ def bone_along(volume: Volume, channel: Channel, *, diameter_mm: float, length_m
         hu=hu,
         mean_hu=float(hu.mean()),
         min_hu=float(hu.min()),
-        inside_ratio=float(volume.holds(points).mean()),
+        inside_ratio=float(volume.contains(points).mean()),
     )

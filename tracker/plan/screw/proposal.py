@@ -1,4 +1,4 @@
-"""Which screw of the catalogue fits, and everything that is said of it."""
+"""Screw selection from the catalogue, with all derived values."""
 
 from dataclasses import dataclass
 
@@ -17,7 +17,7 @@ FRONT_MARGIN_MM = 5.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ScrewPlan:
-    """One screw on one channel, with all that follows from it."""
+    """One screw in one channel with all derived values."""
 
     diameter_mm: float
     length_mm: float
@@ -34,7 +34,7 @@ def propose_screw(
     wall_margin_mm: float = WALL_MARGIN_MM,
     front_margin_mm: float = FRONT_MARGIN_MM,
 ) -> tuple[float, float]:
-    """Diameter and length: the thickest with its margin to each wall, the longest before the front wall.
+    """Return the largest diameter with its margin to each wall and the longest length before the front wall.
 
     Raises:
         PlanError: NO_SCREW_FITS.
@@ -58,7 +58,7 @@ def propose_screw(
 def plan_screw(
     volume: Volume, channel: Channel, measure: PedicleMeasure, *, diameter_mm: float, length_mm: float
 ) -> ScrewPlan:
-    """Everything that is said of one screw: clearance and grade, bone along it, tolerance.
+    """Return clearance and grade, bone density and tolerance of one screw.
 
     Raises:
         PlanError: SCREW_INVALID.

@@ -1,4 +1,4 @@
-"""What a pedicle leaves for navigation: how far off entry and angle may be before it breaks out."""
+"""Navigation tolerance of a pedicle: entry and angle errors without a breach."""
 
 from dataclasses import dataclass
 
@@ -14,7 +14,7 @@ STEPS = 16
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Tolerance:
-    """The errors of navigation that keep a screw within the pedicle's walls.
+    """Navigation errors that keep a screw within the pedicle's walls.
 
     Entry offset and angle use up the same room: whoever is off by `offset_mm` at the entry in the worst
     direction has the angle of the same place in `deg_at_offset` left.
@@ -36,9 +36,9 @@ class Tolerance:
 
 
 def tolerance_of(channel: Channel, measure: PedicleMeasure, *, diameter_mm: float) -> Tolerance:
-    """The tolerance of one pedicle for one screw; all zero where the plan itself has no room.
+    """Return the tolerance of one pedicle for one screw; all zero if the plan itself breaches.
 
-    The screw is held against the walls from 3 mm behind the isthmus to where the pedicle opens into the body.
+    The walls count from 3 mm behind the isthmus to where the pedicle opens into the body.
     It turns about its entry: each place of it moves by the offset and by the lever times the tangent of the
     angle, in the worst case both towards the nearest wall there.
     """

@@ -1,4 +1,4 @@
-"""Slices through a CT, as a surgeon looks at them, with the place in the patient of every pixel."""
+"""CT slices in radiological orientation, with the LPS position of every pixel."""
 
 from tracker.plan.slices.oblique import across_channel, along_channel, oblique_slice
 from tracker.plan.slices.planes import Plane, patient_slice, reach_mm

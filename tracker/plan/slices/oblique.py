@@ -1,4 +1,4 @@
-"""Slices along and across a channel, and any other plane."""
+"""Oblique slices: along and across a channel, and in any other plane."""
 
 import numpy as np
 import numpy.typing as npt
@@ -6,13 +6,13 @@ import numpy.typing as npt
 from tracker.errors import PlanError
 from tracker.geometry import Array, rotation_from_vector
 from tracker.plan.channel import Channel
-from tracker.plan.slices.resample import resampled, thick
+from tracker.plan.slices.resample import max_intensity_slab, resampled
 from tracker.plan.slices.slice import Slice
 from tracker.plan.volume import Volume
 
 LEFT, FEET, HEAD = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, -1.0]), np.array([0.0, 0.0, 1.0])
 BACK = np.array([0.0, 1.0, 0.0])
-# A direction nearer than this to the axis does not tell what is up.
+# A direction nearer than this to the axis cannot define up.
 MIN_ACROSS = 0.1
 
 
@@ -26,16 +26,16 @@ def oblique_slice(
     pixel_mm: float | None = None,
     slab_mm: float = 0.0,
 ) -> Slice:
-    """Any plane through the CT.
+    """Return the slice in any plane through the CT.
 
     Args:
         volume: the CT.
         centre_lps_mm: (3,), the middle of the image.
-        right_lps: (3,), what lies to the right; its length does not matter.
-        down_lps: (3,), what lies down; what it has of `right_lps` is taken away.
+        right_lps: (3,), direction to the right in the image, of any length.
+        down_lps: (3,), direction down; its component along `right_lps` is removed.
         size_mm: width and height from the first to the last pixel's centre.
         pixel_mm: side of the pixels; the smallest voxel side if left out.
-        slab_mm: how thick; the highest value through the slab is shown.
+        slab_mm: slab thickness of the maximum intensity projection.
 
     Raises:
         PlanError: PLANE_INVALID, SLICE_TOO_LARGE or SLAB_INVALID.
@@ -46,7 +46,7 @@ def oblique_slice(
     flat = np.column_stack(
         [right * side, down * side, centre - right * size_mm[0] / 2.0 - down * size_mm[1] / 2.0]
     )
-    return thick(
+    return max_intensity_slab(
         lambda beyond: resampled(volume, flat + beyond, size_mm),
         slab_mm,
         float(volume.spacing_mm.min()),
@@ -58,12 +58,12 @@ def along_channel(
     volume: Volume,
     channel: Channel,
     *,
-    turn_deg: float = 0.0,
+    rotation_deg: float = 0.0,
     size_mm: tuple[float, float] = (60.0, 100.0),
     pixel_mm: float | None = None,
     slab_mm: float = 0.0,
 ) -> Slice:
-    """The plane that holds the channel's axis, which runs up in the middle of the image as one drills.
+    """Return the slice that contains the channel's axis; the drilling direction points up in the image.
 
     Without a turn the patient's left lies to the right, as nearly as the axis allows: the axial slice, tilted
     along the channel. The turn is about the drilling direction, by the right hand; 90 degrees show what lies
@@ -73,7 +73,7 @@ def along_channel(
         PlanError: PLANE_INVALID, SLICE_TOO_LARGE or SLAB_INVALID.
     """
     axis = channel.axis_in_vertebra
-    right = rotation_from_vector(axis * np.radians(turn_deg)) @ _across(axis, LEFT, HEAD)
+    right = rotation_from_vector(axis * np.radians(rotation_deg)) @ _across(axis, LEFT, HEAD)
     middle = (channel.entry_in_vertebra_mm + channel.target_in_vertebra_mm) / 2.0
     return oblique_slice(
         volume,
@@ -95,7 +95,7 @@ def across_channel(
     pixel_mm: float | None = None,
     slab_mm: float = 0.0,
 ) -> Slice:
-    """The plane at right angles to the channel at a depth from its entry, seen in the drilling direction.
+    """Return the slice perpendicular to the channel at a depth from its entry, seen along the drill.
 
     The feet lie down, as nearly as the axis allows; the channel's axis is the middle of the image.
 
@@ -116,7 +116,7 @@ def across_channel(
 
 
 def _across(axis: Array, wanted: Array, otherwise: Array) -> Array:
-    """The unit direction at right angles to the axis that is nearest to the one that is wanted."""
+    """Return the unit direction perpendicular to the axis that is nearest to the wanted one."""
     for direction in (wanted, otherwise):
         across = direction - (direction @ axis) * axis
         length = np.linalg.norm(across)
@@ -126,7 +126,7 @@ def _across(axis: Array, wanted: Array, otherwise: Array) -> Array:
 
 
 def _axes(right: Array, down: Array) -> tuple[Array, Array]:
-    """Unit directions at right angles."""
+    """Orthonormalise two directions."""
     lengths = np.linalg.norm(right), np.linalg.norm(down)
     if np.isfinite(lengths).all() and min(lengths) > 0.0:
         right = right / lengths[0]
@@ -136,7 +136,7 @@ def _axes(right: Array, down: Array) -> tuple[Array, Array]:
             return right, down / length
     raise PlanError(
         "PLANE_INVALID",
-        "the two directions of the plane are one and the same, or no directions",
-        "Give two directions that differ.",
+        "the two directions of the plane are parallel or zero",
+        "Give two different directions.",
         {"right": right.tolist(), "down": down.tolist()},
     )

@@ -1,4 +1,4 @@
-"""Axial, sagittal and coronal slices, in the patient's directions whatever those of the scanner were.
+"""Axial, sagittal and coronal slices in patient directions, independent of the scanner's axes.
 
 Radiological convention: an axial slice is seen from the feet, a coronal one from the front (the patient's
 right on the image's left in both), a sagittal one from the patient's left (the front on the image's left).
@@ -12,19 +12,19 @@ import numpy.typing as npt
 
 from tracker.errors import PlanError
 from tracker.geometry import Array
-from tracker.plan.slices.resample import resampled, thick
+from tracker.plan.slices.resample import max_intensity_slab, resampled
 from tracker.plan.slices.slice import Slice
 from tracker.plan.volume import Volume
 
 Plane: TypeAlias = Literal["axial", "sagittal", "coronal"]
 
-# How far, in voxels, a plane may lie from a native slice that is shown in its place.
+# Maximum distance in voxels of a plane from the native slice that replaces it.
 NATIVE_VOXELS = 1e-3
 ALIGNED_RATIO = 1e-6
 
 
 class _View(NamedTuple):
-    """The axis of LPS along which a plane is moved, and what is to the right and down in its image."""
+    """LPS axis of a plane's position, and the right and down directions of its image."""
 
     axis: int
     right: Array
@@ -39,7 +39,7 @@ VIEWS: dict[Plane, _View] = {
 
 
 def reach_mm(volume: Volume, plane: Plane) -> tuple[float, float, float]:
-    """From where to where this plane can be moved, and by how much from one slice to the next.
+    """Return the range of positions of a plane, and the step between slices.
 
     The first two are a coordinate in LPS: z for axial, x for sagittal, y for coronal.
     """
@@ -52,7 +52,7 @@ def reach_mm(volume: Volume, plane: Plane) -> tuple[float, float, float]:
 def patient_slice(
     volume: Volume, plane: Plane, at_mm: float, *, slab_mm: float = 0.0, pixel_mm: float | None = None
 ) -> Slice:
-    """The axial, sagittal or coronal slice at a coordinate in LPS.
+    """Return the axial, sagittal or coronal slice at an LPS coordinate.
 
     The scanner's own pixels are given where its slice or voxel axes lie in the plane; else they are read
     between voxels, into square pixels.
@@ -87,7 +87,7 @@ def patient_slice(
     start[view.axis] = at_mm
     size_mm = (float(np.ptp(across)), float(np.ptp(along)))
     flat = np.column_stack([view.right * side, view.down * side, start])
-    return thick(
+    return max_intensity_slab(
         lambda beyond: resampled(volume, flat + beyond, size_mm),
         slab_mm,
         float(volume.spacing_mm.min()),
@@ -96,13 +96,13 @@ def patient_slice(
 
 
 def _corners(volume: Volume) -> Array:
-    """The centres (8, 3) of the outermost voxels, in LPS mm."""
+    """Return the centres (8, 3) of the corner voxels, in LPS mm."""
     ends = [[0.0, size - 1.0] for size in volume.shape_ijk]
     return volume.lps_from_index(np.array(np.meshgrid(*ends)).reshape(3, 8).T)
 
 
 def _native(volume: Volume, view: _View, at_mm: float) -> Slice | None:
-    """The scanner's own pixels in this plane, if two axes of the voxels lie in it and a slice is there."""
+    """Return the scanner's own pixels in this plane, if two voxel axes and a slice lie in it."""
     steps = volume.lps_from_ijk[:3, :3]
     axes = steps / volume.spacing_mm
     columns, rows = _lying_along(axes, view.right), _lying_along(axes, view.down)
@@ -137,7 +137,7 @@ def _native(volume: Volume, view: _View, at_mm: float) -> Slice | None:
 
 
 def _lying_along(axes: Array, wanted: Array) -> int | None:
-    """Which axis of the voxels lies along this direction, either way."""
+    """Return the voxel axis along this direction, of either sign."""
     along = np.abs(wanted @ axes)
     best = int(np.argmax(along))
     off = np.linalg.norm(axes[:, best] - np.sign(wanted @ axes[:, best]) * wanted)
@@ -145,7 +145,7 @@ def _lying_along(axes: Array, wanted: Array) -> int | None:
 
 
 def _read(hu: npt.NDArray[np.int16], through: int, place: float) -> npt.NDArray[np.int16]:
-    """The voxels at a place along one axis (i, j, k), blended between two slices."""
+    """Return the voxels at a position along one axis (i, j, k), interpolated between two slices."""
     last = hu.shape[2 - through] - 1
     place = min(max(place, 0.0), float(last))
     low = min(int(place), last - 1)

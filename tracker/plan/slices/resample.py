@@ -1,4 +1,4 @@
-"""Reading a plane between the voxels."""
+"""Resampling of the CT in a plane."""
 
 import math
 from collections.abc import Callable
@@ -15,7 +15,7 @@ MAX_SLAB_MM = 100.0
 
 
 def resampled(volume: Volume, lps_from_px: Array, size_mm: tuple[float, float]) -> Slice:
-    """The CT in a plane, linear between voxels.
+    """Return the CT in a plane, interpolated linearly.
 
     Args:
         volume: the CT.
@@ -37,13 +37,15 @@ def resampled(volume: Volume, lps_from_px: Array, size_mm: tuple[float, float]) 
     return Slice(hu=np.rint(volume.sample_hu(points)).astype(np.int16), lps_from_px=lps_from_px)
 
 
-def thick(read: Callable[[Array], Slice], slab_mm: float, step_mm: float, lps_from_px: Array) -> Slice:
-    """The highest values through a slab around a plane; the plane itself where the slab has no thickness.
+def max_intensity_slab(
+    read: Callable[[Array], Slice], slab_mm: float, step_mm: float, lps_from_px: Array
+) -> Slice:
+    """Return the maximum intensity projection through a slab; the plane itself for thickness 0.
 
     Args:
-        read: gives the slice that lies by a (3, 3) offset, to be added to `lps_from_px`, beyond the plane.
+        read: returns the slice for a (3, 3) offset, added to `lps_from_px`.
         slab_mm: thickness.
-        step_mm: between the planes that are looked at.
+        step_mm: between the sampled planes.
         lps_from_px: (3, 3), of the plane in the middle.
 
     Raises:

@@ -1,4 +1,4 @@
-"""One slice: its Hounsfield units, and where each pixel lies in the patient."""
+"""One slice: Hounsfield units and the LPS position of each pixel."""
 
 from dataclasses import dataclass
 
@@ -15,7 +15,7 @@ SECOND_LETTER = 0.38
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Edges:
-    """Towards what the image's edges lie: L and R, A and P, H and F; two letters where it lies between."""
+    """Anatomical direction of each image edge: L, R, A, P, H, F; two letters for oblique directions."""
 
     left: str
     right: str
@@ -25,7 +25,7 @@ class Edges:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Slice:
-    """A plane through the CT, seen with u to the right and v down.
+    """A plane through the CT, with u to the right and v down.
 
     Attributes:
         hu: (rows, columns) int16, read-only; -1024 beyond the scanned block.
@@ -45,45 +45,45 @@ class Slice:
 
     @property
     def size_wh_px(self) -> tuple[int, int]:
-        """Columns and rows."""
+        """Return columns and rows."""
         rows, columns = self.hu.shape
         return columns, rows
 
     @property
     def pixel_mm(self) -> Array:
-        """Distance (2,) between columns and between rows; a native slice may have oblong pixels."""
+        """Return the distances (2,) between columns and between rows; native pixels may be anisotropic."""
         return np.asarray(np.linalg.norm(self.lps_from_px[:, :2], axis=0))
 
     @property
     def normal_lps(self) -> Array:
-        """Unit direction (3,) in which one looks: away from the viewer."""
+        """Return the unit viewing direction (3,), away from the viewer."""
         normal = np.cross(self.lps_from_px[:, 0], self.lps_from_px[:, 1])
         return np.asarray(normal / np.linalg.norm(normal))
 
     @property
     def edges(self) -> Edges:
-        """Which side of the patient lies at which edge."""
+        """Return the anatomical direction of each image edge."""
         right, down = (self.lps_from_px[:, i] / self.pixel_mm[i] for i in (0, 1))
         return Edges(left=_letters(-right), right=_letters(right), top=_letters(-down), bottom=_letters(down))
 
     def lps_from_pixel(self, pixels_px: npt.ArrayLike) -> Array:
-        """Points (..., 3) in LPS mm of pixels (..., 2) as u, v, which need not be whole numbers."""
+        """Return points (..., 3) in LPS mm of pixels (..., 2) as u, v; fractions are allowed."""
         pixels = np.asarray(pixels_px, dtype=np.float64)
         return np.asarray(pixels @ self.lps_from_px[:, :2].T + self.lps_from_px[:, 2])
 
     def pixel_from_lps(self, points_lps_mm: npt.ArrayLike) -> Array:
-        """Pixels (..., 2) as u, v of the feet of the perpendiculars from points (..., 3) in LPS mm."""
+        """Return pixels (..., 2) as u, v of points (..., 3) in LPS mm, projected onto the plane."""
         points = np.asarray(points_lps_mm, dtype=np.float64) - self.lps_from_px[:, 2]
         return np.asarray(points @ np.linalg.pinv(self.lps_from_px[:, :2]).T)
 
     def beyond_mm(self, points_lps_mm: npt.ArrayLike) -> Array:
-        """How far points (..., 3) lie behind the plane, as one looks; negative in front of it: (...)."""
+        """Return the signed distance (...) of points (..., 3) behind the plane; negative in front of it."""
         points = np.asarray(points_lps_mm, dtype=np.float64) - self.lps_from_px[:, 2]
         return np.asarray(points @ self.normal_lps)
 
 
 def _letters(direction: Array) -> str:
-    """L, R, A, P, H or F, or two of them, the stronger first."""
+    """Return L, R, A, P, H or F, or two of them, the dominant first."""
     order = np.argsort(-np.abs(direction), kind="stable")
     named = [axis for rank, axis in enumerate(order) if rank == 0 or abs(direction[axis]) > SECOND_LETTER]
     return "".join(LETTERS[axis][0 if direction[axis] > 0.0 else 1] for axis in named[:2])

@@ -1,4 +1,4 @@
-"""Window and level: which Hounsfield units are shown black, which white."""
+"""Window and level: the HU range that is mapped to grey."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from tracker.errors import PlanError
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Window:
-    """What is shown in grey: centre minus half the width is black, centre plus half of it is white.
+    """Grey mapping: centre minus half the width is black, centre plus half the width is white.
 
     Raises:
         PlanError: WINDOW_INVALID, the width is not above 0, or a number is not finite.
@@ -43,7 +43,7 @@ WINDOWS: Mapping[str, Window] = MappingProxyType(
 
 
 def shown(hu: npt.NDArray[np.int16], window: Window) -> npt.NDArray[np.uint8]:
-    """Grey 0 (black) to 255 (white) of Hounsfield units of any shape.
+    """Map Hounsfield units of any shape to grey, 0 (black) to 255 (white).
 
     DICOM PS3.3 C.11.2.1.3.2, the exact linear function.
     """

@@ -1,8 +1,16 @@
-"""Triangle meshes whatever they come from: how they hang together, smoothing, fewer triangles."""
+"""Triangle mesh operations: connectivity, winding, smoothing, decimation."""
 
+from tracker.plan.triangles.connectivity import Connectivity, connectivity_of, largest_part, referenced
 from tracker.plan.triangles.decimation import decimated
-from tracker.plan.triangles.links import Links, largest_part, links_of, referenced
 from tracker.plan.triangles.smoothing import smoothed
 from tracker.plan.triangles.winding import wound_outwards
 
-__all__ = ["Links", "decimated", "largest_part", "links_of", "referenced", "smoothed", "wound_outwards"]
+__all__ = [
+    "Connectivity",
+    "connectivity_of",
+    "decimated",
+    "largest_part",
+    "referenced",
+    "smoothed",
+    "wound_outwards",
+]

@@ -1,18 +1,18 @@
-"""Fewer triangles, with the shape kept."""
+"""Mesh decimation that preserves the shape."""
 
 import fast_simplification
 import numpy as np
 
 from tracker.geometry import Array
-from tracker.plan.triangles.links import Faces, areas_of, referenced
+from tracker.plan.triangles.connectivity import Faces, areas_of, referenced
 
-# The library's own choice: with less, edges of long triangles are never cheap enough, and too many stay.
-EAGERNESS = 7.0
-FEWEST_FACES = 100
+# The library's default: with less, edges of long triangles never become cheap enough, and too many remain.
+AGGRESSIVENESS = 7.0
+MIN_FACES = 100
 
 
 def decimated(vertices_mm: Array, faces: Faces, *, max_faces: int) -> tuple[Array, Faces]:
-    """The mesh with at most about so many triangles, by joining the vertices that change its shape least.
+    """Return the mesh with at most about `max_faces` triangles (quadric edge collapse).
 
     Source: M. Garland, P. Heckbert, Surface simplification using quadric error metrics, SIGGRAPH 1997.
     """
@@ -23,8 +23,8 @@ def decimated(vertices_mm: Array, faces: Faces, *, max_faces: int) -> tuple[Arra
     points, corners = fast_simplification.simplify(
         np.ascontiguousarray(vertices_mm - middle),
         np.ascontiguousarray(faces),
-        target_count=max(max_faces, FEWEST_FACES),
-        agg=EAGERNESS,
+        target_count=max(max_faces, MIN_FACES),
+        agg=AGGRESSIVENESS,
     )[:2]
     points = np.asarray(points, dtype=np.float64) + middle
     corners = np.asarray(corners, dtype=np.int64)

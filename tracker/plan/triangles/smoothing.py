@@ -1,4 +1,4 @@
-"""Smoothing that takes the steps of the slices away, and not the size of the bone.
+"""Smoothing that removes slice steps without shrinking the bone.
 
 It works on a sparse matrix; the smoothing in trimesh visits each vertex in Python.
 """
@@ -7,7 +7,7 @@ import numpy as np
 from scipy.sparse import coo_array
 
 from tracker.geometry import Array
-from tracker.plan.triangles.links import Faces, links_of
+from tracker.plan.triangles.connectivity import Faces, connectivity_of
 
 # Taubin 1995: a step in, and a slightly longer one out. What is larger than 1/PASS_BAND of an edge stays.
 STEP_RATIO = 0.5
@@ -15,21 +15,21 @@ PASS_BAND = 0.1
 
 
 def smoothed(vertices_mm: Array, faces: Faces, *, rounds: int) -> Array:
-    """The vertices (n, 3), each moved towards the mean of its neighbours and back, so many times.
+    """Return the vertices (n, 3) after this many rounds of a step to the neighbours' mean and back.
 
     Vertices of a border stay where they are: they have neighbours on one side only, which would pull them in.
 
     Source: G. Taubin, A signal processing approach to fair surface design, SIGGRAPH 1995.
     """
-    links = links_of(faces)
+    connectivity = connectivity_of(faces)
     count = vertices_mm.shape[0]
-    a, b = links.edges.T
+    a, b = connectivity.edges.T
     graph = coo_array(
         (np.ones(2 * a.size), (np.concatenate([a, b]), np.concatenate([b, a]))), shape=(count, count)
     ).tocsr()
     neighbours = np.maximum(np.asarray(graph.sum(axis=1)).reshape(-1, 1), 1.0)
     moves = np.ones((count, 1))
-    moves[links.border_vertices] = 0.0
+    moves[connectivity.border_vertices] = 0.0
     back_ratio = 1.0 / (PASS_BAND - 1.0 / STEP_RATIO)
     out = vertices_mm - vertices_mm.mean(axis=0)
     for _ in range(rounds):

@@ -1,4 +1,4 @@
-"""Which way triangles are wound: all alike, and outwards."""
+"""Consistent, outward winding of triangles."""
 
 import numpy as np
 import numpy.typing as npt
@@ -6,17 +6,17 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from tracker.geometry import Array
-from tracker.plan.triangles.links import Faces, parts_of
+from tracker.plan.triangles.connectivity import Faces, parts_of
 
 Flags = npt.NDArray[np.bool_]
 
 
 def wound_outwards(vertices_mm: Array, faces: Faces) -> tuple[Faces, int]:
-    """The triangles (m, 3) wound counter-clockwise seen from outside, and how many were turned for it.
+    """Return the triangles (m, 3), counter-clockwise seen from outside, and the number flipped.
 
-    Neighbours are made to agree first, with as few turned as possible in each part. What lies within the
-    largest part (a cavity in it) keeps its way against it. Of an open part the outside is where its middle is
-    not; of one that is nearly flat that says little.
+    First neighbours are made consistent, with as few flips as possible in each component. A component inside
+    the largest one (a cavity) keeps its orientation relative to it. The inside of an open component is the
+    side of its centre; this is ambiguous for a nearly flat one.
     """
     count, parts = parts_of(faces, vertices_mm.shape[0])
     turned = _disagreeing(faces)
@@ -34,7 +34,7 @@ def wound_outwards(vertices_mm: Array, faces: Faces) -> tuple[Faces, int]:
 
 
 def _volumes(corners_mm: Array, parts: npt.NDArray[np.int64], count: int) -> Array:
-    """What each part of triangles (m, 3, 3) encloses, about its own middle: (count,)."""
+    """Return the signed volume of each component of triangles (m, 3, 3) about its centre: (count,)."""
     sums = np.stack(
         [np.bincount(parts, weights=corners_mm.mean(axis=1)[:, axis], minlength=count) for axis in range(3)],
         axis=1,
@@ -46,10 +46,10 @@ def _volumes(corners_mm: Array, parts: npt.NDArray[np.int64], count: int) -> Arr
 
 
 def _disagreeing(faces: Faces) -> Flags:
-    """Which triangles (m,) are to be turned so that neighbours agree.
+    """Return which triangles (m,) to flip so that neighbours agree.
 
-    Each triangle is taken twice, as it is and turned, and joined with the copy of each neighbour that agrees
-    with it: what is then joined is wound alike.
+    Each triangle is taken twice, original and flipped, and joined with the consistent copy of each
+    neighbour: joined components then have equal winding.
     """
     faces_count = faces.shape[0]
     runs = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
@@ -66,7 +66,7 @@ def _disagreeing(faces: Faces) -> Flags:
     graph = coo_array((np.ones(a.size, np.int8), (a, b)), shape=(2 * faces_count, 2 * faces_count))
     _, labels = connected_components(graph, directed=False)
     turned = labels[:faces_count] > labels[faces_count:]
-    # As few as possible: what most triangles of a patch say is right.
+    # Flip as few as possible: the majority orientation of a component is kept.
     patch = np.minimum(labels[:faces_count], labels[faces_count:])
     share = np.bincount(patch, weights=turned) / np.maximum(np.bincount(patch), 1)
     return np.asarray(turned ^ (share[patch] > 0.5))

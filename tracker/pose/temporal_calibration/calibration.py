@@ -1,4 +1,4 @@
-"""The constant time offset between two sources that saw one motion."""
+"""Calibrate the constant time offset between two sources that recorded one motion."""
 
 from dataclasses import dataclass, replace
 from math import hypot
@@ -31,7 +31,7 @@ OFFSET_TOLERANCE_S = 1e-6
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TimeOffset:
-    """How two sources' clocks differ at one moment.
+    """Offset between two sources' clocks.
 
     Attributes:
         offset_s: time stamped by the first source minus time stamped by the second, of one moment. Positive:

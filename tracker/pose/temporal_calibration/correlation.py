@@ -26,13 +26,13 @@ class Moments(NamedTuple):
 
     @classmethod
     def of(cls, a: Array, b: Array) -> "Moments":
-        """Of samples (n, 3)."""
+        """Return the moments of samples (n, 3)."""
         counted = np.array([len(a), np.vdot(a, a), np.vdot(b, b)])
         return cls(counted[0], a.sum(axis=0), b.sum(axis=0), a.T @ b, counted[1], counted[2])
 
     @classmethod
     def of_blocks(cls, a: Array, b: Array, blocks: int) -> "Moments":
-        """Of samples (n, 3) in so many successive blocks of nearly one size."""
+        """Return the moments of samples (n, 3) in `blocks` successive blocks of nearly equal size."""
         starts = np.arange(blocks) * len(a) // blocks
         rows = (
             np.ones(len(a)),

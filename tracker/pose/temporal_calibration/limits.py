@@ -36,7 +36,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TimeOffsetLimits:
-    """What two recordings must keep before an offset between their clocks is stated; see the table above."""
+    """Acceptance limits of a time offset calibration; see the table above."""
 
     max_offset_s: float = 1.0
     cutoff_hz: float = 4.0
@@ -54,5 +54,5 @@ class TimeOffsetLimits:
 
     @property
     def min_rate_hz(self) -> float:
-        """How many poses a second a source must give: two for each period at the cut-off."""
+        """Return the minimum pose rate of a source: two per period at the cut-off."""
         return 2.0 * self.cutoff_hz

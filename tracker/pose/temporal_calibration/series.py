@@ -1,4 +1,4 @@
-"""Recorded poses of one source, and their rates as a low-passed signal that knows its gaps."""
+"""Recorded poses of one source, and their rates as a low-passed signal with gaps."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -20,7 +20,7 @@ MIN_SEGMENT_SAMPLES = 6
 
 
 class Motion(StrEnum):
-    """Which rate is compared.
+    """The rate that is compared.
 
     ROTATION: angular velocity, deg/s. The same for all bodies that are rigidly connected, whatever the
         marker or its place on the tool, up to the rotation between the two sources' frames.
@@ -33,7 +33,7 @@ class Motion(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PoseSeries:
-    """Where a moving body was, as one source saw it; a time at which it was unseen is left out.
+    """Poses of a moving body recorded by one source; times at which it was unseen are left out.
 
     Attributes:
         name: how messages call this source.

@@ -1,4 +1,4 @@
-"""The instrument behind its marker: its tip by pivoting, its axis by spinning, and the check of both."""
+"""Tool calibration: the tip by pivot calibration, the axis by spin calibration, and the tip check."""
 
 from tracker.pose.tool.collector import (
     CollectorSettings,
@@ -11,6 +11,7 @@ from tracker.pose.tool.collector import (
 )
 from tracker.pose.tool.gate import ToolGate
 from tracker.pose.tool.model import ToolModel
+from tracker.pose.tool.motion_range import ToolMotionRange
 from tracker.pose.tool.pivot import (
     PivotCalibration,
     RejectedPose,
@@ -18,11 +19,10 @@ from tracker.pose.tool.pivot import (
     pivot_calibration,
     rms_3d_mm,
 )
+from tracker.pose.tool.pose_parsing import rigid_from_matrix, rigid_from_quaternion
 from tracker.pose.tool.poses import Poses
 from tracker.pose.tool.spin import SpinCalibration, spin_calibration
 from tracker.pose.tool.tip_check import TipCheck, check_tip
-from tracker.pose.tool.turning import Turning
-from tracker.pose.tool.written import rigid_from_quaternion, rigid_from_written
 
 __all__ = [
     "CollectorSettings",
@@ -40,11 +40,11 @@ __all__ = [
     "TipCheck",
     "ToolGate",
     "ToolModel",
-    "Turning",
+    "ToolMotionRange",
     "check_tip",
     "pivot_calibration",
+    "rigid_from_matrix",
     "rigid_from_quaternion",
-    "rigid_from_written",
     "rms_3d_mm",
     "spin_calibration",
 ]

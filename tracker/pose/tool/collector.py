@@ -1,4 +1,4 @@
-"""Gathers poses for a calibration: takes those that add something, and says what is missing."""
+"""Collect poses for a tool calibration: accept informative ones, and report what is missing."""
 
 from collections import Counter, deque
 from collections.abc import Mapping
@@ -13,13 +13,13 @@ from tracker.geometry import Array, Camera, Marker, Rigid
 from tracker.pose.image_rate import GapLimit, image_period_s
 from tracker.pose.sighting import Seen, Sighting
 from tracker.pose.tool.gate import ToolGate
+from tracker.pose.tool.motion_range import ToolMotionRange, motion_range_of
 from tracker.pose.tool.pivot import PivotCalibration, pivot_calibration, provisional_tip_mm
 from tracker.pose.tool.poses import Poses
-from tracker.pose.tool.spin import SpinCalibration, spin_calibration, stillest_direction
+from tracker.pose.tool.spin import SpinCalibration, least_moved_direction, spin_calibration
 from tracker.pose.tool.tip_check import TipCheck, check_tip
-from tracker.pose.tool.turning import Turning, turning_of
 
-# The image rate is the one of so many images; it is not known from fewer than three intervals.
+# The image rate is the median over so many images; it is unknown with fewer than three intervals.
 RATE_IMAGES = 16
 MIN_RATE_INTERVALS = 3
 
@@ -27,7 +27,7 @@ Outcome: TypeAlias = PivotCalibration | SpinCalibration | TipCheck
 
 
 class Purpose(StrEnum):
-    """What poses are gathered for."""
+    """The calibration that poses are collected for."""
 
     PIVOT = "pivot"
     SPIN = "spin"
@@ -35,25 +35,25 @@ class Purpose(StrEnum):
 
     @classmethod
     def _missing_(cls, value: object) -> "Purpose | None":
-        """As it was written before, in capitals."""
+        """Accept the earlier spelling in capitals."""
         return next((one for one in cls if isinstance(value, str) and one.value == value.lower()), None)
 
 
 class Taking(StrEnum):
-    """What became of an image."""
+    """Whether the pose of an image was accepted, or why not."""
 
     TAKEN = "taken"
     NO_PICTURE = "no_picture"  # there is no image at all: the camera or the tracking has stopped
     NOT_SEEN = "not_seen"  # the marker is not seen in it
-    TOO_UNCERTAIN = "too_uncertain"  # its pose is too unsure
-    ALONE = "alone"  # no image shortly before shows whether the pose is one that a hand can reach
-    JUMPED = "jumped"  # farther from the image before than a hand moves: one of both is wrong
-    NOTHING_NEW = "nothing_new"  # the tool is turned as in a pose that was taken
+    TOO_UNCERTAIN = "too_uncertain"  # its pose is too uncertain
+    ALONE = "alone"  # no image shortly before to test the speed against
+    JUMPED = "jumped"  # farther from the last pose than a hand moves: one of the two is wrong
+    NOTHING_NEW = "nothing_new"  # the rotation is near that of an accepted pose
     FULL = "full"  # enough for any calibration
 
 
 class Need(StrEnum):
-    """What is still missing."""
+    """A kind of missing motion or pose."""
 
     MORE_POSES = "more_poses"
     TILT_MORE = "tilt_more"  # to both sides
@@ -64,7 +64,7 @@ class Need(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Missing:
-    """One thing that is missing, with how much there is and how much is wanted (poses or degrees)."""
+    """An unmet requirement: the amount collected and the amount required (poses or degrees)."""
 
     need: Need
     there: float
@@ -73,24 +73,24 @@ class Missing:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CollectorSettings:
-    """Which images are taken, and how many are wanted.
+    """Acceptance limits of poses, and the required amounts.
 
     Attributes:
-        wanted_poses, wanted_tilt_deg, wanted_spin_deg: until these are there, more is asked for; above what
-            the gate asks, because a tip is surer the farther the tool was tilted.
-        max_turn_sd_deg, max_shift_sd_mm: how unsure a pose may be, in its worst direction.
-        max_speed_mm_s, max_turn_rate_deg_s: what a hand does at most.
-        max_reach_s: for how much of the time since the image before a hand counts as that fast. Higher: with
-            a slow camera no wrong pose is too far away any more.
-        gap: how long before an image the one may be with which it is compared.
-        min_new_deg: how far a pose must be turned from each one that was taken.
-        max_poses: how many are kept.
+        wanted_poses, wanted_tilt_deg, wanted_spin_deg: required amounts; above those
+            of the gate, because the tip is more certain the farther the tool was tilted.
+        max_rotation_sd_deg, max_shift_sd_mm: limits of a pose's standard deviation, in its worst direction.
+        max_speed_mm_s, max_turn_rate_deg_s: limits of a hand's motion.
+        max_reach_s: upper bound of the time multiplied by these speeds. Higher: with a slow camera no wrong
+            pose is rejected.
+        gap: limit of the time to the image that a pose is compared with.
+        min_new_deg: minimum rotation from each accepted pose.
+        max_poses: maximum number of poses.
     """
 
     wanted_poses: int = 40
     wanted_tilt_deg: float = 30.0
     wanted_spin_deg: float = 90.0
-    max_turn_sd_deg: float = 1.0
+    max_rotation_sd_deg: float = 1.0
     max_shift_sd_mm: float = 3.0
     max_speed_mm_s: float = 1500.0
     max_turn_rate_deg_s: float = 360.0
@@ -102,25 +102,25 @@ class CollectorSettings:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Progress:
-    """How far a calibration has come.
+    """Progress of a tool calibration.
 
     Attributes:
-        taken: how many poses there are.
-        passed_over: how many images were not taken, by reason.
-        turning: how far the tool was tilted and spun; an error tells why that is not known.
-        outcome: what the poses give now, or the error that says why they give nothing yet.
-        missing: what is still wanted; empty when it is enough.
+        taken: number of accepted poses.
+        rejected_images: number of images without an accepted pose, by reason.
+        motion_range: how far the tool was tilted and spun, or the error why it is unknown.
+        outcome: the calibration from the poses so far, or the error that prevents it.
+        missing: unmet requirements; empty when the calibration may end.
     """
 
     taken: int
-    passed_over: Mapping[Taking, int]
-    turning: Turning | CalibrationError
+    rejected_images: Mapping[Taking, int]
+    motion_range: ToolMotionRange | CalibrationError
     outcome: Outcome | CalibrationError
     missing: tuple[Missing, ...]
 
     @property
     def is_enough(self) -> bool:
-        """Whether the calibration may be ended."""
+        """Whether all requirements are met."""
         return not self.missing
 
 
@@ -131,7 +131,7 @@ class _Last:
 
 
 class PoseCollector:
-    """Gathers the poses of one marker. Mutable: holds what was taken. Time arrives as a number."""
+    """Collects the poses of one marker. Mutable. Times are passed in."""
 
     def __init__(
         self,
@@ -152,30 +152,30 @@ class PoseCollector:
         self._settings = settings or CollectorSettings()
         self._poses: list[Rigid[Camera, Marker]] = []
         self._covariances: list[Array] = []
-        self._passed_over: Counter[Taking] = Counter()
+        self._rejected_images: Counter[Taking] = Counter()
         self._last: _Last | None = None
         self._times_s: deque[float] = deque(maxlen=RATE_IMAGES)
 
     def take(self, sighting: Sighting, *, at_s: float) -> Taking:
-        """Take what one image says of the marker, or say why not."""
+        """Accept the pose of a sighting, or return why not."""
         if not isinstance(sighting, Seen):
             self._times_s.append(at_s)
-            return self._counted(Taking.NOT_SEEN)
+            return self._count(Taking.NOT_SEEN)
         return self.take_pose(sighting.camera_from_marker, sighting.pose_covariance, at_s=at_s)
 
     def take_pose(self, pose: Rigid[Camera, Marker], covariance: Array, *, at_s: float) -> Taking:
-        """Take a pose with its covariance (6, 6), or say why not."""
+        """Accept a pose with its covariance (6, 6), or return why not."""
         self._times_s.append(at_s)
         last, self._last = self._last, _Last(at_s, pose)
         taking = self._judged(pose, covariance, last, at_s)
         if taking is Taking.TAKEN:
             self._poses.append(pose)
             self._covariances.append(covariance)
-        return self._counted(taking)
+        return self._count(taking)
 
     @property
     def poses(self) -> Poses:
-        """All that was taken, in the order of time.
+        """Return the accepted poses in the order of time.
 
         Raises:
             InvalidInput: POSE_UNIT_SUSPECT or POSE_COVARIANCE_INVALID.
@@ -183,21 +183,21 @@ class PoseCollector:
         return Poses.from_rigids(self._poses, self._covariances)
 
     def progress(self) -> Progress:
-        """How far it has come; a fit to all that was taken, so not for every image of a fast camera."""
+        """Return the progress. Fits all accepted poses: too slow for every image of a fast camera."""
         poses = self.poses
         outcome = self._outcome(poses)
-        turning = self._turning(poses, outcome)
+        motion_range = self._motion_range(poses, outcome)
         return Progress(
             taken=len(poses),
-            passed_over=dict(self._passed_over),
-            turning=turning,
+            rejected_images=dict(self._rejected_images),
+            motion_range=motion_range,
             outcome=outcome,
-            missing=tuple(self._missing(len(poses), turning, outcome)),
+            missing=tuple(self._missing(len(poses), motion_range, outcome)),
         )
 
-    def _counted(self, taking: Taking) -> Taking:
+    def _count(self, taking: Taking) -> Taking:
         if taking is not Taking.TAKEN:
-            self._passed_over[taking] += 1
+            self._rejected_images[taking] += 1
         return taking
 
     def _judged(
@@ -206,15 +206,15 @@ class PoseCollector:
         limits = self._settings
         shift_sd_mm = float(np.sqrt(np.linalg.eigvalsh(covariance[:3, :3])[-1]))
         turn_sd_deg = float(np.degrees(np.sqrt(np.linalg.eigvalsh(covariance[3:, 3:])[-1])))
-        if not (shift_sd_mm <= limits.max_shift_sd_mm and turn_sd_deg <= limits.max_turn_sd_deg):
+        if not (shift_sd_mm <= limits.max_shift_sd_mm and turn_sd_deg <= limits.max_rotation_sd_deg):
             return Taking.TOO_UNCERTAIN
         period_s = image_period_s(self._times_s, min_intervals=MIN_RATE_INTERVALS)
         if last is None or not 0.0 < at_s - last.at_s <= limits.gap.allowed_s(period_s):
             return Taking.ALONE
         reach_s = min(at_s - last.at_s, limits.max_reach_s)
         shift_mm = float(np.linalg.norm(pose.translation_mm - last.pose.translation_mm))
-        turn_deg = float(_turns_deg(pose.rotation, last.pose.rotation[None])[0])
-        if shift_mm > limits.max_speed_mm_s * reach_s or turn_deg > limits.max_turn_rate_deg_s * reach_s:
+        rotation_deg = float(_turns_deg(pose.rotation, last.pose.rotation[None])[0])
+        if shift_mm > limits.max_speed_mm_s * reach_s or rotation_deg > limits.max_turn_rate_deg_s * reach_s:
             return Taking.JUMPED
         if len(self._poses) >= limits.max_poses:
             return Taking.FULL
@@ -233,33 +233,38 @@ class PoseCollector:
         except CalibrationError as error:
             return error
 
-    def _turning(self, poses: Poses, outcome: Outcome | CalibrationError) -> Turning | CalibrationError:
+    def _motion_range(
+        self, poses: Poses, outcome: Outcome | CalibrationError
+    ) -> ToolMotionRange | CalibrationError:
         if isinstance(outcome, PivotCalibration | TipCheck):
-            return outcome.turning
+            return outcome.motion_range
         if len(poses) < 3:
             return CalibrationError(
                 "TOOL_TOO_FEW_POSES", f"there are {len(poses)} poses", "Move the tool, its tip in the divot."
             )
         if self._purpose is Purpose.SPIN:
-            # Any length will do: it is only a direction.
-            return turning_of(poses, 100.0 * stillest_direction(poses))
-        return turning_of(poses, provisional_tip_mm(poses) if self._tip is None else self._tip)
+            # Only the direction matters; the length is arbitrary.
+            return motion_range_of(poses, 100.0 * least_moved_direction(poses))
+        return motion_range_of(poses, provisional_tip_mm(poses) if self._tip is None else self._tip)
 
     def _missing(
-        self, count: int, turning: Turning | CalibrationError, outcome: Outcome | CalibrationError
+        self,
+        count: int,
+        motion_range: ToolMotionRange | CalibrationError,
+        outcome: Outcome | CalibrationError,
     ) -> list[Missing]:
         wanted = self._settings
         missing = []
         if count < wanted.wanted_poses:
             missing.append(Missing(need=Need.MORE_POSES, there=count, wanted=wanted.wanted_poses))
-        if isinstance(turning, CalibrationError):
+        if isinstance(motion_range, CalibrationError):
             return missing or [Missing(need=Need.MORE_POSES, there=count, wanted=wanted.wanted_poses)]
         ways = {
-            Need.TILT_MORE: (turning.tilt_range_deg, wanted.wanted_tilt_deg),
-            Need.TILT_ACROSS: (turning.tilt_range_across_deg, wanted.wanted_tilt_deg),
+            Need.TILT_MORE: (motion_range.tilt_range_deg, wanted.wanted_tilt_deg),
+            Need.TILT_ACROSS: (motion_range.tilt_range_across_deg, wanted.wanted_tilt_deg),
         }
         if self._purpose is Purpose.SPIN:
-            ways = {Need.SPIN_MORE: (turning.spin_range_deg, wanted.wanted_spin_deg)}
+            ways = {Need.SPIN_MORE: (motion_range.spin_range_deg, wanted.wanted_spin_deg)}
         missing += [
             Missing(need=need, there=there, wanted=enough)
             for need, (there, enough) in ways.items()
@@ -271,6 +276,6 @@ class PoseCollector:
 
 
 def _turns_deg(rotation: Array, others: Array) -> Array:
-    """Angles (n,) between one rotation and others (n, 3, 3), from the chord, which keeps small angles."""
+    """Return angles (n,) between a rotation and others (n, 3, 3), by the chord, accurate for small angles."""
     chord = np.linalg.norm(others - rotation, axis=(1, 2)) / np.sqrt(8.0)
     return np.asarray(np.degrees(2.0 * np.arcsin(np.minimum(chord, 1.0))))

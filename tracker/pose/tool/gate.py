@@ -1,20 +1,20 @@
-"""The limits that a calibration of a tool must keep."""
+"""Acceptance limits of tool calibrations."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ToolGate:
-    """What a pivot, a spin and a check of the tip must reach.
+    """Acceptance limits of pivot calibration, spin calibration and tip check.
 
     Attributes:
         max_rms_3d_mm: 3-D RMS of the tip about the pivot, of pivot and of check alike.
         max_tip_sd_mm: standard deviation of the tip in the direction in which it is known least.
-        min_tilt_deg: how far the tool must be turned about each of two directions, from end to end.
-        min_poses: how many different poses.
-        min_used_ratio: share of the poses that agree.
-        min_spin_deg: how far the tool must be spun about its axis.
-        max_wobble_deg: RMS of what the axis moves meanwhile.
+        min_tilt_deg: rotation range about each of two directions, from end to end.
+        min_poses: number of different poses.
+        min_used_ratio: share of inlier poses.
+        min_spin_deg: rotation range about the tool's axis.
+        max_wobble_deg: RMS motion of the axis during the spin.
         max_axis_sd_deg: standard deviation of the axis.
     """
 

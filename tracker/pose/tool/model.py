@@ -1,4 +1,4 @@
-"""The instrument behind its marker."""
+"""The geometry of a tool relative to its marker."""
 
 from dataclasses import dataclass, field
 
@@ -11,15 +11,15 @@ from tracker.geometry import Array, Marker, Rigid, Tool, rotation_between
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ToolModel:
-    """A drill or awl: which marker it carries and where its tip and axis are behind it.
+    """A drill or awl: its marker, and the pose of its tip and axis relative to the marker.
 
     Attributes:
-        name: what the screen calls it.
+        name: shown on the screen.
         marker: name of the marker model that it carries.
         marker_from_tool: the tip (origin) and the drilling direction (+z) in the marker's frame.
         radius_mm: radius of the drill's cylinder.
         length_mm: length of the cylinder from the tip backwards.
-        tip_covariance_mm2: (3, 3) of the tip in the marker's frame; 0 where a drawing says where it is.
+        tip_covariance_mm2: (3, 3) of the tip in the marker's frame; 0 where the tip is known by construction.
         axis_sd_deg: standard deviation of the drilling direction, about each of two axes across it.
     """
 

@@ -1,9 +1,8 @@
-"""Pivot calibration: the tool is tilted with its tip held, and its marker tells where that tip is.
+"""Pivot calibration: estimate the tip from poses of a tool tilted about its fixed tip.
 
-Distances alone give 383 mm to the tip of a real pointer, rotations alone 394: the tracker errs
-systematically, and noise models that trust one of the two were more certain and farther off. So every
-millimetre counts alike unless covariances are stated, at the price of half of the error where noise is of
-angles only.
+Distances alone give 383 mm to the tip of a real pointer, rotations alone 394 mm: the tracker has systematic
+errors, and noise models that trust one of the two were more certain and less accurate. So residuals in mm
+have equal weight unless covariances are given, at the price of half of the error where only angles are noisy.
 """
 
 from dataclasses import dataclass
@@ -17,16 +16,16 @@ from tracker.geometry import Array
 from tracker.pose.tool.equations import (
     Equations,
     Mask,
+    best_half,
     covariance_of,
-    half_that_fits,
+    least_trimmed_squares,
     max_allowed,
-    robust_start,
 )
 from tracker.pose.tool.gate import ToolGate
+from tracker.pose.tool.motion_range import ToolMotionRange, min_rotation_deg, motion_range_of
 from tracker.pose.tool.poses import Poses
-from tracker.pose.tool.turning import Turning, min_turn_deg, turning_of
 
-# A tip is no point and a divot has play: no pose is believed better than this, whatever it states of itself.
+# A tip is no point and a divot has play: lower bound of a pose's standard deviation at the tip.
 MIN_SD_MM = 0.1
 MAX_ROUNDS = 30
 PIVOT_REMEDY = (
@@ -36,16 +35,16 @@ PIVOT_REMEDY = (
 
 
 class RejectedReason(StrEnum):
-    """Why a pose has no say."""
+    """Why a pose is an outlier."""
 
     OFF_THE_PIVOT = "OFF_THE_PIVOT"  # its tip is farther from the pivot than noise explains
     OFF_THE_AXIS = "OFF_THE_AXIS"  # its axis points farther away from the mean than noise explains
-    REPEATED = "REPEATED"  # to the last digit an earlier pose
+    REPEATED = "REPEATED"  # equals an earlier pose exactly
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RejectedPose:
-    """A pose that has no say: its index, why, and how far it is off."""
+    """An excluded pose: its index, the reason, and its deviation `off`."""
 
     index: int
     reason: RejectedReason
@@ -54,18 +53,18 @@ class RejectedPose:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PivotCalibration:
-    """Where the tip is behind its marker.
+    """Result of a pivot calibration.
 
     Attributes:
         tip_in_marker_mm: (3,).
-        pivot_in_camera_mm: (3,), where the tip was held.
+        pivot_in_camera_mm: (3,), the fixed position of the tip.
         rms_3d_mm: root of the mean squared distance of the tip from the pivot, over the poses in use.
         rms_3d_of_all_mm: the same over all poses.
-        tip_covariance_mm2: (3, 3) in the marker's frame; its 95 % ellipsoid (chi-square) is meant.
+        tip_covariance_mm2: (3, 3) in the marker's frame, scaled for a chi-square 95 % ellipsoid.
         pivot_covariance_mm2: (3, 3) in the camera's frame.
-        used: (n,) which poses agree.
-        rejected: the others, with the reason; `off` is the tip's distance from the pivot in mm.
-        turning: how far the tool was moved in the poses in use.
+        used: (n,) mask of inlier poses.
+        rejected: the outliers, with the reason; `off` is the tip's distance from the pivot in mm.
+        motion_range: how far the tool was moved over the inlier poses.
     """
 
     tip_in_marker_mm: Array
@@ -76,7 +75,7 @@ class PivotCalibration:
     pivot_covariance_mm2: Array
     used: Mask
     rejected: tuple[RejectedPose, ...]
-    turning: Turning
+    motion_range: ToolMotionRange
 
     @property
     def tip_sd_mm(self) -> float:
@@ -84,7 +83,7 @@ class PivotCalibration:
         return float(np.sqrt(max(np.linalg.eigvalsh(self.tip_covariance_mm2)[-1], 0.0)))
 
     def failures(self, gate: ToolGate) -> tuple[CalibrationError, ...]:
-        """What keeps this tip from being used; nothing where it passes."""
+        """Return the reasons why this tip fails the gate; empty where it passes."""
         found = []
         if not self.rms_3d_mm <= gate.max_rms_3d_mm:
             found.append(
@@ -125,37 +124,37 @@ class PivotCalibration:
 
 
 def rms_3d_mm(tips_in_camera_mm: Array, pivot_in_camera_mm: Array) -> float:
-    """The one residual of a tip: root of the mean squared distance of its places (n, 3) from the pivot."""
+    """Return the 3-D RMS distance of tip positions (n, 3) from the pivot (3,)."""
     return float(np.sqrt(((tips_in_camera_mm - pivot_in_camera_mm) ** 2).sum(axis=1).mean()))
 
 
 def pivot_calibration(poses: Poses, gate: ToolGate | None = None) -> PivotCalibration:
-    """The tip from poses of a tool that was tilted while its tip stayed in one place.
+    """Return the tip from poses of a tool that was tilted while its tip stayed in one place.
 
-    Each pose says rotation @ tip + translation = pivot. Poses that contradict the others have no say, up to
-    nearly half of them. Where poses state covariances they count by these (no better than `MIN_SD_MM`, and
-    only compared with each other); where not, every millimetre counts alike, as in the published method
-    (Yaniv 2015, "algebraic one-step"), since a guess at which of distance and angle is truer shifts a tip
-    when the tracker errs in a system.
+    Solves rotation @ tip + translation = pivot by robust least squares; up to nearly half of the poses may be
+    outliers. With covariances, poses are weighted by them (standard deviation at least `MIN_SD_MM`, used as
+    relative weights). Without, residuals in mm have equal weight, as in the published method (Yaniv 2015,
+    "algebraic one-step"), because a wrong weighting of distance against angle shifts the tip when the tracker
+    has systematic errors.
 
-    Noise of the angles pulls the tip by its square: under the residual that the gate allows that is a small
-    part of the stated standard deviation, above it not.
+    Noise of the angles biases the tip by its square. Under the residual that the gate allows, the bias is a
+    small part of the stated standard deviation.
 
     Raises:
-        CalibrationError: TOOL_TOO_FEW_POSES, or PIVOT_TILT_TOO_SMALL where a direction stays open.
+        CalibrationError: TOOL_TOO_FEW_POSES, or PIVOT_TILT_TOO_SMALL where a direction is undetermined.
     """
     gate = gate or ToolGate()
     fresh = ~poses.repeats
     different = poses.of(fresh)
     reject_too_few(different, len(poses), gate)
-    _reject_too_little_tilt(min_turn_deg(different), gate)
+    _reject_too_little_tilt(min_rotation_deg(different), gate)
     x, agree, weighed = _fitted(different)
     tips = different.points_mm(x[:3])
     used = np.zeros(len(poses), dtype=np.bool_)
     used[fresh] = agree
     off_mm = np.linalg.norm(tips - x[3:], axis=1)
-    turning = turning_of(different.of(agree), x[:3])
-    _reject_too_little_tilt(turning.min_turn_deg, gate)
+    motion_range = motion_range_of(different.of(agree), x[:3])
+    _reject_too_little_tilt(motion_range.min_rotation_deg, gate)
     covariance = covariance_of(weighed.of(agree), x, numbers=3)
     covariance.setflags(write=False)
     return PivotCalibration(
@@ -167,17 +166,17 @@ def pivot_calibration(poses: Poses, gate: ToolGate | None = None) -> PivotCalibr
         pivot_covariance_mm2=covariance[3:, 3:],
         used=used,
         rejected=rejected_poses(fresh, agree, off_mm, RejectedReason.OFF_THE_PIVOT),
-        turning=turning,
+        motion_range=motion_range,
     )
 
 
 def provisional_tip_mm(poses: Poses) -> Array:
-    """A tip (3,) that may be far off, of poses that are too few or too alike for a calibration."""
+    """Return a rough tip (3,), possibly far off, from poses that do not suffice for a calibration."""
     return _equations(poses).solved()[:3]
 
 
 def reject_too_few(different: Poses, count: int, gate: ToolGate) -> None:
-    """Raises TOOL_TOO_FEW_POSES where fewer different poses are left than a calibration needs."""
+    """Raise TOOL_TOO_FEW_POSES where a calibration needs more different poses."""
     if len(different) < gate.min_poses:
         raise CalibrationError(
             "TOOL_TOO_FEW_POSES",
@@ -188,7 +187,7 @@ def reject_too_few(different: Poses, count: int, gate: ToolGate) -> None:
 
 
 def rejected_poses(fresh: Mask, agree: Mask, off: Array, reason: RejectedReason) -> tuple[RejectedPose, ...]:
-    """Those that have no say, in order: repeated ones, and of the others those that do not agree."""
+    """Return the excluded poses by index: repeated ones and outliers."""
     found = [
         RejectedPose(index=int(index), reason=RejectedReason.REPEATED, off=0.0)
         for index in np.flatnonzero(~fresh)
@@ -201,23 +200,23 @@ def rejected_poses(fresh: Mask, agree: Mask, off: Array, reason: RejectedReason)
     return tuple(sorted(found, key=lambda one: one.index))
 
 
-def _reject_too_little_tilt(turn_deg: float, gate: ToolGate) -> None:
-    if not turn_deg >= gate.min_tilt_deg:
+def _reject_too_little_tilt(rotation_deg: float, gate: ToolGate) -> None:
+    if not rotation_deg >= gate.min_tilt_deg:
         raise CalibrationError(
             "PIVOT_TILT_TOO_SMALL",
-            f"about one direction the tool was turned by only {turn_deg:.1f} degrees from end to end, "
+            f"about one direction the tool was turned by only {rotation_deg:.1f} degrees from end to end, "
             f"needed {gate.min_tilt_deg:g} degrees about each of two directions",
             PIVOT_REMEDY,
-            {"turned_deg": turn_deg, "needed_deg": gate.min_tilt_deg},
+            {"turned_deg": rotation_deg, "needed_deg": gate.min_tilt_deg},
         )
 
 
 def _fitted(poses: Poses) -> tuple[Array, Mask, Equations]:
-    """Tip and pivot (6,), which poses agree, and the equations as they count."""
+    """Return tip and pivot (6,), the inlier mask, and the weighted equations."""
     plain = _equations(poses)
-    x = robust_start(plain)
+    x = least_trimmed_squares(plain)
     weighed = plain.whitened(_whitening(poses, x[:3]))
-    agree = half_that_fits(weighed.residuals(x))
+    agree = best_half(weighed.residuals(x))
     for _ in range(MAX_ROUNDS):
         residuals = weighed.residuals(x)
         now = np.linalg.norm(residuals, axis=1) <= max_allowed(residuals, agree)
@@ -237,7 +236,7 @@ def _equations(poses: Poses) -> Equations:
 
 
 def _whitening(poses: Poses, tip_in_marker_mm: Array) -> Array:
-    """(n, 3, 3): what makes the noise of each tip a unit ball; the identity where nothing is stated."""
+    """Return the whitening matrices (n, 3, 3) of the tips; the identity without covariances."""
     if poses.covariances is None:
         return np.asarray(np.broadcast_to(np.eye(3), (len(poses), 3, 3)))
     x, y, z = (poses.rotations @ tip_in_marker_mm).T
@@ -251,7 +250,7 @@ def _whitening(poses: Poses, tip_in_marker_mm: Array) -> Array:
 def _least_squares(poses: Poses, plain: Equations, x: Array) -> Array:
     if poses.covariances is None:
         return plain.solved()
-    # The weights move with the tip: kept still, noise of the angles would pull it to the marker.
+    # The weights depend on the tip: kept constant, noise of the angles would bias it to the marker.
     fit = optimize.least_squares(
         lambda at: plain.whitened(_whitening(poses, at[:3])).residuals(at).ravel(),
         x,

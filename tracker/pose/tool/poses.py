@@ -1,4 +1,4 @@
-"""The poses that a calibration of the tool is made from, checked before any number is drawn from them."""
+"""Validated poses of one marker, the input of tool calibrations."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -9,18 +9,18 @@ import numpy.typing as npt
 from tracker.errors import InvalidInput
 from tracker.geometry import Array, Camera, Marker, Rigid
 
-# No camera sees a marker whole from nearer than this; a camera's distance in metres is always less.
-NEAREST_MM = 10.0
+# No camera sees a whole marker from nearer than this; distances in metres are always less.
+MIN_DISTANCE_MM = 10.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Poses:
-    """Where one marker was in several images.
+    """Poses of one marker in several images.
 
     Attributes:
         rotations: (n, 3, 3), camera from marker.
         translations_mm: (n, 3), the marker's centre in the camera's frame.
-        covariances: (n, 6, 6) [mm, rad] as in `Seen.pose_covariance`, or None where nobody states them.
+        covariances: (n, 6, 6) [mm, rad] as in `Seen.pose_covariance`, or None where unknown.
     """
 
     rotations: Array
@@ -49,7 +49,7 @@ class Poses:
         return len(self.rotations)
 
     def of(self, chosen: npt.NDArray[np.bool_] | npt.NDArray[np.int_]) -> "Poses":
-        """Some of them, by a mask or by their indices."""
+        """Return some of the poses, by a mask or by indices."""
         covariances = None if self.covariances is None else self.covariances[chosen]
         return Poses(
             rotations=self.rotations[chosen],
@@ -58,13 +58,13 @@ class Poses:
         )
 
     def points_mm(self, point_in_marker_mm: npt.ArrayLike) -> Array:
-        """A point (3,) of the marker in the camera's frame, in each pose (n, 3)."""
+        """Return a point (3,) of the marker in the camera's frame at each pose (n, 3)."""
         turned = self.rotations @ np.asarray(point_in_marker_mm, dtype=np.float64)
         return np.asarray(turned + self.translations_mm)
 
     @property
     def repeats(self) -> npt.NDArray[np.bool_]:
-        """Which ones are an earlier one to the last digit: what trackers tell that lost the marker."""
+        """Return the mask of exact copies of an earlier pose, as reported when a marker is lost."""
         flat = np.hstack([self.rotations.reshape(-1, 9), self.translations_mm])
         _, first = np.unique(flat, axis=0, return_index=True)
         repeated = np.ones(len(self), dtype=np.bool_)
@@ -79,15 +79,15 @@ def _read_only(array: Array) -> Array:
 
 def _reject_metres(translations_mm: Array) -> None:
     distances = np.linalg.norm(translations_mm, axis=1)
-    near = int((distances < NEAREST_MM).sum())
+    near = int((distances < MIN_DISTANCE_MM).sum())
     if not near:
         return
     shown = float(np.median(distances))
     which = "all" if near == len(distances) else f"{near} of {len(distances)}"
     raise InvalidInput(
         "POSE_UNIT_SUSPECT",
-        f"in {which} poses the marker is nearer than {NEAREST_MM:g} mm to the camera (median {shown:.3g} "
-        "mm), which no camera can see; these seem to be metres",
+        f"in {which} poses the marker is nearer than {MIN_DISTANCE_MM:g} mm to the camera (median "
+        f"{shown:.3g} mm), which no camera can see; these seem to be metres",
         "Give all translations in one unit, and say which if it is not mm (m: --unit m).",
         {"near": near, "poses": len(distances), "median_distance_mm": shown},
     )

@@ -1,4 +1,4 @@
-"""Spin calibration: the tool is turned about its own axis, and its marker tells where that axis points."""
+"""Spin calibration: estimate the axis from poses of a tool rotated about it."""
 
 from dataclasses import dataclass
 
@@ -10,16 +10,16 @@ from tracker.geometry import Array, angle_between_deg
 from tracker.pose.tool.equations import (
     Equations,
     Mask,
+    best_half,
     covariance_of,
-    half_that_fits,
     max_allowed,
 )
 from tracker.pose.tool.gate import ToolGate
+from tracker.pose.tool.motion_range import spin_range_deg
 from tracker.pose.tool.pivot import RejectedPose, RejectedReason, reject_too_few, rejected_poses
 from tracker.pose.tool.poses import Poses
-from tracker.pose.tool.turning import spin_range_deg
 
-# The tip lies on the axis: an axis that is farther than this off the way to the tip is another motion's.
+# The tip lies on the axis: an axis farther off the direction to the tip belongs to another motion.
 MAX_OFF_TIP_DEG = 60.0
 MAX_ROUNDS = 30
 REWEIGHTINGS = 30
@@ -31,17 +31,17 @@ SPIN_REMEDY = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SpinCalibration:
-    """Which way the tool's axis points in its marker's frame.
+    """Result of a spin calibration: the tool's axis in its marker's frame.
 
     Attributes:
         axis_in_marker: (3,), unit; from the marker towards the tip where the tip is known.
-        points_to_tip: whether the tip decided its sign; if not, the axis may as well point backwards.
-        axis_covariance_rad2: (3, 3) in the marker's frame, flat along the axis.
+        points_to_tip: whether the tip determined the sign; if not, the axis may point backwards.
+        axis_covariance_rad2: (3, 3) in the marker's frame, singular along the axis.
         axis_sd_deg: standard deviation in the direction in which it is known least.
-        spin_range_deg: how far the tool was turned about it.
+        spin_range_deg: rotation range about it.
         wobble_deg: RMS angle of the axis from its mean direction in the camera's frame, over poses in use.
-        used: (n,) which poses agree.
-        rejected: the others, with the reason; `off` in degrees.
+        used: (n,) mask of inlier poses.
+        rejected: the outliers, with the reason; `off` in degrees.
     """
 
     axis_in_marker: Array
@@ -54,7 +54,7 @@ class SpinCalibration:
     rejected: tuple[RejectedPose, ...]
 
     def failures(self, gate: ToolGate) -> tuple[CalibrationError, ...]:
-        """What keeps this axis from being used; nothing where it passes."""
+        """Return the reasons why this axis fails the gate; empty where it passes."""
         if self.axis_sd_deg <= gate.max_axis_sd_deg:
             return ()
         return (
@@ -71,9 +71,9 @@ class SpinCalibration:
 def spin_calibration(
     poses: Poses, *, tip_in_marker_mm: npt.ArrayLike | None = None, gate: ToolGate | None = None
 ) -> SpinCalibration:
-    """The axis of a tool that was turned about it: the marker's direction that stayed where it was.
+    """Return the axis of a tool that was rotated about it: the direction of the marker that moved least.
 
-    The tip (3,), if it is known, decides the sign: drilling goes from the marker towards the tip.
+    The tip (3,), if it is known, determines the sign: drilling goes from the marker towards the tip.
 
     Raises:
         CalibrationError: TOOL_TOO_FEW_POSES, SPIN_TOO_SMALL, SPIN_WOBBLES, or SPIN_NOT_ABOUT_TOOL.
@@ -107,32 +107,32 @@ def spin_calibration(
     )
 
 
-def stillest_direction(poses: Poses) -> Array:
-    """The unit direction (3,) of the marker that moved least in these poses."""
-    return _stillest(poses, np.ones(len(poses)))
+def least_moved_direction(poses: Poses) -> Array:
+    """Return the unit direction (3,) of the marker that moved least over the poses."""
+    return _least_moved(poses, np.ones(len(poses)))
 
 
 def _fitted(poses: Poses) -> tuple[Array, Mask]:
-    """The direction (3,) of the marker that moved least, and the poses in which it did."""
-    axis = _stillest(poses, np.ones(len(poses)))
+    """Return the direction (3,) of the marker that moved least, and the inlier mask."""
+    axis = _least_moved(poses, np.ones(len(poses)))
     for _ in range(REWEIGHTINGS):
-        # Each pose by the inverse of its distance: the middle that outliers hardly move.
+        # Weights by the inverse distance: a geometric median, robust to outliers.
         off = np.linalg.norm(poses.rotations @ axis - _middle(poses.rotations @ axis), axis=1)
-        axis = _stillest(poses, 1.0 / np.maximum(off, 1e-4))
+        axis = _least_moved(poses, 1.0 / np.maximum(off, 1e-4))
     residuals = poses.rotations @ axis - _middle(poses.rotations @ axis)
-    agree = half_that_fits(residuals)
+    agree = best_half(residuals)
     for _ in range(MAX_ROUNDS):
         residuals = poses.rotations @ axis - (poses.rotations[agree] @ axis).mean(axis=0)
         now = np.linalg.norm(residuals, axis=1) <= max_allowed(residuals, agree)
-        axis = _stillest(poses.of(now), np.ones(int(now.sum())))
+        axis = _least_moved(poses.of(now), np.ones(int(now.sum())))
         if (now == agree).all():
             break
         agree = now
     return axis, agree
 
 
-def _stillest(poses: Poses, weights: Array) -> Array:
-    """The unit direction (3,) of the marker whose ends in the camera's frame lie closest together."""
+def _least_moved(poses: Poses, weights: Array) -> Array:
+    """Return the unit direction (3,) of the marker with the smallest weighted variance."""
     share = weights / weights.sum()
     off = poses.rotations - np.tensordot(share, poses.rotations, 1)
     moved = np.einsum("n,nij,nik->jk", share, off, off)
@@ -153,7 +153,7 @@ def _off_deg(poses: Poses, axis: Array, agree: Mask) -> Array:
 
 
 def _around(poses: Poses, axis: Array) -> tuple[Equations, Array]:
-    """Equations of two small tilts of the axis and its mean direction (5,); the tilts' ways (3, 2)."""
+    """Return equations of two tilts and the mean direction of the axis (5,), and the tilt basis (3, 2)."""
     across = np.linalg.svd(axis[None, :])[2][1:].T
     mean = np.broadcast_to(-np.eye(3), (len(poses), 3, 3))
     design = np.concatenate([poses.rotations @ across, mean], axis=2)

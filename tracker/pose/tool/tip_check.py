@@ -1,4 +1,4 @@
-"""Tip check: the tip is held in one divot while the tool is tilted, and must not seem to move."""
+"""Tip check: measure the spread of a calibrated tip held in one divot while the tool is tilted."""
 
 from dataclasses import dataclass
 
@@ -8,22 +8,22 @@ import numpy.typing as npt
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.geometry import Array
 from tracker.pose.tool.gate import ToolGate
+from tracker.pose.tool.motion_range import ToolMotionRange, motion_range_of
 from tracker.pose.tool.pivot import reject_too_few, rms_3d_mm
 from tracker.pose.tool.poses import Poses
-from tracker.pose.tool.turning import Turning, turning_of
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TipCheck:
-    """How far a calibrated tip seems to wander while it is held still.
+    """Spread of the calibrated tip over the poses of a tip check.
 
     Attributes:
-        pivot_in_camera_mm: (3,), the mean place of the tip.
-        rms_3d_mm: root of its mean squared distance from there; no pose is left out of it.
+        pivot_in_camera_mm: (3,), the mean position of the tip.
+        rms_3d_mm: 3-D RMS distance of the tip from it, over all poses.
         max_mm: the largest distance.
         rms_by_axis_mm: (3,), along x, y, z of the camera.
-        poses: how many different ones.
-        turning: how far the tool was tilted and spun.
+        poses: number of different poses.
+        motion_range: how far the tool was tilted and spun.
     """
 
     pivot_in_camera_mm: Array
@@ -31,10 +31,10 @@ class TipCheck:
     max_mm: float
     rms_by_axis_mm: Array
     poses: int
-    turning: Turning
+    motion_range: ToolMotionRange
 
     def failures(self, gate: ToolGate) -> tuple[CalibrationError, ...]:
-        """What keeps this tip from being trusted; nothing where it passes."""
+        """Return the reasons why this tip fails the gate; empty where it passes."""
         if self.rms_3d_mm <= gate.max_rms_3d_mm:
             return ()
         return (
@@ -49,10 +49,9 @@ class TipCheck:
 
 
 def check_tip(poses: Poses, tip_in_marker_mm: npt.ArrayLike, gate: ToolGate | None = None) -> TipCheck:
-    """The spread of a tip (3,) over poses in which it was held in one place.
+    """Return the spread of a tip (3,) over poses in which it was held in one place.
 
-    A tool that is not tilted shows the same place even for a wrong tip, so that such a check says nothing and
-    is refused.
+    Without tilt a wrong tip stays in one place too, so a check with too little tilt is rejected.
 
     Raises:
         InvalidInput: TOOL_TIP_INVALID.
@@ -68,14 +67,14 @@ def check_tip(poses: Poses, tip_in_marker_mm: npt.ArrayLike, gate: ToolGate | No
         )
     different = poses.of(~poses.repeats)
     reject_too_few(different, len(poses), gate)
-    turning = turning_of(different, tip)
-    if not turning.min_turn_deg >= gate.min_tilt_deg:
+    motion_range = motion_range_of(different, tip)
+    if not motion_range.min_rotation_deg >= gate.min_tilt_deg:
         raise CalibrationError(
             "TIP_CHECK_TILT_TOO_SMALL",
-            f"about one direction the tool was turned by only {turning.min_turn_deg:.1f} degrees from end "
-            f"to end, needed {gate.min_tilt_deg:g}: a wrong tip would not have shown",
+            f"about one direction the tool was turned by only {motion_range.min_rotation_deg:.1f} degrees "
+            f"from end to end, needed {gate.min_tilt_deg:g}: a wrong tip would not have shown",
             "Keep the tip in the divot, tilt the tool to all sides, and check again.",
-            {"turned_deg": turning.min_turn_deg, "needed_deg": gate.min_tilt_deg},
+            {"turned_deg": motion_range.min_rotation_deg, "needed_deg": gate.min_tilt_deg},
         )
     tips = different.points_mm(tip)
     pivot = tips.mean(axis=0)
@@ -88,5 +87,5 @@ def check_tip(poses: Poses, tip_in_marker_mm: npt.ArrayLike, gate: ToolGate | No
         max_mm=float(np.linalg.norm(tips - pivot, axis=1).max()),
         rms_by_axis_mm=by_axis,
         poses=len(different),
-        turning=turning,
+        motion_range=motion_range,
     )

@@ -1,54 +1,60 @@
 """The paper's registration: three needles in the bone, seen in the calibrated camera's image."""
 
-from tracker.registration.needles.finding import FoundNeedle, expected_width_px, find_needles
+from tracker.registration.needles.detection import DetectedNeedle, detect_needles, expected_width_px
 from tracker.registration.needles.fit import NeedleFit, NeedleResidual, register_needles
 from tracker.registration.needles.limits import NeedleLimits
+from tracker.registration.needles.observability import PoseObservability
+from tracker.registration.needles.observation import NeedleObservation, needle_from_clicks
 from tracker.registration.needles.overlay import (
     OverlayResidual,
     SliceOverlay,
     first_overlay,
     image_from_slice,
-    needles_under,
+    needles_from_overlay,
     overlay_lines_px,
     overlay_of_pose,
     overlay_residuals,
     pose_of_overlay,
 )
-from tracker.registration.needles.places import NeedlePlace, places_at_landmarks, places_on_lines
+from tracker.registration.needles.planned import PlannedNeedle, planned_at_landmarks, planned_on_lines
 from tracker.registration.needles.proposal import NeedleProposal, propose_needles, refine_marked
-from tracker.registration.needles.seen import NeedleSeen, clicked_needle
-from tracker.registration.needles.sureness import Sureness
-from tracker.registration.needles.view import MeasuredView, Standing, TouchedPoint, View, view_from_ruler
+from tracker.registration.needles.view_prior import (
+    PatientEnd,
+    RulerMeasurement,
+    TouchedPoint,
+    ViewPrior,
+    view_prior_from_ruler,
+)
 
 __all__ = [
-    "FoundNeedle",
-    "MeasuredView",
+    "DetectedNeedle",
     "NeedleFit",
     "NeedleLimits",
-    "NeedlePlace",
+    "NeedleObservation",
     "NeedleProposal",
     "NeedleResidual",
-    "NeedleSeen",
     "OverlayResidual",
+    "PatientEnd",
+    "PlannedNeedle",
+    "PoseObservability",
+    "RulerMeasurement",
     "SliceOverlay",
-    "Standing",
-    "Sureness",
     "TouchedPoint",
-    "View",
-    "clicked_needle",
+    "ViewPrior",
+    "detect_needles",
     "expected_width_px",
-    "find_needles",
     "first_overlay",
     "image_from_slice",
-    "needles_under",
+    "needle_from_clicks",
+    "needles_from_overlay",
     "overlay_lines_px",
     "overlay_of_pose",
     "overlay_residuals",
-    "places_at_landmarks",
-    "places_on_lines",
+    "planned_at_landmarks",
+    "planned_on_lines",
     "pose_of_overlay",
     "propose_needles",
     "refine_marked",
     "register_needles",
-    "view_from_ruler",
+    "view_prior_from_ruler",
 ]

@@ -1,9 +1,9 @@
-"""Three needles in one image become the registration, with what it cannot know beside it.
+"""Registration from three needles in one image, with its uncertainty.
 
-Image, ruler and touched points are one fit, each with its own spread. Three needles in one image leave
-depth to the ruler, and bone often hides where they go in: P3P took the visible rim for the entry. So the
-rim is an entry with a spread (3 mm, sd 4), unless a person marks the entry itself. Depth is never known
-from needles alone.
+Image, ruler and touched points enter one fit, each with its covariance. Three needles in one image leave the
+depth to the ruler, and bone often occludes their entries: P3P took the visible rim for the entry. The rim is
+therefore an entry with an offset (3 mm, sd 4), unless a person marks the entry itself. Needles alone never
+determine the depth.
 """
 
 import math
@@ -16,26 +16,26 @@ from scipy import special
 from tracker.camera import CameraModel
 from tracker.errors import InvalidInput, RegistrationError
 from tracker.geometry import Array, Rigid, angle_between_deg, vector_from_rotation
-from tracker.registration.needles.equations import Task
 from tracker.registration.needles.limits import NeedleLimits
-from tracker.registration.needles.order import other_orders, reject_swapped
-from tracker.registration.needles.places import NeedlePlace, reject_poor_places
-from tracker.registration.needles.seen import NeedleSeen
-from tracker.registration.needles.solutions import Solution, solutions
-from tracker.registration.needles.sureness import Sureness, sureness_of
-from tracker.registration.needles.view import View
+from tracker.registration.needles.observability import PoseObservability, pose_observability
+from tracker.registration.needles.observation import NeedleObservation
+from tracker.registration.needles.order_check import other_orders, reject_swapped
+from tracker.registration.needles.planned import PlannedNeedle, reject_poor_geometry
+from tracker.registration.needles.pose_solver import Solution, solve_poses
+from tracker.registration.needles.residuals import NeedleProblem
+from tracker.registration.needles.view_prior import ViewPrior
 from tracker.registration.record import AnchoredTo, Method, Registration
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NeedleResidual:
-    """How one needle meets its place.
+    """Residual of one needle.
 
     Attributes:
         name: of the needle.
-        offset_px: from its place to its line in the image, or to its entry where that is seen.
-        offset_mm: the same on the patient, at the needle's distance.
-        lean_deg: from its planned direction, in the image; a needle may lean as it likes.
+        offset_px: from its planned position to its line in the image, or to its entry if visible.
+        offset_mm: the same at the needle's distance.
+        lean_deg: angle to its planned direction, in the image; not limited.
     """
 
     name: str
@@ -46,51 +46,51 @@ class NeedleResidual:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NeedleFit:
-    """A registration by needles that has passed its gate.
+    """An accepted registration by needles.
 
     Attributes:
         registration: anchored to the camera.
         residuals: of each needle, in the plan's order.
-        chi2: sum of squared residuals, each of sd 1, of needles, ruler and touched points.
-        freedom: what chi squared should be, about.
-        sureness: which directions are known, and from what.
-        rivals: how many other poses there are that are less likely.
-        order_lead: how much worse the needles fit in any other order, as a difference of chi squared; where
-            it is low, the image does not show which needle is which, and only the marking tells. Infinite
-            for more than four needles.
+        chi2: sum of squared whitened residuals of needles, ruler and touched points.
+        freedom: degrees of freedom.
+        observability: which directions are determined, and by what.
+        alternatives: number of other local minima.
+        order_delta_chi2: by how much chi squared is larger in any other order of the needles; if it is small,
+            the image does not identify the needles, and only the marking does. Infinite for more than four
+            needles.
     """
 
     registration: Registration
     residuals: tuple[NeedleResidual, ...]
     chi2: float
     freedom: int
-    sureness: Sureness
-    rivals: int
-    order_lead: float
+    observability: PoseObservability
+    alternatives: int
+    order_delta_chi2: float
 
 
 def register_needles(
-    places: Sequence[NeedlePlace],
-    seen: Sequence[NeedleSeen],
+    places: Sequence[PlannedNeedle],
+    seen: Sequence[NeedleObservation],
     camera: CameraModel,
-    view: View,
+    view: ViewPrior,
     *,
     limits: NeedleLimits | None = None,
     order_is_sure: bool = False,
 ) -> NeedleFit:
-    """The vertebra's pose in the camera, fitted to the needles, the measured view and touched points.
+    """Fit the pose of the vertebra in the camera to needles, view prior and touched points.
 
-    One image of three needles knows well where they are across the view and how they are turned in the image;
-    depth and tilt it hardly knows, and there the measured view or touched points must help. The covariance
-    says how much of each is left open, the view's own errors included.
+    One image of three needles determines position across the view and rotation in the image well; depth and
+    tilt hardly, which therefore need the ruler or touched points. The covariance includes the errors of the
+    view prior.
 
     Args:
-        places: three or more needles of the plan.
+        places: three or more planned needles.
         seen: the same needles in the image, in the same order.
         camera: calibrated.
         view: tilt and distance of the camera, measured, and touched points.
-        limits: the gate.
-        order_is_sure: whether the needles cannot have been marked for one another, as under an overlay.
+        limits: of an accepted fit.
+        order_is_sure: whether the needles cannot be swapped, as under an overlay.
 
     Raises:
         InvalidInput: NEEDLES_UNPAIRED.
@@ -99,36 +99,36 @@ def register_needles(
     """
     gate = limits or NeedleLimits()
     _reject_unpaired(places, seen)
-    reject_poor_places(places)
-    found = solutions(Task.of(places, seen, camera, view))
+    reject_poor_geometry(places)
+    found = solve_poses(NeedleProblem.of(places, seen, camera, view))
     best = found[0]
     residuals = _residuals(best)
     freedom = _freedom(best)
     orders = other_orders(places, seen, camera, view)
-    order_lead = orders[0][1].cost - best.cost if orders else math.inf
+    order_delta_chi2 = orders[0][1].cost - best.cost if orders else math.inf
     if orders and not order_is_sure:
-        reject_swapped(places, orders[0][0], order_lead, gate)
+        reject_swapped(places, orders[0][0], order_delta_chi2, gate)
     _reject_disagreement(best, freedom, gate)
     _reject_offset(residuals, gate)
-    _reject_rivals(found, gate)
+    _reject_ambiguous_pose(found, gate)
     registration = Registration(
         method=Method.NEEDLES,
         anchored_to=AnchoredTo.CAMERA,
         anchor_from_vertebra=Rigid(rotation=best.pose.rotation, translation_mm=best.pose.translation_mm),
-        covariance=best.equations.pose_covariance(best.covariance),
+        covariance=best.residual_model.pose_covariance(best.covariance),
     )
     return NeedleFit(
         registration=registration,
         residuals=residuals,
         chi2=best.chi2,
         freedom=freedom,
-        sureness=sureness_of(best),
-        rivals=len(found) - 1,
-        order_lead=order_lead,
+        observability=pose_observability(best),
+        alternatives=len(found) - 1,
+        order_delta_chi2=order_delta_chi2,
     )
 
 
-def _reject_unpaired(places: Sequence[NeedlePlace], seen: Sequence[NeedleSeen]) -> None:
+def _reject_unpaired(places: Sequence[PlannedNeedle], seen: Sequence[NeedleObservation]) -> None:
     if len(places) != len(seen):
         raise InvalidInput(
             "NEEDLES_UNPAIRED",
@@ -138,8 +138,8 @@ def _reject_unpaired(places: Sequence[NeedlePlace], seen: Sequence[NeedleSeen]) 
 
 
 def _residuals(best: Solution) -> tuple[NeedleResidual, ...]:
-    task, pose = best.equations.task, best.pose
-    off = best.equations.needles_px(pose)
+    task, pose = best.residual_model.task, best.pose
+    off = best.residual_model.needles_px(pose)
     points = pose.move_points(np.stack([one.point_lps_mm for one in task.places]))
     px_per_mm = task.focal_px.mean() / points[:, 2]
     leaning = task.leaning(pose)
@@ -159,7 +159,7 @@ def _residuals(best: Solution) -> tuple[NeedleResidual, ...]:
 
 
 def _freedom(best: Solution) -> int:
-    task = best.equations.task
+    task = best.residual_model.task
     return 3 * len(task.places) + 4 + 3 * len(task.view.touched) - 6
 
 
@@ -178,12 +178,12 @@ def _reject_disagreement(best: Solution, freedom: int, gate: NeedleLimits) -> No
 
 
 def _worst(best: Solution) -> str:
-    """In words, what is farthest off for how sure it is."""
-    task, pose = best.equations.task, best.pose
+    """Describe the observation with the largest Mahalanobis distance."""
+    task, pose = best.residual_model.task, best.pose
     names = [f"needle '{one.name[:40]}'" for one in task.places]
     names += [f"touched point '{one.name[:40]}'" for one in task.view.touched]
-    by_name = dict(zip(names, best.equations.misfits(pose).tolist(), strict=True))
-    view = best.equations.ruler_residuals(pose)
+    by_name = dict(zip(names, best.residual_model.misfits(pose).tolist(), strict=True))
+    view = best.residual_model.ruler_residuals(pose)
     turned = np.degrees(np.linalg.norm(vector_from_rotation(pose.rotation @ task.view.rotation.T)))
     by_name[f"the camera's tilt, by {turned:.0f} deg"] = float(view[:3] @ view[:3])
     away = float(np.linalg.norm(pose.move_points(task.middle_mm))) - task.view.distance_mm
@@ -203,25 +203,25 @@ def _reject_offset(residuals: Sequence[NeedleResidual], gate: NeedleLimits) -> N
         )
 
 
-def _reject_rivals(found: Sequence[Solution], gate: NeedleLimits) -> None:
+def _reject_ambiguous_pose(found: Sequence[Solution], gate: NeedleLimits) -> None:
     best = found[0]
     for other in found[1:]:
-        lead = other.cost - best.cost
-        if lead < gate.min_lead and _is_apart(best, other):
+        delta_chi2 = other.cost - best.cost
+        if delta_chi2 < gate.min_delta_chi2 and _is_apart(best, other):
             turned = vector_from_rotation(other.pose.rotation @ best.pose.rotation.T)
             turned_deg = float(np.degrees(np.linalg.norm(turned)))
             raise RegistrationError(
                 "NEEDLES_AMBIGUOUS",
-                f"two poses, {turned_deg:.0f} deg apart, explain the needles: the second is worse by "
-                f"{lead:.1f} in chi squared, needed {gate.min_lead:g}",
+                f"two poses, {turned_deg:.0f} deg apart, fit the needles: the second is worse by "
+                f"{delta_chi2:.1f} in chi squared, needed {gate.min_delta_chi2:g}",
                 "Touch one of the needles' entries with the tool's tip, or measure the camera's tilt better.",
-                {"lead": lead, "turned_deg": turned_deg},
+                {"delta_chi2": delta_chi2, "turned_deg": turned_deg},
             )
 
 
 def _is_apart(best: Solution, other: Solution) -> bool:
-    """Whether the other pose lies outside of what the best one's covariance holds anyway."""
-    middle = best.equations.task.middle_mm
+    """Return whether the other pose lies outside the confidence region of the best one."""
+    middle = best.residual_model.task.middle_mm
     off: Array = np.concatenate(
         [
             other.pose.move_points(middle) - best.pose.move_points(middle),

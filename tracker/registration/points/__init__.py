@@ -1,13 +1,13 @@
-"""Registration by points: landmarks marked on the CT and touched with the calibrated tip."""
+"""Point-based registration: landmarks marked on the CT and captured with the calibrated tip."""
 
-from tracker.registration.points.pairs import CommonTip, PairedPoints
+from tracker.registration.points.pairs import CommonTip, PointPairs
 from tracker.registration.points.registration import PointRegistration, register_points
 from tracker.registration.points.settings import PointGate, PointSettings
 
 __all__ = [
     "CommonTip",
-    "PairedPoints",
     "PointGate",
+    "PointPairs",
     "PointRegistration",
     "PointSettings",
     "register_points",

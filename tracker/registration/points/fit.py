@@ -1,15 +1,15 @@
-"""The rigid motion that brings touched points onto marked ones."""
+"""Rigid least-squares fit of captured points to marked ones."""
 
 import numpy as np
 
 from tracker.geometry import Anchor, Array, Rigid, Vertebra, rotation_from_vector
 
 MAX_ROUNDS = 30
-STILL = 1e-9  # mm and rad
+TOLERANCE = 1e-9  # mm and rad
 
 
-def plain_fit(fixed_mm: Array, moving_mm: Array) -> Rigid[Vertebra, Anchor]:
-    """Least squares with every millimetre alike, (n, 3) each (Arun 1987, with the sign of Umeyama 1991)."""
+def fit_rigid(fixed_mm: Array, moving_mm: Array) -> Rigid[Vertebra, Anchor]:
+    """Fit (n, 3) points with equal weights (Arun 1987, with the sign correction of Umeyama 1991)."""
     to, since = fixed_mm.mean(axis=0), moving_mm.mean(axis=0)
     left, _, right = np.linalg.svd((fixed_mm - to).T @ (moving_mm - since))
     mirror = np.diag([1.0, 1.0, np.sign(np.linalg.det(left @ right))])
@@ -17,16 +17,16 @@ def plain_fit(fixed_mm: Array, moving_mm: Array) -> Rigid[Vertebra, Anchor]:
     return Rigid(rotation=rotation, translation_mm=to - rotation @ since)
 
 
-def weighted_fit(fixed_mm: Array, moving_mm: Array, noise_mm2: Array) -> Rigid[Vertebra, Anchor]:
-    """Least squares where each touched point has a covariance (n, 3, 3) of its own, in the anchor's frame.
+def fit_rigid_weighted(fixed_mm: Array, moving_mm: Array, noise_mm2: Array) -> Rigid[Vertebra, Anchor]:
+    """Fit points with an individual covariance (n, 3, 3) each, in the anchor frame.
 
-    Gauss-Newton from the plain fit. The weights turn with the points.
+    Gauss-Newton iteration from the unweighted fit. The weights are rotated with the points.
     """
-    fit = plain_fit(fixed_mm, moving_mm)
+    fit = fit_rigid(fixed_mm, moving_mm)
     for _ in range(MAX_ROUNDS):
         middle = fit.move_points(moving_mm).mean(axis=0)
         residuals = fit.move_points(moving_mm) - fixed_mm
-        weights = weights_in_fixed(fit, noise_mm2)
+        weights = weights_on_ct(fit, noise_mm2)
         rows = jacobians(fit.move_points(moving_mm) - middle)
         normal = np.einsum("nik,nij,njl->kl", rows, weights, rows)
         step = np.linalg.solve(normal, -np.einsum("nik,nij,nj->k", rows, weights, residuals))
@@ -35,18 +35,18 @@ def weighted_fit(fixed_mm: Array, moving_mm: Array, noise_mm2: Array) -> Rigid[V
             rotation=turn @ fit.rotation,
             translation_mm=turn @ (fit.translation_mm - middle) + middle + step[:3],
         )
-        if float(np.abs(step).max()) < STILL:
+        if float(np.abs(step).max()) < TOLERANCE:
             break
     return fit
 
 
-def weights_in_fixed(fit: Rigid[Vertebra, Anchor], noise_mm2: Array) -> Array:
-    """The inverses (n, 3, 3) of covariances in the anchor's frame, seen on the CT."""
+def weights_on_ct(fit: Rigid[Vertebra, Anchor], noise_mm2: Array) -> Array:
+    """Return the inverses (n, 3, 3) of covariances in the anchor frame, rotated to the CT axes."""
     return np.asarray(np.linalg.inv(fit.rotation @ noise_mm2 @ fit.rotation.T))
 
 
 def jacobians(arms_mm: Array) -> Array:
-    """(n, 3, 6): how points at these arms (n, 3) move by a small shift and turn about the arms' origin."""
+    """Return the Jacobian (n, 3, 6) of points at these arms (n, 3) for a small shift and rotation."""
     rows = np.zeros((len(arms_mm), 3, 6))
     rows[:, :, :3] = np.eye(3)
     x, y, z = arms_mm.T

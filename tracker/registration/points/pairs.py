@@ -1,4 +1,4 @@
-"""Pairs of points: the same landmarks on the CT and under the tip."""
+"""Pairs of points: landmarks on the CT and the same landmarks as captured."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -13,12 +13,12 @@ PAIR_REMEDY = "Give each landmark of the plan and the tip on it as three numbers
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CommonTip:
-    """What all touches have in common: the tip behind its marker, and with it its error.
+    """The calibrated tip that all captures share, and its error.
 
     Attributes:
         tool: its name.
-        covariance_mm2: (3, 3) of the tip, in the marker's frame.
-        anchor_from_marker: (n, 3, 3), how the marker was turned at each touch.
+        covariance_mm2: (3, 3) of the tip, in the marker frame.
+        anchor_from_marker: (n, 3, 3), rotation of the marker at each capture.
     """
 
     tool: str
@@ -27,16 +27,16 @@ class CommonTip:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PairedPoints:
-    """Landmarks that were marked on the CT and touched with the tip, in the same order.
+class PointPairs:
+    """Landmarks marked on the CT and captured with the tip, in the same order.
 
     Attributes:
-        fixed_mm: (n, 3), on the CT: LPS.
-        moving_mm: (n, 3), the tip on each of them, in the anchor's frame.
-        moving_covariances_mm2: (n, 3, 3) of the tips, in the anchor's frame; None where nothing is stated.
-        common: the tip that touched them, whose covariance is then not in the others; None where it is not
-            known, or not one tip.
-        labels: a name for each; "1", "2", ... where there are none.
+        fixed_mm: (n, 3), on the CT, LPS.
+        moving_mm: (n, 3), captured tip positions, in the anchor frame.
+        moving_covariances_mm2: (n, 3, 3) of those, in the anchor frame; None if not stated.
+        common: the tip of all captures, whose covariance is then excluded from the others; None if unknown or
+            not unique.
+        labels: a name for each; "1", "2", ... by default.
 
     Raises:
         RegistrationError: POINTS_COUNTS_DIFFER, or POINTS_INVALID, a number is not finite or a shape wrong.
@@ -75,11 +75,11 @@ class PairedPoints:
     def __len__(self) -> int:
         return len(self.fixed_mm)
 
-    def of(self, chosen: Sequence[int]) -> "PairedPoints":
-        """Those at some indexes, in that order."""
+    def of(self, chosen: Sequence[int]) -> "PointPairs":
+        """Return the pairs at these indices, in that order."""
         index = np.asarray(chosen, dtype=np.int64)
         covariances = self.moving_covariances_mm2
-        return PairedPoints(
+        return PointPairs(
             fixed_mm=self.fixed_mm[index],
             moving_mm=self.moving_mm[index],
             moving_covariances_mm2=None if covariances is None else covariances[index],

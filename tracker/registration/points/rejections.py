@@ -1,11 +1,11 @@
-"""Points to which no rigid motion can be fitted."""
+"""Reject point sets that determine no rigid transform."""
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from tracker.errors import RegistrationError
 from tracker.geometry import Array
-from tracker.registration.points.pairs import PairedPoints
+from tracker.registration.points.pairs import PointPairs
 from tracker.registration.points.settings import PointSettings
 
 MIN_POINTS = 3
@@ -15,8 +15,8 @@ SPREAD_REMEDY = "Add a landmark that lies well beside that line, such as a trans
 UNITS = ((1000.0, "metres"), (10.0, "centimetres"), (25.4, "inches"))
 
 
-def reject_unfit(pairs: PairedPoints, settings: PointSettings) -> None:
-    """Raise where these points say no rigid motion, before any is fitted.
+def reject_unfit(pairs: PointPairs, settings: PointSettings) -> None:
+    """Reject points that determine no rigid transform, before fitting.
 
     Raises:
         RegistrationError: POINTS_TOO_FEW, POINTS_UNIT_SUSPECT, POINTS_COINCIDENT or POINTS_COLLINEAR.
@@ -35,8 +35,8 @@ def reject_unfit(pairs: PairedPoints, settings: PointSettings) -> None:
         _reject_line(points, which, settings)
 
 
-def scale_ratio(pairs: PairedPoints) -> float:
-    """How much larger the points are on the CT than as touched."""
+def scale_ratio(pairs: PointPairs) -> float:
+    """Return the size of the points on the CT relative to their size as captured."""
     fixed, moving = _spread_mm(pairs.fixed_mm), _spread_mm(pairs.moving_mm)
     return fixed / moving if moving > 0.0 else np.inf
 
@@ -45,18 +45,18 @@ def _spread_mm(points: Array) -> float:
     return float(np.sqrt(((points - points.mean(axis=0)) ** 2).sum(axis=1).mean()))
 
 
-def _reject_units(pairs: PairedPoints) -> None:
+def _reject_units(pairs: PointPairs) -> None:
     fixed, moving = _spread_mm(pairs.fixed_mm), _spread_mm(pairs.moving_mm)
-    least, most = min(fixed, moving), max(fixed, moving)
-    if least <= 0.0 or most <= MAX_SCALE * least:
+    minimum, maximum = min(fixed, moving), max(fixed, moving)
+    if minimum <= 0.0 or maximum <= MAX_SCALE * minimum:
         return
     which = "on the CT" if fixed < moving else "as touched"
-    likely = [name for factor, name in UNITS if 0.8 < most / least / factor < 1.25]
+    likely = [name for factor, name in UNITS if 0.8 < maximum / minimum / factor < 1.25]
     guess = f": those {which} seem to be in {likely[0]}" if likely else ""
     raise RegistrationError(
         "POINTS_UNIT_SUSPECT",
         f"the points spread over {fixed:.4g} mm on the CT and over {moving:.4g} mm as touched, "
-        f"{most / least:.4g} times as much{guess}",
+        f"{maximum / minimum:.4g} times as much{guess}",
         "Give both in millimetres, and see that both files are of the same landmarks.",
         {"fixed_spread_mm": fixed, "moving_spread_mm": moving},
     )
@@ -91,19 +91,19 @@ def _reject_line(points: Array, which: str, settings: PointSettings) -> None:
     sd_deg = np.inf
     if beside_mm > 0.0:
         sd_deg = float(np.degrees(settings.min_fle_mm / np.sqrt(3.0) / beside_mm))
-    if ratio >= settings.min_spread_ratio and sd_deg <= settings.max_turn_sd_deg:
+    if ratio >= settings.min_spread_ratio and sd_deg <= settings.max_rotation_sd_deg:
         return
     raise RegistrationError(
         "POINTS_COLLINEAR",
         f"the points are nearly a line {which}: they reach {extents[0]:.1f} mm along it and only "
         f"{extents[1]:.2f} mm beside it (RMS), so that the rotation about that line is ambiguous "
-        f"(known to {min(sd_deg, 180.0):.0f} deg, allowed {settings.max_turn_sd_deg:g} deg; "
+        f"(known to {min(sd_deg, 180.0):.0f} deg, allowed {settings.max_rotation_sd_deg:g} deg; "
         f"needed beside it {settings.min_spread_ratio * extents[0]:.2f} mm at least)",
         SPREAD_REMEDY,
         {
             "along_mm": float(extents[0]),
             "beside_mm": float(extents[1]),
             "turn_sd_deg": min(sd_deg, 180.0),
-            "allowed_deg": settings.max_turn_sd_deg,
+            "allowed_deg": settings.max_rotation_sd_deg,
         },
     )

@@ -1,39 +1,41 @@
-"""What points must be like to be fitted, and what a fit must reach to be used."""
+"""Requirements on points before the fit, and on a fit before its use."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PointSettings:
-    """When points are refused, and how well a landmark can be found at all.
+    """Thresholds for rejecting points, and the minimum localisation error.
 
     Attributes:
-        min_fle_mm: how well a landmark is found on bone and on the CT at best (3-D RMS); no residuals,
-            however small, make the stated uncertainty narrower than that.
-        min_apart_mm: points that are nearer to each other are one.
-        min_spread_ratio: of the second extent of the points to the first; below, they are a line.
-        max_turn_sd_deg: how unsure the rotation about the points' own line may be if landmarks were found
-            as well as `min_fle_mm` says.
-        wrong_fre_mm: no order is called wrong whose FRE is smaller.
-        clearly_ratio: by how much another order, or the mirror image, must fit better to be called right.
+        min_fle_mm: best possible localisation of a landmark on bone and CT (3-D RMS); a lower bound of the
+            stated uncertainty, however small the residuals.
+        min_apart_mm: minimum distance between two points.
+        min_spread_ratio: minimum ratio of the second to the first extent of the points; below it they are
+            collinear.
+        max_rotation_sd_deg: maximum uncertainty of the rotation about the points' principal axis, for
+            landmarks localised with `min_fle_mm`.
+        max_accepted_fre_mm: an order with a smaller FRE is never rejected.
+        min_improvement_ratio: by which factor another order or the mirror image must fit better to be
+            preferred.
     """
 
     min_fle_mm: float = 0.5
     min_apart_mm: float = 1.0
     min_spread_ratio: float = 0.05
-    max_turn_sd_deg: float = 5.0
-    wrong_fre_mm: float = 1.5
-    clearly_ratio: float = 3.0
+    max_rotation_sd_deg: float = 5.0
+    max_accepted_fre_mm: float = 1.5
+    min_improvement_ratio: float = 3.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PointGate:
-    """What a registration by points must reach before it is used.
+    """Requirements on a point-based registration before its use.
 
     Attributes:
-        max_fre_mm: root mean square distance of the landmarks. Says that no landmark was mistaken; it does
-            not say how true the registration is at the target.
-        max_tre_mm: the stated error (3-D RMS) at each target.
+        max_fre_mm: maximum FRE. It detects mistaken landmarks; it does not measure the accuracy at the
+            target.
+        max_tre_mm: maximum stated TRE (3-D RMS) at each target.
     """
 
     max_fre_mm: float = 1.5

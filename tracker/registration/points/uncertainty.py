@@ -1,41 +1,41 @@
-"""How sure a fit to points is: its covariance, and the error to expect at a target.
+"""Covariance of a point-based fit, and the expected error at a target.
 
-Three points leave three numbers to know their own spread by; with Fisher's F the truth lies inside the
-stated 95 % in 0.92 to 0.98 of simulated cases, which the plain formula does not reach.
+Three points leave three residual degrees of freedom; with Fisher's F distribution the stated 95 % region
+contains the truth in 0.92 to 0.98 of simulated cases, which the plain formula does not reach.
 """
 
 import numpy as np
 from scipy import special
 
 from tracker.geometry import Anchor, Array, Rigid, Vertebra
-from tracker.registration.points.fit import jacobians, weights_in_fixed
+from tracker.registration.points.fit import jacobians, weights_on_ct
 
 # What is stated of tips is believed as if it had been told from so many numbers, and then corrected by the
 # residuals: landmarks are found less well than a tip is known, and that shows in the residuals alone.
-BELIEVED = 4.0
-# A fit that is better than the tips say may be luck.
+PRIOR_DEGREES_OF_FREEDOM = 4.0
+# A fit better than the stated noise may be chance.
 MIN_FACTOR = 0.8
 # Residuals do not tell which way noise is longest; along a camera's depth it is, by four and more. Found by
 # simulation: inside 95 % lie 0.92 to 0.97 of the truths, with noise like a ball and like a needle.
-ANY_SHAPE = 1.2
+ANISOTROPY_FACTOR = 1.2
 
 
-def freedom_of(count: int) -> int:
-    """How many numbers of n points are left over after a rigid fit."""
+def degrees_of_freedom(count: int) -> int:
+    """Return the residual degrees of freedom of a rigid fit of n points."""
     return 3 * count - 6
 
 
 def fle_from_fre_mm(fre_mm: float, count: int) -> float:
-    """The error of one landmark (3-D RMS) that residuals show: FLE^2 = n / (n - 2) FRE^2 (Sibson 1979)."""
+    """Estimate the FLE (3-D RMS) from the FRE: FLE^2 = n / (n - 2) FRE^2 (Sibson 1979)."""
     return float(np.sqrt(count / (count - 2.0)) * fre_mm)
 
 
 def expected_tre_mm(fixed_mm: Array, fle_mm: float, target_mm: Array) -> float:
-    """The error (3-D RMS) to expect at a target (3,) on the CT, from n landmarks (n, 3) on the CT.
+    """Return the expected TRE (3-D RMS) at a target (3,) on the CT, from n landmarks (n, 3).
 
-    TRE^2 = FLE^2 / n (1 + 1/3 sum of d_k^2 / f_k^2): d_k the target's distance from the landmarks' principal
-    axis k, f_k the RMS distance of the landmarks from it (Fitzpatrick, West and Maurer 1998).
-    For noise that is alike at all landmarks and in all directions.
+    TRE^2 = FLE^2 / n (1 + 1/3 sum of d_k^2 / f_k^2): d_k is the distance of the target from principal axis k
+    of the landmarks, f_k their RMS distance from it (Fitzpatrick, West and Maurer 1998). Assumes isotropic
+    noise, equal for all landmarks.
     """
     middle = fixed_mm.mean(axis=0)
     off = fixed_mm - middle
@@ -50,14 +50,14 @@ def expected_tre_mm(fixed_mm: Array, fle_mm: float, target_mm: Array) -> float:
 def covariance_from_residuals(
     fit: Rigid[Vertebra, Anchor], fixed_mm: Array, moving_mm: Array, *, min_fle_mm: float
 ) -> Array:
-    """Covariance (6, 6) of the fit where nothing is known of the points but how they fit.
+    """Return the covariance (6, 6) of a fit from its residuals only.
 
-    Few points know their own spread badly: the variance is widened so that the ellipsoid at a target, which
-    by chi-square of three numbers is said to hold 95 %, does (Fisher's F).
+    Few points estimate their variance badly: it is inflated so that the ellipsoid at a target, nominally 95 %
+    by a chi-square with three degrees of freedom, contains 95 % (Fisher's F).
     """
-    freedom = freedom_of(len(fixed_mm))
+    freedom = degrees_of_freedom(len(fixed_mm))
     residuals = fit.move_points(moving_mm) - fixed_mm
-    variance = float((residuals**2).sum()) / freedom * few_points(freedom) * ANY_SHAPE
+    variance = float((residuals**2).sum()) / freedom * small_sample_factor(freedom) * ANISOTROPY_FACTOR
     variance = max(variance, min_fle_mm**2 / 3.0)
     rows = jacobians(moving_mm @ fit.rotation.T)
     return np.asarray(variance * np.linalg.inv(np.einsum("nik,nil->kl", rows, rows)))
@@ -66,35 +66,40 @@ def covariance_from_residuals(
 def covariance_from_noise(
     fit: Rigid[Vertebra, Anchor], fixed_mm: Array, moving_mm: Array, noise_mm2: Array
 ) -> Array:
-    """Covariance (6, 6) of the fit where each touched point states its own (n, 3, 3), in the anchor's frame.
+    """Return the covariance (6, 6) of a fit from covariances (n, 3, 3) in the anchor frame.
 
-    What is stated is corrected by the residuals, by much where they are larger and by little where they are
-    smaller. By simulation, inside 95 % lie 0.95 to 0.98 of the truths where what is stated is true, and 0.92
-    where noise is 1.4 times as large.
+    The stated noise is corrected by the residuals: strongly if they are larger, weakly if they are smaller.
+    By simulation the 95 % region contains 0.95 to 0.98 of the truths if the noise is stated correctly, and
+    0.92 if it is 1.4 times as large.
     """
-    weights = weights_in_fixed(fit, noise_mm2)
+    weights = weights_on_ct(fit, noise_mm2)
     residuals = fit.move_points(moving_mm) - fixed_mm
     squares = float(np.einsum("ni,nij,nj->", residuals, weights, residuals))
-    freedom = BELIEVED + freedom_of(len(fixed_mm))
-    factor = max((BELIEVED + squares) / freedom * few_points(freedom + BELIEVED), MIN_FACTOR)
+    freedom = PRIOR_DEGREES_OF_FREEDOM + degrees_of_freedom(len(fixed_mm))
+    factor = max(
+        (PRIOR_DEGREES_OF_FREEDOM + squares)
+        / freedom
+        * small_sample_factor(freedom + PRIOR_DEGREES_OF_FREEDOM),
+        MIN_FACTOR,
+    )
     rows = jacobians(moving_mm @ fit.rotation.T)
     return np.asarray(factor * np.linalg.inv(np.einsum("nik,nij,njl->kl", rows, weights, rows)))
 
 
-def slope_of_common_tip(
+def common_tip_jacobian(
     fit: Rigid[Vertebra, Anchor], moving_mm: Array, noise_mm2: Array, anchor_from_marker: Array
 ) -> Array:
-    """How the fit (6) follows an error (3), in the marker's frame, of the one tip that touched all points.
+    """Return the derivative of the fit (6) with respect to the common tip (3) in the marker frame.
 
-    Touches that are turned alike shift the whole fit, and no residual shows it.
+    Captures with equal orientation shift the whole fit, which no residual shows.
     """
-    weights = weights_in_fixed(fit, noise_mm2)
+    weights = weights_on_ct(fit, noise_mm2)
     rows = jacobians(moving_mm @ fit.rotation.T)
     normal = np.einsum("nik,nij,njl->kl", rows, weights, rows)
     pull = np.einsum("nik,nij,njl->kl", rows, weights, fit.rotation @ anchor_from_marker)
     return np.asarray(-np.linalg.solve(normal, pull))
 
 
-def few_points(freedom: float) -> float:
-    """By how much a variance that so many left-over numbers tell is widened."""
+def small_sample_factor(freedom: float) -> float:
+    """Return the inflation of a variance estimated with so many degrees of freedom."""
     return float(3.0 * special.fdtri(3, freedom, 0.95) / special.chdtri(3, 0.05))

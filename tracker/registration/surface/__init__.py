@@ -1,14 +1,14 @@
-"""Registration by surface: points swept over the lamina against the CT's surface."""
+"""Surface-based registration: points swept over the lamina against the CT's surface."""
 
-from tracker.registration.surface.nearest import Nearest, NearestOnSurface
+from tracker.registration.surface.closest_points import ClosestPointQuery, ClosestPoints
+from tracker.registration.surface.observability import MotionMode
 from tracker.registration.surface.registration import SurfaceRegistration, register_surface
 from tracker.registration.surface.settings import SurfaceGate, SurfaceSettings
-from tracker.registration.surface.sliding import Direction
 
 __all__ = [
-    "Direction",
-    "Nearest",
-    "NearestOnSurface",
+    "ClosestPointQuery",
+    "ClosestPoints",
+    "MotionMode",
     "SurfaceGate",
     "SurfaceRegistration",
     "SurfaceSettings",

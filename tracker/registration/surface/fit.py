@@ -1,4 +1,4 @@
-"""Lays swept points on the surface from one start: iterated closest points, point to plane, robust."""
+"""Robust point-to-plane ICP of swept points to the surface, from one start."""
 
 from dataclasses import dataclass
 
@@ -7,10 +7,10 @@ from scipy.spatial import cKDTree
 
 from tracker.geometry import Anchor, Array, Rigid, Vertebra, rotation_from_vector
 from tracker.registration.points.fit import jacobians
-from tracker.registration.surface.nearest import NearestOnSurface
+from tracker.registration.surface.closest_points import ClosestPointQuery
 
 MAX_ROUNDS = 60
-STILL_MM = 1e-4  # at the lever of the sweep
+TOLERANCE_MM = 1e-4  # at the lever of the sweep
 # Tukey's biweight: 95 % as sharp as least squares where there are no outliers.
 TUKEY = 4.685
 SD_FROM_MEDIAN = 1.4826
@@ -38,15 +38,15 @@ class Sweep:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Laid:
+class SweepFit:
     """A fit from one start.
 
     Attributes:
-        fixed_from_moving: takes swept points to the CT.
+        fixed_from_moving: from the anchor frame to the CT.
         off_mm: (n,) signed distances from the surface, positive outside, less the tip's radius.
-        normals: (n, 3) of the surface where each point lies.
-        nearest_mm: (n, 3) where that is.
-        weights: (n,) of each point's say, 0..1.
+        normals: (n, 3) of the surface at the closest points.
+        nearest_mm: (n, 3) the closest points.
+        weights: (n,) robust weights, 0..1.
         sd_mm: of one point about the surface.
     """
 
@@ -58,20 +58,24 @@ class Laid:
     sd_mm: float
 
 
-def shares_of(points_mm: Array, alike_mm: float) -> Array:
-    """(n,): one by how many points are within reach of each; a place that was dwelt upon counts once."""
-    near = cKDTree(points_mm).query_ball_point(points_mm, alike_mm, return_length=True)
+def density_weights(points_mm: Array, correlation_length_mm: float) -> Array:
+    """Return (n,) the inverse of the number of points within a radius; a place dwelt upon counts once."""
+    near = cKDTree(points_mm).query_ball_point(points_mm, correlation_length_mm, return_length=True)
     return np.asarray(1.0 / np.asarray(near, dtype=np.float64))
 
 
-def laid_on(
-    nearest: NearestOnSurface, sweep: Sweep, start: Rigid[Vertebra, Anchor], *, still_mm: float = STILL_MM
-) -> Laid:
-    """The fit that this start leads to, once a round moves it by less than `still_mm`."""
+def fit_sweep(
+    nearest: ClosestPointQuery,
+    sweep: Sweep,
+    start: Rigid[Vertebra, Anchor],
+    *,
+    tolerance_mm: float = TOLERANCE_MM,
+) -> SweepFit:
+    """Run ICP from this start until a step is smaller than a tolerance."""
     fit = start
     lever = float(np.sqrt(((sweep.points_mm - sweep.points_mm.mean(axis=0)) ** 2).sum(axis=1).mean()))
     for _ in range(MAX_ROUNDS):
-        laid = look(nearest, sweep, fit)
+        laid = evaluate(nearest, sweep, fit)
         moved = fit.move_points(sweep.points_mm)
         middle = moved.mean(axis=0)
         normal, right = equations(sweep, laid, middle)
@@ -85,13 +89,13 @@ def laid_on(
             rotation=turn @ fit.rotation,
             translation_mm=turn @ (fit.translation_mm - middle) + middle + step[:3],
         )
-        if size < still_mm:
+        if size < tolerance_mm:
             break
-    return look(nearest, sweep, fit)
+    return evaluate(nearest, sweep, fit)
 
 
-def look(nearest: NearestOnSurface, sweep: Sweep, fit: Rigid[Vertebra, Anchor]) -> Laid:
-    """How swept points lie under this motion, and who agrees."""
+def evaluate(nearest: ClosestPointQuery, sweep: Sweep, fit: Rigid[Vertebra, Anchor]) -> SweepFit:
+    """Return closest points, residuals and robust weights at this transform."""
     moved = fit.move_points(sweep.points_mm)
     at = nearest.at(moved)
     off = ((moved - at.points_mm) * at.normals).sum(axis=1)
@@ -107,15 +111,15 @@ def look(nearest: NearestOnSurface, sweep: Sweep, fit: Rigid[Vertebra, Anchor]) 
     median = float(np.abs(off)[order[min(int(middle), len(order) - 1)]])
     sd = max(SD_FROM_MEDIAN * median, sweep.min_sd_mm)
     weights = np.clip(1.0 - (off / (TUKEY * sd)) ** 2, 0.0, None) ** 2
-    return Laid(
+    return SweepFit(
         fixed_from_moving=fit, off_mm=off, normals=normals, nearest_mm=at.points_mm, weights=weights, sd_mm=sd
     )
 
 
 def equations(
-    sweep: Sweep, laid: Laid, about_mm: Array, *, normals: Array | None = None, landmarks: bool = True
+    sweep: Sweep, laid: SweepFit, about_mm: Array, *, normals: Array | None = None, landmarks: bool = True
 ) -> tuple[Array, Array]:
-    """Normal matrix (6, 6) and right side (6,) of the next step: a shift, and a turn about this point."""
+    """Return normal matrix (6, 6) and right side (6,) of a step: a shift, and a rotation about this point."""
     fit = laid.fixed_from_moving
     rows = np.einsum(
         "ni,nik->nk",
@@ -133,8 +137,8 @@ def equations(
     return normal, right
 
 
-def cost(sweep: Sweep, laid: Laid, sd_mm: float) -> float:
-    """How badly a fit explains sweep and landmarks, in squared standard deviations; outliers are cut off."""
+def cost(sweep: Sweep, laid: SweepFit, sd_mm: float) -> float:
+    """Return the truncated sum of squares of sweep and landmarks, in standard deviations."""
     squares = np.minimum((laid.off_mm / sd_mm) ** 2, TUKEY**2)
     total = float((sweep.shares * squares).sum())
     if len(sweep.landmarks_fixed_mm):

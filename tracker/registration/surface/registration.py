@@ -1,4 +1,4 @@
-"""Registration by surface: points swept over the bone are laid on the CT's surface."""
+"""Surface-based registration: fit swept points to the CT's bone surface."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,39 +18,39 @@ from tracker.geometry import (
     vector_from_rotation,
 )
 from tracker.plan.remark import Remark
-from tracker.registration.points import PairedPoints
-from tracker.registration.points.fit import weights_in_fixed
-from tracker.registration.points.uncertainty import few_points
+from tracker.registration.points import PointPairs
+from tracker.registration.points.fit import weights_on_ct
+from tracker.registration.points.uncertainty import small_sample_factor
 from tracker.registration.record import AnchoredTo, Method, Registration
-from tracker.registration.surface.fit import Laid, Sweep, equations, laid_on, look, shares_of
-from tracker.registration.surface.nearest import NearestOnSurface
+from tracker.registration.surface.closest_points import ClosestPointQuery
+from tracker.registration.surface.fit import Sweep, SweepFit, density_weights, equations, evaluate, fit_sweep
+from tracker.registration.surface.multi_start import multi_start_fit, reject_ambiguous
+from tracker.registration.surface.observability import MotionMode, motion_modes
 from tracker.registration.surface.rejections import (
-    checked_sweep,
     reject_disagreement,
     reject_far,
     reject_sliding,
     reject_small,
+    validate_sweep,
 )
-from tracker.registration.surface.rivals import best_of, reject_another_place
 from tracker.registration.surface.settings import SurfaceGate, SurfaceSettings
-from tracker.registration.surface.sliding import Direction, directions
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SurfaceRegistration:
-    """Where the vertebra is, by a sweep over its surface.
+    """Result of a surface-based registration.
 
     Attributes:
-        fixed_from_moving: takes swept points to the CT.
+        fixed_from_moving: from the anchor frame to the CT.
         covariance: (6, 6) of it [mm, rad], translation first, then a small left-multiplied rotation vector on
-            the CT's axes.
-        off_mm: (n,) how far each swept point comes to lie outside the surface; negative inside.
-        used: (n,) which of them agree.
+            the CT axes.
+        off_mm: (n,) signed distance of each swept point from the surface; negative inside.
+        used: (n,) inliers.
         used_ratio: their share.
-        rms_mm: root mean square of their distances.
-        moved_mm, moved_deg: how far the fit lies from its start, at the middle of the sweep.
-        weakest: the direction that the sweep alone holds least.
-        remarks: what should be known.
+        rms_mm: RMS distance of the inliers.
+        moved_mm, moved_deg: distance of the fit from its start, at the centroid of the sweep.
+        least_observable: the motion mode that the sweep alone constrains least.
+        remarks: for the user.
     """
 
     fixed_from_moving: Rigid[Vertebra, Anchor]
@@ -61,20 +61,20 @@ class SurfaceRegistration:
     rms_mm: float
     moved_mm: float
     moved_deg: float
-    weakest: Direction
+    least_observable: MotionMode
     remarks: tuple[Remark, ...]
 
     def target_covariance_mm2(self, target_mm: npt.ArrayLike) -> Array:
-        """Covariance (3, 3), on the CT's axes, of where a target (3,) on the CT is thought to be."""
+        """Return the covariance (3, 3), on the CT axes, of a target (3,) on the CT."""
         target_in_moving = self.fixed_from_moving.inverse.move_points(target_mm)
         return point_covariance_mm2(self.fixed_from_moving, self.covariance, target_in_moving)
 
     def tre_stated_mm(self, target_mm: npt.ArrayLike) -> float:
-        """The error (3-D RMS) that is stated for a target (3,) on the CT."""
+        """Return the stated TRE (3-D RMS) at a target (3,) on the CT."""
         return float(np.sqrt(np.trace(self.target_covariance_mm2(target_mm))))
 
     def registration(self, anchored_to: AnchoredTo) -> Registration:
-        """The same as navigation uses it."""
+        """Return the record that navigation uses."""
         return Registration(
             method=Method.SURFACE,
             anchored_to=anchored_to,
@@ -85,9 +85,9 @@ class SurfaceRegistration:
     def failures(
         self, gate: SurfaceGate, targets_mm: Sequence[npt.ArrayLike]
     ) -> tuple[RegistrationError, ...]:
-        """What keeps it from being used for these targets on the CT; nothing where it passes."""
+        """Return the errors that prevent its use for these targets on the CT; empty if it passes."""
         stated = max((self.tre_stated_mm(target) for target in targets_mm), default=0.0)
-        asked = (
+        checks = (
             ("SURFACE_FIT_TOO_LARGE", "the sweep lies on the bone to", self.rms_mm, gate.max_rms_mm),
             ("SURFACE_TARGET_UNCERTAIN", "at the target it is known to", stated, gate.max_tre_mm),
             ("SURFACE_MOVED_FAR", "the fit moved from its start by", self.moved_mm, gate.max_moved_mm),
@@ -99,57 +99,57 @@ class SurfaceRegistration:
                 "Sweep more of the bone, with the tip on bare bone, or touch the landmarks again.",
                 {"value_mm": value, "allowed_mm": allowed},
             )
-            for code, words, value, allowed in asked
+            for code, words, value, allowed in checks
             if not value <= allowed
         )
 
 
 def register_surface(
-    nearest: NearestOnSurface,
+    nearest: ClosestPointQuery,
     points_mm: npt.ArrayLike,
     start: Rigid[Vertebra, Anchor],
     *,
     targets_mm: Sequence[npt.ArrayLike] = (),
-    landmarks: PairedPoints | None = None,
+    landmarks: PointPairs | None = None,
     settings: SurfaceSettings | None = None,
 ) -> SurfaceRegistration:
-    """The motion that lays swept points (n, 3) of the anchor's frame on the bone, from a fit by landmarks.
+    """Fit swept points (n, 3) of the anchor frame to the bone surface, starting from a landmark fit.
 
-    Iterated closest points, point to plane (Chen and Medioni 1992), with Tukey's weights; landmarks, where
-    given, pull as hard as they are sure. It is tried from other starts too, so that a second place in which
-    the sweep fits about as well is found and told instead of being taken by chance. `targets_mm`: on the CT,
-    such as entry points; what the sweep leaves open is judged there.
+    Point-to-plane ICP (Chen and Medioni 1992) with Tukey weights; landmarks, if given, are weighted by their
+    covariance. The fit is repeated from other starts, so that a second minimum with a similar cost is
+    detected and rejected. `targets_mm`: on the CT, such as entry points; the observability is evaluated
+    there.
 
     Raises:
         RegistrationError: SURFACE_SWEEP_INVALID, SURFACE_SWEEP_SMALL, SURFACE_START_FAR, SURFACE_DISAGREES,
             SURFACE_SLIDES or SURFACE_AMBIGUOUS.
     """
     settings = settings or SurfaceSettings()
-    points = checked_sweep(np.asarray(points_mm, dtype=np.float64))
-    shares = shares_of(points, settings.alike_mm) if len(points) else np.empty(0)
+    points = validate_sweep(np.asarray(points_mm, dtype=np.float64))
+    shares = density_weights(points, settings.correlation_length_mm) if len(points) else np.empty(0)
     reject_small(points, shares, settings)
     sweep = _sweep(points, shares, landmarks, start, settings)
-    reject_far(look(nearest, sweep, start), settings)
+    reject_far(evaluate(nearest, sweep, start), settings)
     targets = np.array([start.move_points(points.mean(axis=0)), *targets_mm], dtype=np.float64).reshape(-1, 3)
-    first = laid_on(nearest, sweep, start)
+    first = fit_sweep(nearest, sweep, start)
     middle = first.fixed_from_moving.move_points(points).mean(axis=0)
     lever = max(float(np.linalg.norm(targets - middle, axis=1).max()), _radius_mm(points))
     alone, held = _directions(nearest, sweep, first, middle, lever)
     reject_disagreement(first, sweep, settings)
     reject_sliding(held, settings)
-    best, rivals = best_of(nearest, sweep, start, first, alone.way, lever, settings)
+    best, alternatives = multi_start_fit(nearest, sweep, start, first, alone.way, lever, settings)
     reject_disagreement(best, sweep, settings)
-    reject_another_place(sweep, best, rivals, targets, settings)
+    reject_ambiguous(sweep, best, alternatives, targets, settings)
     middle = best.fixed_from_moving.move_points(points).mean(axis=0)
     alone, held = _directions(nearest, sweep, best, middle, lever)
     reject_sliding(held, settings)
-    return _told(nearest, sweep, best, start, alone, settings)
+    return _result(nearest, sweep, best, start, alone, settings)
 
 
 def _sweep(
     points: Array,
     shares: Array,
-    landmarks: PairedPoints | None,
+    landmarks: PointPairs | None,
     start: Rigid[Vertebra, Anchor],
     settings: SurfaceSettings,
 ) -> Sweep:
@@ -159,7 +159,7 @@ def _sweep(
         noise = np.broadcast_to(settings.landmark_sd_mm**2 * np.eye(3), (len(fixed), 3, 3))
         if landmarks.moving_covariances_mm2 is not None:
             noise = landmarks.moving_covariances_mm2 + settings.min_sd_mm**2 * np.eye(3)
-        weights = weights_in_fixed(start, noise)
+        weights = weights_on_ct(start, noise)
     return Sweep(
         points_mm=points,
         shares=shares,
@@ -176,21 +176,21 @@ def _radius_mm(points: Array) -> float:
 
 
 def _directions(
-    nearest: NearestOnSurface, sweep: Sweep, laid: Laid, middle: Array, lever_mm: float
-) -> tuple[Direction, Direction]:
-    """What is least sure by the sweep alone, and with the landmarks."""
+    nearest: ClosestPointQuery, sweep: Sweep, laid: SweepFit, middle: Array, lever_mm: float
+) -> tuple[MotionMode, MotionMode]:
+    """Return the least observable motion mode of the sweep alone, and of sweep and landmarks."""
     smooth = nearest.smooth_normals(laid.nearest_mm)
     alone = equations(sweep, laid, middle, normals=smooth, landmarks=False)[0]
     held = equations(sweep, laid, middle, normals=smooth)[0]
-    return directions(alone, lever_mm)[0], directions(held, lever_mm)[0]
+    return motion_modes(alone, lever_mm)[0], motion_modes(held, lever_mm)[0]
 
 
-def _told(
-    nearest: NearestOnSurface,
+def _result(
+    nearest: ClosestPointQuery,
     sweep: Sweep,
-    best: Laid,
+    best: SweepFit,
     start: Rigid[Vertebra, Anchor],
-    alone: Direction,
+    alone: MotionMode,
     settings: SurfaceSettings,
 ) -> SurfaceRegistration:
     fit, used = best.fixed_from_moving, best.weights > 0.0
@@ -200,10 +200,10 @@ def _told(
     if alone.sd_mm > settings.max_slide_sd_mm:
         remarks.append(
             Remark(
-                code="SURFACE_HELD_BY_LANDMARKS",
-                message=f"{alone.in_words} the sweep alone would slide; there the landmarks hold it",
+                code="SURFACE_CONSTRAINED_BY_LANDMARKS",
+                message=f"{alone.description} the sweep alone would slide; only the landmarks constrain it",
                 remedy="Sweep surfaces that face other ways too, such as the flanks of the spinous process.",
-                context={"direction": alone.in_words},
+                context={"direction": alone.description},
             )
         )
     covariance = _covariance(nearest, sweep, best)
@@ -221,13 +221,13 @@ def _told(
         rms_mm=float(np.sqrt((say * off**2).sum() / say.sum())),
         moved_mm=float(np.linalg.norm(moved)),
         moved_deg=float(np.degrees(np.linalg.norm(turned))),
-        weakest=alone,
+        least_observable=alone,
         remarks=tuple(remarks),
     )
 
 
-def _covariance(nearest: NearestOnSurface, sweep: Sweep, best: Laid) -> Array:
-    """Covariance (6, 6) of the fit, from what its residuals and its least error say, for few points wider."""
+def _covariance(nearest: ClosestPointQuery, sweep: Sweep, best: SweepFit) -> Array:
+    """Return the covariance (6, 6) of the fit, inflated for few points."""
     fit = best.fixed_from_moving
     middle = fit.move_points(sweep.points_mm).mean(axis=0)
     say = sweep.shares * best.weights
@@ -236,7 +236,9 @@ def _covariance(nearest: NearestOnSurface, sweep: Sweep, best: Laid) -> Array:
     smooth = nearest.smooth_normals(best.nearest_mm)
     by_sweep = equations(sweep, best, middle, normals=smooth, landmarks=False)[0]
     by_landmarks = equations(sweep, best, middle, normals=smooth)[0] - by_sweep
-    about_middle = np.linalg.inv(by_sweep * best.sd_mm**2 / variance + by_landmarks) * few_points(freedom)
+    about_middle = np.linalg.inv(by_sweep * best.sd_mm**2 / variance + by_landmarks) * small_sample_factor(
+        freedom
+    )
     # From a turn about the sweep's middle to one about the anchor's origin, which the record is of.
     carried = np.eye(6)
     carried[:3, 3:] = -skew(fit.translation_mm - middle)

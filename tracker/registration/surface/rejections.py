@@ -1,19 +1,19 @@
-"""Sweeps that cannot be laid on the bone."""
+"""Reject sweeps that do not determine a registration."""
 
 import numpy as np
 
 from tracker.errors import RegistrationError
 from tracker.geometry import Array
-from tracker.registration.surface.fit import Laid, Sweep
+from tracker.registration.surface.fit import Sweep, SweepFit
+from tracker.registration.surface.observability import MotionMode
 from tracker.registration.surface.settings import SurfaceSettings
-from tracker.registration.surface.sliding import Direction
 
 SWEEP_REMEDY = "Sweep the tip slowly over both laminae, the base of the spinous process and both facets."
 MIN_SPREAD_MM = 5.0
 
 
-def checked_sweep(points_mm: Array) -> Array:
-    """Swept points (n, 3), or the reason why they are none.
+def validate_sweep(points_mm: Array) -> Array:
+    """Return swept points (n, 3) as an array.
 
     Raises:
         RegistrationError: SURFACE_SWEEP_INVALID.
@@ -29,7 +29,7 @@ def checked_sweep(points_mm: Array) -> Array:
 
 
 def reject_small(points_mm: Array, shares: Array, settings: SurfaceSettings) -> None:
-    """Raises SURFACE_SWEEP_SMALL where a sweep has too few places, or lies all in one."""
+    """Raise SURFACE_SWEEP_SMALL for too few different points or too small a spread."""
     places = float(shares.sum())
     spread = float(np.sqrt(((points_mm - points_mm.mean(axis=0)) ** 2).sum(axis=1).mean())) if places else 0.0
     if places >= settings.min_points and spread >= MIN_SPREAD_MM:
@@ -43,8 +43,8 @@ def reject_small(points_mm: Array, shares: Array, settings: SurfaceSettings) -> 
     )
 
 
-def reject_far(laid: Laid, settings: SurfaceSettings) -> None:
-    """Raises SURFACE_START_FAR where the start does not lie near the bone."""
+def reject_far(laid: SweepFit, settings: SurfaceSettings) -> None:
+    """Raise SURFACE_START_FAR if the start is not near the bone."""
     median = float(np.median(np.abs(laid.off_mm)))
     if median > settings.max_start_off_mm:
         raise RegistrationError(
@@ -56,8 +56,8 @@ def reject_far(laid: Laid, settings: SurfaceSettings) -> None:
         )
 
 
-def reject_disagreement(laid: Laid, sweep: Sweep, settings: SurfaceSettings) -> None:
-    """Raises SURFACE_DISAGREES where too small a share of the sweep lies on the bone."""
+def reject_disagreement(laid: SweepFit, sweep: Sweep, settings: SurfaceSettings) -> None:
+    """Raise SURFACE_DISAGREES if the share of inliers is too small."""
     ratio = float(sweep.shares[laid.weights > 0.0].sum() / sweep.shares.sum())
     if ratio < settings.min_used_ratio:
         raise RegistrationError(
@@ -68,27 +68,29 @@ def reject_disagreement(laid: Laid, sweep: Sweep, settings: SurfaceSettings) -> 
         )
 
 
-def reject_sliding(weakest: Direction, settings: SurfaceSettings) -> None:
-    """Raises SURFACE_SLIDES where a direction stays open."""
-    if weakest.sd_mm <= settings.max_slide_sd_mm:
+def reject_sliding(least_observable: MotionMode, settings: SurfaceSettings) -> None:
+    """Raise SURFACE_SLIDES if a motion mode is unobservable."""
+    if least_observable.sd_mm <= settings.max_slide_sd_mm:
         return
-    known = "not known at all" if weakest.sd_mm > 100.0 else f"known to {weakest.sd_mm:.1f} mm"
+    known = (
+        "not known at all" if least_observable.sd_mm > 100.0 else f"known to {least_observable.sd_mm:.1f} mm"
+    )
     raise RegistrationError(
         "SURFACE_SLIDES",
-        f"the sweep slides on the bone {weakest.in_words}: there it is {known} at the target, "
+        f"the sweep slides on the bone {least_observable.description}: there it is {known} at the target, "
         f"allowed {settings.max_slide_sd_mm:g} mm",
         "Sweep surfaces that face other ways too: the flanks of the spinous process, the rims of the facets, "
         "the transverse processes.",
         {
-            "direction": weakest.in_words,
-            "sd_mm": min(weakest.sd_mm, 1000.0),
+            "direction": least_observable.description,
+            "sd_mm": min(least_observable.sd_mm, 1000.0),
             "allowed_mm": settings.max_slide_sd_mm,
         },
     )
 
 
-def reject_rival(apart_mm: float, words: str, rms_mm: tuple[float, float]) -> None:
-    """Raises SURFACE_AMBIGUOUS: another fit explains the sweep about as well."""
+def raise_ambiguous(apart_mm: float, words: str, rms_mm: tuple[float, float]) -> None:
+    """Raise SURFACE_AMBIGUOUS: another fit has a similar cost."""
     raise RegistrationError(
         "SURFACE_AMBIGUOUS",
         f"the sweep fits in two places {apart_mm:.1f} mm apart at the target, mostly {words}: "

@@ -1,10 +1,10 @@
-"""CT phantoms with exactly known pedicles, and the scanner that turns them into voxels."""
+"""CT phantoms with exactly known pedicles, and a simulated scanner."""
 
-from tracker.rehearsal.ct.parts import Block, ContrastTube, Drum, EllipticTube, Rod
+from tracker.rehearsal.ct.distance_fields import Block, ContrastTube, Drum, EllipticTube, Rod
 from tracker.rehearsal.ct.phantom import PedicleTruth, VertebraPhantom, pedicle_tube, usual_bones
-from tracker.rehearsal.ct.rehearsal import rehearsal_ct
+from tracker.rehearsal.ct.random_phantoms import random_grid, random_phantom
+from tracker.rehearsal.ct.rehearsal_ct import rehearsal_ct
 from tracker.rehearsal.ct.scanner import ScanGrid, scan
-from tracker.rehearsal.ct.varied import random_grid, random_phantom
 
 __all__ = [
     "Block",

@@ -1,4 +1,4 @@
-"""A vertebra made of simple solids, whose pedicles are known exactly, and its Hounsfield field."""
+"""A vertebra of simple solids with exactly known pedicles, as a field of Hounsfield units."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from tracker.geometry import Array
-from tracker.rehearsal.ct.parts import Block, ContrastTube, Drum, EllipticTube, Part, Rod
+from tracker.rehearsal.ct.distance_fields import Block, ContrastTube, Drum, EllipticTube, Part, Rod
 
 NOWHERE_MM = 1e3
 TOUCH_MM = 0.1
@@ -14,7 +14,7 @@ TOUCH_MM = 0.1
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PedicleTruth:
-    """What is true of one pedicle, in LPS: angles as `PedicleMeasure` defines them."""
+    """Ground truth of one pedicle, in LPS; angles as in `PedicleMeasure`."""
 
     width_mm: float
     height_mm: float
@@ -25,22 +25,22 @@ class PedicleTruth:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VertebraPhantom:
-    """Body, arch, processes and two pedicles with a shell of cortex and a core of marrow.
+    """Body, arch, processes and two pedicles with a cortical shell and a marrow core.
 
-    The solids live in the phantom's own frame (LPS-like, origin in the canal); it lies in the patient with
-    `rotation` and `place_mm`.
+    The solids are defined in the phantom's frame (LPS-like, origin in the canal); `rotation` and `place_mm`
+    place it in the patient.
 
     Attributes:
         pedicles: by side, `left` and `right`.
         bones: everything else of the vertebra.
         neighbours: other bones, with a shell of their own.
-        beside: what has one number: contrast, metal, lung.
+        beside: solids of constant HU: contrast, metal, lung.
         cortex_mm: thickness of the shell.
-        cortex_hu: its number.
-        marrow_hu: the core's number.
-        tissue_hu: everything around.
+        cortex_hu: HU of the shell.
+        marrow_hu: HU of the core.
+        tissue_hu: HU of everything around.
         rotation: (3, 3), turns the phantom in the patient.
-        place_mm: (3,), where the canal lies.
+        place_mm: (3,), position of the canal.
     """
 
     pedicles: Mapping[str, EllipticTube]
@@ -55,7 +55,7 @@ class VertebraPhantom:
     place_mm: Array = field(default_factory=lambda: np.zeros(3))
 
     def hu_at(self, points_lps_mm: Array) -> Array:
-        """Hounsfield units (n,) at points (n, 3) in LPS mm."""
+        """Return Hounsfield units (n,) at points (n, 3) in LPS mm."""
         p = (points_lps_mm - self.place_mm) @ self.rotation
         hu = np.full(len(p), self.tissue_hu)
         for thing in self.beside:
@@ -69,13 +69,13 @@ class VertebraPhantom:
         return hu
 
     def bone_distance_mm(self, points_lps_mm: Array) -> Array:
-        """Distance (n,) from the surface of the vertebra, negative inside."""
+        """Return the signed distance (n,) to the vertebra's surface, negative inside."""
         p = (points_lps_mm - self.place_mm) @ self.rotation
         solids = (*self.pedicles.values(), *self.bones)
         return np.asarray(np.min([solid.distance_mm(p) for solid in solids], axis=0))
 
     def truth(self, side: str) -> PedicleTruth:
-        """What is true of the pedicle on this side."""
+        """Return the ground truth of the pedicle on this side."""
         pedicle = self.pedicles[side]
         isthmus = self.rotation @ pedicle.waist_mm + self.place_mm
         axis = self.rotation @ pedicle.axis
@@ -89,7 +89,7 @@ class VertebraPhantom:
         )
 
     def _leaves_mm(self, start_mm: Array, direction: Array) -> float:
-        """How far it is to where a line leaves the vertebra, two parts that only touch being one."""
+        """Return the distance at which a line leaves the vertebra; touching solids count as one."""
         steps = np.arange(0.0, 80.0, 0.01)
         distance = self.bone_distance_mm(start_mm + steps[:, None] * direction)
         left = int(np.argmax(distance > TOUCH_MM))
@@ -97,7 +97,7 @@ class VertebraPhantom:
         return float(steps[inside[-1]])
 
     def seed_lps_mm(self, side: str, offset_mm: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Array:
-        """A click in the pedicle: `offset_mm` along its axis, its width and its height from the isthmus."""
+        """Return a click in the pedicle, offset along its axis, width and height from the isthmus."""
         pedicle = self.pedicles[side]
         up = np.cross(pedicle.axis, pedicle.across)
         at = pedicle.waist_mm + np.stack([pedicle.axis, pedicle.across, up], axis=1) @ np.array(offset_mm)
@@ -116,7 +116,7 @@ def pedicle_tube(
     widening_per_mm2: float = 0.0,
     bend_per_mm: float = 0.0,
 ) -> EllipticTube:
-    """A pedicle from its numbers; `waist_mm` is given for the left side and mirrored for the right.
+    """Return a pedicle from its parameters; `waist_mm` is for the left side and mirrored for the right.
 
     The angles are those of the axis as it shows on an axial and on a sagittal slice: positive where it runs
     to the middle, and to the head, going forwards.
@@ -140,7 +140,7 @@ def pedicle_tube(
 
 
 def usual_bones() -> tuple[Part, ...]:
-    """Body, arch, transverse and spinous processes around a canal at the origin."""
+    """Return body, arch, transverse and spinous processes around a canal at the origin."""
     return (
         Drum(centre_mm=np.array([0.0, -27.0, 0.0]), half_mm=(23.0, 17.0, 14.0)),
         Block(centre_mm=np.array([0.0, 15.0, -3.0]), half_mm=(20.0, 5.0, 11.0)),

@@ -1,4 +1,4 @@
-"""A scanner in software: a Hounsfield field becomes voxels, with partial volume and noise."""
+"""Simulated CT scanner: voxelisation of a Hounsfield field with partial volume and noise."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ FLAT_HU = 4.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ScanGrid:
-    """Where the voxels lie, and how thick a slice each of them averages.
+    """Voxel grid and slice thickness of a scan.
 
     Attributes:
         lps_from_ijk: (4, 4) affine in mm, as in `Volume`; may be oblique or sheared.
@@ -50,7 +50,7 @@ class ScanGrid:
         noise_hu: float = 0.0,
         seed: int = 1,
     ) -> "ScanGrid":
-        """A block of voxels around a point: rows run to the left, columns backwards, slices to the head.
+        """Return a grid around a point: rows run to the left, columns backwards, slices to the head.
 
         `rotation` (3, 3) turns the whole stack; a tilted gantry shears it, as scanners do.
         """
@@ -76,7 +76,7 @@ class ScanGrid:
 
 
 def scan(hu_at: HuAt, grid: ScanGrid) -> Volume:
-    """The CT that a scanner makes of a field of Hounsfield units.
+    """Return the CT of a Hounsfield field.
 
     A voxel is the mean of the field over its own box (partial volume), blurred in the slice and made noisy.
 
@@ -109,7 +109,7 @@ def _field(hu_at: HuAt, grid: ScanGrid, index: Array) -> Array:
 
 
 def _uneven(block: Array, grid: ScanGrid) -> npt.NDArray[np.bool_]:
-    """Voxels whose box may hold more than one tissue: their neighbours differ, two voxels away at most."""
+    """Return the voxels that may contain several tissues: neighbours within two voxels differ."""
     reach = (5 if grid.thickness_ratio > 1.0 else 3, 3, 3)
     spread = ndimage.maximum_filter(block, size=reach) - ndimage.minimum_filter(block, size=reach)
     return np.asarray(spread > FLAT_HU)

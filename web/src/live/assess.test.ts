@@ -90,7 +90,7 @@ describe("age", () => {
     [500, "unread"],
     [500.1, "old"],
   ])("why there are no figures, %d ms old, is said as long as its picture may stand: %s", (ageMs, cause) => {
-    const numbers = taken(NOW - ageMs, { shown_tool: null });
+    const numbers = taken(NOW - ageMs, { displayed_tool: null });
     expect(numbersVerdict(situation({ numbers }), NOW)).toMatchObject({ live: false, cause });
   });
 
@@ -123,8 +123,8 @@ describe("what the image says", () => {
   });
 
   test.each([
-    ["none is shown", { shown_tool: null }],
-    ["the one that is shown is missing", { shown_tool: "awl" }],
+    ["none is shown", { displayed_tool: null }],
+    ["the one that is shown is missing", { displayed_tool: "awl" }],
     [
       "the one that is shown has no figures",
       {

@@ -2,7 +2,7 @@
 import type { Situation, Taken } from "./assess";
 import { alarms } from "./alarmBuilders";
 import { assessment, headline } from "./figureBuilders";
-import type { AlongMessage, JudgementMessage, LiveMessage, SnapshotMessage } from "./messages";
+import type { BullseyeMessage, JudgementMessage, LiveMessage, SnapshotMessage } from "./messages";
 
 export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessage {
   return {
@@ -18,7 +18,12 @@ export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessag
     channel_name: "L3 left",
     withheld: null,
     vertebra: { kind: "absent", reason: "NOT_REGISTERED" },
-    watched: { moves_seen_by: "not-at-all", camera_moved: false, reference_moved: false, scene: "unsure" },
+    motion: {
+      motion_detected_by: "not-at-all",
+      camera_moved: false,
+      reference_moved: false,
+      scene: "unsure",
+    },
     markers: [
       {
         name: "drill",
@@ -50,7 +55,7 @@ export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessag
         along: along(),
       },
     ],
-    shown_tool: "drill",
+    displayed_tool: "drill",
     stage_ms: {},
     skipped_images: 0,
     ...changes,
@@ -69,14 +74,14 @@ export function judgement(changes: Partial<JudgementMessage> = {}): JudgementMes
     clearance: {
       against: "bone",
       now: { ...place, clearance_mm: 1.8, grade: "A" },
-      soon: { ...place, clearance_mm: 0.9, grade: "A" },
+      lookahead: { ...place, clearance_mm: 0.9, grade: "A" },
       at_end: { ...place, clearance_mm: -0.4, grade: "B" },
       channel: { ...place, clearance_mm: 0.2, grade: "A" },
       past_planned_mm: -4,
     },
     probability: {
       now_ratio: 0,
-      soon_ratio: 0.03,
+      lookahead_ratio: 0.03,
       at_end_ratio: 0.12,
       at_end_grade_ratio: { A: 0.88, B: 0.12, C: 0, D: 0, E: 0 },
       past_planned_ratio: 0,
@@ -93,13 +98,13 @@ export function judgement(changes: Partial<JudgementMessage> = {}): JudgementMes
       sd_depth_mm: 0.2,
       sd_at_entry_mm: 0.3,
     },
-    certain: { enough: true, entry_95_mm: 0.7, isthmus_95_mm: 0.8, room_mm: 2, room_deg: 6.3 },
+    certain: { enough: true, entry_95_mm: 0.7, isthmus_95_mm: 0.8, tolerance_mm: 2, tolerance_deg: 6.3 },
     ...changes,
   };
 }
 
 /** Beside the axis, turned a little to the right. */
-export function along(changes: Partial<AlongMessage> = {}): AlongMessage {
+export function along(changes: Partial<BullseyeMessage> = {}): BullseyeMessage {
   return {
     tip_mm: [1, -0.5],
     at_entry_mm: [0.6, 0.8],

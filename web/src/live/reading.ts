@@ -1,7 +1,7 @@
 // The surgeon's figures out of one image's message, or why there are none. Which tool's they are, what they are
 // compared with and what is said of them was decided by the server: the video says the same.
 import type {
-  AlongMessage,
+  BullseyeMessage,
   AssessmentMessage,
   DeviationMessage,
   HeadlineMessage,
@@ -13,7 +13,7 @@ export interface Reading {
   tool: string;
   deviation: DeviationMessage;
   assessment: AssessmentMessage;
-  along: AlongMessage | null;
+  along: BullseyeMessage | null;
   lagMs: number;
   headline: HeadlineMessage;
 }
@@ -24,7 +24,7 @@ export interface Unread {
 }
 
 export function readingOf(snapshot: SnapshotMessage, headline: HeadlineMessage): Reading | Unread {
-  const tool = snapshot.tools.find(({ name }) => name === snapshot.shown_tool);
+  const tool = snapshot.tools.find(({ name }) => name === snapshot.displayed_tool);
   if (tool?.assessment.kind !== "assessment" || tool.deviation.kind !== "deviation") {
     return { known: false, headline };
   }

@@ -1,4 +1,4 @@
-// How a number is shown. The server burns the same digits into the video (`server/shown.py`).
+// How a number is shown. The server burns the same digits into the video (`server/number_format.py`).
 
 export const NOT_KNOWN = "--";
 

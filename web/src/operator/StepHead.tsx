@@ -34,7 +34,7 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
             <span aria-hidden="true">{MARK_OF_STATE[step.state]}</span> {stateWord(step, words)}
           </strong>{" "}
           {/* The server speaks English. */}
-          <span lang="en">{sentence(step.said)}</span>
+          <span lang="en">{sentence(step.message)}</span>
           {note !== "" && (
             <span className="step-remedy" data-testid="step-note">
               ▲ {note}

@@ -7,7 +7,7 @@ export function Moves(): ReactNode {
   const words = useWords();
   const { view } = useLive();
   const stale = !view.numbers.live && view.numbers.cause !== "unread";
-  const moves = view.newest?.snapshot?.watched.moves_seen_by ?? null;
+  const moves = view.newest?.snapshot?.motion.motion_detected_by ?? null;
   if (moves === null || stale) return null;
   return (
     <p className="moves" data-moves={moves} data-testid="moves">

@@ -1,6 +1,6 @@
 // What the bull's-eye is drawn from, in mm: right and up from the channel's axis. Pure. The burned-in one in the
 // video (server/overlay/bullseye.py) goes by the same rules.
-import type { AlongMessage } from "../live/messages";
+import type { BullseyeMessage } from "../live/messages";
 
 export type Place = readonly [number, number];
 
@@ -23,7 +23,7 @@ export interface Drawn {
   nearest: Place | null;
 }
 
-export function drawnFrom(along: AlongMessage): Drawn {
+export function drawnFrom(along: BullseyeMessage): Drawn {
   const reach = along.reach_mm;
   const tip = place(along.tip_mm) ?? [0, 0];
   if (Math.hypot(...tip) > reach) {

@@ -3,7 +3,7 @@ import { en } from "../words/en";
 import { cameraFacts } from "./cameraFacts";
 
 const MODE = { fourcc: "MJPG", width_px: 1920, height_px: 1080, rate_hz: 30 };
-const CAMERA = { clock: "driver" as const, asked: MODE, granted: MODE, controls: {}, note: null };
+const CAMERA = { clock: "driver" as const, requested: MODE, granted: MODE, controls: {}, note: null };
 
 test("a camera says whose clock stamps its images, and what it granted", () => {
   expect(cameraFacts(CAMERA, en)).toEqual([

@@ -1,5 +1,5 @@
 // Puts the bull's-eye onto its drawing, past React's state. In mm, up is up.
-import type { AlongMessage } from "../live/messages";
+import type { BullseyeMessage } from "../live/messages";
 import type { Reading } from "../live/reading";
 import { drawnFrom, type Place } from "./bullseye";
 import { figureOf } from "./limits";
@@ -15,7 +15,7 @@ const TIP = 0.035;
 /** Draws this view; with null, nothing of the last one is left. */
 export function paintBullseye(
   svg: SVGSVGElement | null,
-  along: AlongMessage | null,
+  along: BullseyeMessage | null,
   reading: Reading | null,
 ): void {
   if (svg === null) return;
@@ -34,7 +34,7 @@ export function paintBullseye(
 }
 
 /** What does not move with the drill. */
-function frame(svg: SVGSVGElement, along: AlongMessage): void {
+function frame(svg: SVGSVGElement, along: BullseyeMessage): void {
   const reach = along.reach_mm;
   const half = MARGIN * reach;
   const box = `${-half} ${-half} ${2 * half} ${2 * half}`;

@@ -3,7 +3,7 @@ import type { View } from "../live/live";
 import { noteOf } from "./problems";
 
 const NOTE = { code: "LAMP_FLICKER", message: { en: "a", de: "b" }, remedy: { en: "c", de: "d" } };
-const camera = { clock: "driver", asked: null, granted: null, controls: {}, note: NOTE };
+const camera = { clock: "driver", requested: null, granted: null, controls: {}, note: NOTE };
 const viewOf = (source: unknown): View => ({ newest: source === null ? null : { source } }) as View;
 
 test("a camera's note is told while there is one", () => {

@@ -11,7 +11,10 @@ interface UnansweredProps {
 }
 
 /** In place of an answer that is not there: that it is awaited, or why it failed and a way to ask again. */
-export function Unanswered({ asked: { rejection, again }, Note = RejectionNote }: UnansweredProps): ReactNode {
+export function Unanswered({
+  asked: { rejection, again },
+  Note = RejectionNote,
+}: UnansweredProps): ReactNode {
   const words = useWords().rest;
   if (rejection === null)
     return (

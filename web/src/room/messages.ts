@@ -10,7 +10,7 @@ export type Hold = Schemas["HoldMessage"];
 export type You = Schemas["YouMessage"];
 export type Signable = Schemas["SignableMessage"];
 export type Shape = Schemas["Shape"];
-export type LineTo = Schemas["LineState"];
+export type LineTo = Schemas["ConnectionState"];
 
 export type Point = readonly [number, number];
 

@@ -9,7 +9,7 @@ const QUIET: RoomMessage = {
   pointers: [],
   drawings: [],
   grown: [],
-  hold: { asked_by: [], since: null, is_yours: false },
+  hold: { requested_by: [], since: null, is_yours: false },
   signable: null,
 };
 const SATO = { name: "Dr Sato", role: "supervisor", seat: 1, image_number: 7, captured_at_s: 4 } as const;

@@ -13,7 +13,7 @@ export function HoldPanel(): ReactNode {
   const words = all.supervisor.hold;
   const { hold, you } = useRoomWords();
   const { busy, rejection, run } = useDo();
-  const asked = hold?.asked_by ?? [];
+  const asked = hold?.requested_by ?? [];
   const mine = hold?.is_yours === true;
   const mayRelease = mine || you?.role === "operator";
   return (

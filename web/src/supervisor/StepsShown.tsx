@@ -23,14 +23,18 @@ export function StepsShown(): ReactNode {
   return (
     <ol className="steps-shown" data-testid="steps">
       {data.steps.map((step) => (
-        <li key={step.step} data-state={step.lacks === null ? step.state : "missing"} data-step={step.step}>
+        <li
+          key={step.step}
+          data-state={step.missing_cosignature === null ? step.state : "missing"}
+          data-step={step.step}
+        >
           <span aria-hidden="true" className="steps-mark">
-            {step.lacks === null ? SYMBOL[step.state] : "○"}
+            {step.missing_cosignature === null ? SYMBOL[step.state] : "○"}
           </span>
           <div>
             <b>{words.operator.page[step.step]}</b> ·{" "}
-            {step.lacks === null ? stateWord(step, words.operator) : own.steps.lacks}
-            <p className="soft">{step.said}</p>
+            {step.missing_cosignature === null ? stateWord(step, words.operator) : own.steps.lacks}
+            <p className="soft">{step.message}</p>
           </div>
         </li>
       ))}

@@ -13,7 +13,7 @@ export interface Row {
 
 const LIMIT_OF: Partial<Record<NumberName, string>> = {
   fre_rms_mm: "max_fre_mm",
-  left_out_mm: "max_left_out_mm",
+  leave_one_out_mm: "max_left_out_mm",
   tre_at_entry_mm: "max_tre_mm",
   surface_rms_mm: "max_surface_rms_mm",
 };
@@ -21,7 +21,7 @@ const NAMES: readonly NumberName[] = [
   "points",
   "needles",
   "fre_rms_mm",
-  "left_out_mm",
+  "leave_one_out_mm",
   "worst_offset_mm",
   "surface_rms_mm",
   "tre_at_entry_mm",

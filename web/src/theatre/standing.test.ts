@@ -7,7 +7,7 @@ import type { Procedure } from "../app/procedure";
 type State = Procedure["steps"][number]["state"];
 
 function standing(check: State, checkAgeMin: number | null = 3): Procedure {
-  const step = { said: "", remedy: "", document_id: null, allowed: true, lacks: null };
+  const step = { message: "", remedy: "", document_id: null, allowed: true, missing_cosignature: null };
   return {
     case_id: "c1",
     case_name: "Phantom 4",

@@ -1,6 +1,6 @@
 // What there is to say, in every language.
 import type { Cause } from "../live/assess";
-import type { ImageClock, MovesSeen, Priority, UnseenReason, Wall } from "../live/messages";
+import type { ImageClock, MotionDetection, Priority, UnseenReason, Wall } from "../live/messages";
 
 import type { AuditWords } from "./audit/en";
 import type { CameraWords } from "./camera/en";
@@ -54,7 +54,7 @@ export interface Words {
     { name: string; hint: string; unit: string }
   >;
   wall: Record<"outside" | "soon" | "atEnd" | "risk", string> & { side: Record<Wall, string> };
-  moves: Record<MovesSeen, string>;
+  moves: Record<MotionDetection, string>;
   depthWords: { before: string; inside: string; past: string; across: string };
   scene: {
     title: string;

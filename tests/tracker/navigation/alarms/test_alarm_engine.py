@@ -1,19 +1,19 @@
-"""The alarms as a person in theatre meets them."""
+"""The alarm engine, as seen by its user."""
 
 import pytest
 
-from tests.tracker.navigation.alarms.theatre_of_alarms import Stream, good
+from tests.tracker.navigation.alarms.alarm_stream import Stream, good
 from tracker.camera import CameraControl, ControlChange
 from tracker.errors import InvalidInput
 from tracker.navigation.alarms import (
     NOT_KNOWN,
     AlarmEngine,
+    AlarmInputs,
     AlarmState,
     Change,
     Condition,
-    Observed,
+    Presence,
     Priority,
-    Showing,
     Sound,
 )
 
@@ -159,8 +159,8 @@ def test_what_was_raised_after_they_looked_is_not_acknowledged() -> None:
 def test_the_highest_sounds_alone_and_the_lower_ones_stay_listed() -> None:
     stream = Stream()
     assert stream.images(1.0, free_disk_mb=10.0).sound is Sound.LOW
-    assert stream.images(1.0, free_disk_mb=10.0, hold_asked_by="Dr Sato").sound is Sound.MEDIUM
-    picture = stream.images(1.0, free_disk_mb=10.0, hold_asked_by="Dr Sato", **HIGHS)
+    assert stream.images(1.0, free_disk_mb=10.0, hold_requested_by="Dr Sato").sound is Sound.MEDIUM
+    picture = stream.images(1.0, free_disk_mb=10.0, hold_requested_by="Dr Sato", **HIGHS)
     assert picture.sound is Sound.HIGH
     assert [alarm.priority for alarm in picture.alarms] == [Priority.HIGH, Priority.MEDIUM, Priority.LOW]
     assert picture.alarms[1].by == "Dr Sato"
@@ -191,7 +191,7 @@ def test_no_pause_is_longer_than_two_minutes(seconds: float) -> None:
     ("new", "sound"),
     [
         pytest.param(HIGHS, Sound.HIGH, id="higher"),
-        pytest.param({"hold_asked_by": "Dr Sato"}, Sound.MEDIUM, id="another of the same"),
+        pytest.param({"hold_requested_by": "Dr Sato"}, Sound.MEDIUM, id="another of the same"),
         pytest.param({"free_disk_mb": 1.0}, Sound.MEDIUM, id="another, lower: all sound again"),
     ],
 )
@@ -249,7 +249,7 @@ ALARMING: dict[Condition, dict[str, object]] = {
     Condition.DISK_NEARLY_FULL: {"free_disk_mb": 1999.0},
     Condition.VIEWER_LOST: {"lost_screens": 1},
     Condition.RECORDING_STOPPED: {"recording_runs": False},
-    Condition.HOLD_ASKED: {"hold_asked_by": "Dr Sato"},
+    Condition.HOLD_REQUESTED: {"hold_requested_by": "Dr Sato"},
 }
 
 
@@ -260,9 +260,9 @@ ALARMING: dict[Condition, dict[str, object]] = {
 def test_what_only_a_new_image_shows_is_not_claimed_of_an_old_one(condition: Condition) -> None:
     stream = Stream()
     (alarm,) = stream.images(6.0, **ALARMING[condition]).alarms
-    assert alarm.presence is Showing.YES
+    assert alarm.presence is Presence.YES
     (alarm,) = stream.silence(0.1, image_current=False, **ALARMING[condition]).alarms
-    assert alarm.presence is Showing.UNKNOWN
+    assert alarm.presence is Presence.UNKNOWN
     picture = stream.silence(2.0, image_current=False, **ALARMING[condition])
     assert [alarm.condition for alarm in picture.alarms] == [Condition.CAMERA_STALLED]
 
@@ -281,14 +281,14 @@ def test_each_condition_is_raised_and_goes(condition: Condition) -> None:
 def test_before_navigation_only_disk_recording_and_a_hold_are_heard(condition: Condition) -> None:
     stream = Stream()
     picture = stream.images(10.0, **ALARMING[condition], navigating=False)
-    always = {Condition.DISK_NEARLY_FULL, Condition.RECORDING_STOPPED, Condition.HOLD_ASKED}
-    assert {alarm.condition for alarm in picture.alarms} == {condition} & always
+    outside_navigation = {Condition.DISK_NEARLY_FULL, Condition.RECORDING_STOPPED, Condition.HOLD_REQUESTED}
+    assert {alarm.condition for alarm in picture.alarms} == {condition} & outside_navigation
 
 
 def test_an_empty_set_up_is_silent() -> None:
     engine = AlarmEngine()
     for second in range(100):
-        assert engine.step(Observed(navigating=False), float(second)).alarms == ()
+        assert engine.step(AlarmInputs(navigating=False), float(second)).alarms == ()
 
 
 def test_a_drill_that_was_put_away_is_not_missed() -> None:

@@ -1,4 +1,4 @@
-"""Laws of the alarms: the same in the same out, no chatter, silence while all is well."""
+"""Invariants of the alarms: deterministic, no chatter, silent without a condition."""
 
 import math
 import random
@@ -9,12 +9,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.tracker.navigation.alarms.theatre_of_alarms import RATE_HZ, Stream, good
+from tests.tracker.navigation.alarms.alarm_stream import RATE_HZ, Stream, good
 from tracker.navigation.alarms import (
-    TRAITS,
+    ALARM_RULES,
     AlarmEngine,
     AlarmEvent,
-    AlarmPicture,
+    AlarmSnapshot,
     AlarmState,
     Change,
     Condition,
@@ -24,7 +24,7 @@ from tracker.navigation.alarms import (
 MINUTE_IMAGES = int(60 * RATE_HZ)
 
 
-def played(seed: int) -> list[AlarmPicture]:
+def played(seed: int) -> list[AlarmSnapshot]:
     """A minute in which everything happens, by this seed."""
     rng, engine, at_s, pictures = random.Random(seed), AlarmEngine(), 0.0, []
     for number in range(MINUTE_IMAGES):
@@ -37,7 +37,7 @@ def played(seed: int) -> list[AlarmPicture]:
             past_depth_mm=rng.gauss(-0.5, 0.5),
             drill_unseen_s=rng.choice((0.0, 0.0, 1.5)),
             camera_works=rng.random() > 0.01,
-            hold_asked_by=rng.choice(("", "", "Dr Sato")),
+            hold_requested_by=rng.choice(("", "", "Dr Sato")),
         )
         pictures.append(engine.step(seen, at_s))
         if rng.random() < 0.01:
@@ -120,7 +120,7 @@ def test_whatever_the_value_does_alarms_of_a_condition_keep_their_distance(
             stream.acknowledge()
     for condition in (Condition.BREACH, Condition.CLEARANCE_LOW):
         for one, next_one in pairwise(onsets(stream.events, condition)):
-            assert next_one - one >= TRAITS[condition].clear_s - 1e-9
+            assert next_one - one >= ALARM_RULES[condition].clear_s - 1e-9
 
 
 def test_no_alarm_in_a_thousand_seconds_of_good_drilling() -> None:

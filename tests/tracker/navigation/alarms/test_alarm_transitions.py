@@ -1,39 +1,39 @@
-"""Every transition of one condition, and of the whole engine as a person sees it."""
+"""State transitions of one condition and of the whole engine."""
 
 import itertools
 from math import inf
 
 import pytest
 
-from tracker.navigation.alarms.conditions import TRAITS, Condition, Kind, Priority, Trait
-from tracker.navigation.alarms.evidence import GONE, UNKNOWN, Evidence, Measure, Showing
+from tracker.navigation.alarms.evidence import GONE, UNKNOWN, Evidence, Measure, Presence
 from tracker.navigation.alarms.occurrence import (
     AlarmState,
-    Moment,
     Occurrence,
     Peak,
+    StepContext,
     acknowledged,
     advanced,
 )
+from tracker.navigation.alarms.rules import ALARM_RULES, AlarmRule, Condition, Kind, Priority
 
 N, A, K, L = AlarmState.NORMAL, AlarmState.ACTIVE, AlarmState.ACKNOWLEDGED, AlarmState.LATCHED
-SHOWS = Evidence(showing=Showing.YES)
+SHOWS = Evidence(presence=Presence.YES)
 
 
 def made(state: AlarmState, *, showing_s: float = inf, gone_s: float = inf) -> Occurrence:
     return Occurrence(
         state=state,
-        showing_since_s=100.0 - showing_s if showing_s < inf else inf,
-        gone_since_s=100.0 - gone_s if gone_s < inf else inf,
+        present_since_s=100.0 - showing_s if showing_s < inf else inf,
+        absent_since_s=100.0 - gone_s if gone_s < inf else inf,
     )
 
 
-def trait(*, latches: bool, holds: bool) -> Trait:
-    return Trait(
+def trait(*, latches: bool, persists_when_unknown: bool) -> AlarmRule:
+    return AlarmRule(
         priority=Priority.HIGH,
         kind=Kind.PHYSIOLOGICAL,
         latches=latches,
-        holds=holds,
+        persists_when_unknown=persists_when_unknown,
         confirm_s=1.0,
         clear_s=1.0,
     )
@@ -59,16 +59,16 @@ OVER: dict[tuple[AlarmState, Evidence], AlarmState | dict[tuple[bool, bool], Ala
 @pytest.mark.parametrize("state", AlarmState)
 @pytest.mark.parametrize("evidence", [SHOWS, GONE, UNKNOWN], ids=["shows", "gone", "unknown"])
 @pytest.mark.parametrize("latches", [False, True], ids=["", "latches"])
-@pytest.mark.parametrize("holds", [False, True], ids=["", "holds"])
+@pytest.mark.parametrize("persists_when_unknown", [False, True], ids=["", "persists_when_unknown"])
 def test_each_state_with_each_evidence(
-    state: AlarmState, evidence: Evidence, latches: bool, holds: bool
+    state: AlarmState, evidence: Evidence, latches: bool, persists_when_unknown: bool
 ) -> None:
-    traits = trait(latches=latches, holds=holds)
+    traits = trait(latches=latches, persists_when_unknown=persists_when_unknown)
     ends = OVER[state, evidence]
-    ended = ends if isinstance(ends, AlarmState) else ends[latches, holds]
-    just = advanced(made(state, showing_s=0.9, gone_s=0.9), evidence, traits, Moment(at_s=100.0))
+    ended = ends if isinstance(ends, AlarmState) else ends[latches, persists_when_unknown]
+    just = advanced(made(state, showing_s=0.9, gone_s=0.9), evidence, traits, StepContext(at_s=100.0))
     assert just.state is state, "a moment before its time is over nothing changes"
-    over = advanced(made(state, showing_s=1.0, gone_s=1.0), evidence, traits, Moment(at_s=100.0))
+    over = advanced(made(state, showing_s=1.0, gone_s=1.0), evidence, traits, StepContext(at_s=100.0))
     assert over.state is ended
 
 
@@ -81,18 +81,18 @@ HALF = Measure(value=0.5, limit=0.0, unit="mm")
 
 
 def test_only_what_is_acknowledged_and_clearly_worse_sounds_again() -> None:
-    traits = trait(latches=True, holds=True)
+    traits = trait(latches=True, persists_when_unknown=True)
     known = Occurrence(state=K, peak=Peak(measure=HALF, severity=0.5, at_s=0.0), acknowledged_severity=0.5)
     for depth_mm, becomes in ((0.4, K), (1.49, K), (1.5, A)):
-        evidence = Evidence(showing=Showing.YES, measure=HALF, severity=depth_mm)
-        moment = Moment(at_s=1.0, again_after_mm=1.0)
+        evidence = Evidence(presence=Presence.YES, measure=HALF, severity=depth_mm)
+        moment = StepContext(at_s=1.0, realarm_after_mm=1.0)
         assert advanced(known, evidence, traits, moment).state is becomes, depth_mm
 
 
 def test_every_condition_has_its_priority_of_the_table() -> None:
-    assert set(TRAITS) == set(Condition)
+    assert set(ALARM_RULES) == set(Condition)
     by_priority = {
-        priority: {condition for condition in Condition if TRAITS[condition].priority is priority}
+        priority: {condition for condition in Condition if ALARM_RULES[condition].priority is priority}
         for priority in Priority
     }
     assert by_priority[Priority.HIGH] == {
@@ -103,12 +103,12 @@ def test_every_condition_has_its_priority_of_the_table() -> None:
         *(Condition.CHECK_DUE, Condition.NO_ARMED_SCREEN, Condition.DISK_NEARLY_FULL),
         *(Condition.VIEWER_LOST, Condition.RECORDING_STOPPED),
     }
-    assert {condition for condition in Condition if TRAITS[condition].latches} == {
+    assert {condition for condition in Condition if ALARM_RULES[condition].latches} == {
         Condition.BREACH,
         Condition.PAST_DEPTH,
     }
-    assert {condition for condition in Condition if TRAITS[condition].kind is Kind.ADVISORY} == {
-        Condition.HOLD_ASKED
+    assert {condition for condition in Condition if ALARM_RULES[condition].kind is Kind.ADVISORY} == {
+        Condition.HOLD_REQUESTED
     }
 
 
@@ -117,7 +117,7 @@ def test_every_condition_has_its_priority_of_the_table() -> None:
     list(itertools.product(AlarmState, [SHOWS, GONE, UNKNOWN], [False, True])),
 )
 def test_no_moment_acknowledges_by_itself(was: AlarmState, evidence: Evidence, image: bool) -> None:
-    for traits in TRAITS.values():
-        moment = Moment(at_s=1e9, new_image=image, image_gap_s=1.0)
+    for traits in ALARM_RULES.values():
+        moment = StepContext(at_s=1e9, new_image=image, image_gap_s=1.0)
         now = advanced(made(was, showing_s=0.0, gone_s=0.0), evidence, traits, moment)
         assert now.state is not K or was is K

@@ -8,18 +8,18 @@ import pytest
 from tests.tracker.navigation.bones import ROD_CHANNEL, drill_at, rod
 from tracker.geometry import Rigid, Tool, Vertebra
 from tracker.navigation.clearance import (
-    Closest,
     DrillClearance,
-    MeasuredAgainst,
-    Nearest,
+    NearestWall,
     NotEntered,
-    WallField,
-    choose_wall,
+    WallDistanceField,
+    WallProximity,
+    WallSource,
+    bone_distance_field,
+    channel_distance_field,
     clearance_of_drill,
     drill_rings,
-    field_of_bone,
-    field_of_channel,
-    field_of_outline,
+    outline_distance_field,
+    select_wall,
 )
 from tracker.navigation.directions import Wall
 from tracker.plan import Channel, Surface
@@ -31,16 +31,16 @@ LEFT = pedicle_channels()[0]
 
 
 @lru_cache(maxsize=4)
-def _field(name: str) -> WallField:
+def _field(name: str) -> WallDistanceField:
     if name == "rod":
-        return field_of_bone(rod(), ROD_CHANNEL, margin_mm=20.0)
-    return field_of_bone(vertebra_surface(), pedicle_channels()[("left", "right").index(name)])
+        return bone_distance_field(rod(), ROD_CHANNEL, margin_mm=20.0)
+    return bone_distance_field(vertebra_surface(), pedicle_channels()[("left", "right").index(name)])
 
 
 def _clearance(
     pose: Rigid[Vertebra, Tool],
     channel: Channel,
-    wall: WallField,
+    wall: WallDistanceField,
     *,
     radius_mm: float = 2.0,
     screw_radius_mm: float | None = None,
@@ -51,8 +51,8 @@ def _clearance(
     return clearance_of_drill(rings, pose, channel, "right" if "right" in channel.name else "left")
 
 
-def _mm(closest: Nearest | NotEntered) -> float:
-    assert isinstance(closest, Nearest)
+def _mm(closest: NearestWall | NotEntered) -> float:
+    assert isinstance(closest, NearestWall)
     return closest.clearance_mm
 
 
@@ -74,7 +74,7 @@ def test_clearance_is_what_a_hand_measures(
 ) -> None:
     pose = drill_at(ROD_CHANNEL, depth_mm, medial_mm=medial_mm, cranial_mm=cranial_mm)
     now = _clearance(pose, ROD_CHANNEL, _field("rod")).now
-    assert isinstance(now, Nearest)
+    assert isinstance(now, NearestWall)
     assert now.clearance_mm == pytest.approx(clearance_mm, abs=0.1)
     assert now.wall is wall
 
@@ -84,7 +84,7 @@ def test_a_tilted_drill_is_nearest_at_its_rim_where_it_is_deepest() -> None:
     now = _clearance(pose, ROD_CHANNEL, _field("rod")).now
     # The axis is off by 30 tan 3 = 1.57 there, and the rim stands a cosine less out.
     assert _mm(now) == pytest.approx(5.0 - 1.572 - 2.0 * np.cos(np.radians(3.0)), abs=0.1)
-    assert isinstance(now, Nearest)
+    assert isinstance(now, NearestWall)
     assert now.point_in_vertebra_mm[1] == pytest.approx(-10.0, abs=1.2)
 
 
@@ -92,7 +92,7 @@ def test_the_shaft_is_through_where_the_tip_is_not() -> None:
     # In through the side wall behind, tip back on the axis in front.
     pose = drill_at(ROD_CHANNEL, 40.0, medial_mm=5.0, medial_deg=float(np.degrees(np.arctan(-5.0 / 40.0))))
     now = _clearance(pose, ROD_CHANNEL, _field("rod")).now
-    assert isinstance(now, Nearest)
+    assert isinstance(now, NearestWall)
     assert now.clearance_mm < -1.0
     assert now.point_in_vertebra_mm[1] > 10.0
 
@@ -121,7 +121,7 @@ def test_the_present_direction_gives_its_class_before_it_is_drilled(tilt_deg: fl
 
 def test_soon_is_two_millimetres_further() -> None:
     clearance = _clearance(drill_at(ROD_CHANNEL, 57.0), ROD_CHANNEL, _field("rod"))
-    assert _mm(clearance.soon) == pytest.approx(1.0, abs=0.1)
+    assert _mm(clearance.lookahead) == pytest.approx(1.0, abs=0.1)
     assert clearance.past_planned_mm == pytest.approx(2.0)
 
 
@@ -134,9 +134,9 @@ def test_the_channel_s_own_wall_is_told_too() -> None:
 
 def test_the_channel_alone_stands_in_where_no_bone_is_known() -> None:
     clearance = _clearance(
-        drill_at(ROD_CHANNEL, 30.0, medial_mm=2.5), ROD_CHANNEL, field_of_channel(ROD_CHANNEL)
+        drill_at(ROD_CHANNEL, 30.0, medial_mm=2.5), ROD_CHANNEL, channel_distance_field(ROD_CHANNEL)
     )
-    assert clearance.against is MeasuredAgainst.CHANNEL
+    assert clearance.against is WallSource.CHANNEL
     assert _mm(clearance.now) == pytest.approx(_mm(clearance.channel), abs=0.05)
 
 
@@ -166,15 +166,15 @@ def _round_pedicle(radius_mm: float) -> PedicleMeasure:
 
 @pytest.mark.parametrize(("medial_mm", "clearance_mm"), [(0.5, 2.0), (3.0, -0.5)])
 def test_the_isthmus_s_outline_stands_in_for_the_bone(medial_mm: float, clearance_mm: float) -> None:
-    field = field_of_outline(_round_pedicle(4.5), ROD_CHANNEL)
+    field = outline_distance_field(_round_pedicle(4.5), ROD_CHANNEL)
     clearance = _clearance(drill_at(ROD_CHANNEL, 30.0, medial_mm=medial_mm), ROD_CHANNEL, field)
-    assert clearance.against is MeasuredAgainst.PEDICLE
+    assert clearance.against is WallSource.PEDICLE
     assert _mm(clearance.now) == pytest.approx(clearance_mm, abs=0.1)
 
 
 def test_the_bone_is_the_wall_where_it_is_known_and_agrees_with_the_plan() -> None:
-    chosen = choose_wall(ROD_CHANNEL, rod(), _round_pedicle(4.5), radius_mm=2.0)
-    assert (chosen.wall.against, chosen.remarks) == (MeasuredAgainst.BONE, ())
+    chosen = select_wall(ROD_CHANNEL, rod(), _round_pedicle(4.5), radius_mm=2.0)
+    assert (chosen.wall.against, chosen.remarks) == (WallSource.BONE, ())
 
 
 @pytest.mark.parametrize("measured", [True, False])
@@ -193,8 +193,8 @@ def test_the_bone_is_the_wall_where_it_is_known_and_agrees_with_the_plan() -> No
 def test_without_a_surface_that_fits_the_plan_the_next_best_wall_is_taken_and_told(
     surface: Surface | None, codes: list[str], *, measured: bool
 ) -> None:
-    chosen = choose_wall(ROD_CHANNEL, surface, _round_pedicle(4.5) if measured else None, radius_mm=2.0)
-    assert chosen.wall.against is (MeasuredAgainst.PEDICLE if measured else MeasuredAgainst.CHANNEL)
+    chosen = select_wall(ROD_CHANNEL, surface, _round_pedicle(4.5) if measured else None, radius_mm=2.0)
+    assert chosen.wall.against is (WallSource.PEDICLE if measured else WallSource.CHANNEL)
     assert [remark.code for remark in chosen.remarks] == codes
 
 
@@ -216,13 +216,13 @@ def test_breaches_of_a_vertebra_are_seen_and_called_by_their_wall(
     channel = pedicle_channels()[("left", "right").index(side)]
     pose = drill_at(channel, depth_mm, medial_mm=medial_mm, cranial_mm=cranial_mm, medial_deg=medial_deg)
     now = _clearance(pose, channel, _field(side)).now
-    assert isinstance(now, Nearest)
+    assert isinstance(now, NearestWall)
     assert now.clearance_mm < -0.5
     assert now.wall is wall
 
 
-def grade_of(closest: Closest) -> GertzbeinRobbins | None:
-    return closest.grade if isinstance(closest, Nearest) else None
+def grade_of(closest: WallProximity) -> GertzbeinRobbins | None:
+    return closest.grade if isinstance(closest, NearestWall) else None
 
 
 def test_all_the_way_down_the_plan_nothing_is_said_to_be_near_that_is_not() -> None:
@@ -248,7 +248,7 @@ def test_beyond_the_end_of_a_short_drill_nothing_is_measured() -> None:
     pose = drill_at(ROD_CHANNEL, 50.0, medial_mm=5.0, medial_deg=float(np.degrees(np.arctan(-5.0 / 50.0))))
     rings = drill_rings(pose, ROD_CHANNEL, _field("rod"), radius_mm=2.0, length_mm=10.0)
     now = clearance_of_drill(rings, pose, ROD_CHANNEL).now
-    assert isinstance(now, Nearest)
+    assert isinstance(now, NearestWall)
     assert now.clearance_mm > 0.5
 
 
@@ -262,5 +262,5 @@ def test_a_drill_that_lies_across_or_points_backwards_is_still_measured(medial_d
         translation_mm=np.array([0.0, 0.0, 0.0]),
     )
     clearance = _clearance(pose, ROD_CHANNEL, _field("rod"))
-    assert isinstance(clearance.now, Nearest)
+    assert isinstance(clearance.now, NearestWall)
     assert np.isfinite(clearance.now.clearance_mm)

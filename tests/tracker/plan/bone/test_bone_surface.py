@@ -1,4 +1,4 @@
-"""The surface cut out of a CT lies where the bone ends, whatever way the scan lies in the patient."""
+"""The extracted surface lies at the bone's boundary for any orientation of the scan."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,7 @@ from tests.tracker.plan.bone.ellipsoids import HALF_HU, Ellipsoid, affine_of, sc
 from tracker.errors import PlanError
 from tracker.plan import Volume
 from tracker.plan.bone import BoneSettings, BoneSurface, Region, bone_surface
-from tracker.plan.triangles import links_of
+from tracker.plan.triangles import connectivity_of
 
 BODY = Ellipsoid()
 WAYS = {
@@ -37,7 +37,7 @@ def test_the_surface_lies_where_the_bone_ends_and_is_wound_outwards(scan: Volume
     assert made.surface.volume_ml == pytest.approx(BODY.volume_ml, rel=0.01)
     assert made.closed
     assert made.cut_at == ()
-    assert links_of(made.surface.faces).opposed_edges == 0
+    assert connectivity_of(made.surface.faces).misoriented_edges == 0
 
 
 def test_the_proposed_threshold_serves_too(scan: Volume) -> None:
@@ -68,7 +68,7 @@ def test_fewer_triangles_keep_the_shape() -> None:
     assert made.closed
 
 
-def test_a_small_piece_is_left_out_or_kept_as_asked() -> None:
+def test_small_components_are_removed_on_request() -> None:
     small = Ellipsoid(centre_lps_mm=(27.0, -230.0, 950.0), half_axes_mm=(1.5, 1.5, 3.0))
     big = Ellipsoid(centre_lps_mm=(7.0, -230.0, 950.0), half_axes_mm=(10.0, 8.0, 8.0))
     scan = scanned((big, small), affine_of())
@@ -88,7 +88,7 @@ def test_a_region_takes_one_bone_out_of_two_and_reads_only_it() -> None:
     made = bone_surface(scan, BoneSettings(threshold_hu=HALF_HU, region=region))
     assert made.region is region
     assert made.surface.volume_ml == pytest.approx(above.volume_ml, rel=0.02)
-    assert region.holds(made.surface.vertices_mm).all()
+    assert region.contains(made.surface.vertices_mm).all()
     assert made.closed
 
 
@@ -101,7 +101,7 @@ def test_bone_that_a_region_cuts_is_left_open_there() -> None:
     assert made.surface.vertices_mm[:, 0].max() <= 12.0
 
 
-def test_bone_that_the_scan_cuts_is_said_with_the_end() -> None:
+def test_bone_that_the_scan_cuts_is_reported_with_the_end() -> None:
     affine = affine_of()
     affine[2, 3] += 9.0
     made = bone_surface(scanned((BODY,), affine), BoneSettings(threshold_hu=HALF_HU))
@@ -124,11 +124,11 @@ def test_too_many_voxels_are_averaged_and_stay_in_their_place() -> None:
 
 
 @pytest.mark.parametrize("threshold_hu", [-3000.0, 39.0, 40.0, 641.0, 9000.0])
-def test_a_threshold_that_parts_nothing_is_refused_with_what_there_is(threshold_hu: float) -> None:
+def test_a_threshold_outside_the_values_is_rejected_with_their_range(threshold_hu: float) -> None:
     scan = scanned((BODY,), affine_of(), fine=1)
-    with pytest.raises(PlanError, match=r"40 to 640 HU") as told:
+    with pytest.raises(PlanError, match=r"40 to 640 HU") as reported:
         bone_surface(scan, BoneSettings(threshold_hu=threshold_hu))
-    assert told.value.code == "BONE_THRESHOLD_OUTSIDE"
+    assert reported.value.code == "BONE_THRESHOLD_OUTSIDE"
 
 
 def test_a_threshold_that_is_the_very_value_of_the_voxels_makes_whole_triangles() -> None:
@@ -141,26 +141,26 @@ def test_a_threshold_that_is_the_very_value_of_the_voxels_makes_whole_triangles(
     assert made.closed
 
 
-def test_an_unusual_threshold_is_said() -> None:
+def test_an_unusual_threshold_is_reported() -> None:
     made = bone_surface(scanned((BODY,), affine_of()), BoneSettings(threshold_hu=620.0))
     assert codes(made) == ["BONE_THRESHOLD_UNUSUAL"]
 
 
 def test_a_scan_of_soft_tissue_alone_has_no_bone() -> None:
     flat = Volume(hu=np.full((20, 20, 20), 40, np.int16), lps_from_ijk=np.eye(4))
-    with pytest.raises(PlanError) as told:
+    with pytest.raises(PlanError) as reported:
         bone_surface(flat)
-    assert told.value.code == "BONE_THRESHOLD_OUTSIDE"
+    assert reported.value.code == "BONE_THRESHOLD_OUTSIDE"
 
 
-def test_a_surface_through_noise_is_refused_before_it_fills_the_memory(
+def test_a_surface_through_noise_is_rejected_before_it_fills_the_memory(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr("tracker.plan.bone.extraction.MAX_VERTICES", 10_000)
     noise = np.random.default_rng(1).integers(-500, 500, (40, 40, 40)).astype(np.int16)
-    with pytest.raises(PlanError, match="allowed 10000") as told:
+    with pytest.raises(PlanError, match="allowed 10000") as reported:
         bone_surface(Volume(hu=noise, lps_from_ijk=np.eye(4)), BoneSettings(threshold_hu=0.0))
-    assert told.value.code == "BONE_TOO_LARGE"
+    assert reported.value.code == "BONE_TOO_LARGE"
 
 
 @pytest.mark.parametrize(
@@ -171,28 +171,28 @@ def test_a_surface_through_noise_is_refused_before_it_fills_the_memory(
         pytest.param([np.nan, 0, 0], [5, 5, 5], "REGION_INVALID", id="not-a-number"),
     ],
 )
-def test_a_region_without_voxels_is_refused(low: list[float], high: list[float], code: str) -> None:
+def test_a_region_without_voxels_is_rejected(low: list[float], high: list[float], code: str) -> None:
     scan = scanned((BODY,), affine_of(), fine=1)
-    with pytest.raises(PlanError) as told:
+    with pytest.raises(PlanError) as reported:
         bone_surface(scan, BoneSettings(region=Region.between(low, high)))
-    assert told.value.code == code
+    assert reported.value.code == code
 
 
 def test_a_region_of_soft_tissue_has_no_bone() -> None:
     scan = scanned((BODY,), affine_of(), fine=1)
     region = Region.around([[28.0, -243.0, 961.0]], reach_mm=1.5)
-    with pytest.raises(PlanError) as told:
+    with pytest.raises(PlanError) as reported:
         bone_surface(scan, BoneSettings(region=region, threshold_hu=300.0))
-    assert told.value.code == "BONE_THRESHOLD_OUTSIDE"
+    assert reported.value.code == "BONE_THRESHOLD_OUTSIDE"
 
 
-def test_settings_that_cannot_be_are_refused() -> None:
+def test_invalid_settings_are_rejected() -> None:
     for settings in (
         {"threshold_hu": np.nan},
         {"smoothing_rounds": -1},
         {"max_faces": 3},
         {"max_voxels": 1},
     ):
-        with pytest.raises(PlanError) as told:
+        with pytest.raises(PlanError) as reported:
             BoneSettings(**settings)
-        assert told.value.code == "BONE_SETTINGS_INVALID"
+        assert reported.value.code == "BONE_SETTINGS_INVALID"

@@ -1,4 +1,4 @@
-"""A mesh from elsewhere: its unit, its winding, its holes."""
+"""An imported mesh: unit, winding, holes."""
 
 import numpy as np
 import pytest
@@ -50,16 +50,16 @@ def test_what_is_no_bone_fits_in_no_unit(size: list[float]) -> None:
 def test_a_vertebra_in_mm_needs_no_unit(bone: Surface) -> None:
     taken = surface_from_mesh(bone.vertices_mm, bone.faces)
     assert codes(taken) == []
-    assert (taken.closed, taken.parts, taken.turned_faces) == (True, 1, 0)
+    assert (taken.closed, taken.parts, taken.flipped_faces) == (True, 1, 0)
     assert taken.surface.volume_ml == pytest.approx(bone.volume_ml)
 
 
 def test_another_unit_is_proposed_and_taken_only_when_given(bone: Surface) -> None:
-    with pytest.raises(PlanError) as told:
+    with pytest.raises(PlanError) as reported:
         surface_from_mesh(bone.vertices_mm / 10.0, bone.faces)
-    assert told.value.code == "MESH_UNIT_NEEDED"
-    assert "cm" in told.value.remedy
-    assert told.value.context["possible_units"] == ["inch", "cm"]
+    assert reported.value.code == "MESH_UNIT_NEEDED"
+    assert "cm" in reported.value.remedy
+    assert reported.value.context["possible_units"] == ["inch", "cm"]
     taken = surface_from_mesh(bone.vertices_mm / 10.0, bone.faces, unit="cm")
     assert taken.surface.volume_ml == pytest.approx(bone.volume_ml)
     assert (taken.unit, taken.unit_given) == ("cm", True)
@@ -73,34 +73,34 @@ def test_another_unit_is_proposed_and_taken_only_when_given(bone: Surface) -> No
         (1e-9, None, "MESH_SIZE_IMPLAUSIBLE"),
     ],
 )
-def test_a_unit_that_cannot_be_is_refused(bone: Surface, scale: float, unit: str | None, code: str) -> None:
-    with pytest.raises(PlanError) as told:
+def test_an_impossible_unit_is_rejected(bone: Surface, scale: float, unit: str | None, code: str) -> None:
+    with pytest.raises(PlanError) as reported:
         surface_from_mesh(bone.vertices_mm * scale, bone.faces, unit=unit)
-    assert told.value.code == code
+    assert reported.value.code == code
 
 
-def test_inside_out_is_turned_and_said(bone: Surface) -> None:
+def test_inside_out_triangles_are_flipped_and_reported(bone: Surface) -> None:
     taken = surface_from_mesh(bone.vertices_mm, bone.faces[:, ::-1])
     assert taken.surface.volume_ml == pytest.approx(bone.volume_ml)
-    assert taken.turned_faces == bone.faces.shape[0]
-    assert codes(taken) == ["MESH_TURNED"]
+    assert taken.flipped_faces == bone.faces.shape[0]
+    assert codes(taken) == ["MESH_FLIPPED"]
 
 
-def test_triangles_that_disagree_with_their_neighbours_are_turned(bone: Surface) -> None:
+def test_triangles_that_disagree_with_their_neighbours_are_flipped(bone: Surface) -> None:
     faces = bone.faces.copy()
     wrong = np.random.default_rng(2).choice(faces.shape[0], 150, replace=False)
     faces[wrong] = faces[wrong, ::-1]
     taken = surface_from_mesh(bone.vertices_mm, faces)
-    assert taken.turned_faces == 150
+    assert taken.flipped_faces == 150
     assert taken.surface.volume_ml == pytest.approx(bone.volume_ml)
 
 
-def test_of_two_bones_the_one_inside_out_is_turned(bone: Surface) -> None:
+def test_of_two_bones_the_one_inside_out_is_flipped(bone: Surface) -> None:
     vertices = np.concatenate([bone.vertices_mm, bone.vertices_mm + np.array([40.0, 0.0, 0.0])])
     faces = np.concatenate([bone.faces, bone.faces[:, ::-1] + bone.vertices_mm.shape[0]])
     taken = surface_from_mesh(vertices, faces)
     assert taken.surface.volume_ml == pytest.approx(2.0 * bone.volume_ml)
-    assert codes(taken) == ["MESH_TURNED", "MESH_IN_PARTS"]
+    assert codes(taken) == ["MESH_FLIPPED", "MESH_IN_PARTS"]
 
 
 @pytest.mark.parametrize("turned", [False, True])
@@ -113,9 +113,9 @@ def test_a_cavity_stays_a_cavity(bone: Surface, turned: bool) -> None:
 
 
 @pytest.mark.parametrize("turned", [False, True])
-def test_an_open_surface_is_said_and_still_wound_outwards(bone: Surface, turned: bool) -> None:
-    kept = bone.faces[bone.vertices_mm[bone.faces][:, :, 2].mean(axis=1) < 955.0]
-    taken = surface_from_mesh(bone.vertices_mm, kept[:, ::-1] if turned else kept)
+def test_an_open_surface_is_reported_and_still_wound_outwards(bone: Surface, turned: bool) -> None:
+    retained = bone.faces[bone.vertices_mm[bone.faces][:, :, 2].mean(axis=1) < 955.0]
+    taken = surface_from_mesh(bone.vertices_mm, retained[:, ::-1] if turned else retained)
     assert "MESH_OPEN" in codes(taken)
     assert not taken.closed
     corners = taken.surface.vertices_mm[taken.surface.faces]
@@ -123,7 +123,7 @@ def test_an_open_surface_is_said_and_still_wound_outwards(bone: Surface, turned:
     assert (np.einsum("ij,ij->i", normals, corners.mean(axis=1) - BODY.centre_lps_mm) > 0.0).mean() > 0.99
 
 
-def test_triangles_of_no_use_are_left_out_and_counted(bone: Surface) -> None:
+def test_degenerate_triangles_are_removed_and_counted(bone: Surface) -> None:
     extra = np.array([[0, 0, 1], [2, 2, 2], [*bone.faces[5]]])
     apart = bone.vertices_mm[np.concatenate([bone.faces, extra])].reshape(-1, 3)
     taken = surface_from_mesh(apart, np.arange(apart.shape[0]).reshape(-1, 3))
@@ -133,7 +133,7 @@ def test_triangles_of_no_use_are_left_out_and_counted(bone: Surface) -> None:
     assert taken.closed
 
 
-def test_a_wall_that_ends_on_a_wall_is_said(bone: Surface) -> None:
+def test_a_non_manifold_edge_is_reported(bone: Surface) -> None:
     a, b, _ = bone.faces[0]
     vertices = np.concatenate([bone.vertices_mm, [bone.vertices_mm[a] + [0.5, 0.5, 0.5]]])
     taken = surface_from_mesh(vertices, np.concatenate([bone.faces, [[a, b, vertices.shape[0] - 1]]]))
@@ -141,7 +141,7 @@ def test_a_wall_that_ends_on_a_wall_is_said(bone: Surface) -> None:
     assert not taken.closed
 
 
-def test_a_whole_spine_is_said(bone: Surface) -> None:
+def test_a_whole_spine_is_reported(bone: Surface) -> None:
     taken = surface_from_mesh(bone.vertices_mm * [3.0, 3.0, 20.0], bone.faces)
     assert codes(taken) == ["MESH_SEVERAL_VERTEBRAE"]
     assert taken.kind == "several vertebrae"
@@ -158,7 +158,7 @@ def test_a_whole_spine_is_said(bone: Surface) -> None:
         pytest.param(np.eye(4), [[0, 1, 2]], "MESH_INVALID", id="four-coordinates"),
     ],
 )
-def test_what_is_no_mesh_is_refused(vertices: np.ndarray, faces: object, code: str) -> None:
-    with pytest.raises(PlanError) as told:
+def test_an_invalid_mesh_is_rejected(vertices: np.ndarray, faces: object, code: str) -> None:
+    with pytest.raises(PlanError) as reported:
         surface_from_mesh(vertices, np.asarray(faces))
-    assert told.value.code == code
+    assert reported.value.code == code

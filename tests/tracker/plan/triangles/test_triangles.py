@@ -1,11 +1,11 @@
-"""How triangles hang together, and what smoothing and joining them leaves as it was."""
+"""Mesh connectivity, and invariants of smoothing and decimation."""
 
 import numpy as np
 import numpy.typing as npt
 import pytest
 
-from tracker.plan.triangles import decimated, largest_part, links_of, referenced, smoothed
-from tracker.plan.triangles.links import equal_rows
+from tracker.plan.triangles import connectivity_of, decimated, largest_part, referenced, smoothed
+from tracker.plan.triangles.connectivity import equal_rows
 
 TETRAHEDRON = np.array([[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [0.0, 10.0, 0.0], [0.0, 0.0, 10.0]])
 OUTWARDS = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
@@ -21,34 +21,34 @@ def sheet(side: int = 12) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64
 
 
 def test_a_tetrahedron_is_closed_and_a_sheet_is_not() -> None:
-    assert links_of(OUTWARDS).closed
-    assert links_of(OUTWARDS).edges.shape == (6, 2)
-    open_sheet = links_of(sheet()[1])
+    assert connectivity_of(OUTWARDS).closed
+    assert connectivity_of(OUTWARDS).edges.shape == (6, 2)
+    open_sheet = connectivity_of(sheet()[1])
     assert not open_sheet.closed
     assert open_sheet.border_edges == 44
     assert open_sheet.border_vertices.size == 44
 
 
-def test_one_triangle_that_is_turned_is_seen() -> None:
+def test_one_flipped_triangle_is_detected() -> None:
     turned = OUTWARDS.copy()
     turned[3] = turned[3, ::-1]
-    assert links_of(turned).opposed_edges == 3
-    assert links_of(turned).closed
+    assert connectivity_of(turned).misoriented_edges == 3
+    assert connectivity_of(turned).closed
 
 
-def test_a_wall_that_ends_on_a_wall_is_seen() -> None:
-    crowded = links_of(np.concatenate([OUTWARDS, [[0, 1, 4]]]))
-    assert crowded.crowded_edges == 1
+def test_a_non_manifold_edge_is_detected() -> None:
+    crowded = connectivity_of(np.concatenate([OUTWARDS, [[0, 1, 4]]]))
+    assert crowded.non_manifold_edges == 1
     assert not crowded.closed
 
 
 def test_the_largest_part_is_that_with_the_largest_area_not_the_most_triangles() -> None:
     vertices, faces = sheet()
     both = np.concatenate([vertices, 5.0 * TETRAHEDRON])
-    count, kept = largest_part(both, np.concatenate([faces, OUTWARDS + vertices.shape[0]]))
+    count, retained = largest_part(both, np.concatenate([faces, OUTWARDS + vertices.shape[0]]))
     assert count == 2
-    assert kept.tolist() == (OUTWARDS + vertices.shape[0]).tolist()
-    points, renamed = referenced(both, kept)
+    assert retained.tolist() == (OUTWARDS + vertices.shape[0]).tolist()
+    points, renamed = referenced(both, retained)
     assert points == pytest.approx(5.0 * TETRAHEDRON)
     assert renamed.tolist() == OUTWARDS.tolist()
 
@@ -58,7 +58,7 @@ def test_smoothing_flattens_steps_and_leaves_a_border_where_it_is() -> None:
     rough = vertices.copy()
     rough[:, 2] += np.where(np.arange(vertices.shape[0]) % 2, 0.2, -0.2)
     smooth = smoothed(rough, faces, rounds=20)
-    border = links_of(faces).border_vertices
+    border = connectivity_of(faces).border_vertices
     assert smooth[border] == pytest.approx(rough[border], abs=1e-9)
     inner = np.setdiff1d(np.arange(vertices.shape[0]), border)
     assert smooth[inner, 2].std() < 0.5 * rough[inner, 2].std()
@@ -66,8 +66,8 @@ def test_smoothing_flattens_steps_and_leaves_a_border_where_it_is() -> None:
 
 def test_joining_triangles_keeps_a_sheet_flat_and_its_outline() -> None:
     vertices, faces = sheet(30)
-    points, kept = decimated(vertices, faces, max_faces=200)
-    assert kept.shape[0] <= 200
+    points, retained = decimated(vertices, faces, max_faces=200)
+    assert retained.shape[0] <= 200
     assert points[:, 2] == pytest.approx(1200.0, abs=1e-6)
     assert points.min(axis=0) == pytest.approx(vertices.min(axis=0), abs=1e-6)
     assert points.max(axis=0) == pytest.approx(vertices.max(axis=0), abs=1e-6)

@@ -23,9 +23,9 @@ HERE = rotation_from_vector([2.9, 0.4, 0.2])
 RATE_HZ = 30.0
 
 
-def placed(turn_deg: tuple[float, float, float]) -> Rigid[Camera, Marker]:
+def placed(rotation_deg: tuple[float, float, float]) -> Rigid[Camera, Marker]:
     """The tool turned in the camera's frame about its tip."""
-    rotation = rotation_from_vector(np.radians(turn_deg)) @ HERE
+    rotation = rotation_from_vector(np.radians(rotation_deg)) @ HERE
     return Rigid(rotation=rotation, translation_mm=np.array([0.0, 0.0, 500.0]) - rotation @ np.array(TIP_MM))
 
 
@@ -73,8 +73,8 @@ def test_images_are_taken_or_passed_over_with_the_reason() -> None:
         assert said is expected
     progress = collector.progress()
     assert progress.taken == len(collector.poses) == 4
-    assert progress.passed_over[Taking.JUMPED] == 2
-    assert progress.passed_over[Taking.NOT_SEEN] == 1
+    assert progress.rejected_images[Taking.JUMPED] == 2
+    assert progress.rejected_images[Taking.NOT_SEEN] == 1
 
 
 @pytest.mark.parametrize("rate_hz", [2.0, 3.0, 5.0, 7.0, 60.0])
@@ -84,7 +84,7 @@ def test_a_tip_is_calibrated_at_any_usual_image_rate(rate_hz: float) -> None:
     done = collector.progress()
     assert done.is_enough, done.missing
     # Until the rate is known.
-    assert done.passed_over.get(Taking.ALONE, 0) <= 3
+    assert done.rejected_images.get(Taking.ALONE, 0) <= 3
 
 
 def test_an_irregular_slow_camera_loses_no_pose_but_after_lost_images() -> None:
@@ -143,7 +143,7 @@ def test_a_still_tool_adds_nothing_and_the_store_has_an_end() -> None:
     assert collector.progress().taken == 1
     swept(collector, circling(25.0), start_s=2.0)
     assert collector.progress().taken == 5
-    assert collector.progress().passed_over[Taking.FULL] > 0
+    assert collector.progress().rejected_images[Taking.FULL] > 0
 
 
 def test_a_spin_asks_for_spin_and_ends_with_the_axis() -> None:

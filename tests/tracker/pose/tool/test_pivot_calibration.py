@@ -158,9 +158,9 @@ def test_a_motion_that_leaves_the_tip_open_is_refused(hand: Hand, code: str) -> 
 def test_tilt_in_one_plane_is_enough_with_spin() -> None:
     found = pivot_calibration(pivoted(Hand(tilts_deg=(30.0, 1.0), spin_deg=30.0)).poses)
     assert np.linalg.norm(found.tip_in_marker_mm - TIP_MM) < 0.5
-    assert found.turning.tilt_range_deg == pytest.approx(60.0, abs=6.0)
-    assert found.turning.tilt_range_across_deg < 5.0
-    assert found.turning.spin_range_deg == pytest.approx(60.0, abs=6.0)
+    assert found.motion_range.tilt_range_deg == pytest.approx(60.0, abs=6.0)
+    assert found.motion_range.tilt_range_across_deg < 5.0
+    assert found.motion_range.spin_range_deg == pytest.approx(60.0, abs=6.0)
 
 
 @pytest.mark.parametrize("count", [0, 1, 2, 60])

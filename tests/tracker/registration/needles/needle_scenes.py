@@ -8,16 +8,16 @@ from tracker.camera import CameraModel
 from tracker.geometry import Array, Camera, Rigid, Vertebra, rotation_from_vector
 from tracker.plan import Landmark
 from tracker.registration.needles import (
-    MeasuredView,
-    NeedlePlace,
-    NeedleSeen,
+    NeedleObservation,
+    PlannedNeedle,
+    RulerMeasurement,
     TouchedPoint,
-    View,
-    clicked_needle,
-    places_at_landmarks,
-    view_from_ruler,
+    ViewPrior,
+    needle_from_clicks,
+    planned_at_landmarks,
+    view_prior_from_ruler,
 )
-from tracker.registration.needles.seen import HIDDEN_MM, HIDDEN_SD_MM
+from tracker.registration.needles.observation import OCCLUDED_MM, OCCLUDED_SD_MM
 
 CAMERA = CameraModel(
     matrix=np.array([[1400.0, 0, 640.0], [0, 1400.0, 360.0], [0, 0, 1]]),
@@ -29,16 +29,16 @@ ENTRIES = np.array([[-20.1, 18.6, 18.8], [-0.6, 48.5, 0.3], [-0.4, 51.5, -17.0]]
 NAMES = ("right superior articular process", "spinous process above", "spinous process below")
 PLACING_MM, CLICK_PX, TOUCH_MM = 0.7, 1.0, 0.5
 # The spreads that the measured view states for itself.
-STATED = MeasuredView(vertical_mm=1.0, horizontal_mm=1.0)
+STATED = RulerMeasurement(vertical_mm=1.0, horizontal_mm=1.0)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Seen:
     """One simulated registration: what is handed in, and what is true."""
 
-    places: tuple[NeedlePlace, ...]
-    seen: tuple[NeedleSeen, ...]
-    view: View
+    places: tuple[PlannedNeedle, ...]
+    seen: tuple[NeedleObservation, ...]
+    view: ViewPrior
     camera_from_vertebra: Rigid[Camera, Vertebra]
 
 
@@ -55,10 +55,10 @@ def scene(seed: int, *, entry_is_seen: bool = True, touched: int = 0, entries: A
         ]
     )
     # The ruler is held against a patient who lies flat; the vertebra is turned from there.
-    lying = rotation_from_vector(random.normal(0.0, np.radians(STATED.lying_sd_deg), 3))
+    lying = rotation_from_vector(random.normal(0.0, np.radians(STATED.prone_sd_deg), 3))
     right = np.cross(-to_camera, [0.0, 1.0, 0.0])
     right /= np.linalg.norm(right)
-    level = rotation_from_vector(-to_camera * random.normal(0.0, np.radians(STATED.level_sd_deg)))
+    level = rotation_from_vector(-to_camera * random.normal(0.0, np.radians(STATED.roll_sd_deg)))
     flat = np.stack([right, np.cross(-to_camera, right), -to_camera]) @ level
     middle = np.array([*random.uniform(-40.0, 40.0, 2), distance_mm])
     # A camera whose middle is not on the needles is turned, so that the ruler's line of sight stays true.
@@ -70,7 +70,7 @@ def scene(seed: int, *, entry_is_seen: bool = True, touched: int = 0, entries: A
         rotation=rotation, translation_mm=distance_mm * sight - rotation @ landmarks.mean(axis=0)
     )
     ruler = random.normal(0.0, STATED.ruler_sd_mm, 2)
-    measured = MeasuredView(
+    measured = RulerMeasurement(
         vertical_mm=distance_mm * np.sin(elevation) + ruler[0],
         horizontal_mm=distance_mm * np.cos(elevation) + ruler[1],
         azimuth_deg=float(np.degrees(azimuth) + random.normal(0.0, STATED.azimuth_sd_deg)),
@@ -80,11 +80,11 @@ def scene(seed: int, *, entry_is_seen: bool = True, touched: int = 0, entries: A
         lean = np.array([0.0, 1.0, 0.0]) + np.radians(15.0) * random.normal(size=3) * [1.0, 0.0, 1.0]
         lean /= np.linalg.norm(lean)
         # Bone hides some of it, as is stated: a gamma curve has that mean and spread.
-        ratio = HIDDEN_SD_MM**2 / HIDDEN_MM
-        hidden = 0.0 if entry_is_seen else min(float(random.gamma(HIDDEN_MM / ratio, ratio)), 25.0)
+        ratio = OCCLUDED_SD_MM**2 / OCCLUDED_MM
+        hidden = 0.0 if entry_is_seen else min(float(random.gamma(OCCLUDED_MM / ratio, ratio)), 25.0)
         ends = np.stack([entry + hidden * lean, entry + 38.0 * lean])
         px = CAMERA.px_from_camera(pose.move_points(ends)) + random.normal(0.0, CLICK_PX, (2, 2))
-        seen.append(clicked_needle(px[0], px[1], sd_px=CLICK_PX, entry_is_seen=entry_is_seen))
+        seen.append(needle_from_clicks(px[0], px[1], sd_px=CLICK_PX, entry_is_seen=entry_is_seen))
     points = [Landmark(name=str(name), point_lps_mm=at) for name, at in zip(NAMES, landmarks, strict=True)]
     tips = tuple(
         TouchedPoint(
@@ -97,9 +97,9 @@ def scene(seed: int, *, entry_is_seen: bool = True, touched: int = 0, entries: A
     )
     at_px = np.mean([one.entry_px for one in seen], axis=0)
     return Seen(
-        places=places_at_landmarks(points, placing_sd_mm=PLACING_MM),
+        places=planned_at_landmarks(points, placing_sd_mm=PLACING_MM),
         seen=tuple(seen),
-        view=view_from_ruler(measured, CAMERA, at_px, touched=tips),
+        view=view_prior_from_ruler(measured, CAMERA, at_px, touched=tips),
         camera_from_vertebra=pose,
     )
 

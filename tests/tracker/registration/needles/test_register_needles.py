@@ -12,18 +12,20 @@ from tracker.plan import SliceLine
 from tracker.plan.reference_slice import ReferenceSlice
 from tracker.registration import AnchoredTo, Method
 from tracker.registration.needles import (
-    MeasuredView,
     NeedleFit,
     NeedleLimits,
-    View,
-    clicked_needle,
-    places_on_lines,
+    RulerMeasurement,
+    ViewPrior,
+    needle_from_clicks,
+    planned_on_lines,
     register_needles,
-    view_from_ruler,
+    view_prior_from_ruler,
 )
 
 SCENES = 40
-OPEN = NeedleLimits(min_probability_ratio=1e-12, max_offset_mm=1e3, min_lead=0.0, max_lead_of_swapped=1e3)
+OPEN = NeedleLimits(
+    min_probability_ratio=1e-12, max_offset_mm=1e3, min_delta_chi2=0.0, max_swap_delta_chi2=1e3
+)
 
 
 def registered(given: Seen, limits: NeedleLimits | None = None) -> NeedleFit:
@@ -60,14 +62,14 @@ def test_the_stated_covariance_holds_the_truth(*, entry_is_seen: bool, touched: 
 
 def test_depth_is_said_to_be_the_rulers_until_the_tip_tells_it() -> None:
     ruled, touched = registered(scene(3)), registered(scene(3, touched=1))
-    assert ruled.sureness.depth.is_weak
-    assert 8.0 < ruled.sureness.depth.sd <= 10.0
-    assert "it hardly shows depth along the view ±" in ruled.sureness.sentence
-    assert ruled.sureness.across.sd < 1.0
-    assert touched.sureness.depth.sd < 1.2
+    assert ruled.observability.depth.is_weak
+    assert 8.0 < ruled.observability.depth.sd <= 10.0
+    assert "it hardly shows depth along the view ±" in ruled.observability.summary
+    assert ruled.observability.across.sd < 1.0
+    assert touched.observability.depth.sd < 1.2
     lines = registered(scene(3, entry_is_seen=False))
-    assert lines.sureness.across.sd > 1.5 * ruled.sureness.across.sd
-    assert lines.sureness.tilt.sd > ruled.sureness.tilt.sd
+    assert lines.observability.across.sd > 1.5 * ruled.observability.across.sd
+    assert lines.observability.tilt.sd > ruled.observability.tilt.sd
 
 
 def test_a_registration_by_needles_is_fixed_to_the_camera_and_tells_each_needles_residual() -> None:
@@ -151,7 +153,7 @@ def test_two_poses_that_explain_the_needles_alike_are_told() -> None:
     codes = set()
     for seed in range(4):
         given = scene(seed, entries=flat)
-        loose = View(
+        loose = ViewPrior(
             rotation=given.camera_from_vertebra.rotation,
             rotation_covariance=1.0 * np.eye(3),
             distance_mm=given.view.distance_mm,
@@ -178,7 +180,7 @@ def reference(apart_mm: float) -> ReferenceSlice:
 
 def test_the_papers_lines_alone_leave_the_depth_along_the_needles_open() -> None:
     """Needles on the slice's three lines, entries unknown: what is open is stated, and holds the truth."""
-    places = places_on_lines(reference(18.0))
+    places = planned_on_lines(reference(18.0))
     assert [one.name for one in places] == ["middle", "left", "right"]
     given = scene(4, entry_is_seen=False)
     pose = given.camera_from_vertebra
@@ -187,11 +189,11 @@ def test_the_papers_lines_alone_leave_the_depth_along_the_needles_open() -> None
         head_mm = place.point_lps_mm + np.array([0.0, 38.0, 0.0])
         ends = pose.move_points(np.stack([place.point_lps_mm, head_mm]))
         px = CAMERA.px_from_camera(ends)
-        seen.append(clicked_needle(px[0], px[1], entry_is_seen=False))
+        seen.append(needle_from_clicks(px[0], px[1], entry_is_seen=False))
     middle = pose.move_points(np.mean([one.point_lps_mm for one in places], axis=0))
     view = dataclasses.replace(given.view, distance_mm=float(np.linalg.norm(middle)))
     fit = register_needles(places, seen, CAMERA, view)
-    upright = fit.registration.anchor_from_vertebra.turn_directions([0.0, 1.0, 0.0])
+    upright = fit.registration.anchor_from_vertebra.rotate_directions([0.0, 1.0, 0.0])
     at = fit.registration.point_covariance_mm2(places[0].point_lps_mm)
     assert np.sqrt(upright @ at @ upright) > 5.0
     assert misfit(fit, dataclasses.replace(given, places=places)) < 12.59
@@ -200,19 +202,21 @@ def test_the_papers_lines_alone_leave_the_depth_along_the_needles_open() -> None
 @pytest.mark.parametrize(
     "measured",
     [
-        pytest.param(MeasuredView(vertical_mm=-1.0, horizontal_mm=600.0), id="below-the-patient"),
-        pytest.param(MeasuredView(vertical_mm=600.0, horizontal_mm=0.0), id="straight-above"),
-        pytest.param(MeasuredView(vertical_mm=float("nan"), horizontal_mm=600.0), id="not-measured"),
-        pytest.param(MeasuredView(vertical_mm=400, horizontal_mm=400, ruler_sd_mm=0.0), id="too-sure"),
+        pytest.param(RulerMeasurement(vertical_mm=-1.0, horizontal_mm=600.0), id="below-the-patient"),
+        pytest.param(RulerMeasurement(vertical_mm=600.0, horizontal_mm=0.0), id="straight-above"),
+        pytest.param(RulerMeasurement(vertical_mm=float("nan"), horizontal_mm=600.0), id="not-measured"),
+        pytest.param(RulerMeasurement(vertical_mm=400, horizontal_mm=400, ruler_sd_mm=0.0), id="too-sure"),
     ],
 )
-def test_a_ruler_that_tells_no_view_is_refused(measured: MeasuredView) -> None:
+def test_a_ruler_that_tells_no_view_is_refused(measured: RulerMeasurement) -> None:
     with pytest.raises(InvalidInput):
-        view_from_ruler(measured, CAMERA, (640.0, 360.0))
+        view_prior_from_ruler(measured, CAMERA, (640.0, 360.0))
 
 
 def test_the_ruler_gives_the_view_of_a_camera_at_the_feet_and_at_the_head() -> None:
-    feet = view_from_ruler(MeasuredView(vertical_mm=590.0, horizontal_mm=626.0), CAMERA, (640.0, 360.0))
+    feet = view_prior_from_ruler(
+        RulerMeasurement(vertical_mm=590.0, horizontal_mm=626.0), CAMERA, (640.0, 360.0)
+    )
     assert feet.distance_mm == pytest.approx(860.2, abs=0.1)
     # The patient's left is on the left, the head is away from the camera and up in the image.
     left, back, head = feet.rotation.T

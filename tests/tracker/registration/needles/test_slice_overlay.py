@@ -11,14 +11,14 @@ from tracker.registration.needles import (
     SliceOverlay,
     first_overlay,
     image_from_slice,
-    needles_under,
+    needles_from_overlay,
     overlay_of_pose,
     overlay_residuals,
     pose_of_overlay,
     register_needles,
 )
 
-OVERLAY = SliceOverlay(shift_px=np.array([600.0, 400.0]), turn_deg=10.0, scale_px_per_mm=2.0)
+OVERLAY = SliceOverlay(shift_px=np.array([600.0, 400.0]), rotation_deg=10.0, scale_px_per_mm=2.0)
 
 
 def test_hands_move_turn_scale_and_fade_about_the_point_under_the_finger() -> None:
@@ -26,17 +26,17 @@ def test_hands_move_turn_scale_and_fade_about_the_point_under_the_finger() -> No
     # A quarter turn clockwise brings what is right of the finger below it.
     turned = OVERLAY.turned(90.0, (500.0, 400.0))
     assert turned.shift_px == pytest.approx([500.0, 500.0])
-    assert turned.turn_deg == pytest.approx(100.0)
-    assert OVERLAY.turned(180.0, (600.0, 400.0)).turn_deg == pytest.approx(-170.0)
+    assert turned.rotation_deg == pytest.approx(100.0)
+    assert OVERLAY.turned(180.0, (600.0, 400.0)).rotation_deg == pytest.approx(-170.0)
     scaled = OVERLAY.scaled(1.5, (500.0, 400.0))
     assert scaled.shift_px == pytest.approx([650.0, 400.0])
     assert scaled.scale_px_per_mm == pytest.approx(3.0)
     assert OVERLAY.faded(0.2).fade_ratio == 0.2
 
 
-@pytest.mark.parametrize("wrong", [{"fade_ratio": 1.2}, {"scale_px_per_mm": 0.0}, {"turn_deg": np.nan}])
+@pytest.mark.parametrize("wrong", [{"fade_ratio": 1.2}, {"scale_px_per_mm": 0.0}, {"rotation_deg": np.nan}])
 def test_an_overlay_that_cannot_be_is_refused(wrong: dict[str, float]) -> None:
-    values = {"turn_deg": 0.0, "scale_px_per_mm": 2.0, **wrong}
+    values = {"rotation_deg": 0.0, "scale_px_per_mm": 2.0, **wrong}
     with pytest.raises(InvalidInput, match="px a mm"):
         SliceOverlay(shift_px=np.zeros(2), **values)
 
@@ -46,14 +46,14 @@ def test_an_overlay_is_a_pose_and_back() -> None:
     pose = pose_of_overlay(OVERLAY, given.places, CAMERA, given.view)
     again = overlay_of_pose(pose, given.places, CAMERA, given.view)
     assert again.shift_px == pytest.approx(OVERLAY.shift_px, abs=1e-6)
-    assert again.turn_deg == pytest.approx(10.0, abs=1e-6)
+    assert again.rotation_deg == pytest.approx(10.0, abs=1e-6)
     assert again.scale_px_per_mm == pytest.approx(2.0, rel=1e-6)
     assert np.linalg.norm(pose.move_points(np.mean([p.point_lps_mm for p in given.places], axis=0))) == (
         pytest.approx(700.0)
     )
     # Clockwise in the image: what was up is now to the right.
     straight = pose_of_overlay(OVERLAY.turned(-10.0, OVERLAY.shift_px), given.places, CAMERA, given.view)
-    up, leaned = straight.turn_directions([0.0, 1.0, 0.0]), pose.turn_directions([0.0, 1.0, 0.0])
+    up, leaned = straight.rotate_directions([0.0, 1.0, 0.0]), pose.rotate_directions([0.0, 1.0, 0.0])
     assert leaned[0] > up[0]
     assert 5.0 < angle_between_deg(up, leaned) <= 10.0
 
@@ -65,10 +65,10 @@ def test_lines_laid_over_the_needles_register_as_well_as_the_ruler_knows_the_til
     pose = pose_of_overlay(overlay, given.places, CAMERA, given.view)
     assert all(one.rms_mm < 12.0 for one in overlay_residuals(pose, given.places, given.seen, CAMERA))
     fit = register_needles(
-        given.places, needles_under(pose, given.places, CAMERA), CAMERA, given.view, order_is_sure=True
+        given.places, needles_from_overlay(pose, given.places, CAMERA), CAMERA, given.view, order_is_sure=True
     )
-    assert fit.sureness.depth.is_weak
-    assert fit.sureness.tilt.sd > 3.0
+    assert fit.observability.depth.is_weak
+    assert fit.observability.tilt.sd > 3.0
     middle = np.mean([one.point_lps_mm for one in given.places], axis=0)
     off = fit.registration.anchor_from_vertebra.move_points(middle) - truth.move_points(middle)
     spread = fit.registration.point_covariance_mm2(middle)
@@ -78,7 +78,7 @@ def test_lines_laid_over_the_needles_register_as_well_as_the_ruler_knows_the_til
 def test_residuals_tell_pixels_and_millimetres_at_the_needle() -> None:
     given = scene(8)
     pose = pose_of_overlay(OVERLAY, given.places, CAMERA, given.view)
-    under = needles_under(pose, given.places, CAMERA)
+    under = needles_from_overlay(pose, given.places, CAMERA)
     for one in overlay_residuals(pose, given.places, under, CAMERA):
         assert one.rms_px < 0.2
     moved = pose_of_overlay(OVERLAY.moved((8.0, 0.0)), given.places, CAMERA, given.view)

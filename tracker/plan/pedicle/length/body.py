@@ -1,4 +1,4 @@
-"""The outline of the vertebral body around the axis, so that a vessel that touches it is told from bone."""
+"""Outline of the vertebral body around the axis, to separate an adjacent vessel from bone."""
 
 from dataclasses import dataclass
 
@@ -9,12 +9,12 @@ from tracker.geometry import Array
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
 from tracker.plan.pedicle.outlines import planes_across
 
-# So far ahead of the isthmus the axis is inside the body, in small ones too.
+# At this distance ahead of the isthmus the axis is inside the body, even in small vertebrae.
 CENTRE_MM = 20.0
 REACH_DEG, TURN_DEG = 72.0, 4.0
 STEP_MM, MIN_MM, MAX_MM = 0.5, 3.0, 46.0
 EDGE_MM, LIFTS_MM = 1.5, (-1.5, 0.0, 1.5)
-# What an edge counts for, by the fall of a usual wall; more where what lies outside it is soft.
+# Weight of an edge, relative to the fall of a typical wall; higher with soft tissue outside.
 FAINT_EDGE, MIN_EDGE, MAX_EDGE, SOFT_BONUS = 0.3, 0.5, 1.5, 0.3
 MAX_STEPS, STEP_COST = 4, 0.15
 
@@ -24,7 +24,7 @@ SLOPE_ANGLES = 3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OutlineFront:
-    """Where the body's outline crosses the axis.
+    """Intersection of the body's outline with the axis.
 
     Attributes:
         distance_mm: from the isthmus.
@@ -36,12 +36,11 @@ class OutlineFront:
 
 
 def outline_front(near: Neighbourhood, isthmus_mm: Array, axis: Array) -> OutlineFront | None:
-    """The front wall by the outline of the body; None where no wall is seen on the axis.
+    """Return the anterior wall from the body's outline; None if no wall is visible on the axis.
 
-    From a point in the body rays run forwards and aside, in the plane of the axis that is nearest to axial.
-    The outline is the path over them that follows the outer edges of bone best and turns least: where a
-    vessel touches the body it still leads from wall to wall, while the vessel's far side lies off by its
-    width.
+    Rays run forwards and sideways from a point in the body, in the plane of the axis that is nearest to
+    axial. The outline is the path over these rays with the strongest outer edges and the smallest steps.
+    Where a vessel touches the body, it still follows the wall: the vessel's far side is a step of its width.
     """
     (across,), (up,) = planes_across(axis[None])
     edge, usable = _edges(near, isthmus_mm + CENTRE_MM * axis, axis, across, up)
@@ -64,7 +63,7 @@ def outline_front(near: Neighbourhood, isthmus_mm: Array, axis: Array) -> Outlin
 def _edges(
     near: Neighbourhood, centre: Array, axis: Array, across: Array, up: Array
 ) -> tuple[Array, npt.NDArray[np.bool_]]:
-    """How like an outer wall each place is (angles, distances), and whether it lies in the CT."""
+    """Return the edge strength of each place (angles, distances), and whether it lies in the CT."""
     angle = np.radians(np.arange(-REACH_DEG, REACH_DEG + 0.1, TURN_DEG))
     ways = np.cos(angle)[:, None] * axis + np.sin(angle)[:, None] * across
     voxel = float(np.linalg.norm(near.voxel_width_mm(axis)))
@@ -75,14 +74,14 @@ def _edges(
     total = np.cumsum(np.concatenate([np.zeros((len(hu), 1)), hu], axis=1), axis=1)
     mean = (total[:, wide:] - total[:, :-wide]) / wide
     inside, outside = mean[:, : -wide - 1], mean[:, wide + 1 :]
-    usable = near.holds(points)[:, wide : wide + inside.shape[1]]
+    usable = near.contains(points)[:, wide : wide + inside.shape[1]]
     edge = np.clip((inside - outside) / near.min_fall_hu, 0.0, MAX_EDGE)
     edge = np.where(edge > FAINT_EDGE, edge + np.where(outside < near.soft_below_hu, SOFT_BONUS, 0.0), edge)
     return np.where(usable & (inside > near.soft_below_hu), edge, 0.0), usable
 
 
 def _path(edge: Array) -> Array:
-    """The row (angles,) of the path that gathers most edge and moves least from one angle to the next."""
+    """Return the row (angles,) of the path with maximum edge strength and minimum steps between angles."""
     best, came = edge[0], []
     shifts = np.arange(-MAX_STEPS, MAX_STEPS + 1)
     for column in edge[1:]:

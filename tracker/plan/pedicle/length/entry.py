@@ -1,4 +1,4 @@
-"""Where a screw enters: the back of the arch around the axis, not the tip of a process that it runs into."""
+"""Screw entry: the posterior surface of the arch around the axis, not the tip of a process."""
 
 import numpy as np
 from scipy import ndimage
@@ -7,14 +7,14 @@ from tracker.geometry import Array
 from tracker.plan.pedicle.outlines import planes_across
 from tracker.plan.pedicle.solid import Solid
 
-# What is looked at around the axis: wider than a process, narrower than the arch.
-DISC_MM, GRID_MM, STEP_MM, FARTHEST_MM = 10.0, 0.5, 0.5, 34.0
-# The level of a face is half the disc of bone before it, however the face is tilted.
+# Disc around the axis: wider than a process, narrower than the arch.
+DISC_MM, GRID_MM, STEP_MM, MAX_DISTANCE_MM = 10.0, 0.5, 0.5, 34.0
+# The face lies where half of the disc is bone, independent of its tilt.
 FACE_SHARE = 0.5
 
 
 def arch_back_mm(solid: Solid, isthmus_mm: Array, axis: Array) -> float | None:
-    """How far behind the isthmus the bone around the axis ends, in mm; None where it does not.
+    """Return how far behind the isthmus the bone around the axis ends, in mm; None if it does not.
 
     Sections across the axis, within 10 mm of it, grow from the isthmus into the arch, and are half of that
     again where the arch's back lies. A process that the axis runs into is more slender, and is left out.
@@ -31,14 +31,14 @@ def arch_back_mm(solid: Solid, isthmus_mm: Array, axis: Array) -> float | None:
 
 
 def _areas_mm2(solid: Solid, isthmus_mm: Array, axis: Array) -> Array:
-    """Area (n,) of the bone that holds the axis, in each section; 0 from where the axis has left it."""
+    """Return the area (n,) of the bone that contains the axis in each section; 0 beyond the bone."""
     (across,), (up,) = planes_across(axis[None])
     grid = np.arange(-DISC_MM, DISC_MM + 0.1, GRID_MM)
     x, y = np.meshgrid(grid, grid)
     disc = np.hypot(x, y) <= DISC_MM
     middle = len(grid) // 2
     plane = isthmus_mm + x[..., None] * across + y[..., None] * up
-    along = np.arange(0.0, FARTHEST_MM, STEP_MM)
+    along = np.arange(0.0, MAX_DISTANCE_MM, STEP_MM)
     bone = solid.depth_at(plane - along[:, None, None, None] * axis) > 0.0
     area = np.zeros(len(along))
     for row, section in enumerate(bone):

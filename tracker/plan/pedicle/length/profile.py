@@ -1,4 +1,4 @@
-"""What is met along a line through bone, and where its numbers fall as they do at a wall."""
+"""HU profiles along a line through bone, and detection of wall edges in them."""
 
 import numpy as np
 
@@ -7,16 +7,16 @@ from tracker.plan.pedicle.neighbourhood import Neighbourhood
 from tracker.plan.pedicle.outlines import planes_across
 
 STEP_MM = 0.2
-FARTHEST_MM = 64.0
-BEHIND_MM = 2.6
+MAX_DISTANCE_MM = 64.0
+MAX_BEHIND_ENTRY_MM = 2.6
 DISC_MM = 0.9
 
 
 def profile_along(near: Neighbourhood, start_mm: Array, direction: Array) -> Array:
-    """Mean HU over a small disc along the line, every `STEP_MM`, as far as the CT reaches."""
-    steps = np.arange(0.0, FARTHEST_MM, STEP_MM)
+    """Return the mean HU over a small disc along the line, every `STEP_MM`, within the CT."""
+    steps = np.arange(0.0, MAX_DISTANCE_MM, STEP_MM)
     line = start_mm + steps[:, None] * direction
-    inside = near.holds(line)
+    inside = near.contains(line)
     count = len(steps) if inside.all() else int(np.argmin(inside))
     (across,), (up,) = planes_across(direction[None])
     offsets = DISC_MM * np.array([[0.0, 0.0], [1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
@@ -25,12 +25,12 @@ def profile_along(near: Neighbourhood, start_mm: Array, direction: Array) -> Arr
 
 
 def behind_steps(near: Neighbourhood, direction: Array) -> int:
-    """How far behind a wall its outside is looked for, in steps: over a voxel at least."""
-    return int(max(BEHIND_MM, float(near.voxel_width_mm(direction).max())) / STEP_MM)
+    """Return the distance behind a wall at which its outside is sampled, in steps; over one voxel."""
+    return int(max(MAX_BEHIND_ENTRY_MM, float(near.voxel_width_mm(direction).max())) / STEP_MM)
 
 
 def falls(near: Neighbourhood, profile: Array, *, min_hu: float, behind: int) -> list[tuple[float, float]]:
-    """Where the profile falls by so much: distance in mm of half the fall, and the number behind it."""
+    """Return the half-height distance of each fall of at least this much, in mm, and the HU behind it."""
     found: list[tuple[float, float]] = []
     top = 0
     at = 1
@@ -49,7 +49,7 @@ def falls(near: Neighbourhood, profile: Array, *, min_hu: float, behind: int) ->
 
 
 def _foot(profile: Array, at: int, soft_below_hu: float) -> int:
-    """Where a fall from bone ends: a wall that is met aslant falls slowly, and not only over a voxel."""
+    """Return where a fall from bone ends; a wall met obliquely falls over more than one voxel."""
     while at + 1 < len(profile) and profile[at] > soft_below_hu and profile[at + 1] < profile[at]:
         at += 1
     return at

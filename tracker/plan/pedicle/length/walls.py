@@ -1,4 +1,4 @@
-"""Along the pedicle's axis: where it enters the bone from behind, and where it leaves the body in front."""
+"""Entry and anterior exit of the pedicle's axis in the bone."""
 
 from dataclasses import dataclass, replace
 
@@ -7,37 +7,37 @@ import numpy as np
 from tracker.geometry import Array
 from tracker.plan.pedicle.length.body import outline_front
 from tracker.plan.pedicle.length.entry import arch_back_mm
-from tracker.plan.pedicle.length.profile import FARTHEST_MM, STEP_MM, behind_steps, falls, profile_along
+from tracker.plan.pedicle.length.profile import MAX_DISTANCE_MM, STEP_MM, behind_steps, falls, profile_along
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
 from tracker.plan.pedicle.outlines import angles, planes_across
 from tracker.plan.pedicle.solid import Solid
 
-# Nearer to the isthmus no front wall lies.
+# Minimum distance of the front wall from the isthmus.
 FRONT_FROM_MM, ENTRY_FROM_MM = 8.0, 2.0
-# Behind a true outer wall most directions across the axis meet no bone soon.
+# Beyond a true outer wall most directions across the axis meet no bone nearby.
 GAP_BEYOND_MM = 2.0
 LOOK_BEYOND_MM, LOOK_ACROSS_MM, LOOK_RAYS, ENCLOSED_RATIO = 4.0, 32.0, 16, 0.85
-# Where the solid ends, the wall is the fall of the profile that is so near to it.
+# The wall is the profile fall within this distance of the end of the solid.
 NEAR_EXIT_MM = 4.0
 NO_FRONT_FROM_MM = 24.0
-# So long outside, or so deep, and the line has left the bone, and not only passed a gap in its wall.
+# The line has left the bone after this length or depth outside; less is a gap in the wall.
 LEFT_DEPTH_MM, LEFT_FROM_MM, LEFT_FOR_MM = 1.0, 0.3, 2.0
-# A process is what reaches so far behind the arch around it; where that ends is not known to the voxel.
+# Bone that extends this far behind the arch is a process; its end is uncertain by more than a voxel.
 PROCESS_MM, ARCH_SD_MM = 2.5, 1.5
 BESIDE_SHARE = 0.4
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WallAhead:
-    """The outer wall in one direction.
+    """The outer wall in one direction along the axis.
 
     Attributes:
         distance_mm: from the isthmus.
-        found: whether a wall was met; if not, the bone goes on to this distance at least.
-        outwards: unit (3,), the wall's normal; the direction itself where no wall was met.
-        faced_ratio: cosine between direction and normal: 1 where the wall is met squarely, 0 along it.
-        beyond_mm: how far something like bone goes on behind it: a process, or a vessel that touches.
-        sd_mm: of the distance, beyond what voxels and the axis make unsure.
+        found: whether a wall was met; if not, the bone extends at least this far.
+        outwards: unit (3,), the wall's normal; the direction itself without a wall.
+        faced_ratio: cosine between direction and normal: 1 at perpendicular incidence, 0 along the wall.
+        beyond_mm: extent of bone-like voxels behind it: a process, or an adjacent vessel.
+        sd_mm: of the distance, in addition to that of voxels and axis.
     """
 
     distance_mm: float
@@ -49,7 +49,7 @@ class WallAhead:
 
 
 def front_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array) -> WallAhead:
-    """Where the axis leaves the body in front: at its outer surface, by the outline of the whole body.
+    """Return where the axis leaves the body anteriorly, by the outline of the whole body.
 
     Where a vessel with contrast touches the body, the solid goes on into it, and the outline does not.
     """
@@ -58,7 +58,7 @@ def front_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array
     if outline is None or (exit_mm is not None and exit_mm <= outline.distance_mm):
         return _wall(near, solid, isthmus_mm, axis, FRONT_FROM_MM, exit_mm)
     wall = _wall(near, solid, isthmus_mm, axis, FRONT_FROM_MM, outline.distance_mm)
-    beyond_mm = (FARTHEST_MM if exit_mm is None else exit_mm) - outline.distance_mm
+    beyond_mm = (MAX_DISTANCE_MM if exit_mm is None else exit_mm) - outline.distance_mm
     if beyond_mm <= NEAR_EXIT_MM:
         return wall
     faced = float(outline.outwards @ axis)
@@ -66,9 +66,10 @@ def front_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array
 
 
 def back_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array) -> WallAhead:
-    """Where the axis, followed backwards, leaves the arch: the entry.
+    """Return where the axis, followed backwards, leaves the arch: the entry.
 
-    Where it runs on into a process, the entry lies where the arch around it ends, as a surgeon opens it.
+    If the axis continues into a process, the entry lies where the arch around it ends, as a surgeon opens
+    it.
     """
     exit_mm = _exit_mm(solid, isthmus_mm, -axis, ENTRY_FROM_MM)
     wall = _wall(near, solid, isthmus_mm, -axis, ENTRY_FROM_MM, exit_mm)
@@ -94,17 +95,17 @@ def _wall(
     from_mm: float,
     exit_mm: float | None,
 ) -> WallAhead:
-    """Where the bone is known to end, to the fall of the profile there; else by the profile alone.
+    """Return the wall near the end of the solid, refined by the profile; else from the profile alone.
 
     What is soft and closed in, as marrow, belongs to the solid, so that no gap within the body ends it.
     """
     if exit_mm is not None:
-        found = bool(near.holds(isthmus_mm + (exit_mm + 1.0) * direction))
+        found = bool(near.contains(isthmus_mm + (exit_mm + 1.0) * direction))
         distance = _fall_near(near, isthmus_mm, direction, exit_mm)
     else:
         distance, found = _outer_wall(near, isthmus_mm, direction, from_mm)
     if not found:
-        # Nothing is told surely: the nearer place is the safer one for a screw.
+        # Ambiguous: the nearer place is the safer one for a screw.
         profile = profile_along(near, isthmus_mm, direction)
         some = [one for one, _ in falls(near, profile, min_hu=near.min_fall_hu, behind=1)]
         distance = min([one for one in some if one >= NO_FRONT_FROM_MM], default=distance)
@@ -119,10 +120,10 @@ def _wall(
 
 
 def _exit_mm(solid: Solid, isthmus_mm: Array, direction: Array, from_mm: float) -> float | None:
-    """Where the line leaves the solid for good, or None where it does not within the grid."""
-    along = np.arange(from_mm, FARTHEST_MM, STEP_MM)
+    """Return the last exit of the line from the solid, or None if it stays within the grid."""
+    along = np.arange(from_mm, MAX_DISTANCE_MM, STEP_MM)
     line = isthmus_mm + along[:, None] * direction
-    depth = solid.depth_at(line)[solid.holds(line)]
+    depth = solid.depth_at(line)[solid.contains(line)]
     steps = int(LEFT_FOR_MM / STEP_MM)
     shallow = np.convolve(depth < -LEFT_FROM_MM, np.ones(steps))[steps - 1 :] > steps - 0.5
     left = np.flatnonzero((depth < -LEFT_DEPTH_MM) | shallow)
@@ -131,7 +132,7 @@ def _exit_mm(solid: Solid, isthmus_mm: Array, direction: Array, from_mm: float) 
 
 
 def _skimming_sd_mm(solid: Solid, isthmus_mm: Array, direction: Array, from_mm: float) -> float:
-    """How much lines beside this one differ in where they end: by much where it skims a surface."""
+    """Return the sd of the exit over parallel lines; large where the line grazes a surface."""
     (across,), (up,) = planes_across(direction[None])
     beside = [_exit_mm(solid, isthmus_mm + way, direction, from_mm) for way in (across, -across, up, -up)]
     ends = [one for one in beside if one is not None]
@@ -139,7 +140,7 @@ def _skimming_sd_mm(solid: Solid, isthmus_mm: Array, direction: Array, from_mm: 
 
 
 def _fall_near(near: Neighbourhood, isthmus_mm: Array, direction: Array, exit_mm: float) -> float:
-    """The fall of the profile nearest to where the solid ends; the end itself where there is none."""
+    """Return the profile fall nearest to the end of the solid; the end itself if there is none."""
     profile = profile_along(near, isthmus_mm, direction)
     behind = behind_steps(near, direction)
     for share in (1.0, 0.5):
@@ -153,10 +154,10 @@ def _fall_near(near: Neighbourhood, isthmus_mm: Array, direction: Array, exit_mm
 def _outer_wall(
     near: Neighbourhood, isthmus_mm: Array, direction: Array, from_mm: float
 ) -> tuple[float, bool]:
-    """The first fall behind which the line is no longer enclosed by bone.
+    """Return the first fall beyond which bone no longer encloses the line.
 
-    Dense layers inside the bone fall to marrow, which can be as dark as muscle; but there walls stand around.
-    Where no fall is as deep as a wall's, half of that is taken: bone without a shell.
+    Dense layers inside the bone fall to marrow, which can be as dark as muscle, but bone still encloses it.
+    If no fall reaches the minimum of a wall, half of it is accepted: bone without a cortical shell.
     """
     profile = profile_along(near, isthmus_mm, direction)
     behind = behind_steps(near, direction)
@@ -174,13 +175,13 @@ def _outer_wall(
 
 
 def _is_enclosed(near: Neighbourhood, point_mm: Array, direction: Array) -> bool:
-    """Whether bone is met in most directions across the line."""
+    """Return whether bone is met in most directions across the line."""
     (across,), (up,) = planes_across(direction[None])
     angle = angles(LOOK_RAYS)
     rays = np.cos(angle)[:, None] * across + np.sin(angle)[:, None] * up
     steps = np.arange(0.0, LOOK_ACROSS_MM, 0.5)
     points = point_mm + steps[:, None] * rays[:, None, :]
-    # In thick slices an endplate is faint.
+    # Thick slices reduce the contrast of an endplate.
     faint = near.tissue_hu + max(100.0, 0.25 * (near.cortex_hu - near.tissue_hu))
-    bone = (near.smooth_hu(points) > faint) & near.holds(points)
+    bone = (near.smooth_hu(points) > faint) & near.contains(points)
     return bool(bone.any(axis=1).mean() >= ENCLOSED_RATIO)

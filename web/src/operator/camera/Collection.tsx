@@ -58,8 +58,8 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
   const { collecting } = gates;
   return (
     <Card title={words.collecting} testId="collection">
-      <p className="newest" data-taking={data.said === "taken" ? "taken" : ""} role="status">
-        {data.running ? sentence(data.said) : words.ended}
+      <p className="newest" data-taking={data.message === "taken" ? "taken" : ""} role="status">
+        {data.running ? sentence(data.message) : words.ended}
       </p>
       <RejectionNote rejection={data.problem === null ? null : new Rejection(data.problem)} />
       <div className="coverage-row">

@@ -52,7 +52,7 @@ export function Verification({ caseId }: { caseId: string }): ReactNode {
           <ul>
             {found.damages.map((one) => (
               <li key={one.file_id}>
-                {sentence(one.told)} {one.documents.join(", ")}
+                {sentence(one.message)} {one.documents.join(", ")}
               </li>
             ))}
           </ul>

@@ -6,7 +6,7 @@ import { useWords } from "../../words/WordsContext";
 import { filled } from "../../words/filled";
 
 /** How far the tip is from where the plan has the landmark, against what is allowed, and which way. */
-export function CheckOutcome({ outcome }: { outcome: components["schemas"]["KeptCheck"] }): ReactNode {
+export function CheckOutcome({ outcome }: { outcome: components["schemas"]["CheckRecord"] }): ReactNode {
   const words = useWords().check;
   const [left = 0, back = 0, head = 0] = outcome.off_lps_mm;
   const way = (mm: number, plus: string, minus: string): string =>

@@ -59,7 +59,7 @@ export async function measure(measured: Measured): Promise<Result | null> {
       const gaveUp = !sequence.isCounting && performance.now() - beganAtMs > AIM_WITHIN_MS;
       if (sequence.isOver) overAtMs = Math.min(overAtMs, performance.now() + LINGER_MS);
       if (gaveUp) overAtMs = 0;
-      const { looked_images: lookedImages, read_images: readImages } = reading;
+      const { examined_images: lookedImages, read_images: readImages } = reading;
       onProgress({ lookedImages, readImages, doneRatio: sequence.doneRatio });
     }
     const body = notes.conclusion(madeBy, innerWidth, innerHeight);

@@ -46,7 +46,7 @@ test("the screen's period is the usual one, whatever a busy page leaves out", ()
   notes.compare(5, 8, 42);
   expect(notes.conclusion("ito", 1280, 800)).toMatchObject({
     made_by: "ito",
-    comparisons: [{ asked_at_ms: 5, answered_at_ms: 8, server_s: 42 }],
+    comparisons: [{ requested_at_ms: 5, responded_at_ms: 8, server_s: 42 }],
     screen: { width_px: 1280, height_px: 800, period_ms: 10 },
   });
 });

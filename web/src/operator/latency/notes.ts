@@ -48,7 +48,7 @@ export class LatencyNotes {
   }
 
   compare(askedAtMs: number, answeredAtMs: number, serverS: number): void {
-    this.comparisons.push({ asked_at_ms: askedAtMs, answered_at_ms: answeredAtMs, server_s: serverS });
+    this.comparisons.push({ requested_at_ms: askedAtMs, responded_at_ms: answeredAtMs, server_s: serverS });
   }
 
   /** Images from before the camera saw a code say nothing; codes stay, because images on their way show them. */

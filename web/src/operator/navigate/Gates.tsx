@@ -33,7 +33,7 @@ export function Gates(): ReactNode {
             <strong>
               {words.operator.page[one.step]} · {stateWord(one, words.operator)}
             </strong>{" "}
-            {one.said}.{" "}
+            {one.message}.{" "}
             <Link className="big-link" href={`/operator/${one.step}`}>
               {words.navigate.goTo} {words.operator.page[one.step]}
             </Link>

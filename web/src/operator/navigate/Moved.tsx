@@ -7,7 +7,7 @@ import { useWords } from "../../words/WordsContext";
 /** Camera or patient moved: what that ends, and the way back. */
 export function Moved(): ReactNode {
   const words = useWords().navigate;
-  const watched = useLive().view.newest?.snapshot?.watched;
+  const watched = useLive().view.newest?.snapshot?.motion;
   if (!watched) return null;
   const moves = [
     { key: "camera", is: watched.camera_moved, words: words.cameraMoved, href: "/operator/register" },

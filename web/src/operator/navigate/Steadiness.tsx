@@ -34,7 +34,7 @@ export function Steadiness(): ReactNode {
         .join(" · ") || "—",
     );
   });
-  const moves = view.newest?.snapshot?.watched.moves_seen_by;
+  const moves = view.newest?.snapshot?.motion.motion_detected_by;
   return (
     <section className="card steadiness" data-testid="steadiness">
       <dl>

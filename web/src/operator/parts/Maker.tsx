@@ -12,10 +12,10 @@ interface Made {
 export function Maker({ of: made }: { of: Made }): ReactNode {
   const { case: words, language } = useWords();
   if (made.imported === null) return made.made_by ?? "";
-  const { said_maker, by, at } = made.imported;
+  const { claimed_maker, by, at } = made.imported;
   return (
     <span data-imported="true">
-      {said_maker}, {words.maker.saysArchive} ({words.maker.takenIn} {by}, {shownTime(at, language)})
+      {claimed_maker}, {words.maker.saysArchive} ({words.maker.takenIn} {by}, {shownTime(at, language)})
     </span>
   );
 }

@@ -16,7 +16,7 @@ export function StandsOn({
   documents: readonly Heading[] | null;
 }): ReactNode {
   const words = useWords().case;
-  const bases = (documents === null ? [] : heading.stands_on).map((id) => {
+  const bases = (documents === null ? [] : heading.depends_on).map((id) => {
     const found = documents?.find((one) => one.id === id);
     return found === undefined
       ? words.another

@@ -25,12 +25,12 @@ export function AuditLog(): ReactNode {
     <section className="audit" aria-labelledby="audit">
       <h3 id="audit">{words.log}</h3>
       {data === null && <Unanswered asked={asked} />}
-      {data?.is_whole === true && (
+      {data?.is_intact === true && (
         <p>
           ✓ {words.whole} · {data.count} {words.lines} · <code title={data.sum}>{data.sum.slice(0, 16)}</code>
         </p>
       )}
-      {data?.is_whole === false && (
+      {data?.is_intact === false && (
         <Alert role="alert" title={`${words.broken} ${String(data.fault_line)}: ${data.fault}`}>
           {words.brokenRemedy}
         </Alert>

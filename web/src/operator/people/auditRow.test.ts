@@ -42,7 +42,7 @@ test.each([
 
 test.each([
   [204, "✓ done"],
-  [403, "✕ refused"],
+  [403, "✕ rejected"],
   [507, "✕ failed"],
   [undefined, ""],
 ])("an answer of %s", (status, result) => {

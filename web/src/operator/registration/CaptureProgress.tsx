@@ -9,7 +9,7 @@ import { lookingText } from "./lookingText";
 import { Rejected } from "./Rejected";
 
 interface CaptureProgressProps {
-  capture: components["schemas"]["TouchMessage"];
+  capture: components["schemas"]["CaptureMessage"];
   maxSpreadMm: number;
 }
 

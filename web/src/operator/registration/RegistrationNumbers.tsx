@@ -63,7 +63,7 @@ export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProp
         <Measure
           name={words.leftOut}
           hint={words.leftOutHint}
-          value={of("left_out_mm")}
+          value={of("leave_one_out_mm")}
           unit="mm"
           most={of("max_left_out_mm")}
         />

@@ -9,5 +9,7 @@ export function Rejected({ rejection }: { rejection: Rejection | null }): ReactN
   if (rejection === null) return null;
   const { problem } = rejection;
   const here = Object.hasOwn(words, problem.code) ? words[problem.code as keyof typeof words] : null;
-  return <RejectionNote rejection={here === null ? rejection : new Rejection({ ...problem, remedy: here })} />;
+  return (
+    <RejectionNote rejection={here === null ? rejection : new Rejection({ ...problem, remedy: here })} />
+  );
 }

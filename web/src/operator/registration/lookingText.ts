@@ -3,7 +3,7 @@ import type { components } from "../../schema";
 import type { RegistrationWords } from "../../words/registration/en";
 import { filled } from "../../words/filled";
 
-type Capture = Pick<components["schemas"]["TouchMessage"], "images" | "wanted" | "rate_hz" | "left_s">;
+type Capture = Pick<components["schemas"]["CaptureMessage"], "images" | "wanted" | "rate_hz" | "left_s">;
 type CaptureWords = Pick<RegistrationWords["capture"], "looking" | "lookingAtRate">;
 
 /** How many images a running capture has, and how long the tip is still to be held at the camera's rate. */

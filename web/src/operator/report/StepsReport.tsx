@@ -34,7 +34,7 @@ export function StepsReport({ procedure, readAt }: StepsReportProps): ReactNode 
                   <strong>{stateWord(step, words.operator)}</strong>
                   {/* The server speaks English. */}
                   <p className="soft" lang="en">
-                    {sentence(step.said)}
+                    {sentence(step.message)}
                   </p>
                 </Table.Td>
               </Table.Tr>

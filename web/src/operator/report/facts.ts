@@ -40,7 +40,7 @@ function registrationFacts(content: Content): Fact[] {
     said("method", content["method"]),
     mm("atEntry", numbers["tre_at_entry_mm"], numbers["max_tre_mm"]),
     mm("points", numbers["fre_rms_mm"], numbers["max_fre_mm"]),
-    mm("leftOut", numbers["left_out_mm"], numbers["max_left_out_mm"]),
+    mm("leftOut", numbers["leave_one_out_mm"], numbers["max_left_out_mm"]),
     mm("needle", numbers["worst_offset_mm"]),
     mm("surface", numbers["rms_mm"], numbers["max_rms_mm"]),
     mm("nudged", numbers["nudged_mm"]),

@@ -9,7 +9,7 @@ function made(kind: Heading["kind"], name: string, version: number, by = "Ito"):
     version,
     made_at: "2026-03-01T10:00:00.000Z",
     made_by: by,
-    stands_on: [],
+    depends_on: [],
     files: [],
     withdrawn: null,
     imported: null,

@@ -12,7 +12,7 @@ export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate
   const { outcome, purpose } = gathered;
   const tilt = { kind: "least", value: gate.min_tilt_deg } as const;
   const rms = { kind: "most", value: gate.max_rms_3d_mm } as const;
-  const passedOver = KINDS.filter((kind) => (gathered.passed_over[kind] ?? 0) > 0);
+  const passedOver = KINDS.filter((kind) => (gathered.rejected_images[kind] ?? 0) > 0);
   return (
     <>
       <dl className="measures">
@@ -97,7 +97,7 @@ export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate
         <p className="soft">
           {words.passedOver}:{" "}
           {passedOver
-            .map((kind) => `${words.passed[kind]} ${String(gathered.passed_over[kind] ?? 0)}`)
+            .map((kind) => `${words.passed[kind]} ${String(gathered.rejected_images[kind] ?? 0)}`)
             .join(" · ")}
         </p>
       )}

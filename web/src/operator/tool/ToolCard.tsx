@@ -31,7 +31,7 @@ export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCa
   const canPivotOnly = tool.kept?.heading.current !== true;
   return (
     <Card title={tool.name} testId={`tool-${tool.name}`} fresh={fresh}>
-      {tool.kept === null && <p className="soft">{tool.of_settings ? words.ofSettings : words.nothing}</p>}
+      {tool.kept === null && <p className="soft">{tool.from_settings ? words.ofSettings : words.nothing}</p>}
       {tool.kept !== null && (
         <>
           <StandsOn heading={tool.kept.heading} documents={documents} />

@@ -8,7 +8,7 @@ function tool(content: Record<string, unknown> | null, current = true): KnownToo
   const heading = { current } as NonNullable<KnownTool["kept"]>["heading"];
   return {
     name: "drill",
-    of_settings: false,
+    from_settings: false,
     marker: null,
     radius_mm: null,
     length_mm: null,

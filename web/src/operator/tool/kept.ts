@@ -3,10 +3,10 @@ import type { components } from "../../schema";
 
 export type KnownTool = components["schemas"]["KnownToolMessage"];
 export type ToolGate = components["schemas"]["ToolCalibrationConfig"];
-export type Gathered = components["schemas"]["GatheringMessage"];
+export type Gathered = components["schemas"]["PoseCollectionMessage"];
 export type Purpose = components["schemas"]["Purpose"];
 
-export interface KeptTool {
+export interface ToolRecord {
   marker: string;
   sideMm: number | null;
   radiusMm: number | null;
@@ -21,7 +21,7 @@ export interface KeptTool {
   hasAxis: boolean;
 }
 
-export function keptTool(content: Record<string, unknown>): KeptTool {
+export function keptTool(content: Record<string, unknown>): ToolRecord {
   const pivot = part(content["pivot"]);
   const spin = part(content["spin"]);
   return {

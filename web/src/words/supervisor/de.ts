@@ -61,7 +61,7 @@ export const supervisorDe: SupervisorWords = {
     numbers: {
       points: "Benutzte Landmarken",
       fre_rms_mm: "Landmarken passen auf (RMS)",
-      left_out_mm: "Schlechteste Landmarke gegen die anderen",
+      leave_one_out_mm: "Schlechteste Landmarke gegen die anderen",
       tre_at_entry_mm: "Erwarteter Fehler am Eintritt",
       needles: "Benutzte Nadeln",
       worst_offset_mm: "Schlechteste Nadel",

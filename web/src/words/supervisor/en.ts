@@ -65,7 +65,7 @@ export const supervisorEn = {
     numbers: {
       points: "Landmarks used",
       fre_rms_mm: "Landmarks fit to (RMS)",
-      left_out_mm: "Worst landmark against the others",
+      leave_one_out_mm: "Worst landmark against the others",
       tre_at_entry_mm: "Expected error at the entry",
       needles: "Needles used",
       worst_offset_mm: "Worst needle",

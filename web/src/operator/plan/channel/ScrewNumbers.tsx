@@ -31,8 +31,7 @@ export function ScrewNumbers({ screw }: { screw: Screw }): ReactNode {
         <div className="figure">
           <dt>{words.tolerance}</dt>
           <dd>
-            {shownNumber(tolerance.max_offset_mm, 1)} mm {words.or}{" "}
-            {shownNumber(tolerance.max_angle_deg, 1)}°
+            {shownNumber(tolerance.max_offset_mm, 1)} mm {words.or} {shownNumber(tolerance.max_angle_deg, 1)}°
             <span className="soft">
               {" "}
               {words.both} {shownNumber(tolerance.both_mm, 1)} mm + {shownNumber(tolerance.both_deg, 1)}°

@@ -3,7 +3,7 @@ import type { SliceLine } from "../state/shape";
 import type { Vec3 } from "../slices/vectors";
 
 const AHEAD_MM = 50;
-const BEHIND_MM = 60;
+const MAX_BEHIND_ENTRY_MM = 60;
 
 /** Middle, left and right (of the patient) through a point of an axial slice. */
 export function draftLines(middle: Vec3, apartMm: number): SliceLine[] {
@@ -13,7 +13,7 @@ export function draftLines(middle: Vec3, apartMm: number): SliceLine[] {
     name,
     ends_lps_mm: [
       [x + shift, y - AHEAD_MM, z],
-      [x + shift, y + BEHIND_MM, z],
+      [x + shift, y + MAX_BEHIND_ENTRY_MM, z],
     ],
   }));
 }

@@ -23,7 +23,7 @@ export function SliceLabels({ plane, projection, address, isLate, isLarge }: Sli
   const where = isFlat(plane)
     ? `${words.axis[plane]} ${shownNumber(at_mm, 1)} mm`
     : plane === "along"
-      ? `${words.turned} ${asked.get("turn_deg") ?? ""}°`
+      ? `${words.turned} ${asked.get("rotation_deg") ?? ""}°`
       : `${words.deep} ${shownNumber(Number(asked.get("depth_mm")), 1)} mm`;
   return (
     <>

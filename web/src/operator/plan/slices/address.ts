@@ -57,7 +57,7 @@ export function addressOf(plane: PlaneName, look: Look, ct: Ct): string | null {
   query.set("pixel_mm", String(OBLIQUE_PIXEL_MM));
   const size = plane === "along" ? ALONG_MM : ACROSS_MM;
   for (const [name, value] of Object.entries(size)) query.set(name, String(value));
-  if (plane === "along") query.set("turn_deg", short(look.turnDeg));
+  if (plane === "along") query.set("rotation_deg", short(look.turnDeg));
   else query.set("depth_mm", short(look.depthMm));
   return `/api/ct/oblique.png?${query.toString()}${of}`;
 }

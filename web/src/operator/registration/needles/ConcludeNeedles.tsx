@@ -9,10 +9,10 @@ import { Rejected } from "../Rejected";
 import { SureButton } from "../SureButton";
 import { useMadeBy } from "../useMadeBy";
 import type { Overlay } from "./overlay";
-import { asked, type NeedleOrder } from "./order";
+import { asked, type NeedleRequest } from "./order";
 
 interface ConcludeNeedlesProps {
-  order: NeedleOrder;
+  order: NeedleRequest;
   overlay?: Overlay | null;
   marked?: readonly {
     entry_px: number[];

@@ -6,7 +6,7 @@ import { filled } from "../../../words/filled";
 import { ConcludeNeedles } from "./ConcludeNeedles";
 import { Magnifier } from "./Magnifier";
 import { nextEnd, withEnd, type End, type Mark } from "./marks";
-import type { NeedleOrder } from "./order";
+import type { NeedleRequest } from "./order";
 import type { Px } from "./overlay";
 import { useMarkOnStage } from "./useMarkOnStage";
 import { useNeedleNames } from "./useNeedleNames";
@@ -19,7 +19,7 @@ const WAYS: readonly [string, "left" | "up" | "down" | "right", Px][] = [
 ];
 
 interface MarkPanelProps {
-  order: NeedleOrder;
+  order: NeedleRequest;
   names: readonly string[];
   marks: Mark[];
   onMarks: (marks: Mark[]) => void;

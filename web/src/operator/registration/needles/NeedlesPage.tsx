@@ -10,7 +10,7 @@ import { NeedlesWork } from "./NeedlesWork";
 import { PlacesForm } from "./PlacesForm";
 import { RulerForm } from "./RulerForm";
 import { FIRST_VIEW, remember, remembered } from "./ruler";
-import type { NeedleOrder } from "./order";
+import type { NeedleRequest } from "./order";
 
 /** Registration by three needles: first what a ruler says and where the needles stand, then the picture. */
 export function NeedlesPage(): ReactNode {
@@ -43,7 +43,7 @@ export function NeedlesPage(): ReactNode {
         {measured && <PlacesForm vertebra={vertebra} chosen={[]} onChosen={setChosen} />}
       </>
     );
-  const order: NeedleOrder = { view, landmarks };
+  const order: NeedleRequest = { view, landmarks };
   return (
     <NeedlesWork
       key={JSON.stringify(order)}

@@ -6,7 +6,7 @@ import { filled } from "../../../words/filled";
 import type { PlannedVertebra } from "../planRead";
 import { Rejected } from "../Rejected";
 import { LiveStage } from "../LiveStage";
-import { asked, type NeedleOrder } from "./order";
+import { asked, type NeedleRequest } from "./order";
 import { LineLayer } from "./LineLayer";
 import { MarkLayer } from "./MarkLayer";
 import { MarkPanel } from "./MarkPanel";
@@ -21,7 +21,7 @@ import { useHandOnStage } from "./useHandOnStage";
 type Mode = "overlay" | "proposal" | "mark";
 
 interface NeedlesWorkProps {
-  order: NeedleOrder;
+  order: NeedleRequest;
   vertebra: PlannedVertebra;
   onRuler: () => void;
   onLandmarks: (landmarks: string[]) => void;

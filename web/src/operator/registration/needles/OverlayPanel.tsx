@@ -4,7 +4,7 @@ import { shownNumber } from "../../../live/rounding";
 import { Icon } from "../../../panes/Icon";
 import { useWords } from "../../../words/WordsContext";
 import { ConcludeNeedles } from "./ConcludeNeedles";
-import type { NeedleOrder } from "./order";
+import type { NeedleRequest } from "./order";
 import { faded, moved, placeOf, scaled, turned, type Overlay } from "./overlay";
 import type { DeskState, OverlayDesk } from "./overlayDesk";
 
@@ -16,7 +16,7 @@ const STEPS = {
 interface OverlayPanelProps {
   desk: OverlayDesk;
   state: DeskState;
-  order: NeedleOrder;
+  order: NeedleRequest;
   held: boolean;
   onRelease: () => void;
 }

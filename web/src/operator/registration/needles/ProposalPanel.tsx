@@ -6,14 +6,14 @@ import type { components } from "../../../schema";
 import { useWords } from "../../../words/WordsContext";
 import { Rejected } from "../Rejected";
 import { ConcludeNeedles } from "./ConcludeNeedles";
-import type { NeedleOrder } from "./order";
+import type { NeedleRequest } from "./order";
 import { asked } from "./order";
 import { ProposalCard } from "./ProposalCard";
 
 export type Proposal = components["schemas"]["ProposalMessage"];
 
 interface ProposalPanelProps {
-  order: NeedleOrder;
+  order: NeedleRequest;
   picked: Proposal | null;
   held: boolean;
   onPick: (proposal: Proposal | null) => void;

@@ -59,13 +59,13 @@ export function RulerForm({ view, onView, middleMm, done, onDone }: RulerFormPro
       <SegmentedControl
         size="lg"
         aria-label={words.standing}
-        value={view.standing}
+        value={view.patient_end}
         data={[
           { value: "feet", label: words.feet },
           { value: "head", label: words.head },
         ]}
         onChange={(value) => {
-          onView({ ...view, standing: value === "head" ? "head" : "feet" });
+          onView({ ...view, patient_end: value === "head" ? "head" : "feet" });
         }}
       />
       <p className="quiet">{words.said}</p>

@@ -1,7 +1,7 @@
 import type { RuledView } from "./ruler";
 
 /** Which needles, seen how: the part that all questions about needles share. */
-export interface NeedleOrder {
+export interface NeedleRequest {
   view: RuledView;
   /** None: the three lines of the reference slice. */
   landmarks: string[];
@@ -9,6 +9,6 @@ export interface NeedleOrder {
 
 const WIRE_RADIUS_MM = 0.8;
 
-export function asked(order: NeedleOrder): NeedleOrder & { radius_mm: number; use_touched: boolean } {
+export function asked(order: NeedleRequest): NeedleRequest & { radius_mm: number; use_touched: boolean } {
   return { ...order, radius_mm: WIRE_RADIUS_MM, use_touched: false };
 }

@@ -12,7 +12,7 @@ import {
   type Px,
 } from "./overlay";
 
-const AT: Overlay = { shift_px: [640, 360], turn_deg: 10, scale_px_per_mm: 3, fade_ratio: 0.5 };
+const AT: Overlay = { shift_px: [640, 360], rotation_deg: 10, scale_px_per_mm: 3, fade_ratio: 0.5 };
 const SCREEN_TOP_LEFT: Px = [0, 0];
 
 function near(actual: Px, expected: Px): void {
@@ -28,12 +28,12 @@ describe("the slice in the hand", () => {
   test("turns clockwise about a point: what is right of it goes below it", () => {
     const after = turned(AT, 90, [540, 360]);
     near(placeOf(after), [540, 460]);
-    expect(after.turn_deg).toBe(100);
+    expect(after.rotation_deg).toBe(100);
   });
 
   test("has a turn between -180 and 180 degrees", () => {
-    expect(turned(AT, 175, [0, 0]).turn_deg).toBe(-175);
-    expect(turned(AT, -195, [0, 0]).turn_deg).toBe(175);
+    expect(turned(AT, 175, [0, 0]).rotation_deg).toBe(-175);
+    expect(turned(AT, -195, [0, 0]).rotation_deg).toBe(175);
   });
 
   test("grows away from a point", () => {
@@ -62,8 +62,8 @@ describe("what is drawn between two answers", () => {
   });
 
   test.each(HANDS)("has a point a millimetre away as far and as turned as the hand says: %s", (_, hand) => {
-    const besides = ({ shift_px, turn_deg, scale_px_per_mm }: Overlay): Px => {
-      const radians = (turn_deg * Math.PI) / 180;
+    const besides = ({ shift_px, rotation_deg, scale_px_per_mm }: Overlay): Px => {
+      const radians = (rotation_deg * Math.PI) / 180;
       const [x = 0, y = 0] = shift_px;
       return [x + scale_px_per_mm * Math.cos(radians), y + scale_px_per_mm * Math.sin(radians)];
     };

@@ -8,7 +8,7 @@ export type Matrix = readonly number[];
 export interface Overlay {
   shift_px: number[];
   /** Clockwise in the image. */
-  turn_deg: number;
+  rotation_deg: number;
   scale_px_per_mm: number;
   fade_ratio: number;
 }
@@ -29,7 +29,7 @@ export function turned(overlay: Overlay, byDeg: number, about: Px): Overlay {
   return {
     ...overlay,
     shift_px: [about[0] + cosine * armX - sine * armY, about[1] + sine * armX + cosine * armY],
-    turn_deg: wrapped(overlay.turn_deg + byDeg),
+    rotation_deg: wrapped(overlay.rotation_deg + byDeg),
   };
 }
 
@@ -61,7 +61,7 @@ export function pinched(
 /** Takes what is drawn for one overlay to where another has it. */
 export function similarity(from: Overlay, to: Overlay): Matrix {
   const ratio = to.scale_px_per_mm / from.scale_px_per_mm;
-  const radians = ((to.turn_deg - from.turn_deg) * Math.PI) / 180;
+  const radians = ((to.rotation_deg - from.rotation_deg) * Math.PI) / 180;
   const [a, b] = [ratio * Math.cos(radians), ratio * Math.sin(radians)];
   const [x, y] = placeOf(from);
   const [toX, toY] = placeOf(to);
@@ -93,7 +93,7 @@ export function cssMatrix(imageFromPicture: Matrix): string {
 
 export function same(one: Overlay, other: Overlay): boolean {
   return (
-    one.turn_deg === other.turn_deg &&
+    one.rotation_deg === other.rotation_deg &&
     one.scale_px_per_mm === other.scale_px_per_mm &&
     one.fade_ratio === other.fade_ratio &&
     one.shift_px[0] === other.shift_px[0] &&

@@ -8,7 +8,7 @@ vi.hoisted(() => {
   vi.stubGlobal("location", { origin: "http://127.0.0.1" });
 });
 
-const RULER: Overlay = { shift_px: [640, 360], turn_deg: 0, scale_px_per_mm: 3, fade_ratio: 0.5 };
+const RULER: Overlay = { shift_px: [640, 360], rotation_deg: 0, scale_px_per_mm: 3, fade_ratio: 0.5 };
 
 function laid(overlay: Overlay): Laid {
   return { vertebra: "L3", image_number: 1, overlay, slice: null, needles: [], directions: [], numbers: {} };

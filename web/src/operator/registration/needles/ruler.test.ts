@@ -13,7 +13,7 @@ test("a camera 380 mm behind and 240 mm towards the feet of the vertebra is 380 
     vertical_mm: 380,
     horizontal_mm: 240,
     azimuth_deg: 0,
-    standing: "feet",
+    patient_end: "feet",
   });
 });
 

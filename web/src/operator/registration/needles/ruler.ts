@@ -7,11 +7,11 @@ export const FIRST_VIEW: RuledView = {
   vertical_mm: 400,
   horizontal_mm: 250,
   azimuth_deg: 0,
-  standing: "feet",
+  patient_end: "feet",
   ruler_sd_mm: 10,
   azimuth_sd_deg: 5,
-  level_sd_deg: 3,
-  lying_sd_deg: 5,
+  roll_sd_deg: 3,
+  prone_sd_deg: 5,
 };
 
 /** What a ruler would say in the rehearsal, of the camera above and beside a vertebra that lies flat. */

@@ -5,7 +5,7 @@ import { useWords } from "../../../words/WordsContext";
 import { shownSecond } from "../../parts/shown";
 
 /** Every nudge that holds, the newest first: what, who, when. */
-export function NudgeLog({ nudges }: { nudges: components["schemas"]["KeptNudge"][] }): ReactNode {
+export function NudgeLog({ nudges }: { nudges: components["schemas"]["NudgeRecord"][] }): ReactNode {
   const all = useWords();
   const words = all.registration.nudges;
   if (nudges.length === 0) return <p className="quiet">{words.logEmpty}</p>;

@@ -9,7 +9,7 @@ export function NudgeSums({ nudges }: { nudges: components["schemas"]["NudgesMes
   const words = useWords().registration.nudges;
   const sums = [
     { name: words.sumMm, value: nudges.shift_mm, most: nudges.max_mm, unit: "mm" },
-    { name: words.sumDeg, value: nudges.turn_deg, most: nudges.max_deg, unit: "°" },
+    { name: words.sumDeg, value: nudges.rotation_deg, most: nudges.max_deg, unit: "°" },
   ];
   return (
     <dl className="limits" data-testid="nudge-sums">

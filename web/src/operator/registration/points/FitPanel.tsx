@@ -11,7 +11,7 @@ export function FitPanel({ points }: { points: Points }): ReactNode {
   const words = useWords().registration;
   const sideName = useSides();
   const { limits, targets } = points;
-  const strays = points.landmarks.map((one) => one.left_out_mm).filter((mm) => mm !== null);
+  const strays = points.landmarks.map((one) => one.leave_one_out_mm).filter((mm) => mm !== null);
   const sides = [...new Set(targets.map((one) => one.side))];
   return (
     <section className="card" aria-live="polite">

@@ -77,6 +77,6 @@ function said(
   const far =
     one.residual_mm === null ? words.noFit : `${words.residual} ${shownNumber(one.residual_mm, 2)} mm`;
   const others =
-    one.left_out_mm === null ? "" : ` · ${words.leftOutBy} ${shownNumber(one.left_out_mm, 2)} mm`;
+    one.leave_one_out_mm === null ? "" : ` · ${words.leftOutBy} ${shownNumber(one.leave_one_out_mm, 2)} mm`;
   return one.used ? `${far}${others}` : `${words.notUsed} · ${far}`;
 }

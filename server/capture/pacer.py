@@ -1,0 +1,34 @@
+"""Plays images at the rate at which they were taken."""
+
+import threading
+import time
+
+
+class Pacer:
+    """Waits until an image is due, by the source's own clock.
+
+    A source that falls behind by more than `slack_s` is not caught up: its clock is reset, so that a pause of
+    the machine does not end in a burst.
+    """
+
+    def __init__(self, *, stop: threading.Event, slack_s: float = 0.5) -> None:
+        self._stop = stop
+        self._slack_s = slack_s
+        self._epoch_s: float | None = None
+
+    def restart(self) -> None:
+        """Make the next image due at once; the clock starts with it."""
+        self._epoch_s = None
+
+    def wait_until_due(self, source_time_s: float) -> float:
+        """Wait until an image is due; return its lateness in seconds (0 if it had to wait)."""
+        now_s = time.monotonic()
+        if self._epoch_s is None:
+            self._epoch_s = now_s - source_time_s
+        wait_s = self._epoch_s + source_time_s - now_s
+        if wait_s > 0.0:
+            self._stop.wait(wait_s)
+            return 0.0
+        if -wait_s > self._slack_s:
+            self._epoch_s = now_s - source_time_s
+        return -wait_s

@@ -1,0 +1,40 @@
+"""Command-line options that describe a board, shared by all commands that detect one."""
+
+from typing import Annotated
+
+import typer
+
+from server.cli.board_names import Layout, Pattern
+
+_PATTERN = typer.Option(help="Pattern of the board.", show_default=False)
+_SIZE = typer.Option(
+    help="Columns x rows: dots, inner corners of a checkerboard, squares of a ChArUco board.",
+    metavar="14x16",
+    show_default=False,
+)
+
+# Where there is nothing to look at but a board.
+PatternArgument = Annotated[Pattern, _PATTERN]
+SizeArgument = Annotated[str, _SIZE]
+# Where there may be something else.
+PatternOption = Annotated[Pattern | None, _PATTERN]
+SizeOption = Annotated[str | None, _SIZE]
+PitchOption = Annotated[
+    float | None,
+    typer.Option("--pitch-mm", help="From dot to dot; asymmetric: half of it in a row.", metavar="MM"),
+]
+SquareOption = Annotated[float | None, typer.Option("--square-mm", help="Side of a square.", metavar="MM")]
+MarkerOption = Annotated[
+    float | None, typer.Option("--marker-mm", help="Side of a ChArUco marker.", metavar="MM")
+]
+DictionaryOption = Annotated[
+    str | None, typer.Option(help="ArUco dictionary, as DICT_6X6_250.", metavar="NAME")
+]
+FiducialsOption = Annotated[
+    str | None,
+    typer.Option(help="Indexes of the larger dots, as 69,74,149,154; default: detected.", metavar="LIST"),
+]
+LayoutOption = Annotated[
+    Layout | None,
+    typer.Option(help="Dots: symmetric or asymmetric. ChArUco: newer or older; default: detected."),
+]

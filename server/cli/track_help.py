@@ -1,0 +1,25 @@
+"""Help text of `coaxial track` with the fields of its output."""
+
+TRACK_HELP = """\
+Track every image of a video as fast as possible, without skipping any.
+
+The output is written to FILE.part and renamed to FILE when it is complete.
+Images that cannot be read are reported, with exit status 2.
+An interrupted run leaves FILE.part.
+
+Fields of a JSON line (null if unknown):
+
+time_s: time stamp of the video. For a folder, images are spaced
+by camera.rate_hz of the settings (default 30 Hz).
+
+camera_from_marker: rotation (3x3) and translation_mm, with --camera.
+
+pose_covariance: 6x6 in mm and rad, translation first, then rotation
+as a small left-multiplied rotation vector in the camera's frame.
+
+reason: why the marker was not detected.
+NO_CANDIDATE: no quadrilateral in the image matches the marker.
+SCORE_TOO_LOW: too few edges of the marker were found.
+TARGET_SCORE_TOO_LOW: too many edges that the marker does not have.
+SHAPE_DIFFERS: the edges fit, but an inner region has the wrong polarity.
+"""

@@ -1,0 +1,165 @@
+"""Consistency checks of the slices of a series, and warnings for the planning."""
+
+from collections import Counter
+from collections.abc import Hashable, Iterable
+
+import numpy as np
+
+from server.imaging.dicom.frame import Frame
+from server.imaging.dicom.pixels import check_readable
+from server.imaging.dicom.series import check_one_patient
+from server.imaging.voxels import MAX_HU, MIN_HU, check_voxels
+from tracker.errors import InvalidInput
+from tracker.plan.stack import EXPORT_AGAIN, MAX_JITTER_MM, Stack
+
+MAX_SIDE_PX = 8192
+MIN_PIXEL_MM, MAX_PIXEL_MM = 0.02, 10.0
+THICK_MM = 3.0
+REPORTED_JITTER_MM = 0.02
+IS_HU = {"", "HU", "HU_MOD", "US"}
+
+
+def check_consistency(frames: list[Frame]) -> None:
+    """Reject a series whose slices lack required attributes, or contradict each other.
+
+    Raises:
+        InvalidInput: CT_PATIENTS_MIXED, CT_GEOMETRY_MISSING, CT_SIZES_DIFFER, CT_PIXELS_INVALID,
+            CT_SPACES_DIFFER, CT_RESCALE_MISSING, CT_NOT_HU, CT_COMPRESSION_UNKNOWN, CT_PIXELS_UNKNOWN or
+            CT_TOO_LARGE.
+    """
+    check_one_patient(frames, what="the series")
+    _check_geometry(frames)
+    _check_values(frames)
+    for shared in {id(frame.shared): frame.shared for frame in frames}.values():
+        check_readable(shared)
+
+
+def _check_geometry(frames: list[Frame]) -> None:
+    for attribute, missing in (
+        ("position (Image Position)", [not frame.position_lps_mm for frame in frames]),
+        ("direction (Image Orientation)", [not frame.directions for frame in frames]),
+        ("pixel size (Pixel Spacing)", [not frame.pixel_mm for frame in frames]),
+    ):
+        if any(missing):
+            raise InvalidInput(
+                "CT_GEOMETRY_MISSING",
+                f"{sum(missing)} of {len(frames)} slices do not tell their {attribute}",
+                "Export the series again with its geometry; pictures of slices cannot be planned on.",
+                {"slices": sum(missing), "of": len(frames)},
+            )
+    sizes = _counted(f"{frame.shared.size_wh_px[0]} x {frame.shared.size_wh_px[1]}" for frame in frames)
+    if len(sizes) > 1:
+        raise InvalidInput(
+            "CT_SIZES_DIFFER",
+            f"the slices differ in size: {_in_words(sizes)} pixels",
+            EXPORT_AGAIN,
+            {"sizes": {str(size): count for size, count in sizes.items()}},
+        )
+    columns, rows = frames[0].shared.size_wh_px
+    spacings = np.array([frame.pixel_mm for frame in frames])
+    minimum, maximum = float(spacings.min()), float(spacings.max())
+    if not (
+        np.isfinite(spacings).all()
+        and np.isfinite([frame.position_lps_mm for frame in frames]).all()
+        and min(columns, rows) >= 2
+        and max(columns, rows) <= MAX_SIDE_PX
+        and minimum >= MIN_PIXEL_MM
+        and maximum <= MAX_PIXEL_MM
+    ):
+        raise InvalidInput(
+            "CT_PIXELS_INVALID",
+            f"the slices are declared as {columns} x {rows} pixels of {minimum:g} to {maximum:g} mm, "
+            f"allowed 2 to {MAX_SIDE_PX} pixels a side of {MIN_PIXEL_MM} to {MAX_PIXEL_MM:.0f} mm",
+            EXPORT_AGAIN,
+            {"columns": columns, "rows": rows, "min_mm": minimum, "max_mm": maximum},
+        )
+    check_voxels((len(frames), rows, columns))
+    spaces = {frame.shared.frame_of_reference for frame in frames} - {""}
+    if len(spaces) > 1:
+        raise InvalidInput(
+            "CT_SPACES_DIFFER",
+            f"the slices lie in {len(spaces)} frames of reference, allowed 1: the patient may have moved",
+            EXPORT_AGAIN,
+            {"spaces": len(spaces)},
+        )
+
+
+def _check_values(frames: list[Frame]) -> None:
+    unscaled = sum(
+        not (frame.slope and frame.intercept)
+        or not np.isfinite([*frame.slope, *frame.intercept]).all()
+        or frame.slope[0] == 0.0
+        for frame in frames
+    )
+    if unscaled:
+        tables = sum(frame.shared.has_table for frame in frames)
+        raise InvalidInput(
+            "CT_RESCALE_MISSING",
+            f"{unscaled} of {len(frames)} slices do not tell how their numbers become Hounsfield units "
+            f"(Rescale Slope and Intercept){', but by a table' if tables else ''}",
+            "Export the original CT series again.",
+            {"slices": unscaled, "of": len(frames)},
+        )
+    kinds = _counted(frame.rescale_type for frame in frames if frame.rescale_type not in IS_HU)
+    if kinds:
+        raise InvalidInput(
+            "CT_NOT_HU",
+            f"the numbers of {sum(kinds.values())} of {len(frames)} slices are no Hounsfield units, but "
+            f"{_in_words(kinds)}",
+            "Export the CT series in Hounsfield units (not iodine, density or effective atomic number).",
+            {"slices": sum(kinds.values()), "of": len(frames)},
+        )
+
+
+def _counted(several: Iterable[Hashable]) -> Counter[Hashable]:
+    return Counter(several)
+
+
+def _in_words(counts: Counter[Hashable]) -> str:
+    return ", ".join(f"{count} of {thing}" for thing, count in counts.most_common(4))
+
+
+def series_warnings(frames: list[Frame], stack: Stack, beyond: int) -> list[str]:
+    """What to know about a series that can be used, a sentence each."""
+    first = frames[0].shared
+    warnings = []
+    doubles = len(frames) - len(stack.slices)
+    if doubles:
+        warnings.append(f"{doubles} slices were there twice with the same pixels, and are used once.")
+    if stack.jitter_mm > REPORTED_JITTER_MM:
+        warnings.append(
+            f"A slice lies up to {stack.jitter_mm:.2f} mm from its even place; up to {MAX_JITTER_MM:.1f} mm "
+            "are tolerated."
+        )
+    if stack.tilt_deg > 0.05:
+        warnings.append(
+            f"The gantry was tilted by {stack.tilt_deg:.1f} deg; the slices are used as they lie."
+        )
+    if abs(abs(first.tilt_deg) - stack.tilt_deg) > 1.0 and first.tilt_deg:
+        warnings.append(
+            f"The scanner tells a gantry tilt of {first.tilt_deg:.1f} deg, the places of the slices "
+            f"{stack.tilt_deg:.1f} deg; the places are used."
+        )
+    if max(stack.spacing_mm, first.thickness_mm) > THICK_MM:
+        warnings.append(
+            f"The slices are {first.thickness_mm:.1f} mm thick and {stack.spacing_mm:.1f} mm apart; above "
+            f"{THICK_MM:.0f} mm heights and tilts of a pedicle are uncertain."
+        )
+    if 0.0 < first.thickness_mm < stack.spacing_mm - 0.05:
+        warnings.append(
+            f"Between two slices {stack.spacing_mm - first.thickness_mm:.2f} mm were not scanned "
+            f"({first.thickness_mm:.2f} mm thick, {stack.spacing_mm:.2f} mm apart)."
+        )
+    if any(frame.shared.is_lossy for frame in frames):
+        warnings.append("The pixels were compressed with loss; thin walls of bone may be altered.")
+    if any(frame.rescale_type in {"US", "HU_MOD"} for frame in frames):
+        warnings.append(
+            "The scanner does not call its numbers plain Hounsfield units; they are taken as such."
+        )
+    if beyond:
+        warnings.append(
+            f"{beyond} voxels lay beyond {MIN_HU} to {MAX_HU} HU and were set to the nearest of both."
+        )
+    if not first.patient_identity.identifier and not first.patient_identity.name:
+        warnings.append("The files do not tell whose CT this is; make sure that it is this patient's.")
+    return warnings

@@ -1,0 +1,90 @@
+"""Reading of a CT series from DICOM files: selection, checks, sorting, and pixel data."""
+
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+
+from server.imaging.container import Container
+from server.imaging.ct import Ct, FirstSlice, Progress, SeriesDescription, slice_as_scanned
+from server.imaging.dicom.consistency import check_consistency, series_warnings
+from server.imaging.dicom.frame import Frame
+from server.imaging.dicom.hounsfield import hounsfield
+from server.imaging.dicom.pixels import stored_images
+from server.imaging.dicom.series import check_one_patient, choose, describe, group_frames_by_series
+from server.imaging.plausibility import reject_beyond, value_warnings
+from server.imaging.voxels import Voxels, voxels_to_fill
+from tracker.errors import InvalidInput
+from tracker.plan import Volume
+from tracker.plan.stack import Stack, stack_slices
+
+
+def list_dicom(container: Container, progress: Progress) -> tuple[SeriesDescription, ...]:
+    """Every series among these files."""
+    return describe(group_frames_by_series(container, progress))
+
+
+def read_dicom(
+    container: Container, *, series: str | None, progress: Progress, first: FirstSlice, into: Path | None
+) -> Ct:
+    """The series that was asked for, or the only CT, as Hounsfield units in LPS mm."""
+    found = group_frames_by_series(container, lambda _done, _of: None)
+    every = [frame for frames in found.values() for frame in frames]
+    check_one_patient(every, what="the folder")
+    frames = choose(found, series)
+    check_consistency(frames)
+    columns, rows = frames[0].shared.size_wh_px
+    stack = stack_slices(
+        positions_lps_mm=np.array([frame.position_lps_mm for frame in frames]),
+        directions=np.array([frame.directions for frame in frames]).reshape(-1, 2, 3),
+        # DICOM tells the distance between rows first.
+        pixels_mm=np.array([frame.pixel_mm for frame in frames])[:, ::-1],
+        size_wh_px=(columns, rows),
+    )
+    with voxels_to_fill((len(stack.slices), rows, columns), into) as voxels:
+        beyond = _fill(voxels, frames, stack, progress, first)
+        reject_beyond(beyond, voxels.hu.size)
+    description = next(one for one in describe(found) if one.series == frames[0].shared.series)
+    warnings = [*series_warnings(frames, stack, beyond), *value_warnings(voxels.hu)]
+    if len(found) > 1:
+        warnings.append(f"{len(found) - 1} other series lie beside this one and take no part.")
+    warnings += [f"Left out: {one.reason} ({one.count})." for one in container.left_out]
+    return Ct(
+        volume=Volume(hu=voxels.hu, lps_from_ijk=stack.lps_from_ijk),
+        series=description,
+        warnings=tuple(warnings),
+        left_out=container.left_out,
+    )
+
+
+def _fill(voxels: Voxels, frames: list[Frame], stack: Stack, progress: Progress, first: FirstSlice) -> int:
+    """Reads every slice to its place; gives how many values were beyond what is kept."""
+    place = {index: k for k, members in enumerate(stack.slices) for index in members}
+    middle = len(stack.slices) // 2
+    order = sorted(place, key=lambda index: (place[index] != middle, place[index]))
+    written: set[int] = set()
+    differing: Counter[int] = Counter()
+    beyond = 0
+    for done, (at, image) in enumerate(stored_images([frames[index] for index in order]), start=1):
+        index = order[at]
+        hu, lost = hounsfield(image, frames[index])
+        k = place[index]
+        if k in written:
+            differing[k] += int(not np.array_equal(voxels.hu[k], hu))
+        else:
+            voxels.hu[k] = hu
+            beyond += lost
+        if done == 1:
+            first(slice_as_scanned(voxels.hu[k], stack.lps_from_ijk, k))
+        written.add(k)
+        progress(done, len(frames))
+    places = sum(count > 0 for count in differing.values())
+    if places:
+        raise InvalidInput(
+            "CT_SLICES_CONTRADICT",
+            f"at {places} of {len(stack.slices)} places lie slices with different pixels: the series holds "
+            "more than one pass (phase, energy or filter)",
+            "Export one of its passes as a series of its own, and give that alone.",
+            {"places": places, "slices": len(frames)},
+        )
+    return beyond

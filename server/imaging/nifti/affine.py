@@ -1,0 +1,141 @@
+"""Affine of a NIfTI file in LPS mm: choice of sform or qform, and unit."""
+
+from dataclasses import dataclass
+
+import nibabel as nib
+import numpy as np
+
+from tracker.errors import InvalidInput
+from tracker.geometry import Array
+
+LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
+UNITS = {0: ("unknown", 1.0), 1: ("metres", 1000.0), 2: ("mm", 1.0), 3: ("micrometres", 0.001)}
+MIN_VOXEL_MM, MAX_VOXEL_MM = 0.02, 20.0
+# Talairach and MNI: stretched onto an atlas, so that their millimetres are not the patient's.
+ATLAS_CODES = {3, 4, 5}
+CONVERT = "Convert the CT again with its geometry (dcm2niix does), or give its DICOM slices."
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NiftiPlacement:
+    """Where voxels lie.
+
+    Attributes:
+        lps_from_ijk: (4, 4), in mm.
+        warnings: what to know about it, a sentence each.
+    """
+
+    lps_from_ijk: Array
+    warnings: tuple[str, ...]
+
+
+def placement_from_header(header: nib.Nifti1Header, shape_ijk: tuple[int, ...]) -> NiftiPlacement:
+    """The affine of a NIfTI header in LPS mm.
+
+    Raises:
+        InvalidInput: CT_AFFINE_MISSING, CT_AFFINES_CONTRADICT, CT_AFFINE_INVALID, CT_ATLAS_SPACE or
+            CT_VOXEL_SIZE_ODD.
+    """
+    ras, warnings = _ras(header, shape_ijk)
+    # Read here, because nibabel stumbles over an unknown unit of time in the same byte.
+    unit, scale = UNITS.get(int(header["xyzt_units"]) % 8, ("unknown", 1.0))
+    if scale != 1.0:
+        warnings.append(f"The file gives its geometry in {unit}; it was taken times {scale:g} into mm.")
+    affine = LPS_FROM_RAS @ ras
+    affine[:3] *= scale
+    _check_size(affine, unit)
+    return NiftiPlacement(lps_from_ijk=affine, warnings=tuple(warnings))
+
+
+def _ras(header: nib.Nifti1Header, shape_ijk: tuple[int, ...]) -> tuple[Array, list[str]]:
+    """The affine to take, as it is written, and what to know about it."""
+    s_code, q_code = int(header["sform_code"]), int(header["qform_code"])
+    if s_code == 0 and q_code == 0:
+        raise InvalidInput(
+            "CT_AFFINE_MISSING",
+            "the NIfTI does not tell where its voxels lie (sform and qform code are both 0), so left and "
+            "right, and sizes, are unknown",
+            CONVERT,
+            {"sform_code": 0, "qform_code": 0},
+        )
+    candidates = _candidates(header, s_code, q_code)
+    usable = [(name, affine) for name, code, affine in candidates if code not in ATLAS_CODES]
+    if not usable:
+        raise InvalidInput(
+            "CT_ATLAS_SPACE",
+            f"the NIfTI is stretched onto an atlas (code {candidates[0][1]}), so its millimetres are not "
+            "the patient's",
+            "Give the CT as it was scanned.",
+            {"code": candidates[0][1]},
+        )
+    for name, affine in usable:
+        if not np.isfinite(affine).all() or abs(_determinant(affine)) < 1e-3:
+            raise InvalidInput(
+                "CT_AFFINE_INVALID",
+                f"the NIfTI's {name} is flat or holds numbers that are not finite",
+                CONVERT,
+                {"affine": name},
+            )
+    if len(usable) == 1:
+        return usable[0][1], []
+    return usable[0][1], _compared(usable[0][1], usable[1][1], shape_ijk)
+
+
+def _candidates(header: nib.Nifti1Header, s_code: int, q_code: int) -> list[tuple[str, int, Array]]:
+    """The affines that the file declares, the one that programs prefer first."""
+    found = []
+    if s_code > 0:
+        found.append(("sform", s_code, np.array(header.get_sform(), dtype=np.float64)))
+    if q_code > 0:
+        try:
+            found.append(("qform", q_code, np.array(header.get_qform(), dtype=np.float64)))
+        except (nib.spatialimages.HeaderDataError, ValueError):
+            found.append(("qform", q_code, np.full((4, 4), np.nan)))
+    return found
+
+
+def _determinant(affine: Array) -> float:
+    lengths = np.linalg.norm(affine[:3, :3], axis=0)
+    return float(np.linalg.det(affine[:3, :3] / np.maximum(lengths, 1e-12))) if lengths.min() > 0.0 else 0.0
+
+
+def _compared(sform: Array, qform: Array, shape_ijk: tuple[int, ...]) -> list[str]:
+    """What to know where a file declares two affines; they may place, but not size or mirror, differently."""
+    sizes = [np.linalg.norm(affine[:3, :3], axis=0) for affine in (sform, qform)]
+    mirrored = _determinant(sform) * _determinant(qform) < 0.0
+    if mirrored or np.abs(sizes[0] / sizes[1] - 1.0).max() > 0.005:
+        raise InvalidInput(
+            "CT_AFFINES_CONTRADICT",
+            "the NIfTI's sform and qform contradict each other: "
+            + ("one is the mirror image of the other" if mirrored else "voxels of ")
+            + (
+                ""
+                if mirrored
+                else " and ".join("x".join(f"{mm:.3f}" for mm in size) for size in sizes) + " mm"
+            ),
+            CONVERT,
+            {"sform_mm": sizes[0].tolist(), "qform_mm": sizes[1].tolist()},
+        )
+    corners = np.array(np.meshgrid(*[[0.0, size - 1.0] for size in shape_ijk], [1.0])).reshape(4, -1)
+    apart = float(np.linalg.norm(((sform - qform) @ corners)[:3], axis=0).max())
+    if apart <= 0.1:
+        return []
+    return [f"The NIfTI's sform and qform place it up to {apart:.1f} mm apart; the sform was taken."]
+
+
+def _check_size(affine: Array, unit: str) -> None:
+    sizes = np.linalg.norm(affine[:3, :3], axis=0)
+    if sizes.min() >= MIN_VOXEL_MM and sizes.max() <= MAX_VOXEL_MM:
+        return
+    size_text = " x ".join(f"{size:g}" for size in sizes)
+    guess = ""
+    for name, factor in (("metres", 1000.0), ("micrometres", 0.001)):
+        if sizes.min() * factor >= MIN_VOXEL_MM and sizes.max() * factor <= MAX_VOXEL_MM:
+            guess = f"; they would fit if they were in {name}"
+    raise InvalidInput(
+        "CT_VOXEL_SIZE_ODD",
+        f"the voxels are {size_text} mm large (unit in the file: {unit}), allowed {MIN_VOXEL_MM} to "
+        f"{MAX_VOXEL_MM:.0f} mm{guess}",
+        CONVERT,
+        {"voxel_mm": sizes.tolist(), "unit": unit},
+    )

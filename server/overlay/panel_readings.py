@@ -1,0 +1,99 @@
+"""The words and numbers of the panel: the figures as they were assessed, or the reason why there are none."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from server.number_format import format_number
+from server.texts import Headline, Language, headline_of
+from server.texts.language import amount
+from server.texts.places import WALLS
+from tracker.navigation import Absent, Assessment, Figure, FigureName, NavigationSnapshot, Status, ToolPose
+from tracker.navigation.alarms import QUIET, AlarmSnapshot
+
+RESEARCH_SOFTWARE = "research software, not a medical device"
+
+LABELS: Mapping[Language, Mapping[FigureName, str]] = {
+    "en": {
+        FigureName.ENTRY: "ENTRY",
+        FigureName.ANGLE: "ANGLE",
+        FigureName.DEPTH: "DEPTH",
+        FigureName.TO_GO: "TO GO",
+        FigureName.WALL: "WALL",
+    },
+    "de": {
+        FigureName.ENTRY: "EINTRITT",
+        FigureName.ANGLE: "WINKEL",
+        FigureName.DEPTH: "TIEFE",
+        FigureName.TO_GO: "REST",
+        FigureName.WALL: "WAND",
+    },
+}
+UNITS = {FigureName.ANGLE: "°"}
+LIMIT: Mapping[Language, str] = {"en": "limit {}", "de": "Grenze {}"}
+OUTSIDE: Mapping[Language, str] = {"en": "outside bone", "de": "außerhalb"}
+STEADIED: Mapping[Language, str] = {
+    "en": "steadied · {} ms behind",
+    "de": "geglättet · {} ms verzögert",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reading:
+    """One figure of the panel, as shown."""
+
+    label: str
+    value: str
+    unit: str
+    hint: str = ""
+    status: Status = Status.WITHIN
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Panel:
+    """What the panel shows: the headline, the figures of a tool where it has any, and a note about them."""
+
+    headline: Headline
+    language: Language = "en"
+    readings: tuple[Reading, ...] = ()
+    note: str = ""
+
+
+def panel_of(snapshot: NavigationSnapshot, alarms: AlarmSnapshot = QUIET, language: Language = "en") -> Panel:
+    """The panel of one image: of the tool whose verdict is the most severe."""
+    headline, tool = headline_of(snapshot, alarms), snapshot.displayed_tool
+    assessment = snapshot.assessments.get(tool)
+    if not isinstance(assessment, Assessment):
+        return Panel(headline=headline, language=language)
+    return Panel(
+        headline=headline,
+        language=language,
+        readings=tuple(
+            _reading(name, assessment.figures[name], assessment, language) for name in LABELS[language]
+        ),
+        note=_note(snapshot.tools[tool], language),
+    )
+
+
+def _reading(name: FigureName, figure: Figure, assessment: Assessment, language: Language) -> Reading:
+    unit = UNITS.get(name, "mm")
+    hint = ""
+    if name is FigureName.WALL:
+        wall = assessment.wall
+        hint = OUTSIDE[language] if figure.status is Status.OUTSIDE else ""
+        hint = WALLS[language][wall] if wall is not None else hint
+    elif name in (FigureName.ENTRY, FigureName.ANGLE) and figure.status is not Status.UNLIMITED:
+        hint = LIMIT[language].format(amount(figure.limit, "°" if unit == "°" else ""))
+    return Reading(
+        label=LABELS[language][name],
+        value=format_number(figure.value),
+        unit=unit,
+        hint=hint,
+        status=figure.status,
+    )
+
+
+def _note(tool: ToolPose | Absent, language: Language) -> str:
+    """That the numbers were steadied, and by how much they are late for it."""
+    if isinstance(tool, Absent) or tool.lag_ms <= 0.0:
+        return ""
+    return STEADIED[language].format(max(round(tool.lag_ms), 1))

@@ -1,0 +1,64 @@
+"""The data collection that is active in a step: one at a time, until it is stored or discarded."""
+
+import threading
+from collections.abc import Callable
+from typing import Generic, Protocol, TypeVar
+
+from server.errors import SetupOrderError
+
+
+class Stoppable(Protocol):
+    """A collection that runs in its own thread."""
+
+    def stop(self) -> None:
+        """Stop collecting."""
+
+
+Collection = TypeVar("Collection", bound=Stoppable)
+
+
+class ActiveCollection(Generic[Collection]):
+    """The collection that a step works on, if there is one. Thread-safe.
+
+    Args:
+        what: subject and verb of the error message when there is none, as "sweep is".
+        remedy: one sentence that says how to start a collection.
+    """
+
+    def __init__(self, what: str, *, remedy: str) -> None:
+        self._what = what
+        self._remedy = remedy
+        self._lock = threading.Lock()
+        self._collection: Collection | None = None
+
+    def begin(self, make: Callable[[], Collection]) -> Collection:
+        """Stop and discard the active collection, then start a new one."""
+        with self._lock:
+            if self._collection is not None:
+                self._collection.stop()
+            self._collection = make()
+            return self._collection
+
+    def get(self) -> Collection:
+        """Return the active collection.
+
+        Raises:
+            SetupOrderError: COLLECTION_MISSING.
+        """
+        with self._lock:
+            if self._collection is None:
+                raise SetupOrderError("COLLECTION_MISSING", f"no {self._what} being collected", self._remedy)
+            return self._collection
+
+    @property
+    def is_active(self) -> bool:
+        """Whether there is an active collection."""
+        with self._lock:
+            return self._collection is not None
+
+    def end(self) -> None:
+        """Stop the active collection and discard its data."""
+        with self._lock:
+            if self._collection is not None:
+                self._collection.stop()
+            self._collection = None

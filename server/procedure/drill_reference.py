@@ -1,0 +1,142 @@
+"""The reference that the drill is compared with: the bone surface; until it is measured, the plan."""
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import structlog
+
+from server.jobs import Jobs
+from server.planning.wall import measure_wall
+from server.procedure.plan import ActiveChannel, active_channel_from_document
+from server.procedure.surface import MAIN_SURFACE
+from server.store import CaseStore, Current, Document, DocumentKind
+from tracker.errors import NavigationError
+from tracker.navigation import DrillReference, ScrewSize
+from tracker.navigation.clearance import WallSelection, select_wall
+from tracker.navigation.uncertainty import PedicleTolerance
+from tracker.plan import PedicleMeasure, ScrewPlan, plan_from_mapping
+from tracker.plan.document.changes import vertebra_named
+
+# What a channel is drilled with, where the wall is judged by whether the plan itself stays within it.
+USUAL_RADIUS_MM = 2.0
+# How far a threshold puts the bone's surface from where it is: about a third of a usual voxel.
+WALL_SD_MM = 0.3
+
+log = structlog.get_logger(__name__)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Planned:
+    """The planned pedicle and screw of the active channel."""
+
+    active: ActiveChannel
+    measure: PedicleMeasure | None
+    screw: ScrewPlan | None
+
+
+class DrillReferenceBuilder:
+    """Builds the drill reference of the active channel. Thread-safe.
+
+    Args:
+        store: source of plan and surface.
+        jobs: runs the measurement of the distances to the bone.
+    """
+
+    def __init__(self, *, store: CaseStore, jobs: Jobs) -> None:
+        self._store = store
+        self._jobs = jobs
+        self._lock = threading.Lock()
+        self._made: tuple[tuple[str, ...], DrillReference] | None = None
+        # Called when a better reference is available than the one that was returned.
+        self.on_change: Callable[[], None] = lambda: None
+
+    def build(self, active: Document) -> DrillReference | None:
+        """Return the best reference available for the channel of this document; None if it cannot be read.
+
+        If the case has a bone surface, a job measures the distances to it and calls `on_change` at its end.
+        Until then the wall is the outline of the pedicle, or the channel.
+        """
+        surface = self._surface(active.case_id)
+        key = (active.id, "" if surface is None else surface.id)
+        with self._lock:
+            if self._made is not None and self._made[0] == key:
+                return self._made[1]
+        try:
+            planned = self._planned(active)
+        except NavigationError as error:
+            log.warning(error.message, code=error.code, remedy=error.remedy, document=active.title)
+            return None
+        plain = select_wall(planned.active.channel, None, planned.measure, radius_mm=USUAL_RADIUS_MM)
+        drill_reference = _guide(planned, plain)
+        with self._lock:
+            self._made = (key, drill_reference)
+        if surface is not None:
+            self._measure(key, planned, drill_reference, surface)
+        return drill_reference
+
+    def _measure(
+        self, key: tuple[str, ...], planned: _Planned, drill_reference: DrillReference, surface: Document
+    ) -> None:
+        def keep(chosen: object) -> object:
+            if not isinstance(chosen, WallSelection):
+                raise TypeError(f"a wall gave {type(chosen).__name__}")
+            with self._lock:
+                if self._made is None or self._made[0] != key:
+                    # Another channel is drilled by now, or the bone has another surface.
+                    return {"in_use": False}
+                self._made = (key, replace(drill_reference, wall=chosen.wall))
+            for remark in chosen.remarks:
+                log.warning(remark.message, code=remark.code, remedy=remark.remedy)
+            self.on_change()
+            codes = [remark.code for remark in chosen.remarks]
+            return {"in_use": True, "against": chosen.wall.against, "remarks": codes}
+
+        try:
+            file = self._store.file(surface.case_id, surface.files[0])
+        except NavigationError as error:
+            log.warning(error.message, code=error.code, remedy=error.remedy, document=surface.title)
+            return
+        self._jobs.start(
+            "measuring the distances to the bone",
+            measure_wall,
+            {
+                "path": str(file.path),
+                "channel": planned.active.channel,
+                "measure": planned.measure,
+                "radius_mm": USUAL_RADIUS_MM,
+            },
+            conclude=keep,
+        )
+
+    def _planned(self, active: Document) -> _Planned:
+        """Return pedicle and screw of the active channel from the plan that it depends on."""
+        chosen = active_channel_from_document(active)
+        plan = self._store.document(active.case_id, active.depends_on[0])
+        vertebra = vertebra_named(plan_from_mapping(plan.content), chosen.vertebra)
+        measures = [one.measured for one in vertebra.pedicles if one.measured.side == chosen.side]
+        screws = [one.screws[0] for one in vertebra.channels if one.side == chosen.side and one.screws]
+        return _Planned(
+            active=chosen,
+            measure=measures[0] if measures else None,
+            screw=screws[0] if screws else None,
+        )
+
+    def _surface(self, case_id: str) -> Document | None:
+        document = self._store.latest(case_id, DocumentKind.SURFACE, MAIN_SURFACE)
+        if document is None or not document.files:
+            return None
+        return document if isinstance(self._store.validity(document), Current) else None
+
+
+def _guide(planned: _Planned, chosen: WallSelection) -> DrillReference:
+    screw = planned.screw
+    return DrillReference(
+        wall=chosen.wall,
+        tolerance=None if screw is None else PedicleTolerance.of_tolerance(screw.tolerance),
+        screw=None
+        if screw is None
+        else ScrewSize(radius_mm=0.5 * screw.diameter_mm, length_mm=screw.length_mm),
+        side=planned.active.side,
+        wall_sd_mm=WALL_SD_MM,
+    )

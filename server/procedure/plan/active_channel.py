@@ -1,0 +1,46 @@
+"""The active channel: the planned channel that is to be drilled now. Its document depends on the plan.
+
+Changing from the left to the right pedicle must not invalidate the registration; a changed channel must.
+A change of the plan that leaves the channel as it is renews the choice in the same transaction.
+"""
+
+from dataclasses import dataclass
+from typing import cast
+
+from server.store import Document
+from tracker.plan import Channel
+from tracker.plan.document import channel_from_mapping
+from tracker.plan.pedicle import Side, checked_side
+
+# Name of the document; its kind is PLAN, as that of the plan itself.
+ACTIVE_CHANNEL = "active channel"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ActiveChannel:
+    """The channel that is to be drilled now.
+
+    Attributes:
+        vertebra: its name in the plan.
+        side: of the patient.
+        channel: as the plan had it when it was chosen.
+    """
+
+    vertebra: str
+    side: Side
+    channel: Channel
+
+
+def active_channel_from_document(document: Document) -> ActiveChannel:
+    """Parse the active channel in a case document.
+
+    Raises:
+        PlanError: PLAN_INVALID, CHANNEL_INVALID.
+        InvalidInput: SIDE_INVALID.
+    """
+    content = document.content
+    return ActiveChannel(
+        vertebra=str(content.get("vertebra")),
+        side=checked_side(cast("str", content.get("side"))),
+        channel=channel_from_mapping(content.get("channel")),
+    )

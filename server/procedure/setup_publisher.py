@@ -1,0 +1,185 @@
+"""Publishes the setup of the open case to the tracking process after each change.
+
+A new calibration or plan takes effect with the next image, without a restart, and is part of the setup with
+which a restarted tracking process begins. A registration that was made for one camera, marker or plan is
+never used with another.
+"""
+
+import threading
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+import structlog
+
+from server.alarms import ProcedureFacts
+from server.camera_file import CameraFile
+from server.procedure.camera import MAIN_CAMERA, camera_from_document
+from server.procedure.confirmation import confirmation_name
+from server.procedure.drill_reference import DrillReferenceBuilder
+from server.procedure.facts import facts_of
+from server.procedure.markers import MarkerStep
+from server.procedure.plan import ACTIVE_CHANNEL, active_channel_from_document
+from server.procedure.registration_record import (
+    CheckRecord,
+    RegistrationRecord,
+    check_from_document,
+    check_name,
+    registration_from_document,
+)
+from server.procedure.state import Procedure, SetupDefaults
+from server.procedure.tool import tool_from_document
+from server.setup import CaseSetup
+from server.store import CaseStore, Current, Document, DocumentKind
+from tracker.errors import NavigationError
+from tracker.navigation import AbsentReason, DrillReference
+from tracker.plan import Channel
+from tracker.pose import ToolModel
+from tracker.registration import AnchoredTo
+
+log = structlog.get_logger(__name__)
+
+
+class SetupPublisher:
+    """Publishes calibration, tools, plan and registration of the open case.
+
+    Documents that are out of date, withdrawn, unreadable or made for another camera are not used. The
+    registration is that of the vertebra to be drilled. Its numbers are withheld until it is checked, and
+    after a restart until a person has confirmed it.
+
+    Args:
+        store: the case store.
+        publish_setup: called with the new setup after each change.
+        procedure: state of the procedure, which decides whether numbers are withheld.
+        drill_references: builds the reference that the drill is compared with.
+        defaults: setup from the settings; a calibration of another camera source, or a registration that is
+            anchored to another reference, is not used.
+        markers: source of the case's markers.
+        latency_ms: returns the last measured latency of the camera; None if it was not measured.
+        publish_facts: called with the facts for the alarms after each change.
+    """
+
+    def __init__(
+        self,
+        store: CaseStore,
+        publish_setup: Callable[[CaseSetup], None],
+        *,
+        procedure: Procedure,
+        drill_references: DrillReferenceBuilder,
+        defaults: SetupDefaults,
+        markers: MarkerStep,
+        publish_facts: Callable[[ProcedureFacts], None],
+        latency_ms: Callable[[], float | None] = lambda: None,
+    ) -> None:
+        self._store = store
+        self._publish_setup = publish_setup
+        self._procedure = procedure
+        self._defaults = defaults
+        self._lock = threading.Lock()
+        self._drill_references = drill_references
+        self._markers = markers
+        self._publish_facts = publish_facts
+        self._latency_ms = latency_ms
+        self._published: tuple[tuple[str, ...], DrillReference | None, float | None] = ((), None, None)
+        drill_references.on_change = self.refresh
+
+    def refresh(self) -> None:
+        """Read the open case, and publish its setup if it differs from the published one."""
+        with self._lock:
+            documents = self._documents()
+            ids = tuple(document.id for document in documents)
+            active = [document for document in documents if document.kind is DocumentKind.PLAN]
+            drill_reference = self._drill_references.build(active[0]) if active else None
+            latency_ms = self._latency_ms()
+            if (ids, latency_ms) != (
+                self._published[0],
+                self._published[2],
+            ) or drill_reference is not self._published[1]:
+                self._publish_setup(
+                    replace(self._setup_of(documents), drill_reference=drill_reference, latency_ms=latency_ms)
+                )
+                self._published = (ids, drill_reference, latency_ms)
+                self._publish_facts(facts_of(self._procedure.state(), now_s=time.monotonic()))
+
+    def _documents(self) -> list[Document]:
+        """Return the valid documents of the open case that are part of the setup."""
+        case = self._store.get_open_case()
+        if case is None:
+            return []
+        kinds = (DocumentKind.CAMERA, DocumentKind.MARKER, DocumentKind.TOOL)
+        newest = [document for kind in kinds for document in self._store.all(case.id, kind)]
+        active = self._store.latest(case.id, DocumentKind.PLAN, ACTIVE_CHANNEL)
+        vertebra = self._procedure.active_vertebra(case.id)
+        registered = (
+            []
+            if vertebra is None
+            else [
+                self._store.latest(case.id, DocumentKind.REGISTRATION, vertebra),
+                self._store.latest(case.id, DocumentKind.CHECK, check_name(vertebra)),
+                self._store.latest(case.id, DocumentKind.CONFIRMATION, confirmation_name(vertebra)),
+            ]
+        )
+        newest += [document for document in (active, *registered) if document is not None]
+        newest += self._store.all(case.id, DocumentKind.SIGNATURE)
+        return [document for document in newest if isinstance(self._store.validity(document), Current)]
+
+    def _setup_of(self, documents: list[Document]) -> CaseSetup:
+        cameras: dict[str, CameraFile] = {}
+        tools: dict[str, ToolModel] = {}
+        channel: Channel | None = None
+        registered: RegistrationRecord | None = None
+        check: CheckRecord | None = None
+        for document in documents:
+            try:
+                if document.kind is DocumentKind.CAMERA:
+                    cameras[document.name] = camera_from_document(document, source=self._defaults.source)
+                elif document.kind is DocumentKind.MARKER:
+                    # Markers are read together, because no two of them may be confusable.
+                    continue
+                elif document.kind is DocumentKind.PLAN:
+                    channel = active_channel_from_document(document).channel
+                elif document.kind is DocumentKind.REGISTRATION:
+                    registered = registration_from_document(document, reference=self._defaults.reference)
+                elif document.kind is DocumentKind.CHECK:
+                    check = check_from_document(document)
+                elif document.kind is DocumentKind.TOOL:
+                    tools.update(_named(document.name, tool_from_document(document).model(document.name)))
+            except NavigationError as error:
+                log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
+        camera = cameras.get(MAIN_CAMERA)
+        return CaseSetup(
+            camera=None if camera is None else camera.model,
+            camera_controls={} if camera is None else camera.controls,
+            readout_ms=None if camera is None else camera.readout_ms,
+            models=self._markers.of_case,
+            tools=tools,
+            channel=channel,
+            registration=None if registered is None else registered.registration,
+            registered_from_s=None if registered is None else self._from_s(registered, check),
+            withheld=None if registered is None else self._withheld(),
+            confirmed_from_s=None
+            if registered is None
+            else self._procedure.confirmed_from_s(registered, documents[0].case_id),
+        )
+
+    def _withheld(self) -> AbsentReason | None:
+        """Return why numbers are withheld although the vertebra is registered."""
+        state = self._procedure.state()
+        if state.waits_for_check:
+            return AbsentReason.NOT_CHECKED
+        if state.unsigned is not None:
+            return AbsentReason.NOT_COSIGNED
+        return None if state.confirmation is None else AbsentReason.NOT_CONFIRMED
+
+    def _from_s(self, registered: RegistrationRecord, check: CheckRecord | None) -> float | None:
+        """Return the capture time, or that of a later check, on the image clock; None before this run."""
+        run = self._procedure.run
+        is_fixed = registered.registration.anchored_to is AnchoredTo.REFERENCE
+        # A check on one landmark does not excuse a moved camera: it does not observe a rotation.
+        if is_fixed and check is not None and check.passed and check.run == run:
+            return check.from_s
+        return registered.from_s if registered.run == run else None
+
+
+def _named(name: str, tool: ToolModel | None) -> Mapping[str, ToolModel]:
+    return {} if tool is None else {name: tool}

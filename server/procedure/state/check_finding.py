@@ -1,0 +1,91 @@
+"""State of the check on anatomy: its result, its age, and the run of the server in which it was made."""
+
+from datetime import UTC, datetime
+
+from server.procedure.registration_record import CheckRecord, RegistrationRecord, check_from_document
+from server.procedure.state.records import Finding, Number, StepState
+from server.store import Document
+from tracker.errors import NavigationError
+from tracker.registration import AnchoredTo
+
+CHECK = "Hold the tip on a landmark that was not used."
+
+
+def check_finding(
+    *,
+    registration: RegistrationRecord,
+    title: str,
+    check: Document | None,
+    run: str,
+    again_after_min: float,
+    now: datetime,
+) -> Finding:
+    """Return the state of the check of a registration.
+
+    A registration that is anchored to the camera must be checked again after each start of the server,
+    because a move of the camera meanwhile was not detected.
+
+    Args:
+        registration: the current registration.
+        title: title of its document.
+        check: the newest valid check, which depends on this registration; None if there is none.
+        run: name of this run of the server.
+        again_after_min: age from which a check is due.
+        now: the time, in UTC.
+    """
+    is_loose = registration.anchored_to is AnchoredTo.CAMERA
+    if check is None:
+        if is_loose and registration.run != run:
+            return _after_start(registration.vertebra, "")
+        return Finding(
+            state=StepState.MISSING, message=f"{title} has not been checked on a landmark", remedy=CHECK
+        )
+    try:
+        record = check_from_document(check)
+    except NavigationError as error:
+        return Finding(state=StepState.MISSING, message=error.message, remedy=error.remedy)
+    if record.passed and is_loose and record.run != run:
+        return _after_start(registration.vertebra, check.id)
+    return _of(record, check, again_after_min=again_after_min, minutes=minutes_since(check.made_at, now))
+
+
+def _of(record: CheckRecord, check: Document, *, again_after_min: float, minutes: float) -> Finding:
+    """Return whether it passed, and whether it is due again."""
+    numbers: dict[str, Number] = {
+        "distance_mm": record.distance_mm,
+        "max_mm": record.max_mm,
+        "landmark": record.landmark,
+        "age_min": minutes,
+    }
+    text = (
+        f"the tip on {record.landmark} was {record.distance_mm:.2f} mm from where the plan has it, allowed "
+    )
+    text += f"{record.max_mm:.2f} mm"
+    if not record.passed:
+        state, remedy = StepState.FAILED, "Check again, nudge the registration, or register again."
+    # A negative age means that the clock was set back; the age is then unknown.
+    elif not 0.0 <= minutes < again_after_min:
+        state, remedy = StepState.DUE, CHECK
+        text = (
+            f"the check on {record.landmark} is {minutes:.0f} min old, "
+            f"asked for every {again_after_min:g} min"
+        )
+    else:
+        state, remedy = StepState.DONE, ""
+    return Finding(state=state, message=text, remedy=remedy, numbers=numbers, document_id=check.id)
+
+
+def _after_start(vertebra: str, document_id: str) -> Finding:
+    return Finding(
+        state=StepState.OUT_OF_DATE,
+        message=f"the server was started again after {vertebra} was registered before the camera, and nobody "
+        "saw whether the camera was moved",
+        remedy=CHECK,
+        document_id=document_id,
+    )
+
+
+def minutes_since(made_at: str, now: datetime) -> float:
+    """Return the age of a document in minutes; negative if the clock was set back."""
+    made = datetime.fromisoformat(made_at.replace("Z", "+00:00"))
+    return (now.astimezone(UTC) - made).total_seconds() / 60.0

@@ -1,0 +1,335 @@
+"""The state of the procedure, read from the documents of the open case."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from datetime import datetime
+
+from server.clock import utc_now
+from server.config import CosignConfig, RegistrationConfig
+from server.procedure.camera import ACCURACY, MAIN_CAMERA, camera_from_document
+from server.procedure.confirmation import (
+    ConfirmationPrompt,
+    confirmation_from_document,
+    confirmation_name,
+    confirmation_prompt,
+    confirmed_from_s,
+)
+from server.procedure.plan import ACTIVE_CHANNEL, active_channel_from_document
+from server.procedure.plan.repository import MAIN_PLAN
+from server.procedure.registration_record import (
+    RegistrationRecord,
+    check_from_document,
+    check_name,
+    registration_from_document,
+)
+from server.procedure.state.check_finding import CHECK, check_finding, minutes_since
+from server.procedure.state.cosignatures import missing_cosignatures
+from server.procedure.state.procedure_state import ProcedureState, derive_state, no_case
+from server.procedure.state.records import Finding, StepName, StepState
+from server.procedure.tool import tool_from_document
+from server.store import CaseStore, Current, Document, DocumentKind
+from tracker.errors import NavigationError
+from tracker.plan import plan_from_mapping
+from tracker.plan.document.changes import vertebra_named
+
+NOT_DONE = {
+    DocumentKind.CAMERA: "the camera is not calibrated",
+    DocumentKind.TOOL: "the tool '{name}' is not calibrated",
+    DocumentKind.PLAN: "nothing is planned",
+    DocumentKind.REGISTRATION: "{name} is not registered",
+}
+CALIBRATE = "Calibrate the camera: collect views of the board."
+PIVOT = "Calibrate the tool: pivot it, and gather its poses."
+CHOOSE = "Choose in the plan the channel that is to be drilled."
+REGISTER = "Register: touch the landmarks of the plan."
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SetupDefaults:
+    """The part of the setup that the settings provide, independent of the case.
+
+    Attributes:
+        source: name of the camera source.
+        has_camera: whether they provide a camera calibration.
+        tools: names of the configured tools.
+        reference: the reference marker on the patient; empty if there is none.
+    """
+
+    source: str
+    reference: str = ""
+    has_camera: bool = False
+    tools: frozenset[str] = frozenset()
+
+
+class Procedure:
+    """Reads the state of the procedure. Thread-safe.
+
+    Args:
+        store: the case store.
+        defaults: setup from the settings.
+        gate: acceptance limits of registration and check.
+        run: name of this run of the server.
+        tracked_from_s: start of the current tracking process, on the image clock.
+        cosign: which documents require a co-signature.
+        clock: the wall clock, in UTC.
+    """
+
+    def __init__(
+        self,
+        store: CaseStore,
+        *,
+        defaults: SetupDefaults,
+        gate: RegistrationConfig,
+        run: str,
+        tracked_from_s: Callable[[], float] = lambda: -math.inf,
+        cosign: CosignConfig | None = None,
+        clock: Callable[[], datetime] = utc_now,
+    ) -> None:
+        self._store = store
+        self._defaults = defaults
+        self._gate = gate
+        self.run = run
+        self._tracked_from_s = tracked_from_s
+        self.cosign = cosign or CosignConfig()
+        self._clock = clock
+
+    def state(self) -> ProcedureState:
+        """Return the current state of all steps."""
+        case = self._store.get_open_case()
+        required = self._gate.check_required
+        if case is None:
+            return no_case(check_required=required)
+        vertebra = self.active_vertebra(case.id)
+        findings = {
+            StepName.CAMERA: self._camera(case.id),
+            StepName.TOOL: self._tool(case.id),
+            StepName.PLAN: self._plan(case.id),
+            StepName.REGISTER: self._registration(case.id, vertebra),
+            StepName.CHECK: self._check(case.id, vertebra),
+        }
+        state = derive_state(
+            case.id,
+            findings,
+            check_required=required,
+            confirmation=self._confirmation(case.id, vertebra),
+            missing_cosignature=missing_cosignatures(self._store, case.id, findings, self.cosign),
+        )
+        return replace(state, case_name=case.name)
+
+    def confirmed_from_s(self, registration: RegistrationRecord, case_id: str) -> float | None:
+        """Return when the registration was last captured, checked or confirmed; None before this run."""
+        name = registration.vertebra
+        check = self._current(case_id, DocumentKind.CHECK, check_name(name))
+        confirmation = self._current(case_id, DocumentKind.CONFIRMATION, confirmation_name(name))
+        try:
+            return confirmed_from_s(
+                registration,
+                None if check is None else check_from_document(check),
+                None if confirmation is None else confirmation_from_document(confirmation),
+                run=self.run,
+            )
+        except NavigationError:
+            # An unreadable check or confirmation does not count.
+            return None
+
+    def _confirmation(self, case_id: str, vertebra: str | None) -> ConfirmationPrompt | None:
+        document = None if vertebra is None else self._current(case_id, DocumentKind.REGISTRATION, vertebra)
+        if document is None:
+            return None
+        try:
+            record = registration_from_document(document, reference=self._defaults.reference)
+        except NavigationError:
+            return None
+        return confirmation_prompt(
+            record,
+            document,
+            believed_s=self.confirmed_from_s(record, case_id),
+            tracked_from_s=self._tracked_from_s(),
+        )
+
+    def active_vertebra(self, case_id: str) -> str | None:
+        """Return the vertebra of the active channel."""
+        document = self._store.latest(case_id, DocumentKind.PLAN, ACTIVE_CHANNEL)
+        if document is None or not isinstance(self._store.validity(document), Current):
+            return None
+        try:
+            return active_channel_from_document(document).vertebra
+        except NavigationError:
+            return None
+
+    def _camera(self, case_id: str) -> Finding:
+        found = self._found(case_id, DocumentKind.CAMERA, MAIN_CAMERA, remedy=CALIBRATE)
+        if isinstance(found, Finding):
+            if found.state is StepState.MISSING and self._defaults.has_camera:
+                return Finding(state=StepState.DONE, message="the settings bring the camera's calibration")
+            return found
+        try:
+            camera_from_document(found, source=self._defaults.source)
+        except NavigationError as error:
+            return _unusable(found, error)
+        report = found.content.get("report")
+        rms_px = report.get("rms_px") if isinstance(report, dict) else None
+        accuracy = self._current(case_id, DocumentKind.CHECK, ACCURACY)
+        numbers = {"rms_px": rms_px}
+        if accuracy is None:
+            return _done(found, "the camera is calibrated", numbers)
+        maximum, error_mm = accuracy.content.get("limit_mm"), accuracy.content.get("maximum_error_mm")
+        numbers = {**numbers, "maximum_error_mm": _number(error_mm), "limit_mm": _number(maximum)}
+        if accuracy.content.get("passed") is True:
+            return _done(found, "the camera is calibrated and its accuracy checked", numbers)
+        return Finding(
+            state=StepState.FAILED,
+            message=f"the camera measures a known distance wrong by {error_mm} mm, allowed {maximum} mm",
+            remedy="Check the accuracy again on a flat board, or calibrate the camera again.",
+            numbers=numbers,
+            document_id=accuracy.id,
+        )
+
+    def _tool(self, case_id: str) -> Finding:
+        known = dict.fromkeys(self._defaults.tools)
+        lost: list[Finding] = []
+        documents = self._store.all(case_id, DocumentKind.TOOL)
+        numbers: dict[str, float | None] = {}
+        for document in documents:
+            found = self._found(case_id, DocumentKind.TOOL, document.name, remedy=PIVOT)
+            if isinstance(found, Finding):
+                lost.append(found)
+                continue
+            try:
+                record = tool_from_document(found)
+            except NavigationError as error:
+                lost.append(_unusable(found, error))
+                continue
+            if record.model(found.name) is None:
+                lost.append(_axis_missing(found))
+                continue
+            known[found.name] = None
+            numbers[f"{found.name}_rms_3d_mm"] = record.pivot.rms_3d_mm
+        if known:
+            return Finding(
+                state=StepState.DONE, message=f"calibrated: {', '.join(sorted(known))}", numbers=numbers
+            )
+        return (
+            lost[0]
+            if lost
+            else Finding(state=StepState.MISSING, message="no tool is calibrated", remedy=PIVOT)
+        )
+
+    def _plan(self, case_id: str) -> Finding:
+        found = self._found(
+            case_id,
+            DocumentKind.PLAN,
+            MAIN_PLAN,
+            remedy="Plan on the CT: send it, and name a vertebra.",
+        )
+        if isinstance(found, Finding):
+            return found
+        vertebra = self.active_vertebra(case_id)
+        if vertebra is None:
+            return Finding(
+                state=StepState.MISSING,
+                message="no channel is chosen to be drilled now",
+                remedy=CHOOSE,
+                document_id=found.id,
+            )
+        try:
+            planned = vertebra_named(plan_from_mapping(found.content), vertebra)
+        except NavigationError as error:
+            return _unusable(found, error)
+        return _done(
+            found, f"a channel of {vertebra} is to be drilled", {"landmarks": len(planned.landmarks)}
+        )
+
+    def _registration(self, case_id: str, vertebra: str | None) -> Finding:
+        if vertebra is None:
+            return Finding(
+                state=StepState.MISSING,
+                message="it is not said which vertebra is to be drilled",
+                remedy=CHOOSE,
+            )
+        found = self._found(case_id, DocumentKind.REGISTRATION, vertebra, remedy=REGISTER)
+        if isinstance(found, Finding):
+            return found
+        try:
+            record = registration_from_document(found, reference=self._defaults.reference)
+        except NavigationError as error:
+            return _unusable(found, error)
+        numbers = {
+            "method": record.method.value,
+            "anchored_to": record.anchored_to.value,
+            "age_min": minutes_since(found.made_at, self._clock()),
+            **record.numbers,
+        }
+        return _done(found, f"{vertebra} is registered by {record.method.value}", numbers)
+
+    def _check(self, case_id: str, vertebra: str | None) -> Finding:
+        registration = (
+            None if vertebra is None else self._current(case_id, DocumentKind.REGISTRATION, vertebra)
+        )
+        if vertebra is None or registration is None:
+            return Finding(
+                state=StepState.MISSING, message="there is no registration to be checked", remedy=REGISTER
+            )
+        try:
+            record = registration_from_document(registration, reference=self._defaults.reference)
+        except NavigationError as error:
+            return _unusable(registration, error)
+        history = self._store.history(case_id, DocumentKind.CHECK, check_name(vertebra))
+        withdrawn = history[-1].withdrawn if history else None
+        if withdrawn is not None and registration.id in history[-1].depends_on:
+            return Finding(
+                state=StepState.OUT_OF_DATE,
+                message=f"the check was withdrawn by {withdrawn.by}: {withdrawn.reason}",
+                remedy=CHECK,
+                document_id=history[-1].id,
+            )
+        return check_finding(
+            registration=record,
+            title=registration.title,
+            check=self._current(case_id, DocumentKind.CHECK, check_name(vertebra)),
+            run=self.run,
+            again_after_min=self._gate.check_again_after_min,
+            now=self._clock(),
+        )
+
+    def _current(self, case_id: str, kind: DocumentKind, name: str) -> Document | None:
+        document = self._store.latest(case_id, kind, name)
+        if document is None or not isinstance(self._store.validity(document), Current):
+            return None
+        return document
+
+    def _found(self, case_id: str, kind: DocumentKind, name: str, *, remedy: str) -> Document | Finding:
+        """Return the newest document if it is valid, otherwise the finding that says why not."""
+        history = self._store.history(case_id, kind, name)
+        if not history:
+            return Finding(state=StepState.MISSING, message=NOT_DONE[kind].format(name=name), remedy=remedy)
+        validity = self._store.validity(history[-1])
+        if isinstance(validity, Current):
+            return history[-1]
+        return Finding(
+            state=StepState.OUT_OF_DATE, message=validity.reason, remedy=remedy, document_id=history[-1].id
+        )
+
+
+def _done(document: Document, message: str, numbers: dict[str, float | int | bool | str | None]) -> Finding:
+    return Finding(state=StepState.DONE, message=message, numbers=numbers, document_id=document.id)
+
+
+def _unusable(document: Document, error: NavigationError) -> Finding:
+    return Finding(
+        state=StepState.OUT_OF_DATE, message=error.message, remedy=error.remedy, document_id=document.id
+    )
+
+
+def _axis_missing(document: Document) -> Finding:
+    return Finding(
+        state=StepState.MISSING,
+        message=f"nobody knows which way '{document.name}' points",
+        remedy="Spin the tool about its axis.",
+        document_id=document.id,
+    )
+
+
+def _number(value: object) -> float | None:
+    return float(value) if isinstance(value, int | float) else None

@@ -1,0 +1,158 @@
+"""Whether this server uses TLS, and with which certificate: never plain text on a shared network."""
+
+import hashlib
+import ssl
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NoReturn
+
+from server.config import Config
+from server.errors import ConfigError
+from server.security.addresses import is_loopback
+
+CERTIFICATE_REMEDY = (
+    "Give certificate and key as PEM files under server.tls, the key without a password; or leave both out, "
+    "and the server makes its own."
+)
+PROXY_SPEAKS_TLS = "a proxy speaks TLS for this server"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tls:
+    """A usable certificate.
+
+    Attributes:
+        certificate: its PEM file.
+        key: PEM file of its key.
+        fingerprint: its SHA-256, in pairs with colons, as browsers show it.
+        is_self_signed: whether this server made it; a browser asks whether to trust it.
+    """
+
+    certificate: Path
+    key: Path
+    fingerprint: str
+    is_self_signed: bool
+
+
+def reject_unsafe(config: Config) -> None:
+    """Reject unsafe settings; call it before anything is started.
+
+    Raises:
+        ConfigError: SIGN_IN_NEEDED, TLS_HALF.
+    """
+    host, tls = config.server.host, config.server.tls
+    if config.security.sign_in == "off" and not is_loopback(_bracketed(host)):
+        raise ConfigError(
+            "SIGN_IN_NEEDED",
+            f"security.sign_in is off, but server.host is {host}, which others reach: then everybody in the "
+            "network could move the plan",
+            "Set security.sign_in to required, or server.host to 127.0.0.1.",
+            {"host": host},
+        )
+    if config.security.sign_in == "off" and config.server.behind_proxy is not None:
+        raise ConfigError(
+            "SIGN_IN_NEEDED",
+            "security.sign_in is off, but by server.behind_proxy others reach this server through a proxy: "
+            "then everybody who reaches it could move the plan",
+            "Set security.sign_in to required, or server.behind_proxy to null.",
+            {"behind_proxy": config.server.behind_proxy},
+        )
+    cosign = config.supervision.cosign
+    if config.security.sign_in == "off" and "required" in (cosign.plan, cosign.registration):
+        raise ConfigError(
+            "SIGN_IN_NEEDED",
+            "supervision.cosign asks for a second person's signature, but security.sign_in is off: then "
+            "nobody is a second person, and navigation would never open",
+            "Set security.sign_in to required, or supervision.cosign to offered.",
+            {"plan": cosign.plan, "registration": cosign.registration},
+        )
+    if (tls.certificate is None) != (tls.key is None):
+        given, missing = ("certificate", "key") if tls.key is None else ("key", "certificate")
+        raise ConfigError(
+            "TLS_HALF",
+            f"server.tls.{given} is given, but server.tls.{missing} is not",
+            CERTIFICATE_REMEDY,
+            {"missing": missing},
+        )
+
+
+def select_tls(config: Config, folder: Path) -> Tls | None:
+    """Return the certificate to serve with; None without TLS: on loopback, and behind a TLS proxy.
+
+    Args:
+        config: address, and optionally a certificate.
+        folder: storage of a self-signed one.
+
+    Raises:
+        ConfigError: CERTIFICATE_UNUSABLE.
+        OSError: the self-signed one cannot be stored.
+    """
+    server = config.server
+    if server.tls.certificate is not None and server.tls.key is not None:
+        return _own(server.tls.certificate, server.tls.key)
+    if is_loopback(_bracketed(server.host)) or server.behind_proxy == PROXY_SPEAKS_TLS:
+        return None
+    # Imported on demand: most servers listen on loopback.
+    from server.security.tls.self_signed import load_or_create  # noqa: PLC0415
+
+    made = load_or_create(folder, host=server.host)
+    return Tls(
+        certificate=made.certificate,
+        key=made.key,
+        fingerprint=fingerprint_of(made.certificate.read_text(encoding="ascii")),
+        is_self_signed=True,
+    )
+
+
+def fingerprint_of(pem: str) -> str:
+    """Return the SHA-256 of the first certificate in a PEM text, as browsers show it."""
+    first = pem[pem.index("-----BEGIN CERTIFICATE-----") :].split("-----END CERTIFICATE-----", maxsplit=1)[0]
+    der = ssl.PEM_cert_to_DER_cert(f"{first}-----END CERTIFICATE-----\n")
+    return ":".join(f"{byte:02X}" for byte in hashlib.sha256(der).digest())
+
+
+def _own(certificate: Path, key: Path) -> Tls:
+    """Return a given certificate, if it can be served."""
+    for file, what in ((certificate, "certificate"), (key, "key")):
+        try:
+            text = file.read_text(encoding="utf-8")
+        except OSError as error:
+            _reject_certificate(
+                f"the TLS {what} {file} cannot be read: {(error.strerror or str(error)).lower()}", file
+            )
+        except UnicodeDecodeError:
+            _reject_certificate(f"the TLS {what} {file} is no PEM file", file)
+        if "-----BEGIN" not in text:
+            _reject_certificate(f"the TLS {what} {file} is no PEM file", file)
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+    try:
+        # Otherwise the password of a key would be requested on the terminal.
+        context.load_cert_chain(certificate, key, password=_no_password)
+        fingerprint = fingerprint_of(certificate.read_text(encoding="utf-8"))
+    except _PasswordRequired:
+        _reject_certificate(f"the TLS key {key} is locked with a password", key)
+    except ssl.SSLError as error:
+        mismatch = "MISMATCH" in (error.reason or "")
+        said = f"does not belong to the key {key}" if mismatch else "cannot be used with its key"
+        _reject_certificate(
+            f"the TLS certificate {certificate} {said} ({error.reason or error})", certificate
+        )
+    except ValueError:
+        _reject_certificate(f"there is no certificate in {certificate}", certificate)
+    return Tls(certificate=certificate, key=key, fingerprint=fingerprint, is_self_signed=False)
+
+
+class _PasswordRequired(Exception):
+    """The key is encrypted with a password."""
+
+
+def _no_password() -> NoReturn:
+    raise _PasswordRequired
+
+
+def _reject_certificate(message: str, file: Path) -> NoReturn:
+    raise ConfigError("CERTIFICATE_UNUSABLE", message, CERTIFICATE_REMEDY, {"file": str(file)})
+
+
+def _bracketed(host: str) -> str:
+    return f"[{host}]" if ":" in host and not host.startswith("[") else host

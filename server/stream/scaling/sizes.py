@@ -1,0 +1,75 @@
+"""Picture sizes, and what a viewer may choose."""
+
+from collections.abc import Sequence
+from enum import StrEnum
+
+from tracker.errors import NavigationError
+
+
+class PictureSize(StrEnum):
+    """Picture size, the largest first."""
+
+    FULL = "full"
+    HALF = "half"
+    QUARTER = "quarter"
+
+    @property
+    def scale_ratio(self) -> float:
+        """Scale of the picture relative to the camera's image."""
+        return {PictureSize.FULL: 1.0, PictureSize.HALF: 0.5, PictureSize.QUARTER: 0.25}[self]
+
+    @property
+    def smaller(self) -> "PictureSize":
+        """The next smaller size, or the smallest."""
+        return {PictureSize.FULL: PictureSize.HALF}.get(self, PictureSize.QUARTER)
+
+    def at_most(self, limit: "PictureSize") -> "PictureSize":
+        """Return the smaller of this size and the limit."""
+        return min(self, limit, key=lambda size: size.scale_ratio)
+
+    @property
+    def larger(self) -> "PictureSize":
+        """The next larger size, or the largest."""
+        return {PictureSize.QUARTER: PictureSize.HALF}.get(self, PictureSize.FULL)
+
+
+class SizeChoice(StrEnum):
+    """A fixed size, or auto for the one that the connection carries."""
+
+    AUTO = "auto"
+    FULL = "full"
+    HALF = "half"
+    QUARTER = "quarter"
+
+    @property
+    def fixed(self) -> PictureSize | None:
+        """The fixed size; None for auto."""
+        return None if self is SizeChoice.AUTO else PictureSize(self.value)
+
+
+class SizeUnknown(NavigationError):
+    """There is no such picture size."""
+
+    def __init__(self, requested: str, known: Sequence[str] = tuple(SizeChoice)) -> None:
+        super().__init__(
+            "SIZE_UNKNOWN",
+            f"there is no size '{requested[:40]}', only {', '.join(known)}",
+            "Ask for one of these sizes.",
+            {"requested": requested[:40], "known": list(known)},
+        )
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Pickle by the constructor's arguments."""
+        return type(self), (self.context["requested"], self.context["known"])
+
+
+def choice_from_text(text: str) -> SizeChoice:
+    """Return the choice of this name.
+
+    Raises:
+        SizeUnknown: there is none.
+    """
+    try:
+        return SizeChoice(text)
+    except ValueError:
+        raise SizeUnknown(text) from None

@@ -1,0 +1,175 @@
+"""Every route of the application, and every role: exactly as in the table."""
+
+import re
+from collections.abc import Iterator
+
+import pytest
+from starlette.testclient import WebSocketDenialResponse
+
+from server.security import Role
+from server.security.access_rules import ACCESS_RULES, Rule
+from tests.server.security.guarded_app import HOST, Guarded, addresses_of, guarded
+
+# Read by eye once, and written down a second time: a rule that slips into a wider group is seen.
+VIEWERS_MAY = {
+    "GET /api/session",
+    "DELETE /api/session",
+    "GET /api/dashboard",
+    "GET /api/live",
+    "GET /api/alarms",
+    "GET /api/alarms/sound/{priority}.wav",
+    "GET /api/procedure",
+    "GET /video/{camera}.mjpg",
+    "GET /api/supervision/room",
+    "GET /api/supervision/signatures",
+    "WS /ws/room",
+    "WS /ws/live",
+    "WS /ws/view",
+    "GET /scene",
+    "GET /scene/",
+    "WS /scene",
+    "WS /scene/",
+}
+CAMERAS_MAY = {
+    "GET /health",
+    "GET /api/session",
+    "POST /api/session",
+    "DELETE /api/session",
+    "WS /ws/camera",
+}
+SUPERVISORS_DO = {
+    "DELETE /api/session",
+    "POST /api/session",
+    "POST /api/alarms/hold",
+    "POST /api/alarms/release",
+}
+SCREENS_DO = {
+    "DELETE /api/session",
+    "POST /api/session",
+    *(f"POST /api/alarms/{what}" for what in ("acknowledgement", "pause", "resumption", "screens")),
+}
+
+
+@pytest.fixture(scope="module")
+def house(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Guarded]:
+    with guarded(tmp_path_factory.mktemp("home")) as house:
+        yield house
+
+
+@pytest.fixture(scope="module")
+def bearers(house: Guarded) -> dict[Role, dict[str, str]]:
+    return {role: house.bearer(role) for role in Role}
+
+
+def test_the_table_holds_every_address_that_the_application_has_and_no_other(house: Guarded) -> None:
+    listed = {(rule.method, rule.template) for rule in ACCESS_RULES}
+    assert len(listed) == len(ACCESS_RULES), "an address stands in two groups"
+    assert listed == addresses_of(house.app)
+    schema = house.app.openapi()["paths"]
+    documented = {(method.upper(), path) for path, methods in schema.items() for method in methods}
+    silent = {"/api/docs", "/api/openapi.json", "/scene", "/scene/", "/ws/live", "/ws/room", "/ws/view"}
+    # Helper sockets of other rooms are in no document either.
+    assert {one for one in listed if one[0] != "WS" and one[1] not in silent} == documented
+
+
+def test_what_each_role_may_is_what_was_agreed() -> None:
+    def may(role: Role, *, read: bool) -> set[str]:
+        return {
+            rule.name
+            for rule in ACCESS_RULES
+            if role in rule.roles and (rule.method in {"GET", "WS"}) == read
+        }
+
+    everything = {rule.name for rule in ACCESS_RULES}
+    assert may(Role.OPERATOR, read=True) | may(Role.OPERATOR, read=False) == everything
+    assert may(Role.SUPERVISOR, read=True) == may(Role.OPERATOR, read=True) - {"WS /ws/camera"}
+    viewer = may(Role.VIEWER, read=True) | may(Role.VIEWER, read=False)
+    assert viewer - {"GET /health", "POST /api/session"} >= VIEWERS_MAY
+    assert may(Role.SCREEN, read=True) == may(Role.VIEWER, read=True)
+    # What other rooms add for their roles goes here by name.
+    assert {one for one in may(Role.SUPERVISOR, read=False) if "/supervision" not in one} == SUPERVISORS_DO
+    assert may(Role.SCREEN, read=False) == SCREENS_DO
+    camera = may(Role.CAMERA, read=True) | may(Role.CAMERA, read=False)
+    assert camera == CAMERAS_MAY
+    assert {rule.name for rule in ACCESS_RULES if rule.is_public} == {"GET /health", "POST /api/session"}
+
+
+def asked_of(house: Guarded, rule: Rule, headers: dict[str, str]) -> tuple[int, str]:
+    """Status and code of the answer; what lets in is asked in a way that changes nothing."""
+    path = re.sub(r"\{[a-z_]+\}", "none", rule.template)
+    if rule.method == "WS":
+        try:
+            with house.door.websocket_connect(f"ws://{HOST}{path}", headers=headers, subprotocols=["none"]):
+                return 101, ""
+        except WebSocketDenialResponse as denied:
+            return denied.status_code, str(denied.json()["code"])
+        except Exception:  # noqa: BLE001  closed by the socket's own room, which is past the guard
+            return 101, ""
+    answer = house.door.request(rule.method, path, headers=headers, follow_redirects=False)
+    is_ours = "json" in answer.headers.get("content-type", "") and answer.status_code >= 400
+    return answer.status_code, str(answer.json().get("code", "")) if is_ours else ""
+
+
+@pytest.mark.parametrize("rule", ACCESS_RULES, ids=lambda rule: rule.name)
+def test_each_address_lets_in_whom_the_table_names_and_nobody_else(
+    house: Guarded, bearers: dict[Role, dict[str, str]], rule: Rule
+) -> None:
+    status, code = asked_of(house, rule, {})
+    if rule.is_public:
+        assert (status, code) != (401, "SESSION_NEEDED")
+    else:
+        assert (status, code) == (401, "SESSION_NEEDED")
+    for role in Role:
+        signs_out = rule.name == "DELETE /api/session"
+        status, code = asked_of(house, rule, house.bearer(role) if signs_out else bearers[role])
+        if role in rule.roles:
+            assert code not in {"ROLE_REJECTED", "SESSION_NEEDED", "SESSION_EXPIRED"}, (role, status, code)
+        else:
+            assert (status, code) == (403, "ROLE_REJECTED"), role
+
+
+def test_who_is_not_signed_in_is_told_one_word(house: Guarded) -> None:
+    assert house.door.get("/health").json() == {
+        "status": "degraded",
+        "process": None,
+        "source": None,
+        "image_age_ms": None,
+    }
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "//api/cases",
+        "/api//cases",
+        "/api/cases/",
+        "/API/cases",
+        "/api/cases%2f",
+        "/assets/../api/cases",
+        "/assets/%2e%2e/%2e%2e/api/cases",
+        "/enter/..%2f..%2fapi/cases",
+        "/api/cases%0a",
+        "/api/cases;/assets/x.js",
+        "/api/nothing",
+        "/scene/../metrics",
+        "/video",
+    ],
+)
+def test_no_way_of_writing_an_address_leads_past_the_guard(house: Guarded, path: str) -> None:
+    for method in ("GET", "HEAD", "OPTIONS", "POST", "TRACE", "get"):
+        answer = house.door.request(method, path, follow_redirects=False)
+        shows_page = "text/html" in answer.headers.get("content-type", "")
+        allowed = shows_page and method in {"GET", "HEAD"}
+        assert answer.status_code == 401 or allowed, (method, answer.text[:200])
+
+
+def test_head_is_allowed_as_get_is(house: Guarded) -> None:
+    assert house.door.head("/metrics").status_code == 401
+    assert house.door.head("/metrics", headers=house.bearer(Role.VIEWER)).status_code == 403
+
+
+def test_who_is_signed_in_is_told_what_there_is_not(house: Guarded) -> None:
+    reported = house.door.get("/api/nothing", headers=house.bearer())
+    assert (reported.status_code, reported.json()["code"]) == (404, "NOT_FOUND")
+    reported = house.door.put("/api/cases", headers=house.bearer())
+    assert (reported.status_code, reported.json()["code"]) == (405, "METHOD_NOT_ALLOWED")

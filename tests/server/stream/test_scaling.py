@@ -1,0 +1,123 @@
+"""Each picture and each message is made once for all viewers, and only on demand."""
+
+import asyncio
+import dataclasses
+import json
+import time
+from collections.abc import Callable
+
+import cv2
+import numpy as np
+import pytest
+
+from server.live import Instant
+from server.overlay import draw_overlay, encode_jpeg
+from server.stream.messages import live_message
+from server.stream.scaling.message_cache import MessageCache
+from server.stream.scaling.picture_cache import REQUESTED_WITHIN_S, PictureCache
+from server.stream.scaling.sizes import PictureSize
+
+LiveInstant = Callable[..., Instant]
+
+
+@pytest.fixture
+def drawn(live_instant: LiveInstant) -> Instant:
+    """An instant whose picture nobody has encoded."""
+    picture = np.full((90, 160, 3), 77, np.uint8)
+    return dataclasses.replace(live_instant(5), jpeg=b"", drawn=picture)
+
+
+def size_px(jpeg: bytes) -> tuple[int, int]:
+    decoded = cv2.imdecode(np.frombuffer(jpeg, np.uint8), cv2.IMREAD_COLOR)
+    assert decoded is not None
+    assert abs(float(decoded.mean()) - 77.0) < 1.0
+    height, width = decoded.shape[:2]
+    return width, height
+
+
+async def all_of(pictures: PictureCache, instant: Instant, *sizes: PictureSize) -> list[bytes]:
+    return await asyncio.gather(*(pictures.of(instant, size) for size in sizes))
+
+
+def test_all_viewers_of_a_size_share_one_encoding(drawn: Instant) -> None:
+    pictures = PictureCache(quality=80)
+    got = asyncio.run(
+        all_of(pictures, drawn, PictureSize.HALF, PictureSize.HALF, PictureSize.QUARTER, PictureSize.HALF)
+    )
+    assert [size_px(jpeg) for jpeg in got] == [(80, 45), (80, 45), (40, 22), (80, 45)]
+    assert got[0] is got[1] is got[3]
+    assert pictures.encoded == {PictureSize.FULL: 0, PictureSize.HALF: 1, PictureSize.QUARTER: 1}
+
+
+def test_a_picture_that_is_there_already_is_not_encoded_again(live_instant: LiveInstant) -> None:
+    pictures, instant = PictureCache(quality=80), live_instant(77)
+    assert asyncio.run(all_of(pictures, instant, PictureSize.FULL))[0] is instant.jpeg
+    assert size_px(asyncio.run(all_of(pictures, instant, PictureSize.HALF))[0]) == (80, 45)
+    assert pictures.encoded[PictureSize.FULL] == 0
+
+
+def test_a_late_comer_gets_a_picture_that_nobody_had_wanted(drawn: Instant) -> None:
+    assert size_px(asyncio.run(all_of(PictureCache(quality=80), drawn, PictureSize.FULL))[0]) == (160, 90)
+
+
+def test_an_older_instant_does_not_throw_out_the_newest(drawn: Instant) -> None:
+    pictures = PictureCache(quality=80)
+    newer = dataclasses.replace(drawn, sequence=6)
+
+    async def three() -> None:
+        for instant in (newer, drawn, newer):
+            await pictures.of(instant, PictureSize.HALF)
+
+    asyncio.run(three())
+    assert pictures.encoded[PictureSize.HALF] == 2
+
+
+def test_pictures_are_drawn_and_encoded_only_while_somebody_watches(drawn: Instant) -> None:
+    now_s = 100.0
+    pictures = PictureCache(quality=80, clock=lambda: now_s)
+    assert (pictures.is_watched(), pictures.is_watched_in_full()) == (False, False)
+    asyncio.run(all_of(pictures, drawn, PictureSize.HALF))
+    assert (pictures.is_watched(), pictures.is_watched_in_full()) == (True, False)
+    asyncio.run(all_of(pictures, drawn, PictureSize.FULL))
+    assert (pictures.is_watched(), pictures.is_watched_in_full()) == (True, True)
+    now_s += REQUESTED_WITHIN_S + 0.01
+    assert (pictures.is_watched(), pictures.is_watched_in_full()) == (False, False)
+
+
+def test_the_first_viewer_gets_the_overlay_of_an_image_that_was_not_drawn(live_instant: LiveInstant) -> None:
+    instant = live_instant(5)
+    assert instant.snapshot is not None
+    width, height = instant.snapshot.size_wh_px
+    image = np.full((height, width, 3), 77, np.uint8)
+    instant = dataclasses.replace(instant, jpeg=b"", drawn=None, image=image)
+    full = asyncio.run(all_of(PictureCache(quality=80), instant, PictureSize.FULL))[0]
+    assert instant.snapshot is not None
+    expected = draw_overlay(image, instant.snapshot, instant.alarms)
+    assert not np.array_equal(expected, image), "an overlay that draws nothing shows nothing here"
+    assert full == encode_jpeg(expected, 80)
+    assert np.array_equal(image, np.full_like(image, 77)), "the camera's image is never drawn into"
+
+
+def test_an_instant_without_picture_has_none_in_any_size(instant_of: LiveInstant) -> None:
+    pictures = PictureCache(quality=80)
+    assert asyncio.run(all_of(pictures, instant_of(1), *PictureSize)) == [b"", b"", b""]
+    assert sum(pictures.encoded.values()) == 0
+
+
+def test_a_text_is_written_once_and_says_the_truth_of_each_sending(live_instant: LiveInstant) -> None:
+    texts, instant = MessageCache(), live_instant(3)
+    made_s = time.monotonic()
+    texts.of(instant, now_s=made_s)
+    for later_s, size in ((0.0, PictureSize.FULL), (0.7, PictureSize.QUARTER)):
+        now_s = made_s + later_s
+        said = json.loads(texts.of(instant, size=size, now_s=now_s))
+        whole = live_message(instant, now_s=now_s, shown_scale_ratio=size.scale_ratio)
+        assert said == json.loads(whole.model_dump_json())
+    assert texts.written == 1
+
+
+def test_a_text_without_image_is_whole_too(instant_of: LiveInstant) -> None:
+    texts, instant = MessageCache(), instant_of(9)
+    texts.of(instant, now_s=1.0)
+    said = json.loads(texts.of(instant, now_s=4.5))
+    assert said == json.loads(live_message(instant, now_s=4.5).model_dump_json())

@@ -1,0 +1,91 @@
+"""Repeated images, from a frozen camera or from a capture card faster than its camera."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from tests.benchmarks.scenes.conditions import BASE
+from tests.benchmarks.scenes.faces import FACES
+from tests.benchmarks.scenes.placement import scene_at
+from tests.benchmarks.scenes.scene import image_of as scene_image_of
+from tests.tracker.pipeline.stepped import image_of, off_px, pose_of, tracker_of
+from tests.tracker.scenes import seen
+from tests.tracker.small_scenes import RIG, SIDES_PX, Image, trackers_by_face
+from tests.tracker.small_scenes import pose_of as somewhere
+from tracker import Tracker
+from tracker.pipeline.image import RepeatedPatch
+from tracker.pose.pose_ambiguity import DECIDED_COST
+
+FACE = FACES[0]
+
+
+def leads_of(tracker: Tracker, images: Iterable[Image], *, from_s: float = 0.0) -> list[float]:
+    said = (tracker.step(image, captured_at_s=from_s + k / 60.0) for k, image in enumerate(images))
+    return [seen(sightings[FACE.name]).delta_chi2 for sightings in said]
+
+
+def images_of(seed: int, *, count: int) -> list[Image]:
+    """Of a small marker that nearly faces the camera, and does not move."""
+    random = np.random.default_rng([seed, 5])
+    pose = somewhere(random, float(random.choice(SIDES_PX[:4])), (1.0, 10.0))
+    return [
+        scene_image_of(scene_at(RIG, FACE, BASE, (pose,), seed=seed, image_number=k)) for k in range(count)
+    ]
+
+
+def test_a_frozen_camera_makes_no_doubtful_pose_surer_and_a_live_one_does() -> None:
+    tracker = trackers_by_face()[FACE.name]
+    frozen_surer, live_surer, doubtful = 0, 0, 0
+    for seed in range(40):
+        live = images_of(seed, count=10)
+        frozen = [live[0].copy() for _ in range(10)]
+        for k, image in enumerate(frozen):
+            # A clock in a corner goes on.
+            image[:4, :4] = k
+        frozen_leads = leads_of(tracker, frozen, from_s=20.0 * seed)
+        # The first is searched for; what is tracked from there on says the same again and again.
+        if frozen_leads[1] >= DECIDED_COST:
+            continue
+        doubtful += 1
+        frozen_surer += max(frozen_leads[2:]) > frozen_leads[1] + 1e-6
+        live_surer += leads_of(tracker, live, from_s=20.0 * seed + 10.0)[-1] > frozen_leads[1] + 5.0
+    assert doubtful > 15
+    assert frozen_surer == 0
+    assert live_surer > 8
+
+
+def test_the_speed_of_a_marker_is_told_by_its_images_and_not_by_their_repetitions() -> None:
+    tracker, found_by = tracker_of(), []
+    for k in range(14):
+        # Nine pixels in each new image: over the reach, unless its speed is known.
+        pose = pose_of((120.0 + 9 * (k // 2), 150.0))
+        found = seen(tracker.step(image_of(pose, seed=k // 2), captured_at_s=k / 60.0)["code"])
+        assert off_px(found, pose) < 0.3
+        found_by.append(found.found_by)
+    assert found_by[4:] == ["track"] * 10
+
+
+def test_a_marker_in_a_frozen_image_is_tracked_on_and_where_it_is_when_it_moves_again() -> None:
+    tracker = tracker_of()
+    moving = [pose_of((120.0 + 4 * k, 150.0)) for k in range(4)]
+    for k, pose in enumerate(moving):
+        tracker.step(image_of(pose, seed=k), captured_at_s=k / 30.0)
+    # It has a speed; for two seconds the image stands still.
+    for k in range(60):
+        found = seen(tracker.step(image_of(moving[-1], seed=3), captured_at_s=(4 + k) / 30.0)["code"])
+        assert found.found_by == "track"
+        assert off_px(found, moving[-1]) < 0.3
+    after = pose_of((134.0, 150.0))
+    assert off_px(seen(tracker.step(image_of(after, seed=9), captured_at_s=2.2)["code"]), after) < 0.3
+
+
+def test_a_pixel_of_the_marker_makes_another_image_and_a_clock_beside_it_does_not() -> None:
+    patch, image = RepeatedPatch(), np.full((48, 64), 90, np.uint8)
+    assert not patch.is_repeated(image)
+    patch.store(image, np.array([[20.0, 20.0], [40.0, 20.0], [40.0, 40.0], [20.0, 40.0]]))
+    assert patch.is_repeated(image)
+    image[2, 60] += 1
+    assert patch.is_repeated(image)
+    # The caller writes the next image over this one.
+    image[30, 37] += 1
+    assert not patch.is_repeated(image)

@@ -1,1 +1,0 @@
-"""Whether what even light leaves unexplained looks like light: smooth over the marker, on dark or bright."""

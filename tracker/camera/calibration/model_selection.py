@@ -1,0 +1,93 @@
+"""Select the number of lens coefficients by cross-validation.
+
+Five coefficients are used unless four or eight describe held-out views clearly better: a coefficient that
+is left out is silently claimed to be zero, one too many only widens intervals, and eight diverge beyond the
+points. Some lenses lose the last hundredth of a pixel.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from tracker.camera.calibration.fit import MODELS, board_pose, fit_camera, projected
+from tracker.camera.calibration.report import ModelChoice
+from tracker.camera.detection.view import BoardView
+from tracker.errors import CalibrationError
+from tracker.geometry import Array
+
+USUAL = 5
+MIN_VIEWS = 5
+MAX_FOLDS = 5
+# Fewer or more than the usual number must be better by so much: the usual one has the simple one inside, so
+# that taking it costs next to nothing, and eight run wild beyond the points where they are not needed.
+SIMPLER_BY, RICHER_BY = 0.005, 0.02
+# A single bad point must not choose the model.
+MAX_POINT_SDS = 6.0
+
+
+def choose_model(views: Sequence[BoardView], size_wh_px: tuple[int, int], reach_px: float) -> ModelChoice:
+    """4, 5 or 8 coefficients. `reach_px` is how far from the middle the lens must stay one to one."""
+    if len(views) < MIN_VIEWS:
+        few = 4 if len(views) < 3 else USUAL
+        return ModelChoice(
+            coefficients=few,
+            held_out_rms_px=(),
+            reason=f"{few} without a trial: {len(views)} views, to hold some out takes {MIN_VIEWS}",
+        )
+    held = {model: held_out_rms_px(views, size_wh_px, model) for model in MODELS}
+    reported = tuple((model, rms) for model, rms in held.items() if np.isfinite(rms))
+    usual = held[USUAL]
+    if held[8] < (1.0 - RICHER_BY) * min(usual, held[4]) and _is_one_to_one(views, size_wh_px, reach_px):
+        return ModelChoice(
+            coefficients=8,
+            held_out_rms_px=reported,
+            reason=f"8 describe views held out to {held[8]:.3f} px, 5 to {usual:.3f} px",
+        )
+    if held[4] < (1.0 - SIMPLER_BY) * usual:
+        return ModelChoice(
+            coefficients=4,
+            held_out_rms_px=reported,
+            reason=f"4 describe views held out to {held[4]:.3f} px, 5 only to {usual:.3f} px",
+        )
+    return ModelChoice(
+        coefficients=USUAL,
+        held_out_rms_px=reported,
+        reason=f"5 describe views held out to {usual:.3f} px, 4 to {held[4]:.3f} px, 8 to {held[8]:.3f} px",
+    )
+
+
+def held_out_rms_px(views: Sequence[BoardView], size_wh_px: tuple[int, int], model: int) -> float:
+    """Root mean square distance in views to which the camera was not fitted, only the board's pose."""
+    folds = min(MAX_FOLDS, len(views))
+    squares: list[Array] = []
+    for fold in range(folds):
+        seen = [view for index, view in enumerate(views) if index % folds != fold]
+        try:
+            fit = fit_camera(seen, size_wh_px, model)
+        except CalibrationError:
+            return float("inf")
+        for view in views[fold::folds]:
+            pose = board_pose(view, fit.matrix, fit.distortion)
+            if pose is None:
+                return float("inf")
+            off = view.image_points_px - projected(view.object_points_mm, *pose, fit.matrix, fit.distortion)
+            squares.append((off**2).sum(axis=1))
+    together = np.concatenate(squares)
+    limit = MAX_POINT_SDS**2 * float(np.median(together)) / (2.0 * np.log(2.0))
+    return float(np.sqrt(np.minimum(together, limit).mean()))
+
+
+def _is_one_to_one(views: Sequence[BoardView], size_wh_px: tuple[int, int], reach_px: float) -> bool:
+    """Whether farther out in the world is farther out in the image, up to the image's corners."""
+    try:
+        fit = fit_camera(views, size_wh_px, 8)
+    except CalibrationError:
+        return False
+    k1, k2, _, _, k3, k4, k5, k6 = fit.distortion
+    r = np.linspace(0.0, 1.5 * reach_px / float(fit.matrix[0, 0]), 400)
+    r2 = r * r
+    below = 1 + r2 * (k4 + r2 * (k5 + r2 * k6))
+    out = r * (1 + r2 * (k1 + r2 * (k2 + r2 * k3))) / below
+    inside = out <= reach_px / float(fit.matrix[0, 0])
+    upto = int(np.argmin(inside)) if not inside.all() else len(r)
+    return bool((below[:upto] > 0.05).all() and (np.diff(out[: max(upto, 2)]) > 0).all())

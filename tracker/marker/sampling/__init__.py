@@ -1,1 +1,0 @@
-"""What an image shows inside an outline, cell by cell, and the same in even light. Only compiled loops."""

@@ -1,0 +1,292 @@
+"""Coarse correlation and least-squares alignment of quads with templates."""
+
+import numpy as np
+
+from tracker.compiled import compiled
+from tracker.marker.sampling_kernels import normalise_locally, sample_quads, square_to_quad, through
+
+BLOCK = 64
+# The unknowns of a step: the picture's gain and offset, and two for each corner.
+UNKNOWNS = 10
+# In one step a corner is moved by no more of a side.
+MAX_STEP_SIDES = 0.12
+# A step leads nowhere where so little of the picture is seen.
+MIN_GAIN = 0.1
+# A quad is moved only where that reduces the residual to this ratio.
+MAX_RESIDUAL_RATIO = 0.95
+# Template and mask are selected again after this many steps.
+SELECT_EVERY = 3
+
+
+@compiled
+def coarse_correlations(image, quads, cells, templates, dark, light):
+    """Return the correlation (t, q) of templates (t, n * n), n = cells + 2, with parallelograms.
+
+    One pixel is sampled per cell. Grey values are clipped to `dark`..`light` and scaled to 0..1.
+    """
+    height, width = image.shape
+    count, n = len(quads), cells + 2
+    size, scale = n * n, np.float32(1.0) / (light - dark)
+    out = np.empty((len(templates), count), np.float32)
+    # Quads lie side by side in a block, so that the machine works on many at once.
+    block = np.empty((size, BLOCK), np.float32)
+    for start in range(0, count, BLOCK):
+        many = min(BLOCK, count - start)
+        for k in range(many):
+            quad = quads[start + k]
+            ax, ay = (quad[1, 0] - quad[0, 0]) / cells, (quad[1, 1] - quad[0, 1]) / cells
+            bx, by = (quad[3, 0] - quad[0, 0]) / cells, (quad[3, 1] - quad[0, 1]) / cells
+            ox, oy = quad[0, 0] - 0.5 * (ax + bx) + 0.5, quad[0, 1] - 0.5 * (ay + by) + 0.5
+            total, square = np.float32(0.0), np.float32(0.0)
+            for r in range(n):
+                for c in range(n):
+                    u = min(max(int(ox + c * ax + r * bx), 0), width - 1)
+                    v = min(max(int(oy + c * ay + r * by), 0), height - 1)
+                    value = min(max((image[v, u] - dark) * scale, np.float32(0.0)), np.float32(1.0))
+                    block[r * n + c, k] = value
+                    total += value
+                    square += value * value
+            mean = total / size
+            length = np.float32(1.0) / np.sqrt(max(square - size * mean * mean, np.float32(1e-3)))
+            for i in range(size):
+                block[i, k] = (block[i, k] - mean) * length
+        for t in range(len(templates)):
+            line = out[t, start : start + many]
+            line[:] = 0.0
+            for i in range(size):
+                weight = templates[t, i]
+                for k in range(many):
+                    line[k] += weight * block[i, k]
+    return out
+
+
+@compiled
+def products(rows, columns):
+    """Return the matrix product of rows (n, k) and columns (k, m).
+
+    A BLAS product would start threads for such small matrices and wait for them.
+    """
+    out = np.zeros((len(rows), columns.shape[1]), np.float32)
+    for i in range(len(rows)):
+        line = out[i]
+        for k in range(columns.shape[0]):
+            weight = rows[i, k]
+            column = columns[k]
+            for j in range(columns.shape[1]):
+                line[j] += weight * column[j]
+    return out
+
+
+@compiled
+def occluded_templates(pictures, occlusion_masks):
+    """Return masked templates as columns (n, p * c), with mean and sum of squares about it (p, c)."""
+    many, cells, count = len(pictures), pictures.shape[1], len(occlusion_masks)
+    columns = np.empty((cells, many * count), np.float32)
+    mean, spread = np.empty((many, count), np.float32), np.empty((many, count), np.float32)
+    for p in range(many):
+        for c in range(count):
+            total, square, size = 0.0, 0.0, 0.0
+            for i in range(cells):
+                value = pictures[p, i] * occlusion_masks[c, i]
+                columns[i, p * count + c] = value
+                total += value
+                square += value * value
+                size += occlusion_masks[c, i]
+            mean[p, c], spread[p, c] = total / size, max(square - total * total / size, 1e-9)
+    return columns, mean, spread
+
+
+@compiled
+def _compare(seen, columns, left, shared, sums, squares):
+    """Compute the products of observed cells (n,) with the columns, and sums and squares under each mask."""
+    # Side by side, so that the machine works on many at once.
+    shared[:], sums[:], squares[:] = 0.0, 0.0, 0.0
+    for i in range(len(seen)):
+        value = seen[i]
+        square = value * value
+        for k in range(len(shared)):
+            shared[k] += value * columns[i, k]
+        for c in range(len(sums)):
+            sums[c] += value * left[i, c]
+            squares[c] += square * left[i, c]
+
+
+@compiled
+def _best_match(seen, columns, mean, spread, left, sizes, shared, sums, squares):
+    """Return the best correlation with the templates, and the index of the template and of the mask."""
+    count = len(sizes)
+    _compare(seen, columns, left, shared, sums, squares)
+    best, picture, mask = 0.0, 0, 0
+    for c in range(count):
+        own = max(squares[c] - sums[c] * sums[c] / sizes[c], 1e-9)
+        ncc, like = 0.0, 0
+        for p in range(len(mean)):
+            over = shared[p * count + c] - mean[p, c] * sums[c]
+            if over > 0.0 and over * over > ncc * spread[p, c]:
+                ncc, like = over * over / spread[p, c], p
+        # n cells with a correlation r are as likely as n log(1 - r^2): what is left of a square must look the
+        # more like the model the less it is.
+        fit = -np.log(1.0 - min(ncc / own, 0.9999)) * sizes[c] / len(seen)
+        if fit > best:
+            best, picture, mask = fit, like, c
+    return np.sqrt(1.0 - np.exp(-best)), picture, mask
+
+
+@compiled
+def _cholesky_factor(basis, mask, damping, stiffness, matrix):
+    """Compute the lower Cholesky factor of the damped normal matrix of the visible cells.
+
+    Departures from a parallelogram are damped more (`stiffness`), because perspective causes little of them.
+    Not `solve_positive`: one factor serves all steps with the same template and mask, damping makes it
+    positive, and it needs no scaling, as all but two unknowns are in sides.
+    """
+    matrix[:] = 0.0
+    for i in range(len(basis)):
+        if mask[i] == 0.0:
+            continue
+        for j in range(UNKNOWNS):
+            value = basis[i, j]
+            for k in range(UNKNOWNS):
+                matrix[j, k] += value * basis[i, k]
+    for j in range(2, UNKNOWNS):
+        matrix[j, j] += damping
+        for k in range(2, UNKNOWNS):
+            # Corner signs alternate: one diagonal extends while the other contracts.
+            if (j - k) % 2 == 0:
+                matrix[j, k] += stiffness if (j - k) % 4 == 0 else -stiffness
+    for j in range(UNKNOWNS):
+        for k in range(j + 1):
+            total = matrix[j, k]
+            for i in range(k):
+                total -= matrix[j, i] * matrix[k, i]
+            if j == k:
+                matrix[j, j] = np.sqrt(max(total, np.float32(1e-9)))
+            else:
+                matrix[j, k] = total / matrix[k, k]
+
+
+@compiled
+def _add_parallelogram_prior(quad, weight, right):
+    """Add to the right-hand side what pulls the quad towards a parallelogram."""
+    ax, ay = 0.5 * (quad[1] - quad[0] + quad[2] - quad[3])
+    bx, by = 0.5 * (quad[3] - quad[0] + quad[2] - quad[1])
+    x, y = quad[0] - quad[1] + quad[2] - quad[3]
+    det = ax * by - ay * bx
+    along, down = weight * (x * by - y * bx) / det, weight * (ax * y - ay * x) / det
+    for k in range(4):
+        sign = 1 - 2 * (k % 2)
+        right[2 + 2 * k] += sign * along
+        right[3 + 2 * k] += sign * down
+
+
+@compiled
+def _solve(factor, right):
+    for j in range(UNKNOWNS):
+        total = right[j]
+        for i in range(j):
+            total -= factor[j, i] * right[i]
+        right[j] = total / factor[j, j]
+    for j in range(UNKNOWNS - 1, -1, -1):
+        total = right[j]
+        for i in range(j + 1, UNKNOWNS):
+            total -= factor[i, j] * right[i]
+        right[j] = total / factor[j, j]
+
+
+@compiled
+def _move_corners(quad, off):
+    """Move each corner, in place, by its offset (8,), in sides of the square's plane."""
+    h, moved = np.empty(8), np.empty((4, 2))
+    square_to_quad(quad, h)
+    for k in range(4):
+        a = (1.0 if k in (1, 2) else 0.0) - min(max(off[2 * k], -MAX_STEP_SIDES), MAX_STEP_SIDES)
+        b = (1.0 if k > 1 else 0.0) - min(max(off[2 * k + 1], -MAX_STEP_SIDES), MAX_STEP_SIDES)
+        moved[k, 0], moved[k, 1] = through(h, a, b)
+    quad[:] = moved
+
+
+@compiled
+def align_to_templates(
+    image,
+    quads,
+    basis,
+    columns,
+    mean,
+    spread,
+    occlusion_masks,
+    steps,
+    damping,
+    stiffness,
+    cells,
+    ring,
+    around,
+    floor_grey,
+    floor_ratio,
+):
+    """Align quads (q, 4, 2) with one of the templates; return them and their correlation (q,).
+
+    Gauss-Newton steps (Lucas-Kanade alignment): the observed cells are modelled as gain times template plus
+    its derivatives by the corners.
+    """
+    left = np.ascontiguousarray(occlusion_masks.T)
+    sizes = left.sum(axis=0)
+    shared = np.empty(columns.shape[1], np.float32)
+    sums, squares = np.empty(len(occlusion_masks), np.float32), np.empty(len(occlusion_masks), np.float32)
+    found, correlation = quads.copy(), np.zeros(len(quads), np.float32)
+    matrix, right = np.empty((UNKNOWNS, UNKNOWNS), np.float32), np.empty(UNKNOWNS, np.float32)
+    quad = np.empty((1, 4, 2), np.float32)
+    for q in range(len(quads)):
+        quad[0] = quads[q]
+        picture, mask, worst, ncc = -1, -1, 0.0, 0.0
+        for step in range(steps + 1):
+            seen = sample_quads(image, quad, cells, ring)
+            normalise_locally(seen, cells + 2 * ring, around, floor_grey, floor_ratio)
+            if step % SELECT_EVERY == 0 or step == steps:
+                ncc, p, c = _best_match(seen[0], columns, mean, spread, left, sizes, shared, sums, squares)
+                # What fits as it is, is where it is: the pictures are coarser than the image.
+                if step == 0:
+                    worst = MAX_RESIDUAL_RATIO * (1.0 - ncc * ncc)
+                if ncc > correlation[q]:
+                    correlation[q] = ncc
+                    if 1.0 - ncc * ncc < worst:
+                        found[q] = quad[0]
+                if p != picture or c != mask:
+                    picture, mask = p, c
+                    _cholesky_factor(basis[p], occlusion_masks[c], damping, stiffness, matrix)
+            if step == steps:
+                break
+            right[:] = 0.0
+            for i in range(len(columns)):
+                value = seen[0, i] * occlusion_masks[mask, i]
+                for j in range(UNKNOWNS):
+                    right[j] += value * basis[picture, i, j]
+            _add_parallelogram_prior(quad[0], stiffness * ncc, right)
+            _solve(matrix, right)
+            if right[0] < MIN_GAIN:
+                break
+            _move_corners(quad[0], right[2:] / right[0])
+    return found, correlation
+
+
+@compiled
+def distinct(quads, correlation, order, known, maximum, minimum, same_ratio):
+    """Return the indexes (k,) of the first quads, by correlation, that differ from each other and `known`."""
+    selected = np.empty(maximum, np.int64)
+    n = 0
+    for i in order:
+        if n == maximum or correlation[i] < minimum:
+            break
+        side = 0.0
+        for k in range(3):
+            side += np.sqrt(((quads[i, k + 1] - quads[i, k]) ** 2).sum()) / 3.0
+        # Turned outlines are not the same.
+        same = max(same_ratio * side, 1.0)
+        fresh = True
+        for j in range(len(known)):
+            fresh = fresh and np.abs(quads[i] - known[j]).max() > same
+        for j in range(n):
+            fresh = fresh and np.abs(quads[i] - quads[selected[j]]).max() > same
+        if fresh:
+            selected[n] = i
+            n += 1
+    return selected[:n].copy()

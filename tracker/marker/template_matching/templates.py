@@ -1,0 +1,194 @@
+"""Small locally normalised templates of the models, as defocus, motion blur and occlusion change them."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from tracker.geometry import Array
+from tracker.marker.model import MarkerModel
+from tracker.marker.photometric_fit import ScaleSpace, scale_space_of
+from tracker.marker.sampling_kernels import normalise_locally
+from tracker.marker.template_matching.template_kernels import occluded_templates
+
+Float32 = npt.NDArray[np.float32]
+
+# A square is seen as 12x12 cells and one more of its white paper all round.
+CELLS, RING = 12, 1
+ROWS = CELLS + 2 * RING
+# A cell is judged beside those around it: as many as see the border and the paper at once.
+NEIGHBOURHOOD_CELLS = 3
+# What differs less than this is even: noise, and folds in the paper.
+MIN_SD_GREY, MIN_SD_RATIO = 1.0, 0.1
+# In sides: sd of the blur of a lens, in focus and out of it, and how far a hand moves it meanwhile.
+BLURS_SIDES, MOTION_SIDES = (0.008, 0.045, 0.1), 0.3
+# Defocus levels used by the template match.
+MATCHED_BLURS = (0, 2)
+MOTIONS_DEG = (0.0, 45.0, 90.0, 135.0)
+# Cells per side of the coarse match of thousands of quads.
+COARSE_CELLS = 6
+# Points of a cell of the pictures, each way; how far a corner is moved to see what that changes, in sides.
+FINE, SHIFT_SIDES = 4, 0.02
+# Depth of an occluding edge from the centre: 1 is the far side.
+OCCLUSION_DEPTHS = (0.55, 0.2)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OccludedTemplates:
+    """Templates (p, n) under each occlusion mask (c).
+
+    Attributes:
+        columns: (n, p * c), each template where a mask leaves it, else 0.
+        mean: (p, c), of what is left.
+        spread: (p, c), sum of squares about that mean.
+    """
+
+    columns: Float32
+    mean: Float32
+    spread: Float32
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Template:
+    """Templates of one model, locally normalised to mean 0 and length 1.
+
+    Attributes:
+        rotated: (b, 4, n), in focus and out of focus, at four quarter rotations: rotation k is the appearance
+        of
+            a quad whose first corner is corner k of the model.
+        coarse: (4, 64), rotated, at the size of the coarse match.
+        motion_blurred: (4, 64), the same, blurred by motion along the first side of the quad.
+        upright: (p, n) under the occlusion masks: three defocus levels and motion in four directions.
+        basis: (p, n, 10), template, constant, and derivatives by the corners to the right and downwards, per
+            side.
+        pictures: scale space of the model.
+    """
+
+    rotated: Float32
+    coarse: Float32
+    motion_blurred: Float32
+    upright: OccludedTemplates
+    basis: Float32
+    pictures: ScaleSpace
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Templates:
+    """Templates of several models."""
+
+    each: tuple[Template, ...]
+
+    def __len__(self) -> int:
+        return len(self.each)
+
+    def __getitem__(self, which: Sequence[int]) -> "Templates":
+        return Templates(each=tuple(self.each[k] for k in which))
+
+
+def templates_of(models: Sequence[MarkerModel]) -> Templates:
+    """Compute the templates of models."""
+    return Templates(each=tuple(_template_of(model.square) for model in models))
+
+
+def _template_of(square: npt.NDArray[np.uint8]) -> Template:
+    blurred = _blurred(square)
+    upright = np.array([_sampled_cells(wide, np.zeros((4, 2))) for wide in blurred])
+    grid = upright[list(MATCHED_BLURS)].reshape(-1, ROWS, ROWS)
+    # np.rot90 turns the picture to the left, so that its right-hand corner comes to the top left.
+    rotated = np.array([[np.rot90(one, rotation).ravel() for rotation in range(4)] for one in grid])
+    basis = np.array([_basis(wide, seen) for wide, seen in zip(blurred, upright, strict=True)])
+    return Template(
+        rotated=np.ascontiguousarray(rotated, np.float32),
+        coarse=np.array([_coarse_picture(one) for one in rotated[0]], np.float32),
+        motion_blurred=np.array(
+            [_coarse_picture(_motion_blurred_picture(upright, rotation)) for rotation in range(4)], np.float32
+        ),
+        upright=_occluded(upright),
+        basis=np.ascontiguousarray(basis, np.float32),
+        pictures=scale_space_of(square),
+    )
+
+
+def _blurred(square: npt.NDArray[np.uint8]) -> list[Array]:
+    """Return the model on white paper, half a side all round, with defocus and motion blur."""
+    fine = CELLS * FINE
+    small = np.asarray(cv2.resize(square, (fine, fine), interpolation=cv2.INTER_AREA), dtype=np.float64)
+    wide = np.pad(small, fine // 2, constant_values=float(np.percentile(square, 98)))
+    lens = [np.asarray(cv2.GaussianBlur(wide, (0, 0), sd * fine), dtype=np.float64) for sd in BLURS_SIDES]
+    streaks = [_motion_kernel(MOTION_SIDES * fine, direction) for direction in np.radians(MOTIONS_DEG)]
+    return [*lens, *(np.asarray(cv2.filter2D(lens[1], -1, one), dtype=np.float64) for one in streaks)]
+
+
+def _motion_kernel(length: float, direction: float) -> Array:
+    """Return the kernel of linear motion of this length, sum 1."""
+    reach = int(np.ceil(length / 2)) + 1
+    x, y = np.meshgrid(np.arange(-reach, reach + 1), np.arange(-reach, reach + 1))
+    out = np.zeros(x.shape)
+    for t in np.linspace(-length / 2, length / 2, 8 * reach):
+        u, v = t * np.cos(direction), t * np.sin(direction)
+        out += np.maximum(0.0, 1.0 - np.abs(x - u)) * np.maximum(0.0, 1.0 - np.abs(y - v))
+    return np.asarray(out / out.sum())
+
+
+def _sampled_cells(wide: Array, off: Array) -> Float32:
+    """Return the cells (n,) of an image in a quad whose corners (4, 2) are off by so many sides."""
+    fine = CELLS * FINE
+    at = (np.arange(ROWS * FINE) + 0.5) / fine - RING / CELLS
+    a, b = np.meshgrid(at, at)
+    corner = np.array([(1 - a) * (1 - b), a * (1 - b), a * b, (1 - a) * b])
+    shift = np.tensordot(off.T, corner, axes=1)
+    x, y = (np.array([a, b]) + shift + 0.5) * fine - 0.5
+    points = cv2.remap(wide.astype(np.float32), x.astype(np.float32), y.astype(np.float32), cv2.INTER_LINEAR)
+    cells = np.asarray(points).reshape(ROWS, FINE, ROWS, FINE).mean(axis=(1, 3))
+    seen = np.ascontiguousarray(cells.reshape(1, -1), np.float32)
+    normalise_locally(seen, ROWS, NEIGHBOURHOOD_CELLS, MIN_SD_GREY, MIN_SD_RATIO)
+    return np.asarray(seen[0])
+
+
+def _basis(wide: Array, seen: Float32) -> Array:
+    columns = [seen, np.ones_like(seen)]
+    for k in range(8):
+        off = np.zeros((4, 2))
+        off[k // 2, k % 2] = SHIFT_SIDES
+        columns.append(
+            (_sampled_cells(wide, off) - _sampled_cells(wide, -off)) / np.float32(2.0 * SHIFT_SIDES)
+        )
+    return np.stack(columns, axis=1)
+
+
+def _occluded(pictures: Float32) -> OccludedTemplates:
+    columns, mean, spread = occluded_templates(np.ascontiguousarray(pictures, np.float32), OCCLUSION_MASKS)
+    return OccludedTemplates(columns=columns, mean=mean, spread=spread)
+
+
+def _motion_blurred_picture(upright: Float32, rotation: int) -> Float32:
+    """Return the template (n,) blurred along the side that is first after so many quarter rotations."""
+    along = 0.0 if rotation % 2 == 0 else 90.0
+    picture = upright[len(BLURS_SIDES) + MOTIONS_DEG.index(along)]
+    return np.asarray(np.rot90(picture.reshape(ROWS, ROWS), rotation).ravel())
+
+
+def _coarse_picture(rotated: Float32) -> Array:
+    rows, half = COARSE_CELLS + 2, CELLS // COARSE_CELLS
+    # The ring stays a ring: its cells are doubled outwards.
+    wide = np.pad(rotated.reshape(ROWS, ROWS), half - RING, mode="edge")
+    small = wide.reshape(rows, half, rows, half).mean(axis=(1, 3)).ravel()
+    small = small - small.mean()
+    return np.asarray(small / np.linalg.norm(small), dtype=np.float64)
+
+
+def _occlusion_masks() -> Float32:
+    """Return the visible cells (c, n), 1, for a straight occluding edge from each of 8 directions."""
+    at = np.arange(ROWS) - (ROWS - 1) / 2.0
+    x, y = np.meshgrid(at / CELLS, at / CELLS)
+    left = [np.ones(ROWS * ROWS, np.bool_)]
+    for angle in np.radians(np.arange(0, 360, 45)):
+        toward = (np.cos(angle) * x + np.sin(angle) * y).ravel()
+        reach = 0.5 * (abs(np.cos(angle)) + abs(np.sin(angle)))
+        left += [toward < reach * depth for depth in OCCLUSION_DEPTHS]
+    return np.array(left, np.float32)
+
+
+OCCLUSION_MASKS = _occlusion_masks()

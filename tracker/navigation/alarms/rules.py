@@ -1,0 +1,160 @@
+"""Alarm conditions and their rules: priority, confirmation and clearing, in one table.
+
+A breach is confirmed by the second image that shows it, or after 80 ms without another image, and is thus
+raised within 250 ms (at most 175 ms from the capture with 20 to 80 ms of tracking). Missing data does not
+clear it: if the drill leaves the view, the alarm remains until it is acknowledged.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from types import MappingProxyType
+
+
+class Priority(StrEnum):
+    """Priority of an alarm."""
+
+    HIGH = "high"
+    MEDIUM = "medium"
+    LOW = "low"
+
+    @property
+    def rank(self) -> int:
+        """3 for high, 2 for medium, 1 for low."""
+        return _RANKS[self]
+
+
+_RANKS = {Priority.HIGH: 3, Priority.MEDIUM: 2, Priority.LOW: 1}
+
+
+class Kind(StrEnum):
+    """Category of an alarm."""
+
+    PHYSIOLOGICAL = "physiological"  # the drill in the bone
+    TECHNICAL = "technical"  # the system itself
+    ADVISORY = "advisory"  # a person asks for something; nothing is stopped or changed by it
+
+
+class Condition(StrEnum):
+    """Conditions that raise an alarm."""
+
+    BREACH = "BREACH"  # some point of the drill's cylinder is through the pedicle wall
+    PAST_DEPTH = "PAST_DEPTH"  # the tip is past the planned end
+    BREACH_LIKELY = "BREACH_LIKELY"  # the probability of being through the wall is over its limit
+    CLEARANCE_LOW = "CLEARANCE_LOW"  # less bone is left beside the drill than the warning distance
+    DRILL_UNSEEN = "DRILL_UNSEEN"  # the drill's marker is not seen for longer than its limit
+    REFERENCE_UNSEEN = "REFERENCE_UNSEEN"  # the patient's marker is not seen for longer than its limit
+    CAMERA_STALLED = "CAMERA_STALLED"  # no image came for longer than its limit
+    CAMERA_GONE = "CAMERA_GONE"  # the camera is known to give no images
+    TRACKING_STOPPED = "TRACKING_STOPPED"  # the process that tracks is known not to run
+    POSE_UNCERTAIN = "POSE_UNCERTAIN"  # the tip is less sure than this pedicle allows
+    POSE_JUMPED = "POSE_JUMPED"  # two poses explain the image, or it moved faster than a hand
+    CAMERA_MOVED = "CAMERA_MOVED"  # since the registration
+    REFERENCE_MOVED = "REFERENCE_MOVED"  # since the registration
+    CAMERA_CHANGED = "CAMERA_CHANGED"  # focus or zoom, since the calibration in use
+    REGISTRATION_OUT_OF_DATE = "REGISTRATION_OUT_OF_DATE"
+    CALIBRATION_OUT_OF_DATE = "CALIBRATION_OUT_OF_DATE"
+    CHECK_DUE = "CHECK_DUE"  # the check on anatomy is older than its limit
+    NO_ARMED_SCREEN = "NO_ARMED_SCREEN"  # no screen would be heard
+    DISK_NEARLY_FULL = "DISK_NEARLY_FULL"
+    VIEWER_LOST = "VIEWER_LOST"  # a screen with armed sound went without saying so
+    RECORDING_STOPPED = "RECORDING_STOPPED"  # a recording, or the alarm log itself, is not written
+    HOLD_REQUESTED = "HOLD_REQUESTED"  # a supervising clinician asks to hold
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AlarmRule:
+    """How a condition is raised and cleared.
+
+    Attributes:
+        priority: of the alarm.
+        kind: of the alarm.
+        latches: once raised, the alarm stays displayed until acknowledged, even if cleared.
+        confirm_s: how long the condition must be present without interruption before it is raised; 0 raises
+            at once.
+        confirm_images: number of consecutive images that raise it before that time; 0 uses the time only.
+        clear_s: how long the condition must be absent without interruption before it is cleared. Two alarms
+            of one condition are never closer than this.
+        persists_when_unknown: an unknown state does not clear the alarm. Otherwise unknown counts as absent,
+            because another alarm reports it.
+        outside_navigation: evaluated outside navigation too.
+        needs_current_image: only the newest image can show it; unknown while that image is old.
+    """
+
+    priority: Priority
+    kind: Kind
+    latches: bool = False
+    confirm_s: float = 0.0
+    confirm_images: int = 0
+    clear_s: float = 1.0
+    persists_when_unknown: bool = False
+    outside_navigation: bool = False
+    needs_current_image: bool = False
+
+
+def _in_the_bone() -> AlarmRule:
+    # Within 250 ms of the image, and not for one image that a reflection spoilt: the second image, 33 ms
+    # later at 30 Hz, or this time when no second one comes.
+    return AlarmRule(
+        priority=Priority.HIGH,
+        kind=Kind.PHYSIOLOGICAL,
+        latches=True,
+        confirm_s=0.08,
+        confirm_images=2,
+        persists_when_unknown=True,
+    )
+
+
+def _nearly() -> AlarmRule:
+    # Half a second in a row is what noise of a good pose just over the limit does not do.
+    return AlarmRule(priority=Priority.MEDIUM, kind=Kind.PHYSIOLOGICAL, confirm_s=0.5, clear_s=2.0)
+
+
+def _technical(
+    priority: Priority, *, confirm_s: float = 0.0, clear_s: float = 1.0, outside_navigation: bool = False
+) -> AlarmRule:
+    return AlarmRule(
+        priority=priority,
+        kind=Kind.TECHNICAL,
+        confirm_s=confirm_s,
+        clear_s=clear_s,
+        outside_navigation=outside_navigation,
+    )
+
+
+def _of_newest_image(*, confirm_s: float = 0.0, clear_s: float = 1.0) -> AlarmRule:
+    """Return a rule on the visibility or pose of a marker: unknown while no new image is tracked."""
+    trait = _technical(Priority.MEDIUM, confirm_s=confirm_s, clear_s=clear_s)
+    return replace(trait, needs_current_image=True)
+
+
+ALARM_RULES: Mapping[Condition, AlarmRule] = MappingProxyType(
+    {
+        Condition.BREACH: _in_the_bone(),
+        Condition.PAST_DEPTH: _in_the_bone(),
+        Condition.BREACH_LIKELY: _nearly(),
+        Condition.CLEARANCE_LOW: _nearly(),
+        # Their confirmation is the time unseen, or silent, that is their limit.
+        Condition.DRILL_UNSEEN: _of_newest_image(),
+        Condition.REFERENCE_UNSEEN: _of_newest_image(),
+        Condition.CAMERA_STALLED: _technical(Priority.MEDIUM),
+        Condition.CAMERA_GONE: _technical(Priority.MEDIUM),
+        Condition.TRACKING_STOPPED: _technical(Priority.MEDIUM),
+        Condition.POSE_UNCERTAIN: _of_newest_image(confirm_s=0.5, clear_s=2.0),
+        Condition.POSE_JUMPED: _of_newest_image(clear_s=2.0),
+        Condition.CAMERA_MOVED: _technical(Priority.HIGH),
+        Condition.REFERENCE_MOVED: _technical(Priority.HIGH),
+        Condition.CAMERA_CHANGED: _technical(Priority.HIGH),
+        Condition.REGISTRATION_OUT_OF_DATE: _technical(Priority.HIGH),
+        Condition.CALIBRATION_OUT_OF_DATE: _technical(Priority.HIGH),
+        Condition.CHECK_DUE: _technical(Priority.LOW),
+        # Pages that are loaded again are back within this time.
+        Condition.NO_ARMED_SCREEN: _technical(Priority.LOW, confirm_s=5.0),
+        Condition.DISK_NEARLY_FULL: _technical(Priority.LOW, clear_s=10.0, outside_navigation=True),
+        Condition.VIEWER_LOST: _technical(Priority.LOW),
+        Condition.RECORDING_STOPPED: _technical(Priority.LOW, outside_navigation=True),
+        Condition.HOLD_REQUESTED: AlarmRule(
+            priority=Priority.MEDIUM, kind=Kind.ADVISORY, clear_s=0.0, outside_navigation=True
+        ),
+    }
+)

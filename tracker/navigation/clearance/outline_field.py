@@ -1,0 +1,90 @@
+"""Distance field without a bone surface: of the outline of the pedicle's isthmus, or of the channel."""
+
+import numpy as np
+import numpy.typing as npt
+from scipy import ndimage
+
+from tracker.geometry import Array
+from tracker.navigation.clearance.distance_field import (
+    MARGIN_MM,
+    STEP_MM,
+    WallDistanceField,
+    WallSource,
+    grid_around,
+    pack_signed_distance,
+)
+from tracker.navigation.clearance.posterior_surface import flat_posterior_surface
+from tracker.navigation.clearance.voxels import Grid
+from tracker.plan.channel import Channel
+from tracker.plan.pedicle import PedicleMeasure
+from tracker.plan.screw.clearance import HALF_LENGTH_MM
+
+FINE_MM = 0.25
+REACH_MM = 25.0
+
+
+def outline_distance_field(
+    measure: PedicleMeasure, channel: Channel, *, step_mm: float = STEP_MM, margin_mm: float = MARGIN_MM
+) -> WallDistanceField:
+    """Compute the distance field of the outline, extruded 3 mm before and behind the isthmus.
+
+    Beyond that, body and arch are wider by an unknown amount, so the wall recedes by 1 mm per mm. The
+    anterior wall is therefore not covered, and the entry hardly.
+    """
+    grid = grid_around(channel, step_mm=step_mm, margin_mm=margin_mm)
+    offset = _offsets(grid, measure.isthmus_lps_mm)
+    axis = measure.axis_lps
+    helper = np.eye(3)[int(np.argmin(np.abs(axis)))]
+    first = np.cross(axis, helper) / np.linalg.norm(np.cross(axis, helper))
+    plane = np.stack([first, np.cross(axis, first)]).astype(np.float32)
+    outline = (measure.outline_lps_mm - measure.isthmus_lps_mm) @ plane.T
+    # In the plane first, finely, because the outline is the same all along.
+    reach = float(np.abs(outline).max()) + REACH_MM
+    places = np.arange(-reach, reach, FINE_MM, dtype=np.float32)
+    drawn = _signed_mm(np.stack(np.meshgrid(places, places, indexing="ij"), axis=-1), outline)
+    index = np.moveaxis((offset @ plane.T + reach) / FINE_MM, -1, 0)
+    signed = ndimage.map_coordinates(drawn, index, order=1, mode="nearest")
+    beyond = np.maximum(np.abs(offset @ axis.astype(np.float32)) - HALF_LENGTH_MM, 0.0)
+    return _field(WallSource.PEDICLE, grid, signed - beyond)
+
+
+def channel_distance_field(
+    channel: Channel, *, step_mm: float = STEP_MM, margin_mm: float = MARGIN_MM
+) -> WallDistanceField:
+    """Compute the distance field of the planned cylinder, if nothing else is known.
+
+    There is no wall beyond its ends; there it recedes by 1 mm per mm.
+    """
+    grid = grid_around(channel, step_mm=step_mm, margin_mm=margin_mm)
+    offset = _offsets(grid, channel.entry_in_vertebra_mm)
+    depth = offset @ channel.axis_in_vertebra.astype(np.float32)
+    off = np.sqrt(np.maximum((offset**2).sum(axis=-1) - depth**2, 0.0))
+    beyond = np.maximum(np.maximum(-depth, depth - channel.length_mm), 0.0)
+    return _field(WallSource.CHANNEL, grid, off - channel.radius_mm - beyond)
+
+
+def _offsets(grid: Grid, from_mm: Array) -> npt.NDArray[np.float32]:
+    nodes = np.stack(
+        np.meshgrid(*[np.arange(n, dtype=np.float32) for n in grid.shape], indexing="ij"), axis=-1
+    )
+    return np.asarray((grid.origin_mm - from_mm).astype(np.float32) + np.float32(grid.step_mm) * nodes)
+
+
+def _field(against: WallSource, grid: Grid, distance_mm: npt.NDArray[np.float32]) -> WallDistanceField:
+    values = pack_signed_distance(np.abs(distance_mm), distance_mm < 0.0)
+    return WallDistanceField(against=against, grid=grid, values=values, posterior=flat_posterior_surface())
+
+
+def _signed_mm(points: npt.NDArray[np.float32], outline: Array) -> npt.NDArray[np.float32]:
+    """Return the signed distance of points (..., 2) from a closed polygon (n, 2), negative inside."""
+    squared = np.full(points.shape[:-1], np.inf, np.float32)
+    inside = np.zeros(points.shape[:-1], bool)
+    x, y = points[..., 0], points[..., 1]
+    for (ax, ay), (bx, by) in zip(outline, np.roll(outline, -1, axis=0), strict=True):
+        length = max((bx - ax) ** 2 + (by - ay) ** 2, 1e-12)
+        share = np.clip(((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length, 0.0, 1.0)
+        off = (x - ax - share * (bx - ax)) ** 2 + (y - ay - share * (by - ay)) ** 2
+        squared = np.minimum(squared, off)
+        if ay != by:
+            inside ^= ((ay > y) != (by > y)) & (x < (bx - ax) * (y - ay) / (by - ay) + ax)
+    return np.asarray(np.where(inside, -1.0, 1.0) * np.sqrt(squared), dtype=np.float32)

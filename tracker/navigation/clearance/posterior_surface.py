@@ -1,0 +1,91 @@
+"""The posterior surface of the bone, through which a drill enters, as seen along the channel.
+
+Since a drill enters through it, only the other walls count. Points of the drill count from the visible
+posterior surface on, or from 7 mm past the entry if there is none. A side wall whose normal is within 75
+degrees of the view direction is therefore no wall.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.geometry import Array
+from tracker.navigation.clearance.voxels import Flags, Grid
+from tracker.navigation.directions import Directions
+
+# Within this of the channel's axis the drill is at its pedicle; beyond, it is nowhere near its plan.
+REACH_MM = 20.0
+STEP_MM = 0.5
+# A drill that has met no bone so deep past the entry has slipped off it. Where the bone's own back lies
+# deeper, at the root of a transverse process, it is the plan's entry that is shallow.
+MAX_ENTRY_DEPTH_MM = 5.0
+# What lies further behind the entry, as the joint of the vertebra above, does not cover it.
+MAX_BEHIND_ENTRY_MM = 3.0
+MAX_VIEW_DEPTH_MM = 25.0
+RAY_STEP_MM = 0.25
+# A surface seen under a flatter angle (75 degrees) is a wall, not a back.
+MAX_POSTERIOR_COSINE = -0.25
+SAME_MM = 1.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PosteriorSurface:
+    """Depth map of the posterior surface around the entry, along the channel.
+
+    Attributes:
+        floor_mm: (n, n) float64; from the entry plane to the bone, clipped to 0..`MAX_ENTRY_DEPTH_MM`; rows
+            from lateral to medial, columns from caudal to cranial, centred on the entry.
+        step_mm: grid spacing.
+    """
+
+    floor_mm: Array
+    step_mm: float
+
+
+def flat_posterior_surface() -> PosteriorSurface:
+    """Return the entry plane, for an unknown surface."""
+    size = 2 * round(REACH_MM / STEP_MM) + 1
+    floor = np.zeros((size, size))
+    floor.setflags(write=False)
+    return PosteriorSurface(floor_mm=floor, step_mm=STEP_MM)
+
+
+def find_posterior_surface(
+    bone: Flags, grid: Grid, entry_mm: Array, across: Directions, corners: Array
+) -> tuple[PosteriorSurface, Flags]:
+    """Return the posterior surface by ray marching, and which triangles (m, 3, 3) in mm belong to it."""
+    places = np.arange(-REACH_MM, REACH_MM + 1e-9, STEP_MM)
+    u, v = np.meshgrid(places, places, indexing="ij")
+    start = entry_mm + u[..., None] * across.medial + v[..., None] * across.cranial
+    depths = np.arange(-MAX_VIEW_DEPTH_MM, MAX_ENTRY_DEPTH_MM + SAME_MM + 1e-9, RAY_STEP_MM)
+    hit = bone[grid.nearest(start[None] + depths[:, None, None, None] * across.axis)]
+    seen = _first(hit, depths)
+    near = depths >= -MAX_BEHIND_ENTRY_MM
+    entered = _first(hit[near], depths[near])
+    floor = np.clip(entered, 0.0, MAX_ENTRY_DEPTH_MM)
+    floor.setflags(write=False)
+    return PosteriorSurface(floor_mm=floor, step_mm=STEP_MM), _belong(
+        corners, entry_mm, across, (seen, entered)
+    )
+
+
+def _first(hit: Flags, depths: Array) -> Array:
+    return np.where(hit.any(axis=0), depths[hit.argmax(axis=0)], np.inf)
+
+
+def _belong(corners: Array, entry_mm: Array, across: Directions, maps: tuple[Array, ...]) -> Flags:
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-12)
+    middle = corners.mean(axis=1) - entry_mm
+    row, column = (_places(middle @ way) for way in (across.medial, across.cranial))
+    size = len(maps[0])
+    held = (row >= 0) & (column >= 0) & (row < size) & (column < size)
+    row, column = np.clip(row, 0, size - 1), np.clip(column, 0, size - 1)
+    depth = middle @ across.axis
+    on_map = np.any([np.abs(depth - one[row, column]) < SAME_MM for one in maps], axis=0)
+    return np.asarray(held & on_map & (normal @ across.axis < MAX_POSTERIOR_COSINE))
+
+
+def _places(along: Array) -> npt.NDArray[np.int64]:
+    return np.rint((along + REACH_MM) / STEP_MM).astype(np.int64)

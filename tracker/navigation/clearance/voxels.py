@@ -1,0 +1,91 @@
+"""Voxelise a bone mesh: marrow and pores count as bone, the spinal canal does not."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy import ndimage
+
+from tracker.geometry import Array
+from tracker.navigation.clearance.distance_kernels import add_votes, mark_ray_crossings
+
+Flags = npt.NDArray[np.bool_]
+CONNECTIVITY_26 = ndimage.generate_binary_structure(3, 3)
+CONNECTIVITY_6 = ndimage.generate_binary_structure(3, 1)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Grid:
+    """Regular grid along the patient's axes.
+
+    Attributes:
+        origin_mm: (3,), the first node.
+        step_mm: spacing.
+        shape: number of nodes along each axis.
+    """
+
+    origin_mm: Array
+    step_mm: float
+    shape: tuple[int, int, int]
+
+    def steps_of(self, points_mm: Array) -> Array:
+        """Convert points (..., 3) to grid steps from the first node."""
+        return np.asarray((points_mm - self.origin_mm) / self.step_mm)
+
+    def nearest(self, points_mm: Array) -> tuple[npt.NDArray[np.int64], ...]:
+        """Return indices (i, j, k) of the nearest nodes of points (..., 3), clipped to the grid."""
+        index = np.rint(self.steps_of(points_mm)).astype(np.int64)
+        return tuple(np.moveaxis(np.clip(index, 0, np.array(self.shape) - 1), -1, 0))
+
+
+def voxelise(grid: Grid, corners: Array) -> Flags:
+    """Return which nodes lie inside a mesh of triangles (m, 3, 3), given in grid steps.
+
+    Ray casting: from each node one ray per axis and direction; the first triangle hit votes by its facing.
+    The majority decides, so the mesh may be open where the CT ends. Self-intersecting meshes are not
+    supported.
+    """
+    votes = np.zeros(grid.shape, np.int8)
+    for axis in range(3):
+        turned = np.moveaxis(votes, axis, 0)
+        marks = np.zeros((turned.shape[0] + 1, *turned.shape[1:]), np.int8)
+        # The other two axes keep their order; where that is a reflection, entering looks like leaving.
+        order = [axis, *[other for other in range(3) if other != axis]]
+        mark_ray_crossings(np.ascontiguousarray(corners[:, :, order]), marks)
+        add_votes(-marks if axis == 1 else marks, turned)
+    return np.asarray(votes > 0)
+
+
+def fill_holes(solid: Flags, *, step_mm: float, closing_radius_mm: float) -> Flags:
+    """Return the bone with marrow and pores: what a ball of this radius cannot reach from outside.
+
+    Outside is the largest free component, and each one that spans the grid from caudal to cranial: the spinal
+    canal, if no gap between the vertebrae connects it to the rest.
+    """
+    rounds = max(round(closing_radius_mm / step_mm), 1)
+    free = ~_grown(solid, rounds)
+    spaces, count = ndimage.label(free)
+    if count == 0:
+        return np.ones_like(solid)
+    sizes = np.bincount(spaces.ravel(), minlength=count + 1)
+    sizes[0] = 0
+    through = np.intersect1d(np.unique(spaces[:, :, 0]), np.unique(spaces[:, :, -1]))
+    outside = np.zeros(count + 1, bool)
+    outside[through] = True
+    outside[int(sizes.argmax())] = True
+    outside[0] = False
+    reached = outside[spaces]
+    # Further than it was held off: into the corners that a ball does not fill.
+    for n in range(int(np.ceil(1.5 * rounds)) + 1):
+        reached = (
+            ndimage.binary_dilation(reached, CONNECTIVITY_26 if n % 2 else CONNECTIVITY_6, mask=~solid)
+            | reached
+        )
+    return np.asarray(~reached)
+
+
+def _grown(flags: Flags, rounds: int) -> Flags:
+    """Dilate by an approximate ball: 6- and 26-connectivity alternately."""
+    for n in range(rounds):
+        flags = ndimage.binary_dilation(flags, CONNECTIVITY_26 if n % 2 else CONNECTIVITY_6)
+    return flags

@@ -1,0 +1,142 @@
+"""One photometric fit of pose, blur, camera response and illumination to a set of pixels."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from tracker.geometry import Array
+from tracker.photometric.refinement_kernels import refine_pose, robust_cost
+from tracker.photometric.samples import Samples
+
+PIXEL_PX2, MIN_BLUR_PX2 = 1.0 / 12.0, 0.07
+MAX_ITERATIONS = 14
+MAX_MOVE_PX = 0.7
+# Residuals beyond this many sd lose their weight.
+CUTOFF_SDS = 4.0
+# A fit is at its end when a step promises less, in units of the residuals' variance. From near its end, by
+# some of the pixels, a longer straight step may end it.
+CONVERGED_CHI2, CONVERGED_REFIT_CHI2 = 0.04, 5.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FitResult:
+    """Result of one fit, as `refine_pose` returns it.
+
+    `matrix` is the normal matrix with the priors; `prediction` holds the rendered rows, plane coordinates,
+    illumination and reliability of the pixels at the last evaluation.
+    """
+
+    rotation: Array
+    translation_mm: Array
+    parameters: Array
+    illumination: tuple[int, int]
+    matrix: Array
+    residual_sd_grey: float
+    inlier_ratio: float
+    prediction: tuple[Array, ...]
+
+
+def fit_pose(
+    samples: Samples,
+    rotation: Array,
+    translation_mm: Array,
+    parameters: Array,
+    *,
+    illumination: tuple[int, int],
+    residual_sd_grey: float = 0.0,
+    min_gain_chi2: float = CONVERGED_CHI2,
+    max_iterations: int = MAX_ITERATIONS,
+) -> FitResult | None:
+    """Fit pose and nuisance parameters from a start; return None where the fit fails.
+
+    Args:
+        samples: the pixels.
+        rotation: (3, 3) of the start.
+        translation_mm: (3,) of the start.
+        parameters: start values of blur, response and illumination, as `refine_pose` orders them.
+        illumination: kind of illumination model, and spline nodes per side.
+        residual_sd_grey: sd of the residuals if known; 0 estimates planar illumination and the sd first.
+        min_gain_chi2: the fit ends with a step that promises a smaller decrease of chi-square.
+        max_iterations: limit of Gauss-Newton iterations.
+    """
+    rotation, translation_mm, parameters = rotation.copy(), translation_mm.copy(), parameters.copy()
+    matrix, scale, weight, good, prediction = refine_pose(
+        samples.rays,
+        samples.values,
+        samples.lens,
+        rotation,
+        translation_mm,
+        samples.side_mm,
+        samples.textures.arrays,
+        parameters,
+        illumination,
+        residual_sd_grey,
+        MIN_BLUR_PX2 + samples.step * samples.step * PIXEL_PX2,
+        max_iterations,
+        CUTOFF_SDS,
+        MAX_MOVE_PX * samples.step,
+        min_gain_chi2,
+    )
+    if not good:
+        return None
+    return FitResult(
+        rotation=rotation,
+        translation_mm=translation_mm,
+        parameters=parameters,
+        illumination=illumination,
+        matrix=matrix,
+        residual_sd_grey=float(scale),
+        inlier_ratio=float(weight),
+        prediction=prediction,
+    )
+
+
+def refit(samples: Samples, near: FitResult) -> FitResult | None:
+    """Continue a converged fit on these pixels; return None where it fails."""
+    return fit_pose(
+        samples,
+        near.rotation,
+        near.translation_mm,
+        near.parameters,
+        illumination=near.illumination,
+        residual_sd_grey=near.residual_sd_grey,
+        min_gain_chi2=CONVERGED_REFIT_CHI2,
+    )
+
+
+def refit_all(samples: Samples, near: Iterable[FitResult | None]) -> list[FitResult]:
+    """Continue several fits on these pixels; fits that fail are dropped."""
+    fits = (None if one is None else refit(samples, one) for one in near)
+    return [one for one in fits if one is not None]
+
+
+def robust_chi2_of(samples: Samples, one: FitResult, residual_sd_grey: float) -> float:
+    """Return the robust sum of squared residuals of a fit, in units of the squared residual sd."""
+    return float(
+        robust_cost(
+            samples.rays,
+            samples.values,
+            samples.lens,
+            one.rotation,
+            one.translation_mm,
+            samples.side_mm,
+            samples.textures.arrays,
+            one.parameters,
+            one.illumination,
+            residual_sd_grey,
+            CUTOFF_SDS,
+        )
+    )
+
+
+def plausible_fits(samples: Samples, fits: list[FitResult], max_delta_chi2: float) -> list[FitResult]:
+    """Return the fits whose robust chi-square is within `max_delta_chi2` of the smallest.
+
+    The limit grows with the chi-square per pixel of the best fit where that exceeds 1, because model errors
+    then add to the difference.
+    """
+    if len(fits) < 2:
+        return fits
+    scale = min(one.residual_sd_grey for one in fits)
+    costs = [robust_chi2_of(samples, one, scale) for one in fits]
+    max_delta_chi2 *= max(1.0, min(costs) / len(samples.values))
+    return [one for one, cost in zip(fits, costs, strict=True) if cost < min(costs) + max_delta_chi2]

@@ -1,0 +1,200 @@
+"""Predicted grey values of pixels from the blurred texture, and their derivatives by pose and blur."""
+
+import math
+
+import numpy as np
+
+from tracker.camera.blur_kernels import mapped
+from tracker.camera.projection_kernels import project_with_derivative
+from tracker.compiled import compiled
+from tracker.marker.model import PAPER_RATIO
+from tracker.photometric.blur_kernels import MAX_KERNEL_SAMPLES, kernel_samples_of
+from tracker.photometric.texture_kernels import add_texture_samples
+
+# What lies beyond the paper, so many sd of the blur away, is not mixed in.
+FAR_SDS = 4.0
+# So many pixels side by side, so that the machine works on several at once and all stay at hand.
+BATCH = 256
+
+
+@compiled
+def footprint(rotation, translation, lens, side_mm, plane_per_px):
+    """Write the Jacobian of plane coordinates (sides) by pixel coordinates into `plane_per_px` (2, 2).
+
+    Returns False where the plane is seen edge-on.
+    """
+    derivative = np.empty((2, 3))
+    p = translation.copy()
+    project_with_derivative(p, lens, derivative)
+    a, b, c, d = 0.0, 0.0, 0.0, 0.0
+    for k in range(3):
+        a += derivative[0, k] * rotation[k, 0]
+        b += derivative[0, k] * rotation[k, 1]
+        c += derivative[1, k] * rotation[k, 0]
+        d += derivative[1, k] * rotation[k, 1]
+    det = a * d - b * c
+    if abs(det) < 1e-12:
+        return False
+    plane_per_px[0, 0], plane_per_px[0, 1] = d / det / side_mm, -b / det / side_mm
+    plane_per_px[1, 0], plane_per_px[1, 1] = -c / det / side_mm, a / det / side_mm
+    return True
+
+
+@compiled
+def paper_fraction(at, lens, rotation, translation, side_mm, blur, share):
+    """Write the fraction of each pixel's blur kernel on the marker's paper, 0..1, into `share` (n,)."""
+    plane_per_px = np.empty((2, 2))
+    share[:] = 1.0
+    if not footprint(rotation, translation, lens, side_mm, plane_per_px):
+        return
+    m00, m11, _ = mapped(plane_per_px, blur)
+    # In half sides, as `at` is.
+    sx, sy = 2.0 * np.sqrt(max(m00, 1e-12)), 2.0 * np.sqrt(max(m11, 1e-12))
+    edge = 1.0 + 2.0 * PAPER_RATIO
+    for i in range(len(share)):
+        x, y = (edge - abs(at[i, 0])) / sx, (edge - abs(at[i, 1])) / sy
+        if x < FAR_SDS:
+            share[i] *= 1.0 - 0.5 * math.erfc(x * np.sqrt(0.5))
+        if y < FAR_SDS:
+            share[i] *= 1.0 - 0.5 * math.erfc(y * np.sqrt(0.5))
+
+
+@compiled
+def rays_to_plane(rays, begin, count, rotation, translation, side_mm, at):
+    """Intersect rays with the marker's plane; write the points in half sides into `at` (n, 2)."""
+    r00, r10, r20 = rotation[0, 0], rotation[1, 0], rotation[2, 0]
+    r01, r11, r21 = rotation[0, 1], rotation[1, 1], rotation[2, 1]
+    nx, ny, nz = rotation[0, 2], rotation[1, 2], rotation[2, 2]
+    t0, t1, t2 = translation[0], translation[1], translation[2]
+    distance, unit = nx * t0 + ny * t1 + nz * t2, 2.0 / side_mm
+    for i in range(begin, begin + count):
+        x, y = rays[i, 0], rays[i, 1]
+        depth = distance / (nx * x + ny * y + nz)
+        ax, ay, az = depth * x - t0, depth * y - t1, depth - t2
+        at[i, 0] = unit * (r00 * ax + r10 * ay + r20 * az)
+        at[i, 1] = unit * (r01 * ax + r11 * ay + r21 * az)
+
+
+@compiled
+def _pose_derivatives(rays, begin, count, rotation, translation, side_mm, seen, spread, rows):
+    """Write the predicted value and its derivatives by pose into `rows` (10, n), from `begin` on."""
+    ex, ey, along, across = spread
+    r00, r10, r20 = rotation[0, 0], rotation[1, 0], rotation[2, 0]
+    r01, r11, r21 = rotation[0, 1], rotation[1, 1], rotation[2, 1]
+    nx, ny, nz = rotation[0, 2], rotation[1, 2], rotation[2, 2]
+    t0, t1, t2 = translation[0], translation[1], translation[2]
+    distance, unit = nx * t0 + ny * t1 + nz * t2, 1.0 / side_mm
+    value, right, up, xxs, yys, xys = seen[0], seen[1], seen[2], seen[3], seen[4], seen[5]
+    end = begin + count
+    picture, m0, m1, m2 = rows[0, begin:end], rows[1, begin:end], rows[2, begin:end], rows[3, begin:end]
+    w0, w1, w2 = rows[4, begin:end], rows[5, begin:end], rows[6, begin:end]
+    for k in range(count):
+        xx, yy, xy = xxs[k], yys[k], xys[k]
+        bend_along = ex * ex * xx + 2.0 * ex * ey * xy + ey * ey * yy
+        picture[k] = value[k] + 0.5 * (along * bend_along + across * (xx + yy - bend_along))
+        x, y = rays[begin + k, 0], rays[begin + k, 1]
+        by_facing = 1.0 / (nx * x + ny * y + nz)
+        depth = distance * by_facing
+        ax, ay, az = depth * x - t0, depth * y - t1, depth - t2
+        gx = unit * (right[k] * r00 + up[k] * r01)
+        gy = unit * (right[k] * r10 + up[k] * r11)
+        gz = unit * (right[k] * r20 + up[k] * r21)
+        # A point of the plane under this ray moves by d (n.v) / (n.d) - v when the marker moves by v.
+        slide = (gx * x + gy * y + gz) * by_facing
+        qx, qy, qz = nx * slide - gx, ny * slide - gy, nz * slide - gz
+        m0[k], m1[k], m2[k] = qx, qy, qz
+        w0[k], w1[k], w2[k] = ay * qz - az * qy, az * qx - ax * qz, ax * qy - ay * qx
+
+
+@compiled
+def _blur_derivatives(begin, count, seen, motion_slopes, plane_per_px, motion, rows):
+    """Write the derivatives of the prediction by the blur variances into `rows` (10, n), from `begin` on.
+
+    `motion_slopes` (2, many): slopes of the kernel samples by their shift along the motion. A longer or
+    rotated motion path shifts the samples; a wider Gaussian changes the curvature term.
+    """
+    variance, sx, sy = motion
+    end = begin + count
+    b0, b1, b2 = rows[7, begin:end], rows[8, begin:end], rows[9, begin:end]
+    a, c, b, d = plane_per_px[0, 0], plane_per_px[1, 0], plane_per_px[0, 1], plane_per_px[1, 1]
+    xxs, yys, xys = seen[3], seen[4], seen[5]
+    for k in range(count):
+        xx, yy, xy = xxs[k], yys[k], xys[k]
+        b0[k] = 0.5 * (a * a * xx + 2.0 * a * c * xy + c * c * yy)
+        b1[k] = 0.5 * (b * b * xx + 2.0 * b * d * xy + d * d * yy)
+        b2[k] = a * b * xx + (a * d + c * b) * xy + c * d * yy
+    if variance == 0.0:
+        return
+    # Displacement on the plane per pixel along the motion, and across it.
+    px, py, qx, qy = a * sx + b * sy, c * sx + d * sy, b * sx - a * sy, d * sx - c * sy
+    rights, ups = motion_slopes[0], motion_slopes[1]
+    for k in range(count):
+        along = (rights[k] * px + ups[k] * py) / variance
+        between = (rights[k] * qx + ups[k] * qy) / variance
+        across = 2.0 * (b0[k] + b1[k]) - along
+        b0[k] = 0.5 * (sx * sx * along - 2.0 * sx * sy * between + sy * sy * across)
+        b1[k] = 0.5 * (sy * sy * along + 2.0 * sx * sy * between + sx * sx * across)
+        b2[k] = sx * sy * (along - across) + (sx * sx - sy * sy) * between
+
+
+@compiled
+def _convolve(
+    tex, level, at, begin, count, kernel_samples, many, workspace, is_motion_blurred, one, seen, motion_slopes
+):
+    """Sum the texture samples of a blur kernel into `seen` (6, many), and their motion slopes."""
+    texels, starts, sizes, _, widths, _ = tex
+    start, size, texel = starts[level], sizes[level], widths[level]
+    seen[:, :] = 0.0
+    if not is_motion_blurred:
+        for k in range(many):
+            right, up, weight = kernel_samples[0, k], kernel_samples[1, k], kernel_samples[2, k]
+            add_texture_samples(
+                texels, start, size, texel, at, begin, count, right, up, weight, workspace, seen
+            )
+        return
+    motion_slopes[:, :] = 0.0
+    for k in range(many):
+        right, up, weight = kernel_samples[0, k], kernel_samples[1, k], kernel_samples[2, k]
+        one[:, :] = 0.0
+        add_texture_samples(texels, start, size, texel, at, begin, count, right, up, weight, workspace, one)
+        seen += one
+        for m in range(2):
+            out, slope, moved = motion_slopes[m], one[1 + m], kernel_samples[3, k]
+            for i in range(count):
+                out[i] += moved * slope[i]
+
+
+@compiled
+def predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, free):
+    """Predict pixel values and derivatives: `rows` (10, n), and plane coordinates `at` (n, 2) in half sides.
+
+    Rows: value 0..1, derivatives by translation (3), rotation (3) and blur (3). Returns False where the
+    marker cannot be visible at this pose.
+    """
+    plane_per_px, kernel_samples = np.empty((2, 2)), np.empty((4, MAX_KERNEL_SAMPLES))
+    if translation[2] < 1.0 or not footprint(rotation, translation, lens, side_mm, plane_per_px):
+        return False
+    level, many, spread, motion = kernel_samples_of(plane_per_px, blur, tex[3], kernel_samples)
+    workspace = (np.empty((12, BATCH), np.float32), np.empty(BATCH, np.int64), np.empty((2, BATCH)))
+    seen, one, motion_slopes = np.empty((6, BATCH)), np.empty((6, BATCH)), np.empty((2, BATCH))
+    for begin in range(0, len(rays), BATCH):
+        count = min(BATCH, len(rays) - begin)
+        rays_to_plane(rays, begin, count, rotation, translation, side_mm, at)
+        _convolve(
+            tex,
+            level,
+            at,
+            begin,
+            count,
+            kernel_samples,
+            many,
+            workspace,
+            motion[0] > 0.0,
+            one,
+            seen,
+            motion_slopes,
+        )
+        _pose_derivatives(rays, begin, count, rotation, translation, side_mm, seen, spread, rows)
+        if free:
+            _blur_derivatives(begin, count, seen, motion_slopes, plane_per_px, motion, rows)
+    return True

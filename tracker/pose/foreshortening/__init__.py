@@ -1,1 +1,0 @@
-"""The tilt of a square by how its middle is foreshortened; only a compiled function."""

@@ -1,0 +1,154 @@
+"""Planar pose ambiguity: choose between the two solutions for a square from this image and those before.
+
+One image of a small marker in noise does not separate the two solutions; several images do. Both are tracked
+with the difference of their chi-squares. A wrong first choice is corrected within a few images, and until
+then the covariance spans both. The difference is bounded, so that later images can reverse it.
+
+Edges that contradict the prediction do not decide, however large their difference: a strip along a side gives
+a difference over 100 for the wrong solution, and a tip error of 33 mm. Where the flipped solution is nearer
+to the predicted pose, or the images before were undecided, both are refined photometrically.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracker.geometry import Array, Camera, Marker, Rigid, vector_from_rotation
+from tracker.geometry.geometry_kernels import rotation_angle_between
+from tracker.photometric import KnownIllumination
+from tracker.pose.second_order import TOOL_REACH_MM
+
+# A difference of chi-square this large decides: the odds of the worse solution are under 1 in 10,000.
+DECIDED_COST = 18.0
+UNDECIDED_COST = 2.0
+# Solutions nearer than this are the same solution.
+MIN_ROTATION_RAD, ONE_SOLUTION_RAD = 1e-3, float(np.radians(1.0))
+EXPECTED_ROTATION_SD_DEG = 4.0
+SMALL_PROBABILITY = 0.05
+# A hand rotates a drill by less than this between two images; a larger rotation is the flipped solution.
+FAR_ROTATION_DEG, NEAR_ROTATION_DEG = 20.0, 10.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PosePrediction(Rigid[Camera, Marker]):
+    """The pose predicted from the images before, and its flipped planar solution.
+
+    Attributes:
+        flipped: the other planar solution, predicted with the same motion.
+        delta_chi2: chi-square of the flipped solution minus that of this pose, over the images before.
+        illumination: the uneven illumination of the last image; None where it was even.
+    """
+
+    flipped: Rigid[Camera, Marker]
+    delta_chi2: float
+    illumination: KnownIllumination | None = None
+
+
+def mahalanobis_squared(pose: Rigid[Camera, Marker], expected: Rigid[Camera, Marker] | None) -> float:
+    """Return the squared Mahalanobis distance of a pose from the prediction, in rotation; 0 without one.
+
+    The smaller of two: the squared angle from the predicted pose over the variance of a hand's rotation; and
+    the same from the flipped prediction, plus its `delta_chi2`. So both solutions stay available until the
+    images together decide.
+    """
+    if expected is None:
+        return 0.0
+    against = _rotation_sd2(pose, expected)
+    if isinstance(expected, PosePrediction):
+        against = min(against, expected.delta_chi2 + _rotation_sd2(pose, expected.flipped))
+    return against
+
+
+def delta_chi2_to_next(costs_sd2: list[float], poses: list[Rigid[Camera, Marker]], best: int) -> float:
+    """Return the chi-square of the next different solution minus that of the best; infinite without one.
+
+    `costs_sd2` are chi-squares that include the distance from the prediction.
+    """
+    others = [
+        cost - costs_sd2[best]
+        for cost, pose in zip(costs_sd2, poses, strict=True)
+        if _rotation_rad(pose, poses[best]) > ONE_SOLUTION_RAD
+    ]
+    return max(min(others), 0.0) if others else float("inf")
+
+
+def flip_covariance(
+    better: Rigid[Camera, Marker],
+    worse: Rigid[Camera, Marker],
+    *,
+    delta_chi2: float,
+    expected: Rigid[Camera, Marker] | None,
+) -> Array:
+    """Return the addition to a pose's covariance (6, 6) in case the flipped solution is true.
+
+    `delta_chi2` is the difference of the chi-squares of `worse` and `better`.
+    """
+    if delta_chi2 > DECIDED_COST and (
+        expected is None or _rotation_rad(better, expected) < np.radians(FAR_ROTATION_DEG)
+    ):
+        return np.zeros((6, 6))
+    if expected is not None and _is_flip_of_expected(better, worse, expected):
+        delta_chi2 = min(delta_chi2, UNDECIDED_COST)
+    apart = pose_difference(better, worse)
+    if delta_chi2 > DECIDED_COST or float(np.linalg.norm(apart[3:])) < MIN_ROTATION_RAD:
+        return np.zeros((6, 6))
+    return _spread(apart, _probability_of_worse(delta_chi2))
+
+
+def mixture_covariance(
+    claimed: Rigid[Camera, Marker], other: Rigid[Camera, Marker], *, delta_chi2: float
+) -> Array:
+    """Return the addition to a pose's covariance (6, 6) in case another pose is true.
+
+    `delta_chi2` as in `flip_covariance`; at 0 both are equally probable.
+    """
+    return _spread(pose_difference(claimed, other), _probability_of_worse(delta_chi2))
+
+
+def _probability_of_worse(delta_chi2: float) -> float:
+    """Return the probability of the worse of two solutions, for a difference `delta_chi2` of chi-square."""
+    return 1.0 / (1.0 + float(np.exp(delta_chi2 / 2.0)))
+
+
+def is_nearer_in_rotation(
+    one: Rigid[Camera, Marker], to: Rigid[Camera, Marker], than: Rigid[Camera, Marker]
+) -> bool:
+    """Whether a pose is nearer in rotation to the first than to the second."""
+    return _rotation_rad(one, to) < _rotation_rad(one, than)
+
+
+def _spread(apart: Array, probability: float) -> Array:
+    """Return the mixture covariance (6, 6) for another pose at `apart` (6,) with this probability."""
+    spread = np.outer(apart, apart)
+    # A rotation moves points on an arc, a covariance on its tangent. The deviation shortens the lever to the
+    # tip, which first-order propagation leaves out; a small probability needs less of it.
+    beside = float(1.0 - np.cos(np.linalg.norm(apart[3:])))
+    spread[3:, 3:] += beside**2 * np.eye(3)
+    spread[:3, :3] += (
+        (TOOL_REACH_MM * beside) ** 2 * probability / (probability + SMALL_PROBABILITY) * np.eye(3)
+    )
+    return np.asarray(probability * spread)
+
+
+def _rotation_rad(a: Rigid[Camera, Marker], b: Rigid[Camera, Marker]) -> float:
+    """Return the rotation angle between two poses [rad]."""
+    return float(rotation_angle_between(a.rotation, b.rotation))
+
+
+def _rotation_sd2(pose: Rigid[Camera, Marker], other: Rigid[Camera, Marker]) -> float:
+    return (_rotation_rad(pose, other) / float(np.radians(EXPECTED_ROTATION_SD_DEG))) ** 2
+
+
+def _is_flip_of_expected(
+    better: Rigid[Camera, Marker], worse: Rigid[Camera, Marker], expected: Rigid[Camera, Marker]
+) -> bool:
+    """Whether the better pose is out of a hand's reach from the prediction, and the worse one within it."""
+    is_far = _rotation_rad(better, expected) > np.radians(FAR_ROTATION_DEG)
+    return bool(is_far and _rotation_rad(worse, expected) < np.radians(NEAR_ROTATION_DEG))
+
+
+def pose_difference(a: Rigid[Camera, Marker], b: Rigid[Camera, Marker]) -> Array:
+    """Return the difference (6,) [mm, rad] from pose `a` to `b`, in the coordinates of the covariance."""
+    return np.concatenate(
+        [b.translation_mm - a.translation_mm, vector_from_rotation(b.rotation @ a.rotation.T)]
+    )

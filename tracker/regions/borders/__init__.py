@@ -1,1 +1,0 @@
-"""The borders of dark regions, walked between the pixels. Only compiled loops: `trace_borders`."""

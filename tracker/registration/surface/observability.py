@@ -1,0 +1,52 @@
+"""Observability of the six motion modes of a bone from swept points."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracker.geometry import Array
+
+SHIFTS = ("to the left or right", "to the front or back", "along the spine (to head or feet)")
+TURNS = (
+    "tilting to head or feet (about the left-right axis)",
+    "tilting to the side (about the front-back axis)",
+    "turning about the spine's own axis",
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MotionMode:
+    """An independent rigid motion of a bone, and its uncertainty.
+
+    Attributes:
+        way: (6,) unit vector: a shift in mm and a rotation in mm at the lever, on the CT axes.
+        sd_mm: standard deviation; infinite if unobservable.
+        description: for a surgeon.
+    """
+
+    way: Array
+    sd_mm: float
+    description: str
+
+
+def motion_modes(normal: Array, lever_mm: float) -> list[MotionMode]:
+    """Return the six motion modes, least observable first, of a normal matrix (6, 6) in mm and rad.
+
+    Rotations are scaled by the lever, as displacement at the target.
+    """
+    scale = np.diag([1.0] * 3 + [1.0 / lever_mm] * 3)
+    values, ways = np.linalg.eigh(scale @ normal @ scale)
+    floor = 1e-9 * max(float(values[-1]), 1e-12)
+    found = []
+    for value, way in zip(values, ways.T, strict=True):
+        sd = float(1.0 / np.sqrt(value)) if value > floor else np.inf
+        found.append(MotionMode(way=way, sd_mm=sd, description=description(way)))
+    return found
+
+
+def description(way: Array) -> str:
+    """Describe the dominant axis of a motion (6,)."""
+    shift, turn = float(np.linalg.norm(way[:3])), float(np.linalg.norm(way[3:]))
+    if shift >= turn:
+        return SHIFTS[int(np.argmax(np.abs(way[:3])))]
+    return TURNS[int(np.argmax(np.abs(way[3:])))]
