@@ -123,6 +123,10 @@ test-python: ready $(STAMPS)/dev ## Python and browser tests alone (TESTS="tests
 benchmark: ready $(STAMPS)/dev ## how true and how fast the tracker is, beside its peers, and what got worse
 	@$(PYTHON_IN_VENV) -m tests.benchmarks $(ARGS)
 
+.PHONY: house
+house: ready $(STAMPS)/dev ## figures on the structure: sizes, small files, circles of imports, words of the former dialect
+	@$(PYTHON_IN_VENV) -m tests.house
+
 .PHONY: docs
 docs: $(STAMPS)/guide ## build the user guide, which the server shows at /docs/
 

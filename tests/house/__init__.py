@@ -1,0 +1,1 @@
+"""Figures on the structure of the code, printed by `make house`."""
