@@ -4,18 +4,20 @@ The slowness is forced: each image takes a fixed time more than it needs here, s
 hang on how busy the machine is.
 """
 
+import json
 import re
+import urllib.request
 from collections.abc import Callable
 
 import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.test_dashboard import is_live
-from tests.browser.theatre import Theatre, Watched
+from tests.browser.theatre import Theatre, WatchedPage
 
 pytestmark = pytest.mark.browser
 
-Watch = Callable[..., Watched]
+Watch = Callable[..., WatchedPage]
 
 # In the page and in the scene's frame: what is given up, in the order in which it is.
 RECORDER = """
@@ -66,7 +68,7 @@ SLOW = {
 ORDER = ["interval_ms", "scale", "largest"]
 
 
-def slowed(watched: Watched, part: str, *, query: str = "") -> Page:
+def slowed(watched: WatchedPage, part: str, *, query: str = "") -> Page:
     """The page, once everything that can has given way."""
     watched.page.add_init_script(f"(() => {{ {RECORDER} {SLOW[part]} }})()")
     page = watched.open(f"theatre{query}")
@@ -107,3 +109,20 @@ def test_a_device_that_decodes_slowly_keeps_its_picture_longest_and_its_scene_li
 def test_a_device_that_draws_slowly_keeps_its_picture_longest(theatre: Theatre, watch: Watch) -> None:
     page = slowed(watch(theatre, 1280, 800), "drawing", query="?lang=de")
     gave_way_in_order(page, "Langsames Zeichnen")
+
+
+def test_a_scene_that_makes_the_figures_late_is_switched_off_until_somebody_asks_for_it(
+    theatre: Theatre, watch: Watch
+) -> None:
+    watched = watch(theatre, 1280, 800)
+    with urllib.request.urlopen(f"http://127.0.0.1:{theatre.port}/api/dashboard", timeout=60) as answer:
+        dashboard = json.load(answer)
+    # Every image is late for such a limit, on any machine.
+    dashboard["limits"]["pose_stale_after_ms"] = 1
+    watched.page.route("**/api/dashboard", lambda route: route.fulfill(json=dashboard))
+    page = watched.open("theatre")
+    is_live(page, "scene")
+    expect(page.get_by_test_id("scene-cover")).to_contain_text("3-D OFF")
+    expect(page.locator(".scene-stage iframe")).to_have_count(0)
+    page.get_by_role("button", name="Show 3-D").click()
+    is_live(page, "scene")
