@@ -11,6 +11,12 @@ READMES = [
 ]
 DOCUMENTS = sorted([*ROOT.glob("*.md"), *READMES, *(ROOT / "docs" / "guide").glob("*.md")])
 OF_TODAY = [document for document in DOCUMENTS if document.name != "CHANGELOG.md"]
+SOURCES = [
+    str(path.relative_to(ROOT))
+    for top in ("tracker", "server", "tests", "web/src")
+    for path in (ROOT / top).rglob("*")
+    if path.suffix in {".py", ".ts", ".tsx"}
+]
 FIRST_SCREEN = 30  # lines
 MAX_PICTURE_BYTES = 300_000
 MAX_LINES_OF_ARCHITECTURE = 150
@@ -39,6 +45,16 @@ def files_named(text: str) -> list[str]:
         for parts in lists
         for choice in (parts[1].split(",") if len(parts) > 1 else [""])
     ]
+
+
+def sources_named(text: str) -> set[str]:
+    """Sources that the document names by the end of their path: `steps.py`, `procedure/steps.py`."""
+    return set(re.findall(r"`([\w/.]+\.(?:py|tsx?))`", text))
+
+
+def is_source(name: str, sources: list[str]) -> bool:
+    """Whether a path ends in this name."""
+    return any(source == name or source.endswith(f"/{name}") for source in sources)
 
 
 def headings(text: str) -> set[str]:
@@ -121,3 +137,15 @@ def test_the_gate_calls_what_a_person_calls() -> None:
     assert gate.splitlines()[-1].startswith("exec make test")
     assert "\nset -euo pipefail\n" in gate
     assert (ROOT / ".ci" / "run").stat().st_mode & 0o111
+
+
+@pytest.mark.parametrize("document", OF_TODAY, ids=lambda path: str(path.relative_to(ROOT)))
+def test_every_source_that_is_named_exists(document: Path) -> None:
+    assert [name for name in sorted(sources_named(text_of(document))) if not is_source(name, SOURCES)] == []
+
+
+def test_a_source_that_was_renamed_is_found() -> None:
+    named = sources_named("`service.py`, `alarms/service.py`, `desk.py`, `web/src/App.tsx` and `make test`")
+    assert named == {"service.py", "alarms/service.py", "desk.py", "web/src/App.tsx"}
+    sources = ["server/alarms/service.py", "web/src/App.tsx"]
+    assert [name for name in sorted(named) if not is_source(name, sources)] == ["desk.py"]
