@@ -175,7 +175,7 @@ def test_no_scenes_are_no_measurement(count: str, capsys: pytest.CaptureFixture[
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "reported"),
     [
         pytest.param(["--seed", "-1"], "'-1' is no seed, needed a whole number of 0 or more", id="a-seed"),
         pytest.param(["--seed", "x"], "'x' is no seed, needed a whole number of 0 or more", id="a-word"),

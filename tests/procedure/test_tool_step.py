@@ -130,7 +130,7 @@ def test_without_millimetres_no_pose_is_taken(server: Server) -> None:
 
 
 @pytest.mark.parametrize(
-    ("asked", "status", "code"),
+    ("requested", "status", "code"),
     [
         pytest.param({"tool": "drill", "purpose": "spin"}, 409, "TOOL_TIP_MISSING", id="spin-before-pivot"),
         pytest.param({"tool": "drill", "purpose": "tip_check"}, 409, "TOOL_TIP_MISSING", id="check-first"),

@@ -76,7 +76,7 @@ def test_another_scene_is_played_in_the_same_theatre(door: TestClient, played: P
 
 
 @pytest.mark.parametrize(
-    "asked",
+    "requested",
     [
         {"scene": "dance"},
         {"scene": "operation", "events": [{"kind": "camera_moves", "at_s": -1}]},

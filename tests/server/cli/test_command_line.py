@@ -204,7 +204,7 @@ def test_a_cut_video_is_tracked_as_far_as_it_goes_and_told(
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "reported"),
     [
         pytest.param(["v.avi"], "no marker", id="no-marker"),
         pytest.param(["v.avi", "--marker", "m one.png"], "--side-mm 0 times", id="no-side"),

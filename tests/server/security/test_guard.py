@@ -300,7 +300,7 @@ def test_an_operator_signs_in_on_a_full_disk_to_make_room(
 
 
 @pytest.mark.parametrize(
-    "asked",
+    "requested",
     [
         pytest.param({"name": "\u202eDr. Ito"}, id="a letter that turns the others"),
         pytest.param({"name": "\u200b"}, id="nothing that is seen"),

@@ -26,7 +26,7 @@ TIME = clock_text(NOON_S + 3.0)
 
 
 @pytest.mark.parametrize(
-    ("told", "sentence", "remedy"),
+    ("reported", "sentence", "remedy"),
     [
         pytest.param(
             breach(),

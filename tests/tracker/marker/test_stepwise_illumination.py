@@ -42,7 +42,7 @@ def _explained(fields: Fields, seed: int, *, side_px: float = SIDE_PX) -> Photom
 
 
 # Of a small one, other squares come so near that a quarter of the true ones is given up.
-@pytest.mark.parametrize(("side_px", "least"), [(24.0, 17), (30.0, 22)])
+@pytest.mark.parametrize(("side_px", "minimum"), [(24.0, 17), (30.0, 22)])
 def test_most_markers_in_shadow_glare_and_noise_are_accepted(side_px: float, minimum: int) -> None:
     found = [_explained(OWN, seed, side_px=side_px) for seed in range(24)]
     assert sum(one is not None and one.is_accepted for one in found) >= minimum

@@ -201,7 +201,7 @@ def test_a_nonlinear_camera_response_does_not_change_the_depth() -> None:
     assert depth_mm == pytest.approx(pose.translation_mm[2], rel=4e-4)
 
 
-@pytest.mark.parametrize(("shade", "asked"), [(0.0, 1), (0.6, 2)])
+@pytest.mark.parametrize(("shade", "requested"), [(0.0, 1), (0.6, 2)])
 def test_few_pixels_reject_a_solution_under_planar_illumination_only(shade: float, requested: int) -> None:
     """Under a shadow, residuals of planar illumination say little of which solution is better."""
     pose = facing_at_px(CAMERA, (330.0, 220.0), 40.0, tilt_deg=30.0, about_deg=20.0, roll_deg=50.0)

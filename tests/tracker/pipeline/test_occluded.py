@@ -36,7 +36,7 @@ def _covered(fields: Fields, side_px: float, from_deg: float) -> Seen | Unseen:
     return tracker.step(image, captured_at_s=0.03)["code"]
 
 
-@pytest.mark.parametrize(("side_px", "least"), [(28.0, 7), (60.0, 8)])
+@pytest.mark.parametrize(("side_px", "minimum"), [(28.0, 7), (60.0, 8)])
 def test_a_marker_is_kept_when_a_finger_hides_nearly_a_half_of_it(side_px: float, minimum: int) -> None:
     retained = []
     for from_deg in range(0, 360, 45):
