@@ -18,8 +18,10 @@ test("beside figures the alarm has the words of the same image", () => {
   );
 });
 
-test("an alarm that was raised after that image has its own words", () => {
-  expect(wordsBeside({ alarms: alarms(), numbers: UNREAD }, now).sentence).toEqual(now.sentence);
+test("an alarm that the shown image does not have states nothing about now", () => {
+  const words = wordsBeside({ alarms: alarms(), numbers: UNREAD }, now);
+  expect(words.sentence).toEqual(now.sentence_without_figures);
+  expect(words.remedy).toEqual(now.remedy_without_figures);
 });
 
 test("beside figures that went for their age no alarm says what figures would show, and none instructs by them", () => {

@@ -6,14 +6,16 @@ import type { AlarmMessage } from "../live/messages";
 export type AlarmWords = Pick<AlarmMessage, "sentence" | "remedy" | "known">;
 
 /**
- * The alarm as it was with the image whose figures are shown; itself where it was not yet raised then. Beside
- * figures that went for their age nothing that they show is said of now.
+ * The texts of the alarm with the image whose figures are shown. Beside figures that were removed for their age, and
+ * for an alarm that the shown image does not have (React lists the alarms up to one refresh of the screen later), these
+ * are the texts that state nothing about now.
  */
 export function wordsBeside(
   { alarms, numbers }: Pick<View, "alarms" | "numbers">,
   alarm: AlarmMessage,
 ): AlarmWords {
-  const now = alarms?.alarms.find(({ number }) => number === alarm.number) ?? alarm;
-  if (isOfNow(numbers)) return now;
+  const ofImage = alarms?.alarms.find(({ number }) => number === alarm.number);
+  if (ofImage !== undefined && isOfNow(numbers)) return ofImage;
+  const now = ofImage ?? alarm;
   return { sentence: now.sentence_without_figures, remedy: now.remedy_without_figures, known: now.known };
 }

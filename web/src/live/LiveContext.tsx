@@ -14,6 +14,7 @@ import type { Carried } from "./carried";
 import type { Ages, View } from "./live";
 import { Live } from "./live";
 import { start, type Dashboard } from "./start";
+import { keyOf } from "./view";
 
 const REFRESH_EVERY_MS = 250;
 
@@ -75,25 +76,4 @@ export function usePainter(paint: (view: View) => void): void {
     live.look();
     return leave;
   }, [live]);
-}
-
-/** What the words say; a change of it is shown at once. */
-function keyOf({ link, firstMessage, video, numbers, scene, newest, carried }: View): string {
-  const videoKey = video.live ? "live" : video.cause;
-  const unread = numbers.live ? null : numbers.unread;
-  const numbersKey = numbers.live
-    ? "live"
-    : `${numbers.cause} ${unread?.headline.title.en ?? ""} ${unread?.headline.detail.en ?? ""}`;
-  const problems = `${newest?.source.problem?.code ?? ""} ${newest?.process.problem?.code ?? ""}`;
-  return [
-    link,
-    firstMessage,
-    videoKey,
-    numbersKey,
-    scene.state,
-    problems,
-    newest?.source.state,
-    newest?.alarms.revision,
-    carried.choice,
-  ].join("|");
 }

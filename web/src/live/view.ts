@@ -56,3 +56,25 @@ export function agesOf(
     clockAheadMs,
   };
 }
+
+/** What the texts of the page depend on; a change of it is rendered at once. */
+export function keyOf({ link, firstMessage, video, numbers, scene, newest, alarms, carried }: View): string {
+  const videoKey = video.live ? "live" : video.cause;
+  const unread = numbers.live ? null : numbers.unread;
+  const numbersKey = numbers.live
+    ? "live"
+    : `${numbers.cause} ${unread?.headline.title.en ?? ""} ${unread?.headline.detail.en ?? ""}`;
+  const problems = `${newest?.source.problem?.code ?? ""} ${newest?.process.problem?.code ?? ""}`;
+  return [
+    link,
+    firstMessage,
+    videoKey,
+    numbersKey,
+    scene.state,
+    problems,
+    newest?.source.state,
+    // Of the alarms that are shown: those of the newest message belong to a picture that is still being decoded.
+    alarms?.revision,
+    carried.choice,
+  ].join("|");
+}
