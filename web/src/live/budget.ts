@@ -76,12 +76,12 @@ export class BudgetControl {
   private raisedAtMs: number | null = null;
   private idleSinceMs: number | null = null;
   private waitMs = WAIT_MS;
-  private drawnByProcessor = false;
+  isSceneDrawnByProcessor = false;
 
   /** Without a graphics card the scene begins where it takes the least rate, and rises where there is room. */
   sceneDrawnByProcessor(steps: readonly DrawingBudget[], nowMs: number): void {
-    if (this.drawnByProcessor) return;
-    this.drawnByProcessor = true;
+    if (this.isSceneDrawnByProcessor) return;
+    this.isSceneDrawnByProcessor = true;
     const slowest = steps.findLastIndex((one) => one.sceneScale === 1);
     if (slowest > this.step) this.change(slowest, nowMs);
   }
@@ -119,7 +119,7 @@ export class BudgetControl {
   private rise(nowMs: number): void {
     this.idleSinceMs ??= nowMs;
     // As often as the processor draws it at best; without a card every image of the screen is out of reach.
-    const best = this.drawnByProcessor ? 1 : 0;
+    const best = this.isSceneDrawnByProcessor ? 1 : 0;
     if (this.step <= best || nowMs - this.idleSinceMs < this.waitMs) return;
     if (this.raisedAtMs !== null) this.waitMs = WAIT_MS;
     this.raisedAtMs = nowMs;

@@ -17,7 +17,6 @@ export class Load {
   private readonly window = new TimingWindow();
   private readonly stall = new Stall(LOOK_EVERY_MS);
   private readonly control = new BudgetControl();
-  private isSceneByProcessor = false;
   private steps: DrawingBudget[] = budgetSteps(0);
   private staleAfterMs = 0;
   private current = 0;
@@ -51,19 +50,16 @@ export class Load {
   }
 
   sceneDrawn(byProcessor: boolean, nowMs: number): void {
-    this.isSceneByProcessor = byProcessor;
     if (byProcessor) this.control.sceneDrawnByProcessor(this.steps, nowMs);
   }
 
   shown(times: ImageTimes, of: { width_px: number; height_px: number }, scaleRatio: number): void {
     this.window.image(times);
-    this.sceneSwitch.image(times);
     this.carrying.took(times.atMs, [of.width_px, of.height_px], scaleRatio);
   }
 
   forget(): void {
     this.window.forget();
-    this.sceneSwitch.forget();
     this.carrying.forget();
   }
 
@@ -74,7 +70,7 @@ export class Load {
     }
     const timings = this.window.means(nowMs, this.control.sinceMs);
     const ageLimitMs = this.sharesMachine ? limits.pose_stale_after_ms : null;
-    this.sceneSwitch.look(nowMs, this.isSceneByProcessor ? ageLimitMs : null);
+    this.sceneSwitch.look(nowMs, this.window, this.control.isSceneDrawnByProcessor ? ageLimitMs : null);
     const strain = strainIn(this.budget, timings, ageLimitMs);
     this.current = this.control.look(nowMs, this.steps, timings, strain);
     const { largestPicture } = this.budget;

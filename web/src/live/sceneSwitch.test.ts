@@ -1,21 +1,29 @@
 import { beforeEach, expect, test } from "vitest";
 import { SceneSwitch } from "./sceneSwitch";
+import { TimingWindow } from "./timings";
 
 const LIMIT_MS = 150;
 let scene: SceneSwitch;
+let window: TimingWindow;
 let nowMs: number;
+
+/** An image of this age is shown now. */
+function show(ageMs: number): void {
+  window.image({ atMs: nowMs, networkMs: null, decodingMs: 0, drawingMs: 0, ageMs });
+}
 
 /** So many seconds at 25 images/s, every so manieth of them late. */
 function pass(seconds: number, lateEvery: number, limitMs: number | null = LIMIT_MS): void {
   for (let image = 0; image < 25 * seconds; image += 1) {
     nowMs += 40;
-    scene.image({ atMs: nowMs, ageMs: image % lateEvery === 0 ? 120 : 60 });
-    scene.look(nowMs, limitMs);
+    show(image % lateEvery === 0 ? 120 : 60);
+    scene.look(nowMs, window, limitMs);
   }
 }
 
 beforeEach(() => {
   scene = new SceneSwitch();
+  window = new TimingWindow();
   nowMs = 1000;
 });
 
@@ -53,8 +61,11 @@ test("comes back only by a person, and is switched off again where the figures s
 
 test("a few images say nothing yet", () => {
   pass(10, 1000);
-  scene.forget();
-  for (let image = 0; image < 10; image += 1) scene.image({ atMs: (nowMs += 40), ageMs: 140 });
-  scene.look(nowMs, LIMIT_MS);
+  window.forget();
+  for (let image = 0; image < 10; image += 1) {
+    nowMs += 40;
+    show(140);
+  }
+  scene.look(nowMs, window, LIMIT_MS);
   expect(scene.isOn).toBe(true);
 });

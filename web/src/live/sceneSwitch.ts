@@ -1,36 +1,20 @@
 // Whether the 3-D scene is drawn at all. Drawn by the processor, it takes some 60 ms of a core an image; on a machine of
 // two cores that also runs the server, that alone makes the figures too old. It is then switched off before they are,
 // and comes back when a person asks for it. Pure: times go in as numbers.
+import type { TimingWindow } from "./timings";
 
 /** An image of this age is likely to be too old before the next one replaces it. */
 const LATE_RATIO = 0.7;
 /** Switched off when more than this share of the images is late. */
 const MAX_LATE_SHARE = 0.05;
-/** The share is taken of the images of this time; a change of the scene's rate needs as long to show. */
-const WINDOW_MS = 3000;
 /** With fewer images in the window there is nothing to judge. */
 const MIN_IMAGES = 30;
 /** Loading the scene alone makes images late for some seconds. */
 const LOADING_MS = 8000;
 
-interface ImageAge {
-  atMs: number;
-  ageMs: number;
-}
-
 export class SceneSwitch {
   isOn = true;
-  private images: ImageAge[] = [];
   private onSinceMs: number | null = null;
-
-  image(image: ImageAge): void {
-    this.images = this.images.filter((one) => image.atMs - one.atMs <= WINDOW_MS);
-    this.images.push(image);
-  }
-
-  forget(): void {
-    this.images = [];
-  }
 
   switchOn(nowMs: number): void {
     this.isOn = true;
@@ -38,12 +22,11 @@ export class SceneSwitch {
   }
 
   /** `ageLimitMs` of the figures, where the scene takes their processor; null elsewhere. */
-  look(nowMs: number, ageLimitMs: number | null): void {
+  look(nowMs: number, window: TimingWindow, ageLimitMs: number | null): void {
     this.onSinceMs ??= nowMs;
     if (ageLimitMs === null || !this.isOn) return;
-    const fromMs = Math.max(nowMs - WINDOW_MS, this.onSinceMs + LOADING_MS);
-    const images = this.images.filter((one) => one.atMs >= fromMs);
-    const late = images.filter((one) => one.ageMs > LATE_RATIO * ageLimitMs).length;
-    if (images.length >= MIN_IMAGES && late > MAX_LATE_SHARE * images.length) this.isOn = false;
+    const agesMs = window.agesMs(nowMs, this.onSinceMs + LOADING_MS);
+    const late = agesMs.filter((ageMs) => ageMs > LATE_RATIO * ageLimitMs).length;
+    if (agesMs.length >= MIN_IMAGES && late > MAX_LATE_SHARE * agesMs.length) this.isOn = false;
   }
 }

@@ -47,10 +47,15 @@ export class TimingWindow {
     this.screenAtMs = [];
   }
 
+  /** The ages of the images that have come since `fromMs`, within the window. */
+  agesMs(nowMs: number, fromMs = -Infinity): number[] {
+    return this.since(nowMs, fromMs).map((one) => one.ageMs);
+  }
+
   /** Of what has come since `fromMs`, and within the window. */
   means(nowMs: number, fromMs = -Infinity): Timings {
     const from = Math.max(fromMs, nowMs - WINDOW_MS);
-    const shown = this.shown.filter((one) => one.atMs >= from);
+    const shown = this.since(nowMs, fromMs);
     const screens = this.screenAtMs.filter((atMs) => atMs >= from);
     const [first, last] = [screens[0] ?? 0, screens.at(-1) ?? 0];
     return {
@@ -61,6 +66,11 @@ export class TimingWindow {
       ageMs: mean(shown.map((one) => one.ageMs)) ?? 0,
       screenIntervalMs: screens.length < 2 ? SCREEN_INTERVAL_MS : (last - first) / (screens.length - 1),
     };
+  }
+
+  private since(nowMs: number, fromMs: number): ImageTimes[] {
+    const from = Math.max(fromMs, nowMs - WINDOW_MS);
+    return this.shown.filter((one) => one.atMs >= from);
   }
 }
 

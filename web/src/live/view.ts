@@ -52,7 +52,7 @@ export function agesOf(
   return {
     pictureMs: video.ageMs,
     numbersMs: numbers.ageMs,
-    sceneMs: scene.state === "loading" || scene.state === "off" ? null : scene.ageMs,
+    sceneMs: "ageMs" in scene ? scene.ageMs : null,
     clockAheadMs,
   };
 }
