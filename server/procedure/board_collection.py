@@ -169,7 +169,7 @@ class BoardCollection:
                 "CAMERA_CHANGED",
                 f"{change.control.value} of the camera changed from {change.calibrated} to {change.now} "
                 "while views were taken",
-                "Leave the camera alone (camera.lock_controls switches automatic focus off), and start anew.",
+                "Leave the camera alone (camera.lock_controls switches automatic focus off), and start again.",
                 {"control": change.control.value, "before": change.calibrated, "now": change.now},
             )
         self._controls = now or self._controls
@@ -179,7 +179,7 @@ class BoardCollection:
             raise InvalidInput(
                 "VIEWS_ENOUGH",
                 f"{MAX_VIEWS} views are taken, which is the most that are kept",
-                "Calibrate with them, or start anew.",
+                "Calibrate with them, or start again.",
                 {"views": MAX_VIEWS},
             )
 
@@ -198,7 +198,7 @@ class BoardCollection:
             raise InvalidInput(
                 "IMAGE_SIZE_CHANGED",
                 f"images are {width}x{height} px now, and were {before[0]}x{before[1]} px",
-                "Set the camera to the size that it works with, and start anew.",
+                "Set the camera to the size that it works with, and start again.",
                 {"size_wh_px": [width, height], "before_wh_px": list(before)},
             )
         return self._collector

@@ -65,13 +65,8 @@ export function ScenePane(): ReactNode {
   }, [lives, isOff, wanted, reachable, attempt]);
 
   const loading = view.scene.state === "loading" && attempt < TRIES_WITHOUT_AN_IMAGE;
-  const [title, sentence] = !hasWebGl()
-    ? [words.scene.unsupported, words.scene.unsupportedHint]
-    : isOff
-      ? [words.scene.off, words.scene.offHint]
-      : loading
-        ? [words.scene.loading, words.scene.loadingHint]
-        : [words.scene.stale, words.scene.staleHint];
+  const hindrance = !hasWebGl() ? "unsupported" : isOff ? "off" : loading ? "loading" : "stale";
+  const isCalm = hindrance === "off" || hindrance === "loading";
   return (
     <Pane
       id="scene"
@@ -112,9 +107,9 @@ export function ScenePane(): ReactNode {
         </div>
         <div className="when-stale" data-testid="scene-cover">
           <Cover
-            urgency={(loading || isOff) && hasWebGl() ? "none" : "medium"}
-            title={title}
-            sentence={sentence}
+            urgency={isCalm ? "none" : "medium"}
+            title={words.scene[hindrance]}
+            sentence={words.scene[`${hindrance}Hint`]}
           >
             <span className="since" ref={age} />
             {isOff && (
