@@ -169,7 +169,7 @@ class BoardCollection:
                 "CAMERA_CHANGED",
                 f"{change.control.value} of the camera changed from {change.calibrated} to {change.now} "
                 "while views were taken",
-                "Leave the camera alone (camera.lock_controls switches automatic focus off), and start again.",
+                "Leave the camera alone (camera.lock_controls disables autofocus), and start again.",
                 {"control": change.control.value, "before": change.calibrated, "now": change.now},
             )
         self._controls = now or self._controls
