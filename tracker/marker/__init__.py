@@ -18,10 +18,18 @@ from tracker.marker.score import (
     reach_px,
     target_coverage_ratio,
 )
-from tracker.marker.search import Candidate, candidate_rounds, thorough_rounds
+from tracker.marker.search import (
+    COSTLY_ROUNDS,
+    Candidate,
+    candidate_rounds,
+    costly_candidates,
+    four_sided_candidates,
+    thorough_rounds,
+)
 from tracker.marker.template_matching import Templates, templates_of
 
 __all__ = [
+    "COSTLY_ROUNDS",
     "ActiveEdges",
     "Agreement",
     "Candidate",
@@ -31,7 +39,9 @@ __all__ = [
     "ShapeMismatch",
     "Templates",
     "candidate_rounds",
+    "costly_candidates",
     "edge_crossings",
+    "four_sided_candidates",
     "matches_under_saturation",
     "model_agreement",
     "photometric_fit_of",

@@ -1,65 +1,144 @@
-"""Incremental search for markers out of view while others are tracked, at a part of a search's cost.
+"""Search for markers that are out of view, at a bounded cost per image.
 
-One image is searched in parts over several steps. If a marker is found in it, the current image is searched
-completely.
+A complete search of an image in which no marker is costs many times a step that tracks one, and that is the
+usual image while the drill is put away. So each image gets a part of a search: dark regions with four sides in
+every other image, which find a free-standing marker, and one of the costly rounds, in turn, in the images
+between. While another marker is tracked, fewer images get a costly round. Of all candidates one is fitted in an
+image, and one that was rejected at the same place a few images ago is not fitted again, so that a fixed
+background costs next to nothing.
 
-A part runs in two of five images; an occluded marker may take up to a second to be found again. Lost markers,
-and all markers when none is in view, are searched for at once.
+Only a complete search of the same image decides about what a part of it finds, because it also weighs what
+else may be the marker.
 """
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
-from tracker.marker import MarkerModel
-from tracker.pipeline.search import Search
-from tracker.pose import ImageContext, Seen, Sighting, Unseen, UnseenReason
+import numpy as np
 
-# Number of images with a part of a search, of how many: most images cost no more than tracking.
-SEARCHED_IMAGES, OF_IMAGES = 2, 5
+from tracker.geometry import Array
+from tracker.marker import (
+    COSTLY_ROUNDS,
+    Candidate,
+    MarkerModel,
+    Templates,
+    costly_candidates,
+    four_sided_candidates,
+)
+from tracker.pipeline.fitter import Fitter
+from tracker.pose import ImageContext, Seen, Sighting, Unseen, UnseenReason, rank_score
+from tracker.pose.occurrence import side_px_of
+
+# Every how many images one gets a costly round: without another marker in view, and with one.
+IDLE_PERIOD_IMAGES, TRACKING_PERIOD_IMAGES = 2, 8
+# A rejected candidate at the same place is fitted again after so many images.
+REFIT_IMAGES = 10
+# Candidates no further apart at any corner than by this ratio of a side are at the same place.
+SAME_PLACE_RATIO = 0.06
+NO_CANDIDATE = Unseen(reason=UnseenReason.NO_CANDIDATE, best_score_ratio=None)
+
+
+class _Rejection(NamedTuple):
+    """A reason why a marker was not seen in an image.
+
+    `corners_px` (4, 2) are those of the candidate that was fitted; None after a complete search.
+    """
+
+    name: str
+    image_number: int
+    corners_px: Array | None
+    unseen: Unseen
 
 
 class IdleSearch:
-    """Searches for markers out of view over several images. Mutable.
+    """Searches images in parts for markers that are out of view. Mutable.
 
-    `begin` returns a new search of an image for some markers.
+    Args:
+        fitter: fits the candidates.
+        templates_of: returns the templates of some models.
     """
 
-    def __init__(self, begin: Callable[[ImageContext, Sequence[MarkerModel]], Search]) -> None:
-        self._begin = begin
-        # The search of an image that may be some images old, and the number of images since it began.
-        self._search: Search | None = None
-        self._images = 0
-        # The result of the last complete search for each marker that it did not find.
-        self._unseen: dict[str, Unseen] = {}
+    def __init__(self, fitter: Fitter, templates_of: Callable[[Sequence[MarkerModel]], Templates]) -> None:
+        self._fitter, self._templates_of = fitter, templates_of
+        self._image_number = self._costly_rounds = 0
+        self._rejections: list[_Rejection] = []
+
+    def seems_in_view(
+        self, pixels: ImageContext, models: Sequence[MarkerModel], *, is_tracking: bool
+    ) -> bool:
+        """Search a part of this image; return whether one of these markers seems to be in it.
+
+        Args:
+            pixels: the image.
+            models: of the markers that are out of view.
+            is_tracking: whether another marker is in view, whose pose must not wait.
+        """
+        self._image_number += 1
+        self._rejections = [
+            one for one in self._rejections if self._image_number - one.image_number < REFIT_IMAGES
+        ]
+        candidates = self._candidates(pixels, models, is_tracking=is_tracking)
+        self._fitter.stages.end("candidates")
+        fresh = [
+            (rank, -candidate.correlation, k)
+            for k, own in enumerate(candidates)
+            for rank, candidate in enumerate(own)
+            if not self._is_rejected(models[k], candidate)
+        ]
+        if not fresh:
+            return False
+        # The first candidates of all models come before the second of any.
+        rank, _, k = min(fresh)
+        model, candidate = models[k], candidates[k][rank]
+        sighting = next(self._fitter.fit_candidates(pixels, model, [candidate], maximum=1), NO_CANDIDATE)
+        # Also if it is seen: should a complete search not confirm it, the next one has to wait.
+        unseen = NO_CANDIDATE if isinstance(sighting, Seen) else sighting
+        self._rejections.append(_Rejection(model.name, self._image_number, candidate.corners_px, unseen))
+        return isinstance(sighting, Seen)
 
     def record(self, sightings: Mapping[str, Sighting]) -> None:
-        """Record the result of a complete search."""
-        self._unseen.update({name: one for name, one in sightings.items() if isinstance(one, Unseen)})
+        """Record the result of a complete search of this image."""
+        self._rejections += [
+            _Rejection(name, self._image_number, None, one)
+            for name, one in sightings.items()
+            if isinstance(one, Unseen)
+        ]
 
-    def step(self, pixels: ImageContext, models: Sequence[MarkerModel]) -> dict[str, Sighting]:
-        """Advance the search; return a sighting of each of these markers, which are out of view."""
-        if not models:
-            self._search = None
-            return {}
-        if self._search is None or list(self._search.best) != [model.name for model in models]:
-            # Copy, because the caller may write the next image into the same buffer.
-            self._search = self._begin(replace(pixels, image=pixels.image.copy()), models)
-            self._images = 0
-        search = self._search
-        is_turn = SEARCHED_IMAGES * self._images % OF_IMAGES < SEARCHED_IMAGES
-        self._images += 1
-        is_over = is_turn and not search.advance()
-        if is_over:
-            self.record(search.best)
-        nothing = Unseen(reason=UnseenReason.NO_CANDIDATE)
-        # The last known reason; the score is left out, because it belongs to another image.
-        sightings: dict[str, Sighting] = {
-            model.name: replace(self._unseen.get(model.name, nothing), best_score_ratio=None)
+    def unseen(self, models: Sequence[MarkerModel]) -> dict[str, Sighting]:
+        """Return why each of these markers was not seen in the last images: the reason of its best candidate.
+
+        The score is left out, because it may be of another image.
+        """
+        return {
+            model.name: replace(
+                max(
+                    (one.unseen for one in self._rejections if one.name == model.name),
+                    key=rank_score,
+                    default=NO_CANDIDATE,
+                ),
+                best_score_ratio=None,
+            )
             for model in models
         }
-        found = [model for model in models if isinstance(search.best[model.name], Seen)]
-        if found:
-            sightings |= self._begin(pixels, found).run()
-        if is_over or found:
-            self._search = None
-        return sightings
+
+    def _candidates(
+        self, pixels: ImageContext, models: Sequence[MarkerModel], *, is_tracking: bool
+    ) -> list[list[Candidate]]:
+        """Return the candidates of each model in this image's part of the search."""
+        if self._image_number % 2 == 1:
+            return four_sided_candidates(pixels.image, self._templates_of(models))
+        if self._image_number % (TRACKING_PERIOD_IMAGES if is_tracking else IDLE_PERIOD_IMAGES):
+            return []
+        index, self._costly_rounds = self._costly_rounds % COSTLY_ROUNDS, self._costly_rounds + 1
+        return costly_candidates(pixels.image, self._templates_of(models), index=index)
+
+    def _is_rejected(self, model: MarkerModel, candidate: Candidate) -> bool:
+        """Whether a candidate at this place was fitted a few images ago."""
+        reach_px = SAME_PLACE_RATIO * side_px_of(candidate.corners_px)
+        return any(
+            one.name == model.name
+            and one.corners_px is not None
+            and float(np.abs(one.corners_px - candidate.corners_px).max()) < reach_px
+            for one in self._rejections
+        )

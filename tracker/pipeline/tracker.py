@@ -12,6 +12,7 @@ from tracker.geometry import Camera, Marker, Rigid
 from tracker.marker import (
     MarkerModel,
     ScoreSettings,
+    Templates,
     candidate_rounds,
     reject_similar,
     scale_space_of,
@@ -82,7 +83,9 @@ class Tracker:
             scale_space_of(model.square)
         self._stages = StageTimer(clock)
         self._fitter = Fitter(camera=camera, settings=self.settings, stages=self._stages)
-        self._idle_search = IdleSearch(self._search_of)
+        self._idle_search = IdleSearch(self._fitter, self._templates_for)
+        # The first image is searched completely, because nothing is known yet.
+        self._has_stepped = False
         if self.models and not Tracker._has_loaded:
             Tracker._has_loaded = True
             self._warm_up()
@@ -102,9 +105,9 @@ class Tracker:
     ) -> dict[str, Sighting]:
         """Return a sighting of each marker in this image, using the state from the images before.
 
-        A marker that was seen is fitted at its predicted pose; if that fails, the whole image is searched.
-        While other markers are seen, one out of view is searched for in parts, so it may be found a fraction
-        of a second late. A marker whose pixels repeat, as from a frozen camera, is seen again, and its
+        A marker that was seen is fitted at its predicted pose. One that is out of view is searched for in a
+        part of each image (`idle_search`), so a free-standing one is found within two images, and a blurred
+        or partly occluded one within some more. A marker whose pixels repeat, as from a frozen camera, is seen again, and its
         certainty does not grow.
 
         Args:
@@ -124,15 +127,8 @@ class Tracker:
             if isinstance(sighting, Seen):
                 seen[model.name] = sighting
         missing = [model for model in self.models if model.name not in seen]
-        # If none is in view, there is time for a complete search.
-        at_once = full_search or not seen
-        lost = [model for model in missing if at_once or self._expected(model, captured_at_s) is not None]
-        if lost:
-            sightings = self._search_of(pixels, lost).run()
-            self._idle_search.record(sightings)
-            seen |= sightings
-        lost_names = {model.name for model in lost}
-        seen |= self._idle_search.step(pixels, [model for model in missing if model.name not in lost_names])
+        if missing:
+            seen |= self._found_again(pixels, missing, is_tracking=bool(seen), full_search=full_search)
         seen = suppress_overlaps(seen)
         for model in self.models:
             name, prior = model.name, self._priors[model.name]
@@ -143,6 +139,21 @@ class Tracker:
                 self._patches[name].store(pixels.image, now.corners_px)
         self.stage_ms = self._stages.elapsed_ms
         return {model.name: seen[model.name] for model in self.models}
+
+    def _found_again(
+        self, pixels: ImageContext, missing: Sequence[MarkerModel], *, is_tracking: bool, full_search: bool
+    ) -> dict[str, Sighting]:
+        """Return sightings of the markers that are not where they were expected."""
+        if (
+            full_search
+            or not self._has_stepped
+            or self._idle_search.seems_in_view(pixels, missing, is_tracking=is_tracking)
+        ):
+            self._has_stepped = True
+            sightings = self._search_of(pixels, missing).run()
+            self._idle_search.record(sightings)
+            return sightings
+        return self._idle_search.unseen(missing)
 
     def search(self, image: npt.NDArray[np.uint8]) -> dict[str, Sighting]:
         """Return a sighting of each marker in this image by a search of the whole image, without state.
@@ -194,8 +205,10 @@ class Tracker:
 
     def _search_of(self, pixels: ImageContext, models: Sequence[MarkerModel]) -> Search:
         """Return a new search."""
-        which = [self.models.index(model) for model in models]
-        return Search(pixels, models, self._templates[which], fitter=self._fitter)
+        return Search(pixels, models, self._templates_for(models), fitter=self._fitter)
+
+    def _templates_for(self, models: Sequence[MarkerModel]) -> Templates:
+        return self._templates[[self.models.index(model) for model in models]]
 
 
 def _reject_readout(readout_s: float) -> None:
