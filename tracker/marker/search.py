@@ -12,7 +12,7 @@ first or second in shadow, glare and noise, and fails under motion blur, where t
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -74,12 +74,15 @@ class Effort:
         refined: after two steps.
         local_ncc: after all steps.
         max_candidates: reported.
+        ranks_by_local_ncc: whether all but the first candidate are ranked by local NCC: each of the two
+            scores is the better one in some images.
     """
 
     coarse: int
     refined: int
     local_ncc: int
     max_candidates: int
+    ranks_by_local_ncc: bool = True
 
     def coarse_of(self, models: int) -> int:
         """Return the share of each of so many models."""
@@ -89,6 +92,8 @@ class Effort:
 # Under shadow, highlights, motion blur and noise together only the local NCC separates the marker from other
 # shapes, and two steps rank it past the hundredth.
 STANDARD = Effort(coarse=180, refined=12, local_ncc=8, max_candidates=4)
+# Over many images each candidate is fitted once, so that their order matters little.
+IDLE = replace(STANDARD, ranks_by_local_ncc=False)
 THOROUGH = Effort(coarse=500, refined=140, local_ncc=100, max_candidates=6)
 
 
@@ -127,20 +132,20 @@ def thorough_rounds(image: GreyImage, templates: Templates) -> Iterator[list[lis
 
 
 def four_sided_candidates(image: GreyImage, templates: Templates) -> list[list[Candidate]]:
-    """Return for each model (m) the candidates of dark regions with four sides, at all levels.
-
-    They are nearly all free-standing markers, in a fifth of the time of `cv2.aruco`.
-    """
-    return _joined(_rounds(image, templates, _match_all_four_sides, STANDARD), templates)
+    """Return for each model (m) the candidates of dark regions with four sides: free-standing markers."""
+    return _joined(_rounds(image, templates, _match_quick_rounds, IDLE), templates)
 
 
 def costly_candidates(image: GreyImage, templates: Templates, *, index: int) -> list[list[Candidate]]:
-    """Return for each model (m) the candidates of one of the `COSTLY_ROUNDS`, for blurred or occluded markers."""
+    """Return for each model (m) the candidates of one costly round, for blurred or occluded markers.
+
+    `index` is below `COSTLY_ROUNDS`.
+    """
 
     def stage(image: GreyImage, levels: ImagePyramid, templates: Templates) -> _Stage:
         return _COSTLY_ROUNDS[index](_Features(image, levels), templates)
 
-    return _joined(_rounds(image, templates, stage, STANDARD), templates)
+    return _joined(_rounds(image, templates, stage, IDLE), templates)
 
 
 def _joined(rounds: Iterator[list[list[Candidate]]], templates: Templates) -> list[list[Candidate]]:
@@ -182,7 +187,9 @@ def _rounds(
                 SAME_OUTLINE_SIDE_RATIO,
             )
             candidates = [_candidate(refined[k], ncc[k]) for k in best]
-            selected = _ranked_by_two_scores(image, candidates, template)[: effort.max_candidates]
+            if effort.ranks_by_local_ncc:
+                candidates = _ranked_by_two_scores(image, candidates, template)
+            selected = candidates[: effort.max_candidates]
             reported[m] = np.concatenate(
                 [reported[m], *(one.corners_px[None].astype(np.float32) for one in selected)]
             )
@@ -197,10 +204,7 @@ def _candidate(corners_px: npt.NDArray[np.float32], correlation: np.float32) -> 
 def _ranked_by_two_scores(
     image: GreyImage, candidates: list[Candidate], template: Template
 ) -> list[Candidate]:
-    """Return the best candidate first, the others by local normalised cross-correlation.
-
-    Each score is the better one in some images, and few candidates are fitted.
-    """
+    """Return the best candidate first, the others by local normalised cross-correlation."""
     if len(candidates) < 3:
         return candidates
     first, *others = candidates
@@ -229,7 +233,6 @@ class _Features:
 
     def __init__(self, image: GreyImage, levels: ImagePyramid) -> None:
         self._image, self._levels = image, levels
-        self._regions: dict[int, Regions] = {}
 
     @property
     def first(self) -> PyramidLevel:
@@ -247,11 +250,10 @@ class _Features:
             return None
         return PyramidLevel(image=self._image, scale=1, noise_grey=noise_grey(self._image))
 
-    def regions(self, level: PyramidLevel) -> Regions:
-        """Return the dark regions of a level."""
-        if level.scale not in self._regions:
-            self._regions[level.scale] = _regions(level)
-        return self._regions[level.scale]
+    @cached_property
+    def regions(self) -> Regions:
+        """Dark regions of the first level."""
+        return _regions(self.first)
 
     @cached_property
     def edges(self) -> npt.NDArray[np.float32]:
@@ -259,19 +261,25 @@ class _Features:
         return _edge_segments(self.first.image, MIN_PIECE_PX)
 
 
-def _match_four_sides(level: PyramidLevel | None, features: _Features, templates: Templates) -> _Stage:
-    if level is not None:
-        yield _from_regions(level, features.regions(level), templates)
+def _match_four_sides(features: _Features, templates: Templates) -> _Stage:
+    yield _from_regions(features.first, features.regions, templates)
+
+
+def _match_full_size(features: _Features, templates: Templates) -> _Stage:
+    full = features.full
+    if full is not None:
+        yield _from_regions(full, _regions(full), templates)
 
 
 def _match_border_corners(features: _Features, templates: Templates) -> _Stage:
-    segments = border_segments(features.regions(features.first))
+    segments = border_segments(features.regions)
     yield _from_corners(features.first, segments, templates, STANDARD.coarse_of(len(templates)))
 
 
-def _match_half_size_corners(features: _Features, templates: Templates) -> _Stage:
+def _match_half_size(features: _Features, templates: Templates) -> _Stage:
     half = features.half
     if half is not None:
+        yield _from_regions(half, _regions(half), templates)
         segments = _edge_segments(half.image, MIN_PIECE_PX)
         yield _from_corners(half, segments, templates, STANDARD.coarse_of(len(templates)))
 
@@ -285,27 +293,26 @@ def _match_parallel_sides(features: _Features, templates: Templates) -> _Stage:
 
 
 # The rounds with hypotheses from one corner or two sides; each takes several times as long as four sides.
-_COSTLY_ROUNDS = (_match_border_corners, _match_half_size_corners, _match_edge_corners, _match_parallel_sides)
+_COSTLY_ROUNDS = (_match_border_corners, _match_half_size, _match_edge_corners, _match_parallel_sides)
 COSTLY_ROUNDS = len(_COSTLY_ROUNDS)
 
 
 def _match_stages(image: GreyImage, levels: ImagePyramid, templates: Templates) -> _Stage:
     """Yield matched quads stage by stage, at rising cost."""
     features = _Features(image, levels)
-    yield from _match_four_sides(features.first, features, templates)
+    yield from _match_four_sides(features, templates)
     yield from _match_border_corners(features, templates)
-    yield from _match_four_sides(features.half, features, templates)
-    yield from _match_half_size_corners(features, templates)
+    yield from _match_half_size(features, templates)
     yield from _match_edge_corners(features, templates)
     yield from _match_parallel_sides(features, templates)
-    yield from _match_four_sides(features.full, features, templates)
+    yield from _match_full_size(features, templates)
 
 
-def _match_all_four_sides(image: GreyImage, levels: ImagePyramid, templates: Templates) -> _Stage:
-    """Yield matched quads of dark regions at each level."""
+def _match_quick_rounds(image: GreyImage, levels: ImagePyramid, templates: Templates) -> _Stage:
+    """Yield matched quads of dark regions, at each level but the half size."""
     features = _Features(image, levels)
-    for level in (features.first, features.half, features.full):
-        yield from _match_four_sides(level, features, templates)
+    yield from _match_four_sides(features, templates)
+    yield from _match_full_size(features, templates)
 
 
 def _thorough_match_stages(_image: GreyImage, levels: ImagePyramid, templates: Templates) -> _Stage:

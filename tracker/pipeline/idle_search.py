@@ -1,11 +1,11 @@
 """Search for markers that are out of view, at a bounded cost per image.
 
 A complete search of an image in which no marker is costs many times a step that tracks one, and that is the
-usual image while the drill is put away. So each image gets a part of a search: dark regions with four sides in
-every other image, which find a free-standing marker, and one of the costly rounds, in turn, in the images
-between. While another marker is tracked, fewer images get a costly round. Of all candidates one is fitted in an
-image, and one that was rejected at the same place a few images ago is not fitted again, so that a fixed
-background costs next to nothing.
+usual image while the drill is put away. So each image gets a part of a search: every other one the dark
+regions with four sides, which find a free-standing marker, and those between one of the costly rounds, in
+turn. While another marker is tracked, fewer images get a costly round. Of all candidates one is fitted in an
+image, and one that was rejected at the same place some images ago is not fitted again, so that a fixed
+background costs little.
 
 Only a complete search of the same image decides about what a part of it finds, because it also weighs what
 else may be the marker.

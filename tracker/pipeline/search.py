@@ -9,14 +9,26 @@ search that finds nothing takes three times as long because of it.
 """
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
 
 from tracker.marker import Candidate, MarkerModel, Templates, candidate_rounds, thorough_rounds
 from tracker.pipeline.fitter import MAX_FITS, MAX_THOROUGH_FITS, Fitter, is_certain
-from tracker.pose import ImageContext, Seen, Sighting, Unseen, UnseenReason, differ_by_rotation, rank_score
+from tracker.pose import (
+    ImageContext,
+    Seen,
+    Sighting,
+    Unseen,
+    UnseenReason,
+    Window,
+    differ_by_rotation,
+    rank_score,
+)
 
 
 class Search:
-    """An incremental search of one image for some markers. Mutable.
+    """An incremental search of one image, or of a window of it, for some markers. Mutable.
 
     Attributes:
         best: the best sighting of each marker so far, by name.
@@ -29,13 +41,19 @@ class Search:
         templates: Templates,
         *,
         fitter: Fitter,
+        window: Window | None = None,
     ) -> None:
         self.best: dict[str, Sighting] = {
             model.name: Unseen(reason=UnseenReason.NO_CANDIDATE) for model in models
         }
         self._pixels, self._models, self._templates = pixels, models, templates
         self._fitter = fitter
-        self._rounds = candidate_rounds(pixels.image, templates)
+        self._image, self._corner_px = pixels.image, np.zeros(2)
+        if window is not None:
+            left, top, right, bottom = window
+            self._image = np.ascontiguousarray(pixels.image[top:bottom, left:right])
+            self._corner_px = np.array([left, top], dtype=np.float64)
+        self._rounds = candidate_rounds(self._image, templates)
         # Models whose candidates of this round have not been fitted yet.
         self._waiting: list[tuple[MarkerModel, list[Candidate]]] = []
         # Names of markers in the image whose rotation about the normal is ambiguous.
@@ -52,6 +70,7 @@ class Search:
             return candidates is not None
         model, own = self._waiting.pop(0)
         if not self._is_over(model, is_certain):
+            own = [replace(one, corners_px=one.corners_px + self._corner_px) for one in own]
             for found in self._fitter.fit_candidates(self._pixels, model, own, maximum=self._max_fits):
                 self._take(model.name, found)
                 # A certain sighting ends the search for this model.
@@ -82,7 +101,7 @@ class Search:
         unseen = [k for k, model in enumerate(self._models) if not self._is_over(model, _is_seen)]
         if thorough and unseen and not any(is_certain(one) for one in self.best.values()):
             self._models, self._max_fits = [self._models[k] for k in unseen], MAX_THOROUGH_FITS
-            self._rounds = thorough_rounds(self._pixels.image, self._templates[unseen])
+            self._rounds = thorough_rounds(self._image, self._templates[unseen])
             self._advance_until(_is_seen)
         return self.best
 

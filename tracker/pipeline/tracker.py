@@ -8,7 +8,6 @@ import numpy.typing as npt
 
 from tracker.camera import CameraModel
 from tracker.errors import InvalidInput
-from tracker.geometry import Camera, Marker, Rigid
 from tracker.marker import (
     MarkerModel,
     ScoreSettings,
@@ -24,11 +23,26 @@ from tracker.pipeline.idle_search import IdleSearch
 from tracker.pipeline.image import RepeatedPatch, grey_of, image_context_of
 from tracker.pipeline.search import Search
 from tracker.pipeline.warm_up_image import warm_up_image
-from tracker.pose import ImageContext, Prior, RollingShutter, Seen, Sighting, suppress_overlaps
+from tracker.pose import (
+    ImageContext,
+    Prior,
+    RollingShutter,
+    Seen,
+    Sighting,
+    Window,
+    corners_px_at,
+    side_px_of,
+    suppress_overlaps,
+    window_around,
+)
 from tracker.stage_timer import StageTimer
 
 # Slower cameras give under five images a second.
 MAX_READOUT_S = 0.2
+# Images further apart leave time for a complete search of each.
+MAX_IDLE_INTERVAL_S = 0.25
+# A marker that does not fit at its predicted pose is searched for so far around it, in sides.
+NEARBY_SIDES = 1.0
 
 
 class Tracker:
@@ -84,8 +98,7 @@ class Tracker:
         self._stages = StageTimer(clock)
         self._fitter = Fitter(camera=camera, settings=self.settings, stages=self._stages)
         self._idle_search = IdleSearch(self._fitter, self._templates_for)
-        # The first image is searched completely, because nothing is known yet.
-        self._has_stepped = False
+        self._stepped_at_s = -np.inf
         if self.models and not Tracker._has_loaded:
             Tracker._has_loaded = True
             self._warm_up()
@@ -105,10 +118,10 @@ class Tracker:
     ) -> dict[str, Sighting]:
         """Return a sighting of each marker in this image, using the state from the images before.
 
-        A marker that was seen is fitted at its predicted pose. One that is out of view is searched for in a
-        part of each image (`idle_search`), so a free-standing one is found within two images, and a blurred
-        or partly occluded one within some more. A marker whose pixels repeat, as from a frozen camera, is seen again, and its
-        certainty does not grow.
+        A marker that was seen is fitted at its predicted pose, or else searched for around it. One that is
+        out of view is searched for in a part of each image (`idle_search`), so a free-standing one is found
+        within two images, and a blurred or partly occluded one within some more. A marker whose pixels
+        repeat, as from a frozen camera, is seen again, and its certainty does not grow.
 
         Args:
             image: grey (h, w) or BGR (h, w, 3), uint8, of the camera's size.
@@ -120,6 +133,9 @@ class Tracker:
             InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
         """
         pixels = self._pixels(image)
+        # Nothing is known in the first image, or after a gap.
+        full_search |= not 0.0 <= captured_at_s - self._stepped_at_s <= MAX_IDLE_INTERVAL_S
+        self._stepped_at_s = captured_at_s
         again = {name: patch.is_repeated(pixels.image) for name, patch in self._patches.items()}
         seen: dict[str, Sighting] = {}
         for model in self.models:
@@ -128,7 +144,9 @@ class Tracker:
                 seen[model.name] = sighting
         missing = [model for model in self.models if model.name not in seen]
         if missing:
-            seen |= self._found_again(pixels, missing, is_tracking=bool(seen), full_search=full_search)
+            seen |= self._found_again(
+                pixels, missing, captured_at_s, is_tracking=bool(seen), full_search=full_search
+            )
         seen = suppress_overlaps(seen)
         for model in self.models:
             name, prior = model.name, self._priors[model.name]
@@ -141,19 +159,47 @@ class Tracker:
         return {model.name: seen[model.name] for model in self.models}
 
     def _found_again(
-        self, pixels: ImageContext, missing: Sequence[MarkerModel], *, is_tracking: bool, full_search: bool
+        self,
+        pixels: ImageContext,
+        missing: Sequence[MarkerModel],
+        captured_at_s: float,
+        *,
+        is_tracking: bool,
+        full_search: bool,
     ) -> dict[str, Sighting]:
-        """Return sightings of the markers that are not where they were expected."""
-        if (
-            full_search
-            or not self._has_stepped
-            or self._idle_search.seems_in_view(pixels, missing, is_tracking=is_tracking)
-        ):
-            self._has_stepped = True
-            sightings = self._search_of(pixels, missing).run()
-            self._idle_search.record(sightings)
-            return sightings
-        return self._idle_search.unseen(missing)
+        """Return sightings of the markers that do not fit at their predicted poses."""
+        if full_search:
+            return self._searched(pixels, missing)
+        near = self._found_nearby(pixels, missing, captured_at_s)
+        missing = [model for model in missing if model.name not in near]
+        if missing and self._idle_search.seems_in_view(pixels, missing, is_tracking=is_tracking):
+            return near | self._searched(pixels, missing)
+        return near | self._idle_search.unseen(missing)
+
+    def _searched(self, pixels: ImageContext, models: Sequence[MarkerModel]) -> dict[str, Sighting]:
+        """Search the whole image."""
+        sightings = self._search_of(pixels, models).run()
+        self._idle_search.record(sightings)
+        return sightings
+
+    def _found_nearby(
+        self, pixels: ImageContext, models: Sequence[MarkerModel], captured_at_s: float
+    ) -> dict[str, Sighting]:
+        """Search around the predicted poses; return those that are seen."""
+        seen: dict[str, Sighting] = {}
+        for model in models:
+            expected = self._priors[model.name].predict(captured_at_s)
+            if expected is None:
+                continue
+            corners = corners_px_at(self.camera, model, expected)
+            reach_px = NEARBY_SIDES * side_px_of(corners)
+            window = window_around(corners, reach_px=reach_px, size_wh_px=self.camera.size_wh_px)
+            if window is None:
+                continue
+            sighting = self._search_of(pixels, [model], window).run()[model.name]
+            if isinstance(sighting, Seen):
+                seen[model.name] = sighting
+        return seen
 
     def search(self, image: npt.NDArray[np.uint8]) -> dict[str, Sighting]:
         """Return a sighting of each marker in this image by a search of the whole image, without state.
@@ -186,9 +232,6 @@ class Tracker:
             expected = self._readout.imaged_pose(expected, prior.rates, side_mm=model.side_mm)
         return None if expected is None else self._fitter.near(pixels, model, expected, found_by="track")
 
-    def _expected(self, model: MarkerModel, captured_at_s: float) -> Rigid[Camera, Marker] | None:
-        return self._priors[model.name].predict(captured_at_s)
-
     def _without_shear(
         self,
         model: MarkerModel,
@@ -203,9 +246,11 @@ class Tracker:
             return sighting
         return self._readout.corrected(sighting, prior, at_s, side_mm=model.side_mm, is_repeated=is_repeated)
 
-    def _search_of(self, pixels: ImageContext, models: Sequence[MarkerModel]) -> Search:
+    def _search_of(
+        self, pixels: ImageContext, models: Sequence[MarkerModel], window: Window | None = None
+    ) -> Search:
         """Return a new search."""
-        return Search(pixels, models, self._templates_for(models), fitter=self._fitter)
+        return Search(pixels, models, self._templates_for(models), fitter=self._fitter, window=window)
 
     def _templates_for(self, models: Sequence[MarkerModel]) -> Templates:
         return self._templates[[self.models.index(model) for model in models]]

@@ -17,7 +17,7 @@ from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
 from tracker.pose.smoothing import PoseSmoother, SmoothedPose, SmoothingSettings
 from tracker.pose.suppression import differ_by_rotation, rank_score, suppress_overlaps
 from tracker.pose.tool import ToolModel
-from tracker.pose.window import window_around
+from tracker.pose.window import Window, window_around
 
 __all__ = [
     "EdgeFit",
@@ -35,6 +35,7 @@ __all__ = [
     "ToolModel",
     "Unseen",
     "UnseenReason",
+    "Window",
     "corners_px_at",
     "differ_by_rotation",
     "fit_pose_to_edges",

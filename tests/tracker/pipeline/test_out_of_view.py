@@ -1,28 +1,29 @@
-"""Idle search: known markers out of view while another is tracked."""
+"""Idle search: known markers that are out of view."""
 
-from collections.abc import Iterator
+from collections.abc import Callable
 
 import cv2
 import numpy as np
 import pytest
 
-from tests.tracker.pipeline.stepped import CAMERA, MODEL, off_px, pose_of
+from tests.tracker.pipeline.stepped import CAMERA, MODEL, image_of, off_px, pose_of, tracker_of
 from tests.tracker.scenes import (
+    NEIGHBOURS,
     OTHER,
     Image8,
     Print,
+    cluttered,
     code_image,
     code_model,
     corners_px_of,
     rendered,
     seen,
 )
-from tracker import MarkerModel, Seen, Tracker, Unseen
+from tracker import Seen, Tracker, Unseen
 from tracker.geometry import Camera, Marker, Rigid
-from tracker.marker import Candidate, candidate_rounds
-from tracker.marker.template_matching import Templates
+from tracker.marker import candidate_rounds, costly_candidates, four_sided_candidates
 from tracker.pipeline.fitter import Fitter
-from tracker.pose import ImageContext
+from tracker.pipeline.idle_search import REFIT_IMAGES
 
 ABSENT = ((1, 1, 0), (0, 1, 0), (1, 0, 0))
 HERE = pose_of((130.0, 180.0))
@@ -51,35 +52,89 @@ def _tracker() -> Tracker:
     return Tracker(camera=CAMERA, models=[MODEL, *others])
 
 
-def test_what_is_out_of_view_costs_a_part_of_a_search_in_less_than_half_of_the_images(
+class _Counted:
+    """Counts the parts of searches and the fits of each image."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.quick, self.costly, self.complete, self.fits = [0], [0], [0], [0]
+        fit_candidates = Fitter.fit_candidates
+
+        def counted(count: list[int], compute: Callable[..., object]) -> Callable[..., object]:
+            def call(*args: object, **named: object) -> object:
+                count[-1] += 1
+                return compute(*args, **named)
+
+            return call
+
+        for name, count, compute in (
+            ("idle_search.four_sided_candidates", self.quick, four_sided_candidates),
+            ("idle_search.costly_candidates", self.costly, costly_candidates),
+            ("search.candidate_rounds", self.complete, candidate_rounds),
+        ):
+            monkeypatch.setattr(f"tracker.pipeline.{name}", counted(count, compute))
+        monkeypatch.setattr(Fitter, "fit_candidates", counted(self.fits, fit_candidates))
+
+    def next_image(self) -> None:
+        for count in (self.quick, self.costly, self.complete, self.fits):
+            count.append(0)
+
+
+def test_without_a_marker_in_view_an_image_gets_one_part_of_a_search_and_one_fit(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    rounds, looks = [0], [0]
-
-    def counted(image: Image8, templates: Templates) -> Iterator[list[list[Candidate]]]:
-        for candidates in candidate_rounds(image, templates):
-            rounds[-1] += 1
-            yield candidates
-
-    looked = Fitter.fit_candidates
-
-    def counted_look(
-        fitter: Fitter, pixels: ImageContext, model: MarkerModel, candidates: list[Candidate], *, maximum: int
-    ) -> Iterator[Seen | Unseen]:
-        looks[-1] += 1
-        return looked(fitter, pixels, model, candidates, maximum=maximum)
-
     tracker = _tracker()
-    monkeypatch.setattr("tracker.pipeline.search.candidate_rounds", counted)
-    monkeypatch.setattr(Fitter, "fit_candidates", counted_look)
-    for k in range(14):
+    counted = _Counted(monkeypatch)
+    for k in range(17):
+        image = rendered(CAMERA, [], background=cluttered(CAMERA, 3), seed=k)
+        assert isinstance(tracker.step(image, captured_at_s=k / 30)["other"], Unseen)
+        counted.next_image()
+    assert counted.complete[:-1] == [1] + 16 * [0], (
+        "nothing is known in the first image: it is searched whole"
+    )
+    assert counted.quick[1:-1] == 8 * [1, 0]
+    assert counted.costly[1:-1] == 8 * [0, 1]
+    assert counted.fits[0] > 1
+    assert set(counted.fits[1:]) == {0, 1}
+
+
+def test_while_another_is_tracked_an_image_in_eight_gets_a_costly_part_of_a_search(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    tracker = _tracker()
+    counted = _Counted(monkeypatch)
+    for k in range(17):
         sightings = tracker.step(_two(None, seed=k), captured_at_s=k / 30)
+        assert isinstance(sightings["code"], Seen)
         assert isinstance(sightings["other"], Unseen)
-        rounds.append(0)
-        looks.append(0)
-    assert rounds[0] > 3, "nothing is known yet: the whole of the first image is searched"
-    assert 3 < sum(rounds[1:]) + sum(looks[1:]) < 7
-    assert all(r + n <= 1 for r, n in zip(rounds[1:], looks[1:], strict=True))
+        counted.next_image()
+    assert counted.complete[:-1] == [1] + 16 * [0]
+    assert counted.quick[1:-1] == 8 * [1, 0]
+    assert counted.costly[1:-1] == 2 * [*(7 * [0]), 1]
+
+
+def test_after_a_gap_an_image_is_searched_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    tracker = _tracker()
+    counted = _Counted(monkeypatch)
+    for at_s in (0.0, 0.03, 3.0, 3.03, 1.0):
+        tracker.step(_two(None, seed=0), captured_at_s=at_s)
+        counted.next_image()
+    assert counted.complete[:-1] == [1, 0, 1, 0, 1]
+
+
+def test_a_look_alike_that_was_rejected_is_fitted_again_only_after_some_images(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    tracker = tracker_of()
+    counted = _Counted(monkeypatch)
+    for k in range(2 * REFIT_IMAGES):
+        image = image_of(pose_of(), fields=NEIGHBOURS[0], seed=k)
+        assert isinstance(tracker.step(image, captured_at_s=k / 30)["code"], Unseen)
+        counted.next_image()
+    assert 1 < sum(counted.fits[1:]) < REFIT_IMAGES
+    there = pose_of((330.0, 120.0))
+    sighting = tracker.step(image_of(there, seed=99), captured_at_s=2 * REFIT_IMAGES / 30)["code"]
+    following = tracker.step(image_of(there, seed=98), captured_at_s=(2 * REFIT_IMAGES + 1) / 30)["code"]
+    assert off_px(seen(sighting if isinstance(sighting, Seen) else following), there) < 0.5
 
 
 def test_no_score_of_an_image_before_is_told_as_this_ones() -> None:
@@ -121,29 +176,11 @@ def test_a_marker_that_comes_into_view_is_found_where_it_has_gone_meanwhile() ->
     assert seen(following["other"]).found_by == "track"
 
 
-def test_an_image_that_is_searched_later_may_be_written_over(monkeypatch: pytest.MonkeyPatch) -> None:
-    searched: list[tuple[Image8, Image8]] = []
-
-    def watched(image: Image8, templates: Templates) -> Iterator[list[list[Candidate]]]:
-        searched.append((image, image.copy()))
-        return candidate_rounds(image, templates)
-
-    tracker = _tracker()
-    memory = _two(None, seed=0)
-    tracker.step(memory, captured_at_s=0.0)
-    monkeypatch.setattr("tracker.pipeline.search.candidate_rounds", watched)
-    for k in range(1, 4):
-        memory[:] = _two(None, seed=k)
-        tracker.step(memory, captured_at_s=k / 30)
-    for image, before in searched:
-        np.testing.assert_array_equal(image, before)
-
-
-def test_a_marker_that_jumps_while_another_is_tracked_is_found_again_in_the_same_image() -> None:
+def test_a_marker_that_jumps_by_a_side_is_found_again_in_the_same_image() -> None:
     tracker = _tracker()
     for k in range(2):
         tracker.step(_two(pose_of((330.0, 120.0)), seed=k), captured_at_s=k / 30)
-    there = pose_of((360.0, 280.0), roll_deg=130.0)
+    there = pose_of((362.0, 152.0), roll_deg=130.0)
     sightings = tracker.step(_without_a_corner(_two(there, seed=2), there), captured_at_s=2 / 30)
     assert seen(sightings["code"]).found_by == "track"
     assert seen(sightings["other"]).found_by == "search"

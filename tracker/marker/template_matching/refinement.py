@@ -11,16 +11,13 @@ from tracker.marker.template_matching.templates import (
     NEIGHBOURHOOD_CELLS,
     OCCLUSION_MASKS,
     RING,
+    STIFFNESS,
     Float32,
     Template,
 )
 from tracker.quads import Quads
 
 STEPS = 6
-# Against steps that noise makes: sum of squares of a picture's cells, 1, times their share of noise.
-DAMPING = np.float32(1.0)
-# Against what perspective hardly does: a parallelogram becomes another shape.
-STIFFNESS = np.float32(10.0)
 
 
 def refine_quads(
@@ -42,12 +39,12 @@ def refine_quads(
         image,
         quads,
         template.basis,
+        template.factors,
         masked.columns,
         masked.mean,
         masked.spread,
         OCCLUSION_MASKS,
         steps,
-        DAMPING,
         STIFFNESS,
         CELLS,
         RING,

@@ -137,8 +137,8 @@ def _cholesky_factor(basis, mask, damping, stiffness, matrix):
     """Compute the lower Cholesky factor of the damped normal matrix of the visible cells.
 
     Departures from a parallelogram are damped more (`stiffness`), because perspective causes little of them.
-    Not `solve_positive`: one factor serves all steps with the same template and mask, damping makes it
-    positive, and it needs no scaling, as all but two unknowns are in sides.
+    Not `solve_positive`: damping makes it positive, and it needs no scaling, as all but two unknowns are in
+    sides.
     """
     matrix[:] = 0.0
     for i in range(len(basis)):
@@ -163,6 +163,16 @@ def _cholesky_factor(basis, mask, damping, stiffness, matrix):
                 matrix[j, j] = np.sqrt(max(total, np.float32(1e-9)))
             else:
                 matrix[j, k] = total / matrix[k, k]
+
+
+@compiled
+def cholesky_factors(basis, occlusion_masks, damping, stiffness):
+    """Return the factors (p, c, 10, 10) of the damped normal matrices of each template under each mask."""
+    factors = np.empty((len(basis), len(occlusion_masks), UNKNOWNS, UNKNOWNS), np.float32)
+    for p in range(len(basis)):
+        for c in range(len(occlusion_masks)):
+            _cholesky_factor(basis[p], occlusion_masks[c], damping, stiffness, factors[p, c])
+    return factors
 
 
 @compiled
@@ -210,12 +220,12 @@ def align_to_templates(
     image,
     quads,
     basis,
+    factors,
     columns,
     mean,
     spread,
     occlusion_masks,
     steps,
-    damping,
     stiffness,
     cells,
     ring,
@@ -233,7 +243,7 @@ def align_to_templates(
     shared = np.empty(columns.shape[1], np.float32)
     sums, squares = np.empty(len(occlusion_masks), np.float32), np.empty(len(occlusion_masks), np.float32)
     found, correlation = quads.copy(), np.zeros(len(quads), np.float32)
-    matrix, right = np.empty((UNKNOWNS, UNKNOWNS), np.float32), np.empty(UNKNOWNS, np.float32)
+    right = np.empty(UNKNOWNS, np.float32)
     quad = np.empty((1, 4, 2), np.float32)
     for q in range(len(quads)):
         quad[0] = quads[q]
@@ -250,9 +260,7 @@ def align_to_templates(
                     correlation[q] = ncc
                     if 1.0 - ncc * ncc < worst:
                         found[q] = quad[0]
-                if p != picture or c != mask:
-                    picture, mask = p, c
-                    _cholesky_factor(basis[p], occlusion_masks[c], damping, stiffness, matrix)
+                picture, mask = p, c
             if step == steps:
                 break
             right[:] = 0.0
@@ -261,7 +269,7 @@ def align_to_templates(
                 for j in range(UNKNOWNS):
                     right[j] += value * basis[picture, i, j]
             _add_parallelogram_prior(quad[0], stiffness * ncc, right)
-            _solve(matrix, right)
+            _solve(factors[picture, mask], right)
             if right[0] < MIN_GAIN:
                 break
             _move_corners(quad[0], right[2:] / right[0])

@@ -11,7 +11,7 @@ from tracker.geometry import Array
 from tracker.marker.model import MarkerModel
 from tracker.marker.photometric_fit import ScaleSpace, scale_space_of
 from tracker.marker.sampling_kernels import normalise_locally
-from tracker.marker.template_matching.template_kernels import occluded_templates
+from tracker.marker.template_matching.template_kernels import cholesky_factors, occluded_templates
 
 Float32 = npt.NDArray[np.float32]
 
@@ -31,6 +31,10 @@ MOTIONS_DEG = (0.0, 45.0, 90.0, 135.0)
 COARSE_CELLS = 6
 # Points of a cell of the pictures, each way; how far a corner is moved to see what that changes, in sides.
 FINE, SHIFT_SIDES = 4, 0.02
+# Against refinement steps that noise makes: sum of squares of a template's cells, 1, times their noise ratio.
+DAMPING = np.float32(1.0)
+# Against what perspective hardly does: a parallelogram becomes another shape.
+STIFFNESS = np.float32(10.0)
 # Depth of an occluding edge from the centre: 1 is the far side.
 OCCLUSION_DEPTHS = (0.55, 0.2)
 
@@ -56,13 +60,14 @@ class Template:
 
     Attributes:
         rotated: (b, 4, n), in focus and out of focus, at four quarter rotations: rotation k is the appearance
-        of
-            a quad whose first corner is corner k of the model.
+            of a quad whose first corner is corner k of the model.
         coarse: (4, 64), rotated, at the size of the coarse match.
         motion_blurred: (4, 64), the same, blurred by motion along the first side of the quad.
         upright: (p, n) under the occlusion masks: three defocus levels and motion in four directions.
         basis: (p, n, 10), template, constant, and derivatives by the corners to the right and downwards, per
             side.
+        factors: (p, c, 10, 10), Cholesky factors of the normal matrices of the basis under each occlusion
+            mask.
         pictures: scale space of the model.
     """
 
@@ -71,6 +76,7 @@ class Template:
     motion_blurred: Float32
     upright: OccludedTemplates
     basis: Float32
+    factors: Float32
     pictures: ScaleSpace
 
 
@@ -98,7 +104,7 @@ def _template_of(square: npt.NDArray[np.uint8]) -> Template:
     grid = upright[list(MATCHED_BLURS)].reshape(-1, ROWS, ROWS)
     # np.rot90 turns the picture to the left, so that its right-hand corner comes to the top left.
     rotated = np.array([[np.rot90(one, rotation).ravel() for rotation in range(4)] for one in grid])
-    basis = np.array([_basis(wide, seen) for wide, seen in zip(blurred, upright, strict=True)])
+    basis = np.array([_basis(wide, seen) for wide, seen in zip(blurred, upright, strict=True)], np.float32)
     return Template(
         rotated=np.ascontiguousarray(rotated, np.float32),
         coarse=np.array([_coarse_picture(one) for one in rotated[0]], np.float32),
@@ -106,7 +112,8 @@ def _template_of(square: npt.NDArray[np.uint8]) -> Template:
             [_coarse_picture(_motion_blurred_picture(upright, rotation)) for rotation in range(4)], np.float32
         ),
         upright=_occluded(upright),
-        basis=np.ascontiguousarray(basis, np.float32),
+        basis=basis,
+        factors=cholesky_factors(basis, OCCLUSION_MASKS, DAMPING, STIFFNESS),
         pictures=scale_space_of(square),
     )
 
