@@ -1,11 +1,11 @@
 """Search for markers that are out of view, at a bounded cost per image.
 
 A complete search of an image in which no marker is costs many times a step that tracks one, and that is the
-usual image while the drill is put away. So each image gets a part of a search: every other one the dark
-regions with four sides, which find a free-standing marker, and those between one of the costly rounds, in
-turn. While another marker is tracked, fewer images get a costly round. Of all candidates one is fitted in an
-image, and one that was rejected at the same place some images ago is not fitted again, so that a fixed
-background costs little.
+usual image while the drill is put away. So an image gets a part of a search: every other one the dark regions
+with four sides, which find a free-standing marker, and every fourth one of the costly rounds, in turn. While
+another marker is tracked, fewer images get a costly round. Of all candidates one is fitted in an image, and
+one that was rejected at the same place some images ago is not fitted again, so that a fixed background costs
+little.
 
 Only a complete search of the same image decides about what a part of it finds, because it also weighs what
 else may be the marker.
@@ -31,7 +31,7 @@ from tracker.pose import ImageContext, Seen, Sighting, Unseen, UnseenReason, ran
 from tracker.pose.occurrence import side_px_of
 
 # Every how many images one gets a costly round: without another marker in view, and with one.
-IDLE_PERIOD_IMAGES, TRACKING_PERIOD_IMAGES = 2, 8
+IDLE_PERIOD_IMAGES, TRACKING_PERIOD_IMAGES = 4, 8
 # A rejected candidate at the same place is fitted again after so many images.
 REFIT_IMAGES = 10
 # Candidates no further apart at any corner than by this ratio of a side are at the same place.

@@ -48,6 +48,9 @@ COVERED = (0.92, 0.98)
 # By cv2.aruco's defaults on the same images: median, 99th percentile.
 SEARCH_OF_ARUCO: Mapping[str, tuple[float, float]] = {"A": (0.40, 1.5), "B": (0.22, 1.5)}
 STEP_OF_ARUCO: Mapping[str, tuple[float, float]] = {"A": (0.15, 0.6), "B": (0.12, 0.6)}
+IDLE_STEP_OF_ARUCO: Mapping[str, tuple[float, float]] = {"A": (1.0, 2.0), "B": (0.8, 2.0)}
+# 95th percentile of the number of images until a marker that comes back is found.
+IMAGES_TO_RETURN: Mapping[str, int] = {"base": 3, "hard1": 6}
 FOUND_IN_HAND = 0.99
 FOUR_OF_ONE = 2.5
 FIRST_OF_LATER = 3.0

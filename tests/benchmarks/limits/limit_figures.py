@@ -6,7 +6,7 @@ from tests.benchmarks.figures import Figure, Share, size_of
 from tests.benchmarks.limits.condition_tables import errors, right, stated, wrong
 from tests.benchmarks.limits.conditions_run import DISTURBED_IMAGES
 from tests.benchmarks.limits.evaluation import COVERED, Evaluation
-from tests.benchmarks.limits.pace_tables import ratios
+from tests.benchmarks.limits.pace_tables import RETURNED_WITHIN, ratios
 from tests.benchmarks.limits.run import LimitsRun
 
 # A hand that is lost, or followed by the wrong solution, stays so for some images.
@@ -15,7 +15,7 @@ LOST_IN_A_ROW = 10
 
 def limit_figures(run: LimitsRun) -> dict[str, Figure]:
     """Return each figure by its name; what was not measured is left out."""
-    named = [*_of_conditions(run), *_of_hands(run), *_of_paces(run), *_of_empty(run)]
+    named = [*_of_conditions(run), *_of_hands(run), *_of_paces(run), *_of_returns(run), *_of_empty(run)]
     return {name: figure for name, figure in named if figure is not None}
 
 
@@ -85,6 +85,18 @@ def _of_paces(run: LimitsRun) -> Iterator[Named]:
         state = "warmed up itself" if is_warmed else "as it comes"
         by_later = [one.first_ms / one.later_ms for one in some]
         yield f"{rig} first image, {state}, by later", size_of(by_later, is_time=True)
+
+
+def _of_returns(run: LimitsRun) -> Iterator[Named]:
+    for one in run.returns:
+        name = f"{one.rig} {one.condition} that comes back"
+        for most in RETURNED_WITHIN:
+            count = sum(images <= most for images in one.images)
+            yield f"{name}, found within {most} images", Share(count=count, of=len(one.images))
+        yield (
+            f"{name}, wrong",
+            Share(count=one.wrong, of=len(one.claims), is_good=False, is_strict=True) if one.claims else None,
+        )
 
 
 def _of_empty(run: LimitsRun) -> Iterator[Named]:

@@ -18,8 +18,8 @@ RIGS_BY_SIZE = (RIG_VGA, RIG_A, RIG_HD, RIG_B)
 FOUR = (SAIL, ORBIT, CODE, ANVIL)
 # Markers known, and in view.
 LOADS = ((1, 1), (1, 0), (4, 1), (4, 4))
-# One in which all is found, and the five in which what is out of view is looked out for twice.
-STEPS_OF_A_SCENE = 6
+# One in which all is found, and as many as all parts of an idle search take.
+STEPS_OF_A_SCENE = 17
 
 
 @dataclass(slots=True)

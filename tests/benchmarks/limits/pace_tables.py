@@ -1,4 +1,4 @@
-"""Tables of times, of the moving hand, of the first image and of images without a marker."""
+"""Tables of times, of moving and returning markers, of the first image and of images without a marker."""
 
 from collections.abc import Sequence
 
@@ -6,15 +6,24 @@ from tests.benchmarks.limits import goals
 from tests.benchmarks.limits.condition_tables import PEERS, coverage, errors, of, right, stated, wrong
 from tests.benchmarks.limits.pace import PaceRun
 from tests.benchmarks.limits.peers import APRILTAG_ABSENT
+from tests.benchmarks.limits.returning import MAX_IMAGES
 from tests.benchmarks.limits.run import LimitsRun
 from tests.benchmarks.tables import NOTHING, Table, median, number, pair
+
+RETURNED_WITHIN = (1, 3, 6, 16, MAX_IMAGES)
 
 
 def pace_tables(run: LimitsRun) -> list[Table]:
     """Return the tables of everything that was measured."""
     return [
         table
-        for table in (_time_table(run), _hand_table(run), _first_table(run), _empty_table(run))
+        for table in (
+            _time_table(run),
+            _hand_table(run),
+            _return_table(run),
+            _first_table(run),
+            _empty_table(run),
+        )
         if table.rows
     ]
 
@@ -30,6 +39,7 @@ def _time_table(run: LimitsRun) -> Table:
         width, height = one.rig.size_wh_px
         load = f"{width}x{height}, {one.known} known, {one.in_view} in view"
         search, step = goals.SEARCH_OF_ARUCO.get(one.rig.name), goals.STEP_OF_ARUCO.get(one.rig.name)
+        idle = goals.IDLE_STEP_OF_ARUCO.get(one.rig.name) if one.known == 1 else None
         is_single = one.in_view == one.known == 1
         rows.append(
             [
@@ -41,7 +51,7 @@ def _time_table(run: LimitsRun) -> Table:
                 _by(run, one, "AprilTag"),
                 pair(one.step_ms, 99.0),
                 pair(ratios(one.step_ms, one.by_step_ms), 99.0, 3),
-                _pair_of(step) if is_single else _four(run, one),
+                _pair_of(step) if is_single else _pair_of(idle) if one.in_view == 0 else _four(run, one),
                 pair(one.peers_ms["cv2.aruco"], 99.0),
                 pair(one.peers_ms["AprilTag"], 99.0) if "AprilTag" in run.peers else APRILTAG_ABSENT,
             ]
@@ -123,6 +133,27 @@ def _hand_table(run: LimitsRun) -> Table:
         ],
         rows=rows,
         note=f"Goals: found {goals.FOUND_IN_HAND:g}; p95 of the tip at most {goals.P95_OF_MEDIAN:g} medians.",
+    )
+
+
+def _return_table(run: LimitsRun) -> Table:
+    rows = []
+    for one in run.returns:
+        within = (sum(images <= most for images in one.images) / len(one.images) for most in RETURNED_WITHIN)
+        goal = goals.IMAGES_TO_RETURN.get(one.condition)
+        rows.append(
+            [
+                f"{one.rig} {one.condition}",
+                str(len(one.images)),
+                *(number(share) for share in within),
+                NOTHING if goal is None else f"0.95 within {goal}",
+                str(one.wrong),
+            ]
+        )
+    return Table(
+        title="A marker that comes back into view: share found by step, by the number of images",
+        columns=["camera, condition", "n", *(f"within {most}" for most in RETURNED_WITHIN), "goal", "wrong"],
+        rows=rows,
     )
 
 

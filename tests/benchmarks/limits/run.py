@@ -13,6 +13,7 @@ from tests.benchmarks.limits.finders import Searchers, warm
 from tests.benchmarks.limits.first_image import FirstImage, measure_first_images
 from tests.benchmarks.limits.pace import HandRun, PaceRun, measure_hands, measure_pace
 from tests.benchmarks.limits.peers import Peer, peers
+from tests.benchmarks.limits.returning import ReturnRun, measure_returns
 from tests.benchmarks.options import BenchmarkOptions
 from tests.benchmarks.scenes.conditions import Condition, conditions_of
 from tests.benchmarks.scenes.faces import SAIL
@@ -34,6 +35,7 @@ class LimitsRun:
     conditions: dict[str, list[ConditionRun]]
     hands: list[HandRun]
     paces: list[PaceRun]
+    returns: list[ReturnRun]
     empty: dict[str, dict[str, list[Evaluation]]]
     first_images: list[FirstImage]
 
@@ -60,6 +62,12 @@ def measure(options: BenchmarkOptions) -> LimitsRun:
             for run in measure_hands(RIGS[name], others, count=5 * options.images, seed=options.seed)
         ]
         paces = measure_pace(others, count=options.images, seed=options.seed) if is_complete else []
+        returns = [
+            run
+            for name in chosen
+            if is_complete
+            for run in measure_returns(RIGS[name], count=options.images, seed=options.seed)
+        ]
         empty = {
             name: measure_empty(RIGS[name], peers=others, count=2 * options.images, seed=options.seed)
             for name in chosen
@@ -71,6 +79,7 @@ def measure(options: BenchmarkOptions) -> LimitsRun:
         conditions=conditions,
         hands=hands,
         paces=paces,
+        returns=returns,
         empty=empty,
         first_images=first_images,
     )

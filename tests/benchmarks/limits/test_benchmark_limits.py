@@ -14,6 +14,7 @@ from tests.benchmarks.limits.limit_plots import limit_plots
 from tests.benchmarks.limits.pace import HandRun, PaceRun
 from tests.benchmarks.limits.pace_tables import pace_tables
 from tests.benchmarks.limits.peers import APRILTAG_ABSENT, Aruco
+from tests.benchmarks.limits.returning import ReturnRun, measure_returns
 from tests.benchmarks.limits.run import LimitsRun, measure
 from tests.benchmarks.options import BenchmarkOptions
 from tests.benchmarks.scenes.bound import PARAMETERS
@@ -109,6 +110,14 @@ def test_opencvs_marker_is_found_where_it_is() -> None:
         assert one.errors["roll_deg"] < 0.5
 
 
+def test_a_marker_that_comes_back_is_found_in_one_of_the_first_images() -> None:
+    (run,) = measure_returns(RIG_A, count=3, seed=0, conditions=["base"])
+    assert len(run.images) == len(run.claims) == 3
+    assert max(run.images) <= 2
+    assert run.wrong == 0
+    assert {one.found_by for one in run.claims} == {"search"}
+
+
 def invented_run(*, with_apriltag: bool) -> LimitsRun:
     peers = ["cv2.aruco", *(["AprilTag"] if with_apriltag else [])]
     base = ConditionRun(
@@ -136,6 +145,9 @@ def invented_run(*, with_apriltag: bool) -> LimitsRun:
         conditions={"A": [base]},
         hands=[HandRun(rig="A", speed="fast", stepped=[CORRECT, MISSED], ratios=[0.1, 0.2])],
         paces=pace,
+        returns=[
+            ReturnRun(rig="A", condition="hard1", images=[1, 5, 6, 33], claims=[CORRECT, WRONG, CORRECT])
+        ],
         empty={"A": {"coaxial": [MISSED, MISSED], **{name: [MISSED] for name in peers}}},
         first_images=[],
     )
@@ -148,13 +160,16 @@ def test_tables_say_shares_medians_and_ratios() -> None:
         *("base", "4", "0.500", "0.99", "0.250", "0.250", "2", "1.000", "–", "1", "0 / 0", "0"),
     ]
     assert list(tip.rows[0])[:3] == ["base", "2", "0.500 / 0.500"]
-    time, hand, empty = pace_tables(run)
+    time, hand, returns, empty = pace_tables(run)
     assert [list(row)[3:5] for row in time.rows[:2]] == [
         ["0.400 / 0.596", "–"],
         ["0.400 / 0.596", "0.4 / 1.5"],
     ]
-    assert [list(row)[8] for row in time.rows[:4]] == ["–", "0.15 / 0.6", "–", "4.00 of one, goal 2.5"]
+    assert [list(row)[8] for row in time.rows[:4]] == ["1 / 2", "0.15 / 0.6", "–", "4.00 of one, goal 2.5"]
     assert list(hand.rows[0])[:4] == ["A fast", "2", "0.500", "0.500"]
+    assert list(returns.rows[0]) == [
+        *("A hard1", "4", "0.25", "0.25", "0.75", "0.75", "0.75", "0.95 within 6", "1"),
+    ]
     assert list(empty.rows[0]) == ["A", "0 of 2", "0 of 1", "0 of 1"]
 
 
@@ -171,6 +186,8 @@ def test_figures_count_what_the_tables_show() -> None:
     assert figures["A base, found by search"] == Share(count=2, of=4)
     assert figures["A base, tracked by step"] == Share(count=2, of=2, in_a_row=DISTURBED_IMAGES)
     assert figures["A base by search, wrong"] == Share(count=1, of=4, is_good=False, is_strict=True)
+    assert figures["A hard1 that comes back, found within 6 images"] == Share(count=3, of=4)
+    assert figures["A hard1 that comes back, wrong"] == Share(count=1, of=3, is_good=False, is_strict=True)
     assert "768x576, 1 known, 1 in view, search by cv2.aruco, median" in figures
 
 
