@@ -4,8 +4,8 @@ A complete search of an image in which no marker is costs many times a step that
 usual image while the drill is put away. So an image gets a part of a search: every other one the dark regions
 with four sides, which find a free-standing marker, and every fourth one of the costly rounds, in turn. While
 another marker is tracked, fewer images get a costly round. Of all candidates one is fitted in an image, and
-one that was rejected at the same place some images ago is not fitted again, so that a fixed background costs
-little.
+one that was rejected at the same place some images ago and matches no better now is not fitted again, so that
+a fixed background costs little.
 
 Only a complete search of the same image decides about what a part of it finds, because it also weighs what
 else may be the marker.
@@ -17,7 +17,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tracker.geometry import Array
 from tracker.marker import (
     COSTLY_ROUNDS,
     Candidate,
@@ -32,8 +31,9 @@ from tracker.pose.occurrence import side_px_of
 
 # Every how many images one gets a costly round: without another marker in view, and with one.
 IDLE_PERIOD_IMAGES, TRACKING_PERIOD_IMAGES = 4, 8
-# A rejected candidate at the same place is fitted again after so many images.
-REFIT_IMAGES = 10
+# A rejected candidate at the same place is fitted again after so many images, or when its correlation has
+# increased by so much, as that of a marker that comes to rest.
+REFIT_IMAGES, MIN_GAIN = 10, 0.02
 # Candidates no further apart at any corner than by this ratio of a side are at the same place.
 SAME_PLACE_RATIO = 0.06
 NO_CANDIDATE = Unseen(reason=UnseenReason.NO_CANDIDATE, best_score_ratio=None)
@@ -42,12 +42,12 @@ NO_CANDIDATE = Unseen(reason=UnseenReason.NO_CANDIDATE, best_score_ratio=None)
 class _Rejection(NamedTuple):
     """A reason why a marker was not seen in an image.
 
-    `corners_px` (4, 2) are those of the candidate that was fitted; None after a complete search.
+    `candidate` was fitted; None after a complete search.
     """
 
     name: str
     image_number: int
-    corners_px: Array | None
+    candidate: Candidate | None
     unseen: Unseen
 
 
@@ -94,7 +94,7 @@ class IdleSearch:
         sighting = next(self._fitter.fit_candidates(pixels, model, [candidate], maximum=1), NO_CANDIDATE)
         # Also if it is seen: should a complete search not confirm it, the next one has to wait.
         unseen = NO_CANDIDATE if isinstance(sighting, Seen) else sighting
-        self._rejections.append(_Rejection(model.name, self._image_number, candidate.corners_px, unseen))
+        self._rejections.append(_Rejection(model.name, self._image_number, candidate, unseen))
         return isinstance(sighting, Seen)
 
     def record(self, sightings: Mapping[str, Sighting]) -> None:
@@ -134,11 +134,12 @@ class IdleSearch:
         return costly_candidates(pixels.image, self._templates_of(models), index=index)
 
     def _is_rejected(self, model: MarkerModel, candidate: Candidate) -> bool:
-        """Whether a candidate at this place was fitted a few images ago."""
+        """Whether a candidate at this place that matched as well was fitted some images ago."""
         reach_px = SAME_PLACE_RATIO * side_px_of(candidate.corners_px)
         return any(
             one.name == model.name
-            and one.corners_px is not None
-            and float(np.abs(one.corners_px - candidate.corners_px).max()) < reach_px
+            and one.candidate is not None
+            and candidate.correlation < one.candidate.correlation + MIN_GAIN
+            and float(np.abs(one.candidate.corners_px - candidate.corners_px).max()) < reach_px
             for one in self._rejections
         )
