@@ -15,6 +15,7 @@ from server.store.cleanup import clean_up, remove_case
 from server.store.documents import NewDocument
 from server.store.errors import OutOfDateError, StoreError
 from server.store.home import Home
+from server.store.read_cache import ReadCache
 from server.store.records import (
     Case,
     Damage,
@@ -44,6 +45,9 @@ class CaseStore:
     def __init__(self, home: Home, *, clock: Clock = utc_now) -> None:
         self.home = home
         self._database = CaseDatabase(home, clock=clock)
+        self._reads = ReadCache()
+        # Before any other listener, which may read what was committed.
+        self._database.add_commit_listener(self._reads.clear)
         self._on_change: Callable[[Change], None] = lambda _: None
         try:
             clean_up(self._database)
@@ -88,8 +92,12 @@ class CaseStore:
 
     def get_open_case(self) -> Case | None:
         """Return the open case; None if none is open."""
-        with self._database.read_session() as session:
-            return cases.find_open_case(session)
+
+        def read() -> Case | None:
+            with self._database.read_session() as session:
+                return cases.find_open_case(session)
+
+        return self._reads.get("open case", read)
 
     def rename(self, case_id: str, name: str) -> Case:
         """Rename a case; InvalidInput NAME_INVALID."""
@@ -183,9 +191,13 @@ class CaseStore:
 
     def latest(self, case_id: str, kind: DocumentKind, name: str) -> Document | None:
         """Return the newest version; None if there is none or it is withdrawn. No older version is reused."""
-        with self._database.read_session() as session:
-            cases.case_row(session, case_id)
-            return next(iter(documents.newest(session, case_id, kind, name)), None)
+
+        def read() -> Document | None:
+            with self._database.read_session() as session:
+                cases.case_row(session, case_id)
+                return next(iter(documents.newest(session, case_id, kind, name)), None)
+
+        return self._reads.get(("latest", case_id, kind, name), read)
 
     def history(self, case_id: str, kind: DocumentKind, name: str) -> tuple[Document, ...]:
         """Return all versions in order, including withdrawn ones."""
@@ -195,9 +207,13 @@ class CaseStore:
 
     def all(self, case_id: str, kind: DocumentKind) -> tuple[Document, ...]:
         """Return the newest version of each name, without withdrawn ones, ordered by name."""
-        with self._database.read_session() as session:
-            cases.case_row(session, case_id)
-            return documents.newest(session, case_id, kind, None)
+
+        def read() -> tuple[Document, ...]:
+            with self._database.read_session() as session:
+                cases.case_row(session, case_id)
+                return documents.newest(session, case_id, kind, None)
+
+        return self._reads.get(("all", case_id, kind), read)
 
     def outline(self, case_id: str) -> tuple[Entry, ...]:
         """Return the headings of all versions of all documents with their validity, in order of creation."""
@@ -214,10 +230,14 @@ class CaseStore:
 
         It is valid if it and all documents that it depends on are the newest versions, and none is withdrawn.
         """
-        with self._database.read_session() as session:
-            cases.case_row(session, document.case_id)
-            documents.document_row(session, document.case_id, document.id)
-            return lineage_of(session, document.case_id, document.id).validity(document.id)
+
+        def read() -> Validity:
+            with self._database.read_session() as session:
+                cases.case_row(session, document.case_id)
+                documents.document_row(session, document.case_id, document.id)
+                return lineage_of(session, document.case_id, document.id).validity(document.id)
+
+        return self._reads.get(("validity", document.case_id, document.id), read)
 
     def current(self, case_id: str, kind: DocumentKind, name: str) -> Document:
         """Return the newest version, if it is valid.
