@@ -31,7 +31,7 @@ import "./theme/page.css";
 import "./theme/panes.css";
 import "./theme/alarms.css";
 import "./theme/shell.css";
-import "./theme/enter.css";
+import "./theme/signin.css";
 import "./theme/theatre.css";
 import "./theme/operator.css";
 import "./theme/restart.css";
@@ -41,7 +41,7 @@ import "./theme/planning.css";
 import "./theme/registration.css";
 import "./theme/supervisor.css";
 import "./theme/people.css";
-import "./theme/line.css";
+import "./theme/connection.css";
 import "./theme/latency.css";
 import "./theme/phone.css";
 
@@ -51,22 +51,22 @@ import { createRoot } from "react-dom/client";
 import { App } from "./app/App";
 import { SessionProvider } from "./app/session";
 import { theme } from "./theme/theme";
-import { wordsFor } from "./words/choose";
-import { WordsProvider } from "./words/WordsContext";
+import { textsFor } from "./texts/language";
+import { TextsProvider } from "./texts/TextsContext";
 
-const words = wordsFor(location.search, navigator.languages);
-document.documentElement.lang = words.language;
+const texts = textsFor(location.search, navigator.languages);
+document.documentElement.lang = texts.language;
 const root = document.getElementById("root");
 if (root === null) throw new Error("index.html has no #root");
 
 createRoot(root).render(
   <StrictMode>
     <MantineProvider theme={theme} forceColorScheme="dark">
-      <WordsProvider value={words}>
+      <TextsProvider value={texts}>
         <SessionProvider>
           <App />
         </SessionProvider>
-      </WordsProvider>
+      </TextsProvider>
     </MantineProvider>
   </StrictMode>,
 );

@@ -1,7 +1,7 @@
 import { useRef, type ReactNode } from "react";
 import { useLive, usePainter } from "../live/LiveContext";
 import { setData } from "../panes/setText";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { isLit } from "./flash";
 import { KnownAlarms } from "./KnownAlarms";
 import { SoundState } from "./SoundState";
@@ -12,7 +12,7 @@ import { alarmsVerdict } from "./verdict";
 
 /** The alarms: the highest in big words, the others listed, what can be done about them, and the sound. */
 export function AlarmBand(): ReactNode {
-  const words = useWords().alarms;
+  const texts = useTexts().alarms;
   const { view } = useLive();
   const sound = useAlarmSound();
   const band = useRef<HTMLElement>(null);
@@ -29,7 +29,7 @@ export function AlarmBand(): ReactNode {
   return (
     <section
       className="alarms"
-      aria-label={words.title}
+      aria-label={texts.title}
       data-testid="alarms"
       data-priority={verdict.known ? (top?.priority ?? "none") : isLoading ? "loading" : "unknown"}
       data-state={top?.state ?? "normal"}

@@ -1,28 +1,28 @@
 import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { AlarmLine } from "./AlarmSentence";
 import { alarmsVerdict } from "./verdict";
 
 /** The alarms as theatre has them. They are acknowledged there, by people who stand before them. */
 export function AlarmsShown(): ReactNode {
-  const words = useWords().alarms;
+  const texts = useTexts().alarms;
   const { view } = useLive();
   const verdict = alarmsVerdict(view, view.link !== "connecting");
   const alarms = verdict.known ? verdict.alarms.alarms : [];
   return (
     <section
       className="alarms alarms-shown"
-      aria-label={words.title}
+      aria-label={texts.title}
       data-testid="alarms-shown"
       data-priority={verdict.known ? (alarms[0]?.priority ?? "none") : "unknown"}
     >
       {!verdict.known && (
         <p className="alarms-state" role="alert">
-          <span aria-hidden="true">▲▲</span> {words.unknown}
+          <span aria-hidden="true">▲▲</span> {texts.unknown}
         </p>
       )}
-      {verdict.known && alarms.length === 0 && <p className="alarms-none">{words.none}</p>}
+      {verdict.known && alarms.length === 0 && <p className="alarms-none">{texts.none}</p>}
       {alarms.length > 0 && (
         <ul className="alarms-shown-list">
           {alarms.map((alarm) => (

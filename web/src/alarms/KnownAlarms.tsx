@@ -2,8 +2,8 @@ import { useRef, useState, type ReactNode } from "react";
 import { usePainter } from "../live/LiveContext";
 import type { AlarmMessage, AlarmsMessage } from "../live/messages";
 import { setText } from "../panes/setText";
-import { textOf } from "../words/text";
-import { useWords } from "../words/WordsContext";
+import { textOf } from "../texts/text";
+import { useTexts } from "../texts/TextsContext";
 import { AlarmLine, AlarmSentence, MARKS } from "./AlarmSentence";
 import { acknowledge, pause, resume } from "./desk";
 
@@ -11,19 +11,19 @@ const PAUSE_S = 120;
 
 /** The alarms that the server has now, and what a person here can do about them. */
 export function KnownAlarms({ alarms }: { alarms: AlarmsMessage }): ReactNode {
-  const all = useWords();
-  const words = all.alarms;
+  const all = useTexts();
+  const texts = all.alarms;
   const [top, ...others] = alarms.alarms;
   const [failed, setFailed] = useState(false);
   const tell = (worked: boolean): void => {
     setFailed(!worked);
   };
-  if (!top) return <p className="alarms-none">{words.none}</p>;
+  if (!top) return <p className="alarms-none">{texts.none}</p>;
   const numbers = alarms.alarms.filter((one) => one.state !== "acknowledged").map((one) => one.number);
   return (
     <>
       <p className="heard-only" role="alert">
-        {words.priority[top.priority]}: {textOf(top.title, all)}
+        {texts.priority[top.priority]}: {textOf(top.title, all)}
       </p>
       <Top alarm={top} />
       {others.length > 0 && (
@@ -42,36 +42,36 @@ export function KnownAlarms({ alarms }: { alarms: AlarmsMessage }): ReactNode {
             data-testid="acknowledge"
             onClick={() => void acknowledge(numbers).then(tell)}
           >
-            {words.acknowledge}
+            {texts.acknowledge}
           </button>
         )}
         {alarms.pause_left_s > 0 ? (
           <button type="button" data-testid="resume" onClick={() => void resume().then(tell)}>
-            {words.paused} <PauseLeft /> · {words.resume}
+            {texts.paused} <PauseLeft /> · {texts.resume}
           </button>
         ) : (
           alarms.sound !== "silent" && (
             <button type="button" data-testid="pause" onClick={() => void pause(PAUSE_S).then(tell)}>
-              {words.pause}
+              {texts.pause}
             </button>
           )
         )}
-        {failed && <strong role="status">{words.failed}</strong>}
+        {failed && <strong role="status">{texts.failed}</strong>}
       </div>
     </>
   );
 }
 
 function Top({ alarm }: { alarm: AlarmMessage }): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const isOver = alarm.state === "latched" && alarm.presence !== "yes";
   return (
     <div className="alarms-top" data-testid="alarm-top" data-condition={alarm.condition}>
       <p className="alarms-state">
         {/* What is over has no urgency any more, and no marks. */}
         <span aria-hidden="true">{isOver ? "" : MARKS[alarm.priority]}</span>{" "}
-        <small>{isOver ? words.alarms.over : words.alarms.priority[alarm.priority]}</small>{" "}
-        {textOf(alarm.title, words)}
+        <small>{isOver ? texts.alarms.over : texts.alarms.priority[alarm.priority]}</small>{" "}
+        {textOf(alarm.title, texts)}
       </p>
       <p className="alarms-sentence">
         <AlarmSentence alarm={alarm} />

@@ -1,12 +1,12 @@
 import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { AlarmsShown } from "./AlarmsShown";
 import { alarmsVerdict } from "./verdict";
 
 /** In the band of alarms before the first message: that the page is loading, or that the server is not reached. */
 export function UnheardAlarms(): ReactNode {
-  const { rest, cause } = useWords();
+  const { rest, cause } = useTexts();
   if (useLive().view.firstMessage === "awaited") return <p className="alarms-none">{rest.loading}</p>;
   const { state, sentence } = cause["not-reached"];
   return (
@@ -21,14 +21,14 @@ export function UnheardAlarms(): ReactNode {
 
 /** The alarms as theatre has them, once something of them can be known. */
 export function AlarmsShownOnceHeard(): ReactNode {
-  const words = useWords().alarms;
+  const texts = useTexts().alarms;
   const { view } = useLive();
   const { firstMessage } = view;
   if (firstMessage === "received" || alarmsVerdict(view, false).known) return <AlarmsShown />;
   return (
     <section
       className="alarms alarms-shown"
-      aria-label={words.title}
+      aria-label={texts.title}
       data-testid="alarms-shown"
       data-priority={firstMessage === "awaited" ? "loading" : "unknown"}
       data-lit="true"

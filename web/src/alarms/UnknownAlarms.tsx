@@ -1,17 +1,17 @@
 import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import type { AlarmSound } from "./useAlarmSound";
 
 /** Nothing is claimed of alarms while the server is not heard; the screen's own alarm can be paused. */
 export function UnknownAlarms({ sound }: { sound: AlarmSound }): ReactNode {
-  const words = useWords().alarms;
+  const texts = useTexts().alarms;
   const { nowMs } = useLive().view;
   const leftMs = sound.ownPauseUntilMs - nowMs;
   return (
     <>
       <p className="alarms-state" role="alert">
-        <span aria-hidden="true">▲▲</span> {words.unknown}
+        <span aria-hidden="true">▲▲</span> {texts.unknown}
       </p>
       <div className="alarms-buttons">
         {sound.armed && (
@@ -21,7 +21,7 @@ export function UnknownAlarms({ sound }: { sound: AlarmSound }): ReactNode {
               sound.pauseOwn(nowMs);
             }}
           >
-            {leftMs > 0 ? `${words.paused} ${Math.ceil(leftMs / 1000)} s` : words.pause}
+            {leftMs > 0 ? `${texts.paused} ${Math.ceil(leftMs / 1000)} s` : texts.pause}
           </button>
         )}
       </div>

@@ -1,6 +1,6 @@
 import { lazy, Suspense, useEffect, type ComponentType, type ReactNode } from "react";
 import { useLocation } from "wouter";
-import { EnterPage } from "../enter/EnterPage";
+import { SignInPage } from "../signin/SignInPage";
 import { LiveProvider } from "../live/LiveContext";
 import { RoomProvider } from "../room/RoomContext";
 import { TheatreView } from "../theatre/TheatreView";
@@ -23,7 +23,7 @@ const LOADED_AT = location.pathname;
 export function App(): ReactNode {
   const { session } = useSession();
   const [path] = useLocation();
-  if (session.state !== "in" || path === "/enter") return <EnterPage />;
+  if (session.state !== "in" || path === "/enter") return <SignInPage />;
   if (isCameraAt(path, session.who.role)) {
     return <Suspense fallback={null}>{LOADED_AT === CAMERA_PATH ? <CameraPage /> : <LoadedAnew />}</Suspense>;
   }

@@ -4,7 +4,7 @@ import { useLive } from "../live/LiveContext";
 import { answered, server } from "../rest/client";
 import { RejectionNote } from "../rest/RejectionNote";
 import { useDo } from "../rest/useDo";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { useProcedureOften } from "./procedure";
 import { useSession } from "./session";
 
@@ -20,7 +20,7 @@ export function ConfirmRestart(): ReactNode {
 }
 
 function Question(): ReactNode {
-  const words = useWords().restart;
+  const texts = useTexts().restart;
   const { session } = useSession();
   const { data, again } = useProcedureOften();
   const doing = useDo();
@@ -40,18 +40,18 @@ function Question(): ReactNode {
     <section className="restart" role="alert" aria-labelledby="restart-title">
       <div className="restart-words">
         <h2 id="restart-title">
-          <span aria-hidden="true">■</span> {words.title}: {needed.vertebra}
+          <span aria-hidden="true">■</span> {texts.title}: {needed.vertebra}
         </h2>
-        <p>{words.because[needed.because]}</p>
+        <p>{texts.because[needed.because]}</p>
         <p>
-          {needed.reference === null ? words.look.camera : words.look.reference} {words.orCheck}
-          {!isOperator && ` ${words.others}`}
+          {needed.reference === null ? texts.look.camera : texts.look.reference} {texts.orCheck}
+          {!isOperator && ` ${texts.others}`}
         </p>
         <RejectionNote rejection={doing.rejection} />
       </div>
       {isOperator && (
         <Button className="restart-confirm" loading={doing.busy} onClick={() => void confirm()}>
-          {words.confirm} {needed.vertebra}
+          {texts.confirm} {needed.vertebra}
         </Button>
       )}
     </section>

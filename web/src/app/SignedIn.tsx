@@ -5,13 +5,13 @@ import { answered, server } from "../rest/client";
 import { RejectionNote } from "../rest/RejectionNote";
 import { useAsked } from "../rest/useAsked";
 import { useDo } from "../rest/useDo";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { isOnlyOperator } from "./onlyOperator";
 import { useSession } from "./session";
 
 /** Who is signed in, and the way out; nothing where nobody has to sign in. */
 export function SignedIn(): ReactNode {
-  const words = useWords().enter;
+  const texts = useTexts().signIn;
   const { session, leave } = useSession();
   const [asked, setAsked] = useState(false);
   const { busy, rejection, run, forget } = useDo();
@@ -38,23 +38,23 @@ export function SignedIn(): ReactNode {
         }}
         data-testid="signed-in"
       >
-        {name} · {words.role[role]}
+        {name} · {texts.role[role]}
       </Button>
-      <Modal opened={asked} onClose={close} title={words.leaveTitle} centered withCloseButton={false}>
+      <Modal opened={asked} onClose={close} title={texts.leaveTitle} centered withCloseButton={false}>
         {isOnly ? (
-          <Alert className="consequence" title={words.onlyTitle} role="alert" data-testid="only-operator">
-            <p>{words.onlySentence}</p>
+          <Alert className="consequence" title={texts.onlyTitle} role="alert" data-testid="only-operator">
+            <p>{texts.onlySentence}</p>
             <Link className="big-link" href="/operator/people" onClick={close}>
-              {words.onlyInvite}
+              {texts.onlyInvite}
             </Link>
           </Alert>
         ) : (
-          <p>{words.leaveSentence}</p>
+          <p>{texts.leaveSentence}</p>
         )}
         <RejectionNote rejection={rejection} />
         <div className="enter-choices">
           <Button size="lg" variant={isOnly ? "filled" : "default"} onClick={close}>
-            {words.stay}
+            {texts.stay}
           </Button>
           <Button
             size="lg"
@@ -64,7 +64,7 @@ export function SignedIn(): ReactNode {
             onClick={() => void run(leave)}
             data-testid="sign-out"
           >
-            {isOnly ? words.leaveAnyway : words.leave}
+            {isOnly ? texts.leaveAnyway : texts.leave}
           </Button>
         </div>
       </Modal>

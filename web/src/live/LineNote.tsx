@@ -1,14 +1,14 @@
 import { useRef, type ReactNode } from "react";
 import { setText } from "../panes/setText";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import type { Carried } from "./carried";
 import { usePainter } from "./LiveContext";
 import { shownNumber } from "./rounding";
-import type { LineWords } from "../words/line/en";
+import type { ConnectionTexts } from "../texts/connection/en";
 
 /** Says in words when the picture is reduced or few images come; empty otherwise. */
 export function LineNote(): ReactNode {
-  const { line } = useWords();
+  const { connection: line } = useTexts();
   const note = useRef<HTMLParagraphElement>(null);
   usePainter(({ video, carried }) => {
     setText(note.current, video.live ? lineText(carried, line) : "");
@@ -17,9 +17,9 @@ export function LineNote(): ReactNode {
 }
 
 /** "Thin line: 4 images/s, 640x360"; nothing where all that the camera gives comes in full. */
-export function lineText({ little, imagesPerS, widthPx, heightPx }: Carried, words: LineWords): string {
+export function lineText({ little, imagesPerS, widthPx, heightPx }: Carried, texts: ConnectionTexts): string {
   if (little === null || widthPx === null || heightPx === null) return "";
   const size = `${widthPx}x${heightPx}`;
-  if (little === "reduced") return `${words.reduced}: ${size}`;
-  return `${words[little]}: ${shownNumber(imagesPerS, 0)} ${words.rate}, ${size}`;
+  if (little === "reduced") return `${texts.reduced}: ${size}`;
+  return `${texts[little]}: ${shownNumber(imagesPerS, 0)} ${texts.rate}, ${size}`;
 }

@@ -1,11 +1,11 @@
 import type { ReactNode } from "react";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { PICTURE_CHOICES, type PictureChoice } from "./carried";
 import { useLive } from "./LiveContext";
 
 /** In which size the picture comes: by itself as the line carries it, or the one that is chosen. */
 export function PictureSize(): ReactNode {
-  const { line } = useWords();
+  const { connection: line } = useTexts();
   const { live, view } = useLive();
   return (
     <select

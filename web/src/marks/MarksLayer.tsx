@@ -10,7 +10,7 @@ import { usePainter } from "../live/LiveContext";
 import type { Point } from "../room/messages";
 import { useRoom } from "../room/RoomContext";
 import { NOBODY } from "../room/roomState";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { Board } from "./board";
 import { useMarking } from "./MarkingContext";
 import { isOnImage, onImage } from "./place";
@@ -27,7 +27,7 @@ const KEYS: Record<string, Point> = {
 
 /** What others point at and draw, over the picture; inside a `MarkingProvider` also what this person does. */
 export function MarksLayer(): ReactNode {
-  const words = useWords().marks;
+  const texts = useTexts().marks;
   const room = useRoom();
   const marking = useMarking();
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -35,7 +35,7 @@ export function MarksLayer(): ReactNode {
   const seen = useRef(new Seen());
   const key = useRef<Point | null>(null);
   const hand = useEffectEvent(() => marking?.hand ?? null);
-  const ageWords = useEffectEvent((seconds: number) => words.ago.replace("#", String(seconds)));
+  const ageText = useEffectEvent((seconds: number) => texts.ago.replace("#", String(seconds)));
 
   usePainter((view) => {
     seen.current.look(view);
@@ -50,7 +50,7 @@ export function MarksLayer(): ReactNode {
       seen.current,
       () => room?.now() ?? NOBODY,
       () => hand(),
-      (seconds) => ageWords(seconds),
+      (seconds) => ageText(seconds),
     );
     board.current = painted;
     const leave = room?.onMarks(() => {
@@ -125,7 +125,7 @@ export function MarksLayer(): ReactNode {
       {...shared}
       data-tool={marking.tool}
       role="application"
-      aria-label={words.layer}
+      aria-label={texts.layer}
       tabIndex={0}
       onPointerMove={move}
       onPointerDown={down}

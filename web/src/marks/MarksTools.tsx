@@ -1,9 +1,9 @@
 import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import { shownNumber } from "../live/rounding";
-import { useRoomWords } from "../room/RoomContext";
+import { useRoomSnapshot } from "../room/RoomContext";
 import { Icon } from "../panes/Icon";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import type { Tool } from "./hand";
 import { useMarking } from "./MarkingContext";
 
@@ -11,16 +11,16 @@ const TOOLS: readonly Tool[] = ["point", "pen", "arrow", "circle"];
 
 /** What the hand does on the video, and how it is taken back. */
 export function MarksTools(): ReactNode {
-  const { marks: words, rest } = useWords();
+  const { marks: texts, rest } = useTexts();
   const marking = useMarking();
-  const { stands, firstMessage, you, fadesAfterS } = useRoomWords();
+  const { stands, firstMessage, you, fadesAfterS } = useRoomSnapshot();
   const { view } = useLive();
   if (marking === null) return null;
   const isLoading = firstMessage === "awaited" || view.firstMessage === "awaited";
-  const gone = !stands ? words.lineGone : !view.video.live ? words.noPicture : "";
+  const gone = !stands ? texts.lineGone : !view.video.live ? texts.noPicture : "";
   const problem = isLoading ? rest.loading : gone === "" ? "" : `▲ ${gone}`;
   return (
-    <div className="marks-tools" role="toolbar" aria-label={words.tools}>
+    <div className="marks-tools" role="toolbar" aria-label={texts.tools}>
       {TOOLS.map((tool) => (
         <button
           key={tool}
@@ -31,7 +31,7 @@ export function MarksTools(): ReactNode {
             marking.choose(tool);
           }}
         >
-          <Icon name={tool} /> {words.tool[tool]}
+          <Icon name={tool} /> {texts.tool[tool]}
         </button>
       ))}
       <button
@@ -42,7 +42,7 @@ export function MarksTools(): ReactNode {
           marking.hand.undo();
         }}
       >
-        <Icon name="undo" /> {words.undo}
+        <Icon name="undo" /> {texts.undo}
       </button>
       <button
         type="button"
@@ -52,7 +52,7 @@ export function MarksTools(): ReactNode {
           marking.hand.clear("own");
         }}
       >
-        <Icon name="cross" /> {words.clear}
+        <Icon name="cross" /> {texts.clear}
       </button>
       {you?.role === "operator" && (
         <button
@@ -63,15 +63,15 @@ export function MarksTools(): ReactNode {
             marking.hand.clear("all");
           }}
         >
-          <Icon name="cross" /> {words.clearAll}
+          <Icon name="cross" /> {texts.clearAll}
         </button>
       )}
       <p role="status" className="marks-trouble">
         {problem !== ""
           ? problem
           : fadesAfterS === null
-            ? words.seenBy
-            : `${words.seenBy} ${words.fades.replace("#", shownNumber(fadesAfterS, 0))}`}
+            ? texts.seenBy
+            : `${texts.seenBy} ${texts.fades.replace("#", shownNumber(fadesAfterS, 0))}`}
       </p>
     </div>
   );

@@ -20,7 +20,7 @@ export class Board {
     private readonly seen: Seen,
     private readonly room: () => RoomState,
     private readonly hand: () => Hand | null,
-    private readonly ageWords: (seconds: number) => string,
+    private readonly ageText: (seconds: number) => string,
   ) {}
 
   get placement(): Placement | null {
@@ -89,7 +89,7 @@ export class Board {
 
   private ageOf(mark: Mark, nowMs: number): string {
     const seconds = Math.floor((nowMs - mark.madeAtMs) / 1000);
-    return seconds < 1 ? "" : this.ageWords(seconds);
+    return seconds < 1 ? "" : this.ageText(seconds);
   }
 
   /** As many pixels as the screen has, and nothing on them. */

@@ -1,12 +1,12 @@
 import type { ReactNode } from "react";
 import { Link } from "wouter";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { PAGES, type OperatorPage } from "./pages";
 import { useProcedure } from "../app/procedure";
 
 /** The way to what is to be done now, where that is another page than this one. */
 export function NextStep({ page }: { page: OperatorPage }): ReactNode {
-  const words = useWords().operator;
+  const texts = useTexts().operator;
   const { data } = useProcedure();
   if (data === null) return null;
   const name = data.case_id === null ? "case" : data.next_step;
@@ -14,7 +14,7 @@ export function NextStep({ page }: { page: OperatorPage }): ReactNode {
   if (next === undefined || next === page) return null;
   return (
     <Link className="next-step" href={`/operator/${next.name}`} data-testid="next-step">
-      {words.next}: <strong>{words.page[next.name]}</strong> <span aria-hidden="true">→</span>
+      {texts.next}: <strong>{texts.page[next.name]}</strong> <span aria-hidden="true">→</span>
     </Link>
   );
 }

@@ -2,20 +2,20 @@ import type { ReactNode } from "react";
 import { ViewSwitch } from "../app/ViewSwitch";
 import { Brand } from "../panes/Brand";
 import { LiveStatus } from "../panes/LiveStatus";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { useProcedure } from "../app/procedure";
 
 /** Whose case is open, whether tracking, camera and server are there, and the way to the other views. */
 export function OperatorTop(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const { data, rejection } = useProcedure();
-  const unknown = rejection === null ? words.rest.loading : words.theatre.unknown;
+  const unknown = rejection === null ? texts.rest.loading : texts.theatre.unknown;
   return (
     <header className="operator-top">
       <Brand />
       <p className="operator-case" data-testid="open-case">
-        <span>{words.theatre.case}</span>{" "}
-        <strong>{data === null ? unknown : (data.case_name ?? words.theatre.noCase)}</strong>
+        <span>{texts.theatre.case}</span>{" "}
+        <strong>{data === null ? unknown : (data.case_name ?? texts.theatre.noCase)}</strong>
       </p>
       <LiveStatus withTracking />
       <ViewSwitch />

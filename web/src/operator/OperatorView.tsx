@@ -4,7 +4,7 @@ import { AlarmBand } from "../alarms/AlarmBand";
 import { ConfirmRestart } from "../app/ConfirmRestart";
 import { AlertBand } from "../panes/AlertBand";
 import { Unanswered } from "../rest/Unanswered";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { OperatorTop } from "./OperatorTop";
 import { pageAt, PAGES } from "./pages";
 import { useProcedure } from "../app/procedure";
@@ -14,7 +14,7 @@ import { useBandHeight } from "./useBandHeight";
 
 /** The operator's view: the procedure step by step. */
 export function OperatorView(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const [path] = useLocation();
   const procedure = useProcedure();
   const { data, rejection } = procedure;
@@ -26,7 +26,7 @@ export function OperatorView(): ReactNode {
   return (
     <div className="operator">
       <a className="skip" href="#step">
-        {words.operator.skip}
+        {texts.operator.skip}
       </a>
       <OperatorTop />
       <div className="operator-band" ref={band}>

@@ -1,37 +1,37 @@
 import { useEffect, useRef, type ReactNode, type RefObject } from "react";
 import { useLocation } from "wouter";
 import { RejectionNote } from "../rest/RejectionNote";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { NextStep } from "./NextStep";
 import type { OperatorPage } from "./pages";
 import { useGates } from "./parts/useGates";
 import { bringIntoView } from "./parts/useIntoView";
 import { useProcedure } from "../app/procedure";
 import { MARK_OF_STATE } from "./stepMarks";
-import { stateWord, stepNote } from "./stepWords";
+import { stateText, stepNote } from "./stepTexts";
 
 /** A remedy that names an address of the API is for programs: whoever is here has the page's own buttons. */
 const FOR_MACHINES = "/api/";
 
 /** What a step is for, how it stands with its numbers, and what to do next, as the server says it. */
 export function StepHead({ page }: { page: OperatorPage }): ReactNode {
-  const words = useWords().operator;
+  const texts = useTexts().operator;
   const { data, rejection } = useProcedure();
   const gates = useGates().data;
   const head = useArrival();
   const step = data?.steps.find((one) => one.step === page.step) ?? null;
-  const note = step === null ? "" : stepNote(step, gates?.registration.min_points ?? null, words);
+  const note = step === null ? "" : stepNote(step, gates?.registration.min_points ?? null, texts);
   return (
     <header className="step-head" ref={head}>
       <div className="step-title">
-        <h2>{words.page[page.name]}</h2>
+        <h2>{texts.page[page.name]}</h2>
         <NextStep page={page} />
       </div>
       <RejectionNote rejection={rejection} />
       {step !== null && (
         <p className="step-said" data-state={step.state} data-testid="step-said">
           <strong>
-            <span aria-hidden="true">{MARK_OF_STATE[step.state]}</span> {stateWord(step, words)}
+            <span aria-hidden="true">{MARK_OF_STATE[step.state]}</span> {stateText(step, texts)}
           </strong>{" "}
           {/* The server speaks English. */}
           <span lang="en">{sentence(step.message)}</span>

@@ -1,19 +1,19 @@
 import type { ReactNode } from "react";
 import { Link } from "wouter";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { PAGES, type OperatorPage } from "./pages";
 import { useProcedure, type Step } from "../app/procedure";
 import { MARK_OF_STATE } from "./stepMarks";
-import { stateWord } from "./stepWords";
+import { stateText } from "./stepTexts";
 
 type Mark = Step["state"] | "none";
 
 /** The steps, how each stands, and the way to each. */
 export function StepRail({ now }: { now: OperatorPage | null }): ReactNode {
-  const words = useWords().operator;
+  const texts = useTexts().operator;
   const { data } = useProcedure();
   return (
-    <nav className="rail" aria-label={words.steps}>
+    <nav className="rail" aria-label={texts.steps}>
       <ol>
         {PAGES.map((page) => {
           const step = data?.steps.find((one) => one.step === page.step) ?? null;
@@ -29,11 +29,11 @@ export function StepRail({ now }: { now: OperatorPage | null }): ReactNode {
                 <span className="rail-mark" aria-hidden="true">
                   {mark === "none" ? "" : MARK_OF_STATE[mark]}
                 </span>
-                <span className="rail-name">{words.page[page.name]}</span>
+                <span className="rail-name">{texts.page[page.name]}</span>
                 <span className="rail-state">
-                  {step === null ? "" : stateWord(step, words)}
-                  {step !== null && !step.allowed && ` · ${words.locked}`}
-                  {isNext && ` · ${words.now}`}
+                  {step === null ? "" : stateText(step, texts)}
+                  {step !== null && !step.allowed && ` · ${texts.locked}`}
+                  {isNext && ` · ${texts.now}`}
                 </span>
               </Link>
             </li>

@@ -1,17 +1,17 @@
 import { useEffect, useState, type ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 
 /** A state must last this long before it is read out: what flickers is not worth a voice. */
 const LASTS_MS = 700;
 
 /** Beside a live picture: reads changes of its state out, never numbers. */
 export function Announcer(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const { video, numbers, firstMessage } = useLive().view;
-  const picture = video.live ? words.video.title : `${words.video.none}: ${words.cause[video.cause].state}`;
-  const tracking = numbers.live ? words.numbers.tracking : words.numbers.none;
-  const sentence = firstMessage === "awaited" ? words.cause.connecting.sentence : `${picture}. ${tracking}.`;
+  const picture = video.live ? texts.video.title : `${texts.video.none}: ${texts.cause[video.cause].state}`;
+  const tracking = numbers.live ? texts.numbers.tracking : texts.numbers.none;
+  const sentence = firstMessage === "awaited" ? texts.cause.connecting.sentence : `${picture}. ${tracking}.`;
   const [said, setSaid] = useState("");
   useEffect(() => {
     const timer = setTimeout(() => {

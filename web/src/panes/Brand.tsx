@@ -1,15 +1,15 @@
 import type { ReactNode } from "react";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 
 /** Whose page this is, and that it is no medical device. */
 export function Brand(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   return (
     <div className="brand">
       <img src="/coaxial.svg" alt="" width={44} height={44} />
       <div>
-        <h1>{words.product}</h1>
-        <p className="notice">{words.notice}</p>
+        <h1>{texts.product}</h1>
+        <p className="notice">{texts.notice}</p>
       </div>
     </div>
   );

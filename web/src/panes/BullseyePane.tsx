@@ -1,6 +1,6 @@
 import { useRef, type ReactNode } from "react";
 import { usePainter } from "../live/LiveContext";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { Pane } from "./Pane";
 import { paintBullseye } from "./paintBullseye";
 import { setData } from "./setText";
@@ -8,7 +8,7 @@ import { paintSplit, Split } from "./Split";
 
 /** The drill as it is seen along the channel, of the same image as the numbers; empty when they are. */
 export function BullseyePane(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const stage = useRef<HTMLDivElement>(null);
   const svg = useRef<SVGSVGElement>(null);
   const split = useRef<HTMLDListElement>(null);
@@ -18,13 +18,13 @@ export function BullseyePane(): ReactNode {
     const along = reading?.along ?? null;
     setData(stage.current, "live", String(along !== null));
     paintBullseye(svg.current, along, reading);
-    paintSplit(split.current, reading, words);
+    paintSplit(split.current, reading, texts);
   });
 
   return (
-    <Pane id="bullseye" title={words.theatre.along}>
+    <Pane id="bullseye" title={texts.theatre.along}>
       <div className="bullseye-stage" data-testid="bullseye" data-live="false" ref={stage}>
-        <svg ref={svg} viewBox="-1 -1 2 2" role="img" aria-label={words.theatre.alongAlt}>
+        <svg ref={svg} viewBox="-1 -1 2 2" role="img" aria-label={texts.theatre.alongAlt}>
           <circle className="eye-border" data-part="border" />
           <g data-part="view">
             <circle className="eye-channel" data-part="channel" />
@@ -47,7 +47,7 @@ export function BullseyePane(): ReactNode {
             S
           </text>
         </svg>
-        <p className="bullseye-none">{words.theatre.alongNone}</p>
+        <p className="bullseye-none">{texts.theatre.alongNone}</p>
         <Split ref={split} />
       </div>
     </Pane>

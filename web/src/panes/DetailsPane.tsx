@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import { shownNumber } from "../live/rounding";
 import { useLatency } from "../rest/useLatency";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { cameraFacts } from "./cameraFacts";
 import { latencyText } from "./latencyText";
 import { heardOf } from "./heard";
@@ -13,27 +13,27 @@ const NONE = "—";
 
 /** Times and counts; what a server said that is gone is not told any more. */
 export function DetailsPane(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const { view, dashboard } = useLive();
   const { source, snapshot } = heardOf(view);
   const latency = useLatency().data;
-  const d = words.details;
-  const h = words.header;
+  const d = texts.details;
+  const h = texts.header;
   const searchMs = snapshot === null ? null : searchTimeMs(snapshot.stage_ms);
   const facts: [string, string, string?][] = [
     [h.source, source?.name ?? NONE, "source"],
     [h.rate, source ? `${shownNumber(source.rate_hz, 0)} /s` : NONE],
     [h.searchTime, searchMs === null ? NONE : `${shownNumber(searchMs)} ms`, "search-time"],
     [
-      words.latency.lightToPage,
-      latency === null ? NONE : latencyText(latency, words.latency),
+      texts.latency.lightToPage,
+      latency === null ? NONE : latencyText(latency, texts.latency),
       "light-to-page",
     ],
     [d.images, String(source?.images ?? NONE)],
     [d.skipped, String(snapshot?.skipped_images ?? source?.skipped_images ?? NONE)],
     [d.restarts, source === null ? NONE : String(view.newest?.process.restarts ?? NONE)],
     [d.size, snapshot ? `${snapshot.width_px} × ${snapshot.height_px} px` : NONE],
-    ...cameraFacts(source?.camera ?? null, words),
+    ...cameraFacts(source?.camera ?? null, texts),
     [d.version, dashboard?.version ?? NONE],
   ];
   const stages = Object.entries(snapshot?.stage_ms ?? {});

@@ -2,8 +2,8 @@ import type { ReactNode } from "react";
 import type { FigureMessage, Status } from "../live/messages";
 import type { Reading } from "../live/reading";
 import { shownFigure, shownNumber } from "../live/rounding";
-import type { Words } from "../words/en";
-import { useWords } from "../words/WordsContext";
+import type { Texts } from "../texts/en";
+import { useTexts } from "../texts/TextsContext";
 import { figureOf, type FigureName } from "./limits";
 import { setData, setText } from "./setText";
 import { wallSide } from "./verdictText";
@@ -19,12 +19,12 @@ const MARKS: Record<Status, string> = {
 
 /** One big number, its unit, and its limit under it. */
 export function FigureTile({ name }: { name: FigureName }): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   return (
     <div className="reading" data-reading={name} data-standing="none">
       <p className="reading-name">
-        <span>{words.reading[name].name}</span> <small data-part="hint" />{" "}
-        <span className="unit">{words.reading[name].unit}</span>
+        <span>{texts.reading[name].name}</span> <small data-part="hint" />{" "}
+        <span className="unit">{texts.reading[name].unit}</span>
       </p>
       <p className="reading-value">
         <output data-part="value" data-testid={`reading-${name}`} aria-live="off">
@@ -34,7 +34,7 @@ export function FigureTile({ name }: { name: FigureName }): ReactNode {
       <p className="reading-limit" data-testid={`limit-${name}`}>
         {name === "depth" && (
           <span className="to-go">
-            {words.reading.toGo.name}{" "}
+            {texts.reading.toGo.name}{" "}
             <output data-part="to-go" data-testid="reading-toGo" aria-live="off">
               {REMOVED}
             </output>{" "}
@@ -51,14 +51,14 @@ export function paintFigure(
   pane: HTMLElement | null,
   name: FigureName,
   reading: Reading | null,
-  words: Words,
+  texts: Texts,
 ): void {
   const tile = pane?.querySelector<HTMLElement>(`[data-reading=${name}]`);
   if (!tile) return;
   const figure = reading === null ? null : figureOf(reading, name);
   setText(tile.querySelector("[data-part=value]"), figure ? shownFigure(figure.value) : REMOVED);
-  setText(tile.querySelector("[data-part=limit]"), figure ? limitText(figure, name, words) : "");
-  setText(tile.querySelector("[data-part=hint]"), hintOf(reading, name, words));
+  setText(tile.querySelector("[data-part=limit]"), figure ? limitText(figure, name, texts) : "");
+  setText(tile.querySelector("[data-part=hint]"), hintOf(reading, name, texts));
   setData(tile, "standing", figure?.status ?? "none");
   if (name === "depth") {
     const toGo = reading === null ? REMOVED : shownFigure(reading.assessment.figures.to_go.value);
@@ -66,9 +66,9 @@ export function paintFigure(
   }
 }
 
-function limitText({ limit, status }: FigureMessage, name: FigureName, words: Words): string {
-  const { theatre, depthWords } = words;
-  if (name === "depth" && status === "through") return `${MARKS.through}${depthWords.past}`;
+function limitText({ limit, status }: FigureMessage, name: FigureName, texts: Texts): string {
+  const { theatre, depthTexts } = texts;
+  if (name === "depth" && status === "through") return `${MARKS.through}${depthTexts.past}`;
   if (limit === null) return "";
   const amount = shownNumber(limit);
   if (name === "depth") return `${theatre.of} ${amount}`;
@@ -82,10 +82,10 @@ function limitText({ limit, status }: FigureMessage, name: FigureName, words: Wo
 }
 
 /** Only what is not as it should be, or which wall is meant: everything else is known by heart. */
-function hintOf(reading: Reading | null, name: FigureName, words: Words): string {
+function hintOf(reading: Reading | null, name: FigureName, texts: Texts): string {
   if (reading === null) return "";
   const { assessment } = reading;
-  if (name === "wall") return wallSide(assessment, words);
-  if (name === "entry" && assessment.figures.entry.value === null) return words.depthWords.across;
-  return name === "depth" && (assessment.figures.depth.value ?? 0) < 0 ? words.depthWords.before : "";
+  if (name === "wall") return wallSide(assessment, texts);
+  if (name === "entry" && assessment.figures.entry.value === null) return texts.depthTexts.across;
+  return name === "depth" && (assessment.figures.depth.value ?? 0) < 0 ? texts.depthTexts.before : "";
 }

@@ -1,24 +1,24 @@
 import type { ReactNode } from "react";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { FIGURES } from "./limits";
 
 const NOTHING_YET = "\u00a0";
 
 /** In the place of the numbers while the page is loading: as large as they are, without a value. */
 export function LoadingNumbers(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   return (
-    <section className="pane pane-numbers" aria-label={words.numbers.title} aria-busy="true">
+    <section className="pane pane-numbers" aria-label={texts.numbers.title} aria-busy="true">
       <div className="numbers">
         <div className="numbers-state">
           <p className="loading" data-testid="numbers-loading">
-            {words.rest.loading}
+            {texts.rest.loading}
           </p>
         </div>
         <div className="readings" id="numbers" tabIndex={-1}>
           {FIGURES.map((name) => (
             <div className="reading" key={name}>
-              <p className="reading-name">{words.reading[name].name}</p>
+              <p className="reading-name">{texts.reading[name].name}</p>
               <p className="reading-value">{NOTHING_YET}</p>
               <p className="reading-limit">{NOTHING_YET}</p>
             </div>

@@ -1,13 +1,13 @@
 import type { ReactNode } from "react";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 
 /** In the place of a pane that states something of the live state, while the page is loading. */
 export function LoadingPane({ id, title }: { id: string; title: string }): ReactNode {
-  const words = useWords().rest;
+  const texts = useTexts().rest;
   return (
     <section className={`pane pane-${id}`} id={id} aria-label={title} aria-busy="true" tabIndex={-1}>
       <p className="loading" data-testid={`${id}-loading`}>
-        {words.loading}
+        {texts.loading}
       </p>
     </section>
   );

@@ -1,10 +1,10 @@
 import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 
 /** By what a move of patient or camera is noticed; nothing while that is not known. */
 export function Moves(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const { view } = useLive();
   const stale = !view.numbers.live && view.numbers.cause !== "unread";
   const moves = view.newest?.snapshot?.motion.motion_detected_by ?? null;
@@ -12,7 +12,7 @@ export function Moves(): ReactNode {
   return (
     <p className="moves" data-moves={moves} data-testid="moves">
       {moves !== "reference" && <span aria-hidden="true">▲ </span>}
-      {words.moves[moves]}
+      {texts.moves[moves]}
     </p>
   );
 }

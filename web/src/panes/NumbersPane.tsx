@@ -1,6 +1,6 @@
 import { useRef, type ReactNode } from "react";
 import { usePainter } from "../live/LiveContext";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { FigureTile, paintFigure } from "./FigureTile";
 import { FIGURES } from "./limits";
 import { NumbersState } from "./NumbersState";
@@ -8,19 +8,19 @@ import { setData } from "./setText";
 
 /** The surgeon's numbers with their limits; removed, with words in their place, when they are not live. */
 export function NumbersPane(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const pane = useRef<HTMLDivElement>(null);
 
   usePainter(({ numbers }) => {
     setData(pane.current, "live", String(numbers.live));
     const reading = numbers.live ? numbers.reading : null;
-    for (const name of FIGURES) paintFigure(pane.current, name, reading, words);
+    for (const name of FIGURES) paintFigure(pane.current, name, reading, texts);
   });
 
   return (
     <section className="pane pane-numbers" aria-labelledby="numbers-title">
       <h2 id="numbers-title" className="heard-only">
-        {words.numbers.title}
+        {texts.numbers.title}
       </h2>
       <div className="numbers" data-testid="numbers" data-live="false" ref={pane}>
         <NumbersState />

@@ -3,15 +3,15 @@ import type { NumbersVerdict } from "../live/assess";
 import { useLive, usePainter } from "../live/LiveContext";
 import type { HeadlineMessage } from "../live/messages";
 import { shownDuration } from "../live/rounding";
-import type { Words } from "../words/en";
-import { textOf } from "../words/text";
-import { useWords } from "../words/WordsContext";
+import type { Texts } from "../texts/en";
+import { textOf } from "../texts/text";
+import { useTexts } from "../texts/TextsContext";
 import { setData, setText } from "./setText";
 import { errorText, lagText, riskText, TONE_SYMBOL } from "./verdictText";
 
 /** The headline of the image whose figures stand here, with what is behind it; or why there are none. */
 export function NumbersState(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const { view } = useLive();
   const headline = useRef<HTMLParagraphElement>(null);
   const detail = useRef<HTMLParagraphElement>(null);
@@ -23,17 +23,17 @@ export function NumbersState(): ReactNode {
 
   usePainter(({ numbers, video, untrackedMs }) => {
     const live = numbers.live ? numbers.reading.headline : null;
-    paintHeadline(headline.current, live, words);
-    setText(detail.current, live === null ? whyWords(numbers, words) : textOf(live.detail, words));
-    setText(event.current, eventText(numbers, words));
-    setText(risk.current, numbers.live ? riskText(numbers.reading.assessment, words) : "");
+    paintHeadline(headline.current, live, texts);
+    setText(detail.current, live === null ? reasonTexts(numbers, texts) : textOf(live.detail, texts));
+    setText(event.current, eventText(numbers, texts));
+    setText(risk.current, numbers.live ? riskText(numbers.reading.assessment, texts) : "");
     setText(since.current, untrackedMs === null ? "" : shownDuration(untrackedMs));
-    setText(error.current, errorLine(numbers, words));
+    setText(error.current, errorLine(numbers, texts));
     const differ = numbers.live && video.live && numbers.imageNumber !== video.imageNumber;
     setText(
       difference.current,
       differ
-        ? `${words.numbers.numbersOf} ${numbers.imageNumber}, ${words.numbers.pictureOf} ${video.imageNumber}`
+        ? `${texts.numbers.numbersOf} ${numbers.imageNumber}, ${texts.numbers.pictureOf} ${video.imageNumber}`
         : "",
     );
   });
@@ -45,7 +45,7 @@ export function NumbersState(): ReactNode {
         <p className="state-verdict" data-testid="verdict" key="verdict" ref={headline} />
       ) : (
         <p className="state-bad" data-testid="no-tracking" key="no-tracking">
-          <span aria-hidden="true">▲▲</span> {noneTitle(view.numbers, words)}{" "}
+          <span aria-hidden="true">▲▲</span> {noneTitle(view.numbers, texts)}{" "}
           <span className="since" data-testid="untracked-for" ref={since} />
         </p>
       )}
@@ -59,37 +59,37 @@ export function NumbersState(): ReactNode {
 }
 
 /** What the newest image says it lacks; a page that shows no image says that there are no figures. */
-function noneTitle(numbers: NumbersVerdict, words: Words): string {
-  if (numbers.live || numbers.unread === null) return words.numbers.none;
-  return textOf(numbers.unread.headline.title, words);
+function noneTitle(numbers: NumbersVerdict, texts: Texts): string {
+  if (numbers.live || numbers.unread === null) return texts.numbers.none;
+  return textOf(numbers.unread.headline.title, texts);
 }
 
-function whyWords(numbers: NumbersVerdict, words: Words): string {
+function reasonTexts(numbers: NumbersVerdict, texts: Texts): string {
   if (numbers.live) return "";
   if (numbers.cause !== "unread") {
-    const { state, sentence } = words.cause[numbers.cause];
+    const { state, sentence } = texts.cause[numbers.cause];
     return `${state} · ${sentence}`;
   }
-  return numbers.unread === null ? "" : textOf(numbers.unread.headline.detail, words);
+  return numbers.unread === null ? "" : textOf(numbers.unread.headline.detail, texts);
 }
 
 /** Alarms that are over and not acknowledged, or whose drill is not tracked: beside the headline, as in the video. */
-function eventText(numbers: NumbersVerdict, words: Words): string {
+function eventText(numbers: NumbersVerdict, texts: Texts): string {
   const headline = numbers.live ? numbers.reading.headline : numbers.unread?.headline;
-  return headline === undefined ? "" : textOf(headline.event, words);
+  return headline === undefined ? "" : textOf(headline.event, texts);
 }
 
-function errorLine(numbers: NumbersVerdict, words: Words): string {
+function errorLine(numbers: NumbersVerdict, texts: Texts): string {
   if (!numbers.live) return "";
   const { tool, assessment, lagMs } = numbers.reading;
-  const lag = lagText(assessment, words);
-  const line = `${tool} · ${errorText(assessment, words)}${lag === "" ? "" : ` · ${lag}`}`;
+  const lag = lagText(assessment, texts);
+  const line = `${tool} · ${errorText(assessment, texts)}${lag === "" ? "" : ` · ${lag}`}`;
   // The age of the image does not hold this delay: it is said beside the numbers that have it.
-  return lagMs > 0 ? `${line} · ${words.numbers.steadied} ${Math.max(Math.round(lagMs), 1)} ms` : line;
+  return lagMs > 0 ? `${line} · ${texts.numbers.steadied} ${Math.max(Math.round(lagMs), 1)} ms` : line;
 }
 
-function paintHeadline(line: HTMLElement | null, headline: HeadlineMessage | null, words: Words): void {
+function paintHeadline(line: HTMLElement | null, headline: HeadlineMessage | null, texts: Texts): void {
   setData(line, "tone", headline?.tone ?? "none");
   setData(line, "verdict", headline?.verdict ?? "none");
-  setText(line, headline === null ? "" : `${TONE_SYMBOL[headline.tone]} ${textOf(headline.title, words)}`);
+  setText(line, headline === null ? "" : `${TONE_SYMBOL[headline.tone]} ${textOf(headline.title, texts)}`);
 }

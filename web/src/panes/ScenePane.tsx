@@ -2,7 +2,7 @@ import { useEffect, useRef, useState, type ReactNode } from "react";
 import type { DrawingBudget } from "../live/budget";
 import { usePainter, useLive } from "../live/LiveContext";
 import { shownDuration, shownNumber } from "../live/rounding";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { Cover } from "./Cover";
 import { Pane } from "./Pane";
 import { Paced } from "./paced";
@@ -18,7 +18,7 @@ const TRIES_WITHOUT_AN_IMAGE = 2;
 
 /** The 3-D scene in its frame, covered whenever what it has drawn is not live. */
 export function ScenePane(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const { live, view } = useLive();
   const stage = useRef<HTMLDivElement>(null);
   const stamp = useRef<HTMLParagraphElement>(null);
@@ -45,7 +45,7 @@ export function ScenePane(): ReactNode {
     setText(
       stamp.current,
       scene.state === "live"
-        ? `${words.video.image} ${scene.imageNumber}${behind} · ${words.video.age} ${shownNumber(scene.ageMs, 0)} ms`
+        ? `${texts.video.image} ${scene.imageNumber}${behind} · ${texts.video.age} ${shownNumber(scene.ageMs, 0)} ms`
         : "",
     );
     setText(age.current, scene.state === "stale" && scene.ageMs !== null ? shownDuration(scene.ageMs) : "");
@@ -70,7 +70,7 @@ export function ScenePane(): ReactNode {
   return (
     <Pane
       id="scene"
-      title={words.scene.title}
+      title={texts.scene.title}
       aside={<p className="stamp" data-testid="scene-stamp" ref={stamp} />}
     >
       <div className="scene-stage" data-testid="scene" data-live="false" ref={stage}>
@@ -82,14 +82,14 @@ export function ScenePane(): ReactNode {
               setSize(element, live.load.budget);
             }}
             src="/scene/"
-            title={words.scene.title}
+            title={texts.scene.title}
             onLoad={() => {
               tellView(frame.current, chosen);
               tellRate(frame.current, live.load.budget);
             }}
           />
         )}
-        <div className="scene-views" role="group" aria-label={words.scene.views}>
+        <div className="scene-views" role="group" aria-label={texts.scene.views}>
           {VIEWS.map((name) => (
             <button
               key={name}
@@ -101,15 +101,15 @@ export function ScenePane(): ReactNode {
                 tellView(frame.current, name);
               }}
             >
-              {words.scene.view[name]}
+              {texts.scene.view[name]}
             </button>
           ))}
         </div>
         <div className="when-stale" data-testid="scene-cover">
           <Cover
             urgency={isCalm ? "none" : "medium"}
-            title={words.scene[hindrance]}
-            sentence={words.scene[`${hindrance}Hint`]}
+            title={texts.scene[hindrance]}
+            sentence={texts.scene[`${hindrance}Hint`]}
           >
             <span className="since" ref={age} />
             {isOff && (
@@ -121,7 +121,7 @@ export function ScenePane(): ReactNode {
                   live.switchSceneOn();
                 }}
               >
-                {words.scene.show}
+                {texts.scene.show}
               </button>
             )}
           </Cover>

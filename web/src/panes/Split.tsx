@@ -1,7 +1,7 @@
 import type { ReactNode, Ref } from "react";
 import type { Reading } from "../live/reading";
-import type { Words } from "../words/en";
-import { useWords } from "../words/WordsContext";
+import type { Texts } from "../texts/en";
+import { useTexts } from "../texts/TextsContext";
 import { setText } from "./setText";
 import { splitOf, type SplitPart } from "./splitText";
 
@@ -9,12 +9,12 @@ const PARTS: readonly SplitPart[] = ["entry", "angle"];
 
 /** Which way the drill is off, in words: at its entry, and in its direction. */
 export function Split({ ref }: { ref: Ref<HTMLDListElement> }): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   return (
     <dl className="split" ref={ref} data-testid="split">
       {PARTS.map((name) => (
         <div key={name} data-split={name}>
-          <dt>{words.theatre.split[name]}</dt>
+          <dt>{texts.theatre.split[name]}</dt>
           <dd data-line="0" />
           <dd data-line="1" />
         </div>
@@ -23,9 +23,9 @@ export function Split({ ref }: { ref: Ref<HTMLDListElement> }): ReactNode {
   );
 }
 
-export function paintSplit(list: HTMLElement | null, reading: Reading | null, words: Words): void {
+export function paintSplit(list: HTMLElement | null, reading: Reading | null, texts: Texts): void {
   for (const name of PARTS) {
-    const lines = reading === null ? [] : splitOf(reading, name, words);
+    const lines = reading === null ? [] : splitOf(reading, name, texts);
     for (const index of [0, 1]) {
       const line = list?.querySelector(`[data-split=${name}] [data-line="${index}"]`) ?? null;
       setText(line, lines[index] ?? "");

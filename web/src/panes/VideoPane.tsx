@@ -3,7 +3,7 @@ import { LineNote } from "../live/LineNote";
 import { useLive, usePainter } from "../live/LiveContext";
 import { shownNumber } from "../live/rounding";
 import { MarksLayer } from "../marks/MarksLayer";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { Announcer } from "./Announcer";
 import { clearPicture, drawCoarsely, drawPicture } from "./drawPicture";
 import { Moves } from "./Moves";
@@ -22,7 +22,7 @@ interface VideoPaneProps {
 
 /** The live video: a canvas that is painted directly, and cleared and covered when it is not live. */
 export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const { live, view } = useLive();
   const canvas = useRef<HTMLCanvasElement>(null);
   const coarse = useRef<HTMLCanvasElement>(null);
@@ -60,15 +60,15 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
     }
     if (!paced.current.isDue(nowMs, video.live ? `${video.imageNumber}` : "")) return;
     const age = video.live ? `${shownNumber(video.ageMs, 0)} ms` : "";
-    const number = video.live ? `${words.video.image} ${video.imageNumber}` : "";
-    setText(stamp.current, video.live ? `${number} · ${words.video.age} ${age}` : "");
+    const number = video.live ? `${texts.video.image} ${video.imageNumber}` : "";
+    setText(stamp.current, video.live ? `${number} · ${texts.video.age} ${age}` : "");
   });
 
   const cause = view.video.live ? "old" : view.video.cause;
   return (
     <Pane
       id="video"
-      title={words.video.title}
+      title={texts.video.title}
       aside={
         <>
           <Moves />
@@ -85,13 +85,13 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
           width={1280}
           height={720}
           role="img"
-          aria-label={words.video.alt}
+          aria-label={texts.video.alt}
         />
         <canvas className="coarse" ref={coarse} width={32} height={18} aria-hidden="true" />
         <MarksLayer />
         {over}
         <p className="when-late" data-testid="video-late">
-          <span aria-hidden="true">▲▲</span> {words.video.late}
+          <span aria-hidden="true">▲▲</span> {texts.video.late}
         </p>
         <div className="when-stale" data-testid="video-cover">
           <VideoCover cause={cause} problem={problemsOf(view)[0]} />

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { en } from "../words/en";
+import { en } from "../texts/en";
 import { cameraFacts } from "./cameraFacts";
 
 const MODE = { fourcc: "MJPG", width_px: 1920, height_px: 1080, rate_hz: 30 };

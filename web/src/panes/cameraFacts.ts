@@ -1,12 +1,12 @@
 import type { CameraModeMessage, CameraStatusMessage } from "../live/messages";
 import { shownNumber } from "../live/rounding";
-import type { Words } from "../words/shape";
+import type { Texts } from "../texts/catalogue";
 
 /** What a camera's driver granted, and whose clock stamps its images; nothing where there is no camera. */
-export function cameraFacts(camera: CameraStatusMessage | null, words: Words): [string, string, string][] {
+export function cameraFacts(camera: CameraStatusMessage | null, texts: Texts): [string, string, string][] {
   if (camera === null) return [];
-  const d = words.details;
-  const facts: [string, string, string][] = [[d.clock, words.imageClock[camera.clock], "image-clock"]];
+  const d = texts.details;
+  const facts: [string, string, string][] = [[d.clock, texts.imageClock[camera.clock], "image-clock"]];
   if (camera.granted !== null) facts.push([d.mode, modeText(camera.granted), "camera-mode"]);
   return facts;
 }

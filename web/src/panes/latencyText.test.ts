@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import type { Latency } from "../rest/useLatency";
-import { latencyDe } from "../words/latency/de";
-import { latencyEn } from "../words/latency/en";
+import { latencyDe } from "../texts/latency/de";
+import { latencyEn } from "../texts/latency/en";
 import { latencyText } from "./latencyText";
 
 const measured: Latency = {

@@ -1,12 +1,12 @@
 // The measured latency in one line.
 import { shownNumber } from "../live/rounding";
 import type { Latency } from "../rest/useLatency";
-import { filled } from "../words/filled";
-import type { LatencyWords } from "../words/latency/en";
+import { interpolate } from "../texts/interpolate";
+import type { LatencyTexts } from "../texts/latency/en";
 
-export function latencyText({ result }: Latency, words: LatencyWords): string {
-  if (result === null) return words.notMeasured;
-  return filled(words.measured, {
+export function latencyText({ result }: Latency, texts: LatencyTexts): string {
+  if (result === null) return texts.notMeasured;
+  return interpolate(texts.measured, {
     median: shownNumber(result.report.median_ms, 0),
     p99: shownNumber(result.report.p99_ms, 0),
     day: result.at.slice(0, 10),

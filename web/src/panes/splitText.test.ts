@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import { snapshot } from "../live/builders";
 import { headline } from "../live/figureBuilders";
 import { readingOf, type Reading } from "../live/reading";
-import { en } from "../words/en";
+import { en } from "../texts/en";
 import { splitOf } from "./splitText";
 
 function reading(): Reading {

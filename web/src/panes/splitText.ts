@@ -1,12 +1,12 @@
 // The parts of offset and angle in the patient's directions, in words. Pure.
 import type { Reading } from "../live/reading";
 import { shownNumber } from "../live/rounding";
-import type { Words } from "../words/en";
+import type { Texts } from "../texts/en";
 
 export type SplitPart = "entry" | "angle";
 
-export function splitOf({ deviation }: Reading, part: SplitPart, words: Words): string[] {
-  const { side } = words.theatre;
+export function splitOf({ deviation }: Reading, part: SplitPart, texts: Texts): string[] {
+  const { side } = texts.theatre;
   switch (part) {
     case "entry":
       return [

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import type { AssessmentMessage } from "../live/messages";
 import { assessment, figure } from "../live/figureBuilders";
-import { en } from "../words/en";
+import { en } from "../texts/en";
 import { errorText, lagText, riskText, TONE_SYMBOL, wallSide } from "./verdictText";
 
 test("every tone has a shape of its own", () => {

@@ -2,7 +2,7 @@ import { Button } from "@mantine/core";
 import { useRef, type ReactNode } from "react";
 import { SignedIn } from "../app/SignedIn";
 import { useSession } from "../app/session";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { unfit } from "./noCamera";
 import { SendingFacts } from "./SendingFacts";
 import { SendingProblems } from "./SendingProblems";
@@ -10,8 +10,8 @@ import { useSending } from "./useSending";
 
 /** This device as camera: its picture, one button, and what is sent and said. */
 export function CameraPage(): ReactNode {
-  const all = useWords();
-  const words = all.phone;
+  const all = useTexts();
+  const texts = all.phone;
   const { session } = useSession();
   const video = useRef<HTMLVideoElement>(null);
   const { sending, start, stop } = useSending(video);
@@ -24,19 +24,19 @@ export function CameraPage(): ReactNode {
   return (
     <main className="phone" data-testid="phone" data-state={sending.state}>
       <header className="phone-top">
-        <h1>{words.title}</h1>
+        <h1>{texts.title}</h1>
         <SignedIn />
       </header>
       <div className="phone-preview" data-on={isOn}>
-        <video ref={video} playsInline muted aria-label={words.preview} />
-        {!isOn && <p>{words.noPreview}</p>}
+        <video ref={video} playsInline muted aria-label={texts.preview} />
+        {!isOn && <p>{texts.noPreview}</p>}
       </div>
       <div className="phone-panel">
         <p className="phone-state" role="status">
-          {words.state[sending.state]}
+          {texts.state[sending.state]}
         </p>
         <SendingProblems sending={sending} lacks={lacks} />
-        {isOn ? <SendingFacts sending={sending} /> : <p className="phone-lead">{words.lead}</p>}
+        {isOn ? <SendingFacts sending={sending} /> : <p className="phone-lead">{texts.lead}</p>}
         <Button
           className="phone-button"
           variant={isOn ? "default" : "filled"}
@@ -45,19 +45,19 @@ export function CameraPage(): ReactNode {
           onClick={isOn ? stop : start}
           data-testid="phone-button"
         >
-          {isOn ? words.stop : words.start}
+          {isOn ? texts.stop : texts.start}
         </Button>
         <details>
-          <summary>{words.limits}</summary>
+          <summary>{texts.limits}</summary>
           <ul>
-            {Object.entries(words.limitList).map(([key, text]) => (
+            {Object.entries(texts.limitList).map(([key, text]) => (
               <li key={key}>{text}</li>
             ))}
           </ul>
         </details>
         <footer>
           {/* Loaded anew: other pages may not ask for a camera. */}
-          {session.state === "in" && session.who.role === "operator" && <a href="/">{words.dashboard}</a>}
+          {session.state === "in" && session.who.role === "operator" && <a href="/">{texts.dashboard}</a>}
           <span className="notice">{all.notice}</span>
         </footer>
       </div>

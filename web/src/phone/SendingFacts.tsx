@@ -1,21 +1,21 @@
 import type { ReactNode } from "react";
 import { shownNumber } from "../live/rounding";
 import { shownBytes } from "../operator/parts/shown";
-import { filled } from "../words/filled";
-import { useWords } from "../words/WordsContext";
+import { interpolate } from "../texts/interpolate";
+import { useTexts } from "../texts/TextsContext";
 import type { Sending } from "./useSending";
 
 /** What is sent, and what the server says; what is not known yet has no line. */
 export function SendingFacts({ sending }: { sending: Sending }): ReactNode {
-  const all = useWords();
-  const words = all.phone;
+  const all = useTexts();
+  const texts = all.phone;
   const { welcome, facts, last, note } = sending;
   const isSent = last !== null && sending.state === "sending";
   return (
     <dl className="phone-facts">
       {facts !== null && welcome !== null && isSent && (
-        <Fact name={words.image}>
-          {filled(words.imageValue, {
+        <Fact name={texts.image}>
+          {interpolate(texts.imageValue, {
             width: facts.width_px,
             height: facts.height_px,
             size: shownBytes(last.bytes),
@@ -24,33 +24,33 @@ export function SendingFacts({ sending }: { sending: Sending }): ReactNode {
         </Fact>
       )}
       {isSent && (
-        <Fact name={words.rate} id="sent">
-          {filled(words.perSecond, { rate: shownNumber(last.rateHz, 1) })}
+        <Fact name={texts.rate} id="sent">
+          {interpolate(texts.perSecond, { rate: shownNumber(last.rateHz, 1) })}
         </Fact>
       )}
       {facts !== null && (
-        <Fact name={words.focus} id="focus" bad={facts.focus !== "locked"}>
-          {words.focusState[facts.focus]}
+        <Fact name={texts.focus} id="focus" bad={facts.focus !== "locked"}>
+          {texts.focusState[facts.focus]}
           {facts.focus_mm !== null &&
-            ` ${filled(words.focusAt, { distance: shownNumber(facts.focus_mm / 1000, 2) })}`}
+            ` ${interpolate(texts.focusAt, { distance: shownNumber(facts.focus_mm / 1000, 2) })}`}
         </Fact>
       )}
       {isSent && (
-        <Fact name={words.times} bad={last.clock !== "capture"}>
-          {words.clock[last.clock]}
+        <Fact name={texts.times} bad={last.clock !== "capture"}>
+          {texts.clock[last.clock]}
         </Fact>
       )}
       {note !== null && (
-        <Fact name={words.server} id="server">
-          {filled(words.serverValue, {
+        <Fact name={texts.server} id="server">
+          {interpolate(texts.serverValue, {
             state: all.cameraState[note.source_state ?? "unknown"],
             rate: shownNumber(note.rate_hz, 1),
           })}
         </Fact>
       )}
       {note?.delay_ms != null && note.clock_error_ms !== null && (
-        <Fact name={words.delay}>
-          {filled(words.delayValue, {
+        <Fact name={texts.delay}>
+          {interpolate(texts.delayValue, {
             least: Math.max(0, Math.floor(note.delay_ms - note.clock_error_ms)),
             most: Math.ceil(note.delay_ms),
           })}

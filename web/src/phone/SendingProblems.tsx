@@ -1,26 +1,26 @@
 import { Alert } from "@mantine/core";
 import type { ReactNode } from "react";
 import { sentence } from "../operator/parts/shown";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import type { Problem } from "./messages";
 import type { NoCamera } from "./noCamera";
 import type { Sending } from "./useSending";
 
 /** What is wrong and what to do: of this device in the page's words, of the server in its own. */
 export function SendingProblems({ sending, lacks }: { sending: Sending; lacks: NoCamera | null }): ReactNode {
-  const words = useWords().phone;
+  const texts = useTexts().phone;
   const noCamera = lacks ?? sending.noCamera;
   const told = sending.rejected ?? sending.note?.problem ?? null;
   const isOn = sending.state !== "idle";
   return (
     <>
       {noCamera !== null && (
-        <Alert className="rejection" role="alert" title={words.noCamera[noCamera].title}>
-          {words.noCamera[noCamera].sentence}
+        <Alert className="rejection" role="alert" title={texts.noCamera[noCamera].title}>
+          {texts.noCamera[noCamera].sentence}
         </Alert>
       )}
       {told !== null && <Told problem={told} />}
-      {isOn && !sending.screenKept && <p className="phone-warning">{words.screenOff}</p>}
+      {isOn && !sending.screenKept && <p className="phone-warning">{texts.screenOff}</p>}
     </>
   );
 }

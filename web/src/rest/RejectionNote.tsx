@@ -1,11 +1,11 @@
 import { Alert } from "@mantine/core";
 import type { ReactNode } from "react";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import type { Rejection } from "./client";
 
 /** What was refused, why, and what to do; nothing where nothing was. */
 export function RejectionNote({ rejection }: { rejection: Rejection | null }): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   if (rejection === null) return null;
   const { message, remedy, code } = rejection.problem;
   const silent = message === "";
@@ -13,10 +13,10 @@ export function RejectionNote({ rejection }: { rejection: Rejection | null }): R
     <Alert
       className="rejection"
       role="alert"
-      title={silent ? words.rest.noAnswer : <span lang="en">{sentence(message)}</span>}
+      title={silent ? texts.rest.noAnswer : <span lang="en">{sentence(message)}</span>}
     >
       {/* The server speaks English, and is read out in English. */}
-      {silent ? words.rest.noAnswerRemedy : <span lang="en">{remedy}</span>} <code>{code}</code>
+      {silent ? texts.rest.noAnswerRemedy : <span lang="en">{remedy}</span>} <code>{code}</code>
     </Alert>
   );
 }

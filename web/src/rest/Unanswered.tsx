@@ -1,6 +1,6 @@
 import { Button, Loader } from "@mantine/core";
 import type { ReactNode } from "react";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { RejectionNote } from "./RejectionNote";
 import type { Asked } from "./useAsked";
 
@@ -15,18 +15,18 @@ export function Unanswered({
   asked: { rejection, again },
   Note = RejectionNote,
 }: UnansweredProps): ReactNode {
-  const words = useWords().rest;
+  const texts = useTexts().rest;
   if (rejection === null)
     return (
       <p className="loading" role="status">
-        <Loader size="sm" color="gray" aria-hidden="true" /> {words.loading}
+        <Loader size="sm" color="gray" aria-hidden="true" /> {texts.loading}
       </p>
     );
   return (
     <div className="stack unanswered">
       <Note rejection={rejection} />
       <Button size="lg" variant="default" onClick={again}>
-        {words.again}
+        {texts.again}
       </Button>
     </div>
   );

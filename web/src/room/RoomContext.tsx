@@ -1,10 +1,10 @@
 // The room for everything on this page; outside it (in a test, before a session) there is nobody.
 import { createContext, use, useEffect, useMemo, useSyncExternalStore, type ReactNode } from "react";
 import type { ViewName } from "../app/views";
-import { Room, type RoomWords } from "./room";
+import { Room, type RoomSnapshot } from "./room";
 
 const RoomContext = createContext<Room | null>(null);
-const ALONE: RoomWords = {
+const ALONE: RoomSnapshot = {
   stands: false,
   firstMessage: "awaited",
   you: null,
@@ -14,7 +14,7 @@ const ALONE: RoomWords = {
   signable: null,
 };
 const never = (): (() => void) => () => undefined;
-const alone = (): RoomWords => ALONE;
+const alone = (): RoomSnapshot => ALONE;
 
 export function RoomProvider({ view, children }: { view: ViewName; children: ReactNode }): ReactNode {
   const room = useMemo(() => new Room(view), [view]);
@@ -28,7 +28,7 @@ export function useRoom(): Room | null {
 }
 
 /** Who is here, who asks to hold, what is signed. */
-export function useRoomWords(): RoomWords {
+export function useRoomSnapshot(): RoomSnapshot {
   const room = use(RoomContext);
-  return useSyncExternalStore(room?.onWords ?? never, room?.words ?? alone);
+  return useSyncExternalStore(room?.onSnapshot ?? never, room?.snapshot ?? alone);
 }

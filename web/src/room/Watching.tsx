@@ -1,25 +1,25 @@
 import type { ReactNode } from "react";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import type { LineTo } from "./messages";
-import { useRoomWords } from "./RoomContext";
+import { useRoomSnapshot } from "./RoomContext";
 
 const SYMBOL: Record<LineTo, string> = { good: "●", slow: "◐", silent: "▲" };
 
 /** Who is watching: how many, who, in which role, and how their line does. */
 export function Watching(): ReactNode {
-  const { room: words, rest } = useWords();
-  const { stands, firstMessage, people } = useRoomWords();
+  const { room: texts, rest } = useTexts();
+  const { stands, firstMessage, people } = useRoomSnapshot();
   if (!stands) {
     return (
       <p className="watching" data-testid="watching" data-known="false">
-        {firstMessage === "awaited" ? rest.loading : words.unknown}
+        {firstMessage === "awaited" ? rest.loading : texts.unknown}
       </p>
     );
   }
   return (
     <div className="watching" data-testid="watching" data-known="true">
       <p className="watching-count">
-        {words.watching} <strong>{people.length}</strong>
+        {texts.watching} <strong>{people.length}</strong>
       </p>
       <ul>
         {people.map((one) => (
@@ -27,9 +27,9 @@ export function Watching(): ReactNode {
             <span aria-hidden="true" className="watching-line">
               {SYMBOL[one.line]}
             </span>{" "}
-            <b>{one.name}</b> <span className="watching-role">{words.role[one.role]}</span>
-            {one.is_you && <span className="watching-role"> · {words.you}</span>}
-            {one.line !== "good" && <em> · {words.line[one.line]}</em>}
+            <b>{one.name}</b> <span className="watching-role">{texts.role[one.role]}</span>
+            {one.is_you && <span className="watching-role"> · {texts.you}</span>}
+            {one.line !== "good" && <em> · {texts.line[one.line]}</em>}
           </li>
         ))}
       </ul>

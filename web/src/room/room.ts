@@ -6,7 +6,7 @@ import { RoomLine, type RoomSocket } from "./roomLine";
 import { afterMessage, at, NOBODY, type RoomState } from "./roomState";
 
 /** What words are made of; another object only when one of them changed. */
-export interface RoomWords {
+export interface RoomSnapshot {
   stands: boolean;
   /** Since the page was loaded. */
   firstMessage: FirstMessage;
@@ -21,7 +21,7 @@ const LOOK_EVERY_MS = 500;
 
 export class Room {
   private state: RoomState = NOBODY;
-  private said: RoomWords = { stands: false, firstMessage: "awaited", ...wordsOf(NOBODY) };
+  private said: RoomSnapshot = { stands: false, firstMessage: "awaited", ...snapshotOf(NOBODY) };
   private readonly wait: FirstMessageWait = { everHeard: false, waitingSinceMs: performance.now() };
   private readonly listeners = new Set<() => void>();
   private readonly painters = new Set<() => void>();
@@ -66,9 +66,9 @@ export class Room {
     return this.state;
   }
 
-  words = (): RoomWords => this.said;
+  snapshot = (): RoomSnapshot => this.said;
 
-  onWords = (listener: () => void): (() => void) => {
+  onSnapshot = (listener: () => void): (() => void) => {
     this.listeners.add(listener);
     return () => this.listeners.delete(listener);
   };
@@ -82,30 +82,30 @@ export class Room {
   private take(message: RoomMessage): void {
     this.wait.everHeard = true;
     this.state = afterMessage(this.state, message, performance.now());
-    this.tell({ stands: true, firstMessage: "received", ...wordsOf(this.state) });
+    this.tell({ stands: true, firstMessage: "received", ...snapshotOf(this.state) });
     for (const paint of this.painters) paint();
   }
 
   private forget(): void {
     this.state = NOBODY;
-    this.tell({ stands: false, firstMessage: this.said.firstMessage, ...wordsOf(NOBODY) });
+    this.tell({ stands: false, firstMessage: this.said.firstMessage, ...snapshotOf(NOBODY) });
     for (const paint of this.painters) paint();
   }
 
-  private tell(next: RoomWords): void {
+  private tell(next: RoomSnapshot): void {
     if (JSON.stringify(next) === JSON.stringify(this.said)) return;
     this.said = next;
     for (const listener of this.listeners) listener();
   }
 }
 
-function wordsOf({
+function snapshotOf({
   you,
   people,
   hold,
   fadesAfterS,
   signable,
-}: RoomState): Omit<RoomWords, "stands" | "firstMessage"> {
+}: RoomState): Omit<RoomSnapshot, "stands" | "firstMessage"> {
   return { you, people, hold, fadesAfterS, signable };
 }
 

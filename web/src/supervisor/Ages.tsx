@@ -3,7 +3,7 @@ import { usePainter } from "../live/LiveContext";
 import type { View } from "../live/live";
 import { shownDuration, shownNumber } from "../live/rounding";
 import { setData, setText } from "../panes/setText";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 
 const PARTS = ["picture", "numbers", "scene", "line"] as const;
 type Part = (typeof PARTS)[number];
@@ -11,11 +11,11 @@ type Ages = Record<Part, { live: boolean | "loading"; mark: string; text: string
 
 /** The true age of everything that is shown here, measured on this page. */
 export function AgesStrip(): ReactNode {
-  const { supervisor, rest } = useWords();
-  const words = supervisor.ages;
+  const { supervisor, rest } = useTexts();
+  const texts = supervisor.ages;
   const strip = useRef<HTMLDListElement>(null);
   usePainter((view) => {
-    const ages = agesOf(view, words, rest.loading);
+    const ages = agesOf(view, texts, rest.loading);
     for (const part of PARTS) {
       const fact = strip.current?.querySelector<HTMLElement>(`[data-part=${part}]`) ?? null;
       setData(fact, "live", String(ages[part].live));
@@ -23,10 +23,10 @@ export function AgesStrip(): ReactNode {
     }
   });
   return (
-    <dl className="ages" aria-label={words.title} data-testid="ages" ref={strip}>
+    <dl className="ages" aria-label={texts.title} data-testid="ages" ref={strip}>
       {PARTS.map((part) => (
         <div key={part} data-part={part} data-live="false">
-          <dt>{words[part]}</dt>
+          <dt>{texts[part]}</dt>
           <dd>—</dd>
         </div>
       ))}
@@ -36,14 +36,14 @@ export function AgesStrip(): ReactNode {
 
 function agesOf(
   { video, numbers, scene, link, firstMessage }: View,
-  words: Record<string, string>,
+  texts: Record<string, string>,
   loading: string,
 ): Ages {
   if (firstMessage === "awaited") {
     const awaited = { live: "loading" as const, mark: "◌", text: loading };
     return { picture: awaited, numbers: awaited, scene: awaited, line: awaited };
   }
-  const say = (key: string): string => words[key] ?? "";
+  const say = (key: string): string => texts[key] ?? "";
   const young = (ageMs: number): Ages[Part] => ({
     live: true,
     mark: "●",

@@ -2,34 +2,34 @@ import type { ReactNode } from "react";
 import { answered, server } from "../rest/client";
 import { RejectionNote } from "../rest/RejectionNote";
 import { useDo } from "../rest/useDo";
-import { useRoomWords } from "../room/RoomContext";
-import { useWords } from "../words/WordsContext";
+import { useRoomSnapshot } from "../room/RoomContext";
+import { useTexts } from "../texts/TextsContext";
 import { shownTime } from "../operator/parts/shown";
 import { TwoSteps } from "./TwoSteps";
 
 /** Asks those in theatre to hold: big, in two steps so that a slip does nothing. */
 export function HoldPanel(): ReactNode {
-  const all = useWords();
-  const words = all.supervisor.hold;
-  const { hold, you } = useRoomWords();
+  const all = useTexts();
+  const texts = all.supervisor.hold;
+  const { hold, you } = useRoomSnapshot();
   const { busy, rejection, run } = useDo();
   const asked = hold?.requested_by ?? [];
   const mine = hold?.is_yours === true;
   const mayRelease = mine || you?.role === "operator";
   return (
-    <section className="hold" aria-label={words.title} data-testid="hold" data-asked={asked.length > 0}>
+    <section className="hold" aria-label={texts.title} data-testid="hold" data-asked={asked.length > 0}>
       {asked.length > 0 && (
         <p className="hold-asked" role="status">
-          <span aria-hidden="true">▲▲</span> {words.asked} <strong>{asked.join(", ")}</strong>
-          {hold?.since != null && ` (${words.since} ${shownTime(hold.since, all.language)})`}
+          <span aria-hidden="true">▲▲</span> {texts.asked} <strong>{asked.join(", ")}</strong>
+          {hold?.since != null && ` (${texts.since} ${shownTime(hold.since, all.language)})`}
         </p>
       )}
       {!mine && (
         <TwoSteps
           className="hold-ask"
           testid="hold-ask"
-          first={words.ask}
-          second={words.sure}
+          first={texts.ask}
+          second={texts.sure}
           busy={busy}
           onDone={() =>
             void run(async () => {
@@ -51,12 +51,12 @@ export function HoldPanel(): ReactNode {
               })
             }
           >
-            {you?.role === "operator" ? words.releaseAll : words.release}
+            {you?.role === "operator" ? texts.releaseAll : texts.release}
           </button>
         ) : (
-          <p className="soft">{words.othersOnly}</p>
+          <p className="soft">{texts.othersOnly}</p>
         ))}
-      <p className="soft">{words.hint}</p>
+      <p className="soft">{texts.hint}</p>
       <RejectionNote rejection={rejection} />
     </section>
   );

@@ -3,9 +3,9 @@ import { shownSecond } from "../operator/parts/shown";
 import { answered, server } from "../rest/client";
 import { Unanswered } from "../rest/Unanswered";
 import { useAsked } from "../rest/useAsked";
-import { inWords } from "../words/text";
-import { useWords } from "../words/WordsContext";
-import type { Words } from "../words/en";
+import { textIn } from "../texts/text";
+import { useTexts } from "../texts/TextsContext";
+import type { Texts } from "../texts/en";
 
 type Line = Record<string, unknown>;
 
@@ -13,8 +13,8 @@ const LINES = 100;
 
 /** The alarm log of the open case, the newest first; asked for only while it is open. */
 export function LogPanel(): ReactNode {
-  const words = useWords();
-  const own = words.supervisor.log;
+  const texts = useTexts();
+  const own = texts.supervisor.log;
   const asked = useAsked((signal) =>
     answered(server.GET("/api/alarms/log", { params: { query: { last: LINES } }, signal })),
   );
@@ -29,7 +29,7 @@ export function LogPanel(): ReactNode {
       <ul className="log" data-testid="log">
         {[...data.lines].reverse().map((line, index) => (
           <li key={`${text(line, "at")} ${index}`}>
-            <time>{shownSecond(text(line, "at"), words.language)}</time> {said(line, words)}
+            <time>{shownSecond(text(line, "at"), texts.language)}</time> {said(line, texts)}
           </li>
         ))}
       </ul>
@@ -38,13 +38,13 @@ export function LogPanel(): ReactNode {
 }
 
 /** As the alarm band had it: what happened to which alarm, in its words of that moment, and by whom. */
-function said(line: Line, words: Words): string {
+function said(line: Line, texts: Texts): string {
   const change = text(line, "change");
-  const { change: changes, by } = words.supervisor.log;
+  const { change: changes, by } = texts.supervisor.log;
   const parts = [
-    inWords(line, "title", words) || text(line, "condition"),
+    textIn(line, "title", texts) || text(line, "condition"),
     change in changes ? changes[change as keyof typeof changes] : change,
-    inWords(line, "sentence", words),
+    textIn(line, "sentence", texts),
     text(line, "by") === "" ? "" : `${by} ${text(line, "by")}`,
   ];
   return parts.filter((part) => part !== "").join(" · ");

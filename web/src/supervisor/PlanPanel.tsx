@@ -4,19 +4,19 @@ import { answered, server } from "../rest/client";
 import { Unanswered } from "../rest/Unanswered";
 import { useAsked } from "../rest/useAsked";
 import type { Signable } from "../room/messages";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { vertebraeOf, type ChannelShown, type VertebraShown } from "./planRecords";
 import { SignBox } from "./SignBox";
 
 /** The plan in words and pictures, and its co-signature. */
 export function PlanPanel({ signable }: { signable: Signable }): ReactNode {
-  const words = useWords().supervisor;
+  const texts = useTexts().supervisor;
   const key = signable.document_id ?? "";
   const asked = useAsked(
     (signal) => (key === "" ? Promise.resolve(null) : answered(server.GET("/api/plan", { signal }))),
     { key },
   );
-  if (key === "") return <p className="soft">{words.plan.none}</p>;
+  if (key === "") return <p className="soft">{texts.plan.none}</p>;
   const { data } = asked;
   if (data === null) return <Unanswered asked={asked} />;
   const active = data.active_channel;
@@ -24,12 +24,12 @@ export function PlanPanel({ signable }: { signable: Signable }): ReactNode {
     <>
       <p className="plan-active">
         {active === null ? (
-          words.plan.noneDrilled
+          texts.plan.noneDrilled
         ) : (
           <>
-            {words.plan.drilled}:{" "}
+            {texts.plan.drilled}:{" "}
             <b>
-              {active.vertebra} {words.plan.side[active.side]}
+              {active.vertebra} {texts.plan.side[active.side]}
             </b>
           </>
         )}
@@ -44,7 +44,7 @@ export function PlanPanel({ signable }: { signable: Signable }): ReactNode {
 }
 
 function Vertebra({ vertebra, version }: { vertebra: VertebraShown; version: string }): ReactNode {
-  const words = useWords().supervisor.plan;
+  const texts = useTexts().supervisor.plan;
   const picture = `/api/plan/vertebrae/${encodeURIComponent(vertebra.name)}/reference.png?version=${version}`;
   return (
     <article className="vertebra">
@@ -52,7 +52,7 @@ function Vertebra({ vertebra, version }: { vertebra: VertebraShown; version: str
         <h3>
           {vertebra.name}{" "}
           <small>
-            {vertebra.landmarks} {words.landmarks}
+            {vertebra.landmarks} {texts.landmarks}
           </small>
         </h3>
         {vertebra.channels.map((channel) => (
@@ -60,46 +60,46 @@ function Vertebra({ vertebra, version }: { vertebra: VertebraShown; version: str
         ))}
       </div>
       {vertebra.hasReference ? (
-        <img src={picture} alt={`${words.picture}, ${vertebra.name}`} loading="lazy" />
+        <img src={picture} alt={`${texts.picture}, ${vertebra.name}`} loading="lazy" />
       ) : (
-        <p className="soft">{words.noPicture}</p>
+        <p className="soft">{texts.noPicture}</p>
       )}
     </article>
   );
 }
 
 function Channel({ channel }: { channel: ChannelShown }): ReactNode {
-  const words = useWords().supervisor.plan;
+  const texts = useTexts().supervisor.plan;
   const { screw } = channel;
   return (
     <dl className="channel" data-side={channel.side}>
       <dt>
-        {words.channel} {words.side[channel.side]}
+        {texts.channel} {texts.side[channel.side]}
       </dt>
       <dd>
         {channel.diameterMm !== null && `Ø ${shownNumber(channel.diameterMm)} mm`}
         {channel.lengthMm !== null && ` × ${shownNumber(channel.lengthMm)} mm`}
-        {` · ${channel.byHand ? words.byHand : words.measured}`}
+        {` · ${channel.byHand ? texts.byHand : texts.measured}`}
       </dd>
-      <dt>{words.screw}</dt>
+      <dt>{texts.screw}</dt>
       <dd>
         {screw === null
-          ? words.noScrew
+          ? texts.noScrew
           : `Ø ${shownNumber(screw.diameterMm)} × ${shownNumber(screw.lengthMm, 0)} mm`}
       </dd>
       {screw?.minMm != null && (
         <>
-          <dt>{words.clearance}</dt>
+          <dt>{texts.clearance}</dt>
           <dd data-bad={screw.minMm < 0}>
             {screw.minMm < 0 && <span aria-hidden="true">▲ </span>}
-            {shownNumber(screw.minMm)} mm {screw.minWall !== null && words.wall[screw.minWall]}
-            {screw.grade !== "" && ` · ${words.grade} ${screw.grade}`}
+            {shownNumber(screw.minMm)} mm {screw.minWall !== null && texts.wall[screw.minWall]}
+            {screw.grade !== "" && ` · ${texts.grade} ${screw.grade}`}
           </dd>
         </>
       )}
       {screw?.meanHu != null && (
         <>
-          <dt>{words.density}</dt>
+          <dt>{texts.density}</dt>
           <dd>{shownNumber(screw.meanHu, 0)} HU</dd>
         </>
       )}

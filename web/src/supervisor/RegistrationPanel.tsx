@@ -4,14 +4,14 @@ import { answered, server } from "../rest/client";
 import { Unanswered } from "../rest/Unanswered";
 import { useAsked } from "../rest/useAsked";
 import type { Signable } from "../room/messages";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { rowsOf } from "./registrationRows";
 import { SignBox } from "./SignBox";
 
 /** The registration with its numbers and what was allowed, and its co-signature. */
 export function RegistrationPanel({ signable }: { signable: Signable }): ReactNode {
-  const words = useWords().supervisor;
-  const own = words.registration;
+  const texts = useTexts().supervisor;
+  const own = texts.registration;
   const key = signable.document_id ?? "";
   const asked = useAsked(
     (signal) => (key === "" ? Promise.resolve(null) : answered(server.GET("/api/registration", { signal }))),

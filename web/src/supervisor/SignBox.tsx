@@ -6,14 +6,14 @@ import { RejectionNote } from "../rest/RejectionNote";
 import { shownTime } from "../operator/parts/shown";
 import { useDo } from "../rest/useDo";
 import type { Signable } from "../room/messages";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { SignatureLine } from "./SignatureLine";
 import { TwoSteps } from "./TwoSteps";
 
 /** What exactly is signed, by whom it was, and the way to sign it or to take that back. */
 export function SignBox({ signable }: { signable: Signable }): ReactNode {
-  const all = useWords();
-  const words = all.supervisor.sign;
+  const all = useTexts();
+  const texts = all.supervisor.sign;
   const { session } = useSession();
   const { busy, rejection, run } = useDo();
   const { document_id, signatures, what } = signable;
@@ -23,26 +23,26 @@ export function SignBox({ signable }: { signable: Signable }): ReactNode {
   return (
     <section
       className="sign"
-      aria-label={words.title}
+      aria-label={texts.title}
       data-testid={`sign-${what}`}
       data-signed={signable.is_cosigned}
     >
       <h3>
-        {words.title} <small>({words[signable.requirement]})</small>
+        {texts.title} <small>({texts[signable.requirement]})</small>
       </h3>
       <p>
-        {words.signs} <b>{signable.title}</b>, {words.madeBy} <Maker of={signable} />,{" "}
-        {shownTime(signable.made_at, all.language)}, {words.print}{" "}
+        {texts.signs} <b>{signable.title}</b>, {texts.madeBy} <Maker of={signable} />,{" "}
+        {shownTime(signable.made_at, all.language)}, {texts.print}{" "}
         <code title={signable.sha256}>{signable.sha256.slice(0, 12)}</code>
       </p>
       {signable.out_of_date !== "" && (
         <p className="warn">
-          ▲ {words.outOfDate}: {signable.out_of_date}
+          ▲ {texts.outOfDate}: {signable.out_of_date}
         </p>
       )}
-      {signable.was_signed && <p className="warn">▲ {words.changed}</p>}
+      {signable.was_signed && <p className="warn">▲ {texts.changed}</p>}
       {signatures.length === 0 ? (
-        <p className="soft">{words.none}</p>
+        <p className="soft">{texts.none}</p>
       ) : (
         <ul>
           {signatures.map((one) => (
@@ -52,14 +52,14 @@ export function SignBox({ signable }: { signable: Signable }): ReactNode {
           ))}
         </ul>
       )}
-      {anybody && <p className="soft">{words.anybody}</p>}
+      {anybody && <p className="soft">{texts.anybody}</p>}
       {mine === undefined ? (
         signable.out_of_date === "" && (
           <TwoSteps
             testid={`cosign-${what}`}
             className="sign-button"
-            first={words.sign}
-            second={words.sure}
+            first={texts.sign}
+            second={texts.sure}
             busy={busy}
             onDone={() =>
               void run(async () => {
@@ -71,8 +71,8 @@ export function SignBox({ signable }: { signable: Signable }): ReactNode {
       ) : (
         <TwoSteps
           testid={`unsign-${what}`}
-          first={words.takeBack}
-          second={words.takeBack}
+          first={texts.takeBack}
+          second={texts.takeBack}
           busy={busy}
           onDone={() =>
             void run(async () => {

@@ -1,8 +1,8 @@
 import type { ReactNode } from "react";
 import { useProcedure, type Step } from "../app/procedure";
-import { stateWord } from "../operator/stepWords";
+import { stateText } from "../operator/stepTexts";
 import { Unanswered } from "../rest/Unanswered";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 
 const SYMBOL: Record<Step["state"], string> = {
   done: "✓",
@@ -14,10 +14,10 @@ const SYMBOL: Record<Step["state"], string> = {
 
 /** How every step of the procedure stands, in the server's own sentences. */
 export function StepsShown(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const asked = useProcedure();
   const { data } = asked;
-  const own = words.supervisor;
+  const own = texts.supervisor;
   if (data === null) return <Unanswered asked={asked} />;
   if (data.case_id === null) return <p className="soft">{own.steps.noCase}</p>;
   return (
@@ -32,8 +32,8 @@ export function StepsShown(): ReactNode {
             {step.missing_cosignature === null ? SYMBOL[step.state] : "○"}
           </span>
           <div>
-            <b>{words.operator.page[step.step]}</b> ·{" "}
-            {step.missing_cosignature === null ? stateWord(step, words.operator) : own.steps.lacks}
+            <b>{texts.operator.page[step.step]}</b> ·{" "}
+            {step.missing_cosignature === null ? stateText(step, texts.operator) : own.steps.lacks}
             <p className="soft">{step.message}</p>
           </div>
         </li>

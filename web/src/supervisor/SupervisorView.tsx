@@ -13,9 +13,9 @@ import { NumbersPane } from "../panes/NumbersPane";
 import { ScenePane } from "../panes/ScenePane";
 import { VideoPane } from "../panes/VideoPane";
 import type { Signable } from "../room/messages";
-import { useRoomWords } from "../room/RoomContext";
+import { useRoomSnapshot } from "../room/RoomContext";
 import { Watching } from "../room/Watching";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { AgesStrip } from "./Ages";
 import { Fold } from "./Fold";
 import { HoldPanel } from "./HoldPanel";
@@ -26,8 +26,8 @@ import { StepsShown } from "./StepsShown";
 
 /** The supervisor's view: sees all, points, signs, asks to hold. Nothing in it moves anything. */
 export function SupervisorView(): ReactNode {
-  const words = useWords();
-  const own = words.supervisor;
+  const texts = useTexts();
+  const own = texts.supervisor;
   return (
     <div className="supervisor">
       <a className="skip" href="#video">
@@ -36,10 +36,10 @@ export function SupervisorView(): ReactNode {
       <header className="supervisor-top">
         <div>
           <h1>
-            {words.product} <small>{own.title}</small>
+            {texts.product} <small>{own.title}</small>
           </h1>
           <p className="notice">
-            {words.notice}. {own.nothingMoves}
+            {texts.notice}. {own.nothingMoves}
           </p>
         </div>
         <ViewSwitch />
@@ -85,8 +85,8 @@ export function SupervisorView(): ReactNode {
 
 /** Plan and registration; the state of their signatures is told by the room, and stands there unopened. */
 function Signables(): ReactNode {
-  const { supervisor: own, rest } = useWords();
-  const { stands, firstMessage, signable } = useRoomWords();
+  const { supervisor: own, rest } = useTexts();
+  const { stands, firstMessage, signable } = useRoomSnapshot();
   const unheard = firstMessage === "awaited" ? rest.loading : own.notKnown;
   const plan = signable?.find((one) => one.what === "plan") ?? null;
   const registration = signable?.find((one) => one.what === "registration") ?? null;
@@ -111,14 +111,14 @@ function Signables(): ReactNode {
 }
 
 function SignState({ signable }: { signable: Signable | null }): ReactNode {
-  const words = useWords().supervisor.sign;
+  const texts = useTexts().supervisor.sign;
   if (signable?.document_id == null) return null;
   const waits = !signable.is_cosigned && signable.requirement === "required";
   return (
     <span className="sign-state" data-state={signable.is_cosigned ? "done" : waits ? "waits" : "open"}>
       <span aria-hidden="true">{signable.is_cosigned ? "✓" : waits ? "▲" : "○"}</span>{" "}
-      {signable.is_cosigned ? words.done : words.open}
-      {waits && ` · ${words.required}`}
+      {signable.is_cosigned ? texts.done : texts.open}
+      {waits && ` · ${texts.required}`}
     </span>
   );
 }

@@ -1,7 +1,7 @@
 // The numbers of a registration that a person reads, each with what was allowed where that was kept beside it.
-import type { SupervisorWords } from "../words/supervisor/en";
+import type { SupervisorTexts } from "../texts/supervisor/en";
 
-type NumberName = keyof SupervisorWords["registration"]["numbers"];
+type NumberName = keyof SupervisorTexts["registration"]["numbers"];
 
 export interface Row {
   name: NumberName;

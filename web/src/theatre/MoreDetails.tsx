@@ -4,11 +4,11 @@ import { ViewSwitch } from "../app/ViewSwitch";
 import { PictureSize } from "../live/PictureSize";
 import { DetailsPane } from "../panes/DetailsPane";
 import { MarkersPane } from "../panes/MarkersPane";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 
 /** Scores, times and counts for those who want them; closed for those who drill. */
 export function MoreDetails(): ReactNode {
-  const words = useWords().theatre;
+  const texts = useTexts().theatre;
   const details = useRef<HTMLDetailsElement>(null);
   return (
     <details
@@ -20,8 +20,8 @@ export function MoreDetails(): ReactNode {
         details.current.querySelector("summary")?.focus();
       }}
     >
-      <summary data-testid="more">{words.more}</summary>
-      <div className="more-sheet" tabIndex={0} role="region" aria-label={words.more}>
+      <summary data-testid="more">{texts.more}</summary>
+      <div className="more-sheet" tabIndex={0} role="region" aria-label={texts.more}>
         <div className="more-tools">
           <ViewSwitch />
           <PictureSize />

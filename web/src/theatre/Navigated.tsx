@@ -3,7 +3,7 @@ import { useProcedure } from "../app/procedure";
 import { useLive } from "../live/LiveContext";
 import { Fact } from "../panes/Fact";
 import { heardOf } from "../panes/heard";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { checkText, registrationText, type Said } from "./standing";
 
 /** What is well is not shown as well beside a picture and figures that are too old. */
@@ -13,13 +13,13 @@ function dimmed(said: Said | null, isOfNow: boolean): Said | null {
 
 /** Which case, level and side are navigated, how it was registered, and how old that and its check are. */
 export function Navigated(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const { view } = useLive();
   const { linkState, snapshot, isOfNow } = heardOf(view);
   const isHeard = linkState === "open";
   const procedure = useProcedure();
   const known = isHeard ? procedure.data : null;
-  const t = words.theatre;
+  const t = texts.theatre;
   const registration = dimmed(registrationText(snapshot, known, t), isOfNow);
   const check = dimmed(checkText(snapshot, known, t), isOfNow);
   const unknown = isHeard && procedure.rejection !== null ? t.unknown : "—";

@@ -11,21 +11,21 @@ import { LoadingPane } from "../panes/LoadingPane";
 import { NumbersPane } from "../panes/NumbersPane";
 import { ScenePane } from "../panes/ScenePane";
 import { VideoPane } from "../panes/VideoPane";
-import { useWords } from "../words/WordsContext";
+import { useTexts } from "../texts/TextsContext";
 import { TheatreTop } from "./TheatreTop";
 
 const ANSWERING: ReadonlySet<Role> = new Set<Role>(["operator", "screen"]);
 
 /** The theatre's view: all that the hand with the drill goes by, on one screen, read from 3 m. */
 export function TheatreView(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const { session } = useSession();
   // Those who stand before the screen answer its alarms; who watches from elsewhere sees them.
   const answersAlarms = session.state === "in" && ANSWERING.has(session.who.role);
   return (
     <div className="theatre">
       <a className="skip" href="#numbers">
-        {words.skip}
+        {texts.skip}
       </a>
       <TheatreTop />
       {answersAlarms ? <AlarmBand /> : <AlarmsShownOnceHeard />}
@@ -36,7 +36,7 @@ export function TheatreView(): ReactNode {
         <AfterFirstMessage loading={<LoadingNumbers />}>
           <NumbersPane />
         </AfterFirstMessage>
-        <AfterFirstMessage loading={<LoadingPane id="bullseye" title={words.theatre.along} />}>
+        <AfterFirstMessage loading={<LoadingPane id="bullseye" title={texts.theatre.along} />}>
           <BullseyePane />
         </AfterFirstMessage>
         <ScenePane />

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { snapshot } from "../live/builders";
-import { theatreEn } from "../words/theatre/en";
+import { theatreEn } from "../texts/theatre/en";
 import { ageText, checkText, registrationText } from "./standing";
 import type { Procedure } from "../app/procedure";
 

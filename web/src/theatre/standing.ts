@@ -1,7 +1,7 @@
 // Registration and check in words: how, and how long ago. Pure.
 import type { SnapshotMessage } from "../live/messages";
 import type { Mood } from "../panes/Fact";
-import type { TheatreWords } from "../words/theatre/en";
+import type { TheatreTexts } from "../texts/theatre/en";
 import type { Procedure } from "../app/procedure";
 
 export interface Said {
@@ -16,12 +16,12 @@ const HOURS_FROM = 100;
 export function registrationText(
   snapshot: SnapshotMessage | null,
   standing: Procedure | null,
-  words: TheatreWords,
+  texts: TheatreTexts,
 ): Said | null {
   if (snapshot === null) return null;
-  if (snapshot.registered_by === null) return { value: words.notRegistered, mood: "bad" };
-  const age = ageText(numberOf(standing, "register", "age_min"), words);
-  const by = words.by[snapshot.registered_by];
+  if (snapshot.registered_by === null) return { value: texts.notRegistered, mood: "bad" };
+  const age = ageText(numberOf(standing, "register", "age_min"), texts);
+  const by = texts.by[snapshot.registered_by];
   return { value: age === "" ? by : `${by}, ${age}`, mood: "good" };
 }
 
@@ -29,29 +29,29 @@ export function registrationText(
 export function checkText(
   snapshot: SnapshotMessage | null,
   standing: Procedure | null,
-  words: TheatreWords,
+  texts: TheatreTexts,
 ): Said | null {
   const step = standing?.steps.find((one) => one.step === "check") ?? null;
   if (snapshot === null || step === null || standing?.case_id == null) return null;
-  const age = ageText(numberOf(standing, "check", "age_min"), words);
+  const age = ageText(numberOf(standing, "check", "age_min"), texts);
   switch (step.state) {
     case "done":
       return { value: age, mood: "good" };
     case "due":
-      return { value: `${age}, ${words.checkDue}`, mood: "bad" };
+      return { value: `${age}, ${texts.checkDue}`, mood: "bad" };
     case "failed":
-      return { value: words.checkFailed, mood: "bad" };
+      return { value: texts.checkFailed, mood: "bad" };
     case "missing":
     case "out_of_date":
-      return { value: words.notChecked, mood: "bad" };
+      return { value: texts.notChecked, mood: "bad" };
   }
 }
 
-export function ageText(minutes: number | null, words: TheatreWords): string {
+export function ageText(minutes: number | null, texts: TheatreTexts): string {
   if (minutes === null || !(minutes >= 0)) return "";
-  if (minutes < 1) return words.justNow;
-  if (minutes < HOURS_FROM) return `${Math.floor(minutes)} ${words.minutesAgo}`;
-  return `${Math.floor(minutes / MINUTES_OF_HOUR)} ${words.hoursAgo}`;
+  if (minutes < 1) return texts.justNow;
+  if (minutes < HOURS_FROM) return `${Math.floor(minutes)} ${texts.minutesAgo}`;
+  return `${Math.floor(minutes / MINUTES_OF_HOUR)} ${texts.hoursAgo}`;
 }
 
 function numberOf(standing: Procedure | null, step: "register" | "check", name: string): number | null {

@@ -4,7 +4,7 @@ import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
 import { Measure } from "../parts/Measure";
@@ -23,8 +23,8 @@ interface AccuracyProps {
 
 /** Known distances on a board, measured with the calibrated camera, as in the paper's Table 2. */
 export function Accuracy({ board, check, gate, onChecked }: AccuracyProps): ReactNode {
-  const all = useWords();
-  const words = all.camera;
+  const all = useTexts();
+  const texts = all.camera;
   const madeBy = useMaker();
   const checking = useDo();
   const [checkedHere, setCheckedHere] = useState(false);
@@ -41,11 +41,11 @@ export function Accuracy({ board, check, gate, onChecked }: AccuracyProps): Reac
   const limit = { kind: "most", value: gate.max_error_mm } as const;
   return (
     <Card
-      title={words.accuracyTitle}
+      title={texts.accuracyTitle}
       testId="accuracy"
       fresh={checkedHere ? (check?.heading.id ?? null) : null}
     >
-      <p>{words.accuracyLead}</p>
+      <p>{texts.accuracyLead}</p>
       {check !== null && (
         <>
           <StandsOn heading={check.heading} documents={[]} />
@@ -54,14 +54,14 @@ export function Accuracy({ board, check, gate, onChecked }: AccuracyProps): Reac
           </p>
           <dl className="measures">
             <Measure
-              name={words.accuracyMost}
+              name={texts.accuracyMost}
               value={number(check.content["maximum_error_mm"])}
               unit="mm"
               limit={limit}
             />
-            <Measure name={words.accuracyRms} value={number(check.content["rms_error_mm"])} unit="mm" />
+            <Measure name={texts.accuracyRms} value={number(check.content["rms_error_mm"])} unit="mm" />
             <Measure
-              name={words.accuracyDistance}
+              name={texts.accuracyDistance}
               value={number(check.content["plane_distance_mm"])}
               unit="mm"
               decimals={0}
@@ -71,7 +71,7 @@ export function Accuracy({ board, check, gate, onChecked }: AccuracyProps): Reac
       )}
       <div>
         <Button size="lg" variant="default" disabled={!isBoard(board)} loading={checking.busy} onClick={run}>
-          {check === null ? words.accuracy : words.accuracyAgain}
+          {check === null ? texts.accuracy : texts.accuracyAgain}
         </Button>
       </div>
       <RejectionNote rejection={checking.rejection} />

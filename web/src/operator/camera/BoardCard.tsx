@@ -3,7 +3,7 @@ import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { saved } from "../parts/saved";
 import { boardOf, isBoard, type Board, type Pattern } from "./board";
@@ -20,7 +20,7 @@ interface BoardCardProps {
 
 /** Which board is held before the camera, that board to be printed, and the beginning of collecting. */
 export function BoardCard({ board, first, onBoard, onBegun }: BoardCardProps): ReactNode {
-  const words = useWords().camera;
+  const texts = useTexts().camera;
   const [paper, setPaper] = useState<Paper>("A4");
   const beginning = useDo();
   const printing = useDo();
@@ -45,20 +45,20 @@ export function BoardCard({ board, first, onBoard, onBegun }: BoardCardProps): R
     });
   };
   return (
-    <Card title={first ? words.calibrateTitle : words.calibrateAnew} testId="board">
-      <p>{words.calibrateLead}</p>
+    <Card title={first ? texts.calibrateTitle : texts.calibrateAnew} testId="board">
+      <p>{texts.calibrateLead}</p>
       <SegmentedControl
         size="lg"
         fullWidth
-        aria-label={words.pattern}
-        data={Object.entries(words.patterns).map(([value, label]) => ({ value, label }))}
+        aria-label={texts.pattern}
+        data={Object.entries(texts.patterns).map(([value, label]) => ({ value, label }))}
         value={board.pattern}
         onChange={(value) => {
           onBoard(boardOf(value as Pattern));
         }}
       />
       <BoardNumbers board={board} onBoard={onBoard} />
-      {!usable && <p className="bad">▲ {words.boardWrong}</p>}
+      {!usable && <p className="bad">▲ {texts.boardWrong}</p>}
       <div className="row">
         <Button
           size="lg"
@@ -68,14 +68,14 @@ export function BoardCard({ board, first, onBoard, onBegun }: BoardCardProps): R
           data-testid="collect"
           onClick={begin}
         >
-          {words.collect}
+          {texts.collect}
         </Button>
         <Button size="lg" variant="default" disabled={!usable} loading={printing.busy} onClick={print}>
-          {words.print}
+          {texts.print}
         </Button>
         <Select
           size="lg"
-          aria-label={words.paper}
+          aria-label={texts.paper}
           allowDeselect={false}
           className="paper"
           data={["A4", "A3", "letter"]}
@@ -85,7 +85,7 @@ export function BoardCard({ board, first, onBoard, onBegun }: BoardCardProps): R
           }}
         />
       </div>
-      <p className="soft">{words.printHint}</p>
+      <p className="soft">{texts.printHint}</p>
       <RejectionNote rejection={beginning.rejection ?? printing.rejection} />
     </Card>
   );

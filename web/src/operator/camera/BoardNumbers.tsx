@@ -1,6 +1,6 @@
 import { NumberInput, Select } from "@mantine/core";
 import type { ReactNode } from "react";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import type { Board } from "./board";
 
 const DICTIONARIES = [4, 5, 6, 7].flatMap((bits) =>
@@ -15,8 +15,8 @@ export function BoardNumbers({
   board: Board;
   onBoard: (board: Board) => void;
 }): ReactNode {
-  const words = useWords().camera;
-  const counts = words.counts[board.pattern];
+  const texts = useTexts().camera;
+  const counts = texts.counts[board.pattern];
   return (
     <div className="numbers-grid">
       <Count
@@ -36,7 +36,7 @@ export function BoardNumbers({
       {board.pattern === "dots" ? (
         <>
           <Size
-            label={words.pitch}
+            label={texts.pitch}
             value={board.pitch_mm}
             onChange={(pitch_mm) => {
               onBoard({ ...board, pitch_mm });
@@ -44,9 +44,9 @@ export function BoardNumbers({
           />
           <Select
             size="lg"
-            label={words.layout}
+            label={texts.layout}
             allowDeselect={false}
-            data={Object.entries(words.layouts).map(([value, label]) => ({ value, label }))}
+            data={Object.entries(texts.layouts).map(([value, label]) => ({ value, label }))}
             value={board.layout}
             onChange={(layout) => {
               if (layout !== null) onBoard({ ...board, layout: layout as typeof board.layout });
@@ -55,7 +55,7 @@ export function BoardNumbers({
         </>
       ) : (
         <Size
-          label={words.square}
+          label={texts.square}
           value={board.square_mm}
           onChange={(square_mm) => {
             onBoard({ ...board, square_mm });
@@ -65,7 +65,7 @@ export function BoardNumbers({
       {board.pattern === "charuco" && (
         <>
           <Size
-            label={words.marker}
+            label={texts.marker}
             value={board.marker_mm}
             onChange={(marker_mm) => {
               onBoard({ ...board, marker_mm });
@@ -73,7 +73,7 @@ export function BoardNumbers({
           />
           <Select
             size="lg"
-            label={words.dictionary}
+            label={texts.dictionary}
             allowDeselect={false}
             data={DICTIONARIES}
             value={board.dictionary}

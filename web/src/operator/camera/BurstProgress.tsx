@@ -4,8 +4,8 @@ import { answered, Rejection, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
-import { filled } from "../../words/filled";
-import { useWords } from "../../words/WordsContext";
+import { interpolate } from "../../texts/interpolate";
+import { useTexts } from "../../texts/TextsContext";
 
 const ASK_EVERY_MS = 350;
 
@@ -17,7 +17,7 @@ interface BurstProgressProps {
 
 /** What to do with the board now, and how far its images have been taken and read. */
 export function BurstProgress({ working, onReady, onEnd }: BurstProgressProps): ReactNode {
-  const words = useWords().camera.readout;
+  const texts = useTexts().camera.readout;
   const asked = useAsked((signal) => answered(server.GET("/api/camera/readout/collection", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
@@ -35,20 +35,20 @@ export function BurstProgress({ working, onReady, onEnd }: BurstProgressProps): 
   return (
     <>
       <p className="newest" role="status" data-testid="burst-stage">
-        {words.stages[data.stage]}
+        {texts.stages[data.stage]}
       </p>
       {(data.stage === "taking" || data.stage === "reading") && (
         <>
-          <progress max={data.images} value={done} aria-label={words.stages[data.stage]} />
+          <progress max={data.images} value={done} aria-label={texts.stages[data.stage]} />
           <p className="soft">
-            {filled(words.progress, { done, all: data.images, found: data.found_images })}
+            {interpolate(texts.progress, { done, all: data.images, found: data.found_images })}
           </p>
         </>
       )}
       <RejectionNote rejection={data.problem === null ? null : new Rejection(data.problem)} />
       <div>
         <Button size="lg" variant="default" disabled={working} onClick={onEnd}>
-          {words.end}
+          {texts.end}
         </Button>
       </div>
     </>

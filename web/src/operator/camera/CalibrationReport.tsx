@@ -2,12 +2,12 @@ import { Table } from "@mantine/core";
 import type { ReactNode } from "react";
 import { shownFigure } from "../../live/rounding";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
 import { Measure } from "../parts/Measure";
 import { sentence, shownTime } from "../parts/shown";
-import { filled } from "../../words/filled";
+import { interpolate } from "../../texts/interpolate";
 import { StandsOn } from "../parts/StandsOn";
 import { Plot } from "./Plot";
 import { reportIn, type View } from "./report";
@@ -22,12 +22,12 @@ interface CalibrationReportProps {
 
 /** The calibration that the case has: its numbers with their limits, its warnings, its pictures, its views. */
 export function CalibrationReport({ caseId, kept, gate, fresh }: CalibrationReportProps): ReactNode {
-  const all = useWords();
-  const words = all.camera;
+  const all = useTexts();
+  const texts = all.camera;
   const report = reportIn(kept.content);
   const used = report.views.filter((one) => one.used).length;
   return (
-    <Card title={words.reportTitle} testId="calibration" fresh={fresh}>
+    <Card title={texts.reportTitle} testId="calibration" fresh={fresh}>
       <StandsOn heading={kept.heading} documents={[]} />
       <p className="soft">
         {shownTime(kept.heading.made_at, all.language)} · <Maker of={kept.heading} /> ·{" "}
@@ -35,15 +35,15 @@ export function CalibrationReport({ caseId, kept, gate, fresh }: CalibrationRepo
       </p>
       <dl className="measures">
         <Measure
-          name={words.rms}
+          name={texts.rms}
           value={report.rmsPx}
           unit="px"
           limit={{ kind: "most", value: gate.max_rms_px }}
           testId="calibration-rms"
         />
-        <Measure name={words.noise} value={report.noisePx} unit="px" />
+        <Measure name={texts.noise} value={report.noisePx} unit="px" />
         <Measure
-          name={words.cells}
+          name={texts.cells}
           value={report.cellsRatio === null ? null : 100 * report.cellsRatio}
           unit="%"
           decimals={0}
@@ -55,14 +55,14 @@ export function CalibrationReport({ caseId, kept, gate, fresh }: CalibrationRepo
         </p>
       ))}
       <details className="more">
-        <summary>{words.parameters}</summary>
+        <summary>{texts.parameters}</summary>
         <Table.ScrollContainer minWidth={420}>
           <Table>
             <Table.Thead>
               <Table.Tr>
-                <Table.Th scope="col">{words.parameter}</Table.Th>
-                <Table.Th scope="col">{words.value}</Table.Th>
-                <Table.Th scope="col">{words.interval}</Table.Th>
+                <Table.Th scope="col">{texts.parameter}</Table.Th>
+                <Table.Th scope="col">{texts.value}</Table.Th>
+                <Table.Th scope="col">{texts.interval}</Table.Th>
               </Table.Tr>
             </Table.Thead>
             <Table.Tbody>
@@ -81,13 +81,13 @@ export function CalibrationReport({ caseId, kept, gate, fresh }: CalibrationRepo
         {report.model !== "" && <p className="soft">{sentence(report.model)}</p>}
       </details>
       <details className="more">
-        <summary>{filled(words.viewsUsed, { used, all: report.views.length })}</summary>
+        <summary>{interpolate(texts.viewsUsed, { used, all: report.views.length })}</summary>
         <Views views={report.views} />
       </details>
       <details className="more">
-        <summary>{words.pictures}</summary>
+        <summary>{texts.pictures}</summary>
         {report.plots.map(([name, file]) => (
-          <Plot key={file} caseId={caseId} file={file} name={words.plots[name] ?? name} />
+          <Plot key={file} caseId={caseId} file={file} name={texts.plots[name] ?? name} />
         ))}
       </details>
     </Card>
@@ -95,7 +95,7 @@ export function CalibrationReport({ caseId, kept, gate, fresh }: CalibrationRepo
 }
 
 function Views({ views }: { views: readonly View[] }): ReactNode {
-  const words = useWords().camera;
+  const texts = useTexts().camera;
   return (
     <ul className="rows">
       {views.map((one) => (
@@ -104,7 +104,7 @@ function Views({ views }: { views: readonly View[] }): ReactNode {
             {one.used ? "✓" : "✕"} {one.image}
           </span>
           <span className="soft">
-            {shownFigure(one.rmsPx, 2)} px · {one.points ?? "—"} {words.points}
+            {shownFigure(one.rmsPx, 2)} px · {one.points ?? "—"} {texts.points}
             {one.reason !== "" && ` · ${one.reason}`}
           </span>
         </li>

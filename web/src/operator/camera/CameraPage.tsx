@@ -3,7 +3,7 @@ import { VideoPane } from "../../panes/VideoPane";
 import { answered, server } from "../../rest/client";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { useGates } from "../parts/useGates";
 import { useProcedure } from "../../app/procedure";
 import { LatencyCard } from "../latency/LatencyCard";
@@ -20,7 +20,7 @@ const ASK_EVERY_MS = 2000;
 
 /** The camera: its test, the markers and their search, its calibration with live coverage, its accuracy. */
 export function CameraPage(): ReactNode {
-  const words = useWords().camera;
+  const texts = useTexts().camera;
   const procedure = useProcedure();
   const askedGates = useGates();
   const [calibratedHere, setCalibratedHere] = useState(false);
@@ -49,7 +49,7 @@ export function CameraPage(): ReactNode {
           />
         )}
         {gates !== null && data === null && <Unanswered asked={asked} />}
-        {procedure.data !== null && caseId === null && <p className="card-lead">{words.noCase}</p>}
+        {procedure.data !== null && caseId === null && <p className="card-lead">{texts.noCase}</p>}
         {data !== null && gates !== null && caseId !== null && (
           <>
             {data.collecting ? (

@@ -4,43 +4,43 @@ import { shownNumber } from "../../live/rounding";
 import { cameraFacts } from "../../panes/cameraFacts";
 import { searchTimeMs } from "../../panes/searchTime";
 import { problemsOf } from "../../panes/problems";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 
 /** What the camera gives just now: from where, how large, how often, how old. */
 export function CameraTest(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const { view, dashboard } = useLive();
   const { newest, video } = view;
-  const noAge = view.firstMessage === "awaited" ? "—" : words.video.none;
+  const noAge = view.firstMessage === "awaited" ? "—" : texts.video.none;
   const snapshot = newest?.snapshot ?? null;
   const searchMs = snapshot === null ? null : searchTimeMs(snapshot.stage_ms);
   const rateHz = newest?.source.rate_hz ?? null;
   const facts: (readonly [string, string, (string | undefined)?])[] = [
-    [words.header.source, newest?.source.name ?? "—"],
-    [words.header.camera, newest === null ? "—" : words.cameraState[newest.source.state]],
+    [texts.header.source, newest?.source.name ?? "—"],
+    [texts.header.camera, newest === null ? "—" : texts.cameraState[newest.source.state]],
     [
-      words.details.size,
+      texts.details.size,
       snapshot === null ? "—" : `${String(snapshot.width_px)} × ${String(snapshot.height_px)} px`,
     ],
-    ...cameraFacts(newest?.source.camera ?? null, words).map(([name, value]) => [name, value] as const),
-    [words.header.rate, rateHz === null ? "—" : `${shownNumber(rateHz)} Hz`],
+    ...cameraFacts(newest?.source.camera ?? null, texts).map(([name, value]) => [name, value] as const),
+    [texts.header.rate, rateHz === null ? "—" : `${shownNumber(rateHz)} Hz`],
     [
-      words.camera.age,
+      texts.camera.age,
       video.live ? `${shownNumber(video.ageMs, 0)} ms` : noAge,
       dashboard === null
         ? undefined
-        : `${words.case.measure.most} ${shownNumber(dashboard.limits.video_stale_after_ms, 0)} ms`,
+        : `${texts.case.measure.most} ${shownNumber(dashboard.limits.video_stale_after_ms, 0)} ms`,
     ],
-    [words.camera.searchTime, searchMs === null ? "—" : `${shownNumber(searchMs)} ms`],
-    [words.details.skipped, newest === null ? "—" : String(newest.source.skipped_images)],
+    [texts.camera.searchTime, searchMs === null ? "—" : `${shownNumber(searchMs)} ms`],
+    [texts.details.skipped, newest === null ? "—" : String(newest.source.skipped_images)],
     [
-      words.camera.calibrated,
-      snapshot === null ? "—" : snapshot.camera_calibrated ? words.camera.yes : words.camera.no,
+      texts.camera.calibrated,
+      snapshot === null ? "—" : snapshot.camera_calibrated ? texts.camera.yes : texts.camera.no,
     ],
   ];
   return (
-    <Card title={words.camera.testTitle} testId="camera-test">
+    <Card title={texts.camera.testTitle} testId="camera-test">
       <dl className="test-facts">
         {facts.map(([name, value, limit]) => (
           <div key={name}>
@@ -56,7 +56,7 @@ export function CameraTest(): ReactNode {
           ▲ {problem.message}. {problem.remedy}
         </p>
       ))}
-      {snapshot === null && problemsOf(view).length === 0 && <p className="soft">{words.camera.waiting}</p>}
+      {snapshot === null && problemsOf(view).length === 0 && <p className="soft">{texts.camera.waiting}</p>}
     </Card>
   );
 }

@@ -7,7 +7,7 @@ import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import { isOver, useJob } from "../../rest/useJob";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Measure } from "../parts/Measure";
 import { sentence } from "../parts/shown";
@@ -28,7 +28,7 @@ interface CollectionProps {
 
 /** Views as they are collected: where the board has been, how it was tilted, what is missing; then the fit. */
 export function Collection({ gates, onCalibrated, onOver }: CollectionProps): ReactNode {
-  const words = useWords().camera;
+  const texts = useTexts().camera;
   const madeBy = useMaker();
   const doing = useDo();
   const asked = useAsked((signal) => answered(server.GET("/api/camera/collection", { signal })), {
@@ -57,9 +57,9 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
   const enough = data.missing.length === 0;
   const { collecting } = gates;
   return (
-    <Card title={words.collecting} testId="collection">
+    <Card title={texts.collecting} testId="collection">
       <p className="newest" data-taking={data.message === "taken" ? "taken" : ""} role="status">
-        {data.running ? sentence(data.message) : words.ended}
+        {data.running ? sentence(data.message) : texts.ended}
       </p>
       <RejectionNote rejection={data.problem === null ? null : new Rejection(data.problem)} />
       <div className="coverage-row">
@@ -68,7 +68,7 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
       </div>
       <dl className="measures">
         <Measure
-          name={words.views}
+          name={texts.views}
           value={data.views.length}
           unit=""
           decimals={0}
@@ -77,7 +77,7 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
           testId="views"
         />
         <Measure
-          name={words.coverage}
+          name={texts.coverage}
           value={100 * data.coverage_ratio}
           unit="%"
           decimals={0}
@@ -85,11 +85,11 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
           bar
         />
       </dl>
-      <ul className="missing" aria-label={words.missing} data-testid="missing" data-enough={enough}>
+      <ul className="missing" aria-label={texts.missing} data-testid="missing" data-enough={enough}>
         {data.missing.map((one) => (
           <li key={one}>{one}</li>
         ))}
-        {enough && <li className="good">✓ {words.enough}</li>}
+        {enough && <li className="good">✓ {texts.enough}</li>}
       </ul>
       <JobProgress followed={followed} />
       <div className="row">
@@ -101,10 +101,10 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
           data-testid="calibrate"
           onClick={calibrate}
         >
-          {enough ? words.calibrate : words.calibrateAlready}
+          {enough ? texts.calibrate : texts.calibrateAlready}
         </Button>
-        <TwiceButton again={words.throwAwaySure} onTwice={() => void end()} testId="throw-away">
-          {words.throwAway}
+        <TwiceButton again={texts.throwAwaySure} onTwice={() => void end()} testId="throw-away">
+          {texts.throwAway}
         </TwiceButton>
       </div>
       <RejectionNote rejection={doing.rejection} />

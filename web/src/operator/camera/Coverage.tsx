@@ -1,20 +1,20 @@
 import type { ReactNode } from "react";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
-import { filled } from "../../words/filled";
+import { useTexts } from "../../texts/TextsContext";
+import { interpolate } from "../../texts/interpolate";
 
 type Collected = components["schemas"]["CollectionMessage"];
 
 /** The image part by part: where the board has been, and where it is seen just now. */
 export function Coverage({ collected }: { collected: Collected }): ReactNode {
-  const words = useWords().camera;
+  const texts = useTexts().camera;
   const { covered, points_px: points } = collected;
   const width = collected.width_px || 1280;
   const height = collected.height_px || 720;
   const rows = covered.length || 4;
   const columns = covered[0]?.length ?? 6;
   const there = covered.flat().filter(Boolean).length;
-  const label = filled(words.coverageAlt, { there, all: rows * columns });
+  const label = interpolate(texts.coverageAlt, { there, all: rows * columns });
   return (
     <figure className="coverage">
       <svg viewBox={`0 0 ${String(width)} ${String(height)}`} role="img" aria-label={label}>
@@ -36,7 +36,7 @@ export function Coverage({ collected }: { collected: Collected }): ReactNode {
           <circle key={index} className="board-point" cx={x} cy={y} r={width / 220} />
         ))}
       </svg>
-      <figcaption>{words.coverageCaption}</figcaption>
+      <figcaption>{texts.coverageCaption}</figcaption>
     </figure>
   );
 }

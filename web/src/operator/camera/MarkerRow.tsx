@@ -4,7 +4,7 @@ import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Maker } from "../parts/Maker";
 import { TwiceButton } from "../parts/TwiceButton";
 import { useMaker } from "../parts/useMaker";
@@ -21,7 +21,7 @@ interface MarkerRowProps {
 
 /** One marker: its picture, its side, and how its search goes in the newest image. */
 export function MarkerRow({ marker, gate, onRemoved }: MarkerRowProps): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const { view } = useLive();
   const madeBy = useMaker();
   const removing = useDo();
@@ -33,11 +33,11 @@ export function MarkerRow({ marker, gate, onRemoved }: MarkerRowProps): ReactNod
   const state =
     sighting === null
       ? view.firstMessage === "awaited"
-        ? words.rest.loading
-        : words.camera.notSearched
+        ? texts.rest.loading
+        : texts.camera.notSearched
       : sighting.kind === "seen"
-        ? `● ${words.markers.seen}, ${words.foundBy[sighting.found_by]}`
-        : `▲ ${words.markers.unseen}: ${words.unseen[sighting.reason]}`;
+        ? `● ${texts.markers.seen}, ${texts.foundBy[sighting.found_by]}`
+        : `▲ ${texts.markers.unseen}: ${texts.unseen[sighting.reason]}`;
   const remove = (): void => {
     void removing
       .run(async () => {
@@ -50,36 +50,36 @@ export function MarkerRow({ marker, gate, onRemoved }: MarkerRowProps): ReactNod
   const address = `/api/markers/${marker.name}/picture?document=${marker.document_id ?? "settings"}`;
   return (
     <li className="marker-row" data-testid={`marker-${marker.name}`} data-seen={seen !== null}>
-      <img src={address} alt={`${words.camera.pictureOf} ${marker.name}`} width={112} height={112} />
+      <img src={address} alt={`${texts.camera.pictureOf} ${marker.name}`} width={112} height={112} />
       <div className="stack grow">
         <p>
           <strong className="case-name">{marker.name}</strong>{" "}
           <span className="soft">
-            {words.camera.side} {marker.side_mm} mm ·{" "}
+            {texts.camera.side} {marker.side_mm} mm ·{" "}
             {marker.document_id === null ? (
-              words.camera.ofSettings
+              texts.camera.ofSettings
             ) : (
               <>
-                {words.camera.ofCase}, <Maker of={marker} />
+                {texts.camera.ofCase}, <Maker of={marker} />
               </>
             )}
           </span>
         </p>
         <p className={seen === null ? "bad" : "good"}>{state}</p>
         <ScoreBar
-          name={words.markers.score}
+          name={texts.markers.score}
           ratio={seen?.score_ratio ?? (sighting?.kind === "unseen" ? sighting.best_score_ratio : null)}
           acceptRatio={gate.accept_score_ratio}
         />
         <ScoreBar
-          name={words.markers.target}
+          name={texts.markers.target}
           ratio={seen?.target_score_ratio ?? null}
           acceptRatio={gate.accept_target_score_ratio}
         />
       </div>
       {marker.document_id !== null && (
-        <TwiceButton again={words.camera.removeSure} loading={removing.busy} onTwice={remove}>
-          {words.camera.remove}
+        <TwiceButton again={texts.camera.removeSure} loading={removing.busy} onTwice={remove}>
+          {texts.camera.remove}
         </TwiceButton>
       )}
       <RejectionNote rejection={removing.rejection} />

@@ -3,7 +3,7 @@ import { answered, server } from "../../rest/client";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { MarkerRow } from "./MarkerRow";
 import { NewMarker } from "./NewMarker";
@@ -19,7 +19,7 @@ interface MarkersProps {
 
 /** The markers that are looked for, with their pictures and their search as it goes; another one sent. */
 export function Markers({ gate, canAdd, onChange }: MarkersProps): ReactNode {
-  const words = useWords().camera;
+  const texts = useTexts().camera;
   const asked = useAsked((signal) => answered(server.GET("/api/markers", { signal })), {
     everyMs: 3000,
   });
@@ -29,16 +29,16 @@ export function Markers({ gate, canAdd, onChange }: MarkersProps): ReactNode {
     onChange();
   };
   return (
-    <Card title={words.markersTitle} testId="markers">
+    <Card title={texts.markersTitle} testId="markers">
       {data === null && <Unanswered asked={asked} />}
-      {data?.markers.length === 0 && <p className="card-lead">{words.noMarkers}</p>}
+      {data?.markers.length === 0 && <p className="card-lead">{texts.noMarkers}</p>}
       <ul className="rows">
         {data?.markers.map((marker) => (
           <MarkerRow key={marker.name} marker={marker} gate={gate} onRemoved={changed} />
         ))}
       </ul>
       {canAdd === true && <NewMarker known={data?.markers ?? []} onAdded={changed} />}
-      {canAdd === false && <p className="soft">{words.markerNeedsCase}</p>}
+      {canAdd === false && <p className="soft">{texts.markerNeedsCase}</p>}
     </Card>
   );
 }

@@ -1,6 +1,6 @@
 import { Button, NumberInput, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { FileButton } from "../parts/FileButton";
 import { sent } from "../parts/transfer";
 import { TransferProgress } from "../parts/TransferProgress";
@@ -22,7 +22,7 @@ export function NewMarker({
   known: readonly KnownMarker[];
   onAdded: () => void;
 }): ReactNode {
-  const words = useWords().camera;
+  const texts = useTexts().camera;
   const madeBy = useMaker();
   const [chosen, setChosen] = useState<Chosen | null>(null);
   const [name, setName] = useState("");
@@ -32,9 +32,9 @@ export function NewMarker({
   const isReplaced = typeof same?.document_id === "string";
   const nameError =
     name !== "" && !NAME.test(name)
-      ? words.nameWrong
+      ? texts.nameWrong
       : same?.document_id === null
-        ? words.nameOfSettings
+        ? texts.nameOfSettings
         : null;
   const ready =
     chosen !== null && NAME.test(name) && nameError === null && typeof sideMm === "number" && sideMm > 0;
@@ -60,12 +60,12 @@ export function NewMarker({
   };
   return (
     <details className="more" open={known.length === 0} data-testid="new-marker">
-      <summary>{words.newMarker}</summary>
+      <summary>{texts.newMarker}</summary>
       <div className="stack">
-        <p className="soft">{words.newMarkerLead}</p>
+        <p className="soft">{texts.newMarkerLead}</p>
         <div className="row">
           {chosen !== null && (
-            <img className="marker-chosen" src={chosen.address} alt={words.pictureChosen} />
+            <img className="marker-chosen" src={chosen.address} alt={texts.pictureChosen} />
           )}
           <FileButton
             accept="image/png,image/jpeg,image/bmp"
@@ -76,12 +76,12 @@ export function NewMarker({
               if (name === "") setName(nameFrom(file.name));
             }}
           >
-            {chosen === null ? words.choosePicture : words.otherPicture}
+            {chosen === null ? texts.choosePicture : texts.otherPicture}
           </FileButton>
           <TextInput
             className="grow"
             size="lg"
-            label={words.markerName}
+            label={texts.markerName}
             error={nameError}
             value={name}
             onChange={(event) => {
@@ -92,7 +92,7 @@ export function NewMarker({
             hideControls
             inputMode="decimal"
             size="lg"
-            label={`${words.side} (mm)`}
+            label={`${texts.side} (mm)`}
             min={0.1}
             max={1000}
             step={1}
@@ -106,11 +106,11 @@ export function NewMarker({
             data-testid="add-marker"
             onClick={add}
           >
-            {isReplaced ? words.replaceMarker : words.addMarker}
+            {isReplaced ? texts.replaceMarker : texts.addMarker}
           </Button>
         </div>
-        {isReplaced && <p className="bad">▲ {words.replaceHint}</p>}
-        <TransferProgress transfer={transfer} name={words.addMarker} />
+        {isReplaced && <p className="bad">▲ {texts.replaceHint}</p>}
+        <TransferProgress transfer={transfer} name={texts.addMarker} />
       </div>
     </details>
   );

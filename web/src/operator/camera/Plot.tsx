@@ -2,12 +2,12 @@ import { Loader } from "@mantine/core";
 import { useEffect, useState, type ReactNode } from "react";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { Rejection } from "../../rest/client";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { fetched } from "../parts/transfer";
 
 /** A picture that belongs to a calibration. It comes as plain bytes, and is only ever shown as a picture. */
 export function Plot({ caseId, file, name }: { caseId: string; file: string; name: string }): ReactNode {
-  const words = useWords().rest;
+  const texts = useTexts().rest;
   const [address, setAddress] = useState<string | null>(null);
   const [rejection, setRejection] = useState<Rejection | null>(null);
   useEffect(() => {
@@ -28,7 +28,7 @@ export function Plot({ caseId, file, name }: { caseId: string; file: string; nam
     };
   }, [caseId, file]);
   if (rejection !== null) return <RejectionNote rejection={rejection} />;
-  if (address === null) return <Loader aria-label={words.loading} />;
+  if (address === null) return <Loader aria-label={texts.loading} />;
   return (
     <figure className="plot">
       <img src={address} alt={name} />

@@ -8,8 +8,8 @@ import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import { isOver, useJob } from "../../rest/useJob";
-import { filled } from "../../words/filled";
-import { useWords } from "../../words/WordsContext";
+import { interpolate } from "../../texts/interpolate";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { useMaker } from "../parts/useMaker";
 import { isBoard, type Board } from "./board";
@@ -26,7 +26,7 @@ interface ReadoutCardProps {
 
 /** The readout of a rolling shutter: out of the data sheet, or measured with a board that is shaken. */
 export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
-  const words = useWords().camera.readout;
+  const texts = useTexts().camera.readout;
   const madeBy = useMaker();
   const doing = useDo();
   const [rejected, setRejected] = useState<Rejection | null>(null);
@@ -68,11 +68,12 @@ export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
   if (data === null) return <Unanswered asked={asked} />;
   const working = followed.job !== null && !isOver(followed.job);
   return (
-    <Card title={words.title} testId="readout">
-      <p>{words.lead}</p>
+    <Card title={texts.title} testId="readout">
+      <p>{texts.lead}</p>
       <p data-testid="readout-kept">
-        {readoutText(data, words)}
-        {data.found_by === "measured" && ` ${filled(words.spread, { sd: shownNumber(data.sd_ms ?? NaN) })}`}
+        {readoutText(data, texts)}
+        {data.found_by === "measured" &&
+          ` ${interpolate(texts.spread, { sd: shownNumber(data.sd_ms ?? NaN) })}`}
       </p>
       {data.collecting ? (
         <>
@@ -91,10 +92,10 @@ export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
               data-testid="measure-readout"
               onClick={begin}
             >
-              {words.measure}
+              {texts.measure}
             </Button>
           </div>
-          <p className="soft">{words.versionHint}</p>
+          <p className="soft">{texts.versionHint}</p>
         </>
       )}
       <RejectionNote rejection={rejected ?? doing.rejection} />

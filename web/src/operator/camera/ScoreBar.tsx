@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { shownPercent } from "../../live/rounding";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 
 interface ScoreBarProps {
   name: string;
@@ -11,7 +11,7 @@ interface ScoreBarProps {
 
 /** A score as the paper's program shows it, with the line that it must reach. */
 export function ScoreBar({ name, ratio, acceptRatio }: ScoreBarProps): ReactNode {
-  const words = useWords().case.measure;
+  const texts = useTexts().case.measure;
   const accepted = ratio !== null && ratio >= acceptRatio;
   return (
     <div className="score" data-accepted={ratio === null ? undefined : accepted}>
@@ -24,7 +24,7 @@ export function ScoreBar({ name, ratio, acceptRatio }: ScoreBarProps): ReactNode
         {ratio === null ? "—" : `${accepted ? "✓" : "✕"} ${shownPercent(ratio)}`}
         <span className="soft">
           {" "}
-          {words.least} {shownPercent(acceptRatio)}
+          {texts.least} {shownPercent(acceptRatio)}
         </span>
       </span>
     </div>

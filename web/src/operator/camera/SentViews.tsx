@@ -1,9 +1,9 @@
 import { useState, type ReactNode } from "react";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { Rejection } from "../../rest/client";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { FileButton } from "../parts/FileButton";
-import { filled } from "../../words/filled";
+import { interpolate } from "../../texts/interpolate";
 import { sent } from "../parts/transfer";
 import { TransferProgress } from "../parts/TransferProgress";
 import { useTransfer } from "../parts/useTransfer";
@@ -15,7 +15,7 @@ interface Rejected {
 
 /** Views from pictures that were taken before, one after the other; each that is refused says why. */
 export function SentViews({ disabled, onAdded }: { disabled: boolean; onAdded: () => void }): ReactNode {
-  const words = useWords().camera;
+  const texts = useTexts().camera;
   const transfer = useTransfer();
   const [rejected, setRejected] = useState<readonly Rejected[]>([]);
   const [taken, setTaken] = useState<number | null>(null);
@@ -52,12 +52,12 @@ export function SentViews({ disabled, onAdded }: { disabled: boolean; onAdded: (
           testId="view-files"
           onFiles={send}
         >
-          {words.sendViews}
+          {texts.sendViews}
         </FileButton>
-        <p className="soft grow">{words.sendViewsHint}</p>
+        <p className="soft grow">{texts.sendViewsHint}</p>
       </div>
-      <TransferProgress transfer={transfer} name={words.sendViews} />
-      {taken !== null && <p role="status">{filled(words.viewsSent, { count: taken })}</p>}
+      <TransferProgress transfer={transfer} name={texts.sendViews} />
+      {taken !== null && <p role="status">{interpolate(texts.viewsSent, { count: taken })}</p>}
       {rejected.map(({ file, rejection }) => (
         <RejectionNote key={file} rejection={rejection} />
       ))}

@@ -3,7 +3,7 @@ import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { useMaker } from "../parts/useMaker";
 
 interface StatedReadoutProps {
@@ -13,7 +13,7 @@ interface StatedReadoutProps {
 
 /** A readout out of the data sheet; an empty field is one that is not known. */
 export function StatedReadout({ readoutMs, onKept }: StatedReadoutProps): ReactNode {
-  const words = useWords().camera.readout;
+  const texts = useTexts().camera.readout;
   const madeBy = useMaker();
   const keeping = useDo();
   const [typed, setTyped] = useState<number | string>(readoutMs ?? "");
@@ -31,9 +31,9 @@ export function StatedReadout({ readoutMs, onKept }: StatedReadoutProps): ReactN
         hideControls
         inputMode="decimal"
         size="lg"
-        label={words.field}
-        description={words.fieldHint}
-        placeholder={words.unknown}
+        label={texts.field}
+        description={texts.fieldHint}
+        placeholder={texts.unknown}
         min={0}
         max={200}
         decimalScale={2}
@@ -43,7 +43,7 @@ export function StatedReadout({ readoutMs, onKept }: StatedReadoutProps): ReactN
       />
       <div>
         <Button size="lg" variant="default" loading={keeping.busy} data-testid="keep-readout" onClick={keep}>
-          {words.keep}
+          {texts.keep}
         </Button>
       </div>
       <RejectionNote rejection={keeping.rejection} />

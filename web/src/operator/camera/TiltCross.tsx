@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { shownFigure } from "../../live/rounding";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { armsOf, type Way } from "./tilts";
 
 const LENGTH = 62;
@@ -19,12 +19,12 @@ export function TiltCross({
   tiltDeg: readonly number[];
   wantedDeg: number;
 }): ReactNode {
-  const words = useWords().camera;
+  const texts = useTexts().camera;
   const arms = armsOf(tiltDeg, wantedDeg);
-  const told = arms.map((arm) => `${words.ways[arm.way]} ${shownFigure(arm.reachedDeg, 0)}°`).join(", ");
+  const told = arms.map((arm) => `${texts.ways[arm.way]} ${shownFigure(arm.reachedDeg, 0)}°`).join(", ");
   return (
     <figure className="tilts">
-      <svg viewBox="-40 0 280 200" role="img" aria-label={`${words.tilts}: ${told}`}>
+      <svg viewBox="-40 0 280 200" role="img" aria-label={`${texts.tilts}: ${told}`}>
         {arms.map(({ way, reachedDeg, ratio }) => {
           const { x, y, dx, dy } = PLACES[way];
           const to = (share: number): { x2: number; y2: number } => ({
@@ -45,7 +45,7 @@ export function TiltCross({
         <rect className="tilt-board" x="88" y="88" width="24" height="24" rx="3" />
       </svg>
       <figcaption>
-        {words.tilts}, {words.tiltWanted} {shownFigure(wantedDeg, 0)}°
+        {texts.tilts}, {texts.tiltWanted} {shownFigure(wantedDeg, 0)}°
       </figcaption>
     </figure>
   );

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { readoutEn } from "../../words/camera/readout";
+import { readoutEn } from "../../texts/camera/readout";
 import { readoutText } from "./readoutText";
 
 const NONE = { collecting: false, readout_ms: null, sd_ms: null, found_by: null };

@@ -1,8 +1,8 @@
 import { useState, type ReactNode } from "react";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { FileButton } from "../parts/FileButton";
-import { filled } from "../../words/filled";
+import { interpolate } from "../../texts/interpolate";
 import { sent } from "../parts/transfer";
 import { TransferProgress } from "../parts/TransferProgress";
 import { useTransfer } from "../parts/useTransfer";
@@ -10,7 +10,7 @@ import type { Case } from "./OpenedCase";
 
 /** Takes a case in from its archive: whole, or nothing of it. */
 export function ArchiveIn({ onTaken }: { onTaken: () => void }): ReactNode {
-  const words = useWords().case;
+  const texts = useTexts().case;
   const [taken, setTaken] = useState<Case | null>(null);
   const transfer = useTransfer();
   const take = (file: File): void => {
@@ -22,8 +22,8 @@ export function ArchiveIn({ onTaken }: { onTaken: () => void }): ReactNode {
     });
   };
   return (
-    <Card title={words.archiveInTitle} testId="archive-in">
-      <p className="soft">{words.archiveInLead}</p>
+    <Card title={texts.archiveInTitle} testId="archive-in">
+      <p className="soft">{texts.archiveInLead}</p>
       <div>
         <FileButton
           accept=".zip,application/zip"
@@ -33,11 +33,11 @@ export function ArchiveIn({ onTaken }: { onTaken: () => void }): ReactNode {
             if (file !== undefined) take(file);
           }}
         >
-          {words.archiveIn}
+          {texts.archiveIn}
         </FileButton>
       </div>
-      <TransferProgress transfer={transfer} name={words.archiveIn} />
-      {taken !== null && <p role="status">{filled(words.archiveTaken, { name: taken.name })}</p>}
+      <TransferProgress transfer={transfer} name={texts.archiveIn} />
+      {taken !== null && <p role="status">{interpolate(texts.archiveTaken, { name: taken.name })}</p>}
     </Card>
   );
 }

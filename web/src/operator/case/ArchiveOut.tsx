@@ -1,6 +1,6 @@
 import { Button, Checkbox } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { saved } from "../parts/saved";
 import { fetched } from "../parts/transfer";
 import { TransferProgress } from "../parts/TransferProgress";
@@ -8,7 +8,7 @@ import { useTransfer } from "../parts/useTransfer";
 
 /** The case as one file to be saved; who the patient is stays here unless somebody asks for it. */
 export function ArchiveOut({ caseId }: { caseId: string }): ReactNode {
-  const words = useWords().case;
+  const texts = useTexts().case;
   const [withIdentity, setWithIdentity] = useState(false);
   const transfer = useTransfer();
   const copyOut = (): void => {
@@ -21,18 +21,18 @@ export function ArchiveOut({ caseId }: { caseId: string }): ReactNode {
     <div className="stack grow" data-testid="archive-out">
       <div className="row row-mid">
         <Button size="lg" variant="default" disabled={transfer.moved !== null} onClick={copyOut}>
-          {words.copyOut}
+          {texts.copyOut}
         </Button>
         <Checkbox
           size="lg"
-          label={words.withIdentity}
+          label={texts.withIdentity}
           checked={withIdentity}
           onChange={(event) => {
             setWithIdentity(event.currentTarget.checked);
           }}
         />
       </div>
-      <TransferProgress transfer={transfer} name={words.copyOut} />
+      <TransferProgress transfer={transfer} name={texts.copyOut} />
     </div>
   );
 }

@@ -3,7 +3,7 @@ import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { shownTime } from "../parts/shown";
 import { DeleteCase } from "./DeleteCase";
@@ -17,7 +17,7 @@ interface CaseListProps {
 
 /** All other cases: open one, or delete it. */
 export function CaseList({ cases, openedId, onChange }: CaseListProps): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const opening = useDo();
   const [leaving, setLeaving] = useState<Case | null>(null);
   const others = cases.filter((one) => one.id !== openedId);
@@ -30,14 +30,14 @@ export function CaseList({ cases, openedId, onChange }: CaseListProps): ReactNod
   };
   if (others.length === 0) return null;
   return (
-    <Card title={words.case.listTitle} testId="case-list">
+    <Card title={texts.case.listTitle} testId="case-list">
       <ul className="rows">
         {others.map((one) => (
           <li key={one.id} className="row">
             <div className="grow">
               <p className="case-name">{one.name}</p>
               <p className="soft">
-                {words.case.changedAt} {shownTime(one.changed_at, words.language)}
+                {texts.case.changedAt} {shownTime(one.changed_at, texts.language)}
               </p>
             </div>
             <Button
@@ -47,7 +47,7 @@ export function CaseList({ cases, openedId, onChange }: CaseListProps): ReactNod
                 open(one.id);
               }}
             >
-              {words.case.open}
+              {texts.case.open}
             </Button>
             <Button
               size="lg"
@@ -57,12 +57,12 @@ export function CaseList({ cases, openedId, onChange }: CaseListProps): ReactNod
                 setLeaving(one);
               }}
             >
-              {words.case.delete}
+              {texts.case.delete}
             </Button>
           </li>
         ))}
       </ul>
-      {openedId !== null && <p className="soft">{words.case.oneIsClosed}</p>}
+      {openedId !== null && <p className="soft">{texts.case.oneIsClosed}</p>}
       <RejectionNote rejection={opening.rejection} />
       {leaving !== null && (
         <DeleteCase

@@ -3,12 +3,12 @@ import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import type { Case } from "./OpenedCase";
 
 /** Nothing brings a deleted case back, so its name is to be written; a slip of the hand does not do that. */
 export function DeleteCase({ leaving, onEnd }: { leaving: Case; onEnd: () => void }): ReactNode {
-  const words = useWords().case;
+  const texts = useTexts().case;
   const [confirm, setConfirm] = useState("");
   const deleting = useDo();
   const remove = async (): Promise<void> => {
@@ -24,8 +24,8 @@ export function DeleteCase({ leaving, onEnd }: { leaving: Case; onEnd: () => voi
       centered
       size="lg"
       onClose={onEnd}
-      title={words.deleteTitle}
-      closeButtonProps={{ size: "xl", "aria-label": words.keepCase }}
+      title={texts.deleteTitle}
+      closeButtonProps={{ size: "xl", "aria-label": texts.keepCase }}
     >
       <form
         className="stack"
@@ -34,11 +34,11 @@ export function DeleteCase({ leaving, onEnd }: { leaving: Case; onEnd: () => voi
           void remove();
         }}
       >
-        <p>{words.deleteLead}</p>
+        <p>{texts.deleteLead}</p>
         <p className="case-name">{leaving.name}</p>
         <TextInput
           size="lg"
-          label={words.deleteConfirm}
+          label={texts.deleteConfirm}
           autoComplete="off"
           value={confirm}
           onChange={(event) => {
@@ -48,7 +48,7 @@ export function DeleteCase({ leaving, onEnd }: { leaving: Case; onEnd: () => voi
         <RejectionNote rejection={deleting.rejection} />
         <div className="row">
           <Button size="lg" variant="default" data-autofocus onClick={onEnd}>
-            {words.keepCase}
+            {texts.keepCase}
           </Button>
           <Button
             type="submit"
@@ -57,7 +57,7 @@ export function DeleteCase({ leaving, onEnd }: { leaving: Case; onEnd: () => voi
             disabled={confirm !== leaving.name}
             loading={deleting.busy}
           >
-            {words.deleteForEver}
+            {texts.deleteForEver}
           </Button>
         </div>
       </form>

@@ -4,7 +4,7 @@ import { answered, server } from "../../rest/client";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
 import { sentence, shownTime } from "../parts/shown";
@@ -17,7 +17,7 @@ const ASK_EVERY_MS = 3000;
 
 /** What the case has, and whether each of it holds; if not, why. */
 export function Documents({ caseId }: { caseId: string }): ReactNode {
-  const words = useWords().case;
+  const texts = useTexts().case;
   const [all, setAll] = useState(false);
   const asked = useAsked(
     (signal) =>
@@ -30,12 +30,12 @@ export function Documents({ caseId }: { caseId: string }): ReactNode {
   const shown = data === null ? [] : all ? [...data.documents].reverse() : newestOf(data.documents);
   return (
     <Card
-      title={words.documentsTitle}
+      title={texts.documentsTitle}
       testId="documents"
       aside={
         <Switch
           size="lg"
-          label={words.allVersions}
+          label={texts.allVersions}
           checked={all}
           onChange={(event) => {
             setAll(event.currentTarget.checked);
@@ -44,15 +44,15 @@ export function Documents({ caseId }: { caseId: string }): ReactNode {
       }
     >
       {data === null && <Unanswered asked={asked} />}
-      {data !== null && shown.length === 0 && <p className="soft">{words.noDocuments}</p>}
+      {data !== null && shown.length === 0 && <p className="soft">{texts.noDocuments}</p>}
       {shown.length > 0 && (
         <Table.ScrollContainer minWidth={520}>
           <Table verticalSpacing="sm">
             <Table.Thead>
               <Table.Tr>
-                <Table.Th scope="col">{words.document}</Table.Th>
-                <Table.Th scope="col">{words.standing}</Table.Th>
-                <Table.Th scope="col">{words.made}</Table.Th>
+                <Table.Th scope="col">{texts.document}</Table.Th>
+                <Table.Th scope="col">{texts.standing}</Table.Th>
+                <Table.Th scope="col">{texts.made}</Table.Th>
               </Table.Tr>
             </Table.Thead>
             <Table.Tbody>
@@ -68,20 +68,20 @@ export function Documents({ caseId }: { caseId: string }): ReactNode {
 }
 
 function DocumentRow({ heading }: { heading: Heading }): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const { current, withdrawn, out_of_date: why } = heading;
   const state = withdrawn !== null ? "withdrawn" : current ? "current" : "outOfDate";
   return (
     <Table.Tr data-standing={state}>
       <Table.Th scope="row">
-        {documentTitle(heading, words.case)}{" "}
+        {documentTitle(heading, texts.case)}{" "}
         <span className="soft">
-          {words.case.version} {heading.version}
+          {texts.case.version} {heading.version}
         </span>
       </Table.Th>
       <Table.Td>
         <Badge size="lg" variant="light" color={current ? "teal" : "yellow"}>
-          {current ? "✓" : "!"} {words.case.standings[state]}
+          {current ? "✓" : "!"} {texts.case.standings[state]}
         </Badge>
         {why !== null && <p className="soft">{sentence(why)}</p>}
         {withdrawn !== null && (
@@ -91,7 +91,7 @@ function DocumentRow({ heading }: { heading: Heading }): ReactNode {
         )}
       </Table.Td>
       <Table.Td>
-        {shownTime(heading.made_at, words.language)}{" "}
+        {shownTime(heading.made_at, texts.language)}{" "}
         <span className="soft">
           · <Maker of={heading} />
         </span>

@@ -5,7 +5,7 @@ import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { isOver, type Job } from "../../rest/useJob";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { sentence } from "../parts/shown";
 
@@ -13,7 +13,7 @@ const SHOWN = 5;
 
 /** Long work, on whatever page it was begun: how far it is, how it ended, and a way to stop it. */
 export function Jobs(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const cancelling = useDo();
   const { data, again } = useAsked((signal) => answered(server.GET("/api/jobs", { signal })), {
     everyMs: 1000,
@@ -27,13 +27,13 @@ export function Jobs(): ReactNode {
   };
   if (data === null || data.jobs.length === 0) return null;
   return (
-    <Card title={words.case.jobsTitle} testId="jobs">
+    <Card title={texts.case.jobsTitle} testId="jobs">
       <ul className="rows">
         {data.jobs.slice(0, SHOWN).map((job) => (
           <li key={job.id} className="row" data-state={job.state}>
             <div className="grow stack">
               <p>
-                {sentence(job.title)} <span className="soft">{words.case.jobStates[job.state]}</span>
+                {sentence(job.title)} <span className="soft">{texts.case.jobStates[job.state]}</span>
                 {!isOver(job) && job.doing !== "" && <span className="soft"> · {job.doing}</span>}
               </p>
               {!isOver(job) && <Progress size="lg" value={100 * job.progress_ratio} aria-label={job.title} />}
@@ -52,7 +52,7 @@ export function Jobs(): ReactNode {
                   cancel(job);
                 }}
               >
-                {words.rest.cancel}
+                {texts.rest.cancel}
               </Button>
             )}
           </li>

@@ -3,12 +3,12 @@ import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 
 /** Makes a case and opens it; large where there is none yet. */
 export function NewCase({ first, onMade }: { first: boolean; onMade: () => void }): ReactNode {
-  const words = useWords().case;
+  const texts = useTexts().case;
   const [name, setName] = useState("");
   const making = useDo();
   const make = async (): Promise<void> => {
@@ -21,8 +21,8 @@ export function NewCase({ first, onMade }: { first: boolean; onMade: () => void 
     if (done) setName("");
   };
   return (
-    <Card title={first ? words.firstTitle : words.newTitle} testId="new-case">
-      {first && <p className="card-lead">{words.firstLead}</p>}
+    <Card title={first ? texts.firstTitle : texts.newTitle} testId="new-case">
+      {first && <p className="card-lead">{texts.firstLead}</p>}
       <form
         className="row"
         onSubmit={(event) => {
@@ -33,8 +33,8 @@ export function NewCase({ first, onMade }: { first: boolean; onMade: () => void 
         <TextInput
           className="grow"
           size="lg"
-          label={words.name}
-          description={words.nameHint}
+          label={texts.name}
+          description={texts.nameHint}
           maxLength={200}
           value={name}
           onChange={(event) => {
@@ -42,7 +42,7 @@ export function NewCase({ first, onMade }: { first: boolean; onMade: () => void 
           }}
         />
         <Button type="submit" size="lg" disabled={name.trim() === ""} loading={making.busy}>
-          {words.make}
+          {texts.make}
         </Button>
       </form>
       <RejectionNote rejection={making.rejection} />

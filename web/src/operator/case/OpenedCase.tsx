@@ -4,7 +4,7 @@ import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { shownTime } from "../parts/shown";
 import { ArchiveOut } from "./ArchiveOut";
@@ -14,7 +14,7 @@ export type Case = components["schemas"]["CaseMessage"];
 
 /** The case that is open: its name, its archive, and the way out of it. */
 export function OpenedCase({ opened, onChange }: { opened: Case; onChange: () => void }): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const closing = useDo();
   const close = (): void => {
     void closing
@@ -26,20 +26,20 @@ export function OpenedCase({ opened, onChange }: { opened: Case; onChange: () =>
   };
   return (
     <Card
-      title={words.case.openTitle}
+      title={texts.case.openTitle}
       testId="opened-case"
-      aside={<span className="badge-good">● {words.case.isOpen}</span>}
+      aside={<span className="badge-good">● {texts.case.isOpen}</span>}
     >
       <Rename case_={opened} onRenamed={onChange} />
       <p className="soft">
-        {words.case.madeAt} {shownTime(opened.created_at, words.language)} · {words.case.changedAt}{" "}
-        {shownTime(opened.changed_at, words.language)}
-        {opened.copied_from !== null && ` · ${words.case.cameAsArchive}`}
+        {texts.case.madeAt} {shownTime(opened.created_at, texts.language)} · {texts.case.changedAt}{" "}
+        {shownTime(opened.changed_at, texts.language)}
+        {opened.copied_from !== null && ` · ${texts.case.cameAsArchive}`}
       </p>
       <div className="row">
         <ArchiveOut caseId={opened.id} />
         <Button size="lg" variant="default" loading={closing.busy} onClick={close}>
-          {words.case.close}
+          {texts.case.close}
         </Button>
       </div>
       <RejectionNote rejection={closing.rejection} />

@@ -5,7 +5,7 @@ import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import { useRehearsal } from "../../rest/useRehearsal";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 
 type Wish = components["schemas"]["SceneRequest"];
@@ -24,7 +24,7 @@ const ASK_EVERY_MS = 1500;
 
 /** Only where the camera is the theatre in software: what is played before it. */
 export function Rehearsal(): ReactNode {
-  const words = useWords().case.rehearsal;
+  const texts = useTexts().case.rehearsal;
   const asked = useRehearsal({ everyMs: ASK_EVERY_MS });
   // What was just chosen, until the server says that it plays it.
   const [wish, setWish] = useState<Partial<Played>>({});
@@ -52,12 +52,12 @@ export function Rehearsal(): ReactNode {
   };
   return (
     <Card
-      title={words.title}
+      title={texts.title}
       testId="rehearsal"
-      aside={<span className="badge-rehearsal">{words.badge}</span>}
+      aside={<span className="badge-rehearsal">{texts.badge}</span>}
     >
-      <p>{words.lead}</p>
-      <div className="row" role="group" aria-label={words.scene}>
+      <p>{texts.lead}</p>
+      <div className="row" role="group" aria-label={texts.scene}>
         {SCENES.map((scene) => (
           <Button
             key={scene}
@@ -70,19 +70,19 @@ export function Rehearsal(): ReactNode {
               play({ scene });
             }}
           >
-            {words.scenes[scene]}
+            {texts.scenes[scene]}
           </Button>
         ))}
       </div>
       <p className="soft" role="status" data-begun={data.begun}>
-        {data.begun ? words.sceneLeads[played.scene] : words.coming}
+        {data.begun ? texts.sceneLeads[played.scene] : texts.coming}
       </p>
       <div className="row">
         <Select
           size="lg"
-          label={words.skill}
+          label={texts.skill}
           allowDeselect={false}
-          data={Object.entries(words.skills).map(([value, label]) => ({ value, label }))}
+          data={Object.entries(texts.skills).map(([value, label]) => ({ value, label }))}
           value={played.skill}
           disabled={playing.busy}
           data-testid="skill"
@@ -92,9 +92,9 @@ export function Rehearsal(): ReactNode {
         />
         <Select
           size="lg"
-          label={words.board}
+          label={texts.board}
           allowDeselect={false}
-          data={Object.entries(words.boards).map(([value, label]) => ({ value, label }))}
+          data={Object.entries(texts.boards).map(([value, label]) => ({ value, label }))}
           value={played.board}
           disabled={playing.busy}
           data-testid="rehearsed-board"
@@ -103,7 +103,7 @@ export function Rehearsal(): ReactNode {
           }}
         />
       </div>
-      <p className="soft">{words.atOnce}</p>
+      <p className="soft">{texts.atOnce}</p>
       <RejectionNote rejection={playing.rejection} />
     </Card>
   );

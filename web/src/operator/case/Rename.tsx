@@ -3,12 +3,12 @@ import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import type { Case } from "./OpenedCase";
 
 /** A case's name, and another one for it; the one before can be had back. */
 export function Rename({ case_, onRenamed }: { case_: Case; onRenamed: () => void }): ReactNode {
-  const words = useWords().case;
+  const texts = useTexts().case;
   const [name, setName] = useState<string | null>(null);
   const [before, setBefore] = useState<string | null>(null);
   const renaming = useDo();
@@ -29,7 +29,7 @@ export function Rename({ case_, onRenamed }: { case_: Case; onRenamed: () => voi
         <p className="case-name grow">{case_.name}</p>
         {before !== null && (
           <Button size="lg" variant="subtle" onClick={() => void rename(before)}>
-            {words.undoRename}
+            {texts.undoRename}
           </Button>
         )}
         <Button
@@ -39,7 +39,7 @@ export function Rename({ case_, onRenamed }: { case_: Case; onRenamed: () => voi
             setName(case_.name);
           }}
         >
-          {words.rename}
+          {texts.rename}
         </Button>
         <RejectionNote rejection={renaming.rejection} />
       </div>
@@ -56,7 +56,7 @@ export function Rename({ case_, onRenamed }: { case_: Case; onRenamed: () => voi
       <TextInput
         className="grow"
         size="lg"
-        label={words.name}
+        label={texts.name}
         data-autofocus
         maxLength={200}
         value={name}
@@ -65,7 +65,7 @@ export function Rename({ case_, onRenamed }: { case_: Case; onRenamed: () => voi
         }}
       />
       <Button type="submit" size="lg" disabled={name.trim() === ""} loading={renaming.busy}>
-        {words.keepName}
+        {texts.keepName}
       </Button>
       <Button
         size="lg"
@@ -74,7 +74,7 @@ export function Rename({ case_, onRenamed }: { case_: Case; onRenamed: () => voi
           setName(null);
         }}
       >
-        {words.leaveName}
+        {texts.leaveName}
       </Button>
       <RejectionNote rejection={renaming.rejection} />
     </form>

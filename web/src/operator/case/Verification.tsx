@@ -5,14 +5,14 @@ import { RejectionNote } from "../../rest/RejectionNote";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { sentence, shownBytes } from "../parts/shown";
-import { filled } from "../../words/filled";
+import { interpolate } from "../../texts/interpolate";
 
 /** The files of a case, read from end to end when somebody wants to know. */
 export function Verification({ caseId }: { caseId: string }): ReactNode {
-  const { case: words, rest } = useWords();
+  const { case: texts, rest } = useTexts();
   const [found, setFound] = useState<components["schemas"]["VerificationMessage"] | null>(null);
   const verifying = useDo();
   const params = { path: { case_id: caseId } };
@@ -28,27 +28,27 @@ export function Verification({ caseId }: { caseId: string }): ReactNode {
   };
   const bytes = (data?.files ?? []).reduce((sum, file) => sum + file.size_bytes, 0);
   return (
-    <Card title={words.filesTitle} testId="files">
+    <Card title={texts.filesTitle} testId="files">
       <RejectionNote rejection={rejection} />
       <div className="row row-mid">
         <p className="grow">
           {data === null
             ? rejection === null && rest.loading
-            : filled(words.filesCount, { count: data.files.length, size: shownBytes(bytes) })}
+            : interpolate(texts.filesCount, { count: data.files.length, size: shownBytes(bytes) })}
         </p>
         <Button size="lg" variant="default" loading={verifying.busy} onClick={verify}>
-          {words.verify}
+          {texts.verify}
         </Button>
       </div>
       <RejectionNote rejection={verifying.rejection} />
       {found?.sound === true && (
         <p role="status" className="good">
-          ✓ {words.filesSound}
+          ✓ {texts.filesSound}
         </p>
       )}
       {found?.sound === false && (
         <div role="alert" className="bad stack">
-          <p>▲ {words.filesDamaged}</p>
+          <p>▲ {texts.filesDamaged}</p>
           <ul>
             {found.damages.map((one) => (
               <li key={one.file_id}>
@@ -56,7 +56,7 @@ export function Verification({ caseId }: { caseId: string }): ReactNode {
               </li>
             ))}
           </ul>
-          <p>{words.filesRemedy}</p>
+          <p>{texts.filesRemedy}</p>
         </div>
       )}
     </Card>

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { caseEn } from "../../words/case/en";
+import { caseEn } from "../../texts/case/en";
 import { documentTitle } from "./documentTitle";
 
 test.each([

@@ -1,10 +1,10 @@
 // What a document is called by people: the server's own names are for programs.
 import type { components } from "../../schema";
-import type { CaseWords } from "../../words/case/en";
-import { filled } from "../../words/filled";
+import type { CaseTexts } from "../../texts/case/en";
+import { interpolate } from "../../texts/interpolate";
 
 type Heading = Pick<components["schemas"]["HeadingMessage"], "kind" | "name">;
-type Title = keyof CaseWords["titles"];
+type Title = keyof CaseTexts["titles"];
 
 /** By kind, how the server names what it keeps; the bracket is what people would call it. */
 const NAMED: readonly [kind: Heading["kind"], name: RegExp, title: Title][] = [
@@ -25,10 +25,10 @@ const NAMED: readonly [kind: Heading["kind"], name: RegExp, title: Title][] = [
   ["patient", /^/, "patient"],
 ];
 
-export function documentTitle({ kind, name }: Heading, words: CaseWords): string {
+export function documentTitle({ kind, name }: Heading, texts: CaseTexts): string {
   for (const [ofKind, named, title] of NAMED) {
     const found = kind === ofKind ? named.exec(name) : null;
-    if (found !== null) return filled(words.titles[title], { name: found[1] ?? "" });
+    if (found !== null) return interpolate(texts.titles[title], { name: found[1] ?? "" });
   }
-  return `${words.kinds[kind]} ${name}`;
+  return `${texts.kinds[kind]} ${name}`;
 }

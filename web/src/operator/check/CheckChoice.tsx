@@ -4,9 +4,9 @@ import { answered, server } from "../../rest/client";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { LiveStage } from "../registration/LiveStage";
-import { filled } from "../../words/filled";
+import { interpolate } from "../../texts/interpolate";
 import { plannedVertebrae } from "../registration/planRead";
 import { WhereToTouch } from "../registration/points/WhereToTouch";
 import { Rejected } from "../registration/Rejected";
@@ -23,7 +23,7 @@ interface CheckChoiceProps {
 
 /** Which landmark is checked on: one that the registration was not made from. */
 export function CheckChoice({ vertebra, used, maxMm, onBegun }: CheckChoiceProps): ReactNode {
-  const words = useWords().check;
+  const texts = useTexts().check;
   const plan = useAsked((signal) => answered(server.GET("/api/plan", { signal })));
   const first = useTools()?.[0]?.name ?? "";
   const [tool, setTool] = useState("");
@@ -41,9 +41,9 @@ export function CheckChoice({ vertebra, used, maxMm, onBegun }: CheckChoiceProps
         {landmark !== null && <WhereToTouch name={landmark.name} pointMm={landmark.pointMm} />}
       </div>
       <section className="card work-side">
-        <h3>{words.choose}</h3>
-        <p>{filled(words.why, { most: maxMm })}</p>
-        {free.length === 0 && <p className="warning">▲ {words.noneFree}</p>}
+        <h3>{texts.choose}</h3>
+        <p>{interpolate(texts.why, { most: maxMm })}</p>
+        {free.length === 0 && <p className="warning">▲ {texts.noneFree}</p>}
         <ul className="landmarks">
           {landmarks.map((one) => {
             const taken = used.includes(one.name);
@@ -62,7 +62,7 @@ export function CheckChoice({ vertebra, used, maxMm, onBegun }: CheckChoiceProps
                   <span aria-hidden="true">{taken ? "–" : one.name === picked ? "●" : "○"}</span>
                   <span>
                     {one.name}
-                    {taken && <small>{words.wasUsed}</small>}
+                    {taken && <small>{texts.wasUsed}</small>}
                   </span>
                 </button>
               </li>
@@ -90,7 +90,7 @@ export function CheckChoice({ vertebra, used, maxMm, onBegun }: CheckChoiceProps
               .then(onBegun);
           }}
         >
-          {words.begin}
+          {texts.begin}
         </Button>
       </section>
     </div>

@@ -1,10 +1,10 @@
 import type { ReactNode } from "react";
 import { shownNumber } from "../../live/rounding";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
 import { useIntoView } from "../parts/useIntoView";
-import { filled } from "../../words/filled";
+import { interpolate } from "../../texts/interpolate";
 import { minutesLeft } from "./due";
 
 interface CheckDueProps {
@@ -15,27 +15,30 @@ interface CheckDueProps {
 
 /** How the last check stands, and when the next is due. */
 export function CheckDue({ rule, fresh }: CheckDueProps): ReactNode {
-  const words = useWords().check;
+  const texts = useTexts().check;
   const step = useProcedure().data?.steps.find((one) => one.step === "check");
   const left = minutesLeft(step?.numbers["age_min"], rule.again_after_min);
-  const every = filled(words.every, { minutes: rule.again_after_min, most: shownNumber(rule.max_mm, 1) });
+  const every = interpolate(texts.every, {
+    minutes: rule.again_after_min,
+    most: shownNumber(rule.max_mm, 1),
+  });
   const said = useIntoView<HTMLParagraphElement>(fresh);
   if (step?.state === "due")
     return (
       <p className="warning" ref={said}>
-        ▲ {words.dueNow}
+        ▲ {texts.dueNow}
       </p>
     );
   if (step?.state === "failed")
     return (
       <p className="warning" role="status" data-testid="check-failed" ref={said}>
-        ▲▲ {words.lastFailed} {every}
+        ▲▲ {texts.lastFailed} {every}
       </p>
     );
   return (
     <p className="quiet" data-testid="check-due" ref={said}>
       {step?.state === "done" && left !== null
-        ? `${filled(words.dueIn, { minutes: shownNumber(left, 0) })} ${every}`
+        ? `${interpolate(texts.dueIn, { minutes: shownNumber(left, 0) })} ${every}`
         : every}
     </p>
   );

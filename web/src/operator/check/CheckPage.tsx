@@ -3,7 +3,7 @@ import { Link } from "wouter";
 import { answered, server } from "../../rest/client";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
 import { usedLandmarks } from "../registration/planRead";
 import { Rejected } from "../registration/Rejected";
@@ -16,16 +16,16 @@ import { CheckWork } from "./CheckWork";
 
 /** The check on anatomy: a landmark that was not used decides whether anybody may navigate. */
 export function CheckPage(): ReactNode {
-  const words = useWords().check;
+  const texts = useTexts().check;
   const procedure = useProcedure();
   const register = procedure.data?.steps.find((one) => one.step === "register");
   if (register === undefined) return <Unanswered asked={procedure} />;
   if (register.state !== "done" || register.document_id === null)
     return (
       <p className="warning" data-testid="check-shut">
-        ▲ {words.needsRegistration}{" "}
+        ▲ {texts.needsRegistration}{" "}
         <Link className="big-link" href="/operator/register">
-          {words.toRegister}
+          {texts.toRegister}
         </Link>
       </p>
     );

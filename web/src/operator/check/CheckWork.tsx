@@ -6,7 +6,7 @@ import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import { Icon } from "../../panes/Icon";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
 import { CaptureProgress } from "../registration/CaptureProgress";
 import { LiveStage } from "../registration/LiveStage";
@@ -25,7 +25,7 @@ interface CheckWorkProps {
 
 /** The tip held on the landmark until it is taken; then its distance, and what to do with it. */
 export function CheckWork({ onOver, onKept }: CheckWorkProps): ReactNode {
-  const words = useWords().check;
+  const texts = useTexts().check;
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const [, navigate] = useLocation();
@@ -50,7 +50,7 @@ export function CheckWork({ onOver, onKept }: CheckWorkProps): ReactNode {
         <h3>{capture.landmark}</h3>
         <ToolSeen tool={data.tool} />
         <CaptureProgress capture={capture} maxSpreadMm={data.max_spread_mm} />
-        {outcome === null ? <p className="quiet">{words.byEye}</p> : <CheckOutcome outcome={outcome} />}
+        {outcome === null ? <p className="quiet">{texts.byEye}</p> : <CheckOutcome outcome={outcome} />}
         <Rejected rejection={doing.rejection} />
         <Button
           size="xl"
@@ -72,7 +72,7 @@ export function CheckWork({ onOver, onKept }: CheckWorkProps): ReactNode {
             );
           }}
         >
-          {outcome?.passed === false ? words.keepFailed : words.keep}
+          {outcome?.passed === false ? texts.keepFailed : texts.keep}
         </Button>
         <div className="row">
           <Button
@@ -91,7 +91,7 @@ export function CheckWork({ onOver, onKept }: CheckWorkProps): ReactNode {
               );
             }}
           >
-            <Icon name="undo" /> {words.again}
+            <Icon name="undo" /> {texts.again}
           </Button>
           <Button
             size="lg"
@@ -101,7 +101,7 @@ export function CheckWork({ onOver, onKept }: CheckWorkProps): ReactNode {
               run(() => answered(server.DELETE("/api/registration/check")), onOver);
             }}
           >
-            {words.other}
+            {texts.other}
           </Button>
         </div>
       </section>

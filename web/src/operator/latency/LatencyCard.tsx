@@ -4,7 +4,7 @@ import { answered, Rejection, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import { useLatency } from "../../rest/useLatency";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { LatencyReport } from "./LatencyReport";
 import { LatencyScreen } from "./LatencyScreen";
@@ -12,7 +12,7 @@ import type { Plan, Result } from "./measure";
 
 /** The latency from light to page, measured with this screen and the camera before it. */
 export function LatencyCard(): ReactNode {
-  const words = useWords().latency;
+  const texts = useTexts().latency;
   const { data, again } = useLatency();
   const beginning = useDo();
   const [plan, setPlan] = useState<Plan | null>(null);
@@ -33,10 +33,10 @@ export function LatencyCard(): ReactNode {
   };
   const result = data?.result ?? null;
   return (
-    <Card title={words.title} testId="latency" fresh={result?.at === madeHere ? madeHere : null}>
-      <p>{words.lead}</p>
+    <Card title={texts.title} testId="latency" fresh={result?.at === madeHere ? madeHere : null}>
+      <p>{texts.lead}</p>
       {result === null ? (
-        data !== null && <p className="soft">{words.never}</p>
+        data !== null && <p className="soft">{texts.never}</p>
       ) : (
         <LatencyReport result={result} />
       )}
@@ -48,7 +48,7 @@ export function LatencyCard(): ReactNode {
           data-testid="latency-begin"
           onClick={begin}
         >
-          {result === null ? words.begin : words.beginAgain}
+          {result === null ? texts.begin : texts.beginAgain}
         </Button>
       </div>
       <RejectionNote rejection={rejection ?? beginning.rejection} />

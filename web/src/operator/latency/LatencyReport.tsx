@@ -1,35 +1,35 @@
 import type { ReactNode } from "react";
 import { shownNumber } from "../../live/rounding";
-import { filled } from "../../words/filled";
-import { useWords } from "../../words/WordsContext";
+import { interpolate } from "../../texts/interpolate";
+import { useTexts } from "../../texts/TextsContext";
 import { Measure } from "../parts/Measure";
 import { shownTime } from "../parts/shown";
 import { STAGES, type Result } from "./result";
 
 /** What was measured, its stages, and what it cannot tell. */
 export function LatencyReport({ result }: { result: Result }): ReactNode {
-  const all = useWords();
-  const words = all.latency;
+  const all = useTexts();
+  const texts = all.latency;
   const { report, screen } = result;
   return (
     <>
       <p className="soft">
         {shownTime(result.at, all.language)} · {result.made_by} · {result.camera} · {result.width_px} ×{" "}
-        {result.height_px} px · {shownNumber(result.rate_hz)} {words.perSecond}
+        {result.height_px} px · {shownNumber(result.rate_hz)} {texts.perSecond}
       </p>
       <dl className="measures">
         <Measure
-          name={words.median}
+          name={texts.median}
           value={report.median_ms}
           unit="ms"
           decimals={0}
           testId="latency-median"
         />
-        <Measure name={words.p99} value={report.p99_ms} unit="ms" decimals={0} testId="latency-p99" />
+        <Measure name={texts.p99} value={report.p99_ms} unit="ms" decimals={0} testId="latency-p99" />
         {STAGES.map((stage) => (
           <Measure
             key={stage}
-            name={words.stage[stage]}
+            name={texts.stage[stage]}
             value={report.stage_ms[stage] ?? null}
             unit="ms"
             decimals={0}
@@ -38,7 +38,7 @@ export function LatencyReport({ result }: { result: Result }): ReactNode {
         ))}
       </dl>
       <p className="soft">
-        {filled(words.resolution, {
+        {interpolate(texts.resolution, {
           samples: report.samples,
           images: report.images,
           skipped: report.skipped_images,

@@ -2,8 +2,8 @@ import { Button, Progress as Bar } from "@mantine/core";
 import { useEffect, useEffectEvent, useRef, useState, type ReactNode } from "react";
 import { useLive } from "../../live/LiveContext";
 import { Rejection, server } from "../../rest/client";
-import { filled } from "../../words/filled";
-import { useWords } from "../../words/WordsContext";
+import { interpolate } from "../../texts/interpolate";
+import { useTexts } from "../../texts/TextsContext";
 import { useMaker } from "../parts/useMaker";
 import { measure, type Plan, type Progress, type Result } from "./measure";
 
@@ -15,7 +15,7 @@ interface LatencyScreenProps {
 
 /** The codes over the whole page, under the alarms; it ends by itself, by a touch, and when the page is left. */
 export function LatencyScreen({ plan, onOver }: LatencyScreenProps): ReactNode {
-  const words = useWords().latency;
+  const texts = useTexts().latency;
   const { live } = useLive();
   const madeBy = useMaker();
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -69,14 +69,14 @@ export function LatencyScreen({ plan, onOver }: LatencyScreenProps): ReactNode {
   }, [left]);
 
   return (
-    <div className="latency-screen" role="dialog" aria-modal="true" aria-label={words.title}>
-      <canvas ref={canvas} role="img" aria-label={words.codeAlt} data-testid="latency-code" />
+    <div className="latency-screen" role="dialog" aria-modal="true" aria-label={texts.title}>
+      <canvas ref={canvas} role="img" aria-label={texts.codeAlt} data-testid="latency-code" />
       <div className="latency-words">
         <p role="status" data-testid="latency-read">
-          {progress.readImages === 0 ? words.aim : words.measuring}{" "}
-          {filled(words.read, { read: progress.readImages, looked: progress.lookedImages })}
+          {progress.readImages === 0 ? texts.aim : texts.measuring}{" "}
+          {interpolate(texts.read, { read: progress.readImages, looked: progress.lookedImages })}
         </p>
-        <Bar value={100 * progress.doneRatio} size="lg" aria-label={words.measuring} />
+        <Bar value={100 * progress.doneRatio} size="lg" aria-label={texts.measuring} />
         <Button
           size="lg"
           ref={stop}
@@ -85,7 +85,7 @@ export function LatencyScreen({ plan, onOver }: LatencyScreenProps): ReactNode {
             left.abort();
           }}
         >
-          {words.stop}
+          {texts.stop}
         </Button>
       </div>
     </div>

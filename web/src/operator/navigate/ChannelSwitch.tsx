@@ -3,9 +3,9 @@ import { answered, server } from "../../rest/client";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
-import { filled } from "../../words/filled";
+import { interpolate } from "../../texts/interpolate";
 import { plannedVertebrae } from "../registration/planRead";
 import { Rejected } from "../registration/Rejected";
 import { SureButton } from "../registration/SureButton";
@@ -14,7 +14,7 @@ import { useSides } from "../registration/useSides";
 
 /** Which channel is drilled; another one is chosen by two touches, with what that ends. */
 export function ChannelSwitch(): ReactNode {
-  const words = useWords().navigate;
+  const texts = useTexts().navigate;
   const sideName = useSides();
   const procedure = useProcedure();
   const madeBy = useMadeBy();
@@ -36,7 +36,7 @@ export function ChannelSwitch(): ReactNode {
     <section className="card" data-testid="channel-switch">
       <p className="row">
         <strong data-testid="active-channel">
-          {active === null ? words.noChannel : `${active.vertebra} ${sideName(active.side)}`}
+          {active === null ? texts.noChannel : `${active.vertebra} ${sideName(active.side)}`}
         </strong>
         {others.length > 0 && (
           <button
@@ -48,7 +48,7 @@ export function ChannelSwitch(): ReactNode {
               setShown(!shown);
             }}
           >
-            {words.switchTo}
+            {texts.switchTo}
           </button>
         )}
       </p>
@@ -59,12 +59,12 @@ export function ChannelSwitch(): ReactNode {
           return (
             <div key={name}>
               <p className="quiet">
-                {stays ? words.sameVertebra : filled(words.otherVertebra, { vertebra: one.vertebra })}
+                {stays ? texts.sameVertebra : interpolate(texts.otherVertebra, { vertebra: one.vertebra })}
               </p>
               <SureButton
                 ask
                 variant="default"
-                sure={filled(words.switchSure, { channel: name })}
+                sure={interpolate(texts.switchSure, { channel: name })}
                 busy={switching.busy}
                 testId={`channel-${one.vertebra}-${one.side}`}
                 onSure={() => {

@@ -3,25 +3,25 @@ import { useLive, usePainter } from "../../live/LiveContext";
 import { shownNumber } from "../../live/rounding";
 import { setText } from "../../panes/setText";
 import { errorText } from "../../panes/verdictText";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 
 /** How sure and how prompt the numbers are, how long each marker is unseen, and what sees a move. */
 export function Steadiness(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const { view } = useLive();
   const tip = useRef<HTMLElement>(null);
   const lag = useRef<HTMLElement>(null);
   const unseen = useRef<HTMLElement>(null);
   usePainter(({ newest, numbers }) => {
     const reading = numbers.live ? numbers.reading : null;
-    setText(tip.current, reading === null ? "—" : errorText(reading.assessment, words));
+    setText(tip.current, reading === null ? "—" : errorText(reading.assessment, texts));
     setText(
       lag.current,
       reading === null
         ? "—"
         : reading.lagMs > 0
-          ? `${words.navigate.steadied} ${shownNumber(reading.lagMs, 0)} ms`
-          : words.navigate.notSteadied,
+          ? `${texts.navigate.steadied} ${shownNumber(reading.lagMs, 0)} ms`
+          : texts.navigate.notSteadied,
     );
     const markers = newest?.snapshot?.markers ?? [];
     setText(
@@ -29,7 +29,7 @@ export function Steadiness(): ReactNode {
       markers
         .map(({ name, sighting, unseen_s }) => {
           if (sighting.kind === "seen") return `${name} ✓`;
-          return `${name} ▲ ${unseen_s === null ? words.navigate.neverSeen : `${shownNumber(unseen_s, 1)} s`}`;
+          return `${name} ▲ ${unseen_s === null ? texts.navigate.neverSeen : `${shownNumber(unseen_s, 1)} s`}`;
         })
         .join(" · ") || "—",
     );
@@ -39,21 +39,21 @@ export function Steadiness(): ReactNode {
     <section className="card steadiness" data-testid="steadiness">
       <dl>
         <div>
-          <dt>{words.navigate.tip}</dt>
+          <dt>{texts.navigate.tip}</dt>
           <dd ref={tip} />
         </div>
         <div>
-          <dt>{words.navigate.lag}</dt>
+          <dt>{texts.navigate.lag}</dt>
           <dd ref={lag} />
         </div>
         <div>
-          <dt>{words.navigate.markers}</dt>
+          <dt>{texts.navigate.markers}</dt>
           <dd ref={unseen} />
         </div>
       </dl>
       {moves !== undefined && (
         <p className={moves === "reference" ? "quiet" : "warning"}>
-          {moves === "reference" ? "✓" : "▲"} {words.moves[moves]}
+          {moves === "reference" ? "✓" : "▲"} {texts.moves[moves]}
         </p>
       )}
     </section>

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { shownTime } from "./shown";
 
 interface Made {
@@ -10,12 +10,12 @@ interface Made {
 
 /** Who made something; of what came in with an archive, that only the archive says so, and who took it in. */
 export function Maker({ of: made }: { of: Made }): ReactNode {
-  const { case: words, language } = useWords();
+  const { case: texts, language } = useTexts();
   if (made.imported === null) return made.made_by ?? "";
   const { claimed_maker, by, at } = made.imported;
   return (
     <span data-imported="true">
-      {claimed_maker}, {words.maker.saysArchive} ({words.maker.takenIn} {by}, {shownTime(at, language)})
+      {claimed_maker}, {texts.maker.saysArchive} ({texts.maker.takenIn} {by}, {shownTime(at, language)})
     </span>
   );
 }

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { NOT_KNOWN, shownFigure } from "../../live/rounding";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 
 export interface Limit {
   kind: "most" | "least";
@@ -27,10 +27,11 @@ export function isWithin(value: number | null, limit: Limit | undefined): boolea
 
 /** A number with its unit and its limit, and in a sign and a word whether it holds. */
 export function Measure({ name, value, unit, decimals = 2, limit, bar, testId }: MeasureProps): ReactNode {
-  const words = useWords().case.measure;
+  const texts = useTexts().case.measure;
   const within = isWithin(value, limit);
   const shown = value === null ? NOT_KNOWN : shownFigure(value, decimals);
-  const filled = limit === undefined || value === null ? 0 : Math.min(1, Math.max(0, value / limit.value));
+  const interpolate =
+    limit === undefined || value === null ? 0 : Math.min(1, Math.max(0, value / limit.value));
   return (
     <div className="measure" data-within={within ?? undefined} data-testid={testId}>
       <dt>{name}</dt>
@@ -41,16 +42,16 @@ export function Measure({ name, value, unit, decimals = 2, limit, bar, testId }:
         {limit !== undefined && (
           <span className="measure-limit">
             {within !== null && (
-              <span className="measure-mark" role="img" aria-label={within ? words.holds : words.fails}>
+              <span className="measure-mark" role="img" aria-label={within ? texts.holds : texts.fails}>
                 {within ? "✓" : "✕"}
               </span>
             )}
-            {limit.kind === "most" ? words.most : words.least} {shownFigure(limit.value, decimals)} {unit}
+            {limit.kind === "most" ? texts.most : texts.least} {shownFigure(limit.value, decimals)} {unit}
           </span>
         )}
         {bar === true && (
           <span className="measure-bar" aria-hidden="true">
-            <span style={{ width: `${String(filled * 100)}%` }} />
+            <span style={{ width: `${String(interpolate * 100)}%` }} />
           </span>
         )}
       </dd>

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { documentTitle } from "../case/documentTitle";
 import { sentence } from "./shown";
 
@@ -15,20 +15,20 @@ export function StandsOn({
   /** Null until they are known: then nothing is said of what it was made from. */
   documents: readonly Heading[] | null;
 }): ReactNode {
-  const words = useWords().case;
+  const texts = useTexts().case;
   const bases = (documents === null ? [] : heading.depends_on).map((id) => {
     const found = documents?.find((one) => one.id === id);
     return found === undefined
-      ? words.another
-      : `${documentTitle(found, words)}, ${words.version} ${String(found.version)}`;
+      ? texts.another
+      : `${documentTitle(found, texts)}, ${texts.version} ${String(found.version)}`;
   });
   return (
     <p className="soft">
       <span className={heading.current ? "good" : "bad"}>
-        {heading.current ? `✓ ${words.standings.current}` : `! ${words.standings.outOfDate}`}
+        {heading.current ? `✓ ${texts.standings.current}` : `! ${texts.standings.outOfDate}`}
       </span>
       {heading.out_of_date !== null && ` · ${sentence(heading.out_of_date)}`}
-      {bases.length > 0 && ` · ${words.standsOn} ${bases.join("; ")}`}
+      {bases.length > 0 && ` · ${texts.standsOn} ${bases.join("; ")}`}
     </p>
   );
 }

@@ -1,16 +1,16 @@
 import { Button, Progress } from "@mantine/core";
 import type { ReactNode } from "react";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { shownBytes } from "./shown";
 import type { Transfer } from "./useTransfer";
 
 /** How far a file is on its way, with a way to stop it; how it ended. */
 export function TransferProgress({ transfer, name }: { transfer: Transfer; name: string }): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const { moved, rejection, stopped, stop } = transfer;
   if (rejection !== null) return <RejectionNote rejection={rejection} />;
-  if (stopped) return <p role="status">{words.rest.cancelled}</p>;
+  if (stopped) return <p role="status">{texts.rest.cancelled}</p>;
   if (moved === null) return null;
   const { doneBytes, allBytes } = moved;
   const arrived = allBytes > 0 && doneBytes >= allBytes;
@@ -20,7 +20,7 @@ export function TransferProgress({ transfer, name }: { transfer: Transfer; name:
       <p>
         {name} ·{" "}
         {arrived
-          ? words.case.serverWorks
+          ? texts.case.serverWorks
           : `${shownBytes(doneBytes)}${allBytes > 0 ? ` / ${shownBytes(allBytes)}` : ""}`}
       </p>
       <Progress
@@ -30,7 +30,7 @@ export function TransferProgress({ transfer, name }: { transfer: Transfer; name:
         aria-label={name}
       />
       <Button size="lg" variant="default" onClick={stop}>
-        {words.rest.cancel}
+        {texts.rest.cancel}
       </Button>
     </div>
   );

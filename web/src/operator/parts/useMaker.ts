@@ -1,10 +1,10 @@
 import { useSession } from "../../app/session";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 
 /** Whose name stands under what is made here: of who is signed in, or of this tablet. */
 export function useMaker(): string {
-  const words = useWords().case;
+  const texts = useTexts().case;
   const { session } = useSession();
   const name = session.state === "in" ? session.who.name.trim() : "";
-  return name === "" ? words.thisTablet : name;
+  return name === "" ? texts.thisTablet : name;
 }

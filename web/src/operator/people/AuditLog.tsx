@@ -3,7 +3,7 @@ import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { shownSecond } from "../parts/shown";
 import { auditRow } from "./auditRow";
 
@@ -11,8 +11,8 @@ const LINES = 25;
 
 /** The audit log, the newest line first, and whether it is whole. */
 export function AuditLog(): ReactNode {
-  const all = useWords();
-  const words = all.people;
+  const all = useTexts();
+  const texts = all.people;
   const [before, setBefore] = useState<number | null>(null);
   const query = before === null ? { last: LINES } : { last: LINES, before };
   const asked = useAsked((signal) => answered(server.GET("/api/audit", { params: { query }, signal })), {
@@ -23,27 +23,27 @@ export function AuditLog(): ReactNode {
   const oldest = rows.at(-1)?.number ?? 0;
   return (
     <section className="audit" aria-labelledby="audit">
-      <h3 id="audit">{words.log}</h3>
+      <h3 id="audit">{texts.log}</h3>
       {data === null && <Unanswered asked={asked} />}
       {data?.is_intact === true && (
         <p>
-          ✓ {words.whole} · {data.count} {words.lines} · <code title={data.sum}>{data.sum.slice(0, 16)}</code>
+          ✓ {texts.whole} · {data.count} {texts.lines} · <code title={data.sum}>{data.sum.slice(0, 16)}</code>
         </p>
       )}
       {data?.is_intact === false && (
-        <Alert role="alert" title={`${words.broken} ${String(data.fault_line)}: ${data.fault}`}>
-          {words.brokenRemedy}
+        <Alert role="alert" title={`${texts.broken} ${String(data.fault_line)}: ${data.fault}`}>
+          {texts.brokenRemedy}
         </Alert>
       )}
-      <div className="people-scroll stacked" tabIndex={0} role="region" aria-label={words.log}>
+      <div className="people-scroll stacked" tabIndex={0} role="region" aria-label={texts.log}>
         <Table>
           <Table.Thead>
             <Table.Tr>
               <Table.Th>#</Table.Th>
-              <Table.Th>{words.when}</Table.Th>
-              <Table.Th>{words.who}</Table.Th>
-              <Table.Th>{words.what}</Table.Th>
-              <Table.Th>{words.result}</Table.Th>
+              <Table.Th>{texts.when}</Table.Th>
+              <Table.Th>{texts.who}</Table.Th>
+              <Table.Th>{texts.what}</Table.Th>
+              <Table.Th>{texts.result}</Table.Th>
             </Table.Tr>
           </Table.Thead>
           <Table.Tbody>
@@ -76,7 +76,7 @@ export function AuditLog(): ReactNode {
             setBefore(oldest);
           }}
         >
-          {words.older}
+          {texts.older}
         </Button>
         <Button
           size="lg"
@@ -86,10 +86,10 @@ export function AuditLog(): ReactNode {
             again();
           }}
         >
-          {words.newest}
+          {texts.newest}
         </Button>
         <Button size="lg" variant="default" component="a" href="/api/audit/export" download>
-          {words.export}
+          {texts.export}
         </Button>
       </div>
     </section>

@@ -1,7 +1,7 @@
 import { Alert, Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 
 interface Props {
   invited: components["schemas"]["InvitedMessage"];
@@ -10,23 +10,23 @@ interface Props {
 
 /** The link of a new invitation, as a picture that a phone reads, and as words; shown once. */
 export function InvitationLink({ invited, onDone }: Props): ReactNode {
-  const all = useWords();
-  const words = all.people;
+  const all = useTexts();
+  const texts = all.people;
   const [copied, setCopied] = useState(false);
   const { name, role, for_machine } = invited.invitation;
   return (
     <section aria-labelledby="invited" className="people-link">
       <h3 id="invited">
-        {name} · {all.enter.role[role]}
+        {name} · {all.signIn.role[role]}
       </h3>
-      {!invited.is_reachable && <Alert title={words.here} />}
+      {!invited.is_reachable && <Alert title={texts.here} />}
       {!for_machine && (
         <figure>
-          <img src={`data:image/svg+xml,${encodeURIComponent(invited.qr_svg)}`} alt={words.scan} />
-          <figcaption>{words.scan}</figcaption>
+          <img src={`data:image/svg+xml,${encodeURIComponent(invited.qr_svg)}`} alt={texts.scan} />
+          <figcaption>{texts.scan}</figcaption>
         </figure>
       )}
-      <p>{words.shown}</p>
+      <p>{texts.shown}</p>
       <code data-testid="invitation-link">{invited.link}</code>
       <div className="people-row">
         <Button
@@ -39,10 +39,10 @@ export function InvitationLink({ invited, onDone }: Props): ReactNode {
             });
           }}
         >
-          {copied ? words.copied : words.copy}
+          {copied ? texts.copied : texts.copy}
         </Button>
         <Button size="lg" onClick={onDone}>
-          {words.done}
+          {texts.done}
         </Button>
       </div>
     </section>

@@ -4,7 +4,7 @@ import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { shownTime } from "../parts/shown";
 
 interface Props {
@@ -14,8 +14,8 @@ interface Props {
 
 /** Who was invited, how each invitation stands, and a way to take an open one back. */
 export function InvitedList({ invitations, onRevoked }: Props): ReactNode {
-  const all = useWords();
-  const words = all.people;
+  const all = useTexts();
+  const texts = all.people;
   const { busy, rejection, run } = useDo();
   const revoke = async (invitation_id: string): Promise<void> => {
     const params = { path: { invitation_id } };
@@ -24,16 +24,16 @@ export function InvitedList({ invitations, onRevoked }: Props): ReactNode {
   };
   return (
     <section aria-labelledby="invitations">
-      <h3 id="invitations">{words.invitations}</h3>
+      <h3 id="invitations">{texts.invitations}</h3>
       <RejectionNote rejection={rejection} />
-      {invitations.length === 0 && <p>{words.noInvitations}</p>}
+      {invitations.length === 0 && <p>{texts.noInvitations}</p>}
       <ul className="people-list">
         {invitations.map((one) => (
           <li key={one.id} data-state={one.state}>
             <span>
-              <strong>{one.name}</strong> · {all.enter.role[one.role]} · {words.state[one.state]}
+              <strong>{one.name}</strong> · {all.signIn.role[one.role]} · {texts.state[one.state]}
               <small>
-                {words.until} {shownTime(one.expires_at, all.language)}
+                {texts.until} {shownTime(one.expires_at, all.language)}
               </small>
             </span>
             {one.state === "open" && (
@@ -41,10 +41,10 @@ export function InvitedList({ invitations, onRevoked }: Props): ReactNode {
                 size="lg"
                 variant="default"
                 disabled={busy}
-                aria-label={`${words.revokeHint} ${one.name}`}
+                aria-label={`${texts.revokeHint} ${one.name}`}
                 onClick={() => void run(() => revoke(one.id))}
               >
-                {words.revoke}
+                {texts.revoke}
               </Button>
             )}
           </li>

@@ -5,7 +5,7 @@ import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { InvitationLink } from "./InvitationLink";
 
 type Invited = components["schemas"]["InvitedMessage"];
@@ -15,8 +15,8 @@ const HOURS = [1, 24, 168];
 
 /** An invitation: who, as what, for how long; then its link, once. */
 export function Inviting({ onInvited }: { onInvited: () => void }): ReactNode {
-  const all = useWords();
-  const words = all.people;
+  const all = useTexts();
+  const texts = all.people;
   const [name, setName] = useState("");
   const [role, setRole] = useState<Role>("supervisor");
   const [hours, setHours] = useState(24);
@@ -43,7 +43,7 @@ export function Inviting({ onInvited }: { onInvited: () => void }): ReactNode {
   }
   return (
     <section aria-labelledby="invite">
-      <h3 id="invite">{words.invite}</h3>
+      <h3 id="invite">{texts.invite}</h3>
       <form
         onSubmit={(event) => {
           event.preventDefault();
@@ -52,31 +52,31 @@ export function Inviting({ onInvited }: { onInvited: () => void }): ReactNode {
       >
         <TextInput
           size="lg"
-          label={words.name}
-          description={words.nameHint}
+          label={texts.name}
+          description={texts.nameHint}
           maxLength={80}
           value={name}
           onChange={(event) => {
             setName(event.currentTarget.value);
           }}
         />
-        <div role="group" aria-label={words.role}>
+        <div role="group" aria-label={texts.role}>
           <SegmentedControl
             size="lg"
             fullWidth
-            aria-label={words.role}
-            data={ROLES.map((one) => ({ value: one, label: all.enter.role[one] }))}
+            aria-label={texts.role}
+            data={ROLES.map((one) => ({ value: one, label: all.signIn.role[one] }))}
             value={role}
             onChange={setRole}
           />
-          <p className="people-hint">{words.lets[role]}</p>
+          <p className="people-hint">{texts.lets[role]}</p>
         </div>
         <div className="people-row">
-          <span>{words.lasts}</span>
+          <span>{texts.lasts}</span>
           <SegmentedControl
             size="lg"
-            aria-label={words.lasts}
-            data={HOURS.map((one) => ({ value: String(one), label: `${String(one)} ${words.hours}` }))}
+            aria-label={texts.lasts}
+            data={HOURS.map((one) => ({ value: String(one), label: `${String(one)} ${texts.hours}` }))}
             value={String(hours)}
             onChange={(chosen) => {
               setHours(Number(chosen));
@@ -86,7 +86,7 @@ export function Inviting({ onInvited }: { onInvited: () => void }): ReactNode {
         <div className="people-row">
           <Checkbox
             size="lg"
-            label={words.singleUse}
+            label={texts.singleUse}
             checked={singleUse}
             onChange={(event) => {
               setSingleUse(event.currentTarget.checked);
@@ -94,7 +94,7 @@ export function Inviting({ onInvited }: { onInvited: () => void }): ReactNode {
           />
           <Checkbox
             size="lg"
-            label={words.forMachine}
+            label={texts.forMachine}
             checked={forMachine}
             onChange={(event) => {
               setForMachine(event.currentTarget.checked);
@@ -103,7 +103,7 @@ export function Inviting({ onInvited }: { onInvited: () => void }): ReactNode {
         </div>
         <RejectionNote rejection={rejection} />
         <Button type="submit" size="lg" loading={busy} disabled={name.trim() === ""} data-testid="invite">
-          {words.make}
+          {texts.make}
         </Button>
       </form>
     </section>

@@ -4,7 +4,7 @@ import { SignedIn } from "../../app/SignedIn";
 import { answered, server } from "../../rest/client";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { AuditLog } from "./AuditLog";
 import { Inviting } from "./Inviting";
 import { InvitedList } from "./InvitedList";
@@ -14,7 +14,7 @@ const ASK_EVERY_MS = 3000;
 
 /** Who is signed in, who is invited, and what was done. */
 export function PeoplePage(): ReactNode {
-  const words = useWords().people;
+  const texts = useTexts().people;
   const asked = useAsked((signal) => answered(server.GET("/api/people", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
@@ -23,7 +23,7 @@ export function PeoplePage(): ReactNode {
     <div className="people">
       {data === null && <Unanswered asked={asked} />}
       <SignedIn />
-      {data?.sign_in_required === false && <Alert title={words.off} />}
+      {data?.sign_in_required === false && <Alert title={texts.off} />}
       {data?.sign_in_required === true && (
         <>
           <Inviting onInvited={again} />

@@ -4,7 +4,7 @@ import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { shownTime } from "../parts/shown";
 
 interface Props {
@@ -14,8 +14,8 @@ interface Props {
 
 /** Who is in now, and a way to send each away. */
 export function SignedInList({ sessions, onEnded }: Props): ReactNode {
-  const all = useWords();
-  const words = all.people;
+  const all = useTexts();
+  const texts = all.people;
   const { busy, rejection, run } = useDo();
   const end = async (session_id: string): Promise<void> => {
     await answered(server.DELETE("/api/people/sessions/{session_id}", { params: { path: { session_id } } }));
@@ -23,30 +23,30 @@ export function SignedInList({ sessions, onEnded }: Props): ReactNode {
   };
   return (
     <section aria-labelledby="signed-in">
-      <h3 id="signed-in">{words.signedIn}</h3>
+      <h3 id="signed-in">{texts.signedIn}</h3>
       <RejectionNote rejection={rejection} />
-      {sessions.length === 0 && <p>{words.nobody}</p>}
+      {sessions.length === 0 && <p>{texts.nobody}</p>}
       <ul className="people-list">
         {sessions.map((one) => (
           <li key={one.id}>
             <span>
-              <strong>{one.name}</strong> · {all.enter.role[one.role]}
-              {one.for_machine && ` · ${words.machine}`}
+              <strong>{one.name}</strong> · {all.signIn.role[one.role]}
+              {one.for_machine && ` · ${texts.machine}`}
               <small>
-                {words.until} {shownTime(one.expires_at, all.language)}
+                {texts.until} {shownTime(one.expires_at, all.language)}
               </small>
             </span>
             {one.is_own ? (
-              <span className="people-you">{words.you}</span>
+              <span className="people-you">{texts.you}</span>
             ) : (
               <Button
                 size="lg"
                 variant="default"
                 disabled={busy}
-                aria-label={`${words.endHint} ${one.name}`}
+                aria-label={`${texts.endHint} ${one.name}`}
                 onClick={() => void run(() => end(one.id))}
               >
-                {words.end}
+                {texts.end}
               </Button>
             )}
           </li>

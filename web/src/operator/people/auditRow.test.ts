@@ -1,8 +1,8 @@
 import { expect, test } from "vitest";
 import openapi from "../../../openapi.json?raw";
-import { auditDe } from "../../words/audit/de";
-import { auditEn } from "../../words/audit/en";
-import { en } from "../../words/en";
+import { auditDe } from "../../texts/audit/de";
+import { auditEn } from "../../texts/audit/en";
+import { en } from "../../texts/en";
 import { auditRow } from "./auditRow";
 
 const ITO = { id: "a", name: "Ito", role: "operator" };

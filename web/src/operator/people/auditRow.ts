@@ -1,6 +1,6 @@
 // A line of the audit log as a row of a table, in words for people; the log itself is taken along as it is.
 import type { components } from "../../schema";
-import type { Words } from "../../words/shape";
+import type { Texts } from "../../texts/catalogue";
 import { documentTitle } from "../case/documentTitle";
 
 export interface AuditRow {
@@ -25,22 +25,22 @@ const FAILED = 500;
 const TOLD = ["name", "side", "series", "plane"] as const;
 
 /** What cannot be read in a line is empty: a damaged one is shown as what is left of it. */
-export function auditRow(line: Line, words: Words): AuditRow {
+export function auditRow(line: Line, texts: Texts): AuditRow {
   const written = text(line["what"]) || text(line["damaged"]);
   const changes = Array.isArray(line["changes"]) ? line["changes"].filter(isRecord) : [];
   return {
     number: typeof line["number"] === "number" ? line["number"] : 0,
     at: text(line["at"]),
-    who: whoText(line["who"], words),
-    what: [actionText(line, words), ...ofText(line["of"], words)].join(" · "),
+    who: whoText(line["who"], texts),
+    what: [actionText(line, texts), ...ofText(line["of"], texts)].join(" · "),
     written,
-    changes: changes.map((change) => changeText(change, words)),
-    result: resultText(line["status"], words),
+    changes: changes.map((change) => changeText(change, texts)),
+    result: resultText(line["status"], texts),
     code: text(line["code"]),
   };
 }
 
-function whoText(value: unknown, { enter, audit }: Words): string {
+function whoText(value: unknown, { signIn: enter, audit }: Texts): string {
   const who = isRecord(value) ? value : {};
   if (who["id"] === "server") return audit.server;
   if (who["id"] === "nobody") return audit.nobody;
@@ -49,34 +49,34 @@ function whoText(value: unknown, { enter, audit }: Words): string {
   return [text(who["name"]), roles[role] ?? role].filter(Boolean).join(" · ");
 }
 
-function actionText(line: Line, { audit }: Words): string {
+function actionText(line: Line, { audit }: Texts): string {
   const what = text(line["what"]);
   if (what === "") return [audit.damaged, text(line["damaged"])].filter(Boolean).join(": ");
   if (Object.hasOwn(audit.actions, what)) return audit.actions[what] ?? audit.other;
   return /^(GET|WS) /.test(what) ? audit.looked : audit.other;
 }
 
-function ofText(value: unknown, { registration }: Words): string[] {
+function ofText(value: unknown, { registration }: Texts): string[] {
   const of = isRecord(value) ? value : {};
   const sides: Partial<Record<string, string>> = registration.side;
   return TOLD.map((name) => sides[text(of[name])] ?? text(of[name])).filter(Boolean);
 }
 
-function changeText(change: Line, words: Words): string {
-  const title = titleOf(text(change["what"]), text(change["name"]), words);
+function changeText(change: Line, texts: Texts): string {
+  const title = titleOf(text(change["what"]), text(change["name"]), texts);
   const said = text(change["said"]);
   if (said !== "") return `${title}: ${said}`;
   // The ids of cases say nothing to anybody.
   if (change["what"] === "open case") return title;
   const [from, to] = [text(change["from"]), text(change["to"])];
   if (typeof change["to"] === "number") {
-    return `${title}: ${words.case.version} ${from === "" ? to : `${from} → ${to}`}`;
+    return `${title}: ${texts.case.version} ${from === "" ? to : `${from} → ${to}`}`;
   }
   return `${title}: ${from || "–"} → ${to || "–"}`;
 }
 
-function titleOf(what: string, name: string, { audit, case: words }: Words): string {
-  if (Object.hasOwn(words.kinds, what)) return documentTitle({ kind: what as Kind, name }, words);
+function titleOf(what: string, name: string, { audit, case: texts }: Texts): string {
+  if (Object.hasOwn(texts.kinds, what)) return documentTitle({ kind: what as Kind, name }, texts);
   const own: Partial<Record<string, string>> = {
     case: audit.caseChanged,
     "open case": audit.openCase,
@@ -87,7 +87,7 @@ function titleOf(what: string, name: string, { audit, case: words }: Words): str
   return [own[what] ?? what, name].filter(Boolean).join(" ");
 }
 
-function resultText(status: unknown, { audit }: Words): string {
+function resultText(status: unknown, { audit }: Texts): string {
   if (typeof status !== "number") return "";
   if (status < REJECTED) return `✓ ${audit.done}`;
   return `✕ ${status < FAILED ? audit.rejected : audit.failed}`;

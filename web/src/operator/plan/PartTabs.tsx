@@ -1,11 +1,11 @@
 import type { ReactNode } from "react";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { usePlanning } from "./state/PlanContext";
 import { PARTS, useWork, type Part } from "./state/WorkContext";
 
 /** The parts of planning, with what is there of each. */
 export function PartTabs(): ReactNode {
-  const words = useWords().plan;
+  const texts = useTexts().plan;
   const { part, setPart } = useWork();
   const { plan, vertebra } = usePlanning();
   const active = plan?.active_channel ?? null;
@@ -19,7 +19,7 @@ export function PartTabs(): ReactNode {
     file: "",
   };
   return (
-    <nav className="part-tabs" aria-label={words.parts}>
+    <nav className="part-tabs" aria-label={texts.parts}>
       {PARTS.map((one) => (
         <button
           key={one}
@@ -30,7 +30,7 @@ export function PartTabs(): ReactNode {
             setPart(one);
           }}
         >
-          {words.part[one]}
+          {texts.part[one]}
           {there[one] !== "" && <span className="part-there"> {there[one]}</span>}
         </button>
       ))}

@@ -3,7 +3,7 @@ import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { Icon } from "../../panes/Icon";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Maker } from "../parts/Maker";
 import { PartTabs } from "./PartTabs";
 import { usePlanning } from "./state/PlanContext";
@@ -11,7 +11,7 @@ import { useWork } from "./state/WorkContext";
 
 /** The parts of the plan, the way back, and what stands against going on. */
 export function PlanBar(): ReactNode {
-  const words = useWords().plan.bar;
+  const texts = useTexts().plan.bar;
   const { plan, planRejection, rejection, conflict, canUndo, undo, change, busy, forget } = usePlanning();
   const { setDraft } = useWork();
   const heading = plan?.heading ?? null;
@@ -33,13 +33,13 @@ export function PlanBar(): ReactNode {
             undo();
           }}
         >
-          <Icon name="undo" /> {words.undo}
+          <Icon name="undo" /> {texts.undo}
         </Button>
       </div>
       <RejectionNote rejection={planRejection} />
       {isOld && (
-        <Alert className="consequence" title={words.old.title} data-testid="plan-old">
-          <p>{words.old.sentence}</p>
+        <Alert className="consequence" title={texts.old.title} data-testid="plan-old">
+          <p>{texts.old.sentence}</p>
           <div className="buttons">
             <Button
               size="lg"
@@ -48,7 +48,7 @@ export function PlanBar(): ReactNode {
                 put(plan?.plan ?? {});
               }}
             >
-              {words.old.take}
+              {texts.old.take}
             </Button>
             <Button
               size="lg"
@@ -59,7 +59,7 @@ export function PlanBar(): ReactNode {
                 put({ format_version: plan?.plan["format_version"], vertebrae: [] });
               }}
             >
-              {words.old.anew}
+              {texts.old.anew}
             </Button>
           </div>
         </Alert>
@@ -68,14 +68,14 @@ export function PlanBar(): ReactNode {
         <Alert
           className="consequence"
           role="alert"
-          title={words.conflict.title}
+          title={texts.conflict.title}
           data-testid="conflict"
           withCloseButton
-          closeButtonLabel={words.close}
+          closeButtonLabel={texts.close}
           onClose={forget}
         >
-          {words.conflict.by} <Maker of={conflict} /> · {words.version} {conflict.version}.{" "}
-          {words.conflict.sentence}
+          {texts.conflict.by} <Maker of={conflict} /> · {texts.version} {conflict.version}.{" "}
+          {texts.conflict.sentence}
         </Alert>
       )}
       {conflict === null && <RejectionNote rejection={rejection} />}

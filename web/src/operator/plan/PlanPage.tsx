@@ -3,7 +3,7 @@ import { Link } from "wouter";
 import { answered, server } from "../../rest/client";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
 import { CtIntake } from "./ct/CtIntake";
 import { SlicesProvider } from "./slices/SlicesContext";
@@ -14,16 +14,16 @@ import { Workplace } from "./Workplace";
 
 /** Planning on CT: the CT comes in, and on its slices the plan is made. */
 export function PlanPage(): ReactNode {
-  const words = useWords().plan;
+  const texts = useTexts().plan;
   const asked = useProcedure();
   const { data: procedure } = asked;
   if (procedure === null) return <Unanswered asked={asked} />;
   if (procedure.case_id === null) {
     return (
       <section className="plan-empty">
-        <p>{words.noCase}</p>
+        <p>{texts.noCase}</p>
         <Link className="plan-link" href="/operator/case">
-          {words.toCase}
+          {texts.toCase}
         </Link>
       </section>
     );
@@ -32,7 +32,7 @@ export function PlanPage(): ReactNode {
 }
 
 function PlanOfCase({ caseId }: { caseId: string }): ReactNode {
-  const words = useWords().plan;
+  const texts = useTexts().plan;
   const ct = useAsked(async (signal) => {
     const isThere = await hasDocument(caseId, "ct", signal);
     return isThere ? answered(server.GET("/api/ct", { signal })) : "none";
@@ -40,7 +40,7 @@ function PlanOfCase({ caseId }: { caseId: string }): ReactNode {
   if (ct.data === "none") {
     return (
       <section className="plan-empty" data-testid="no-ct">
-        <h3>{words.ct.noneTitle}</h3>
+        <h3>{texts.ct.noneTitle}</h3>
         <CtIntake isSecond={false} onTaken={ct.again} />
       </section>
     );

@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 
 interface StepperProps {
   name: string;
@@ -12,14 +12,14 @@ interface StepperProps {
 
 /** A number with a button for less and one for more: nothing to type in gloves. */
 export function Stepper({ name, label, value, disabled = false, onStep }: StepperProps): ReactNode {
-  const words = useWords().plan;
+  const texts = useTexts().plan;
   return (
     <div className="stepper" role="group" aria-label={label}>
       <span className="stepper-label">{label}</span>
       <button
         type="button"
         disabled={disabled}
-        aria-label={`${label}: ${words.less}`}
+        aria-label={`${label}: ${texts.less}`}
         data-testid={`${name}-less`}
         onClick={() => {
           onStep(-1);
@@ -31,7 +31,7 @@ export function Stepper({ name, label, value, disabled = false, onStep }: Steppe
       <button
         type="button"
         disabled={disabled}
-        aria-label={`${label}: ${words.more}`}
+        aria-label={`${label}: ${texts.more}`}
         data-testid={`${name}-more`}
         onClick={() => {
           onStep(1);

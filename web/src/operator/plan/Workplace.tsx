@@ -1,6 +1,6 @@
 import { useEffect, type ReactNode } from "react";
 import { Unanswered } from "../../rest/Unanswered";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { ChannelPart } from "./channel/ChannelPart";
 import { CtPart } from "./ct/CtPart";
 import { PlanDrawing } from "./drawing/PlanDrawing";
@@ -18,7 +18,7 @@ import { SurfacePart } from "./surface/SurfacePart";
 
 /** The slices, and beside them the part of the plan that is worked on. */
 export function Workplace({ onCtTaken }: { onCtTaken: () => void }): ReactNode {
-  const words = useWords().plan;
+  const texts = useTexts().plan;
   const { part } = useWork();
   const { asking, planRejection, askAgain } = usePlanning();
   useWayOfChannel();
@@ -36,7 +36,7 @@ export function Workplace({ onCtTaken }: { onCtTaken: () => void }): ReactNode {
       <PlanBar />
       <div className="plan-body">
         <Planes drawing={(plane, projection) => <PlanDrawing plane={plane} projection={projection} />} />
-        <aside className="plan-side" aria-label={words.part[part]}>
+        <aside className="plan-side" aria-label={texts.part[part]}>
           {asking && part !== "ct" ? (
             <Unanswered asked={{ rejection: planRejection, again: askAgain }} />
           ) : (

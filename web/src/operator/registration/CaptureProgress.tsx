@@ -3,8 +3,8 @@ import type { ReactNode } from "react";
 import { shownNumber } from "../../live/rounding";
 import { Rejection } from "../../rest/client";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
-import { filled } from "../../words/filled";
+import { useTexts } from "../../texts/TextsContext";
+import { interpolate } from "../../texts/interpolate";
 import { lookingText } from "./lookingText";
 import { Rejected } from "./Rejected";
 
@@ -15,12 +15,12 @@ interface CaptureProgressProps {
 
 /** How far the tip at rest has been seen, how still it was, or why it was refused. */
 export function CaptureProgress({ capture, maxSpreadMm }: CaptureProgressProps): ReactNode {
-  const words = useWords().registration.capture;
+  const texts = useTexts().registration.capture;
   if (capture.state === "rejected" && capture.problem !== null)
     return (
       <div data-testid="capture-refused">
         <p>
-          ▲ <strong>{capture.landmark}</strong>: {words.rejected}
+          ▲ <strong>{capture.landmark}</strong>: {texts.rejected}
         </p>
         <Rejected rejection={new Rejection(capture.problem)} />
       </div>
@@ -30,7 +30,7 @@ export function CaptureProgress({ capture, maxSpreadMm }: CaptureProgressProps):
     return (
       <p className="good" role="status" data-testid="captured">
         ✓ <strong>{capture.landmark}</strong>{" "}
-        {filled(words.taken, {
+        {interpolate(texts.taken, {
           images: capture.images,
           spread: shownNumber(worst, 2),
           most: shownNumber(maxSpreadMm, 2),
@@ -42,9 +42,9 @@ export function CaptureProgress({ capture, maxSpreadMm }: CaptureProgressProps):
   return (
     <div role="status" data-testid="capturing">
       <p>
-        ● <strong>{capture.landmark}</strong> {lookingText(capture, words)}
+        ● <strong>{capture.landmark}</strong> {lookingText(capture, texts)}
       </p>
-      <Progress value={share} size="xl" aria-label={words.images} />
+      <Progress value={share} size="xl" aria-label={texts.images} />
     </div>
   );
 }

@@ -6,9 +6,9 @@ import { Announcer } from "../../panes/Announcer";
 import { clearPicture, drawPicture } from "../../panes/drawPicture";
 import { setData, setText } from "../../panes/setText";
 import { VideoCover } from "../../panes/VideoCover";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { shownClock } from "../parts/shown";
-import { filled } from "../../words/filled";
+import { interpolate } from "../../texts/interpolate";
 import { useImageSize } from "./useImageSize";
 
 interface LiveStageProps {
@@ -23,7 +23,7 @@ interface LiveStageProps {
 
 /** The live video with something laid over it; it can be held, and then says loudly that it is. */
 export function LiveStage({ children, stage, picture, held = false, onHeld }: LiveStageProps): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const { live, view } = useLive();
   const size = useImageSize();
   const ownStage = useRef<HTMLDivElement>(null);
@@ -61,7 +61,7 @@ export function LiveStage({ children, stage, picture, held = false, onHeld }: Li
     if (held) {
       setText(
         stamp.current,
-        filled(words.registration.held.stamp, {
+        interpolate(texts.registration.held.stamp, {
           clock: heldClock,
           age: shownNumber((nowMs - heldAt.current) / 1000, 0),
         }),
@@ -71,7 +71,7 @@ export function LiveStage({ children, stage, picture, held = false, onHeld }: Li
     setText(
       stamp.current,
       video.live
-        ? `${words.video.image} ${video.imageNumber} · ${words.video.age} ${shownNumber(video.ageMs, 0)} ms`
+        ? `${texts.video.image} ${video.imageNumber} · ${texts.video.age} ${shownNumber(video.ageMs, 0)} ms`
         : "",
     );
     if (!video.live && canvas.current) clearPicture(canvas.current);
@@ -84,7 +84,7 @@ export function LiveStage({ children, stage, picture, held = false, onHeld }: Li
       still.current.height = canvas.current.height;
       still.current.getContext("2d", { alpha: false })?.drawImage(canvas.current, 0, 0);
       heldAt.current = performance.now();
-      setHeldClock(shownClock(new Date().toISOString(), words.language));
+      setHeldClock(shownClock(new Date().toISOString(), texts.language));
     }
     onHeld(!held);
   };
@@ -102,7 +102,7 @@ export function LiveStage({ children, stage, picture, held = false, onHeld }: Li
             aria-pressed={held}
             onClick={hold}
           >
-            {held ? words.registration.held.release : words.registration.held.hold}
+            {held ? texts.registration.held.release : texts.registration.held.hold}
           </Button>
         )}
       </div>
@@ -113,7 +113,7 @@ export function LiveStage({ children, stage, picture, held = false, onHeld }: Li
         ref={box}
         style={{ aspectRatio: `${size.widthPx} / ${size.heightPx}` }}
       >
-        <canvas ref={canvas} width={1280} height={720} role="img" aria-label={words.registration.videoAlt} />
+        <canvas ref={canvas} width={1280} height={720} role="img" aria-label={texts.registration.videoAlt} />
         <canvas className="still" ref={still} width={1280} height={720} hidden={!held} aria-hidden="true" />
         <div className="stage-space" style={{ width: size.widthPx, height: size.heightPx }}>
           {children}

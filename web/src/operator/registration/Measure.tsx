@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { shownNumber } from "../../live/rounding";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 
 interface MeasureProps {
   name: string;
@@ -14,7 +14,7 @@ interface MeasureProps {
 
 /** One number with its unit, and its limit where it has one: kept or not in a word, a mark and a colour. */
 export function Measure({ name, value, unit, most, digits = 2, hint }: MeasureProps): ReactNode {
-  const words = useWords().registration.measure;
+  const texts = useTexts().registration.measure;
   const limited = most !== undefined && most !== null;
   const kept = value === null || !limited ? null : value <= most;
   return (
@@ -31,10 +31,10 @@ export function Measure({ name, value, unit, most, digits = 2, hint }: MeasurePr
           <small>
             {kept !== null && (
               <b>
-                <span aria-hidden="true">{kept ? "✓" : "▲"}</span> {kept ? words.kept : words.over} ·{" "}
+                <span aria-hidden="true">{kept ? "✓" : "▲"}</span> {kept ? texts.kept : texts.over} ·{" "}
               </b>
             )}
-            {words.allowed} {shownNumber(most, digits)} {unit}
+            {texts.allowed} {shownNumber(most, digits)} {unit}
           </small>
         )}
       </dd>

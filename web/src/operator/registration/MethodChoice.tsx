@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { Link } from "wouter";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { RegistrationNow } from "./RegistrationNow";
 import { useRunning } from "./useRunning";
 
@@ -9,28 +9,28 @@ const PATH = { points: "points", needles: "needles", surface: "sweep" } as const
 
 /** The ways to register, what each sees and does not see, and what is there already. */
 export function MethodChoice(): ReactNode {
-  const words = useWords().registration;
+  const texts = useTexts().registration;
   const running = useRunning().data;
   const begun = { points: running?.points === true, needles: false, surface: running?.sweep === true };
   return (
     <>
       <RegistrationNow />
-      <p className="quiet">{words.choice.ends}</p>
+      <p className="quiet">{texts.choice.ends}</p>
       <ul className="methods">
         {METHODS.map((method) => (
           <li key={method}>
             <Link href={`/operator/register/${PATH[method]}`} data-testid={`method-${method}`}>
-              <strong>{words.method[method]}</strong>
-              <span className="method-does">{words.choice[method].does}</span>
+              <strong>{texts.method[method]}</strong>
+              <span className="method-does">{texts.choice[method].does}</span>
               <span>
                 <b aria-hidden="true">✓ </b>
-                {words.choice[method].sees}
+                {texts.choice[method].sees}
               </span>
               <span className="method-blind">
                 <b aria-hidden="true">▲ </b>
-                {words.choice[method].misses}
+                {texts.choice[method].misses}
               </span>
-              {begun[method] && <em>↻ {words.choice.begun}</em>}
+              {begun[method] && <em>↻ {texts.choice.begun}</em>}
             </Link>
           </li>
         ))}

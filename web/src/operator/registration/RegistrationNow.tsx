@@ -5,11 +5,11 @@ import { answered, server } from "../../rest/client";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Maker } from "../parts/Maker";
 import { shownTime } from "../parts/shown";
 import { useProcedure } from "../../app/procedure";
-import { filled } from "../../words/filled";
+import { interpolate } from "../../texts/interpolate";
 import { Rejected } from "./Rejected";
 import { RegistrationNumbers } from "./RegistrationNumbers";
 import { SureButton } from "./SureButton";
@@ -19,17 +19,17 @@ import { useMadeBy } from "./useMadeBy";
 export function RegistrationNow(): ReactNode {
   const { data } = useProcedure();
   const step = data?.steps.find((one) => one.step === "register");
-  const words = useWords().registration;
+  const texts = useTexts().registration;
   if (data === null || step === undefined) return null;
   // One that was withdrawn is no registration to go on with; why is said at the head of the step.
   if (step.document_id === null || step.state !== "done")
-    return <p data-testid="registration-none">{words.now.none}</p>;
+    return <p data-testid="registration-none">{texts.now.none}</p>;
   return <Newest key={step.document_id} caseId={data.case_id ?? ""} documentId={step.document_id} />;
 }
 
 function Newest({ caseId, documentId }: { caseId: string; documentId: string }): ReactNode {
-  const all = useWords();
-  const words = all.registration;
+  const all = useTexts();
+  const texts = all.registration;
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const asked = useAsked((signal) => answered(server.GET("/api/registration", { signal })), {
@@ -44,16 +44,16 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
   return (
     <section className="card" data-testid="registration-now">
       <h3>
-        {filled(words.now.title, { vertebra: data.vertebra, version: heading.version })}{" "}
+        {interpolate(texts.now.title, { vertebra: data.vertebra, version: heading.version })}{" "}
         <Badge size="lg" color={heading.current ? "teal" : "yellow"}>
-          {heading.current ? words.now.holds : words.now.lost}
+          {heading.current ? texts.now.holds : texts.now.lost}
         </Badge>
       </h3>
       <p>
-        {words.method[data.method]} · <Maker of={heading} /> · {shownTime(heading.made_at, all.language)} ·{" "}
+        {texts.method[data.method]} · <Maker of={heading} /> · {shownTime(heading.made_at, all.language)} ·{" "}
         {data.reference === null
-          ? words.now.toCamera
-          : filled(words.now.toMarker, { marker: data.reference })}
+          ? texts.now.toCamera
+          : interpolate(texts.now.toMarker, { marker: data.reference })}
       </p>
       {lost !== null && <p className="warning">▲ {lost}</p>}
       <RegistrationNumbers method={data.method} numbers={data.numbers} />
@@ -62,15 +62,15 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
         {heading.current && (
           <>
             <Link className="big-link" href="/operator/check" data-testid="to-check">
-              {check?.state === "done" ? words.now.checked : words.now.toCheck}
+              {check?.state === "done" ? texts.now.checked : texts.now.toCheck}
             </Link>
             <Link className="big-link" href="/operator/register/nudges" data-testid="to-nudges">
-              {words.now.nudge}
+              {texts.now.nudge}
             </Link>
             <SureButton
               ask
               variant="default"
-              sure={words.now.withdrawSure}
+              sure={texts.now.withdrawSure}
               busy={withdrawing.busy}
               onSure={() => {
                 void withdrawing
@@ -78,7 +78,7 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
                     await answered(
                       server.POST("/api/cases/{case_id}/documents/{document_id}/withdrawal", {
                         params: { path: { case_id: caseId, document_id: heading.id } },
-                        body: { by: madeBy, reason: words.now.withdrawReason },
+                        body: { by: madeBy, reason: texts.now.withdrawReason },
                       }),
                     );
                   })
@@ -88,7 +88,7 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
                   });
               }}
             >
-              {words.now.withdraw}
+              {texts.now.withdraw}
             </SureButton>
           </>
         )}

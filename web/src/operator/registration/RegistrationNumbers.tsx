@@ -1,8 +1,8 @@
 import type { ReactNode } from "react";
 import { shownNumber } from "../../live/rounding";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
-import { filled } from "../../words/filled";
+import { useTexts } from "../../texts/TextsContext";
+import { interpolate } from "../../texts/interpolate";
 import { Measure } from "./Measure";
 
 type Registration = components["schemas"]["RegistrationMessage"];
@@ -14,15 +14,15 @@ interface RegistrationNumbersProps {
 
 /** What a registration states of itself, with what is allowed, and in words what it cannot see. */
 export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProps): ReactNode {
-  const words = useWords().registration.numbers;
+  const texts = useTexts().registration.numbers;
   const of = (name: string): number | null => {
     const value = numbers[name];
     return typeof value === "number" ? value : null;
   };
   const target = (
     <Measure
-      name={words.atEntry}
-      hint={words.atEntryHint}
+      name={texts.atEntry}
+      hint={texts.atEntryHint}
       value={of("tre_at_entry_mm")}
       unit="mm"
       most={of("max_tre_mm")}
@@ -34,18 +34,18 @@ export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProp
         <dl className="limits">
           {target}
           <Measure
-            name={words.worstOffset}
-            hint={words.worstOffsetHint}
+            name={texts.worstOffset}
+            hint={texts.worstOffsetHint}
             value={of("worst_offset_mm")}
             unit="mm"
           />
-          <Measure name={words.worstOffsetPx} value={of("worst_offset_px")} unit="px" digits={1} />
+          <Measure name={texts.worstOffsetPx} value={of("worst_offset_px")} unit="px" digits={1} />
         </dl>
         <ul className="said" data-testid="needles-said">
-          <li>{filled(words.depthSaid, { mm: shownNumber(of("depth_sd_mm"), 1) })}</li>
-          <li>{filled(words.acrossSaid, { mm: shownNumber(of("across_sd_mm"), 1) })}</li>
-          <li>{filled(words.tiltSaid, { deg: shownNumber(of("tilt_sd_deg"), 1) })}</li>
-          <li>{filled(words.turnSaid, { deg: shownNumber(of("turn_sd_deg"), 1) })}</li>
+          <li>{interpolate(texts.depthSaid, { mm: shownNumber(of("depth_sd_mm"), 1) })}</li>
+          <li>{interpolate(texts.acrossSaid, { mm: shownNumber(of("across_sd_mm"), 1) })}</li>
+          <li>{interpolate(texts.tiltSaid, { deg: shownNumber(of("tilt_sd_deg"), 1) })}</li>
+          <li>{interpolate(texts.turnSaid, { deg: shownNumber(of("turn_sd_deg"), 1) })}</li>
         </ul>
       </>
     );
@@ -54,15 +54,15 @@ export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProp
       <dl className="limits">
         {target}
         <Measure
-          name={words.fre}
-          hint={words.freHint}
+          name={texts.fre}
+          hint={texts.freHint}
           value={of("fre_rms_mm")}
           unit="mm"
           most={of("max_fre_mm")}
         />
         <Measure
-          name={words.leftOut}
-          hint={words.leftOutHint}
+          name={texts.leftOut}
+          hint={texts.leftOutHint}
           value={of("leave_one_out_mm")}
           unit="mm"
           most={of("max_left_out_mm")}
@@ -74,15 +74,15 @@ export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProp
       <dl className="limits">
         {target}
         <Measure
-          name={words.rms}
-          hint={words.rmsHint}
+          name={texts.rms}
+          hint={texts.rmsHint}
           value={of("rms_mm")}
           unit="mm"
           most={of("max_rms_mm")}
         />
-        <Measure name={words.movedMm} value={of("moved_mm")} unit="mm" />
-        <Measure name={words.movedDeg} value={of("moved_deg")} unit="°" />
-        <Measure name={words.weakest} value={of("weakest_sd_mm")} unit="mm" />
+        <Measure name={texts.movedMm} value={of("moved_mm")} unit="mm" />
+        <Measure name={texts.movedDeg} value={of("moved_deg")} unit="°" />
+        <Measure name={texts.weakest} value={of("weakest_sd_mm")} unit="mm" />
       </dl>
     );
   return <dl className="limits">{target}</dl>;

@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { Link, useLocation } from "wouter";
 import { Unanswered } from "../../rest/Unanswered";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
 import { MethodChoice } from "./MethodChoice";
 import { NeedlesPage } from "./needles/NeedlesPage";
@@ -14,7 +14,7 @@ type Way = keyof typeof WAYS;
 
 /** Registration: `/operator/register` chooses a way, `/operator/register/<way>` is one. */
 export function RegistrationPage(): ReactNode {
-  const words = useWords().registration;
+  const texts = useTexts().registration;
   const [path] = useLocation();
   const procedure = useProcedure();
   const step = procedure.data?.steps.find((one) => one.step === "register");
@@ -26,16 +26,16 @@ export function RegistrationPage(): ReactNode {
   if (step !== undefined && !step.allowed)
     return (
       <p className="warning" data-testid="register-shut">
-        ▲ {words.shut}
+        ▲ {texts.shut}
       </p>
     );
   if (way === null) return <MethodChoice />;
   const Way = WAYS[way];
   return (
     <div className="registration">
-      <nav className="ways" aria-label={words.ways}>
+      <nav className="ways" aria-label={texts.ways}>
         <Link href="/operator/register" data-testid="back-to-ways">
-          ← {words.overview}
+          ← {texts.overview}
         </Link>
         {(["points", "needles", "sweep", "nudges"] as const).map((one) => (
           <Link
@@ -44,7 +44,7 @@ export function RegistrationPage(): ReactNode {
             aria-current={one === way ? "page" : undefined}
             data-testid={`way-${one}`}
           >
-            {words.way[one]}
+            {texts.way[one]}
           </Link>
         ))}
       </nav>

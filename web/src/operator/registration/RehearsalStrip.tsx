@@ -5,7 +5,7 @@ import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import { useRehearsal, type Rehearsed } from "../../rest/useRehearsal";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 
 type Scene = components["schemas"]["SceneRequest"]["scene"];
 
@@ -19,15 +19,15 @@ interface RehearsalStripProps {
 
 /** In a rehearsal alone: which scene is played before the camera, so that a step can be done without hardware. */
 export function RehearsalStrip({ scenes, children }: RehearsalStripProps): ReactNode {
-  const all = useWords();
-  const words = all.registration.rehearsal;
+  const all = useTexts();
+  const texts = all.registration.rehearsal;
   const { data, again } = useRehearsal({ everyMs: ASK_EVERY_MS, truth: true });
   const playing = useDo();
   if (data === null) return null;
   return (
-    <aside className="rehearsal" aria-label={words.title} data-testid="rehearsal">
+    <aside className="rehearsal" aria-label={texts.title} data-testid="rehearsal">
       <p>
-        <strong>{words.title}</strong> <small>{words.hint}</small>
+        <strong>{texts.title}</strong> <small>{texts.hint}</small>
       </p>
       <div className="row">
         {scenes.map((scene) => (

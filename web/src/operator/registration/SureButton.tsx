@@ -1,6 +1,6 @@
 import { Button } from "@mantine/core";
 import { useEffect, useState, type ReactNode } from "react";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 
 const FORGET_AFTER_MS = 6000;
 
@@ -28,7 +28,7 @@ export function SureButton({
   variant = "filled",
   testId,
 }: SureButtonProps): ReactNode {
-  const words = useWords().registration;
+  const texts = useTexts().registration;
   const [asked, setAsked] = useState(false);
   useEffect(() => {
     if (!asked) return;
@@ -77,7 +77,7 @@ export function SureButton({
           setAsked(false);
         }}
       >
-        {words.no}
+        {texts.no}
       </Button>
     </div>
   );

@@ -1,6 +1,6 @@
 import { SegmentedControl } from "@mantine/core";
 import type { ReactNode } from "react";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { useTools } from "./useTools";
 
 interface ToolChoiceProps {
@@ -10,22 +10,22 @@ interface ToolChoiceProps {
 
 /** Which tool touches; nothing to choose where there is but one. */
 export function ToolChoice({ tool, onTool }: ToolChoiceProps): ReactNode {
-  const { registration: words, rest } = useWords();
+  const { registration: texts, rest } = useTexts();
   const tools = useTools();
   if (tools === null) return <p className="loading">{rest.loading}</p>;
-  if (tools.length === 0) return <p className="warning">▲ {words.tool.none}</p>;
+  if (tools.length === 0) return <p className="warning">▲ {texts.tool.none}</p>;
   if (tools.length === 1)
     return (
       <p>
-        {words.tool.touches}: <strong>{tool}</strong>
+        {texts.tool.touches}: <strong>{tool}</strong>
       </p>
     );
   return (
     <div>
-      <p>{words.tool.touches}:</p>
+      <p>{texts.tool.touches}:</p>
       <SegmentedControl
         size="lg"
-        aria-label={words.tool.touches}
+        aria-label={texts.tool.touches}
         data={tools.map((one) => one.name)}
         value={tool}
         onChange={onTool}

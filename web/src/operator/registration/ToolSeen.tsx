@@ -2,12 +2,12 @@ import { useRef, type ReactNode } from "react";
 import { usePainter } from "../../live/LiveContext";
 import { shownNumber } from "../../live/rounding";
 import { setData, setText } from "../../panes/setText";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 
 /** Whether the tool is seen in the newest image, and how sure its tip is; painted with every image. Says nothing
  *  without a tool or a live image: why there is none stands over the picture. */
 export function ToolSeen({ tool }: { tool: string }): ReactNode {
-  const words = useWords().registration.tool;
+  const texts = useTexts().registration.tool;
   const line = useRef<HTMLParagraphElement>(null);
   usePainter(({ newest, video }) => {
     const now = newest?.snapshot?.tools.find((one) => one.name === tool);
@@ -20,8 +20,8 @@ export function ToolSeen({ tool }: { tool: string }): ReactNode {
     setText(
       line.current,
       pose === null
-        ? `▲ ${tool} ${words.unseen}`
-        : `✓ ${tool} ${words.seen} · ${words.tip} ± ${shownNumber(pose.tip_sd_mm, 2)} mm`,
+        ? `▲ ${tool} ${texts.unseen}`
+        : `✓ ${tool} ${texts.seen} · ${texts.tip} ± ${shownNumber(pose.tip_sd_mm, 2)} mm`,
     );
   });
   return <p className="tool-seen" data-testid="tool-seen" ref={line} />;

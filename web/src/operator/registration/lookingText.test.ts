@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
-import { registrationDe } from "../../words/registration/de";
-import { registrationEn } from "../../words/registration/en";
+import { registrationDe } from "../../texts/registration/de";
+import { registrationEn } from "../../texts/registration/en";
 import { lookingText } from "./lookingText";
 
 const SLOW = { images: 7, wanted: 12, rate_hz: 5, left_s: 1 };

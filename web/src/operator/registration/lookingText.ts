@@ -1,16 +1,16 @@
 import { shownNumber } from "../../live/rounding";
 import type { components } from "../../schema";
-import type { RegistrationWords } from "../../words/registration/en";
-import { filled } from "../../words/filled";
+import type { RegistrationTexts } from "../../texts/registration/en";
+import { interpolate } from "../../texts/interpolate";
 
 type Capture = Pick<components["schemas"]["CaptureMessage"], "images" | "wanted" | "rate_hz" | "left_s">;
-type CaptureWords = Pick<RegistrationWords["capture"], "looking" | "lookingAtRate">;
+type CaptureTexts = Pick<RegistrationTexts["capture"], "looking" | "lookingAtRate">;
 
 /** How many images a running capture has, and how long the tip is still to be held at the camera's rate. */
-export function lookingText(capture: Capture, words: CaptureWords): string {
+export function lookingText(capture: Capture, texts: CaptureTexts): string {
   const { images, wanted, rate_hz, left_s } = capture;
-  if (rate_hz === null || left_s === null) return filled(words.looking, { images, wanted });
-  return filled(words.lookingAtRate, {
+  if (rate_hz === null || left_s === null) return interpolate(texts.looking, { images, wanted });
+  return interpolate(texts.lookingAtRate, {
     images,
     wanted,
     left: shownNumber(left_s, 1),

@@ -1,7 +1,7 @@
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 
 /** Left and right of the patient in the page's language. */
 export function useSides(): (side: string) => string {
-  const words = useWords().registration.side;
-  return (side) => (Object.hasOwn(words, side) ? words[side as keyof typeof words] : side);
+  const texts = useTexts().registration.side;
+  return (side) => (Object.hasOwn(texts, side) ? texts[side as keyof typeof texts] : side);
 }

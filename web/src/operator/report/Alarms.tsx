@@ -3,8 +3,8 @@ import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
-import { inWords } from "../../words/text";
-import { useWords } from "../../words/WordsContext";
+import { textIn } from "../../texts/text";
+import { useTexts } from "../../texts/TextsContext";
 import { shownTime } from "../parts/shown";
 import { alarmsIn } from "./alarmSummary";
 
@@ -12,7 +12,7 @@ const MAX_LINES = 10_000;
 
 /** The alarm log in short: which, how often, from when to when, acknowledged by whom. */
 export function Alarms(): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const asked = useAsked((signal) =>
     answered(server.GET("/api/alarms/log", { signal, params: { query: { last: MAX_LINES } } })),
   );
@@ -20,30 +20,30 @@ export function Alarms(): ReactNode {
   const alarms = data === null ? [] : alarmsIn(data.lines);
   return (
     <section className="stack">
-      <h4>{words.report.alarms}</h4>
+      <h4>{texts.report.alarms}</h4>
       {data === null && <Unanswered asked={asked} />}
-      {data !== null && alarms.length === 0 && <p className="soft">{words.report.noAlarms}</p>}
-      {data?.lines.length === MAX_LINES && <p className="bad">▲ {words.report.logCut}</p>}
+      {data !== null && alarms.length === 0 && <p className="soft">{texts.report.noAlarms}</p>}
+      {data?.lines.length === MAX_LINES && <p className="bad">▲ {texts.report.logCut}</p>}
       {alarms.length > 0 && (
         <Table.ScrollContainer minWidth={480}>
           <Table>
             <Table.Thead>
               <Table.Tr>
-                <Table.Th scope="col">{words.report.alarm}</Table.Th>
-                <Table.Th scope="col">{words.report.times}</Table.Th>
-                <Table.Th scope="col">{words.report.worst}</Table.Th>
-                <Table.Th scope="col">{words.report.firstLast}</Table.Th>
-                <Table.Th scope="col">{words.report.acknowledged}</Table.Th>
+                <Table.Th scope="col">{texts.report.alarm}</Table.Th>
+                <Table.Th scope="col">{texts.report.times}</Table.Th>
+                <Table.Th scope="col">{texts.report.worst}</Table.Th>
+                <Table.Th scope="col">{texts.report.firstLast}</Table.Th>
+                <Table.Th scope="col">{texts.report.acknowledged}</Table.Th>
               </Table.Tr>
             </Table.Thead>
             <Table.Tbody>
               {alarms.map((one) => (
                 <Table.Tr key={one.condition}>
-                  <Table.Th scope="row">{inWords(one.line, "title", words) || one.condition}</Table.Th>
+                  <Table.Th scope="row">{textIn(one.line, "title", texts) || one.condition}</Table.Th>
                   <Table.Td className="figure">{one.raised}</Table.Td>
-                  <Table.Td>{inWords(one.line, "sentence", words)}</Table.Td>
+                  <Table.Td>{textIn(one.line, "sentence", texts)}</Table.Td>
                   <Table.Td>
-                    {shownTime(one.firstAt, words.language)} – {shownTime(one.lastAt, words.language)}
+                    {shownTime(one.firstAt, texts.language)} – {shownTime(one.lastAt, texts.language)}
                   </Table.Td>
                   <Table.Td>{one.acknowledgedBy.join(", ") || "—"}</Table.Td>
                 </Table.Tr>

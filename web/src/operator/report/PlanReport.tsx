@@ -6,7 +6,7 @@ import { answered, server } from "../../rest/client";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { shownTime } from "../parts/shown";
 import { channelsIn } from "./plan";
 
@@ -17,8 +17,8 @@ interface PlanReportProps {
 
 /** The planned channels with their screws. */
 export function PlanReport({ caseId, heading }: PlanReportProps): ReactNode {
-  const all = useWords();
-  const words = all.report;
+  const all = useTexts();
+  const texts = all.report;
   const asked = useAsked(
     (signal) => {
       const params = { path: { case_id: caseId, document_id: heading.id } };
@@ -30,32 +30,32 @@ export function PlanReport({ caseId, heading }: PlanReportProps): ReactNode {
   const channels = data === null ? [] : channelsIn(data.content);
   return (
     <section className="stack">
-      <h4>{words.plan}</h4>
+      <h4>{texts.plan}</h4>
       <p className="soft">
         {all.case.version} {heading.version} · {shownTime(heading.made_at, all.language)} ·{" "}
         <Maker of={heading} />
       </p>
       {data === null && <Unanswered asked={asked} />}
-      {data !== null && channels.length === 0 && <p className="soft">{words.noChannels}</p>}
+      {data !== null && channels.length === 0 && <p className="soft">{texts.noChannels}</p>}
       {channels.length > 0 && (
         <Table.ScrollContainer minWidth={480}>
           <Table>
             <Table.Thead>
               <Table.Tr>
-                <Table.Th scope="col">{words.vertebra}</Table.Th>
-                <Table.Th scope="col">{words.side}</Table.Th>
-                <Table.Th scope="col">{words.channel}</Table.Th>
-                <Table.Th scope="col">{words.screw}</Table.Th>
+                <Table.Th scope="col">{texts.vertebra}</Table.Th>
+                <Table.Th scope="col">{texts.side}</Table.Th>
+                <Table.Th scope="col">{texts.channel}</Table.Th>
+                <Table.Th scope="col">{texts.screw}</Table.Th>
               </Table.Tr>
             </Table.Thead>
             <Table.Tbody>
               {channels.map((one) => (
                 <Table.Tr key={`${one.vertebra} ${one.side}`}>
                   <Table.Th scope="row">{one.vertebra}</Table.Th>
-                  <Table.Td>{words.sides[one.side] ?? one.side}</Table.Td>
+                  <Table.Td>{texts.sides[one.side] ?? one.side}</Table.Td>
                   <Table.Td className="figure">
                     Ø {shownFigure(one.diameterMm, 1)} mm, {shownFigure(one.lengthMm, 1)} mm
-                    {one.byHand && ` · ${words.byHand}`}
+                    {one.byHand && ` · ${texts.byHand}`}
                   </Table.Td>
                   <Table.Td className="figure">
                     {one.screw === null

@@ -2,10 +2,10 @@ import { Maker } from "../parts/Maker";
 import { Table } from "@mantine/core";
 import type { ReactNode } from "react";
 import { shownFigure } from "../../live/rounding";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { documentTitle } from "../case/documentTitle";
 import { sentence, shownTime } from "../parts/shown";
-import { filled } from "../../words/filled";
+import { interpolate } from "../../texts/interpolate";
 import { useSides } from "../registration/useSides";
 import { factsOf, type Fact } from "./facts";
 import type { Entry, Heading } from "./record";
@@ -20,24 +20,24 @@ interface RecordReportProps {
 
 /** The record: what was made, when, by whom, and what it says of itself; and what of it held when it was read. */
 export function RecordReport({ entries, contents, readAt }: RecordReportProps): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   return (
     <section className="stack">
-      <h4>{words.report.record}</h4>
-      <p className="soft">{words.report.recordLead}</p>
+      <h4>{texts.report.record}</h4>
+      <p className="soft">{texts.report.recordLead}</p>
       {entries.length === 0 ? (
-        <p className="soft">{words.report.nothing}</p>
+        <p className="soft">{texts.report.nothing}</p>
       ) : (
         <Table.ScrollContainer minWidth={0} className="stacked">
           <Table verticalSpacing="sm" data-testid="record">
             <Table.Thead>
               <Table.Tr>
-                <Table.Th scope="col">{words.report.madeAt}</Table.Th>
-                <Table.Th scope="col">{words.report.what}</Table.Th>
-                <Table.Th scope="col">{words.report.says}</Table.Th>
-                <Table.Th scope="col">{words.report.by}</Table.Th>
+                <Table.Th scope="col">{texts.report.madeAt}</Table.Th>
+                <Table.Th scope="col">{texts.report.what}</Table.Th>
+                <Table.Th scope="col">{texts.report.says}</Table.Th>
+                <Table.Th scope="col">{texts.report.by}</Table.Th>
                 <Table.Th scope="col">
-                  {filled(words.report.heldAt, { time: shownTime(readAt, words.language) })}
+                  {interpolate(texts.report.heldAt, { time: shownTime(readAt, texts.language) })}
                 </Table.Th>
               </Table.Tr>
             </Table.Thead>
@@ -54,31 +54,31 @@ export function RecordReport({ entries, contents, readAt }: RecordReportProps): 
 }
 
 function EntryRow({ entry, content }: { entry: Entry; content: Record<string, unknown> }): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const { first, last } = entry;
   const isOne = first === last;
   return (
     <Table.Tr>
       <Table.Td className="record-time">
-        {shownTime(first.made_at, words.language)}
+        {shownTime(first.made_at, texts.language)}
         {!isOne && (
           <>
             {" "}
-            {words.report.until} {shownTime(last.made_at, words.language)}
+            {texts.report.until} {shownTime(last.made_at, texts.language)}
           </>
         )}
       </Table.Td>
       <Table.Th scope="row">
-        {documentTitle(last, words.case)}
+        {documentTitle(last, texts.case)}
         <p className="soft">
           {isOne
-            ? `${words.case.version} ${String(last.version)}`
-            : filled(words.report.versions, { first: first.version, last: last.version })}
+            ? `${texts.case.version} ${String(last.version)}`
+            : interpolate(texts.report.versions, { first: first.version, last: last.version })}
         </p>
       </Table.Th>
       <Table.Td className="figure">
-        {content["passed"] === true && <p>✓ {words.report.passed}</p>}
-        {content["passed"] === false && <p>✕ {words.report.notPassed}</p>}
+        {content["passed"] === true && <p>✓ {texts.report.passed}</p>}
+        {content["passed"] === false && <p>✕ {texts.report.notPassed}</p>}
         {factsOf(last.kind, content).map((fact) => (
           <FactLine key={fact.name} fact={fact} />
         ))}
@@ -94,18 +94,18 @@ function EntryRow({ entry, content }: { entry: Entry; content: Record<string, un
 }
 
 function FactLine({ fact }: { fact: Fact }): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   const sideName = useSides();
   const { name, value, unit, most } = fact;
-  const methods = words.registration.method as Partial<Record<string, string>>;
+  const methods = texts.registration.method as Partial<Record<string, string>>;
   const shown = typeof value === "string" ? (methods[value] ?? sideName(value)) : shownFigure(value, 2);
   return (
     <p>
-      {words.report.facts[name]}: {shown} {unit}
+      {texts.report.facts[name]}: {shown} {unit}
       {most !== null && (
         <span className="soft">
           {" "}
-          ({words.report.allowed} {shownFigure(most, 2)} {unit})
+          ({texts.report.allowed} {shownFigure(most, 2)} {unit})
         </span>
       )}
     </p>
@@ -113,12 +113,12 @@ function FactLine({ fact }: { fact: Fact }): ReactNode {
 }
 
 function Standing({ heading }: { heading: Heading }): ReactNode {
-  const words = useWords().case;
+  const texts = useTexts().case;
   const { current, withdrawn, out_of_date: why } = heading;
-  if (current) return `✓ ${words.standings.current}`;
+  if (current) return `✓ ${texts.standings.current}`;
   return (
     <>
-      ! {withdrawn === null ? words.standings.outOfDate : words.standings.withdrawn}
+      ! {withdrawn === null ? texts.standings.outOfDate : texts.standings.withdrawn}
       <p className="soft">
         {withdrawn === null ? sentence(why ?? "") : `${sentence(withdrawn.reason)} (${withdrawn.by})`}
       </p>

@@ -4,7 +4,7 @@ import { Link } from "wouter";
 import { answered, server } from "../../rest/client";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { ArchiveOut } from "../case/ArchiveOut";
 import { newestOf } from "../case/newest";
 import { shownTime } from "../parts/shown";
@@ -19,16 +19,16 @@ import { StepsReport } from "./StepsReport";
 
 /** The case on paper: the record of what was made, the plan, the alarms, and how the steps stood at last. */
 export function ReportPage(): ReactNode {
-  const words = useWords().report;
+  const texts = useTexts().report;
   const procedure = useProcedure();
   const { data } = procedure;
   if (data === null) return <Unanswered asked={procedure} />;
   if (data.case_id === null) {
     return (
       <p className="card-lead">
-        {words.noCase}{" "}
+        {texts.noCase}{" "}
         <Link className="way" href="/operator/case">
-          {words.toCases}
+          {texts.toCases}
         </Link>
       </p>
     );
@@ -37,8 +37,8 @@ export function ReportPage(): ReactNode {
 }
 
 function Report({ caseId }: { caseId: string }): ReactNode {
-  const all = useWords();
-  const words = all.report;
+  const all = useTexts();
+  const texts = all.report;
   const asked = useAsked(
     async (signal) => {
       const params = { path: { case_id: caseId } };
@@ -67,24 +67,24 @@ function Report({ caseId }: { caseId: string }): ReactNode {
             window.print();
           }}
         >
-          {words.print}
+          {texts.print}
         </Button>
         <Button size="lg" variant="default" onClick={again}>
-          {words.again}
+          {texts.again}
         </Button>
         <ArchiveOut caseId={caseId} />
       </div>
       <article className="card report" data-testid="report">
         <header className="stack">
           <h3>
-            {words.title}: {kept.name}
+            {texts.title}: {kept.name}
           </h3>
           <p className="report-notice">{all.notice}</p>
           <p className="soft">
-            {words.made} {shownTime(readAt, all.language)} · {all.case.madeAt}{" "}
-            {shownTime(kept.created_at, all.language)} · {words.caseId} {kept.id}
+            {texts.made} {shownTime(readAt, all.language)} · {all.case.madeAt}{" "}
+            {shownTime(kept.created_at, all.language)} · {texts.caseId} {kept.id}
           </p>
-          <p className="soft">{words.identity}</p>
+          <p className="soft">{texts.identity}</p>
         </header>
         <RecordReport entries={entries} contents={contents} readAt={readAt} />
         {plan !== null && <PlanReport caseId={caseId} heading={plan} />}

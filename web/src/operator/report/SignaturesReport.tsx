@@ -3,12 +3,12 @@ import { answered, server } from "../../rest/client";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { SignatureLine } from "../../supervisor/SignatureLine";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Maker } from "../parts/Maker";
 
 /** Who signed plan and registration, and who had invited them. */
 export function SignaturesReport(): ReactNode {
-  const words = useWords().supervisor.sign;
+  const texts = useTexts().supervisor.sign;
   const asked = useAsked((signal) => answered(server.GET("/api/supervision/signatures", { signal })));
   const { data } = asked;
   if (data === null) return <Unanswered asked={asked} />;
@@ -16,14 +16,14 @@ export function SignaturesReport(): ReactNode {
   if (there.length === 0) return null;
   return (
     <section className="stack" data-testid="report-signatures">
-      <h4>{words.title}</h4>
+      <h4>{texts.title}</h4>
       {there.map((signable) => (
         <div key={signable.what}>
           <p>
-            <b>{signable.title}</b>, {words.madeBy} <Maker of={signable} />
+            <b>{signable.title}</b>, {texts.madeBy} <Maker of={signable} />
           </p>
           {signable.signatures.length === 0 ? (
-            <p className="soft">{words.none}</p>
+            <p className="soft">{texts.none}</p>
           ) : (
             <ul>
               {signable.signatures.map((one) => (

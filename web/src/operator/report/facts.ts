@@ -1,8 +1,8 @@
 // What a document says of itself, in numbers that people in theatre know; its content is whatever was stored.
-import type { ReportWords } from "../../words/report/en";
+import type { ReportTexts } from "../../texts/report/en";
 
 type Content = Readonly<Record<string, unknown>>;
-export type FactName = keyof ReportWords["facts"];
+export type FactName = keyof ReportTexts["facts"];
 
 export interface Fact {
   name: FactName;

@@ -6,9 +6,9 @@ import { RejectionNote } from "../../rest/RejectionNote";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
-import { filled } from "../../words/filled";
+import { interpolate } from "../../texts/interpolate";
 import { TwiceButton } from "../parts/TwiceButton";
 import { useMaker } from "../parts/useMaker";
 import { GatheringMeasures } from "./GatheringMeasures";
@@ -26,7 +26,7 @@ interface GatheringProps {
 
 /** Poses as they are gathered: how far it has come, what is missing, and what they give so far. */
 export function Gathering({ tools, gate, onOver }: GatheringProps): ReactNode {
-  const words = useWords().tool;
+  const texts = useTexts().tool;
   const madeBy = useMaker();
   const doing = useDo();
   const [shape, setShape] = useState<ShapeMm>({ diameterMm: "", lengthMm: "" });
@@ -62,20 +62,23 @@ export function Gathering({ tools, gate, onOver }: GatheringProps): ReactNode {
       });
   };
   return (
-    <Card title={`${words.doing[data.purpose]}: ${data.tool}`} testId="gathering">
-      <p className="card-lead">{words.how[data.purpose]}</p>
+    <Card title={`${texts.doing[data.purpose]}: ${data.tool}`} testId="gathering">
+      <p className="card-lead">{texts.how[data.purpose]}</p>
       <p className="newest" data-taking={data.newest} role="status">
-        {data.running ? words.takings[data.newest] : words.ended}
+        {data.running ? texts.takings[data.newest] : texts.ended}
       </p>
       <RejectionNote rejection={data.problem === null ? null : new Rejection(data.problem)} />
       <GatheringMeasures gathered={data} gate={gate} />
-      <ul className="missing" aria-label={words.missing} data-testid="missing" data-enough={enough}>
+      <ul className="missing" aria-label={texts.missing} data-testid="missing" data-enough={enough}>
         {data.missing.map((one) => (
           <li key={one.need}>
-            {filled(words.needs[one.need], { there: Math.floor(one.there), wanted: Math.ceil(one.wanted) })}
+            {interpolate(texts.needs[one.need], {
+              there: Math.floor(one.there),
+              wanted: Math.ceil(one.wanted),
+            })}
           </li>
         ))}
-        {enough && <li className="good">✓ {words.enough}</li>}
+        {enough && <li className="good">✓ {texts.enough}</li>}
       </ul>
       {needsShape && <Shape shape={shape} onChange={setShape} />}
       <div className="row">
@@ -87,13 +90,13 @@ export function Gathering({ tools, gate, onOver }: GatheringProps): ReactNode {
           data-testid="keep"
           onClick={keep}
         >
-          {words.keep[data.purpose]}
+          {texts.keep[data.purpose]}
         </Button>
-        <TwiceButton again={words.throwAwaySure} onTwice={end} testId="throw-away">
-          {words.throwAway}
+        <TwiceButton again={texts.throwAwaySure} onTwice={end} testId="throw-away">
+          {texts.throwAway}
         </TwiceButton>
       </div>
-      {needsShape && given === null && <p className="soft">{words.shapeFirst}</p>}
+      {needsShape && given === null && <p className="soft">{texts.shapeFirst}</p>}
       <RejectionNote rejection={doing.rejection} />
     </Card>
   );

@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Measure } from "../parts/Measure";
 import { sentence } from "../parts/shown";
 import type { Gathered, ToolGate } from "./kept";
@@ -8,7 +8,7 @@ const KINDS = ["not_seen", "too_uncertain", "jumped", "nothing_new"] as const;
 
 /** The numbers of a gathering against the gate, and how many images were passed over and why. */
 export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate: ToolGate }): ReactNode {
-  const words = useWords().tool;
+  const texts = useTexts().tool;
   const { outcome, purpose } = gathered;
   const tilt = { kind: "least", value: gate.min_tilt_deg } as const;
   const rms = { kind: "most", value: gate.max_rms_3d_mm } as const;
@@ -17,7 +17,7 @@ export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate
     <>
       <dl className="measures">
         <Measure
-          name={words.poses}
+          name={texts.poses}
           value={gathered.taken}
           unit=""
           decimals={0}
@@ -27,7 +27,7 @@ export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate
         />
         {purpose === "spin" ? (
           <Measure
-            name={words.spinRange}
+            name={texts.spinRange}
             value={gathered.spin_range_deg}
             unit="°"
             decimals={0}
@@ -37,7 +37,7 @@ export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate
         ) : (
           <>
             <Measure
-              name={words.tilt}
+              name={texts.tilt}
               value={gathered.tilt_range_deg}
               unit="°"
               decimals={0}
@@ -45,7 +45,7 @@ export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate
               bar
             />
             <Measure
-              name={words.tiltAcross}
+              name={texts.tiltAcross}
               value={gathered.tilt_range_across_deg}
               unit="°"
               decimals={0}
@@ -57,13 +57,13 @@ export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate
         {purpose === "spin" ? (
           <>
             <Measure
-              name={words.axisSd}
+              name={texts.axisSd}
               value={outcome?.axis_sd_deg ?? null}
               unit="°"
               limit={{ kind: "most", value: gate.max_axis_sd_deg }}
             />
             <Measure
-              name={words.wobble}
+              name={texts.wobble}
               value={outcome?.wobble_deg ?? null}
               unit="°"
               limit={{ kind: "most", value: gate.max_wobble_deg }}
@@ -71,7 +71,7 @@ export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate
           </>
         ) : (
           <Measure
-            name={words.tipRms}
+            name={texts.tipRms}
             value={outcome?.rms_3d_mm ?? null}
             unit="mm"
             limit={rms}
@@ -80,14 +80,14 @@ export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate
         )}
         {purpose === "pivot" && (
           <Measure
-            name={words.tipSd}
+            name={texts.tipSd}
             value={outcome?.tip_sd_mm ?? null}
             unit="mm"
             limit={{ kind: "most", value: gate.max_tip_sd_mm }}
           />
         )}
         {purpose === "tip_check" && (
-          <Measure name={words.checkMost} value={outcome?.max_mm ?? null} unit="mm" />
+          <Measure name={texts.checkMost} value={outcome?.max_mm ?? null} unit="mm" />
         )}
       </dl>
       {gathered.outcome_problem !== null && gathered.taken > 0 && (
@@ -95,9 +95,9 @@ export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate
       )}
       {passedOver.length > 0 && (
         <p className="soft">
-          {words.passedOver}:{" "}
+          {texts.passedOver}:{" "}
           {passedOver
-            .map((kind) => `${words.passed[kind]} ${String(gathered.rejected_images[kind] ?? 0)}`)
+            .map((kind) => `${texts.passed[kind]} ${String(gathered.rejected_images[kind] ?? 0)}`)
             .join(" · ")}
         </p>
       )}

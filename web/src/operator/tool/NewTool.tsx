@@ -4,7 +4,7 @@ import { Link } from "wouter";
 import { answered, server } from "../../rest/client";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { NAME } from "../parts/name";
 import type { Purpose } from "./kept";
@@ -18,7 +18,7 @@ interface NewToolProps {
 
 /** Another tool: what it is called, and behind which marker it is held. */
 export function NewTool({ first, taken, busy, onBegin }: NewToolProps): ReactNode {
-  const words = useWords().tool;
+  const texts = useTexts().tool;
   const [typed, setTyped] = useState<string | null>(null);
   const [chosen, setChosen] = useState<string | null>(null);
   const asked = useAsked((signal) => answered(server.GET("/api/markers", { signal })), {
@@ -31,15 +31,15 @@ export function NewTool({ first, taken, busy, onBegin }: NewToolProps): ReactNod
   const name = typed ?? (marker !== null && !taken.includes(marker) ? marker : "");
   const isNew = !taken.includes(name);
   return (
-    <Card title={first ? words.firstTitle : words.newTitle} testId="new-tool">
-      {first && <p className="card-lead">{words.firstLead}</p>}
+    <Card title={first ? texts.firstTitle : texts.newTitle} testId="new-tool">
+      {first && <p className="card-lead">{texts.firstLead}</p>}
       {data === null ? (
         <Unanswered asked={asked} />
       ) : markers.length === 0 ? (
         <p>
-          {words.noMarker}{" "}
+          {texts.noMarker}{" "}
           <Link className="way" href="/operator/camera">
-            {words.toMarkers}
+            {texts.toMarkers}
           </Link>
         </p>
       ) : (
@@ -47,10 +47,10 @@ export function NewTool({ first, taken, busy, onBegin }: NewToolProps): ReactNod
           <TextInput
             className="grow"
             size="lg"
-            label={words.name}
-            description={words.nameHint}
+            label={texts.name}
+            description={texts.nameHint}
             value={name}
-            error={name !== "" && !NAME.test(name) ? words.nameWrong : isNew ? null : words.nameTaken}
+            error={name !== "" && !NAME.test(name) ? texts.nameWrong : isNew ? null : texts.nameTaken}
             onChange={(event) => {
               setTyped(event.currentTarget.value);
             }}
@@ -58,8 +58,8 @@ export function NewTool({ first, taken, busy, onBegin }: NewToolProps): ReactNod
           <Select
             className="grow"
             size="lg"
-            label={words.marker}
-            description={words.markerHint}
+            label={texts.marker}
+            description={texts.markerHint}
             allowDeselect={false}
             data={markers}
             value={marker}
@@ -74,7 +74,7 @@ export function NewTool({ first, taken, busy, onBegin }: NewToolProps): ReactNod
               onBegin(name, "pivot", marker);
             }}
           >
-            {words.begin.pivot}
+            {texts.begin.pivot}
           </Button>
         </div>
       )}

@@ -1,6 +1,6 @@
 import { NumberInput } from "@mantine/core";
 import type { ReactNode } from "react";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 
 export interface ShapeMm {
   diameterMm: number | string;
@@ -23,7 +23,7 @@ export function Shape({
   shape: ShapeMm;
   onChange: (shape: ShapeMm) => void;
 }): ReactNode {
-  const words = useWords().tool;
+  const texts = useTexts().tool;
   return (
     <div className="row">
       <NumberInput
@@ -31,8 +31,8 @@ export function Shape({
         inputMode="decimal"
         className="grow"
         size="lg"
-        label={`${words.diameter} (mm)`}
-        description={words.diameterHint}
+        label={`${texts.diameter} (mm)`}
+        description={texts.diameterHint}
         min={0.1}
         max={100}
         step={0.5}
@@ -47,8 +47,8 @@ export function Shape({
         inputMode="decimal"
         className="grow"
         size="lg"
-        label={`${words.length} (mm)`}
-        description={words.lengthHint}
+        label={`${texts.length} (mm)`}
+        description={texts.lengthHint}
         min={1}
         max={1000}
         step={5}

@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import type { components } from "../../schema";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
 import { Measure } from "../parts/Measure";
@@ -23,20 +23,20 @@ interface ToolCardProps {
 
 /** One tool: what is known of it, with its limits, and what can be done with it. */
 export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCardProps): ReactNode {
-  const all = useWords();
-  const words = all.tool;
+  const all = useTexts();
+  const texts = all.tool;
   const kept = tool.kept === null ? null : keptTool(tool.kept.content);
   const radiusMm = kept?.radiusMm ?? tool.radius_mm;
   const next = nextPurpose(tool);
   const canPivotOnly = tool.kept?.heading.current !== true;
   return (
     <Card title={tool.name} testId={`tool-${tool.name}`} fresh={fresh}>
-      {tool.kept === null && <p className="soft">{tool.from_settings ? words.ofSettings : words.nothing}</p>}
+      {tool.kept === null && <p className="soft">{tool.from_settings ? texts.ofSettings : texts.nothing}</p>}
       {tool.kept !== null && (
         <>
           <StandsOn heading={tool.kept.heading} documents={documents} />
           <p className="soft">
-            {words.made} {shownTime(tool.kept.heading.made_at, all.language)} ·{" "}
+            {texts.made} {shownTime(tool.kept.heading.made_at, all.language)} ·{" "}
             <Maker of={tool.kept.heading} />
           </p>
         </>
@@ -45,26 +45,26 @@ export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCa
         {kept !== null && (
           <>
             <Measure
-              name={words.tipRms}
+              name={texts.tipRms}
               value={kept.tipRmsMm}
               unit="mm"
               limit={{ kind: "most", value: gate.max_rms_3d_mm }}
             />
             <Measure
-              name={words.tilt}
+              name={texts.tilt}
               value={kept.tiltDeg}
               unit="°"
               decimals={0}
               limit={{ kind: "least", value: gate.min_tilt_deg }}
             />
             <Measure
-              name={words.axisSd}
+              name={texts.axisSd}
               value={kept.axisSdDeg}
               unit="°"
               limit={{ kind: "most", value: gate.max_axis_sd_deg }}
             />
             <Measure
-              name={words.wobble}
+              name={texts.wobble}
               value={kept.wobbleDeg}
               unit="°"
               limit={{ kind: "most", value: gate.max_wobble_deg }}
@@ -72,25 +72,25 @@ export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCa
           </>
         )}
         <Measure
-          name={words.diameter}
+          name={texts.diameter}
           value={radiusMm === null ? null : 2 * radiusMm}
           unit="mm"
           decimals={1}
         />
-        <Measure name={words.length} value={kept?.lengthMm ?? tool.length_mm} unit="mm" decimals={0} />
+        <Measure name={texts.length} value={kept?.lengthMm ?? tool.length_mm} unit="mm" decimals={0} />
         {tool.check?.heading.current === true && (
-          <Measure name={words.checkMost} value={number(tool.check.content["max_mm"])} unit="mm" />
+          <Measure name={texts.checkMost} value={number(tool.check.content["max_mm"])} unit="mm" />
         )}
         {tool.check?.heading.current === true && (
           <Measure
-            name={words.checkRms}
+            name={texts.checkRms}
             value={number(tool.check.content["rms_3d_mm"])}
             unit="mm"
             limit={{ kind: "most", value: gate.max_rms_3d_mm }}
           />
         )}
       </dl>
-      {kept?.hasAxis === false && <p className="bad">▲ {words.noAxis}</p>}
+      {kept?.hasAxis === false && <p className="bad">▲ {texts.noAxis}</p>}
       <div className="row">
         {PURPOSES.map((purpose) => (
           <Button
@@ -103,7 +103,7 @@ export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCa
               onBegin(tool.name, purpose, null);
             }}
           >
-            {purpose === "pivot" && tool.kept !== null ? words.pivotAnew : words.begin[purpose]}
+            {purpose === "pivot" && tool.kept !== null ? texts.pivotAnew : texts.begin[purpose]}
           </Button>
         ))}
       </div>

@@ -5,7 +5,7 @@ import { RejectionNote } from "../../rest/RejectionNote";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
-import { useWords } from "../../words/WordsContext";
+import { useTexts } from "../../texts/TextsContext";
 import { useDocuments } from "../parts/useDocuments";
 import { useGates } from "../parts/useGates";
 import { useProcedure } from "../../app/procedure";
@@ -18,7 +18,7 @@ const ASK_EVERY_MS = 2000;
 
 /** Tools: the tip by pivoting, the axis by spinning, the tip checked; each with its live progress. */
 export function ToolPage(): ReactNode {
-  const words = useWords().tool;
+  const texts = useTexts().tool;
   const procedure = useProcedure();
   const gates = useGates();
   const documents = useDocuments();
@@ -44,7 +44,7 @@ export function ToolPage(): ReactNode {
   if (gates.data === null) return <Unanswered asked={gates} />;
   if (procedure.data === null && procedure.rejection === null) return <Unanswered asked={procedure} />;
   const gate = gates.data.tool_calibration;
-  if (procedure.data?.case_id === null) return <p className="card-lead">{words.noCase}</p>;
+  if (procedure.data?.case_id === null) return <p className="card-lead">{texts.noCase}</p>;
   return (
     <div className="beside">
       <div className="cards">

@@ -2,7 +2,7 @@ import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { shownNumber } from "../../../live/rounding";
 import { answered, server } from "../../../rest/client";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { usePlanning } from "../state/PlanContext";
 import type { PlannedChannel } from "../state/shape";
 import { anglesOf, draftOf, lengthMm } from "./draft";
@@ -15,7 +15,7 @@ export function ActiveChoice({
   vertebra: string;
   planned: PlannedChannel;
 }): ReactNode {
-  const words = useWords().plan.channel;
+  const texts = useTexts().plan.channel;
   const { plan, change, busy, by } = usePlanning();
   const { side } = planned;
   const active = plan?.active_channel ?? null;
@@ -33,13 +33,13 @@ export function ActiveChoice({
   return (
     <section className="active-choice" data-active={isActive || undefined}>
       <p data-testid="channel-numbers">
-        {planned.by_hand ? words.isByHand : words.isMeasured} · Ø {shownNumber(draft.diameterMm, 1)} mm ·{" "}
-        {shownNumber(lengthMm(draft), 1)} mm · {words.transverse} {shownNumber(transverseDeg, 1)}° ·{" "}
-        {words.sagittal} {shownNumber(sagittalDeg, 1)}°
+        {planned.by_hand ? texts.isByHand : texts.isMeasured} · Ø {shownNumber(draft.diameterMm, 1)} mm ·{" "}
+        {shownNumber(lengthMm(draft), 1)} mm · {texts.transverse} {shownNumber(transverseDeg, 1)}° ·{" "}
+        {texts.sagittal} {shownNumber(sagittalDeg, 1)}°
       </p>
       {isActive && (
         <p className="is-active" data-testid="is-active">
-          ● {words.isActive}
+          ● {texts.isActive}
         </p>
       )}
       <Button
@@ -50,7 +50,7 @@ export function ActiveChoice({
         data-testid="activate"
         onClick={choose}
       >
-        {isActive ? words.deactivate : words.activate}
+        {isActive ? texts.deactivate : texts.activate}
       </Button>
     </section>
   );

@@ -2,7 +2,7 @@ import { Button, SegmentedControl } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { shownNumber } from "../../../live/rounding";
 import { answered, server } from "../../../rest/client";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { ArrowPad } from "../slices/ArrowPad";
 import { downOf, normalOf, rightOf } from "../slices/place";
 import { useSlices } from "../slices/SlicesContext";
@@ -35,7 +35,7 @@ interface ChannelByHandProps {
 
 /** The channel moved in half millimetres and degrees on the large slice, then kept or let go. */
 export function ChannelByHand({ of, draft, planned }: ChannelByHandProps): ReactNode {
-  const words = useWords().plan.byHand;
+  const texts = useTexts().plan.byHand;
   const { vertebra, side, change, busy } = usePlanning();
   const { setDraft } = useWork();
   const { largePlace } = useSlices();
@@ -65,19 +65,19 @@ export function ChannelByHand({ of, draft, planned }: ChannelByHandProps): React
     });
   };
   return (
-    <section className="by-hand" aria-label={words.title} data-testid="by-hand">
-      <p>{words.hint}</p>
+    <section className="by-hand" aria-label={texts.title} data-testid="by-hand">
+      <p>{texts.hint}</p>
       <SegmentedControl
         size="lg"
         fullWidth
         value={what}
-        aria-label={words.what}
-        data={MOVED.map((one) => ({ value: one, label: words.moved[one] }))}
+        aria-label={texts.what}
+        data={MOVED.map((one) => ({ value: one, label: texts.moved[one] }))}
         onChange={setWhat}
       />
       <ArrowPad
         name="channel"
-        label={words.moved[what]}
+        label={texts.moved[what]}
         onMove={(right, down) => {
           const place = largePlace();
           if (place === null) return;
@@ -87,8 +87,8 @@ export function ChannelByHand({ of, draft, planned }: ChannelByHandProps): React
       />
       <Stepper
         name="turn"
-        label={words.turn}
-        value={`${words.transverse} ${shownNumber(transverseDeg, 1)}° · ${words.sagittal} ${shownNumber(sagittalDeg, 1)}°`}
+        label={texts.turn}
+        value={`${texts.transverse} ${shownNumber(transverseDeg, 1)}° · ${texts.sagittal} ${shownNumber(sagittalDeg, 1)}°`}
         onStep={(direction) => {
           const place = largePlace();
           if (place !== null) put(turnedBy(draft, normalOf(place), direction));
@@ -96,7 +96,7 @@ export function ChannelByHand({ of, draft, planned }: ChannelByHandProps): React
       />
       <Stepper
         name="reach"
-        label={words.length}
+        label={texts.length}
         value={`${shownNumber(lengthMm(draft), 1)} mm`}
         onStep={(direction) => {
           put(lengthened(draft, direction));
@@ -104,7 +104,7 @@ export function ChannelByHand({ of, draft, planned }: ChannelByHandProps): React
       />
       <Stepper
         name="bore"
-        label={words.diameter}
+        label={texts.diameter}
         value={`${shownNumber(draft.diameterMm, 1)} mm`}
         onStep={(direction) => {
           const wanted = draft.diameterMm + direction * STEP_MM;
@@ -113,7 +113,7 @@ export function ChannelByHand({ of, draft, planned }: ChannelByHandProps): React
       />
       <div className="buttons">
         <Button size="xl" disabled={busy || isUnchanged} data-testid="keep-channel" onClick={keep}>
-          {words.keep}
+          {texts.keep}
         </Button>
         <Button
           size="xl"
@@ -123,7 +123,7 @@ export function ChannelByHand({ of, draft, planned }: ChannelByHandProps): React
             setDraft(null);
           }}
         >
-          {words.discard}
+          {texts.discard}
         </Button>
       </div>
     </section>

@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { SideChooser } from "../pedicle/SideChooser";
 import { VertebraChooser } from "../pedicle/VertebraChooser";
 import { useSlices } from "../slices/SlicesContext";
@@ -16,11 +16,11 @@ import { ScrewChoice } from "./ScrewChoice";
 
 /** A channel through the pedicle: laid along it or by hand, with its screw, and whether it is drilled now. */
 export function ChannelPart(): ReactNode {
-  const words = useWords().plan.channel;
+  const texts = useTexts().plan.channel;
   const { vertebra, side, change, busy } = usePlanning();
   const { draft, setDraft } = useWork();
   const { look } = useSlices();
-  if (vertebra === null) return <p>{words.noVertebra}</p>;
+  if (vertebra === null) return <p>{texts.noVertebra}</p>;
   const { name } = vertebra;
   const of = `${name} ${side}`;
   const planned = channelOf(vertebra, side);
@@ -48,7 +48,7 @@ export function ChannelPart(): ReactNode {
       <SideChooser />
       {planned === null && moved === null && (
         <>
-          <p>{isMeasured ? words.none : words.notMeasured}</p>
+          <p>{isMeasured ? texts.none : texts.notMeasured}</p>
           <Button
             size="xl"
             fullWidth
@@ -56,10 +56,10 @@ export function ChannelPart(): ReactNode {
             data-testid="lay-channel"
             onClick={layAlongPedicle}
           >
-            {words.lay}
+            {texts.lay}
           </Button>
           <Button size="lg" fullWidth variant="default" disabled={busy} onClick={beginAt}>
-            {words.byHandHere}
+            {texts.byHandHere}
           </Button>
         </>
       )}
@@ -79,11 +79,11 @@ export function ChannelPart(): ReactNode {
                   setDraft({ of, channel: draftOf(planned.channel) });
                 }}
               >
-                {words.move}
+                {texts.move}
               </Button>
               {planned.by_hand && isMeasured && (
                 <Button size="lg" variant="default" disabled={busy} onClick={layAlongPedicle}>
-                  {words.back}
+                  {texts.back}
                 </Button>
               )}
               <Button
@@ -93,7 +93,7 @@ export function ChannelPart(): ReactNode {
                 data-testid="remove-channel"
                 onClick={remove}
               >
-                {words.remove}
+                {texts.remove}
               </Button>
             </div>
           </>

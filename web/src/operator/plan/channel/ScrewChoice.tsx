@@ -2,7 +2,7 @@ import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { useAsked } from "../../../rest/useAsked";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { usePlanning } from "../state/PlanContext";
 import type { PlannedChannel } from "../state/shape";
 import { Stepper } from "../Stepper";
@@ -17,7 +17,7 @@ interface ScrewChoiceProps {
 
 /** A screw of the catalogue: the proposed one, or thicker, thinner, longer, shorter. */
 export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps): ReactNode {
-  const words = useWords().plan.screw;
+  const texts = useTexts().plan.screw;
   const { change, busy } = usePlanning();
   const catalogue = useAsked((signal) => answered(server.GET("/api/plan/catalogue", { signal }))).data;
   const path = { name: vertebra, side: planned.side };
@@ -39,10 +39,10 @@ export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps)
       ),
     );
   };
-  if (!isMeasured) return <p className="soft">{words.notMeasured}</p>;
+  if (!isMeasured) return <p className="soft">{texts.notMeasured}</p>;
   return (
-    <section className="screw" aria-label={words.title}>
-      <h3>{words.title}</h3>
+    <section className="screw" aria-label={texts.title}>
+      <h3>{texts.title}</h3>
       {screw === null ? (
         <Button
           size="xl"
@@ -53,13 +53,13 @@ export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps)
             choose(null);
           }}
         >
-          {words.propose}
+          {texts.propose}
         </Button>
       ) : (
         <>
           <Stepper
             name="diameter"
-            label={words.diameter}
+            label={texts.diameter}
             value={`${screw.diameter_mm} mm`}
             disabled={busy || catalogue === null}
             onStep={(direction) => {
@@ -69,7 +69,7 @@ export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps)
           />
           <Stepper
             name="length"
-            label={words.length}
+            label={texts.length}
             value={`${screw.length_mm} mm`}
             disabled={busy || catalogue === null}
             onStep={(direction) => {
@@ -87,10 +87,10 @@ export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps)
                 choose(null);
               }}
             >
-              {words.propose}
+              {texts.propose}
             </Button>
             <Button size="lg" variant="default" disabled={busy} onClick={remove}>
-              {words.remove}
+              {texts.remove}
             </Button>
           </div>
         </>

@@ -6,7 +6,7 @@ import { useRehearsal } from "../../../rest/useRehearsal";
 import { useDo } from "../../../rest/useDo";
 import { RejectionNote } from "../../../rest/RejectionNote";
 import { isOver, useJob } from "../../../rest/useJob";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { useMadeBy } from "../state/madeBy";
 import { FileButtons } from "./FileButtons";
 import { ReadingPreview } from "./ReadingPreview";
@@ -22,7 +22,7 @@ interface CtIntakeProps {
 
 /** A CT comes into the case: sent, read, and its series chosen where there are several. */
 export function CtIntake({ isSecond, onTaken }: CtIntakeProps): ReactNode {
-  const words = useWords().plan.ct;
+  const texts = useTexts().plan.ct;
   const madeBy = useMadeBy();
   const [uploadId, setUploadId] = useState("");
   const [isAgreed, setAgreed] = useState(false);
@@ -52,8 +52,8 @@ export function CtIntake({ isSecond, onTaken }: CtIntakeProps): ReactNode {
 
   if (isSecond && !isAgreed && !isBusy) {
     return (
-      <Alert className="consequence" title={words.second.title} data-testid="second-ct">
-        <p>{words.second.sentence}</p>
+      <Alert className="consequence" title={texts.second.title} data-testid="second-ct">
+        <p>{texts.second.sentence}</p>
         <Button
           size="xl"
           mt="sm"
@@ -61,7 +61,7 @@ export function CtIntake({ isSecond, onTaken }: CtIntakeProps): ReactNode {
             setAgreed(true);
           }}
         >
-          {words.second.agree}
+          {texts.second.agree}
         </Button>
       </Alert>
     );
@@ -70,9 +70,9 @@ export function CtIntake({ isSecond, onTaken }: CtIntakeProps): ReactNode {
     <div className="ct-intake" data-testid="ct-intake">
       {!isBusy && series.length === 0 && (
         <>
-          <p>{words.hint}</p>
+          <p>{texts.hint}</p>
           <FileButtons
-            words={words.buttons}
+            texts={texts.buttons}
             disabled={isBusy}
             onFiles={(files) => {
               job.forget();
@@ -81,7 +81,7 @@ export function CtIntake({ isSecond, onTaken }: CtIntakeProps): ReactNode {
           />
           {rehearsal.data !== null && (
             <div className="rehearsal-offer">
-              <p>{words.rehearsal.hint}</p>
+              <p>{texts.rehearsal.hint}</p>
               <Button
                 size="xl"
                 variant="default"
@@ -91,7 +91,7 @@ export function CtIntake({ isSecond, onTaken }: CtIntakeProps): ReactNode {
                   upload.sendFrom("/api/rehearsal/ct");
                 }}
               >
-                {words.rehearsal.take}
+                {texts.rehearsal.take}
               </Button>
             </div>
           )}

@@ -1,7 +1,7 @@
 import { useState, type ReactNode } from "react";
 import { Alert, Button } from "@mantine/core";
 import { shownNumber } from "../../../live/rounding";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { Maker } from "../../parts/Maker";
 import { shownTime } from "../../parts/shown";
 import { useSlices } from "../slices/SlicesContext";
@@ -9,8 +9,8 @@ import { CtIntake } from "./CtIntake";
 
 /** The CT that is planned on: what it is, what to know of it, and the way to another one. */
 export function CtPart({ onTaken }: { onTaken: () => void }): ReactNode {
-  const all = useWords();
-  const words = all.plan.ct;
+  const all = useTexts();
+  const texts = all.plan.ct;
   const { ct } = useSlices();
   const [isReplacing, setReplacing] = useState(false);
   const { description } = ct;
@@ -19,14 +19,14 @@ export function CtPart({ onTaken }: { onTaken: () => void }): ReactNode {
   );
   return (
     <>
-      <h3>{words.title}</h3>
+      <h3>{texts.title}</h3>
       <p>{told.join(" · ")}</p>
       <dl className="figures">
-        <dt>{words.voxels}</dt>
+        <dt>{texts.voxels}</dt>
         <dd>{ct.size_ijk.join(" × ")}</dd>
-        <dt>{words.spacing}</dt>
+        <dt>{texts.spacing}</dt>
         <dd>{ct.spacing_mm.map((one) => shownNumber(one, 2)).join(" × ")} mm</dd>
-        <dt>{words.madeBy}</dt>
+        <dt>{texts.madeBy}</dt>
         <dd>
           <Maker of={ct.heading} />, {shownTime(ct.heading.made_at, all.language)}
         </dd>
@@ -36,7 +36,7 @@ export function CtPart({ onTaken }: { onTaken: () => void }): ReactNode {
       ))}
       {ct.left_out.map((one) => (
         <p key={String(one["reason"])} className="warning">
-          {String(one["count"])} {words.leftOut}: {String(one["reason"])}
+          {String(one["count"])} {texts.leftOut}: {String(one["reason"])}
         </p>
       ))}
       {isReplacing ? (
@@ -50,7 +50,7 @@ export function CtPart({ onTaken }: { onTaken: () => void }): ReactNode {
             setReplacing(true);
           }}
         >
-          {words.other}
+          {texts.other}
         </Button>
       )}
     </>

@@ -2,14 +2,14 @@ import { Button } from "@mantine/core";
 import { useRef, type ReactNode } from "react";
 
 interface FileButtonsProps {
-  words: { file: string; folder?: string };
+  texts: { file: string; folder?: string };
   accept?: string;
   disabled: boolean;
   onFiles: (files: readonly File[]) => void;
 }
 
 /** One file, or all of a folder. */
-export function FileButtons({ words, accept, disabled, onFiles }: FileButtonsProps): ReactNode {
+export function FileButtons({ texts, accept, disabled, onFiles }: FileButtonsProps): ReactNode {
   const file = useRef<HTMLInputElement>(null);
   const folder = useRef<HTMLInputElement>(null);
   const taken = (input: HTMLInputElement): void => {
@@ -23,7 +23,7 @@ export function FileButtons({ words, accept, disabled, onFiles }: FileButtonsPro
         ref={file}
         type="file"
         hidden
-        multiple={words.folder !== undefined}
+        multiple={texts.folder !== undefined}
         accept={accept}
         data-testid="file-input"
         onChange={(event) => {
@@ -31,9 +31,9 @@ export function FileButtons({ words, accept, disabled, onFiles }: FileButtonsPro
         }}
       />
       <Button size="xl" disabled={disabled} onClick={() => file.current?.click()}>
-        {words.file}
+        {texts.file}
       </Button>
-      {words.folder !== undefined && (
+      {texts.folder !== undefined && (
         <>
           <input
             ref={(input) => {
@@ -49,7 +49,7 @@ export function FileButtons({ words, accept, disabled, onFiles }: FileButtonsPro
             }}
           />
           <Button size="xl" variant="default" disabled={disabled} onClick={() => folder.current?.click()}>
-            {words.folder}
+            {texts.folder}
           </Button>
         </>
       )}

@@ -1,12 +1,12 @@
 import { useState, type ReactNode } from "react";
 import type { Job } from "../../../rest/useJob";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 
 const TRIES_EVERY_RATIO = 0.05;
 
 /** The first slice, as soon as it is read: whether this is the right patient's part is seen early. */
 export function ReadingPreview({ uploadId, of }: { uploadId: string; of: Job }): ReactNode {
-  const words = useWords().plan.ct;
+  const texts = useTexts().plan.ct;
   const [isThere, setThere] = useState(false);
   // Asked again as the reading goes on, until it is there.
   const round = isThere ? "kept" : String(Math.floor(of.progress_ratio / TRIES_EVERY_RATIO));
@@ -18,7 +18,7 @@ export function ReadingPreview({ uploadId, of }: { uploadId: string; of: Job }):
     <img
       className="ct-preview"
       src={source}
-      alt={words.previewAlt}
+      alt={texts.previewAlt}
       hidden={!isThere}
       onLoad={() => {
         setThere(true);

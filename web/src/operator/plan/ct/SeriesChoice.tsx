@@ -2,7 +2,7 @@ import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { shownNumber } from "../../../live/rounding";
 import type { Job } from "../../../rest/useJob";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 
 /** What is told of a series before it is read. */
 export interface Series {
@@ -33,26 +33,26 @@ interface SeriesChoiceProps {
 
 /** Several series were sent: what each is, and one to be chosen. */
 export function SeriesChoice({ series, busy, onChoose }: SeriesChoiceProps): ReactNode {
-  const words = useWords().plan.ct.series;
+  const texts = useTexts().plan.ct.series;
   if (series.length === 0) return null;
   const patients = new Set(series.map((one) => one.patient)).size;
   return (
-    <section aria-label={words.title}>
-      <h3>{words.title}</h3>
-      <p>{words.hint}</p>
+    <section aria-label={texts.title}>
+      <h3>{texts.title}</h3>
+      <p>{texts.hint}</p>
       <ul className="series">
         {series.map((one) => (
           <li key={one.series} data-trouble={one.problem !== "" || undefined}>
             <div>
               <strong>
                 {one.number > 0 && `${one.number} · `}
-                {one.words || words.unnamed} {one.modality}
+                {one.words || texts.unnamed} {one.modality}
               </strong>
               <p>
-                {one.images} {words.images} · {one.size_wh_px.join(" × ")} ·{" "}
-                {shownNumber(one.thickness_mm, 2)} mm {words.thick}
+                {one.images} {texts.images} · {one.size_wh_px.join(" × ")} ·{" "}
+                {shownNumber(one.thickness_mm, 2)} mm {texts.thick}
                 {one.kernel !== "" && ` · ${one.kernel}`}
-                {patients > 1 && ` · ${words.patient} ${one.patient}`}
+                {patients > 1 && ` · ${texts.patient} ${one.patient}`}
               </p>
               {one.problem !== "" && <p className="warning">{one.problem}</p>}
             </div>
@@ -64,7 +64,7 @@ export function SeriesChoice({ series, busy, onChoose }: SeriesChoiceProps): Rea
                 onChoose(one.series);
               }}
             >
-              {words.choose}
+              {texts.choose}
             </Button>
           </li>
         ))}

@@ -1,25 +1,25 @@
 import { Alert, Button, Progress } from "@mantine/core";
 import type { ReactNode } from "react";
 import { RejectionNote } from "../../../rest/RejectionNote";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import type { Upload } from "./useUpload";
 
 /** How much of a file is packed or sent, with a way to stop; why it was not taken. */
 export function UploadProgress({ upload }: { upload: Upload }): ReactNode {
-  const words = useWords();
+  const texts = useTexts();
   if (upload.rejection !== null) return <RejectionNote rejection={upload.rejection} />;
-  if (upload.isTooMuch) return <Alert className="rejection" role="alert" title={words.plan.ct.tooMuch} />;
-  if (upload.wasStopped) return <p role="status">{words.rest.cancelled}</p>;
+  if (upload.isTooMuch) return <Alert className="rejection" role="alert" title={texts.plan.ct.tooMuch} />;
+  if (upload.wasStopped) return <p role="status">{texts.rest.cancelled}</p>;
   if (upload.phase === null) return null;
   const percent = Math.round(upload.ratio * 100);
   return (
     <div className="job" role="status">
       <p>
-        {words.plan.ct.phase[upload.phase]} · {percent} %
+        {texts.plan.ct.phase[upload.phase]} · {percent} %
       </p>
-      <Progress value={percent} size="lg" aria-label={words.plan.ct.phase[upload.phase]} />
+      <Progress value={percent} size="lg" aria-label={texts.plan.ct.phase[upload.phase]} />
       <Button size="lg" variant="default" onClick={upload.stop}>
-        {words.rest.cancel}
+        {texts.rest.cancel}
       </Button>
     </div>
   );

@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { areSame, draftLines } from "../lines/draftLines";
 import { isFlat, type PlaneName } from "../slices/address";
 import type { Projection } from "../slices/projection";
@@ -87,7 +87,7 @@ function VertebraDrawing({
 }
 
 function DraftDrawing({ plane, projection }: { plane: PlaneName; projection: Projection }): ReactNode {
-  const words = useWords().plan.byHand;
+  const texts = useTexts().plan.byHand;
   const large = useSlices().plane;
   const { part, draft, setDraft } = useWork();
   if (draft === null || part !== "channel") return null;
@@ -113,7 +113,7 @@ function DraftDrawing({ plane, projection }: { plane: PlaneName; projection: Pro
           <Handle
             projection={projection}
             name="entry"
-            label={words.moved.entry}
+            label={texts.moved.entry}
             point={entry}
             towards={[ex - tx, ey - ty]}
             onMove={(point) => {
@@ -123,7 +123,7 @@ function DraftDrawing({ plane, projection }: { plane: PlaneName; projection: Pro
           <Handle
             projection={projection}
             name="target"
-            label={words.moved.target}
+            label={texts.moved.target}
             point={target}
             towards={[tx - ex, ty - ey]}
             onMove={(point) => {

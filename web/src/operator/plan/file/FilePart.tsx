@@ -1,13 +1,13 @@
 import { Alert, Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, Rejection, server } from "../../../rest/client";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { FileButtons } from "../ct/FileButtons";
 import { usePlanning } from "../state/PlanContext";
 
 /** The plan out to a file, and in from one. */
 export function FilePart(): ReactNode {
-  const words = useWords().plan.file;
+  const texts = useTexts().plan.file;
   const { plan, change, busy, forget, rejection } = usePlanning();
   const [content, setContent] = useState<{ name: string; text: string } | null>(null);
   const isOfOtherCt = rejection?.problem.code === "PLAN_OF_ANOTHER_CT";
@@ -26,17 +26,17 @@ export function FilePart(): ReactNode {
   };
   return (
     <>
-      <h3>{words.title}</h3>
-      <p>{words.hint}</p>
+      <h3>{texts.title}</h3>
+      <p>{texts.hint}</p>
       {plan === null ? (
-        <p className="soft">{words.none}</p>
+        <p className="soft">{texts.none}</p>
       ) : (
         <Button size="xl" fullWidth component="a" href="/api/plan/export" download data-testid="export">
-          {words.out}
+          {texts.out}
         </Button>
       )}
       <FileButtons
-        words={{ file: words.in }}
+        texts={{ file: texts.in }}
         accept=".json,application/json"
         disabled={busy}
         onFiles={(files) => {
@@ -49,10 +49,10 @@ export function FilePart(): ReactNode {
           });
         }}
       />
-      {plan !== null && <p className="soft">{words.replaces}</p>}
+      {plan !== null && <p className="soft">{texts.replaces}</p>}
       {isOfOtherCt && content !== null && (
-        <Alert className="consequence" title={words.otherCt}>
-          <p>{words.otherCtHint}</p>
+        <Alert className="consequence" title={texts.otherCt}>
+          <p>{texts.otherCtHint}</p>
           <Button
             size="lg"
             mt="sm"
@@ -61,7 +61,7 @@ export function FilePart(): ReactNode {
               read(content.text, true);
             }}
           >
-            {words.takeAllTheSame}
+            {texts.takeAllTheSame}
           </Button>
         </Alert>
       )}

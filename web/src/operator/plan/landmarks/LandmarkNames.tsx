@@ -1,6 +1,6 @@
 import { Button, Modal, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 
 interface LandmarkNamesProps {
   opened: boolean;
@@ -11,19 +11,19 @@ interface LandmarkNamesProps {
 
 /** A name for a landmark: one of the usual ones by a tap, or typed. */
 export function LandmarkNames({ opened, taken, onClose, onName }: LandmarkNamesProps): ReactNode {
-  const words = useWords().plan.landmarks;
+  const texts = useTexts().plan.landmarks;
   const [typed, setTyped] = useState("");
   const name = typed.trim();
   return (
     <Modal
       opened={opened}
       onClose={onClose}
-      title={words.which}
+      title={texts.which}
       size="lg"
-      closeButtonProps={{ size: 48, "aria-label": words.close }}
+      closeButtonProps={{ size: 48, "aria-label": texts.close }}
     >
       <div className="landmark-names">
-        {Object.values(words.usual)
+        {Object.values(texts.usual)
           .filter((one) => !taken.includes(one))
           .map((one) => (
             <Button
@@ -49,7 +49,7 @@ export function LandmarkNames({ opened, taken, onClose, onName }: LandmarkNamesP
       >
         <TextInput
           size="lg"
-          label={words.other}
+          label={texts.other}
           maxLength={60}
           value={typed}
           onChange={(event) => {
@@ -57,7 +57,7 @@ export function LandmarkNames({ opened, taken, onClose, onName }: LandmarkNamesP
           }}
         />
         <Button size="lg" type="submit" disabled={name === "" || taken.includes(name)}>
-          {words.take}
+          {texts.take}
         </Button>
       </form>
     </Modal>

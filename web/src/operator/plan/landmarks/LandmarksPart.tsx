@@ -3,7 +3,7 @@ import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { useAsked } from "../../../rest/useAsked";
 import { Icon } from "../../../panes/Icon";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { VertebraChooser } from "../pedicle/VertebraChooser";
 import { CursorPad } from "../slices/CursorPad";
 import { useSlices } from "../slices/SlicesContext";
@@ -14,12 +14,12 @@ import { RehearsedLandmarks } from "./RehearsedLandmarks";
 
 /** Points of the bone that are found again on the patient: set at the cross, named, listed. */
 export function LandmarksPart(): ReactNode {
-  const words = useWords().plan.landmarks;
+  const texts = useTexts().plan.landmarks;
   const { vertebra, change, busy } = usePlanning();
   const { look, goTo } = useSlices();
   const catalogue = useAsked((signal) => answered(server.GET("/api/plan/catalogue", { signal }))).data;
   const [isNaming, setNaming] = useState(false);
-  if (vertebra === null) return <p>{words.noVertebra}</p>;
+  if (vertebra === null) return <p>{texts.noVertebra}</p>;
   const { name, landmarks } = vertebra;
   const put = (next: readonly Landmark[]): void => {
     const body = next.map((one) => ({ name: one.name, point_lps_mm: [...one.point_lps_mm] }));
@@ -37,10 +37,10 @@ export function LandmarksPart(): ReactNode {
   return (
     <>
       <VertebraChooser />
-      <p>{words.hint}</p>
+      <p>{texts.hint}</p>
       <p className={least === null ? "soft" : isEnough ? "enough" : "warning"} data-testid="landmark-count">
-        {landmarks.length} {words.set}
-        {least !== null && ` · ${words.needed} ${least}`} · {words.better}
+        {landmarks.length} {texts.set}
+        {least !== null && ` · ${texts.needed} ${least}`} · {texts.better}
       </p>
       <CursorPad />
       <Button
@@ -52,7 +52,7 @@ export function LandmarksPart(): ReactNode {
           setNaming(true);
         }}
       >
-        {words.setHere}
+        {texts.setHere}
       </Button>
       <LandmarkNames
         opened={isNaming}
@@ -71,7 +71,7 @@ export function LandmarksPart(): ReactNode {
             <button
               type="button"
               className="landmark-name"
-              aria-label={`${words.show}: ${one.name}`}
+              aria-label={`${texts.show}: ${one.name}`}
               onClick={() => {
                 goTo(one.point_lps_mm);
               }}
@@ -81,8 +81,8 @@ export function LandmarksPart(): ReactNode {
             <button
               type="button"
               disabled={busy}
-              aria-label={`${words.moveHere}: ${one.name}`}
-              title={words.moveHere}
+              aria-label={`${texts.moveHere}: ${one.name}`}
+              title={texts.moveHere}
               onClick={() => {
                 put(
                   landmarks.map((other) => (other === one ? { ...one, point_lps_mm: look.cursor } : other)),
@@ -94,8 +94,8 @@ export function LandmarksPart(): ReactNode {
             <button
               type="button"
               disabled={busy}
-              aria-label={`${words.remove}: ${one.name}`}
-              title={words.remove}
+              aria-label={`${texts.remove}: ${one.name}`}
+              title={texts.remove}
               onClick={() => {
                 put(landmarks.filter((other) => other !== one));
               }}

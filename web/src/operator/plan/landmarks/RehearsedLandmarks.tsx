@@ -4,7 +4,7 @@ import { answered, server } from "../../../rest/client";
 import { RejectionNote } from "../../../rest/RejectionNote";
 import { useRehearsal } from "../../../rest/useRehearsal";
 import { useDo } from "../../../rest/useDo";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { vec3 } from "../slices/vectors";
 import type { Landmark } from "../state/shape";
 
@@ -16,7 +16,7 @@ export function RehearsedLandmarks({
   busy: boolean;
   onTake: (landmarks: Landmark[]) => void;
 }): ReactNode {
-  const words = useWords().plan.landmarks;
+  const texts = useTexts().plan.landmarks;
   const rehearsal = useRehearsal();
   const asking = useDo();
   if (rehearsal.data === null) return null;
@@ -30,7 +30,7 @@ export function RehearsedLandmarks({
   };
   return (
     <div className="rehearsal-offer">
-      <p>{words.rehearsal}</p>
+      <p>{texts.rehearsal}</p>
       <Button
         size="lg"
         variant="default"
@@ -38,7 +38,7 @@ export function RehearsedLandmarks({
         data-testid="rehearsed-landmarks"
         onClick={take}
       >
-        {words.takeRehearsed}
+        {texts.takeRehearsed}
       </Button>
       <RejectionNote rejection={asking.rejection} />
     </div>

@@ -4,7 +4,7 @@ import { shownNumber } from "../../../live/rounding";
 import { answered, server } from "../../../rest/client";
 import { RejectionNote } from "../../../rest/RejectionNote";
 import { useDo } from "../../../rest/useDo";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { useIntoView } from "../../parts/useIntoView";
 import { VertebraChooser } from "../pedicle/VertebraChooser";
 import { CursorPad } from "../slices/CursorPad";
@@ -19,7 +19,7 @@ const STEP_MM = 0.5;
 
 /** The slice that stands for a vertebra, and the three lines by which needles are registered. */
 export function LinesPart(): ReactNode {
-  const words = useWords().plan.lines;
+  const texts = useTexts().plan.lines;
   const { plan, vertebra, change, busy } = usePlanning();
   const { ct, look, goTo, setPlane } = useSlices();
   const { apartMm, setApartMm } = useWork();
@@ -29,7 +29,7 @@ export function LinesPart(): ReactNode {
   const laid = useIntoView<HTMLElement>(
     isLaidHere && reference !== null ? String(plan?.heading.version ?? 0) : null,
   );
-  if (vertebra === null) return <p>{words.noVertebra}</p>;
+  if (vertebra === null) return <p>{texts.noVertebra}</p>;
   const { name } = vertebra;
   const showProposal = (): void => {
     void asking.run(async () => {
@@ -58,7 +58,7 @@ export function LinesPart(): ReactNode {
   return (
     <>
       <VertebraChooser />
-      <p>{words.hint}</p>
+      <p>{texts.hint}</p>
       <Button
         size="lg"
         variant="default"
@@ -67,30 +67,30 @@ export function LinesPart(): ReactNode {
         data-testid="propose-slice"
         onClick={showProposal}
       >
-        {words.propose}
+        {texts.propose}
       </Button>
       <RejectionNote rejection={asking.rejection} />
       <CursorPad />
       <Stepper
         name="apart"
-        label={words.apart}
+        label={texts.apart}
         value={`${shownNumber(apartMm, 1)} mm`}
         onStep={(direction) => {
           setApartMm(Math.min(100, Math.max(1, apartMm + direction * STEP_MM)));
         }}
       />
       <Button size="xl" fullWidth disabled={busy} data-testid="lay-lines" onClick={lay}>
-        {reference === null ? words.lay : words.layAnew}
+        {reference === null ? texts.lay : texts.layAnew}
       </Button>
       {reference !== null && (
         <figure className="reference" ref={laid}>
           <img
             src={`/api/plan/vertebrae/${encodeURIComponent(name)}/reference.png?version=${plan?.heading.version ?? 0}`}
-            alt={words.alt}
+            alt={texts.alt}
             data-testid="reference"
           />
           <figcaption>
-            {words.slice} {reference.slice_index} · {shownNumber(reference.apart_mm, 1)} mm {words.toSides}
+            {texts.slice} {reference.slice_index} · {shownNumber(reference.apart_mm, 1)} mm {texts.toSides}
           </figcaption>
         </figure>
       )}

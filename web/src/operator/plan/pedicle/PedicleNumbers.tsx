@@ -2,7 +2,7 @@ import { Alert, Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { shownNumber } from "../../../live/rounding";
 import { answered, server } from "../../../rest/client";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { useSlices } from "../slices/SlicesContext";
 import { usePlanning } from "../state/PlanContext";
 import { NUMBERS, type NumberName, type Numbers, type PedicleRecord } from "../state/shape";
@@ -13,7 +13,7 @@ const unitOf = (name: NumberName): string => (name.endsWith("_deg") ? "°" : "mm
 
 /** What was measured, how sure it is, what to know of it; and other numbers in its place, by hand. */
 export function PedicleNumbers({ record, vertebra }: { record: PedicleRecord; vertebra: string }): ReactNode {
-  const words = useWords().plan.pedicle;
+  const texts = useTexts().plan.pedicle;
   const { change, busy } = usePlanning();
   const { goTo } = useSlices();
   const { measured, corrected } = record;
@@ -33,18 +33,18 @@ export function PedicleNumbers({ record, vertebra }: { record: PedicleRecord; ve
   const isCorrected = Object.keys(corrected).length > 0;
   return (
     <section className="pedicle-numbers" aria-labelledby="pedicle-numbers">
-      <h4 id="pedicle-numbers">{words.numbers}</h4>
+      <h4 id="pedicle-numbers">{texts.numbers}</h4>
       {draft === null ? (
         <dl className="figures" data-testid="pedicle-numbers">
           {NUMBERS.map((name) => (
             <div key={name} className="figure">
-              <dt>{words.number[name]}</dt>
+              <dt>{texts.number[name]}</dt>
               <dd>
                 {shownNumber(corrected[name] ?? measured[name], 1)} {unitOf(name)}
                 <span className="soft">
                   {corrected[name] === undefined
                     ? ` ± ${shownNumber(measured.sd[name], 1)}`
-                    : ` ${words.byHand} (${shownNumber(measured[name], 1)})`}
+                    : ` ${texts.byHand} (${shownNumber(measured[name], 1)})`}
                 </span>
               </dd>
             </div>
@@ -55,7 +55,7 @@ export function PedicleNumbers({ record, vertebra }: { record: PedicleRecord; ve
           <Stepper
             key={name}
             name={name}
-            label={words.number[name]}
+            label={texts.number[name]}
             value={`${shownNumber(now[name] ?? measured[name], 1)} ${unitOf(name)}`}
             onStep={(direction) => {
               const value = (now[name] ?? measured[name]) + direction * STEP[name];
@@ -75,7 +75,7 @@ export function PedicleNumbers({ record, vertebra }: { record: PedicleRecord; ve
             goTo(measured.isthmus_lps_mm);
           }}
         >
-          {words.show}
+          {texts.show}
         </Button>
         {draft === null ? (
           <Button
@@ -86,7 +86,7 @@ export function PedicleNumbers({ record, vertebra }: { record: PedicleRecord; ve
               setDraft({ ...corrected });
             }}
           >
-            {words.correct}
+            {texts.correct}
           </Button>
         ) : (
           <>
@@ -98,7 +98,7 @@ export function PedicleNumbers({ record, vertebra }: { record: PedicleRecord; ve
                 keep(draft);
               }}
             >
-              {words.keep}
+              {texts.keep}
             </Button>
             <Button
               size="lg"
@@ -107,7 +107,7 @@ export function PedicleNumbers({ record, vertebra }: { record: PedicleRecord; ve
                 setDraft(null);
               }}
             >
-              {words.discard}
+              {texts.discard}
             </Button>
           </>
         )}
@@ -120,7 +120,7 @@ export function PedicleNumbers({ record, vertebra }: { record: PedicleRecord; ve
               keep({});
             }}
           >
-            {words.asMeasured}
+            {texts.asMeasured}
           </Button>
         )}
       </div>

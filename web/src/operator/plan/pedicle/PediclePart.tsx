@@ -5,7 +5,7 @@ import { JobProgress } from "../../../rest/JobProgress";
 import { RejectionNote } from "../../../rest/RejectionNote";
 import { useDo } from "../../../rest/useDo";
 import { isOver, useJob } from "../../../rest/useJob";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { useIntoView } from "../../parts/useIntoView";
 import { CursorPad } from "../slices/CursorPad";
 import { useSlices } from "../slices/SlicesContext";
@@ -19,7 +19,7 @@ import { VertebraChooser } from "./VertebraChooser";
 
 /** A level is named, its pedicle tapped on, adjusted, measured. */
 export function PediclePart(): ReactNode {
-  const words = useWords().plan.pedicle;
+  const texts = useTexts().plan.pedicle;
   const { plan, vertebra, side, by, change, changedTo, busy } = usePlanning();
   const { look, goTo } = useSlices();
   const { setPart } = useWork();
@@ -37,8 +37,8 @@ export function PediclePart(): ReactNode {
   if (vertebra === null) {
     return (
       <>
-        <h3>{words.title}</h3>
-        <p>{words.noVertebra}</p>
+        <h3>{texts.title}</h3>
+        <p>{texts.noVertebra}</p>
         <VertebraChooser />
       </>
     );
@@ -73,10 +73,10 @@ export function PediclePart(): ReactNode {
     <>
       <VertebraChooser />
       <SideChooser />
-      <p>{words.tap[side]}</p>
+      <p>{texts.tap[side]}</p>
       <CursorPad />
       <Button size="xl" fullWidth disabled={isMeasuring || busy} data-testid="measure" onClick={measure}>
-        {record === null ? words.measure[side] : words.again[side]}
+        {record === null ? texts.measure[side] : texts.again[side]}
       </Button>
       <RejectionNote rejection={asking.rejection} />
       <JobProgress followed={job} />
@@ -88,7 +88,7 @@ export function PediclePart(): ReactNode {
             goTo(doubtfulAt);
           }}
         >
-          {words.showDoubtful}
+          {texts.showDoubtful}
         </Button>
       )}
       {record !== null && (
@@ -96,7 +96,7 @@ export function PediclePart(): ReactNode {
           <PedicleNumbers key={now} record={record} vertebra={name} />
           {!vertebra.channels.some((one) => one.side === side) && (
             <Button size="xl" fullWidth disabled={busy} data-testid="lay-channel" onClick={layChannel}>
-              {words.layChannel}
+              {texts.layChannel}
             </Button>
           )}
         </div>

@@ -1,7 +1,7 @@
 import { Button, Modal } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { usePlanning } from "../state/PlanContext";
 
 const range = (letter: string, last: number): string[] =>
@@ -10,7 +10,7 @@ const LEVELS = [range("C", 7), range("T", 12), range("L", 5), ["S1"]];
 
 /** Which vertebra is planned, and one more by a tap on its level. */
 export function VertebraChooser(): ReactNode {
-  const words = useWords().plan.vertebra;
+  const texts = useTexts().plan.vertebra;
   const { vertebrae, vertebra, setVertebra, change, busy } = usePlanning();
   const [isAdding, setAdding] = useState(false);
   const add = (name: string): void => {
@@ -22,7 +22,7 @@ export function VertebraChooser(): ReactNode {
     );
   };
   return (
-    <div className="vertebrae" role="group" aria-label={words.title}>
+    <div className="vertebrae" role="group" aria-label={texts.title}>
       {vertebrae.map((one) => (
         <button
           key={one.name}
@@ -46,16 +46,16 @@ export function VertebraChooser(): ReactNode {
           setAdding(true);
         }}
       >
-        + {words.add}
+        + {texts.add}
       </button>
       <Modal
         opened={isAdding}
         onClose={() => {
           setAdding(false);
         }}
-        title={words.which}
+        title={texts.which}
         size="lg"
-        closeButtonProps={{ size: 48, "aria-label": words.close }}
+        closeButtonProps={{ size: 48, "aria-label": texts.close }}
       >
         {LEVELS.map((levels) => (
           <div key={levels[0]} className="levels">

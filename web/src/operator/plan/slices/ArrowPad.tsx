@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 
 const ARROWS = [
   { way: "up", sign: "▲", right: 0, down: -1 },
@@ -18,7 +18,7 @@ interface ArrowPadProps {
 
 /** Four buttons around, each as large as a gloved finger. */
 export function ArrowPad({ name, label, disabled = false, onMove }: ArrowPadProps): ReactNode {
-  const words = useWords().plan.arrows;
+  const texts = useTexts().plan.arrows;
   return (
     <div className="arrow-pad" role="group" aria-label={label}>
       {ARROWS.map(({ way, sign, right, down }) => (
@@ -28,7 +28,7 @@ export function ArrowPad({ name, label, disabled = false, onMove }: ArrowPadProp
           data-way={way}
           data-testid={`${name}-${way}`}
           disabled={disabled}
-          aria-label={`${label}: ${words[way]}`}
+          aria-label={`${label}: ${texts[way]}`}
           onClick={() => {
             onMove(right, down);
           }}

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { shownNumber } from "../../../live/rounding";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { ArrowPad } from "./ArrowPad";
 import { downOf, rightOf } from "./place";
 import { useSlices } from "./SlicesContext";
@@ -10,7 +10,7 @@ const STEP_MM = 0.5;
 
 /** The cross moved by half a millimetre on the large slice: what a glove covers is set with these. */
 export function CursorPad(): ReactNode {
-  const words = useWords().plan.cross;
+  const texts = useTexts().plan.cross;
   const { look, goTo, largePlace } = useSlices();
   const move = (right: number, down: number): void => {
     const place = largePlace();
@@ -20,16 +20,16 @@ export function CursorPad(): ReactNode {
   };
   return (
     <div className="cursor-pad">
-      <ArrowPad name="cross" label={words.title} onMove={move} />
+      <ArrowPad name="cross" label={texts.title} onMove={move} />
       <p data-testid="cursor">
-        {words.at}
+        {texts.at}
         <br />
-        {words.axes.map((axis, i) => (
+        {texts.axes.map((axis, i) => (
           <span key={axis} className="coordinate">
             {axis} {shownNumber(look.cursor[i as 0 | 1 | 2], 1)}
           </span>
         ))}
-        <span className="soft">{words.step}</span>
+        <span className="soft">{texts.step}</span>
       </p>
     </div>
   );

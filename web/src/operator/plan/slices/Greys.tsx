@@ -1,11 +1,11 @@
 import { Button, Slider } from "@mantine/core";
 import type { ReactNode } from "react";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { useSlices } from "./SlicesContext";
 
 /** Which Hounsfield units are black and which white: by name, or by two sliders. */
 export function Greys(): ReactNode {
-  const words = useWords().plan.slices;
+  const texts = useTexts().plan.slices;
   const { ct, look, setGreys } = useSlices();
   const { window_hu, level_hu } = look.greys;
   return (
@@ -21,12 +21,12 @@ export function Greys(): ReactNode {
               setGreys(one);
             }}
           >
-            {name in words.preset ? words.preset[name as keyof typeof words.preset] : name}
+            {name in texts.preset ? texts.preset[name as keyof typeof texts.preset] : name}
           </Button>
         ))}
       </div>
       <p id="greys-window">
-        {words.window}: {window_hu} HU
+        {texts.window}: {window_hu} HU
       </p>
       <Slider
         size="xl"
@@ -42,7 +42,7 @@ export function Greys(): ReactNode {
         }}
       />
       <p id="greys-level">
-        {words.level}: {level_hu} HU
+        {texts.level}: {level_hu} HU
       </p>
       <Slider
         size="xl"

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { Icon } from "../../../panes/Icon";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import type { PlaneName } from "./address";
 import type { Projection } from "./projection";
 import { useSlices } from "./SlicesContext";
@@ -15,11 +15,11 @@ interface PlanesProps {
 
 /** One plane large, the others small beside it; all go through the cross. */
 export function Planes({ drawing }: PlanesProps): ReactNode {
-  const words = useWords().plan.slices;
+  const texts = useTexts().plan.slices;
   const { plane, setPlane, look } = useSlices();
   const there = ALL.filter((one) => look.way !== null || (one !== "along" && one !== "across"));
   return (
-    <section className="planes" aria-label={words.title}>
+    <section className="planes" aria-label={texts.title}>
       <div className="planes-large">
         <SliceView key={plane} plane={plane} isLarge drawing={(projection) => drawing(plane, projection)} />
       </div>
@@ -32,7 +32,7 @@ export function Planes({ drawing }: PlanesProps): ReactNode {
               <button
                 type="button"
                 className="planes-enlarge"
-                aria-label={words.enlarge[one]}
+                aria-label={texts.enlarge[one]}
                 data-testid={`enlarge-${one}`}
                 onClick={() => {
                   setPlane(one);

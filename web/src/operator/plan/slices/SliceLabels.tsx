@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { shownNumber } from "../../../live/rounding";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { isFlat, type PlaneName } from "./address";
 import type { Projection } from "./projection";
 import { rulerMm } from "./zoom";
@@ -16,15 +16,15 @@ interface SliceLabelsProps {
 
 /** Which side of the patient lies where, how long a millimetre is, and where the shown slice lies. */
 export function SliceLabels({ plane, projection, address, isLate, isLarge }: SliceLabelsProps): ReactNode {
-  const words = useWords().plan.slices;
+  const texts = useTexts().plan.slices;
   const { edges, at_mm } = projection.place;
   const asked = new URL(address, location.origin).searchParams;
   const ruler = rulerMm(projection.pxPerMm, isLarge ? 140 : 70);
   const where = isFlat(plane)
-    ? `${words.axis[plane]} ${shownNumber(at_mm, 1)} mm`
+    ? `${texts.axis[plane]} ${shownNumber(at_mm, 1)} mm`
     : plane === "along"
-      ? `${words.turned} ${asked.get("rotation_deg") ?? ""}°`
-      : `${words.deep} ${shownNumber(Number(asked.get("depth_mm")), 1)} mm`;
+      ? `${texts.turned} ${asked.get("rotation_deg") ?? ""}°`
+      : `${texts.deep} ${shownNumber(Number(asked.get("depth_mm")), 1)} mm`;
   return (
     <>
       <span className="slice-edge slice-edge-left">{edges.left}</span>
@@ -32,8 +32,8 @@ export function SliceLabels({ plane, projection, address, isLate, isLarge }: Sli
       <span className="slice-edge slice-edge-top">{edges.top}</span>
       <span className="slice-edge slice-edge-bottom">{edges.bottom}</span>
       <p className="slice-where" data-testid={`where-${plane}`}>
-        <strong>{words.plane[plane]}</strong> {where}
-        {isLate && <span className="slice-late"> · {words.late}</span>}
+        <strong>{texts.plane[plane]}</strong> {where}
+        {isLate && <span className="slice-late"> · {texts.late}</span>}
       </p>
       <p className="slice-ruler">
         <span style={{ width: `${ruler * projection.pxPerMm}px` }} />

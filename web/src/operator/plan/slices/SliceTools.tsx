@@ -1,6 +1,6 @@
 import { Button, Popover, SegmentedControl } from "@mantine/core";
 import type { ReactNode } from "react";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { Greys } from "./Greys";
 import { useSlices, type Hand } from "./SlicesContext";
 
@@ -8,14 +8,14 @@ const HANDS: readonly Hand[] = ["scroll", "greys", "move"];
 
 /** What one finger does, one slice on or back, the greys, and the whole picture. */
 export function SliceTools(): ReactNode {
-  const words = useWords().plan.slices;
+  const texts = useTexts().plan.slices;
   const { plane, hand, setHand, scroll, setZoom } = useSlices();
   return (
-    <div className="slice-tools" role="toolbar" aria-label={words.tools}>
+    <div className="slice-tools" role="toolbar" aria-label={texts.tools}>
       <Button
         size="lg"
         variant="default"
-        aria-label={words.back}
+        aria-label={texts.back}
         data-testid="slice-back"
         onClick={() => {
           scroll(plane, -1);
@@ -26,7 +26,7 @@ export function SliceTools(): ReactNode {
       <Button
         size="lg"
         variant="default"
-        aria-label={words.on}
+        aria-label={texts.on}
         data-testid="slice-on"
         onClick={() => {
           scroll(plane, 1);
@@ -37,14 +37,14 @@ export function SliceTools(): ReactNode {
       <SegmentedControl
         size="md"
         value={hand}
-        aria-label={words.finger}
-        data={HANDS.map((one) => ({ value: one, label: words.hand[one] }))}
+        aria-label={texts.finger}
+        data={HANDS.map((one) => ({ value: one, label: texts.hand[one] }))}
         onChange={setHand}
       />
       <Popover position="top" width={360} withArrow>
         <Popover.Target>
           <Button size="lg" variant="default" data-testid="greys">
-            {words.greys}
+            {texts.greys}
           </Button>
         </Popover.Target>
         <Popover.Dropdown>
@@ -59,7 +59,7 @@ export function SliceTools(): ReactNode {
           setZoom(plane, null);
         }}
       >
-        {words.whole}
+        {texts.whole}
       </Button>
     </div>
   );

@@ -10,7 +10,7 @@ import {
 } from "react";
 import { Rejection } from "../../../rest/client";
 import { RejectionNote } from "../../../rest/RejectionNote";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { addressOf, neighboursOf, type PlaneName } from "./address";
 import { OtherCt } from "./loadSlice";
 import { SliceLabels } from "./SliceLabels";
@@ -37,7 +37,7 @@ const KEY_STEPS = new Map([
 
 /** One slice, scrolled, zoomed and tapped on; what is printed on it is its own place, not the asked one. */
 export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNode {
-  const words = useWords().plan.slices;
+  const texts = useTexts().plan.slices;
   const slices = useSlices();
   const { ct, look, zooms, setZoom, goTo, scroll, setGreys, lookAnew } = slices;
   const address = addressOf(plane, look, ct);
@@ -101,8 +101,8 @@ export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNod
       data-testid={`slice-${plane}`}
       ref={merged}
       role="application"
-      aria-label={words.viewLabel[plane]}
-      aria-roledescription={words.viewRole}
+      aria-label={texts.viewLabel[plane]}
+      aria-roledescription={texts.viewRole}
       tabIndex={0}
       onKeyDown={onKeyDown}
     >
@@ -122,9 +122,9 @@ export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNod
         />
       )}
       {problem instanceof OtherCt && (
-        <Alert className="consequence slice-trouble" title={words.otherCt}>
+        <Alert className="consequence slice-trouble" title={texts.otherCt}>
           <Button size="lg" data-testid="look-at-other-ct" onClick={lookAnew}>
-            {words.lookAtOther}
+            {texts.lookAtOther}
           </Button>
         </Alert>
       )}
@@ -132,11 +132,11 @@ export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNod
         <div className="slice-trouble">
           <RejectionNote rejection={problem} />
           <Button size="lg" onClick={again}>
-            {words.again}
+            {texts.again}
           </Button>
         </div>
       )}
-      {shown === null && problem === null && <p className="slice-waiting">{words.waiting}</p>}
+      {shown === null && problem === null && <p className="slice-waiting">{texts.waiting}</p>}
     </div>
   );
 }

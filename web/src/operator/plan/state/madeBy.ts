@@ -1,10 +1,10 @@
 import { useSession } from "../../../app/session";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 
 /** The name under which a change is stored: of who is signed in. */
 export function useMadeBy(): string {
   const { session } = useSession();
-  const words = useWords().plan;
+  const texts = useTexts().plan;
   const name = session.state === "in" ? session.who.name.trim() : "";
-  return name === "" ? words.nobodyNamed : name;
+  return name === "" ? texts.nobodyNamed : name;
 }

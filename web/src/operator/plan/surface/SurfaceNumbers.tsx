@@ -2,7 +2,7 @@ import { Alert } from "@mantine/core";
 import type { ReactNode } from "react";
 import { shownNumber } from "../../../live/rounding";
 import type { components } from "../../../schema";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { vec3 } from "../slices/vectors";
 
 type Surface = components["schemas"]["DocumentMessage"];
@@ -14,35 +14,35 @@ interface Remark {
 
 /** Where the surface comes from, how large it is, and what to know of it. */
 export function SurfaceNumbers({ surface }: { surface: Surface }): ReactNode {
-  const words = useWords().plan.surface;
+  const texts = useTexts().plan.surface;
   const { content, heading } = surface;
   const [low, high] = [vec3(content["low_lps_mm"]), vec3(content["high_lps_mm"])];
   const remarks = Array.isArray(content["remarks"]) ? (content["remarks"] as Remark[]) : [];
   return (
     <div data-testid="surface-numbers">
       {heading.out_of_date !== null && (
-        <Alert className="consequence" title={words.outOfDate}>
+        <Alert className="consequence" title={texts.outOfDate}>
           {heading.out_of_date}
         </Alert>
       )}
       <dl className="figures">
         <div className="figure">
-          <dt>{words.source}</dt>
-          <dd>{content["source"] === "ct" ? words.fromCt : words.fromFile}</dd>
+          <dt>{texts.source}</dt>
+          <dd>{content["source"] === "ct" ? texts.fromCt : texts.fromFile}</dd>
         </div>
         <div className="figure">
-          <dt>{words.faces}</dt>
+          <dt>{texts.faces}</dt>
           <dd>{Number(content["faces"]).toLocaleString(document.documentElement.lang)}</dd>
         </div>
         {low !== null && high !== null && (
           <div className="figure">
-            <dt>{words.size}</dt>
+            <dt>{texts.size}</dt>
             <dd>{high.map((one, i) => shownNumber(one - (low[i] ?? 0), 0)).join(" × ")} mm</dd>
           </div>
         )}
         {typeof content["threshold_hu"] === "number" && (
           <div className="figure">
-            <dt>{words.threshold}</dt>
+            <dt>{texts.threshold}</dt>
             <dd>{shownNumber(content["threshold_hu"], 0)} HU</dd>
           </div>
         )}

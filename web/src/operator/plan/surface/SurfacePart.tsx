@@ -8,7 +8,7 @@ import { Unanswered } from "../../../rest/Unanswered";
 import { useAsked } from "../../../rest/useAsked";
 import { useDo } from "../../../rest/useDo";
 import { isOver, useJob } from "../../../rest/useJob";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { FileButtons } from "../ct/FileButtons";
 import { UploadProgress } from "../ct/UploadProgress";
 import { useUpload } from "../ct/useUpload";
@@ -22,7 +22,7 @@ const UNITS = ["mm", "cm", "m", "inch", "um"] as const;
 
 /** The bone's surface, made out of the CT or sent as triangles; shown in the 3-D scene beside. */
 export function SurfacePart(): ReactNode {
-  const words = useWords().plan.surface;
+  const texts = useTexts().plan.surface;
   const madeBy = useMadeBy();
   const [unit, setUnit] = useState("");
   const { caseId } = usePlanning();
@@ -57,36 +57,36 @@ export function SurfacePart(): ReactNode {
   const proposed = job.job?.problem?.context["proposed_unit"];
   return (
     <>
-      <h3>{words.title}</h3>
-      <p>{words.hint}</p>
-      {surface.data === "none" && <p className="soft">{words.none}</p>}
+      <h3>{texts.title}</h3>
+      <p>{texts.hint}</p>
+      {surface.data === "none" && <p className="soft">{texts.none}</p>}
       {surface.data === null && <Unanswered asked={surface} />}
       {found !== null && <SurfaceNumbers surface={found} />}
       <Button size="xl" fullWidth disabled={isBusy} data-testid="make-surface" onClick={make}>
-        {found === null ? words.make : words.makeAnew}
+        {found === null ? texts.make : texts.makeAnew}
       </Button>
       <RejectionNote rejection={asking.rejection} />
       <JobProgress followed={job} />
       {typeof proposed === "string" && (
-        <Alert className="consequence" title={`${words.proposedUnit} ${proposed}`}>
-          {words.sayUnit}
+        <Alert className="consequence" title={`${texts.proposedUnit} ${proposed}`}>
+          {texts.sayUnit}
         </Alert>
       )}
       <UploadProgress upload={upload} />
       <NativeSelect
         size="lg"
-        label={words.unit}
+        label={texts.unit}
         value={unit}
         data={[
-          { value: "", label: words.unitUnsaid },
-          ...UNITS.map((one) => ({ value: one, label: words.units[one] })),
+          { value: "", label: texts.unitUnsaid },
+          ...UNITS.map((one) => ({ value: one, label: texts.units[one] })),
         ]}
         onChange={(event) => {
           setUnit(event.currentTarget.value);
         }}
       />
       <FileButtons
-        words={{ file: words.send }}
+        texts={{ file: texts.send }}
         accept=".stl,.obj,.ply"
         disabled={isBusy}
         onFiles={(files) => {
@@ -95,7 +95,7 @@ export function SurfacePart(): ReactNode {
         }}
       />
       <p className="soft">
-        {shownNumber(100, 0)} MB {words.most}
+        {shownNumber(100, 0)} MB {texts.most}
       </p>
     </>
   );

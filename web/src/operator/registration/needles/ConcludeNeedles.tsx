@@ -3,7 +3,7 @@ import type { ReactNode } from "react";
 import { useLocation } from "wouter";
 import { answered, server } from "../../../rest/client";
 import { useDo } from "../../../rest/useDo";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
 import { Rejected } from "../Rejected";
 import { SureButton } from "../SureButton";
@@ -38,7 +38,7 @@ export function ConcludeNeedles({
   onRelease,
   children,
 }: ConcludeNeedlesProps): ReactNode {
-  const words = useWords().registration;
+  const texts = useTexts().registration;
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const [, navigate] = useLocation();
@@ -50,19 +50,19 @@ export function ConcludeNeedles({
       <Rejected rejection={doing.rejection} />
       {held ? (
         <>
-          <p className="warning">▲ {words.needles.heldNoFit}</p>
+          <p className="warning">▲ {texts.needles.heldNoFit}</p>
           {onRelease !== undefined && (
             <Button size="lg" color="yellow" onClick={onRelease}>
-              {words.held.release}
+              {texts.held.release}
             </Button>
           )}
         </>
       ) : (
-        <p className="quiet">{words.needles.fitsLive}</p>
+        <p className="quiet">{texts.needles.fitsLive}</p>
       )}
       <SureButton
         ask={isThere}
-        sure={words.replaceSure}
+        sure={texts.replaceSure}
         disabled={disabled || held}
         busy={doing.busy}
         testId="needles-conclude"

@@ -1,5 +1,5 @@
 import { useEffect, useRef, type ReactNode } from "react";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { useImageSize } from "../useImageSize";
 import { applied, type Px } from "./overlay";
 import type { OverlayDesk } from "./overlayDesk";
@@ -12,7 +12,7 @@ interface LineLayerProps {
 
 /** The needles' planned lines, from the bone outwards, on which the needles shall lie. */
 export function LineLayer({ desk, names }: LineLayerProps): ReactNode {
-  const words = useWords().registration.needles;
+  const texts = useTexts().registration.needles;
   const nameOf = useNeedleNames();
   const { widthPx, heightPx } = useImageSize();
   const group = useRef<SVGGElement>(null);
@@ -34,7 +34,7 @@ export function LineLayer({ desk, names }: LineLayerProps): ReactNode {
       className="lines"
       viewBox={`-0.5 -0.5 ${widthPx} ${heightPx}`}
       role="img"
-      aria-label={words.linesAlt}
+      aria-label={texts.linesAlt}
     >
       <g ref={group} data-testid="lines">
         {names.map((name, index) => (

@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { useImageSize } from "../useImageSize";
 import type { Marking } from "./marks";
 import { useNeedleNames } from "./useNeedleNames";
@@ -13,7 +13,7 @@ interface MarkLayerProps {
 
 /** Needles in the picture: a ring where each comes out of the bone, a line, a disc at its head, its name. */
 export function MarkLayer({ marks, names, lines = [] }: MarkLayerProps): ReactNode {
-  const words = useWords().registration.needles;
+  const texts = useTexts().registration.needles;
   const nameOf = useNeedleNames();
   const { widthPx, heightPx } = useImageSize();
   return (
@@ -21,7 +21,7 @@ export function MarkLayer({ marks, names, lines = [] }: MarkLayerProps): ReactNo
       className="lines"
       viewBox={`-0.5 -0.5 ${widthPx} ${heightPx}`}
       role="img"
-      aria-label={words.marksAlt}
+      aria-label={texts.marksAlt}
       data-testid="marks"
     >
       {lines.map((line, index) => (

@@ -1,8 +1,8 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode, type RefObject } from "react";
 import { Icon } from "../../../panes/Icon";
-import { useWords } from "../../../words/WordsContext";
-import { filled } from "../../../words/filled";
+import { useTexts } from "../../../texts/TextsContext";
+import { interpolate } from "../../../texts/interpolate";
 import { ConcludeNeedles } from "./ConcludeNeedles";
 import { Magnifier } from "./Magnifier";
 import { nextEnd, withEnd, type End, type Mark } from "./marks";
@@ -30,7 +30,7 @@ interface MarkPanelProps {
 
 /** Needles touched in the picture one after the other: where each leaves the bone, then its head. */
 export function MarkPanel({ order, names, marks, onMarks, stage, picture, held }: MarkPanelProps): ReactNode {
-  const words = useWords().registration;
+  const texts = useTexts().registration;
   const nameOf = useNeedleNames();
   const [chosen, setChosen] = useState<End | null>(null);
   const placed = marks.filter(
@@ -62,21 +62,21 @@ export function MarkPanel({ order, names, marks, onMarks, stage, picture, held }
     <section className="card">
       <p data-testid="mark-next">
         {next === null
-          ? words.mark.all
-          : filled(next.end === "entry_px" ? words.mark.entry : words.mark.head, {
+          ? texts.mark.all
+          : interpolate(next.end === "entry_px" ? texts.mark.entry : texts.mark.head, {
               needle: nameOf(names[next.needle] ?? ""),
               number: next.needle + 1,
             })}
       </p>
       <div className="row">
-        <Magnifier picture={picture} at={at} name={words.mark.magnifier} />
-        <div className="pad" role="group" aria-label={words.mark.adjust}>
+        <Magnifier picture={picture} at={at} name={texts.mark.magnifier} />
+        <div className="pad" role="group" aria-label={texts.mark.adjust}>
           {WAYS.map(([symbol, way, by]) => (
             <Button
               key={way}
               size="lg"
               variant="default"
-              aria-label={words.overlay[way]}
+              aria-label={texts.overlay[way]}
               disabled={at === null}
               onClick={() => {
                 nudge(by);
@@ -98,7 +98,7 @@ export function MarkPanel({ order, names, marks, onMarks, stage, picture, held }
             onMarks(marks.slice(0, -1));
           }}
         >
-          <Icon name="undo" /> {words.mark.undo}
+          <Icon name="undo" /> {texts.mark.undo}
         </Button>
         <Button
           size="lg"
@@ -109,17 +109,17 @@ export function MarkPanel({ order, names, marks, onMarks, stage, picture, held }
             onMarks([]);
           }}
         >
-          {words.mark.clear}
+          {texts.mark.clear}
         </Button>
       </div>
-      <p className="quiet">{words.mark.hint}</p>
+      <p className="quiet">{texts.mark.hint}</p>
       <ConcludeNeedles
         order={order}
         marked={placed}
         held={held}
         disabled={next !== null || names.length === 0}
       >
-        {words.mark.conclude}
+        {texts.mark.conclude}
       </ConcludeNeedles>
     </section>
   );

@@ -2,7 +2,7 @@ import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { Unanswered } from "../../../rest/Unanswered";
 import { useAsked } from "../../../rest/useAsked";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
 import { plannedVertebrae } from "../planRead";
 import { Rejected } from "../Rejected";
@@ -14,7 +14,7 @@ import type { NeedleRequest } from "./order";
 
 /** Registration by three needles: first what a ruler says and where the needles stand, then the picture. */
 export function NeedlesPage(): ReactNode {
-  const words = useWords().registration.needles;
+  const texts = useTexts().registration.needles;
   const caseId = useProcedure().data?.case_id ?? "";
   const plan = useAsked((signal) => answered(server.GET("/api/plan", { signal })));
   const known = remembered(caseId);
@@ -24,12 +24,12 @@ export function NeedlesPage(): ReactNode {
   if (plan.data === null) return <Unanswered asked={plan} Note={Rejected} />;
   const name = plan.data.active_channel?.vertebra ?? "";
   const vertebra = plannedVertebrae(plan.data.plan).find((one) => one.name === name);
-  if (vertebra === undefined) return <p className="warning">▲ {words.noVertebra}</p>;
+  if (vertebra === undefined) return <p className="warning">▲ {texts.noVertebra}</p>;
   const landmarks = chosen ?? (vertebra.hasReference ? [] : null);
   if (!measured || landmarks === null)
     return (
       <>
-        <p className="quiet">{words.intro}</p>
+        <p className="quiet">{texts.intro}</p>
         <RulerForm
           view={view}
           onView={setView}

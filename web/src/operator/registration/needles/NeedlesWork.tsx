@@ -1,8 +1,8 @@
 import { Button, SegmentedControl } from "@mantine/core";
 import { useEffect, useRef, useState, useSyncExternalStore, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
-import { useWords } from "../../../words/WordsContext";
-import { filled } from "../../../words/filled";
+import { useTexts } from "../../../texts/TextsContext";
+import { interpolate } from "../../../texts/interpolate";
 import type { PlannedVertebra } from "../planRead";
 import { Rejected } from "../Rejected";
 import { LiveStage } from "../LiveStage";
@@ -29,7 +29,7 @@ interface NeedlesWorkProps {
 
 /** The slice over the live picture, needles that the software found, or needles marked by hand. */
 export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWorkProps): ReactNode {
-  const words = useWords().registration.needles;
+  const texts = useTexts().registration.needles;
   const [desk] = useState(
     () =>
       new OverlayDesk((overlay) =>
@@ -75,13 +75,13 @@ export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWo
           {mode === "mark" && <MarkLayer marks={marks} names={names} />}
         </LiveStage>
         <p className="row quiet">
-          {filled(words.seenFrom, {
+          {interpolate(texts.seenFrom, {
             v: order.view.vertical_mm,
             h: order.view.horizontal_mm,
-            places: order.landmarks.length === 0 ? words.onLines : order.landmarks.join(", "),
+            places: order.landmarks.length === 0 ? texts.onLines : order.landmarks.join(", "),
           })}
           <Button size="md" variant="default" onClick={onRuler} data-testid="needles-ruler">
-            {words.changeRuler}
+            {texts.changeRuler}
           </Button>
           <Button
             size="md"
@@ -91,7 +91,7 @@ export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWo
               setPlacing(!placing);
             }}
           >
-            {words.changePlaces}
+            {texts.changePlaces}
           </Button>
         </p>
         {placing && <PlacesForm vertebra={vertebra} chosen={order.landmarks} onChosen={onLandmarks} />}
@@ -100,15 +100,15 @@ export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWo
         <SegmentedControl
           size="lg"
           fullWidth
-          aria-label={words.how}
+          aria-label={texts.how}
           value={mode}
           onChange={(value) => {
             setMode(value);
           }}
           data={[
-            { value: "overlay", label: words.overlay },
-            { value: "proposal", label: words.proposal },
-            { value: "mark", label: words.mark },
+            { value: "overlay", label: texts.overlay },
+            { value: "proposal", label: texts.proposal },
+            { value: "mark", label: texts.mark },
           ]}
         />
         <Rejected rejection={state.rejection} />

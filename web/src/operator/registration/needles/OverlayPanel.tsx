@@ -2,7 +2,7 @@ import { Button, SegmentedControl, Slider } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { shownNumber } from "../../../live/rounding";
 import { Icon } from "../../../panes/Icon";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { ConcludeNeedles } from "./ConcludeNeedles";
 import type { NeedleRequest } from "./order";
 import { faded, moved, placeOf, scaled, turned, type Overlay } from "./overlay";
@@ -23,28 +23,28 @@ interface OverlayPanelProps {
 
 /** Small steps for what fingers do roughly: move, turn, scale; fade, undo, and at last register. */
 export function OverlayPanel({ desk, state, order, held, onRelease }: OverlayPanelProps): ReactNode {
-  const words = useWords().registration.overlay;
+  const texts = useTexts().registration.overlay;
   const [size, setSize] = useState<keyof typeof STEPS>("coarse");
   const step = STEPS[size];
   const turn = (deg: number) => (hand: Overlay) => turned(hand, deg, placeOf(hand));
   const grow = (ratio: number) => (hand: Overlay) => scaled(hand, ratio, placeOf(hand));
   const pad: [ReactNode, string, (hand: Overlay) => Overlay][] = [
-    [<Icon key="left" name="turnLeft" />, words.turnLeft, turn(-step.deg)],
-    ["↑", words.up, (hand) => moved(hand, [0, -step.px])],
-    [<Icon key="right" name="turnRight" />, words.turnRight, turn(step.deg)],
-    ["←", words.left, (hand) => moved(hand, [-step.px, 0])],
-    ["↓", words.down, (hand) => moved(hand, [0, step.px])],
-    ["→", words.right, (hand) => moved(hand, [step.px, 0])],
-    ["−", words.smaller, grow(1 / step.ratio)],
-    ["+", words.larger, grow(step.ratio)],
+    [<Icon key="left" name="turnLeft" />, texts.turnLeft, turn(-step.deg)],
+    ["↑", texts.up, (hand) => moved(hand, [0, -step.px])],
+    [<Icon key="right" name="turnRight" />, texts.turnRight, turn(step.deg)],
+    ["←", texts.left, (hand) => moved(hand, [-step.px, 0])],
+    ["↓", texts.down, (hand) => moved(hand, [0, step.px])],
+    ["→", texts.right, (hand) => moved(hand, [step.px, 0])],
+    ["−", texts.smaller, grow(1 / step.ratio)],
+    ["+", texts.larger, grow(step.ratio)],
   ];
   const { hand } = state;
   return (
     <section className="card overlay-panel">
-      <p>{words.hint}</p>
+      <p>{texts.hint}</p>
       <label className="fade">
         <span>
-          {words.fade} {shownNumber(100 * (hand?.fade_ratio ?? 0.5), 0)} %
+          {texts.fade} {shownNumber(100 * (hand?.fade_ratio ?? 0.5), 0)} %
         </span>
         <Slider
           size="xl"
@@ -52,7 +52,7 @@ export function OverlayPanel({ desk, state, order, held, onRelease }: OverlayPan
           min={0}
           max={100}
           label={null}
-          thumbLabel={words.fade}
+          thumbLabel={texts.fade}
           data-testid="fade"
           value={100 * (hand?.fade_ratio ?? 0.5)}
           disabled={hand === null}
@@ -61,7 +61,7 @@ export function OverlayPanel({ desk, state, order, held, onRelease }: OverlayPan
           }}
         />
       </label>
-      <div className="pad" role="group" aria-label={words.pad}>
+      <div className="pad" role="group" aria-label={texts.pad}>
         {pad.map(([symbol, name, next]) => (
           <Button
             key={name}
@@ -79,14 +79,14 @@ export function OverlayPanel({ desk, state, order, held, onRelease }: OverlayPan
       </div>
       <SegmentedControl
         size="md"
-        aria-label={words.step}
+        aria-label={texts.step}
         value={size}
         onChange={(value) => {
           setSize(value === "fine" ? "fine" : "coarse");
         }}
         data={[
-          { value: "fine", label: words.fine },
-          { value: "coarse", label: words.coarse },
+          { value: "fine", label: texts.fine },
+          { value: "coarse", label: texts.coarse },
         ]}
       />
       <div className="row">
@@ -99,7 +99,7 @@ export function OverlayPanel({ desk, state, order, held, onRelease }: OverlayPan
             desk.undo();
           }}
         >
-          <Icon name="undo" /> {words.undo}
+          <Icon name="undo" /> {texts.undo}
         </Button>
         <Button
           size="lg"
@@ -109,7 +109,7 @@ export function OverlayPanel({ desk, state, order, held, onRelease }: OverlayPan
             desk.reset();
           }}
         >
-          {words.reset}
+          {texts.reset}
         </Button>
       </div>
       <p
@@ -118,9 +118,9 @@ export function OverlayPanel({ desk, state, order, held, onRelease }: OverlayPan
         data-overlay={JSON.stringify(hand)}
         className={state.settled ? "good" : "quiet"}
       >
-        {state.settled ? `✓ ${words.exact}` : `● ${words.following}`}
+        {state.settled ? `✓ ${texts.exact}` : `● ${texts.following}`}
       </p>
-      <p className="warning">▲ {words.blind}</p>
+      <p className="warning">▲ {texts.blind}</p>
       <ConcludeNeedles
         order={order}
         overlay={hand}
@@ -128,7 +128,7 @@ export function OverlayPanel({ desk, state, order, held, onRelease }: OverlayPan
         disabled={!state.settled}
         onRelease={onRelease}
       >
-        {words.conclude}
+        {texts.conclude}
       </ConcludeNeedles>
     </section>
   );

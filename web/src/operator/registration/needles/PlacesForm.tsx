@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { useWords } from "../../../words/WordsContext";
-import { filled } from "../../../words/filled";
+import { useTexts } from "../../../texts/TextsContext";
+import { interpolate } from "../../../texts/interpolate";
 import type { PlannedVertebra } from "../planRead";
 
 const NEEDLES = 3;
@@ -15,11 +15,11 @@ interface PlacesFormProps {
 
 /** Where the needles stand: on the three lines of the reference slice, or on landmarks of the plan. */
 export function PlacesForm({ vertebra, chosen, onChosen }: PlacesFormProps): ReactNode {
-  const words = useWords().registration.places;
+  const texts = useTexts().registration.places;
   const [names, setNames] = useState<readonly string[]>(chosen);
   return (
     <section className="card" data-testid="places">
-      <h3>{words.title}</h3>
+      <h3>{texts.title}</h3>
       <Button
         size="lg"
         variant={chosen.length === 0 && vertebra.hasReference ? "filled" : "default"}
@@ -29,10 +29,10 @@ export function PlacesForm({ vertebra, chosen, onChosen }: PlacesFormProps): Rea
           onChosen([]);
         }}
       >
-        {words.lines}
+        {texts.lines}
       </Button>
-      {!vertebra.hasReference && <p className="warning">▲ {words.noReference}</p>}
-      <p>{filled(words.orLandmarks, { count: NEEDLES })}</p>
+      {!vertebra.hasReference && <p className="warning">▲ {texts.noReference}</p>}
+      <p>{interpolate(texts.orLandmarks, { count: NEEDLES })}</p>
       <div className="row">
         {vertebra.landmarks.map((one) => {
           const at = names.indexOf(one.name);
@@ -60,7 +60,7 @@ export function PlacesForm({ vertebra, chosen, onChosen }: PlacesFormProps): Rea
           onChosen([...names]);
         }}
       >
-        {words.useLandmarks}
+        {texts.useLandmarks}
       </Button>
     </section>
   );

@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { shownFigure, shownNumber, shownPercent } from "../../../live/rounding";
-import { useWords } from "../../../words/WordsContext";
-import { filled } from "../../../words/filled";
+import { useTexts } from "../../../texts/TextsContext";
+import { interpolate } from "../../../texts/interpolate";
 import type { Proposal } from "./ProposalPanel";
 import { useNeedleNames } from "./useNeedleNames";
 
@@ -14,7 +14,7 @@ interface ProposalCardProps {
 
 /** One naming of the needles that were found: how far each lies from its place, in the image and in mm. */
 export function ProposalCard({ number, proposal, isPicked, onPick }: ProposalCardProps): ReactNode {
-  const words = useWords().registration.proposal;
+  const texts = useTexts().registration.proposal;
   const nameOf = useNeedleNames();
   const { laid, probability_ratio } = proposal;
   const depth = laid.directions[0];
@@ -27,15 +27,15 @@ export function ProposalCard({ number, proposal, isPicked, onPick }: ProposalCar
         onClick={onPick}
         data-testid={`proposal-${number}`}
       >
-        <strong>{filled(words.number, { number })}</strong>{" "}
-        <span>{filled(words.probability, { percent: shownPercent(probability_ratio) })}</span>
+        <strong>{interpolate(texts.number, { number })}</strong>{" "}
+        <span>{interpolate(texts.probability, { percent: shownPercent(probability_ratio) })}</span>
         <table>
           <thead>
             <tr>
-              <th>{words.needle}</th>
+              <th>{texts.needle}</th>
               <th>px</th>
               <th>mm</th>
-              <th>{words.lean}</th>
+              <th>{texts.lean}</th>
             </tr>
           </thead>
           <tbody>
@@ -50,7 +50,7 @@ export function ProposalCard({ number, proposal, isPicked, onPick }: ProposalCar
           </tbody>
         </table>
         {depth !== undefined && (
-          <small>{filled(words.depth, { sd: shownNumber(depth.sd, 1), unit: depth.unit })}</small>
+          <small>{interpolate(texts.depth, { sd: shownNumber(depth.sd, 1), unit: depth.unit })}</small>
         )}
       </button>
     </li>

@@ -3,7 +3,7 @@ import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { useDo } from "../../../rest/useDo";
 import type { components } from "../../../schema";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { Rejected } from "../Rejected";
 import { ConcludeNeedles } from "./ConcludeNeedles";
 import type { NeedleRequest } from "./order";
@@ -22,12 +22,12 @@ interface ProposalPanelProps {
 
 /** What the software takes for the needles, each likely naming of its own; only a person picks one. */
 export function ProposalPanel({ order, picked, held, onPick, onAdjust }: ProposalPanelProps): ReactNode {
-  const words = useWords().registration.proposal;
+  const texts = useTexts().registration.proposal;
   const [proposals, setProposals] = useState<Proposal[] | null>(null);
   const finding = useDo();
   return (
     <section className="card">
-      <p className="warning">▲ {words.oftenWrong}</p>
+      <p className="warning">▲ {texts.oftenWrong}</p>
       <Button
         size="lg"
         loading={finding.busy}
@@ -43,12 +43,12 @@ export function ProposalPanel({ order, picked, held, onPick, onAdjust }: Proposa
           });
         }}
       >
-        {proposals === null ? words.find : words.findAgain}
+        {proposals === null ? texts.find : texts.findAgain}
       </Button>
       <Rejected rejection={finding.rejection} />
       {proposals !== null && (
         <>
-          <p>{words.pick}</p>
+          <p>{texts.pick}</p>
           <ol className="proposals">
             {proposals.map((one, index) => (
               <ProposalCard
@@ -73,10 +73,10 @@ export function ProposalPanel({ order, picked, held, onPick, onAdjust }: Proposa
               onAdjust(picked);
             }}
           >
-            {words.adjust}
+            {texts.adjust}
           </Button>
           <ConcludeNeedles order={order} marked={picked.marked} picked held={held} disabled={false}>
-            {words.conclude}
+            {texts.conclude}
           </ConcludeNeedles>
         </>
       )}

@@ -1,6 +1,6 @@
 import { Button, SegmentedControl } from "@mantine/core";
 import type { ReactNode } from "react";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { RehearsalStrip } from "../RehearsalStrip";
 import { StepField } from "../StepField";
 import { viewOfTruth, type RuledView } from "./ruler";
@@ -16,16 +16,16 @@ interface RulerFormProps {
 
 /** What a ruler says of the camera: how far above and beside the vertebra, and at which end of the patient. */
 export function RulerForm({ view, onView, middleMm, done, onDone }: RulerFormProps): ReactNode {
-  const words = useWords().registration.ruler;
+  const texts = useTexts().registration.ruler;
   const fields = [
-    { name: "vertical_mm", label: words.vertical, unit: "mm", min: 20, max: 3000, step: 10 },
-    { name: "horizontal_mm", label: words.horizontal, unit: "mm", min: 1, max: 3000, step: 10 },
-    { name: "azimuth_deg", label: words.azimuth, unit: "°", min: -180, max: 180, step: 5 },
+    { name: "vertical_mm", label: texts.vertical, unit: "mm", min: 20, max: 3000, step: 10 },
+    { name: "horizontal_mm", label: texts.horizontal, unit: "mm", min: 1, max: 3000, step: 10 },
+    { name: "azimuth_deg", label: texts.azimuth, unit: "°", min: -180, max: 180, step: 5 },
   ] as const;
   return (
     <section className="card ruler" data-testid="ruler">
-      <h3>{words.title}</h3>
-      <p>{words.hint}</p>
+      <h3>{texts.title}</h3>
+      <p>{texts.hint}</p>
       <RehearsalStrip scenes={["landmarks"]}>
         {(told) => (
           <Button
@@ -37,7 +37,7 @@ export function RulerForm({ view, onView, middleMm, done, onDone }: RulerFormPro
               if (told.truth?.moment) onView(viewOfTruth(told.truth.moment.camera_from_vertebra, middleMm));
             }}
           >
-            {words.rehearsed}
+            {texts.rehearsed}
           </Button>
         )}
       </RehearsalStrip>
@@ -55,23 +55,23 @@ export function RulerForm({ view, onView, middleMm, done, onDone }: RulerFormPro
           />
         ))}
       </div>
-      <p>{words.standing}</p>
+      <p>{texts.standing}</p>
       <SegmentedControl
         size="lg"
-        aria-label={words.standing}
+        aria-label={texts.standing}
         value={view.patient_end}
         data={[
-          { value: "feet", label: words.feet },
-          { value: "head", label: words.head },
+          { value: "feet", label: texts.feet },
+          { value: "head", label: texts.head },
         ]}
         onChange={(value) => {
           onView({ ...view, patient_end: value === "head" ? "head" : "feet" });
         }}
       />
-      <p className="quiet">{words.said}</p>
+      <p className="quiet">{texts.said}</p>
       {!done && (
         <Button size="xl" onClick={onDone} data-testid="ruler-done">
-          {words.done}
+          {texts.done}
         </Button>
       )}
     </section>

@@ -1,5 +1,5 @@
 import { useEffect, useRef, type ReactNode } from "react";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { cssMatrix, times } from "./overlay";
 import type { Laid, OverlayDesk } from "./overlayDesk";
 
@@ -11,7 +11,7 @@ interface SliceLayerProps {
 
 /** The plan's picture of the reference slice, translucent over the live picture, where the server lays it. */
 export function SliceLayer({ desk, slice, vertebra }: SliceLayerProps): ReactNode {
-  const words = useWords().registration.needles;
+  const texts = useTexts().registration.needles;
   const image = useRef<HTMLImageElement>(null);
   useEffect(
     () =>
@@ -30,7 +30,7 @@ export function SliceLayer({ desk, slice, vertebra }: SliceLayerProps): ReactNod
       className="slice-layer"
       data-testid="slice-layer"
       src={`/api/plan/vertebrae/${encodeURIComponent(vertebra)}/reference.png`}
-      alt={words.sliceAlt}
+      alt={texts.sliceAlt}
       draggable={false}
       style={{ width: slice.width_px, height: slice.height_px }}
     />

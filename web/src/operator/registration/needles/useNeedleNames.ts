@@ -1,7 +1,7 @@
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 
 /** The three lines of a reference slice in the page's language; a landmark keeps its own name. */
 export function useNeedleNames(): (name: string) => string {
-  const words = useWords().registration.line;
-  return (name) => (Object.hasOwn(words, name) ? words[name as keyof typeof words] : name);
+  const texts = useTexts().registration.line;
+  return (name) => (Object.hasOwn(texts, name) ? texts[name as keyof typeof texts] : name);
 }

@@ -1,19 +1,19 @@
 import type { ReactNode } from "react";
 import { shownFigure } from "../../../live/rounding";
 import type { components } from "../../../schema";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { shownSecond } from "../../parts/shown";
 
 /** Every nudge that holds, the newest first: what, who, when. */
 export function NudgeLog({ nudges }: { nudges: components["schemas"]["NudgeRecord"][] }): ReactNode {
-  const all = useWords();
-  const words = all.registration.nudges;
-  if (nudges.length === 0) return <p className="quiet">{words.logEmpty}</p>;
+  const all = useTexts();
+  const texts = all.registration.nudges;
+  if (nudges.length === 0) return <p className="quiet">{texts.logEmpty}</p>;
   return (
-    <ol className="nudge-log card" reversed aria-label={words.log} data-testid="nudge-log">
+    <ol className="nudge-log card" reversed aria-label={texts.log} data-testid="nudge-log">
       {nudges.toReversed().map((one) => {
         const shift = one.kind === "shift";
-        const way = words[shift ? "shiftTo" : "turnTo"][one.axis][one.amount > 0 ? "plus" : "minus"];
+        const way = texts[shift ? "shiftTo" : "turnTo"][one.axis][one.amount > 0 ? "plus" : "minus"];
         return (
           <li key={`${one.made_at} ${one.axis}`}>
             <strong>

@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import type { components } from "../../../schema";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 
 export type Kind = components["schemas"]["NudgeKind"];
 export type Axis = components["schemas"]["NudgeAxis"];
@@ -16,9 +16,9 @@ interface NudgePadProps {
 
 /** Six ways, in the patient's directions. */
 export function NudgePad({ kind, disabled, onNudge }: NudgePadProps): ReactNode {
-  const words = useWords().registration.nudges;
+  const texts = useTexts().registration.nudges;
   return (
-    <div className="nudge-pad" role="group" aria-label={words.pad}>
+    <div className="nudge-pad" role="group" aria-label={texts.pad}>
       {AXES.flatMap((axis) =>
         ([-1, 1] as const).map((way) => (
           <Button
@@ -31,7 +31,7 @@ export function NudgePad({ kind, disabled, onNudge }: NudgePadProps): ReactNode 
               onNudge(axis, way);
             }}
           >
-            {words[kind === "shift" ? "shiftTo" : "turnTo"][axis][way > 0 ? "plus" : "minus"]}
+            {texts[kind === "shift" ? "shiftTo" : "turnTo"][axis][way > 0 ? "plus" : "minus"]}
           </Button>
         )),
       )}

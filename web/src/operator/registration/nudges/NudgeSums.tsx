@@ -2,14 +2,14 @@ import { Progress } from "@mantine/core";
 import type { ReactNode } from "react";
 import { shownNumber } from "../../../live/rounding";
 import type { components } from "../../../schema";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 
 /** How far all nudges together lead, against what is allowed. */
 export function NudgeSums({ nudges }: { nudges: components["schemas"]["NudgesMessage"] }): ReactNode {
-  const words = useWords().registration.nudges;
+  const texts = useTexts().registration.nudges;
   const sums = [
-    { name: words.sumMm, value: nudges.shift_mm, most: nudges.max_mm, unit: "mm" },
-    { name: words.sumDeg, value: nudges.rotation_deg, most: nudges.max_deg, unit: "°" },
+    { name: texts.sumMm, value: nudges.shift_mm, most: nudges.max_mm, unit: "mm" },
+    { name: texts.sumDeg, value: nudges.rotation_deg, most: nudges.max_deg, unit: "°" },
   ];
   return (
     <dl className="limits" data-testid="nudge-sums">
@@ -28,7 +28,7 @@ export function NudgeSums({ nudges }: { nudges: components["schemas"]["NudgesMes
               {shownNumber(value, 1)} <span className="unit">{unit}</span>
             </strong>
             <small>
-              {words.allowed} {shownNumber(most, 1)} {unit}
+              {texts.allowed} {shownNumber(most, 1)} {unit}
             </small>
           </dd>
         </div>

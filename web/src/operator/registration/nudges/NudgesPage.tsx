@@ -1,17 +1,17 @@
 import type { ReactNode } from "react";
 import { Unanswered } from "../../../rest/Unanswered";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
 import { NudgesWork } from "./NudgesWork";
 
 /** Small steps by hand, with the drawn vertebra in sight. */
 export function NudgesPage(): ReactNode {
-  const words = useWords().registration.nudges;
+  const texts = useTexts().registration.nudges;
   const procedure = useProcedure();
   const step = procedure.data?.steps.find((one) => one.step === "register");
   if (step === undefined) return <Unanswered asked={procedure} />;
-  if (step.state !== "done") return <p className="warning">▲ {words.needsRegistration}</p>;
+  if (step.state !== "done") return <p className="warning">▲ {texts.needsRegistration}</p>;
   return (
     <div className="work">
       <LiveStage />

@@ -5,7 +5,7 @@ import { Unanswered } from "../../../rest/Unanswered";
 import { useAsked } from "../../../rest/useAsked";
 import { useDo } from "../../../rest/useDo";
 import { Icon } from "../../../panes/Icon";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
 import { Rejected } from "../Rejected";
 import { useMadeBy } from "../useMadeBy";
@@ -17,7 +17,7 @@ const STEPS = ["0.1", "0.5", "1"];
 
 /** One step at a time, the sum of all against its bound, and the last one taken back. */
 export function NudgesWork(): ReactNode {
-  const words = useWords().registration;
+  const texts = useTexts().registration;
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const asked = useAsked((signal) => answered(server.GET("/api/registration/nudges", { signal })));
@@ -48,24 +48,24 @@ export function NudgesWork(): ReactNode {
   return (
     <>
       <section className="card">
-        <p className="warning">▲ {words.nudges.checkAgain}</p>
+        <p className="warning">▲ {texts.nudges.checkAgain}</p>
         {data !== null && <NudgeSums nudges={data} />}
         <div className="row">
           <SegmentedControl
             size="lg"
-            aria-label={words.nudges.kind}
+            aria-label={texts.nudges.kind}
             value={kind}
             onChange={(value) => {
               setKind(value === "turn" ? "turn" : "shift");
             }}
             data={[
-              { value: "shift", label: words.nudges.shift },
-              { value: "turn", label: words.nudges.turn },
+              { value: "shift", label: texts.nudges.shift },
+              { value: "turn", label: texts.nudges.turn },
             ]}
           />
           <SegmentedControl
             size="lg"
-            aria-label={words.nudges.step}
+            aria-label={texts.nudges.step}
             value={step}
             onChange={setStep}
             data={STEPS.map((one) => ({ value: one, label: `${one} ${kind === "shift" ? "mm" : "°"}` }))}
@@ -87,7 +87,7 @@ export function NudgesWork(): ReactNode {
             );
           }}
         >
-          <Icon name="undo" /> {words.nudges.undo}
+          <Icon name="undo" /> {texts.nudges.undo}
         </Button>
       </section>
       {data !== null && <NudgeLog nudges={data.nudges} />}

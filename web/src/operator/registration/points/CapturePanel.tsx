@@ -1,9 +1,9 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { Icon } from "../../../panes/Icon";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { CaptureProgress } from "../CaptureProgress";
-import { filled } from "../../../words/filled";
+import { interpolate } from "../../../texts/interpolate";
 import { ToolSeen } from "../ToolSeen";
 import type { Points } from "./PointsWork";
 
@@ -26,7 +26,7 @@ export function CapturePanel({
   onCapture,
   onUndo,
 }: CapturePanelProps): ReactNode {
-  const words = useWords().registration;
+  const texts = useTexts().registration;
   const { capture, limits } = points;
   const touched = points.landmarks.filter((one) => one.touched).length;
   const looking = capture?.state === "looking";
@@ -34,13 +34,13 @@ export function CapturePanel({
   return (
     <section className="card capture">
       <p>
-        {filled(words.points.count, {
+        {interpolate(texts.points.count, {
           touched,
           all: points.landmarks.length,
           least: limits.min_points,
         })}
       </p>
-      <h3 data-testid="wanted">{wanted ?? words.points.enough}</h3>
+      <h3 data-testid="wanted">{wanted ?? texts.points.enough}</h3>
       <ToolSeen tool={points.tool} />
       {capture !== null && <CaptureProgress capture={capture} maxSpreadMm={limits.max_spread_mm} />}
       <div className="row">
@@ -54,7 +54,7 @@ export function CapturePanel({
             if (wanted !== null) onCapture(wanted);
           }}
         >
-          {again ? words.points.captureAgain : words.points.capture}
+          {again ? texts.points.captureAgain : texts.points.capture}
         </Button>
         <Button
           size="xl"
@@ -65,10 +65,10 @@ export function CapturePanel({
             if (last !== null) onUndo(last);
           }}
         >
-          <Icon name="undo" /> {words.points.undo}
+          <Icon name="undo" /> {texts.points.undo}
         </Button>
       </div>
-      <p className="quiet">{words.points.hold}</p>
+      <p className="quiet">{texts.points.hold}</p>
     </section>
   );
 }

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { Rejection } from "../../../rest/client";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { Measure } from "../Measure";
 import { Rejected } from "../Rejected";
 import { useSides } from "../useSides";
@@ -8,7 +8,7 @@ import type { Points } from "./PointsWork";
 
 /** How well the points fit together, what error that leaves at the entry points, and what is missing. */
 export function FitPanel({ points }: { points: Points }): ReactNode {
-  const words = useWords().registration;
+  const texts = useTexts().registration;
   const sideName = useSides();
   const { limits, targets } = points;
   const strays = points.landmarks.map((one) => one.leave_one_out_mm).filter((mm) => mm !== null);
@@ -17,8 +17,8 @@ export function FitPanel({ points }: { points: Points }): ReactNode {
     <section className="card" aria-live="polite">
       <dl className="limits">
         <Measure
-          name={words.numbers.fre}
-          hint={words.numbers.freHint}
+          name={texts.numbers.fre}
+          hint={texts.numbers.freHint}
           value={points.fre_rms_mm}
           unit="mm"
           most={limits.max_fre_mm}
@@ -26,8 +26,8 @@ export function FitPanel({ points }: { points: Points }): ReactNode {
         {sides.map((side) => (
           <Measure
             key={side}
-            name={`${words.numbers.atEntry} ${sideName(side)}`}
-            hint={words.numbers.atEntryHint}
+            name={`${texts.numbers.atEntry} ${sideName(side)}`}
+            hint={texts.numbers.atEntryHint}
             value={targets.find((one) => one.side === side && one.depth_mm === 0)?.stated_mm ?? null}
             unit="mm"
             most={limits.max_tre_mm}
@@ -35,8 +35,8 @@ export function FitPanel({ points }: { points: Points }): ReactNode {
         ))}
         {strays.length > 0 && (
           <Measure
-            name={words.numbers.leftOut}
-            hint={words.numbers.leftOutHint}
+            name={texts.numbers.leftOut}
+            hint={texts.numbers.leftOutHint}
             value={Math.max(...strays)}
             unit="mm"
             most={limits.max_left_out_mm}
@@ -55,7 +55,7 @@ export function FitPanel({ points }: { points: Points }): ReactNode {
       </div>
       {points.missing.length === 0 && (
         <p className="good" data-testid="points-pass">
-          ✓ {words.points.passes}
+          ✓ {texts.points.passes}
         </p>
       )}
     </section>

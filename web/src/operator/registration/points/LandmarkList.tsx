@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { shownNumber } from "../../../live/rounding";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import type { Points } from "./PointsWork";
 
 interface LandmarkListProps {
@@ -14,10 +14,10 @@ interface LandmarkListProps {
 
 /** Every landmark with its residual; a touch on one asks for it, or for it again. */
 export function LandmarkList({ points, wanted, onPick, onUse, onForget }: LandmarkListProps): ReactNode {
-  const words = useWords().registration.points;
+  const texts = useTexts().registration.points;
   const strays = new Set(points.missing.map((one) => one.context["landmark"]));
   return (
-    <ul className="landmarks" aria-label={words.landmarks}>
+    <ul className="landmarks" aria-label={texts.landmarks}>
       {points.landmarks.map((one) => (
         <li
           key={one.name}
@@ -37,7 +37,7 @@ export function LandmarkList({ points, wanted, onPick, onUse, onForget }: Landma
             <span aria-hidden="true">{one.touched ? (one.used ? "✓" : "–") : "○"}</span>
             <span>
               {one.name}
-              <small>{said(one, words)}</small>
+              <small>{said(one, texts)}</small>
             </span>
           </button>
           {one.touched && (
@@ -49,12 +49,12 @@ export function LandmarkList({ points, wanted, onPick, onUse, onForget }: Landma
                   onUse(one.name, !one.used);
                 }}
               >
-                {one.used ? words.leaveOut : words.takeIn}
+                {one.used ? texts.leaveOut : texts.takeIn}
               </Button>
               <Button
                 size="md"
                 variant="default"
-                aria-label={`${words.forget}: ${one.name}`}
+                aria-label={`${texts.forget}: ${one.name}`}
                 onClick={() => {
                   onForget(one.name);
                 }}
@@ -71,12 +71,12 @@ export function LandmarkList({ points, wanted, onPick, onUse, onForget }: Landma
 
 function said(
   one: Points["landmarks"][number],
-  words: { notTouched: string; residual: string; leftOutBy: string; noFit: string; notUsed: string },
+  texts: { notTouched: string; residual: string; leftOutBy: string; noFit: string; notUsed: string },
 ): string {
-  if (!one.touched) return words.notTouched;
+  if (!one.touched) return texts.notTouched;
   const far =
-    one.residual_mm === null ? words.noFit : `${words.residual} ${shownNumber(one.residual_mm, 2)} mm`;
+    one.residual_mm === null ? texts.noFit : `${texts.residual} ${shownNumber(one.residual_mm, 2)} mm`;
   const others =
-    one.leave_one_out_mm === null ? "" : ` · ${words.leftOutBy} ${shownNumber(one.leave_one_out_mm, 2)} mm`;
-  return one.used ? `${far}${others}` : `${words.notUsed} · ${far}`;
+    one.leave_one_out_mm === null ? "" : ` · ${texts.leftOutBy} ${shownNumber(one.leave_one_out_mm, 2)} mm`;
+  return one.used ? `${far}${others}` : `${texts.notUsed} · ${far}`;
 }

@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { useAsked } from "../../../rest/useAsked";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { pxInSlice } from "./sliceView";
 
 const PLANES = { axial: 2, sagittal: 0 } as const;
@@ -16,7 +16,7 @@ interface LandmarkSliceProps {
 
 /** A slice of the CT through a landmark, with a ring where it lies. */
 export function LandmarkSlice({ plane, pointMm }: LandmarkSliceProps): ReactNode {
-  const words = useWords().registration.points;
+  const texts = useTexts().registration.points;
   const atMm = pointMm[PLANES[plane]] ?? 0;
   const { data } = useAsked(
     (signal) =>
@@ -41,7 +41,7 @@ export function LandmarkSlice({ plane, pointMm }: LandmarkSliceProps): ReactNode
     <figure className="landmark-slice">
       <img
         src={`/api/ct/slices/${plane}.png?at_mm=${atMm}&pixel_mm=${PIXEL_MM}`}
-        alt={words.sliceAlt[plane]}
+        alt={texts.sliceAlt[plane]}
         style={style}
       />
       <svg viewBox="-50 -50 100 100" aria-hidden="true">
@@ -52,7 +52,7 @@ export function LandmarkSlice({ plane, pointMm }: LandmarkSliceProps): ReactNode
       <span className="edge edge-right">{data.edges.right}</span>
       <span className="edge edge-top">{data.edges.top}</span>
       <span className="edge edge-bottom">{data.edges.bottom}</span>
-      <figcaption>{words.slice[plane]}</figcaption>
+      <figcaption>{texts.slice[plane]}</figcaption>
     </figure>
   );
 }

@@ -2,7 +2,7 @@ import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { useDo } from "../../../rest/useDo";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { LiveStage } from "../LiveStage";
 import { Rejected } from "../Rejected";
 import { ToolChoice } from "../ToolChoice";
@@ -11,7 +11,7 @@ import { useTools } from "../useTools";
 
 /** Before the first landmark: what is to come, and with which tool. */
 export function PointsBegin({ onBegun }: { onBegun: () => void }): ReactNode {
-  const words = useWords().registration;
+  const texts = useTexts().registration;
   const first = useTools()?.[0]?.name ?? "";
   const [chosen, setChosen] = useState("");
   const tool = chosen || first;
@@ -21,9 +21,9 @@ export function PointsBegin({ onBegun }: { onBegun: () => void }): ReactNode {
       <LiveStage />
       <div className="work-side">
         <section className="card">
-          <h3>{words.points.before}</h3>
+          <h3>{texts.points.before}</h3>
           <ol className="steps">
-            {words.points.steps.map((step) => (
+            {texts.points.steps.map((step) => (
               <li key={step}>{step}</li>
             ))}
           </ol>
@@ -43,7 +43,7 @@ export function PointsBegin({ onBegun }: { onBegun: () => void }): ReactNode {
                 .then(onBegun);
             }}
           >
-            {words.points.begin}
+            {texts.points.begin}
           </Button>
         </section>
       </div>

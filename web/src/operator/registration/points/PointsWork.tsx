@@ -5,7 +5,7 @@ import { Unanswered } from "../../../rest/Unanswered";
 import { useAsked } from "../../../rest/useAsked";
 import { useDo } from "../../../rest/useDo";
 import type { components } from "../../../schema";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
 import { Rejected } from "../Rejected";
@@ -22,7 +22,7 @@ const ASK_EVERY_MS = 250;
 
 /** The landmarks one after the other: captured, judged, left out, touched again, and at last kept. */
 export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
-  const words = useWords().registration;
+  const texts = useTexts().registration;
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const [, navigate] = useLocation();
@@ -81,7 +81,7 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
             ask={
               procedure.data?.steps.some((one) => one.step === "register" && one.state === "done") === true
             }
-            sure={words.replaceSure}
+            sure={texts.replaceSure}
             disabled={data.missing.length > 0}
             busy={doing.busy}
             testId="points-conclude"
@@ -98,12 +98,12 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
                 });
             }}
           >
-            {words.points.conclude}
+            {texts.points.conclude}
           </SureButton>
           <SureButton
             ask
             variant="default"
-            sure={words.throwAwaySure}
+            sure={texts.throwAwaySure}
             testId="points-end"
             onSure={() => {
               void doing
@@ -113,7 +113,7 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
                 .then(onOver);
             }}
           >
-            {words.throwAway}
+            {texts.throwAway}
           </SureButton>
         </div>
         <LandmarkList

@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { LandmarkSlice } from "./LandmarkSlice";
 
 interface WhereToTouchProps {
@@ -9,9 +9,9 @@ interface WhereToTouchProps {
 
 /** Where the landmark lies on the CT, in two slices through it. */
 export function WhereToTouch({ name, pointMm }: WhereToTouchProps): ReactNode {
-  const words = useWords().registration.points;
+  const texts = useTexts().registration.points;
   return (
-    <section className="where" aria-label={`${words.where}: ${name}`} data-testid="where">
+    <section className="where" aria-label={`${texts.where}: ${name}`} data-testid="where">
       <LandmarkSlice plane="axial" pointMm={pointMm} />
       <LandmarkSlice plane="sagittal" pointMm={pointMm} />
     </section>

@@ -2,7 +2,7 @@ import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { useDo } from "../../../rest/useDo";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
 import { Rejected } from "../Rejected";
@@ -12,7 +12,7 @@ import { useTools } from "../useTools";
 
 /** Before the sweep: what it needs, and how the tip is led. */
 export function SweepBegin({ onBegun }: { onBegun: () => void }): ReactNode {
-  const words = useWords().registration;
+  const texts = useTexts().registration;
   const procedure = useProcedure().data;
   const first = useTools()?.[0]?.name ?? "";
   const [chosen, setChosen] = useState("");
@@ -23,13 +23,13 @@ export function SweepBegin({ onBegun }: { onBegun: () => void }): ReactNode {
     <div className="work">
       <LiveStage />
       <section className="card work-side">
-        <h3>{words.sweep.before}</h3>
+        <h3>{texts.sweep.before}</h3>
         <ol className="steps">
-          {words.sweep.steps.map((step) => (
+          {texts.sweep.steps.map((step) => (
             <li key={step}>{step}</li>
           ))}
         </ol>
-        {!registered && <p className="warning">▲ {words.sweep.needsPoints}</p>}
+        {!registered && <p className="warning">▲ {texts.sweep.needsPoints}</p>}
         <ToolChoice tool={tool} onTool={setChosen} />
         <ToolSeen tool={tool} />
         <Rejected rejection={beginning.rejection} />
@@ -46,7 +46,7 @@ export function SweepBegin({ onBegun }: { onBegun: () => void }): ReactNode {
               .then(onBegun);
           }}
         >
-          {words.sweep.begin}
+          {texts.sweep.begin}
         </Button>
       </section>
     </div>

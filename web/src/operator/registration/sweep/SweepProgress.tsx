@@ -1,26 +1,26 @@
 import type { ReactNode } from "react";
 import { shownNumber } from "../../../live/rounding";
 import type { components } from "../../../schema";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 
 /** How many places the tip was taken at, and how far they reach. */
 export function SweepProgress({ sweep }: { sweep: components["schemas"]["SweepMessage"] }): ReactNode {
-  const words = useWords().registration.sweep;
+  const texts = useTexts().registration.sweep;
   const reach = sweep.reach_mm.map((mm) => shownNumber(mm, 0)).join(" × ");
   return (
     <dl className="limits" data-testid="sweep-progress" data-points={sweep.points}>
       <div className="limit">
-        <dt>{sweep.taking ? `● ${words.taking}` : `■ ${words.lifted}`}</dt>
+        <dt>{sweep.taking ? `● ${texts.taking}` : `■ ${texts.lifted}`}</dt>
         <dd>
           <strong>
-            {sweep.points} <span className="unit">{words.points}</span>
+            {sweep.points} <span className="unit">{texts.points}</span>
           </strong>
         </dd>
       </div>
       <div className="limit">
         <dt>
-          {words.reach}
-          <small>{words.reachHint}</small>
+          {texts.reach}
+          <small>{texts.reachHint}</small>
         </dt>
         <dd>
           <strong>
@@ -29,7 +29,7 @@ export function SweepProgress({ sweep }: { sweep: components["schemas"]["SweepMe
         </dd>
       </div>
       <div className="limit">
-        <dt>{words.unseen}</dt>
+        <dt>{texts.unseen}</dt>
         <dd>
           <strong>{sweep.unseen}</strong>
         </dd>

@@ -7,7 +7,7 @@ import { useAsked } from "../../../rest/useAsked";
 import { useDo } from "../../../rest/useDo";
 import type { components } from "../../../schema";
 import { Icon } from "../../../panes/Icon";
-import { useWords } from "../../../words/WordsContext";
+import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
 import { Rejected } from "../Rejected";
@@ -22,7 +22,7 @@ const ASK_EVERY_MS = 300;
 
 /** The sweep as it goes: taken or lifted, laid on the bone to see what it gives, kept or begun again. */
 export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
-  const words = useWords().registration;
+  const texts = useTexts().registration;
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const [, navigate] = useLocation();
@@ -74,23 +74,23 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
               );
             }}
           >
-            {data.taking ? words.sweep.lift : words.sweep.take}
+            {data.taking ? texts.sweep.lift : texts.sweep.take}
           </Button>
         </section>
         <Rejected rejection={doing.rejection ?? fitting.rejection} />
         {fitting.busy && (
           <p className="row" role="status">
-            <Loader size="sm" /> {words.sweep.fitting}
+            <Loader size="sm" /> {texts.sweep.fitting}
           </p>
         )}
         {fit !== null && <SweepFit fit={fit} />}
         <div className="row">
           <Button size="lg" variant="default" loading={fitting.busy} data-testid="sweep-fit" onClick={lay}>
-            {words.sweep.fit}
+            {texts.sweep.fit}
           </Button>
           <SureButton
             ask
-            sure={words.replaceSure}
+            sure={texts.replaceSure}
             disabled={fit === null || fit.missing.length > 0}
             busy={doing.busy}
             testId="sweep-conclude"
@@ -105,12 +105,12 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
               );
             }}
           >
-            {words.sweep.conclude}
+            {texts.sweep.conclude}
           </SureButton>
           <SureButton
             ask
             variant="default"
-            sure={words.throwAwaySure}
+            sure={texts.throwAwaySure}
             testId="sweep-again"
             onSure={() => {
               setFit(null);
@@ -120,17 +120,17 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
               );
             }}
           >
-            <Icon name="undo" /> {words.sweep.again}
+            <Icon name="undo" /> {texts.sweep.again}
           </SureButton>
           <SureButton
             ask
             variant="default"
-            sure={words.throwAwaySure}
+            sure={texts.throwAwaySure}
             onSure={() => {
               run(() => answered(server.DELETE("/api/registration/sweep")), onOver);
             }}
           >
-            {words.throwAway}
+            {texts.throwAway}
           </SureButton>
         </div>
       </div>

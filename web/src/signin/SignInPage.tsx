@@ -1,0 +1,101 @@
+import { Button, Loader, TextInput } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { Link } from "wouter";
+import { useSession, type Session } from "../app/session";
+import { homeOf } from "../app/views";
+import type { Rejection } from "../rest/client";
+import type { SignInTexts } from "../texts/signin/en";
+import { useTexts } from "../texts/TextsContext";
+import { tokenIn } from "./token";
+import { useSignIn } from "./useSignIn";
+
+interface Told {
+  kind: string;
+  title: string;
+  sentence: string;
+}
+
+/** The door: for those who are not signed in, and those who come with a link. */
+export function SignInPage(): ReactNode {
+  const all = useTexts();
+  const texts = all.signIn;
+  const { session } = useSession();
+  const { busy, rejection, signIn } = useSignIn();
+  const [typed, setTyped] = useState("");
+  const token = tokenIn(typed);
+  const told = toldOf(session, rejection, texts);
+  const waiting = busy || (session.state === "asking" && !session.silent);
+  return (
+    <main className="enter">
+      <header>
+        <img src="/coaxial.svg" alt="" width={72} height={72} />
+        <h1>{all.product}</h1>
+        <p className="notice">{all.notice}</p>
+      </header>
+      {waiting ? (
+        <p role="status" className="enter-waiting">
+          <Loader size="md" aria-hidden="true" /> {busy ? texts.entering : texts.asking}
+        </p>
+      ) : (
+        <section role={rejection === null ? "status" : "alert"} data-testid="enter" data-kind={told.kind}>
+          <h2>{told.title}</h2>
+          <p>{told.sentence}</p>
+        </section>
+      )}
+      {session.state === "in" && !busy && (
+        <Link className="enter-on" href={homeOf(session.who.role)}>
+          {texts.goOn}
+        </Link>
+      )}
+      {session.state !== "asking" && !busy && (
+        <form
+          onSubmit={(event) => {
+            event.preventDefault();
+            if (token !== null) signIn(token);
+          }}
+        >
+          <TextInput
+            size="lg"
+            type="password"
+            autoComplete="off"
+            label={texts.paste}
+            description={texts.pasteHint}
+            error={typed.trim() !== "" && token === null ? texts.noLink : undefined}
+            value={typed}
+            onChange={(event) => {
+              setTyped(event.currentTarget.value);
+            }}
+          />
+          <Button type="submit" size="lg" disabled={token === null}>
+            {texts.signIn}
+          </Button>
+        </form>
+      )}
+    </main>
+  );
+}
+
+/** What happened and what to do, in the page's own words where it has some. */
+function toldOf(session: Session, rejection: Rejection | null, texts: SignInTexts): Told {
+  if (rejection !== null) {
+    const { code, message, remedy, context } = rejection.problem;
+    const said = texts.rejected[code as keyof SignInTexts["rejected"]] as Said | undefined;
+    const wait = typeof context["wait_s"] === "number" ? ` (${String(context["wait_s"])} s)` : "";
+    if (said !== undefined) return { kind: code, title: said.title, sentence: said.sentence + wait };
+    return { kind: code, title: message, sentence: remedy };
+  }
+  if (session.state === "asking") return { kind: "silent", ...texts.silent };
+  if (session.state === "in") {
+    return {
+      kind: "in",
+      title: `${texts.signedInAs} ${session.who.name}`,
+      sentence: texts.role[session.who.role],
+    };
+  }
+  return session.expired ? { kind: "expired", ...texts.expired } : { kind: "needed", ...texts.needed };
+}
+
+interface Said {
+  title: string;
+  sentence: string;
+}

@@ -1,0 +1,57 @@
+// Signing in by a link: once for each link, however often the page is drawn.
+import { useEffect, useEffectEvent, useRef, useState } from "react";
+import { useLocation } from "wouter";
+import { useSession } from "../app/session";
+import { homeOf } from "../app/views";
+import { answered, Rejection, server } from "../rest/client";
+import { takeToken } from "./token";
+
+export interface SignIn {
+  busy: boolean;
+  rejection: Rejection | null;
+  signIn: (token: string) => void;
+}
+
+/** Takes a link out of the address at once; `enter` takes one that was typed. */
+export function useSignIn(): SignIn {
+  const { again } = useSession();
+  const [, go] = useLocation();
+  const [busy, setBusy] = useState(false);
+  const [rejection, setRejection] = useState<Rejection | null>(null);
+  const trying = useRef(false);
+
+  const signIn = (token: string): void => {
+    if (trying.current) return;
+    trying.current = true;
+    setBusy(true);
+    setRejection(null);
+    answered(server.POST("/api/session", { body: { invitation: token } }))
+      .then(({ role }) => {
+        again();
+        go(homeOf(role), { replace: true });
+      })
+      .catch((error: unknown) => {
+        again();
+        if (!(error instanceof Rejection)) throw error;
+        setRejection(error);
+      })
+      .finally(() => {
+        trying.current = false;
+        setBusy(false);
+      });
+  };
+
+  const onLink = useEffectEvent(() => {
+    const token = takeToken();
+    if (token !== null) signIn(token);
+  });
+  useEffect(() => {
+    const stop = new AbortController();
+    onLink();
+    addEventListener("hashchange", onLink, { signal: stop.signal });
+    return () => {
+      stop.abort();
+    };
+  }, []);
+  return { busy, rejection, signIn };
+}

@@ -1,0 +1,141 @@
+// What there is to say, in every language.
+import type { Cause } from "../live/assess";
+import type { ImageClock, MotionDetection, Priority, UnseenReason, Wall } from "../live/messages";
+
+import type { AuditTexts } from "./audit/en";
+import type { CameraTexts } from "./camera/en";
+import type { CaseTexts } from "./case/en";
+import type { CheckTexts } from "./check/en";
+import type { SignInTexts } from "./signin/en";
+import type { LatencyTexts } from "./latency/en";
+import type { ConnectionTexts } from "./connection/en";
+import type { MarksTexts } from "./marks/en";
+import type { NavigateTexts } from "./navigate/en";
+import type { OperatorTexts } from "./operator/en";
+import type { PeopleTexts } from "./people/en";
+import type { PhoneTexts } from "./phone/en";
+import type { PlanTexts } from "./plan/en";
+import type { RegistrationTexts } from "./registration/en";
+import type { ReportTexts } from "./report/en";
+import type { RestTexts } from "./rest/en";
+import type { RoomTexts } from "./room/en";
+import type { RestartTexts } from "./restart/en";
+import type { ShellTexts } from "./shell/en";
+import type { SupervisorTexts } from "./supervisor/en";
+import type { TheatreTexts } from "./theatre/en";
+import type { ToolTexts } from "./tool/en";
+
+/** A short state in big words, and a sentence that says what it means or what to do. */
+export interface StateText {
+  state: string;
+  sentence: string;
+}
+
+export interface Texts {
+  language: string;
+  product: string;
+  notice: string;
+  skip: string;
+  video: { title: string; none: string; late: string; image: string; age: string; alt: string };
+  numbers: {
+    title: string;
+    none: string;
+    tracking: string;
+    error: string;
+    errorUnknown: string;
+    steadied: string;
+    whileMoving: string;
+    latencyUnknown: string;
+    numbersOf: string;
+    pictureOf: string;
+  };
+  reading: Record<
+    "entry" | "angle" | "depth" | "toGo" | "wall",
+    { name: string; hint: string; unit: string }
+  >;
+  wall: Record<"outside" | "soon" | "atEnd" | "risk", string> & { side: Record<Wall, string> };
+  moves: Record<MotionDetection, string>;
+  depthTexts: { before: string; inside: string; past: string; across: string };
+  scene: {
+    title: string;
+    loading: string;
+    loadingHint: string;
+    stale: string;
+    staleHint: string;
+    unsupported: string;
+    unsupportedHint: string;
+    off: string;
+    offHint: string;
+    show: string;
+    views: string;
+    view: Record<"behind" | "channel" | "camera", string>;
+  };
+  markers: Record<
+    "title" | "none" | "name" | "state" | "seen" | "unseen" | "score" | "target" | "unknown",
+    string
+  >;
+  foundBy: Record<"search" | "track", string>;
+  header: Record<
+    "case" | "source" | "camera" | "server" | "searchTime" | "rate" | "noRegistration" | "registeredBy",
+    string
+  >;
+  cameraState: Record<"opening" | "running" | "reconnecting" | "ended" | "unknown", string>;
+  imageClock: Record<ImageClock, string>;
+  linkState: Record<"connecting" | "open" | "lost" | "not-reached", string>;
+  details: Record<
+    | "title"
+    | "stages"
+    | "stage"
+    | "time"
+    | "skipped"
+    | "restarts"
+    | "images"
+    | "size"
+    | "clock"
+    | "mode"
+    | "version"
+    | "plainVideo"
+    | "guide",
+    string
+  >;
+  alerts: { title: string; remedy: string };
+  alarms: Record<
+    | "title"
+    | "none"
+    | "unknown"
+    | "acknowledge"
+    | "pause"
+    | "paused"
+    | "resume"
+    | "failed"
+    | "arm"
+    | "armFailed"
+    | "armed"
+    | "over",
+    string
+  > & { priority: Record<Priority, string> };
+  cause: Record<Cause, StateText>;
+  unseen: Record<UnseenReason, string>;
+  shell: ShellTexts;
+  connection: ConnectionTexts;
+  signIn: SignInTexts;
+  rest: RestTexts;
+  restart: RestartTexts;
+  operator: OperatorTexts;
+  theatre: TheatreTexts;
+  case: CaseTexts;
+  camera: CameraTexts;
+  latency: LatencyTexts;
+  tool: ToolTexts;
+  people: PeopleTexts;
+  phone: PhoneTexts;
+  audit: AuditTexts;
+  plan: PlanTexts;
+  registration: RegistrationTexts;
+  check: CheckTexts;
+  navigate: NavigateTexts;
+  report: ReportTexts;
+  supervisor: SupervisorTexts;
+  marks: MarksTexts;
+  room: RoomTexts;
+}

@@ -1,0 +1,36 @@
+import type { CheckTexts } from "./en";
+
+export const checkDe: CheckTexts = {
+  title: "Prüfung an einem Punkt",
+  needsRegistration: "Es gibt nichts zu prüfen: Keine Registrierung ist gültig.",
+  toRegister: "Zur Registrierung",
+  choose: "Punkt wählen",
+  why: "Die Spitze auf einen Punkt halten, der nicht zur Registrierung diente. Er darf höchstens {most} mm von seinem geplanten Ort liegen.",
+  wasUsed: "für die Registrierung verwendet",
+  noneFree:
+    "Alle Punkte wurden verwendet. Einen auslassen und neu registrieren, oder in der Planung einen weiteren setzen.",
+  begin: "Die Spitze sitzt: prüfen",
+  byEye: "Die Spitze dort halten, wo der Punkt am Knochen ist. Der Abstand erscheint nach der Aufnahme.",
+  keep: "Prüfung behalten",
+  keepFailed: "Als nicht bestanden behalten",
+  again: "Neu tasten",
+  other: "Anderer Punkt",
+  passed: "BESTANDEN",
+  failed: "NICHT BESTANDEN",
+  distance: "Abstand gegen den Grenzwert",
+  allowed: "erlaubt",
+  off: "Die Spitze liegt",
+  left: "links",
+  right: "rechts",
+  back: "hinten",
+  front: "vorn",
+  head: "kopfwärts",
+  feet: "fußwärts",
+  sure: "Auf ±{sd} mm bekannt, aus {images} Bildern.",
+  failedRemedy:
+    "Neu tasten, falls die Spitze abgerutscht ist. Sonst neu registrieren; hiernach navigiert niemand.",
+  every: "Verlangt alle {minutes} min, höchstens {most} mm.",
+  dueIn: "Die nächste Prüfung ist in {minutes} min fällig.",
+  lastFailed: "Die letzte Prüfung ist nicht bestanden: Navigiert wird erst nach einer bestandenen.",
+  dueNow: "Die Prüfung ist wieder fällig. Die Navigation läuft inzwischen weiter.",
+};

@@ -1,0 +1,181 @@
+// Deutsch.
+import { alarmsDe } from "./alarmsDe";
+import { cameraDe } from "./camera/de";
+import { caseDe } from "./case/de";
+import { checkDe } from "./check/de";
+import { signInDe } from "./signin/de";
+import { latencyDe } from "./latency/de";
+import { connectionDe } from "./connection/de";
+import { navigateDe } from "./navigate/de";
+import { marksDe } from "./marks/de";
+import { operatorDe } from "./operator/de";
+import { auditDe } from "./audit/de";
+import { peopleDe } from "./people/de";
+import { phoneDe } from "./phone/de";
+import { planDe } from "./plan/de";
+import { reasonsDe } from "./reasons/de";
+import { registrationDe } from "./registration/de";
+import { reportDe } from "./report/de";
+import { restDe } from "./rest/de";
+import { roomDe } from "./room/de";
+import { restartDe } from "./restart/de";
+import { shellDe } from "./shell/de";
+import { supervisorDe } from "./supervisor/de";
+import { theatreDe } from "./theatre/de";
+import { toolDe } from "./tool/de";
+import type { Texts } from "./en";
+
+export const de: Texts = {
+  language: "de",
+  product: "Coaxial",
+  notice: "Forschungssoftware, kein Medizinprodukt",
+  skip: "Zu den Zahlen",
+  video: {
+    title: "Video",
+    none: "KEIN VIDEO",
+    late: "BILD KOMMT SPÄT",
+    image: "Bild",
+    age: "Alter",
+    alt: "Live-Video mit geplantem Kanal und Bohrerlinie",
+  },
+  numbers: {
+    title: "Bohrer zum Kanal",
+    none: "KEIN TRACKING",
+    tracking: "TRACKING",
+    error: "95-%-Fehler",
+    errorUnknown: "95-%-Fehler unbekannt",
+    steadied: "beruhigt, verzögert um",
+    whileMoving: "in Bewegung",
+    latencyUnknown: "in Bewegung, Latenz nicht gemessen",
+    numbersOf: "Zahlen sind von Bild",
+    pictureOf: "Bild ist Nummer",
+  },
+  reading: {
+    entry: { name: "Eintritt", hint: "neben dem Eintrittspunkt", unit: "mm" },
+    angle: { name: "Winkel", hint: "zur Kanalachse", unit: "°" },
+    depth: { name: "Tiefe", hint: "hinter der Eintrittsebene", unit: "mm" },
+    toGo: { name: "Rest", hint: "bis zum geplanten Ende", unit: "mm" },
+    wall: { name: "Wand", hint: "kleinster Abstand des Bohrers", unit: "mm" },
+  },
+  wall: {
+    outside: "außerhalb",
+    soon: "in 2 mm",
+    atEnd: "Schraube am Ende",
+    risk: "Durchbruchrisiko",
+    side: {
+      medial: "medial",
+      lateral: "lateral",
+      cranial: "kranial",
+      caudal: "kaudal",
+      anterior: "vorn",
+    },
+  },
+  moves: {
+    reference: "Der Marker am Patienten zeigt, wenn Patient oder Kamera sich bewegen.",
+    "fixed-scene":
+      "Kein Marker am Patienten: bewegt er sich, wird es nicht gesehen, bei der Kamera nur an der festen Szene.",
+    "not-at-all": "Kein Marker am Patienten: bewegt sich Patient oder Kamera, wird es nicht gesehen.",
+  },
+  depthTexts: {
+    before: "vor Eintritt",
+    inside: "hinter der Eintrittsebene",
+    past: "GEPLANTES ENDE ÜBERSCHRITTEN",
+    across: "Bohrer liegt quer zum Kanal",
+  },
+  scene: {
+    title: "3-D",
+    loading: "3-D LÄDT",
+    loadingHint: "Die Szene erscheint mit ihrem ersten Bild.",
+    stale: "SZENE VERALTET",
+    staleHint: "Die Szene folgt dem Bohrer nicht. Sie kommt von selbst wieder.",
+    unsupported: "KEIN 3-D",
+    unsupportedHint: "Dieser Browser hat kein WebGL 2. Video und Werte gehen ohne.",
+    off: "3-D AUS",
+    offHint: "Dieser Rechner hat keine Grafikkarte: Mit 3-D kämen die Werte zu spät.",
+    show: "3-D zeigen",
+    views: "Blick",
+    view: { behind: "Von hinten", channel: "Kanalachse", camera: "Von der Kamera" },
+  },
+  markers: {
+    title: "Marker",
+    none: "Kein Marker geladen.",
+    name: "Marker",
+    state: "Zustand",
+    seen: "gesehen",
+    unseen: "nicht gesehen",
+    score: "Score",
+    target: "Target-Score",
+    unknown: "unbekannt",
+  },
+  foundBy: { search: "durch Suche gefunden", track: "verfolgt" },
+  header: {
+    case: "Kanal",
+    source: "Quelle",
+    camera: "Kamera",
+    server: "Server",
+    searchTime: "Suchzeit",
+    rate: "Rate",
+    noRegistration: "nicht registriert",
+    registeredBy: "registriert durch",
+  },
+  cameraState: {
+    opening: "wird geöffnet",
+    running: "läuft",
+    reconnecting: "verbindet neu",
+    ended: "am Ende",
+    unknown: "unbekannt",
+  },
+  imageClock: {
+    driver: "dem Kameratreiber",
+    device: "der Uhr der Kamera",
+    sender: "dem Sender des Stroms",
+    browser: "dem Browser des Telefons",
+    arrival: "der Ankunft",
+  },
+  linkState: {
+    connecting: "verbindet",
+    open: "verbunden",
+    lost: "weg, verbindet neu",
+    "not-reached": "nicht erreicht",
+  },
+  details: {
+    title: "Zeiten und Zähler",
+    stages: "Zeit je Stufe",
+    stage: "Stufe",
+    time: "Zeit",
+    skipped: "Übersprungene Bilder",
+    restarts: "Neustarts der Verfolgung",
+    images: "Bilder",
+    size: "Bildgröße",
+    clock: "Bildzeit von",
+    mode: "Kameramodus",
+    version: "Version",
+    plainVideo: "Einfaches Video für andere Bildschirme",
+    guide: "Anleitung (englisch)",
+  },
+  alerts: { title: "Meldungen", remedy: "Was zu tun ist:" },
+  alarms: alarmsDe,
+  ...reasonsDe,
+  shell: shellDe,
+  connection: connectionDe,
+  signIn: signInDe,
+  rest: restDe,
+  restart: restartDe,
+  operator: operatorDe,
+  theatre: theatreDe,
+  case: caseDe,
+  camera: cameraDe,
+  latency: latencyDe,
+  tool: toolDe,
+  people: peopleDe,
+  phone: phoneDe,
+  audit: auditDe,
+  plan: planDe,
+  registration: registrationDe,
+  check: checkDe,
+  navigate: navigateDe,
+  report: reportDe,
+  supervisor: supervisorDe,
+  marks: marksDe,
+  room: roomDe,
+};

@@ -1,0 +1,183 @@
+// Every word of the page, in one place. Another language is one more file of the same shape.
+import { alarmsEn } from "./alarmsEn";
+import { cameraEn } from "./camera/en";
+import { caseEn } from "./case/en";
+import { checkEn } from "./check/en";
+import { signInEn } from "./signin/en";
+import { latencyEn } from "./latency/en";
+import { connectionEn } from "./connection/en";
+import { navigateEn } from "./navigate/en";
+import { marksEn } from "./marks/en";
+import { operatorEn } from "./operator/en";
+import { auditEn } from "./audit/en";
+import { peopleEn } from "./people/en";
+import { phoneEn } from "./phone/en";
+import { planEn } from "./plan/en";
+import { reasonsEn } from "./reasons/en";
+import { registrationEn } from "./registration/en";
+import { reportEn } from "./report/en";
+import { restEn } from "./rest/en";
+import { roomEn } from "./room/en";
+import { restartEn } from "./restart/en";
+import { shellEn } from "./shell/en";
+import { supervisorEn } from "./supervisor/en";
+import { theatreEn } from "./theatre/en";
+import { toolEn } from "./tool/en";
+import type { Texts } from "./catalogue";
+
+export type { StateText, Texts } from "./catalogue";
+
+export const en: Texts = {
+  language: "en",
+  product: "Coaxial",
+  notice: "Research software, not a medical device",
+  skip: "Skip to the numbers",
+  video: {
+    title: "Video",
+    none: "NO VIDEO",
+    late: "PICTURE IS LATE",
+    image: "image",
+    age: "age",
+    alt: "Live video with the planned channel and the drill's line drawn in",
+  },
+  numbers: {
+    title: "Drill to channel",
+    none: "NO TRACKING",
+    tracking: "TRACKING",
+    error: "95 % error",
+    errorUnknown: "95 % error unknown",
+    steadied: "steadied, behind by",
+    whileMoving: "while moving",
+    latencyUnknown: "moving, latency not measured",
+    numbersOf: "numbers are of image",
+    pictureOf: "picture of image",
+  },
+  reading: {
+    entry: { name: "Entry", hint: "off the entry point", unit: "mm" },
+    angle: { name: "Angle", hint: "to the channel's axis", unit: "°" },
+    depth: { name: "Depth", hint: "past the entry plane", unit: "mm" },
+    toGo: { name: "To go", hint: "to the planned end", unit: "mm" },
+    wall: { name: "Wall", hint: "least clearance of the drill", unit: "mm" },
+  },
+  wall: {
+    outside: "outside",
+    soon: "in 2 mm",
+    atEnd: "screw at the end",
+    risk: "Risk of breach",
+    side: {
+      medial: "medial",
+      lateral: "lateral",
+      cranial: "cranial",
+      caudal: "caudal",
+      anterior: "anterior",
+    },
+  },
+  moves: {
+    reference: "The marker on the patient shows a move of patient or camera.",
+    "fixed-scene":
+      "No marker on the patient: a move of the patient is not seen, one of the camera only by the fixed scene.",
+    "not-at-all": "No marker on the patient: a move of patient or camera is not seen.",
+  },
+  depthTexts: {
+    before: "before entry",
+    inside: "past the entry plane",
+    past: "PAST THE PLANNED END",
+    across: "drill lies across the channel",
+  },
+  scene: {
+    title: "3-D",
+    loading: "3-D LOADING",
+    loadingHint: "The scene appears when its first image is drawn.",
+    stale: "SCENE STALE",
+    staleHint: "The scene does not follow the drill now. It comes back by itself.",
+    unsupported: "NO 3-D",
+    unsupportedHint: "This browser has no WebGL 2. Video and figures work without it.",
+    off: "3-D OFF",
+    offHint: "This computer has no graphics card: 3-D would make the figures late.",
+    show: "Show 3-D",
+    views: "View",
+    view: { behind: "From behind", channel: "Along channel", camera: "From camera" },
+  },
+  markers: {
+    title: "Markers",
+    none: "No marker is loaded.",
+    name: "Marker",
+    state: "State",
+    seen: "seen",
+    unseen: "not seen",
+    score: "Score",
+    target: "Target score",
+    unknown: "not known",
+  },
+  foundBy: { search: "found by search", track: "tracked" },
+  header: {
+    case: "Channel",
+    source: "Source",
+    camera: "Camera",
+    server: "Server",
+    searchTime: "Search time",
+    rate: "Rate",
+    noRegistration: "not registered",
+    registeredBy: "registered by",
+  },
+  cameraState: {
+    opening: "opening",
+    running: "running",
+    reconnecting: "reconnecting",
+    ended: "at its end",
+    unknown: "not known",
+  },
+  imageClock: {
+    driver: "the camera's driver",
+    device: "the camera's own clock",
+    sender: "the stream's sender",
+    browser: "the phone's browser",
+    arrival: "its arrival",
+  },
+  linkState: {
+    connecting: "connecting",
+    open: "connected",
+    lost: "gone, reconnecting",
+    "not-reached": "not reached",
+  },
+  details: {
+    title: "Times and counts",
+    stages: "Time of each stage",
+    stage: "Stage",
+    time: "Time",
+    skipped: "Skipped images",
+    restarts: "Restarts of tracking",
+    images: "Images",
+    size: "Image size",
+    clock: "Image time from",
+    mode: "Camera mode",
+    version: "Version",
+    plainVideo: "Plain video for other screens",
+    guide: "User guide",
+  },
+  alerts: { title: "Alerts", remedy: "What to do:" },
+  alarms: alarmsEn,
+  ...reasonsEn,
+  shell: shellEn,
+  connection: connectionEn,
+  signIn: signInEn,
+  rest: restEn,
+  restart: restartEn,
+  operator: operatorEn,
+  theatre: theatreEn,
+  case: caseEn,
+  camera: cameraEn,
+  latency: latencyEn,
+  tool: toolEn,
+  people: peopleEn,
+  phone: phoneEn,
+  audit: auditEn,
+  plan: planEn,
+  registration: registrationEn,
+  check: checkEn,
+  navigate: navigateEn,
+  report: reportEn,
+  supervisor: supervisorEn,
+  marks: marksEn,
+  room: roomEn,
+};

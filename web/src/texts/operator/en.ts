@@ -1,0 +1,24 @@
+export const operatorEn = {
+  steps: "Steps of the procedure",
+  skip: "Skip to the step",
+  next: "Next step",
+  now: "next",
+  locked: "not yet",
+  page: {
+    case: "Case",
+    camera: "Camera",
+    tool: "Tool",
+    plan: "Plan",
+    register: "Register",
+    check: "Check",
+    navigate: "Navigate",
+    report: "Report",
+    people: "People",
+  },
+  ready: "ready",
+  fewLandmarks:
+    "It has {there} landmarks; registering by points needs at least {least}. Three needles need none.",
+  state: { missing: "to do", out_of_date: "out of date", failed: "failed", due: "due again", done: "done" },
+};
+
+export type OperatorTexts = typeof operatorEn;

@@ -1,0 +1,10 @@
+import type { ShellTexts } from "./en";
+
+export const shellDe: ShellTexts = {
+  views: "Ansichten",
+  view: { theatre: "Operationssaal", operator: "Bedienung", supervisor: "Aufsicht" },
+  status: "Zustand des Systems",
+  tracking: "Verfolgung",
+  live: "Zahlen aktuell",
+  none: "keine Zahlen",
+};

@@ -1,0 +1,15 @@
+// A text that the server has written in every language.
+import type { TextMessage } from "../live/messages";
+import type { Texts } from "./en";
+
+export function textOf(text: TextMessage, texts: Texts): string {
+  return texts.language === "de" ? text.de : text.en;
+}
+
+/** Such a text of a line whose form is not known, as of the log; empty where there is none. */
+export function textIn(line: Readonly<Record<string, unknown>>, key: string, texts: Texts): string {
+  const textByLanguage = line[key];
+  if (typeof textByLanguage !== "object" || textByLanguage === null) return "";
+  const text = (textByLanguage as Record<string, unknown>)[texts.language];
+  return typeof text === "string" ? text : "";
+}
