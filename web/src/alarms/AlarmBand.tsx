@@ -36,7 +36,7 @@ export function AlarmBand(): ReactNode {
       ref={band}
     >
       {verdict.known && <KnownAlarms alarms={verdict.alarms} />}
-      {!verdict.known && (verdict.everHeard ? <UnknownAlarms sound={sound} /> : <UnheardAlarms />)}
+      {!verdict.known && (verdict.everReceived ? <UnknownAlarms sound={sound} /> : <UnheardAlarms />)}
       <SoundState sound={sound} isPaused={isPaused} />
     </section>
   );

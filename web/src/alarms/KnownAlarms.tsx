@@ -5,7 +5,7 @@ import { setText } from "../panes/setText";
 import { textOf } from "../texts/text";
 import { useTexts } from "../texts/TextsContext";
 import { AlarmLine, AlarmSentence, MARKS } from "./AlarmSentence";
-import { acknowledge, pause, resume } from "./desk";
+import { acknowledge, pause, resume } from "./alarmRequests";
 
 const PAUSE_S = 120;
 

@@ -20,7 +20,7 @@ export function UnheardAlarms(): ReactNode {
 }
 
 /** The alarms as theatre has them, once something of them can be known. */
-export function AlarmsShownOnceHeard(): ReactNode {
+export function AlarmsAfterFirstMessage(): ReactNode {
   const texts = useTexts().alarms;
   const { view } = useLive();
   const { firstMessage } = view;

@@ -1,7 +1,7 @@
 // The sound of alarms in a browser, which stays silent until somebody has touched the page.
 import type { Sound } from "../live/messages";
 import type { Dashboard } from "../live/start";
-import type { Wanted } from "./verdict";
+import type { RequestedSound } from "./verdict";
 
 type SoundMessage = Dashboard["sounds"][number];
 /** Shorter than a burst's first pulse is to be heard: a change is heard at once, without a click. */
@@ -10,7 +10,7 @@ const FADE_S = 0.01;
 export class AlarmPlayer {
   private context: AudioContext | null = null;
   private readonly loops = new Map<Sound, AudioBuffer>();
-  private playing: { wanted: Wanted; source: AudioBufferSourceNode; gain: GainNode } | null = null;
+  private playing: { wanted: RequestedSound; source: AudioBufferSourceNode; gain: GainNode } | null = null;
 
   /** Whether an alarm would be heard now, as far as a browser can know. */
   get armed(): boolean {
@@ -32,7 +32,7 @@ export class AlarmPlayer {
   }
 
   /** Plays this and nothing else; what plays already goes on. */
-  want(wanted: Wanted): void {
+  want(wanted: RequestedSound): void {
     const now = this.playing?.wanted;
     if (now ? now.sound === wanted.sound && now.number === wanted.number : wanted.sound === "silent") return;
     this.hush();

@@ -1,9 +1,9 @@
 // Joins the player to the live state: plays what is wanted, and says every few seconds whether it would be heard.
 import { useEffect, useEffectEvent, useRef, useState } from "react";
 import { useLive, usePainter } from "../live/LiveContext";
-import { sayArmed, sayClosed } from "./desk";
+import { reportArmed, reportClosed } from "./alarmRequests";
 import { AlarmPlayer } from "./player";
-import { alarmsVerdict, wantedSound } from "./verdict";
+import { alarmsVerdict, requestedSound } from "./verdict";
 
 export const OWN_PAUSE_MS = 120_000;
 
@@ -22,19 +22,19 @@ export function useAlarmSound(): AlarmSound {
   const [armed, setArmed] = useState(false);
   const [failed, setFailed] = useState(false);
   const [ownPauseUntilMs, setOwnPauseUntilMs] = useState(0);
-  const heardAtMs = useRef<number | null>(null);
+  const lastReceivedAtMs = useRef<number | null>(null);
 
   usePainter((view) => {
-    const verdict = alarmsVerdict(view, heardAtMs.current !== null);
-    if (verdict.known) heardAtMs.current = view.nowMs;
-    const goneMs = heardAtMs.current === null ? 0 : view.nowMs - heardAtMs.current;
-    player.want(wantedSound(verdict, goneMs, ownPauseUntilMs - view.nowMs));
+    const verdict = alarmsVerdict(view, lastReceivedAtMs.current !== null);
+    if (verdict.known) lastReceivedAtMs.current = view.nowMs;
+    const goneMs = lastReceivedAtMs.current === null ? 0 : view.nowMs - lastReceivedAtMs.current;
+    player.want(requestedSound(verdict, goneMs, ownPauseUntilMs - view.nowMs));
   });
 
   const say = useEffectEvent((signal: AbortSignal) => {
     // A browser may take the sound back, as when another program has the device.
     setArmed(player.armed);
-    void sayArmed(player.armed, signal);
+    void reportArmed(player.armed, signal);
   });
   const everyMs = (dashboard?.armed_every_s ?? 2) * 1000;
   useEffect(() => {
@@ -42,7 +42,7 @@ export function useAlarmSound(): AlarmSound {
     const timer = setInterval(() => {
       say(stop.signal);
     }, everyMs);
-    addEventListener("pagehide", sayClosed, { signal: stop.signal });
+    addEventListener("pagehide", reportClosed, { signal: stop.signal });
     return () => {
       stop.abort();
       clearInterval(timer);
@@ -54,7 +54,7 @@ export function useAlarmSound(): AlarmSound {
       (works) => {
         setArmed(works);
         setFailed(!works);
-        if (works) void sayArmed(true, new AbortController().signal);
+        if (works) void reportArmed(true, new AbortController().signal);
       },
       () => {
         setFailed(true);

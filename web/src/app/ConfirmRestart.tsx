@@ -3,7 +3,7 @@ import { useState, type ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import { answered, server } from "../rest/client";
 import { RejectionNote } from "../rest/RejectionNote";
-import { useDo } from "../rest/useDo";
+import { useAction } from "../rest/useAction";
 import { useTexts } from "../texts/TextsContext";
 import { useProcedureOften } from "./procedure";
 import { useSession } from "./session";
@@ -22,8 +22,8 @@ export function ConfirmRestart(): ReactNode {
 function Question(): ReactNode {
   const texts = useTexts().restart;
   const { session } = useSession();
-  const { data, again } = useProcedureOften();
-  const doing = useDo();
+  const { data, refetch: again } = useProcedureOften();
+  const doing = useAction();
   const [needed, setNeeded] = useState(data?.confirmation ?? null);
   // A server that does not answer has not said that it is over either.
   if (data !== null && data.confirmation !== needed) setNeeded(data.confirmation);

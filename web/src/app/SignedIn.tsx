@@ -3,8 +3,8 @@ import { useState, type ReactNode } from "react";
 import { Link } from "wouter";
 import { answered, server } from "../rest/client";
 import { RejectionNote } from "../rest/RejectionNote";
-import { useAsked } from "../rest/useAsked";
-import { useDo } from "../rest/useDo";
+import { useQuery } from "../rest/useQuery";
+import { useAction } from "../rest/useAction";
 import { useTexts } from "../texts/TextsContext";
 import { isOnlyOperator } from "./onlyOperator";
 import { useSession } from "./session";
@@ -14,9 +14,9 @@ export function SignedIn(): ReactNode {
   const texts = useTexts().signIn;
   const { session, leave } = useSession();
   const [asked, setAsked] = useState(false);
-  const { busy, rejection, run, forget } = useDo();
+  const { busy, rejection, run, forget } = useAction();
   const isOperator = session.state === "in" && session.who.role === "operator";
-  const { data: people, rejection: silent } = useAsked(
+  const { data: people, rejection: silent } = useQuery(
     async (signal) => (asked && isOperator ? answered(server.GET("/api/people", { signal })) : null),
     { key: String(asked && isOperator) },
   );

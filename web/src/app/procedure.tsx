@@ -2,7 +2,7 @@
 // looks open that is shut.
 import { createContext, use, useCallback, useEffect, useMemo, useState, type ReactNode } from "react";
 import { answered, server } from "../rest/client";
-import { useAsked, type Asked } from "../rest/useAsked";
+import { useQuery, type QueryState } from "../rest/useQuery";
 import type { components } from "../schema";
 import type { ViewName } from "./views";
 
@@ -13,16 +13,16 @@ const OFTEN_MS = 1000;
 /** On a screen that is only looked at: what moves quickly comes with each image. */
 const SELDOM_MS = 4000;
 
-interface SharedAsking extends Asked<Procedure> {
+interface SharedQuery extends QueryState<Procedure> {
   /** From now on it is asked for often, until what this gives is called. */
   hurry: () => () => void;
 }
 
-const ProcedureContext = createContext<SharedAsking | null>(null);
+const ProcedureContext = createContext<SharedQuery | null>(null);
 
 export function ProcedureProvider({ view, children }: { view: ViewName; children: ReactNode }): ReactNode {
   const [hurried, setHurried] = useState(0);
-  const asked = useAsked((signal) => answered(server.GET("/api/procedure", { signal })), {
+  const query = useQuery((signal) => answered(server.GET("/api/procedure", { signal })), {
     everyMs: view === "theatre" && hurried === 0 ? SELDOM_MS : OFTEN_MS,
   });
   const hurry = useCallback(() => {
@@ -31,32 +31,32 @@ export function ProcedureProvider({ view, children }: { view: ViewName; children
       setHurried((before) => before - 1);
     };
   }, []);
-  const { data, rejection, asking, again } = asked;
+  const { data, rejection, isLoading, refetch } = query;
   const shared = useMemo(
-    () => ({ data, rejection, asking, again, hurry }),
-    [data, rejection, asking, again, hurry],
+    () => ({ data, rejection, isLoading, refetch, hurry }),
+    [data, rejection, isLoading, refetch, hurry],
   );
   return <ProcedureContext value={shared}>{children}</ProcedureContext>;
 }
 
-function useShared(): SharedAsking {
+function useShared(): SharedQuery {
   const value = use(ProcedureContext);
   if (value === null) throw new Error("useProcedure stands outside ProcedureProvider");
   return value;
 }
 
 /** As the page asks for it anyway. */
-export function useProcedure(): Asked<Procedure> {
+export function useProcedure(): QueryState<Procedure> {
   return useShared();
 }
 
 /** Asked for often as long as this stands on the page, and at once when it comes. */
-export function useProcedureOften(): Asked<Procedure> {
+export function useProcedureOften(): QueryState<Procedure> {
   const shared = useShared();
-  const { hurry, again } = shared;
+  const { hurry, refetch } = shared;
   useEffect(() => {
-    again();
+    refetch();
     return hurry();
-  }, [hurry, again]);
+  }, [hurry, refetch]);
   return shared;
 }

@@ -10,7 +10,7 @@ import {
   useState,
   type ReactNode,
 } from "react";
-import type { Carried } from "./carried";
+import type { PictureDelivery } from "./pictureDelivery";
 import type { Ages, View } from "./live";
 import { Live } from "./live";
 import { start, type Dashboard } from "./start";
@@ -28,12 +28,12 @@ const LiveContext = createContext<LiveValue | null>(null);
 
 export function LiveProvider({ children }: { children: ReactNode }): ReactNode {
   const [live] = useState(() => new Live(() => performance.now()));
-  const [view, setView] = useState(() => live.look());
+  const [view, setView] = useState(() => live.update());
   const [dashboard, setDashboard] = useState<Dashboard | null>(null);
   const shown = useRef({ key: "", atMs: -Infinity });
 
   useEffect(() => {
-    const leave = live.onLook((next) => {
+    const leave = live.onUpdate((next) => {
       const key = keyOf(next);
       if (key === shown.current.key && next.nowMs - shown.current.atMs < REFRESH_EVERY_MS) return;
       shown.current = { key, atMs: next.nowMs };
@@ -61,8 +61,8 @@ export function useAges(): Ages {
 }
 
 /** What this viewer's line carries, a few times a second. */
-export function useCarried(): Carried {
-  return useLive().view.carried;
+export function usePictureDelivery(): PictureDelivery {
+  return useLive().view.pictureDelivery;
 }
 
 /** Paints directly with every look, past React's state, and at once before what is new is seen. */
@@ -70,10 +70,10 @@ export function usePainter(paint: (view: View) => void): void {
   const { live } = useLive();
   const onLook = useEffectEvent(paint);
   useLayoutEffect(() => {
-    const leave = live.onLook((view) => {
+    const leave = live.onUpdate((view) => {
       onLook(view);
     });
-    live.look();
+    live.update();
     return leave;
   }, [live]);
 }

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { useTexts } from "../texts/TextsContext";
-import { PICTURE_CHOICES, type PictureChoice } from "./carried";
+import { PICTURE_CHOICES, type PictureChoice } from "./pictureDelivery";
 import { useLive } from "./LiveContext";
 
 /** In which size the picture comes: by itself as the line carries it, or the one that is chosen. */
@@ -13,7 +13,7 @@ export function PictureSize(): ReactNode {
       aria-label={line.size}
       title={line.size}
       data-testid="picture-size"
-      value={view.carried.choice}
+      value={view.pictureDelivery.choice}
       onChange={(event) => {
         live.choosePicture(event.currentTarget.value as PictureChoice);
       }}

@@ -1,22 +1,28 @@
 import { describe, expect, test } from "vitest";
 import { numbersVerdict, videoVerdict, type Cause, type Situation } from "./assess";
 import { REACHED_WITHIN_MS } from "./firstMessage";
-import { message, situation, snapshot, taken } from "./builders";
+import { message, situation, snapshot, receivedImage } from "./builders";
 import { headline } from "./figureBuilders";
 
 const NOW = 1000;
 const source = message().source;
 const process = message().process;
 
-const LOADING = { everHeard: false, newest: null, numbers: null, picture: null, waitingSinceMs: NOW - 5000 };
+const LOADING = {
+  everReceived: false,
+  newest: null,
+  numbers: null,
+  picture: null,
+  waitingSinceMs: NOW - 5000,
+};
 
 const GONE: [string, Partial<Situation>, Cause][] = [
   ["page hidden", { hidden: true }, "hidden"],
-  ["first start", { ...LOADING, link: "connecting", heardAtMs: null }, "connecting"],
+  ["first start", { ...LOADING, link: "connecting", lastReceivedAtMs: null }, "connecting"],
   ["still loading: line open, first message not come", LOADING, "connecting"],
   [
     "still loading: open and silent for longer than a server may be",
-    { ...LOADING, heardAtMs: NOW - 5000 },
+    { ...LOADING, lastReceivedAtMs: NOW - 5000 },
     "connecting",
   ],
   ["still loading: line lost and tried again", { ...LOADING, link: "lost" }, "connecting"],
@@ -38,7 +44,7 @@ const GONE: [string, Partial<Situation>, Cause][] = [
   ],
   ["line open, nothing said yet", { newest: null }, "connecting"],
   ["line lost", { link: "lost" }, "server-gone"],
-  ["line said to stand, but silent", { heardAtMs: NOW - 801 }, "server-gone"],
+  ["line said to stand, but silent", { lastReceivedAtMs: NOW - 801 }, "server-gone"],
   [
     "tracking starts",
     { newest: message({ process: { ...process, state: "starting" } }) },
@@ -76,27 +82,27 @@ describe("age", () => {
     [150, true],
     [150.1, false],
   ])("numbers %d ms old: live %s", (ageMs, live) => {
-    expect(numbersVerdict(situation({ numbers: taken(NOW - ageMs) }), NOW).live).toBe(live);
+    expect(numbersVerdict(situation({ numbers: receivedImage(NOW - ageMs) }), NOW).live).toBe(live);
   });
 
   test.each([
     [500, true],
     [500.1, false],
   ])("picture %d ms old: live %s", (ageMs, live) => {
-    expect(videoVerdict(situation({ picture: taken(NOW - ageMs) }), NOW).live).toBe(live);
+    expect(videoVerdict(situation({ picture: receivedImage(NOW - ageMs) }), NOW).live).toBe(live);
   });
 
   test.each([
     [500, "unread"],
     [500.1, "old"],
   ])("why there are no figures, %d ms old, is said as long as its picture may stand: %s", (ageMs, cause) => {
-    const numbers = taken(NOW - ageMs, { displayed_tool: null });
+    const numbers = receivedImage(NOW - ageMs, { displayed_tool: null });
     expect(numbersVerdict(situation({ numbers }), NOW)).toMatchObject({ live: false, cause });
   });
 
   test("an age that is no number is never live", () => {
-    expect(numbersVerdict(situation({ numbers: taken(NaN) }), NOW).live).toBe(false);
-    expect(videoVerdict(situation({ picture: taken(NaN) }), NOW).live).toBe(false);
+    expect(numbersVerdict(situation({ numbers: receivedImage(NaN) }), NOW).live).toBe(false);
+    expect(videoVerdict(situation({ picture: receivedImage(NaN) }), NOW).live).toBe(false);
   });
 
   test("numbers without a picture stand, the picture does not", () => {
@@ -115,7 +121,7 @@ describe("what the image says", () => {
   test("the tool that the server shows is read, whatever stands before it", () => {
     const known = snapshot().tools[0];
     if (!known) throw new Error("the builder has a tool");
-    const numbers = taken(960, { tools: [{ ...known, name: "awl" }, known] });
+    const numbers = receivedImage(960, { tools: [{ ...known, name: "awl" }, known] });
     expect(numbersVerdict(situation({ numbers }), NOW)).toMatchObject({
       live: true,
       reading: { tool: "drill" },
@@ -135,7 +141,7 @@ describe("what the image says", () => {
       },
     ],
   ])("without figures the image's headline says why: %s", (_, changes) => {
-    expect(numbersVerdict(situation({ numbers: taken(960, changes) }), NOW)).toMatchObject({
+    expect(numbersVerdict(situation({ numbers: receivedImage(960, changes) }), NOW)).toMatchObject({
       live: false,
       cause: "unread",
       unread: { known: false, headline: headline() },

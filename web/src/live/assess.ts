@@ -3,7 +3,7 @@ import { firstMessageAt, type FirstMessageWait } from "./firstMessage";
 import type { Reading } from "./reading";
 import { readingOf, type Unread } from "./reading";
 import type { AlarmsMessage, HeadlineMessage, LiveMessage, SnapshotMessage } from "./messages";
-import type { LinkState } from "./line";
+import type { LinkState } from "./viewConnection";
 
 export interface Limits {
   pose_stale_after_ms: number;
@@ -12,7 +12,7 @@ export interface Limits {
 }
 
 /** One image's message with its capture time on the page's clock. */
-export interface Taken {
+export interface ReceivedImage {
   snapshot: SnapshotMessage;
   headline: HeadlineMessage;
   /** As they were with this image. */
@@ -24,12 +24,12 @@ export interface Taken {
 export interface Situation extends FirstMessageWait {
   link: LinkState;
   hidden: boolean;
-  heardAtMs: number | null;
+  lastReceivedAtMs: number | null;
   newest: LiveMessage | null;
   /** Whose numbers stand on the page. */
-  numbers: Taken | null;
+  numbers: ReceivedImage | null;
   /** Whose picture stands on the canvas. */
-  picture: Taken | null;
+  picture: ReceivedImage | null;
   /** The capture time of the last picture that stood, taken away or not; null before the first of this line. */
   lastPictureAtMs: number | null;
   /** Since when there is a canvas on which no picture has stood yet; null without one. */
@@ -49,9 +49,9 @@ export function situationAtLoad(nowMs: number): Situation {
   return {
     link: "connecting",
     hidden: false,
-    everHeard: false,
+    everReceived: false,
     waitingSinceMs: nowMs,
-    heardAtMs: null,
+    lastReceivedAtMs: null,
     newest: null,
     numbers: null,
     picture: null,
@@ -130,12 +130,12 @@ export function isOfNow(numbers: NumbersVerdict): boolean {
 
 /** What takes everything away at once, or null. */
 export function commonCause(situation: Situation, nowMs: number): Cause | null {
-  const { link, hidden, heardAtMs, newest } = situation;
+  const { link, hidden, lastReceivedAtMs, newest } = situation;
   if (hidden) return "hidden";
   const first = firstMessageAt(situation, nowMs);
   if (first !== "received") return first === "overdue" ? "not-reached" : "connecting";
   if (link !== "open") return "server-gone";
-  if (heardAtMs !== null && nowMs - heardAtMs > SILENT_AFTER_MS) return "server-gone";
+  if (lastReceivedAtMs !== null && nowMs - lastReceivedAtMs > SILENT_AFTER_MS) return "server-gone";
   if (newest === null) return "connecting";
   if (newest.process.state !== "running") return `process-${newest.process.state}`;
   if (newest.source.state !== "running") return `source-${newest.source.state}`;

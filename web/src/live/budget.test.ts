@@ -22,7 +22,7 @@ function pass(seconds: number, timings: Timings, ageLimitMs: number | null = nul
   for (const until = nowMs + 1000 * seconds; nowMs < until; nowMs += 50) {
     const current = STEPS[step];
     if (current === undefined) throw new Error("no such step");
-    step = control.look(nowMs, STEPS, timings, strainIn(current, timings, ageLimitMs));
+    step = control.update(nowMs, STEPS, timings, strainIn(current, timings, ageLimitMs));
   }
 }
 

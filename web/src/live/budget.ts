@@ -91,7 +91,7 @@ export class BudgetControl {
     return this.changedAtMs;
   }
 
-  look(nowMs: number, steps: readonly DrawingBudget[], timings: Timings, strain: Strain): number {
+  update(nowMs: number, steps: readonly DrawingBudget[], timings: Timings, strain: Strain): number {
     this.step = Math.min(this.step, steps.length - 1);
     if (strain !== "idle") this.idleSinceMs = null;
     if (timings.images < MIN_IMAGES || nowMs - this.changedAtMs < LOOK_AFTER_MS) return this.step;

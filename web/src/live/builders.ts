@@ -1,5 +1,5 @@
 // Truth for tests: messages as the server sends them.
-import type { Situation, Taken } from "./assess";
+import type { Situation, ReceivedImage } from "./assess";
 import { alarms } from "./alarmBuilders";
 import { assessment, headline } from "./figureBuilders";
 import type { BullseyeMessage, JudgementMessage, LiveMessage, SnapshotMessage } from "./messages";
@@ -145,7 +145,7 @@ export function message(changes: Partial<LiveMessage> = {}): LiveMessage {
   };
 }
 
-export function taken(capturedAtMs: number, changes: Partial<SnapshotMessage> = {}): Taken {
+export function receivedImage(capturedAtMs: number, changes: Partial<SnapshotMessage> = {}): ReceivedImage {
   return {
     snapshot: snapshot(changes),
     headline: headline(),
@@ -160,14 +160,14 @@ export function situation(changes: Partial<Situation> = {}): Situation {
   return {
     link: "open",
     hidden: false,
-    everHeard: true,
+    everReceived: true,
     waitingSinceMs: 0,
     lastPictureAtMs: 960,
     canvasSinceMs: null,
-    heardAtMs: 980,
+    lastReceivedAtMs: 980,
     newest: message(),
-    numbers: taken(960),
-    picture: taken(960),
+    numbers: receivedImage(960),
+    picture: receivedImage(960),
     limits: { pose_stale_after_ms: 150, video_stale_after_ms: 500, scene_stale_after_ms: 500 },
     ...changes,
   };

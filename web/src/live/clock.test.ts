@@ -20,9 +20,9 @@ test("half the round trip is taken out of the comparison", () => {
 test.each([
   [1000, 2001],
   [1000, 999],
-])("a sample from %d to %d says too little and is dropped", (askedAtMs, answeredAtMs) => {
+])("a sample from %d to %d says too little and is dropped", (requestedAtMs, answeredAtMs) => {
   const clock = new ServerClock();
-  clock.sample(askedAtMs, answeredAtMs, 1);
+  clock.sample(requestedAtMs, answeredAtMs, 1);
   expect(clock.capturedAtMs(1000, 20, 0)).toBe(980);
 });
 

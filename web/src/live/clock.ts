@@ -16,11 +16,11 @@ export class ServerClock {
           .offsetMs;
   }
 
-  /** From a question asked at `askedAtMs` and answered at `answeredAtMs` with the server's `sentAtS`. */
-  sample(askedAtMs: number, answeredAtMs: number, sentAtS: number): void {
-    const roundTripMs = answeredAtMs - askedAtMs;
+  /** From a question asked at `requestedAtMs` and answered at `answeredAtMs` with the server's `sentAtS`. */
+  sample(requestedAtMs: number, answeredAtMs: number, sentAtS: number): void {
+    const roundTripMs = answeredAtMs - requestedAtMs;
     if (!(roundTripMs >= 0 && roundTripMs <= MAX_ROUND_TRIP_MS)) return;
-    this.samples.push({ roundTripMs, offsetMs: sentAtS * 1000 - (askedAtMs + answeredAtMs) / 2 });
+    this.samples.push({ roundTripMs, offsetMs: sentAtS * 1000 - (requestedAtMs + answeredAtMs) / 2 });
     if (this.samples.length > REMEMBERED) this.samples.shift();
   }
 

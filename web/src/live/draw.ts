@@ -6,7 +6,7 @@ export type Draw = (
 ) => Promise<boolean>;
 
 /** What became of a frame: whether it stands, and how long the page needed for that. */
-export interface Shown {
-  stands: boolean;
+export interface DisplayResult {
+  isDisplayed: boolean;
   showingMs: number;
 }

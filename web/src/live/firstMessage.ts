@@ -4,7 +4,7 @@ export type FirstMessage = "awaited" | "overdue" | "received";
 
 /** What is known of the first live message since the page was loaded. */
 export interface FirstMessageWait {
-  everHeard: boolean;
+  everReceived: boolean;
   /** Since when there was no sign of the server: the page's load, its return into view, or an answer. */
   waitingSinceMs: number;
 }
@@ -16,7 +16,10 @@ export interface FirstMessageWait {
  */
 export const REACHED_WITHIN_MS = 10_000;
 
-export function firstMessageAt({ everHeard, waitingSinceMs }: FirstMessageWait, nowMs: number): FirstMessage {
+export function firstMessageAt(
+  { everReceived: everHeard, waitingSinceMs }: FirstMessageWait,
+  nowMs: number,
+): FirstMessage {
   if (everHeard) return "received";
   return nowMs - waitingSinceMs > REACHED_WITHIN_MS ? "overdue" : "awaited";
 }

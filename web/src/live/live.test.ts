@@ -21,43 +21,43 @@ beforeEach(() => {
 });
 
 test("numbers go by themselves 150 ms after their image was grabbed, with no message at all", async () => {
-  await live.take(frame(1));
+  await live.receive(frame(1));
   nowMs = 1130;
-  expect(live.look().numbers.live).toBe(true);
+  expect(live.update().numbers.live).toBe(true);
   nowMs = 1131;
-  expect(live.look().numbers).toMatchObject({ live: false, cause: "old" });
-  expect(live.look().video.live).toBe(true);
+  expect(live.update().numbers).toMatchObject({ live: false, cause: "old" });
+  expect(live.update().video.live).toBe(true);
   nowMs = 1481;
-  expect(live.look().video).toMatchObject({ live: false, cause: "old" });
+  expect(live.update().video).toMatchObject({ live: false, cause: "old" });
 });
 
 test("the time without numbers is counted from the last image that had them", async () => {
-  await live.take(frame(1));
+  await live.receive(frame(1));
   nowMs = 2180;
-  expect(live.look().untrackedMs).toBe(1200);
+  expect(live.update().untrackedMs).toBe(1200);
 });
 
 test("numbers that were too old come back only when young for a while", async () => {
-  await live.take(frame(1, 200));
+  await live.receive(frame(1, 200));
   nowMs = 1100;
-  await live.take(frame(2));
-  expect(live.look().numbers).toMatchObject({ live: false, cause: "old" });
+  await live.receive(frame(2));
+  expect(live.update().numbers).toMatchObject({ live: false, cause: "old" });
   nowMs = 1251;
-  await live.take(frame(3));
-  expect(live.look().numbers.live).toBe(true);
+  await live.receive(frame(3));
+  expect(live.update().numbers.live).toBe(true);
 });
 
 test("a picture that was taken away never comes back, only a new one does", async () => {
-  await live.take(frame(1));
+  await live.receive(frame(1));
   live.setHidden(true);
   live.setHidden(false);
-  expect(live.look().video.live).toBe(false);
-  await live.take(frame(2));
-  expect(live.look().video).toMatchObject({ live: true, imageNumber: 2 });
+  expect(live.update().video.live).toBe(false);
+  await live.receive(frame(2));
+  expect(live.update().video).toMatchObject({ live: true, imageNumber: 2 });
 });
 
 test("numbers wait for their picture, and both change together", async () => {
-  await live.take(frame(1));
+  await live.receive(frame(1));
   let done: (drawn: boolean) => void = () => undefined;
   live.setDraw(
     () =>
@@ -65,18 +65,18 @@ test("numbers wait for their picture, and both change together", async () => {
         done = resolve;
       }),
   );
-  const taking = live.take(frame(2));
-  expect(live.look().numbers).toMatchObject({ imageNumber: 1 });
+  const taking = live.receive(frame(2));
+  expect(live.update().numbers).toMatchObject({ imageNumber: 1 });
   done(true);
   await taking;
-  expect(live.look()).toMatchObject({ numbers: { imageNumber: 2 }, video: { imageNumber: 2 } });
+  expect(live.update()).toMatchObject({ numbers: { imageNumber: 2 }, video: { imageNumber: 2 } });
 });
 
 test("a picture that cannot be drawn leaves its numbers, and the page can say that they differ", async () => {
-  await live.take(frame(1));
+  await live.receive(frame(1));
   live.setDraw(() => Promise.resolve(false));
-  await live.take(frame(2));
-  expect(live.look()).toMatchObject({ numbers: { imageNumber: 2 }, video: { imageNumber: 1 } });
+  await live.receive(frame(2));
+  expect(live.update()).toMatchObject({ numbers: { imageNumber: 2 }, video: { imageNumber: 1 } });
 });
 
 test("what was being drawn when the line was lost is not shown on the next line", async () => {
@@ -87,41 +87,41 @@ test("what was being drawn when the line was lost is not shown on the next line"
         done = resolve;
       }),
   );
-  const taking = live.take(frame(1));
+  const taking = live.receive(frame(1));
   live.setLink("lost");
   live.setLink("open");
   done(true);
-  expect(await taking).toMatchObject({ stands: false });
-  expect(live.look().numbers.live).toBe(false);
+  expect(await taking).toMatchObject({ isDisplayed: false });
+  expect(live.update().numbers.live).toBe(false);
 });
 
 test("time on the line counts as age: the clocks are compared, the stated age is not enough", async () => {
   // Asked at 1000, answered at 1000: the server's clock stands at 100.02 s.
-  live.answered(message(), nowMs, live.currentGeneration);
+  live.receiveAnswer(message(), nowMs, live.currentGeneration);
   nowMs = 1400;
-  await live.take(frame(8)); // grabbed at 100.0 s, 20 ms old when sent, 400 ms under way
-  expect(live.look().numbers).toMatchObject({ live: false, ageMs: 420 });
+  await live.receive(frame(8)); // grabbed at 100.0 s, 20 ms old when sent, 400 ms under way
+  expect(live.update().numbers).toMatchObject({ live: false, ageMs: 420 });
 });
 
 test("an answer that came too late for its line is not heard", () => {
   const generation = live.currentGeneration;
   live.setLink("lost");
   live.setLink("open");
-  live.answered(message(), nowMs, generation);
-  expect(live.look().newest).toBeNull();
+  live.receiveAnswer(message(), nowMs, generation);
+  expect(live.update().newest).toBeNull();
 });
 
 test("the true age of everything can be read, clocks compared", async () => {
-  await live.take(frame(1));
-  expect(live.look().ages).toEqual({
+  await live.receive(frame(1));
+  expect(live.update().ages).toEqual({
     pictureMs: 20,
     numbersMs: 20,
     sceneMs: null,
     clockAheadMs: null,
   });
-  live.answered(message(), nowMs, live.currentGeneration);
+  live.receiveAnswer(message(), nowMs, live.currentGeneration);
   nowMs = 1100;
-  expect(live.look().ages).toMatchObject({ pictureMs: 120, clockAheadMs: 99_020 });
+  expect(live.update().ages).toMatchObject({ pictureMs: 120, clockAheadMs: 99_020 });
 });
 
 test("what the page itself needs for an image is told apart from the network", async () => {
@@ -131,13 +131,13 @@ test("what the page itself needs for an image is told apart from the network", a
     nowMs += 10;
     return Promise.resolve(true);
   });
-  expect(await live.take(frame(1))).toEqual({ stands: true, showingMs: 40 });
+  expect(await live.receive(frame(1))).toEqual({ isDisplayed: true, showingMs: 40 });
 });
 
 test("a page that was too busy to hear counts that as its own time", async () => {
   live.load.tick(nowMs);
   nowMs += 250;
-  expect(await live.take(frame(1))).toMatchObject({ showingMs: 200 });
+  expect(await live.receive(frame(1))).toMatchObject({ showingMs: 200 });
 });
 
 test("a chosen size is told at once, and the picture says which one came", async () => {
@@ -145,15 +145,15 @@ test("a chosen size is told at once, and the picture says which one came", async
   live.setOnChoice((choice) => told.push(choice));
   live.choosePicture("half");
   const { message: full, jpeg: picture } = frame(1);
-  await live.take({ message: { ...full, shown_scale_ratio: 0.5 }, jpeg: picture });
+  await live.receive({ message: { ...full, shown_scale_ratio: 0.5 }, jpeg: picture });
   expect(told).toEqual(["half"]);
-  expect(live.look().carried).toMatchObject({ choice: "half", widthPx: 640, heightPx: 360 });
+  expect(live.update().pictureDelivery).toMatchObject({ choice: "half", widthPx: 640, heightPx: 360 });
 });
 
 test("a server that says nothing any more is gone within a second", async () => {
-  await live.take(frame(1));
+  await live.receive(frame(1));
   nowMs = 1801;
-  expect(live.look().video).toMatchObject({ live: false, cause: "server-gone" });
+  expect(live.update().video).toMatchObject({ live: false, cause: "server-gone" });
 });
 
 test("who measures is told of each picture that was drawn, with its message and when it came", async () => {
@@ -161,9 +161,9 @@ test("who measures is told of each picture that was drawn, with its message and 
   live.onShown = ({ message: told, receivedAtMs }) => {
     shown.push([told.sequence, receivedAtMs]);
   };
-  await live.take(frame(1));
+  await live.receive(frame(1));
   live.setDraw(() => Promise.resolve(false));
   nowMs = 1030;
-  await live.take(frame(2));
+  await live.receive(frame(2));
   expect(shown).toEqual([[1, 1000]]);
 });

@@ -8,17 +8,17 @@ import {
   type Limits,
   type NumbersVerdict,
   type Situation,
-  type Taken,
+  type ReceivedImage,
 } from "./assess";
-import type { PictureChoice } from "./carried";
+import type { PictureChoice } from "./pictureDelivery";
 import { ServerClock } from "./clock";
 import { firstMessageAt } from "./firstMessage";
-import type { Draw, Shown } from "./draw";
+import type { Draw, DisplayResult } from "./draw";
 import type { ViewFrame } from "./frame";
-import type { LinkState } from "./line";
+import type { LinkState } from "./viewConnection";
 import { Load } from "./load";
 import type { LiveMessage } from "./messages";
-import { ReturnHold } from "./returnHold";
+import { RecoveryDelay } from "./recoveryDelay";
 import { SceneAge, type SceneNote, type SceneVerdict } from "./sceneAge";
 import { agesOf, type PaintedImage, type View } from "./view";
 
@@ -26,12 +26,12 @@ export type { Ages, View } from "./view";
 
 export class Live {
   private draw: Draw = () => Promise.resolve(false);
-  private readonly is: Situation;
+  private readonly situation: Situation;
   private trackedAtMs: number | null = null;
   /** Grows with each line, so that what a lost line still delivers is dropped. */
   private generation = 0;
   private readonly clock = new ServerClock();
-  private readonly hold = new ReturnHold();
+  private readonly recoveryDelay = new RecoveryDelay();
   private readonly sceneAge = new SceneAge();
   /** What this page can carry, and what is slow. */
   readonly load: Load;
@@ -40,39 +40,43 @@ export class Live {
   private readonly painters = new Set<(view: View) => void>();
 
   constructor(private readonly now: () => number) {
-    this.is = situationAtLoad(now());
+    this.situation = situationAtLoad(now());
     this.load = new Load(now);
   }
 
   /** Called with every look; must only touch the page where something changed. */
-  onLook(painter: (view: View) => void): () => void {
+  onUpdate(painter: (view: View) => void): () => void {
     this.painters.add(painter);
     return () => this.painters.delete(painter);
   }
 
-  look(): View {
+  update(): View {
     const nowMs = this.now();
-    const numbers = this.held(numbersVerdict(this.is, nowMs), nowMs);
+    const numbers = this.withRecoveryDelay(numbersVerdict(this.situation, nowMs), nowMs);
     if (numbers.live) this.trackedAtMs = nowMs - numbers.ageMs;
-    const video = videoVerdict(this.is, nowMs);
+    const video = videoVerdict(this.situation, nowMs);
     // A picture that was taken away does not come back: only a new one does.
-    if (!video.live) this.is.picture = null;
+    if (!video.live) this.situation.picture = null;
     const scene: SceneVerdict = this.load.sceneSwitch.isOn
-      ? this.sceneAge.verdict(nowMs, this.is.limits.scene_stale_after_ms)
+      ? this.sceneAge.verdict(nowMs, this.situation.limits.scene_stale_after_ms)
       : { state: "off" };
     const view: View = {
       nowMs,
-      link: this.is.link,
-      silentMs: this.is.heardAtMs === null ? 0 : nowMs - this.is.heardAtMs,
-      firstMessage: firstMessageAt(this.is, nowMs),
-      newest: this.is.newest,
-      alarms: (isOfNow(numbers) ? this.is.numbers?.alarms : this.is.newest?.alarms) ?? null,
+      link: this.situation.link,
+      silentMs: this.situation.lastReceivedAtMs === null ? 0 : nowMs - this.situation.lastReceivedAtMs,
+      firstMessage: firstMessageAt(this.situation, nowMs),
+      newest: this.situation.newest,
+      alarms: (isOfNow(numbers) ? this.situation.numbers?.alarms : this.situation.newest?.alarms) ?? null,
       video,
       numbers,
       untrackedMs: numbers.live || this.trackedAtMs === null ? null : nowMs - this.trackedAtMs,
       scene,
       ages: agesOf(video, numbers, scene, this.clock.aheadMs),
-      carried: this.load.look(nowMs, this.is.limits, this.is.newest?.source.rate_hz ?? 0),
+      pictureDelivery: this.load.update(
+        nowMs,
+        this.situation.limits,
+        this.situation.newest?.source.rate_hz ?? 0,
+      ),
       budget: this.load.budget,
     };
     for (const painter of this.painters) painter(view);
@@ -81,7 +85,7 @@ export class Live {
 
   setDraw(draw: Draw): void {
     this.draw = draw;
-    this.is.canvasSinceMs = this.now();
+    this.situation.canvasSinceMs = this.now();
   }
 
   /** Who tells the server which size is wanted, now and with each later choice. */
@@ -92,7 +96,7 @@ export class Live {
   choosePicture(choice: PictureChoice): void {
     this.load.choice = choice;
     this.onChoice(choice);
-    this.look();
+    this.update();
   }
 
   get pictureChoice(): PictureChoice {
@@ -100,22 +104,22 @@ export class Live {
   }
 
   setLimits(limits: Limits): void {
-    this.is.limits = limits;
+    this.situation.limits = limits;
   }
 
   setHidden(hidden: boolean): void {
-    this.is.hidden = hidden;
+    this.situation.hidden = hidden;
     // A page in the background is held back by the browser: what it did not hear there says nothing of the server.
-    if (!hidden) this.is.waitingSinceMs = this.now();
+    if (!hidden) this.situation.waitingSinceMs = this.now();
     this.load.forget();
-    this.look();
+    this.update();
   }
 
   setLink(link: LinkState): void {
-    this.is.link = link;
-    if (link === "open") this.heard();
+    this.situation.link = link;
+    if (link === "open") this.markReceived();
     else this.forget();
-    this.look();
+    this.update();
   }
 
   sceneDrawn(note: SceneNote): void {
@@ -127,50 +131,51 @@ export class Live {
   switchSceneOn(): void {
     this.sceneAge.reload();
     this.load.sceneSwitch.switchOn(this.now());
-    this.look();
+    this.update();
   }
 
   /** Takes one frame; resolves when it stands on the page and the next may be granted. */
-  async take({ message, jpeg }: ViewFrame): Promise<Shown> {
+  async receive({ message, jpeg }: ViewFrame): Promise<DisplayResult> {
     const generation = this.generation;
     const isCurrent = (): boolean => generation === this.generation;
-    const receivedAtMs = (this.is.waitingSinceMs = this.heard());
-    const showing = this.load.begin(receivedAtMs);
-    this.is.newest = message;
-    const taken = this.takenFrom(message, receivedAtMs);
-    if (taken) this.sceneAge.image(taken.snapshot.image_number, taken.capturedAtMs);
+    const receivedAtMs = (this.situation.waitingSinceMs = this.markReceived());
+    const timer = this.load.begin(receivedAtMs);
+    this.situation.newest = message;
+    const received = this.receivedImageFrom(message, receivedAtMs);
+    if (received) this.sceneAge.image(received.snapshot.image_number, received.capturedAtMs);
     // Numbers and picture change together, when the picture is ready: both are of one image.
-    const onDecoded = showing.decoded;
-    const drawn = taken !== null && jpeg.byteLength > 0 && (await this.draw(jpeg, isCurrent, onDecoded));
+    const onDecoded = timer.markDecoded;
+    const drawn = received !== null && jpeg.byteLength > 0 && (await this.draw(jpeg, isCurrent, onDecoded));
     // Not before its picture stands: to say that there is none would be a false alarm.
-    this.is.everHeard = true;
-    if (!isCurrent()) return { stands: false, showingMs: 0 };
-    this.is.numbers = taken;
-    showing.stands();
+    this.situation.everReceived = true;
+    if (!isCurrent()) return { isDisplayed: false, showingMs: 0 };
+    this.situation.numbers = received;
+    timer.markDisplayed();
     const sentAtMs = this.clock.pageMs(message.sent_at_s);
     if (drawn) {
-      this.is.picture = taken;
-      this.is.lastPictureAtMs = taken.capturedAtMs;
-      this.is.canvasSinceMs = null;
-      const times = showing.times(sentAtMs, taken.capturedAtMs);
-      this.load.shown(times, taken.snapshot, message.shown_scale_ratio);
+      this.situation.picture = received;
+      this.situation.lastPictureAtMs = received.capturedAtMs;
+      this.situation.canvasSinceMs = null;
+      const times = timer.times(sentAtMs, received.capturedAtMs);
+      this.load.shown(times, received.snapshot, message.shown_scale_ratio);
       this.onShown?.({ message, receivedAtMs });
     }
-    this.look();
-    return { stands: true, showingMs: showing.deviceMs(sentAtMs, this.load.sharesMachine) };
+    this.update();
+    return { isDisplayed: true, showingMs: timer.deviceMs(sentAtMs, this.load.sharesMachine) };
   }
 
   /** The answer to a question that was asked because the line was quiet, or to compare clocks. */
-  answered(message: LiveMessage | null, askedAtMs: number, generation: number): void {
+  receiveAnswer(message: LiveMessage | null, requestedAtMs: number, generation: number): void {
     if (generation !== this.generation) return;
-    const answeredAtMs = (this.is.waitingSinceMs = this.heard());
+    const answeredAtMs = (this.situation.waitingSinceMs = this.markReceived());
     if (message === null) return;
-    this.clock.sample(askedAtMs, answeredAtMs, message.sent_at_s);
-    if (this.is.newest === null || message.sequence > this.is.newest.sequence) this.is.newest = message;
+    this.clock.sample(requestedAtMs, answeredAtMs, message.sent_at_s);
+    if (this.situation.newest === null || message.sequence > this.situation.newest.sequence)
+      this.situation.newest = message;
   }
 
-  get hasNews(): boolean {
-    return this.is.newest !== null;
+  get hasMessage(): boolean {
+    return this.situation.newest !== null;
   }
 
   get currentGeneration(): number {
@@ -179,33 +184,35 @@ export class Live {
 
   /** For how long nothing has come over an open line; 0 while there is none. */
   quietMs(): number {
-    return this.is.link !== "open" || this.is.heardAtMs === null ? 0 : this.now() - this.is.heardAtMs;
+    return this.situation.link !== "open" || this.situation.lastReceivedAtMs === null
+      ? 0
+      : this.now() - this.situation.lastReceivedAtMs;
   }
 
-  private heard(): number {
-    return (this.is.heardAtMs = this.now());
+  private markReceived(): number {
+    return (this.situation.lastReceivedAtMs = this.now());
   }
 
   private forget(): void {
     this.generation += 1;
-    this.is.newest = this.is.numbers = this.is.picture = null;
-    this.is.lastPictureAtMs = null;
+    this.situation.newest = this.situation.numbers = this.situation.picture = null;
+    this.situation.lastPictureAtMs = null;
     this.clock.forget();
     this.sceneAge.forget();
     this.load.forget();
   }
 
-  private takenFrom(message: LiveMessage, receivedAtMs: number): Taken | null {
+  private receivedImageFrom(message: LiveMessage, receivedAtMs: number): ReceivedImage | null {
     const { snapshot, headline, alarms } = message;
     if (snapshot === null) return null;
     const capturedAtMs = this.clock.capturedAtMs(receivedAtMs, snapshot.age_ms, snapshot.captured_at_s);
     return { snapshot, headline, alarms, capturedAtMs, receivedAtMs };
   }
 
-  private held(verdict: NumbersVerdict, nowMs: number): NumbersVerdict {
+  private withRecoveryDelay(verdict: NumbersVerdict, nowMs: number): NumbersVerdict {
     const old = !verdict.live && verdict.cause === "old";
-    const held = this.hold.held(old, nowMs);
-    if (!held || !verdict.live) return verdict;
+    const isDelayed = this.recoveryDelay.isActive(old, nowMs);
+    if (!isDelayed || !verdict.live) return verdict;
     return { live: false, cause: "old", unread: null, ageMs: verdict.ageMs };
   }
 }

@@ -1,21 +1,21 @@
 // What this page can carry: measured with each image, told as what is slow, and kept within by what gives way.
 import type { Limits } from "./assess";
 import { BudgetControl, budgetSteps, strainIn, type DrawingBudget } from "./budget";
-import { Carrying, type Carried, type PictureChoice } from "./carried";
+import { PictureDeliveryMonitor, type PictureDelivery, type PictureChoice } from "./pictureDelivery";
 import { SceneSwitch } from "./sceneSwitch";
-import { Showing } from "./showing";
+import { ImageTimer } from "./imageTimer";
 import { Stall, TimingWindow, type ImageTimes } from "./timings";
 
 /** The page looks around at least this often, where nothing holds it up. */
-export const LOOK_EVERY_MS = 50;
+export const UPDATE_EVERY_MS = 50;
 
 export class Load {
-  readonly carrying = new Carrying();
+  readonly deliveryMonitor = new PictureDeliveryMonitor();
   readonly sceneSwitch = new SceneSwitch();
   /** Whether the server runs on this very machine: then both share its processor, and no network lies between. */
   sharesMachine = false;
   private readonly window = new TimingWindow();
-  private readonly stall = new Stall(LOOK_EVERY_MS);
+  private readonly stall = new Stall(UPDATE_EVERY_MS);
   private readonly control = new BudgetControl();
   private steps: DrawingBudget[] = budgetSteps(0);
   private staleAfterMs = 0;
@@ -24,11 +24,11 @@ export class Load {
   constructor(private readonly now: () => number) {}
 
   set choice(choice: PictureChoice) {
-    this.carrying.choice = choice;
+    this.deliveryMonitor.choice = choice;
   }
 
   get choice(): PictureChoice {
-    return this.carrying.choice;
+    return this.deliveryMonitor.choice;
   }
 
   get budget(): DrawingBudget {
@@ -45,8 +45,8 @@ export class Load {
   }
 
   /** An image was received just now. */
-  begin(receivedAtMs: number): Showing {
-    return new Showing(this.now, this.stall, receivedAtMs);
+  begin(receivedAtMs: number): ImageTimer {
+    return new ImageTimer(this.now, this.stall, receivedAtMs);
   }
 
   sceneDrawn(byProcessor: boolean, nowMs: number): void {
@@ -55,26 +55,26 @@ export class Load {
 
   shown(times: ImageTimes, of: { width_px: number; height_px: number }, scaleRatio: number): void {
     this.window.image(times);
-    this.carrying.took(times.atMs, [of.width_px, of.height_px], scaleRatio);
+    this.deliveryMonitor.recordPicture(times.atMs, [of.width_px, of.height_px], scaleRatio);
   }
 
   forget(): void {
     this.window.forget();
-    this.carrying.forget();
+    this.deliveryMonitor.forget();
   }
 
-  look(nowMs: number, limits: Limits, cameraHz: number): Carried {
+  update(nowMs: number, limits: Limits, cameraHz: number): PictureDelivery {
     if (limits.scene_stale_after_ms !== this.staleAfterMs) {
       this.staleAfterMs = limits.scene_stale_after_ms;
       this.steps = budgetSteps(this.staleAfterMs);
     }
     const timings = this.window.means(nowMs, this.control.sinceMs);
     const ageLimitMs = this.sharesMachine ? limits.pose_stale_after_ms : null;
-    this.sceneSwitch.look(nowMs, this.window, this.control.isSceneDrawnByProcessor ? ageLimitMs : null);
+    this.sceneSwitch.update(nowMs, this.window, this.control.isSceneDrawnByProcessor ? ageLimitMs : null);
     const strain = strainIn(this.budget, timings, ageLimitMs);
-    this.current = this.control.look(nowMs, this.steps, timings, strain);
+    this.current = this.control.update(nowMs, this.steps, timings, strain);
     const { largestPicture } = this.budget;
-    return this.carrying.look(nowMs, cameraHz, this.window.means(nowMs), {
+    return this.deliveryMonitor.update(nowMs, cameraHz, this.window.means(nowMs), {
       largestPicture,
       sharesMachine: this.sharesMachine,
     });

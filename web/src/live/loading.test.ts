@@ -15,7 +15,7 @@ beforeEach(() => {
 });
 
 const cause = (): string => {
-  const { video, numbers } = live.look();
+  const { video, numbers } = live.update();
   if (video.live || numbers.live) throw new Error("nothing can be live before the first message");
   expect(numbers.cause).toBe(video.cause);
   return video.cause;
@@ -28,10 +28,10 @@ test("silence, lost lines and new ones claim nothing until the grace time is ove
   expect(cause()).toBe("connecting");
   live.setLink("open");
   nowMs = 1000 + REACHED_WITHIN_MS;
-  expect(live.look()).toMatchObject({ firstMessage: "awaited" });
+  expect(live.update()).toMatchObject({ firstMessage: "awaited" });
   expect(cause()).toBe("connecting");
   nowMs += 1;
-  expect(live.look()).toMatchObject({ firstMessage: "overdue" });
+  expect(live.update()).toMatchObject({ firstMessage: "overdue" });
   expect(cause()).toBe("not-reached");
   live.setLink("lost");
   expect(cause()).toBe("not-reached");
@@ -39,7 +39,7 @@ test("silence, lost lines and new ones claim nothing until the grace time is ove
 
 test("a server that answers but has no image yet is reached", () => {
   nowMs = 1000 + REACHED_WITHIN_MS;
-  live.answered(null, nowMs, live.currentGeneration);
+  live.receiveAnswer(null, nowMs, live.currentGeneration);
   nowMs += REACHED_WITHIN_MS;
   expect(cause()).toBe("connecting");
   nowMs += 1;
@@ -58,44 +58,44 @@ test("time in the background does not count", () => {
 
 test("the first message ends it, also one that comes late: from then on a silent server is gone", async () => {
   nowMs += REACHED_WITHIN_MS + 1;
-  await live.take({ message: message(), jpeg: new Uint8Array([1]) });
-  expect(live.look()).toMatchObject({ firstMessage: "received", numbers: { live: true } });
+  await live.receive({ message: message(), jpeg: new Uint8Array([1]) });
+  expect(live.update()).toMatchObject({ firstMessage: "received", numbers: { live: true } });
   live.setLink("lost");
   expect(cause()).toBe("server-gone");
   live.setHidden(true);
   live.setHidden(false);
   expect(cause()).toBe("server-gone");
-  expect(live.look()).toMatchObject({ firstMessage: "received" });
+  expect(live.update()).toMatchObject({ firstMessage: "received" });
 });
 
 test("until the first picture stands the page is loading, and the first look after it is live", async () => {
   let done: (drawn: boolean) => void = () => undefined;
   live.setDraw(() => new Promise((resolve) => (done = resolve)));
-  const taking = live.take({ message: message(), jpeg: new Uint8Array([1]) });
+  const taking = live.receive({ message: message(), jpeg: new Uint8Array([1]) });
   expect(cause()).toBe("connecting");
   done(true);
   await taking;
-  expect(live.look()).toMatchObject({ video: { live: true }, numbers: { live: true } });
+  expect(live.update()).toMatchObject({ video: { live: true }, numbers: { live: true } });
 });
 
 test("a canvas that comes with another page waits for its first picture, and not for long", async () => {
   live.setDraw(() => Promise.resolve(false)); // no canvas yet
-  await live.take({ message: message(), jpeg: new Uint8Array([1]) });
+  await live.receive({ message: message(), jpeg: new Uint8Array([1]) });
   nowMs += 50;
   live.setDraw(() => Promise.resolve(true));
-  expect(live.look()).toMatchObject({ video: { cause: "connecting" }, numbers: { live: true } });
-  live.answered(null, (nowMs += FIRST_PICTURE_WITHIN_MS), live.currentGeneration);
-  expect(live.look().video).toMatchObject({ cause: "connecting" });
-  live.answered(null, (nowMs += 1), live.currentGeneration);
-  expect(live.look().video).toMatchObject({ cause: "no-picture" });
+  expect(live.update()).toMatchObject({ video: { cause: "connecting" }, numbers: { live: true } });
+  live.receiveAnswer(null, (nowMs += FIRST_PICTURE_WITHIN_MS), live.currentGeneration);
+  expect(live.update().video).toMatchObject({ cause: "connecting" });
+  live.receiveAnswer(null, (nowMs += 1), live.currentGeneration);
+  expect(live.update().video).toMatchObject({ cause: "no-picture" });
 });
 
 test("a picture that was taken away for its age is no first one", async () => {
-  await live.take({ message: message(), jpeg: new Uint8Array([1]) });
-  live.answered(null, (nowMs += 600), live.currentGeneration);
-  live.look();
-  expect(live.look().video).toMatchObject({ cause: "old", ageMs: 620 });
+  await live.receive({ message: message(), jpeg: new Uint8Array([1]) });
+  live.receiveAnswer(null, (nowMs += 600), live.currentGeneration);
+  live.update();
+  expect(live.update().video).toMatchObject({ cause: "old", ageMs: 620 });
   live.setLink("lost");
   live.setLink("open");
-  expect(live.look().video).toMatchObject({ ageMs: null });
+  expect(live.update().video).toMatchObject({ ageMs: null });
 });

@@ -17,7 +17,7 @@ function pass(seconds: number, lateEvery: number, limitMs: number | null = LIMIT
   for (let image = 0; image < 25 * seconds; image += 1) {
     nowMs += 40;
     show(image % lateEvery === 0 ? 120 : 60);
-    scene.look(nowMs, window, limitMs);
+    scene.update(nowMs, window, limitMs);
   }
 }
 
@@ -66,6 +66,6 @@ test("a few images say nothing yet", () => {
     nowMs += 40;
     show(140);
   }
-  scene.look(nowMs, window, LIMIT_MS);
+  scene.update(nowMs, window, LIMIT_MS);
   expect(scene.isOn).toBe(true);
 });

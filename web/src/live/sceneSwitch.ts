@@ -22,7 +22,7 @@ export class SceneSwitch {
   }
 
   /** `ageLimitMs` of the figures, where the scene takes their processor; null elsewhere. */
-  look(nowMs: number, window: TimingWindow, ageLimitMs: number | null): void {
+  update(nowMs: number, window: TimingWindow, ageLimitMs: number | null): void {
     this.onSinceMs ??= nowMs;
     if (ageLimitMs === null || !this.isOn) return;
     const agesMs = window.agesMs(nowMs, this.onSinceMs + LOADING_MS);

@@ -1,10 +1,10 @@
 // Joins the pure parts to the browser: WebSocket, timers, questions to the server, visibility.
 import createClient from "openapi-fetch";
 import type { components, paths } from "../schema";
-import { chosenBefore, keepChoice } from "./chosen";
-import { ViewLine, type Socket } from "./line";
+import { storedPictureChoice, storePictureChoice } from "./storedPictureChoice";
+import { ViewConnection, type ViewSocket } from "./viewConnection";
 import type { Live } from "./live";
-import { LOOK_EVERY_MS } from "./load";
+import { UPDATE_EVERY_MS } from "./load";
 import { isSceneNote } from "./sceneAge";
 
 export type Dashboard = components["schemas"]["DashboardMessage"];
@@ -22,54 +22,54 @@ const server = createClient<paths>({ baseUrl: location.origin });
 export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): () => void {
   const stop = new AbortController();
   const { signal } = stop;
-  const line = viewLine(live, () => void introduce(live, onDashboard, signal));
-  let askedAtMs = -Infinity;
-  let asking = false;
+  const connection = viewConnection(live, () => void introduce(live, onDashboard, signal));
+  let requestedAtMs = -Infinity;
+  let isRequesting = false;
 
-  const ask = async (): Promise<void> => {
-    asking = true;
+  const request = async (): Promise<void> => {
+    isRequesting = true;
     const generation = live.currentGeneration;
-    const askedNowMs = performance.now();
+    const requestedNowMs = performance.now();
     const timeout = AbortSignal.any([signal, AbortSignal.timeout(ASK_TIMEOUT_MS)]);
     try {
-      if (live.hasNews) {
-        askedAtMs = askedNowMs;
+      if (live.hasMessage) {
+        requestedAtMs = requestedNowMs;
         const { data } = await server.GET("/api/live", { signal: timeout, cache: "no-store" });
-        live.answered(data ?? null, askedNowMs, generation);
+        live.receiveAnswer(data ?? null, requestedNowMs, generation);
       } else {
         // Before the first image there is nothing to ask for but whether anybody is there.
         await server.GET("/api/dashboard", { signal: timeout, cache: "no-store" });
-        live.answered(null, askedNowMs, generation);
+        live.receiveAnswer(null, requestedNowMs, generation);
       }
     } catch {
       // No answer is what `quietMs` counts.
     } finally {
-      asking = false;
+      isRequesting = false;
     }
   };
 
-  const look = (): void => {
+  const update = (): void => {
     live.load.tick(performance.now());
-    const view = live.look();
+    const view = live.update();
     const quietMs = live.quietMs();
-    const sinceAskedMs = performance.now() - askedAtMs;
+    const sinceRequestMs = performance.now() - requestedAtMs;
     if (view.link !== "open") return;
     if (quietMs > NEW_LINE_WHEN_QUIET_MS) {
-      line.restart();
+      connection.restart();
       return;
     }
-    const compareClocks = live.hasNews && sinceAskedMs > COMPARE_CLOCKS_EVERY_MS;
-    if (!asking && (quietMs > ASK_WHEN_QUIET_MS || compareClocks)) void ask();
+    const compareClocks = live.hasMessage && sinceRequestMs > COMPARE_CLOCKS_EVERY_MS;
+    if (!isRequesting && (quietMs > ASK_WHEN_QUIET_MS || compareClocks)) void request();
   };
 
   const onEachScreenImage = (): void => {
     if (signal.aborted) return;
     live.load.screenImage(performance.now());
-    live.look();
+    live.update();
     requestAnimationFrame(onEachScreenImage);
   };
 
-  const timer = setInterval(look, LOOK_EVERY_MS);
+  const timer = setInterval(update, UPDATE_EVERY_MS);
   requestAnimationFrame(onEachScreenImage);
   const onVisibility = (): void => {
     // Covered before it is hidden: the first thing seen on return must not be an old picture.
@@ -86,24 +86,24 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
   );
   onVisibility();
   live.load.sharesMachine = LOOPBACK.test(location.hostname);
-  live.choosePicture(chosenBefore());
+  live.choosePicture(storedPictureChoice());
   live.setOnChoice((choice) => {
-    keepChoice(choice);
-    line.askSize(choice);
+    storePictureChoice(choice);
+    connection.askSize(choice);
   });
-  const leaveSize = tellLargest(live, line);
-  line.start();
+  const leaveSize = reportLargestSize(live, connection);
+  connection.start();
   return () => {
     stop.abort();
     leaveSize();
     clearInterval(timer);
-    line.stop();
+    connection.stop();
   };
 }
 
-function viewLine(live: Live, onOpen: () => void): ViewLine {
-  const line = new ViewLine({
-    open: () => new WebSocket(viewAddress(live.pictureChoice)) as Socket,
+function viewConnection(live: Live, onOpen: () => void): ViewConnection {
+  const connection = new ViewConnection({
+    open: () => new WebSocket(viewAddress(live.pictureChoice)) as ViewSocket,
     later: (action, waitMs) => {
       setTimeout(action, waitMs);
     },
@@ -111,28 +111,29 @@ function viewLine(live: Live, onOpen: () => void): ViewLine {
       live.setLink(state);
       if (state !== "open") return;
       onOpen();
-      tellScenes();
+      notifyScenes();
     },
     onFrame: (frame) => {
-      void live.take(frame).then(({ stands, showingMs }) => {
-        if (stands) line.grant(showingMs);
+      void live.receive(frame).then(({ isDisplayed, showingMs }) => {
+        if (isDisplayed) connection.requestNext(showingMs);
       });
     },
   });
-  return line;
+  return connection;
 }
 
 /** Tells the server, on each line anew, when this device can show no full picture. */
-function tellLargest(live: Live, line: ViewLine): () => void {
-  let told = "full";
-  return live.onLook(({ link, budget }) => {
-    if (link !== "open") told = "full";
-    else if (budget.largestPicture !== told) line.limitSize((told = budget.largestPicture));
+function reportLargestSize(live: Live, connection: ViewConnection): () => void {
+  let reportedSize = "full";
+  return live.onUpdate(({ link, budget }) => {
+    if (link !== "open") reportedSize = "full";
+    else if (budget.largestPicture !== reportedSize)
+      connection.limitSize((reportedSize = budget.largestPicture));
   });
 }
 
 /** The server is there again: `watch.js` in each scene hears this, and takes its own line up at once. */
-function tellScenes(): void {
+function notifyScenes(): void {
   for (const frame of document.querySelectorAll<HTMLIFrameElement>("iframe[src^='/scene/']")) {
     frame.contentWindow?.postMessage({ kind: "coaxial-server" }, location.origin);
   }
@@ -145,14 +146,14 @@ function viewAddress(size: string): string {
 /** Asks the server who it is and which limits hold; limits have one home, its config. */
 async function introduce(
   live: Live,
-  tell: (dashboard: Dashboard) => void,
+  onDashboard: (dashboard: Dashboard) => void,
   signal: AbortSignal,
 ): Promise<void> {
   try {
     const { data } = await server.GET("/api/dashboard", { signal, cache: "no-store" });
     if (!data) return;
     live.setLimits(data.limits);
-    tell(data);
+    onDashboard(data);
   } catch {
     // The line is gone again; the next one asks anew.
   }

@@ -1,16 +1,16 @@
 import { expect, test } from "vitest";
-import { Showing } from "./showing";
+import { ImageTimer } from "./imageTimer";
 import { drawingWithScreenMs, Stall, TimingWindow } from "./timings";
 
 /** Received at one time, decoded and standing at others. */
-function shownAt(stall: Stall, receivedAtMs: number, decodedAtMs: number, standsAtMs: number): Showing {
+function shownAt(stall: Stall, receivedAtMs: number, decodedAtMs: number, standsAtMs: number): ImageTimer {
   let nowMs = receivedAtMs;
-  const showing = new Showing(() => nowMs, stall, receivedAtMs);
+  const showing = new ImageTimer(() => nowMs, stall, receivedAtMs);
   stall.tick(receivedAtMs);
   nowMs = decodedAtMs;
-  showing.decoded();
+  showing.markDecoded();
   nowMs = standsAtMs;
-  showing.stands();
+  showing.markDisplayed();
   return showing;
 }
 

@@ -1,9 +1,9 @@
 // What the page knows of one moment, as every pane is told it.
 import type { NumbersVerdict, VideoVerdict } from "./assess";
 import type { DrawingBudget } from "./budget";
-import type { Carried } from "./carried";
+import type { PictureDelivery } from "./pictureDelivery";
 import type { FirstMessage } from "./firstMessage";
-import type { LinkState } from "./line";
+import type { LinkState } from "./viewConnection";
 import type { AlarmsMessage, LiveMessage } from "./messages";
 import type { SceneVerdict } from "./sceneAge";
 
@@ -32,7 +32,7 @@ export interface View {
   scene: SceneVerdict;
   ages: Ages;
   /** What this viewer's line carries. */
-  carried: Carried;
+  pictureDelivery: PictureDelivery;
   /** What this device can draw. */
   budget: DrawingBudget;
 }
@@ -58,7 +58,16 @@ export function agesOf(
 }
 
 /** What the texts of the page depend on; a change of it is rendered at once. */
-export function keyOf({ link, firstMessage, video, numbers, scene, newest, alarms, carried }: View): string {
+export function keyOf({
+  link,
+  firstMessage,
+  video,
+  numbers,
+  scene,
+  newest,
+  alarms,
+  pictureDelivery: carried,
+}: View): string {
   const videoKey = video.live ? "live" : video.cause;
   const unread = numbers.live ? null : numbers.unread;
   const numbersKey = numbers.live

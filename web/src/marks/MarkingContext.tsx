@@ -1,12 +1,12 @@
 // Inside it, the video may be pointed at and drawn on; outside, others' marks are only shown.
 import { createContext, use, useMemo, useState, type ReactNode } from "react";
 import { useRoom } from "../room/RoomContext";
-import { Hand, type Tool } from "./hand";
+import { MarksInput, type Tool } from "./marksInput";
 
 interface Marking {
   tool: Tool;
   choose: (tool: Tool) => void;
-  hand: Hand;
+  input: MarksInput;
 }
 
 const MarkingContext = createContext<Marking | null>(null);
@@ -14,8 +14,8 @@ const MarkingContext = createContext<Marking | null>(null);
 export function MarkingProvider({ children }: { children: ReactNode }): ReactNode {
   const room = useRoom();
   const [tool, choose] = useState<Tool>("point");
-  const hand = useMemo(() => new Hand((said) => room?.say(said) ?? false), [room]);
-  const value = useMemo(() => ({ tool, choose, hand }), [tool, hand]);
+  const input = useMemo(() => new MarksInput((message) => room?.send(message) ?? false), [room]);
+  const value = useMemo(() => ({ tool, choose, input }), [tool, input]);
   return <MarkingContext value={value}>{children}</MarkingContext>;
 }
 

@@ -11,10 +11,10 @@ import type { Point } from "../room/messages";
 import { useRoom } from "../room/RoomContext";
 import { NOBODY } from "../room/roomState";
 import { useTexts } from "../texts/TextsContext";
-import { Board } from "./board";
+import { MarksCanvas } from "./marksCanvas";
 import { useMarking } from "./MarkingContext";
 import { isOnImage, onImage } from "./place";
-import { Seen } from "./seen";
+import { DisplayedImage } from "./displayedImage";
 
 /** Arrow keys move the pointer by this share of the picture's width, with shift by five times as much. */
 const KEY_STEP = 0.01;
@@ -31,33 +31,33 @@ export function MarksLayer(): ReactNode {
   const room = useRoom();
   const marking = useMarking();
   const canvas = useRef<HTMLCanvasElement>(null);
-  const board = useRef<Board | null>(null);
-  const seen = useRef(new Seen());
+  const board = useRef<MarksCanvas | null>(null);
+  const displayed = useRef(new DisplayedImage());
   const key = useRef<Point | null>(null);
-  const hand = useEffectEvent(() => marking?.hand ?? null);
+  const input = useEffectEvent(() => marking?.input ?? null);
   const ageText = useEffectEvent((seconds: number) => texts.ago.replace("#", String(seconds)));
 
   usePainter((view) => {
-    seen.current.look(view);
-    marking?.hand.flush(view.nowMs);
+    displayed.current.update(view);
+    marking?.input.flush(view.nowMs);
   });
 
   useEffect(() => {
     const element = canvas.current;
     if (element === null) return;
-    const painted = new Board(
+    const painted = new MarksCanvas(
       element,
-      seen.current,
+      displayed.current,
       () => room?.now() ?? NOBODY,
-      () => hand(),
+      () => input(),
       (seconds) => ageText(seconds),
     );
     board.current = painted;
     const leave = room?.onMarks(() => {
-      painted.ask();
+      painted.requestPaint();
     });
     const resized = new ResizeObserver(() => {
-      painted.ask();
+      painted.requestPaint();
     });
     resized.observe(element);
     return () => {
@@ -78,44 +78,44 @@ export function MarksLayer(): ReactNode {
 
   const move = (event: PointerEvent): void => {
     const at = placeOf(event);
-    const { moment } = seen.current;
+    const { moment } = displayed.current;
     if (marking === null || at === null || moment === null) return;
     key.current = at;
     const { tool } = marking;
-    if (tool !== "point" && event.buttons > 0) marking.hand.move(at, performance.now());
-    else marking.hand.point(at, moment, performance.now());
-    board.current?.ask();
+    if (tool !== "point" && event.buttons > 0) marking.input.move(at, performance.now());
+    else marking.input.point(at, moment, performance.now());
+    board.current?.requestPaint();
   };
 
   const down = (event: PointerEvent<HTMLCanvasElement>): void => {
     const at = placeOf(event);
-    const { moment } = seen.current;
+    const { moment } = displayed.current;
     if (marking === null || at === null || moment === null || !event.isPrimary || event.button !== 0) return;
     event.currentTarget.setPointerCapture(event.pointerId);
-    if (marking.tool === "point") marking.hand.point(at, moment, performance.now());
+    if (marking.tool === "point") marking.input.point(at, moment, performance.now());
     else {
-      marking.hand.lift();
-      marking.hand.down(marking.tool, at, moment, performance.now());
+      marking.input.lift();
+      marking.input.down(marking.tool, at, moment, performance.now());
     }
-    board.current?.ask();
+    board.current?.requestPaint();
   };
 
   const up = (): void => {
-    marking?.hand.up(performance.now());
-    board.current?.ask();
+    marking?.input.up(performance.now());
+    board.current?.requestPaint();
   };
 
   const steer = (event: KeyboardEvent): void => {
     const step = KEYS[event.key];
-    const { moment, size } = seen.current;
+    const { moment, size } = displayed.current;
     if (marking === null || step === undefined || moment === null) return;
     event.preventDefault();
     const far = KEY_STEP * size.width * (event.shiftKey ? 5 : 1);
     const [x, y] = key.current ?? [size.width / 2, size.height / 2];
     const at: Point = [clamped(x + far * step[0], size.width), clamped(y + far * step[1], size.height)];
     key.current = at;
-    marking.hand.point(at, moment, performance.now());
-    board.current?.ask();
+    marking.input.point(at, moment, performance.now());
+    board.current?.requestPaint();
   };
 
   const shared = { className: "marks-layer", "data-testid": "marks", ref: canvas };
@@ -133,8 +133,8 @@ export function MarksLayer(): ReactNode {
       onPointerCancel={up}
       onPointerLeave={({ pointerType }) => {
         // A finger leaves with every tap: where it pointed stays until it goes by itself.
-        if (pointerType !== "touch") marking.hand.lift();
-        board.current?.ask();
+        if (pointerType !== "touch") marking.input.lift();
+        board.current?.requestPaint();
       }}
       onKeyDown={steer}
     />

@@ -4,7 +4,7 @@ import { shownNumber } from "../live/rounding";
 import { useRoomSnapshot } from "../room/RoomContext";
 import { Icon } from "../panes/Icon";
 import { useTexts } from "../texts/TextsContext";
-import type { Tool } from "./hand";
+import type { Tool } from "./marksInput";
 import { useMarking } from "./MarkingContext";
 
 const TOOLS: readonly Tool[] = ["point", "pen", "arrow", "circle"];
@@ -13,7 +13,7 @@ const TOOLS: readonly Tool[] = ["point", "pen", "arrow", "circle"];
 export function MarksTools(): ReactNode {
   const { marks: texts, rest } = useTexts();
   const marking = useMarking();
-  const { stands, firstMessage, you, fadesAfterS } = useRoomSnapshot();
+  const { isConnected: stands, firstMessage, you, fadesAfterS } = useRoomSnapshot();
   const { view } = useLive();
   if (marking === null) return null;
   const isLoading = firstMessage === "awaited" || view.firstMessage === "awaited";
@@ -39,7 +39,7 @@ export function MarksTools(): ReactNode {
         data-testid="marks-undo"
         disabled={!stands}
         onClick={() => {
-          marking.hand.undo();
+          marking.input.undo();
         }}
       >
         <Icon name="undo" /> {texts.undo}
@@ -49,7 +49,7 @@ export function MarksTools(): ReactNode {
         data-testid="marks-clear"
         disabled={!stands}
         onClick={() => {
-          marking.hand.clear("own");
+          marking.input.clear("own");
         }}
       >
         <Icon name="cross" /> {texts.clear}
@@ -60,7 +60,7 @@ export function MarksTools(): ReactNode {
           data-testid="marks-clear-all"
           disabled={!stands}
           onClick={() => {
-            marking.hand.clear("all");
+            marking.input.clear("all");
           }}
         >
           <Icon name="cross" /> {texts.clearAll}

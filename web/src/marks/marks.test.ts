@@ -1,6 +1,6 @@
 import { describe, expect, test } from "vitest";
-import type { Said } from "../room/messages";
-import { Hand } from "./hand";
+import type { ClientMessage } from "../room/messages";
+import { MarksInput } from "./marksInput";
 import { isOnImage, onImage, onStage, placed } from "./place";
 
 const MOMENT = { image_number: 7, captured_at_s: 4 };
@@ -29,8 +29,8 @@ describe("where a mark stands", () => {
 
 describe("a hand", () => {
   function hand(takes: () => boolean = () => true) {
-    const said: Said[] = [];
-    const made = new Hand((one) => {
+    const said: ClientMessage[] = [];
+    const made = new MarksInput((one) => {
       if (!takes()) return false;
       said.push(one);
       return true;
@@ -62,20 +62,20 @@ describe("a hand", () => {
   test("is seen here where the others see it, for as long, and not where nobody was told", () => {
     let open = true;
     const { made } = hand(() => open);
-    expect(made.pointed(0)).toBeNull();
+    expect(made.pointerAt(0)).toBeNull();
     made.point([1, 1], MOMENT, 0);
     made.point([2, 2], MOMENT, 10);
-    expect(made.pointed(20)?.at).toEqual([1, 1]);
+    expect(made.pointerAt(20)?.at).toEqual([1, 1]);
     made.flush(50);
-    expect(made.pointed(60)?.at).toEqual([2, 2]);
-    expect(made.pointed(2049)).not.toBeNull();
-    expect(made.pointed(2050)).toBeNull();
+    expect(made.pointerAt(60)?.at).toEqual([2, 2]);
+    expect(made.pointerAt(2049)).not.toBeNull();
+    expect(made.pointerAt(2050)).toBeNull();
     made.point([3, 3], MOMENT, 3000);
     made.lift();
-    expect(made.pointed(3001)).toBeNull();
+    expect(made.pointerAt(3001)).toBeNull();
     open = false;
     made.point([4, 4], MOMENT, 4000);
-    expect(made.pointed(4001)).toBeNull();
+    expect(made.pointerAt(4001)).toBeNull();
   });
 
   test("says a pen's line in parts that make the whole", () => {

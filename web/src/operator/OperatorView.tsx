@@ -3,7 +3,7 @@ import { useLocation } from "wouter";
 import { AlarmBand } from "../alarms/AlarmBand";
 import { ConfirmRestart } from "../app/ConfirmRestart";
 import { AlertBand } from "../panes/AlertBand";
-import { Unanswered } from "../rest/Unanswered";
+import { QueryStatus } from "../rest/QueryStatus";
 import { useTexts } from "../texts/TextsContext";
 import { OperatorTop } from "./OperatorTop";
 import { pageAt, PAGES } from "./pages";
@@ -38,7 +38,7 @@ export function OperatorView(): ReactNode {
         <StepRail now={page} />
         <main id="step" className="step" tabIndex={-1}>
           {page === null ? (
-            <Unanswered asked={procedure} />
+            <QueryStatus query={procedure} />
           ) : (
             <>
               <StepHead page={page} />

@@ -5,7 +5,7 @@ import { useLatency } from "../rest/useLatency";
 import { useTexts } from "../texts/TextsContext";
 import { cameraFacts } from "./cameraFacts";
 import { latencyText } from "./latencyText";
-import { heardOf } from "./heard";
+import { serverStateOf } from "./serverState";
 import { Pane } from "./Pane";
 import { searchTimeMs } from "./searchTime";
 
@@ -15,7 +15,7 @@ const NONE = "—";
 export function DetailsPane(): ReactNode {
   const texts = useTexts();
   const { view, dashboard } = useLive();
-  const { source, snapshot } = heardOf(view);
+  const { source, snapshot } = serverStateOf(view);
   const latency = useLatency().data;
   const d = texts.details;
   const h = texts.header;

@@ -2,13 +2,13 @@ import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import { useTexts } from "../texts/TextsContext";
 import { Fact } from "./Fact";
-import { heardOf } from "./heard";
+import { serverStateOf } from "./serverState";
 
 /** Whether there are numbers, a camera and a server: in words, on every view. */
 export function LiveStatus({ withTracking = false }: { withTracking?: boolean }): ReactNode {
   const texts = useTexts();
   const { view } = useLive();
-  const { linkState, source, isOfNow } = heardOf(view);
+  const { linkState, source, isOfNow } = serverStateOf(view);
   const cameraState = source?.state ?? "unknown";
   const isLoading = view.firstMessage === "awaited";
   const well = isOfNow ? "good" : "waiting";

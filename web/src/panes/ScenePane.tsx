@@ -5,7 +5,7 @@ import { shownDuration, shownNumber } from "../live/rounding";
 import { useTexts } from "../texts/TextsContext";
 import { Cover } from "./Cover";
 import { Pane } from "./Pane";
-import { Paced } from "./paced";
+import { PaintRateLimiter } from "./paintRateLimiter";
 import { setSize, tellRate, tellView, VIEWS, type ViewName } from "./sceneFrame";
 import { setData, setText } from "./setText";
 import { hasWebGl } from "./webgl";
@@ -24,7 +24,7 @@ export function ScenePane(): ReactNode {
   const stamp = useRef<HTMLParagraphElement>(null);
   const age = useRef<HTMLSpanElement>(null);
   const frame = useRef<HTMLIFrameElement>(null);
-  const paced = useRef(new Paced());
+  const limiter = useRef(new PaintRateLimiter());
   const told = useRef<DrawingBudget | null>(null);
   const [attempt, setAttempt] = useState(0);
   const [chosen, setChosen] = useState<ViewName>("behind");
@@ -40,7 +40,7 @@ export function ScenePane(): ReactNode {
       setSize(frame.current, budget);
     }
     setData(stage.current, "live", String(scene.state === "live"));
-    if (!paced.current.isDue(nowMs, scene.state === "live" ? `${scene.imageNumber}` : scene.state)) return;
+    if (!limiter.current.isDue(nowMs, scene.state === "live" ? `${scene.imageNumber}` : scene.state)) return;
     const behind = scene.state === "live" && scene.behindImages > 0 ? ` (−${scene.behindImages})` : "";
     setText(
       stamp.current,

@@ -1,5 +1,5 @@
 import { useLayoutEffect, useRef, type ReactNode } from "react";
-import { LineNote } from "../live/LineNote";
+import { ConnectionNote } from "../live/ConnectionNote";
 import { useLive, usePainter } from "../live/LiveContext";
 import { shownNumber } from "../live/rounding";
 import { MarksLayer } from "../marks/MarksLayer";
@@ -7,7 +7,7 @@ import { useTexts } from "../texts/TextsContext";
 import { Announcer } from "./Announcer";
 import { clearPicture, drawCoarsely, drawPicture } from "./drawPicture";
 import { Moves } from "./Moves";
-import { Paced } from "./paced";
+import { PaintRateLimiter } from "./paintRateLimiter";
 import { Pane } from "./Pane";
 import { setData, setText } from "./setText";
 import { problemsOf } from "./problems";
@@ -30,7 +30,7 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
   const stamp = useRef<HTMLParagraphElement>(null);
   const painted = useRef(false);
   const coarseOf = useRef<number | null>(null);
-  const paced = useRef(new Paced());
+  const limiter = useRef(new PaintRateLimiter());
 
   // Before the painters' first look, which then knows that this canvas is new.
   useLayoutEffect(() => {
@@ -58,7 +58,7 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
       clearPicture(coarse.current);
       painted.current = false;
     }
-    if (!paced.current.isDue(nowMs, video.live ? `${video.imageNumber}` : "")) return;
+    if (!limiter.current.isDue(nowMs, video.live ? `${video.imageNumber}` : "")) return;
     const age = video.live ? `${shownNumber(video.ageMs, 0)} ms` : "";
     const number = video.live ? `${texts.video.image} ${video.imageNumber}` : "";
     setText(stamp.current, video.live ? `${number} · ${texts.video.age} ${age}` : "");
@@ -72,7 +72,7 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
       aside={
         <>
           <Moves />
-          <LineNote />
+          <ConnectionNote />
           {tools}
           <p className="stamp" data-testid="video-stamp" ref={stamp} />
         </>

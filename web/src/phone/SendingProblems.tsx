@@ -20,7 +20,7 @@ export function SendingProblems({ sending, lacks }: { sending: Sending; lacks: N
         </Alert>
       )}
       {told !== null && <Told problem={told} />}
-      {isOn && !sending.screenKept && <p className="phone-warning">{texts.screenOff}</p>}
+      {isOn && !sending.hasWakeLock && <p className="phone-warning">{texts.screenOff}</p>}
     </>
   );
 }

@@ -27,7 +27,7 @@ export interface Note {
   problem: Problem | null;
 }
 
-export type Told = { welcome: Welcome } | { note: Note } | { rejected: Problem };
+export type ServerMessage = { welcome: Welcome } | { note: Note } | { rejected: Problem };
 
 export type Focus = "locked" | "automatic" | "unknown";
 

@@ -2,12 +2,12 @@
 import { factsOf, wanted, withLockedFocus, type Capabilities } from "./camera";
 import { frameTime, type FrameTimes } from "./frameTime";
 import type { CameraFacts, FrameTime, Note, Problem, Welcome } from "./messages";
-import { PhoneLine, type PhoneSocket } from "./phoneLine";
-import { keepScreenOn } from "./screenOn";
+import { PhoneConnection, type PhoneSocket } from "./phoneConnection";
+import { keepScreenOn } from "./wakeLock";
 
 /** Automatic focus needs this long to find what suits the room; the server waits as long for other cameras. */
 const FOCUS_SETTLES_MS = 3000;
-const LOOK_EVERY_MS = 500;
+const CHECK_EVERY_MS = 500;
 
 export interface Sent {
   images: number;
@@ -20,7 +20,7 @@ export interface Listener {
   onFacts(facts: CameraFacts): void;
   onSent(sent: Sent): void;
   onNote(note: Note | null): void;
-  onScreenKept(kept: boolean): void;
+  onWakeLock(isLocked: boolean): void;
   /** It is over: the server refused, or the browser gave no camera. */
   onRejected(problem: Problem): void;
   onNoCamera(error: unknown): void;
@@ -31,7 +31,7 @@ export function startSending(video: HTMLVideoElement, listener: Listener): () =>
   const stop = new AbortController();
   const { signal } = stop;
   let track: MediaStreamTrack | null = null;
-  const line = new PhoneLine(pageKey(), {
+  const connection = new PhoneConnection(pageKey(), {
     open: () => new WebSocket(address()) as PhoneSocket,
     later: (action, waitMs) => {
       setTimeout(action, waitMs);
@@ -64,7 +64,7 @@ export function startSending(video: HTMLVideoElement, listener: Listener): () =>
       fail(new DOMException("", "NotReadableError"));
     });
     describe();
-    sendFrames(video, line, welcome, listener, signal);
+    sendFrames(video, connection, welcome, listener, signal);
     const waitMs = welcome.focus_mm === null ? FOCUS_SETTLES_MS : 0;
     setTimeout(() => void lockFocus(opened, welcome, signal), waitMs);
   };
@@ -72,14 +72,14 @@ export function startSending(video: HTMLVideoElement, listener: Listener): () =>
     if (track === null || video.videoWidth === 0) return;
     const size = { width: video.videoWidth, height: video.videoHeight };
     const facts = factsOf(track.label, size, track.getSettings());
-    line.describe(facts);
+    connection.describe(facts);
     listener.onFacts(facts);
   };
   const end = (): void => {
     if (signal.aborted) return;
     stop.abort();
     clearInterval(timer);
-    line.stop();
+    connection.stop();
     track?.stop();
     video.srcObject = null;
   };
@@ -90,12 +90,12 @@ export function startSending(video: HTMLVideoElement, listener: Listener): () =>
   };
 
   const timer = setInterval(() => {
-    line.look();
+    connection.checkTimeout();
     describe();
-  }, LOOK_EVERY_MS);
+  }, CHECK_EVERY_MS);
   video.addEventListener("resize", describe, { signal });
-  keepScreenOn(signal, listener.onScreenKept.bind(listener));
-  line.start();
+  keepScreenOn(signal, listener.onWakeLock.bind(listener));
+  connection.start();
   return end;
 }
 
@@ -122,7 +122,7 @@ async function lockFocus(track: MediaStreamTrack, welcome: Welcome, signal: Abor
 
 function sendFrames(
   video: HTMLVideoElement,
-  line: PhoneLine,
+  connection: PhoneConnection,
   welcome: Welcome,
   listener: Listener,
   signal: AbortSignal,
@@ -132,7 +132,7 @@ function sendFrames(
   let encoding = false;
   let images = 0;
   const take = (times: FrameTimes): void => {
-    if (encoding || !line.isFree || context === null) return;
+    if (encoding || !connection.isFree || context === null) return;
     const time = frameTime(times);
     if (canvas.width !== video.videoWidth || canvas.height !== video.videoHeight) {
       canvas.width = video.videoWidth;
@@ -142,7 +142,7 @@ function sendFrames(
     encoding = true;
     void jpegOf(canvas, welcome.quality_ratio).then((jpeg) => {
       encoding = false;
-      if (jpeg === null || signal.aborted || !line.send(jpeg, time)) return;
+      if (jpeg === null || signal.aborted || !connection.send(jpeg, time)) return;
       images += 1;
       listener.onSent({ images, bytes: jpeg.byteLength, clock: time.clock });
     });

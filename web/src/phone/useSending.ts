@@ -13,7 +13,7 @@ export interface Sending {
   facts: CameraFacts | null;
   last: { bytes: number; clock: FrameTime["clock"]; rateHz: number } | null;
   note: Note | null;
-  screenKept: boolean;
+  hasWakeLock: boolean;
   rejected: Problem | null;
   noCamera: NoCamera | null;
 }
@@ -24,7 +24,7 @@ const IDLE: Sending = {
   facts: null,
   last: null,
   note: null,
-  screenKept: true,
+  hasWakeLock: true,
   rejected: null,
   noCamera: null,
 };
@@ -74,8 +74,8 @@ export function useSending(video: RefObject<HTMLVideoElement | null>): {
           ...(note === null ? { state: "lost", last: null } : {}),
         }));
       },
-      onScreenKept: (screenKept) => {
-        change({ screenKept });
+      onWakeLock: (hasWakeLock) => {
+        change({ hasWakeLock });
       },
       onRejected: (rejected) => {
         over({ rejected });

@@ -2,7 +2,7 @@
 import { useLive } from "../live/LiveContext";
 import type { components } from "../schema";
 import { answered, server } from "./client";
-import { useAsked, type Asked } from "./useAsked";
+import { useQuery, type QueryState } from "./useQuery";
 
 export type Rehearsed = components["schemas"]["RehearsalMessage"];
 
@@ -13,9 +13,9 @@ interface Wish {
 }
 
 /** Without data where a real camera looks: there is nothing to play, and nothing to ask for. */
-export function useRehearsal({ everyMs = 0, truth = false }: Wish = {}): Asked<Rehearsed | null> {
+export function useRehearsal({ everyMs = 0, truth = false }: Wish = {}): QueryState<Rehearsed | null> {
   const isRehearsal = useLive().view.newest?.source.name === "rehearsal";
-  return useAsked<Rehearsed | null>(
+  return useQuery<Rehearsed | null>(
     async (signal) =>
       isRehearsal ? answered(server.GET("/api/rehearsal", { signal, params: { query: { truth } } })) : null,
     { key: String(isRehearsal), everyMs },

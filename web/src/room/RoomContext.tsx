@@ -5,7 +5,7 @@ import { Room, type RoomSnapshot } from "./room";
 
 const RoomContext = createContext<Room | null>(null);
 const ALONE: RoomSnapshot = {
-  stands: false,
+  isConnected: false,
   firstMessage: "awaited",
   you: null,
   people: [],

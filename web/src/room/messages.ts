@@ -10,7 +10,7 @@ export type Hold = Schemas["HoldMessage"];
 export type You = Schemas["YouMessage"];
 export type Signable = Schemas["SignableMessage"];
 export type Shape = Schemas["Shape"];
-export type LineTo = Schemas["ConnectionState"];
+export type ConnectionState = Schemas["ConnectionState"];
 
 export type Point = readonly [number, number];
 
@@ -20,7 +20,7 @@ export interface Moment {
   captured_at_s: number;
 }
 
-export type Said =
+export type ClientMessage =
   | { next: true }
   | { point: { at_px: Point } & Moment }
   | { lift: true }

@@ -1,13 +1,13 @@
 // The room as this page lives in it: one line, one state; marks are painted past React, words go through it.
 import type { ViewName } from "../app/views";
 import { firstMessageAt, type FirstMessage, type FirstMessageWait } from "../live/firstMessage";
-import type { Hold, Person, RoomMessage, Said, Signable, You } from "./messages";
-import { RoomLine, type RoomSocket } from "./roomLine";
-import { afterMessage, at, NOBODY, type RoomState } from "./roomState";
+import type { Hold, Person, RoomMessage, ClientMessage, Signable, You } from "./messages";
+import { RoomConnection, type RoomSocket } from "./roomConnection";
+import { afterMessage, stateAt, NOBODY, type RoomState } from "./roomState";
 
 /** What words are made of; another object only when one of them changed. */
 export interface RoomSnapshot {
-  stands: boolean;
+  isConnected: boolean;
   /** Since the page was loaded. */
   firstMessage: FirstMessage;
   you: You | null;
@@ -17,52 +17,52 @@ export interface RoomSnapshot {
   signable: readonly Signable[] | null;
 }
 
-const LOOK_EVERY_MS = 500;
+const CHECK_EVERY_MS = 500;
 
 export class Room {
   private state: RoomState = NOBODY;
-  private said: RoomSnapshot = { stands: false, firstMessage: "awaited", ...snapshotOf(NOBODY) };
-  private readonly wait: FirstMessageWait = { everHeard: false, waitingSinceMs: performance.now() };
+  private said: RoomSnapshot = { isConnected: false, firstMessage: "awaited", ...snapshotOf(NOBODY) };
+  private readonly wait: FirstMessageWait = { everReceived: false, waitingSinceMs: performance.now() };
   private readonly listeners = new Set<() => void>();
   private readonly painters = new Set<() => void>();
-  private readonly line: RoomLine;
+  private readonly connection: RoomConnection;
 
   constructor(view: ViewName) {
-    this.line = new RoomLine({
+    this.connection = new RoomConnection({
       open: () => new WebSocket(addressOf(view)) as RoomSocket,
       later: (action, waitMs) => {
         setTimeout(action, waitMs);
       },
       now: () => performance.now(),
       onMessage: (message) => {
-        this.take(message);
+        this.receive(message);
       },
-      onLine: (stands) => {
-        if (!stands) this.forget();
+      onConnection: (isConnected) => {
+        if (!isConnected) this.forget();
       },
     });
   }
 
   start(): () => void {
-    this.line.start();
+    this.connection.start();
     const timer = setInterval(() => {
-      this.line.look();
-      this.tell({ ...this.said, firstMessage: firstMessageAt(this.wait, performance.now()) });
-    }, LOOK_EVERY_MS);
+      this.connection.checkTimeout();
+      this.publish({ ...this.said, firstMessage: firstMessageAt(this.wait, performance.now()) });
+    }, CHECK_EVERY_MS);
     return () => {
       clearInterval(timer);
-      this.line.stop();
+      this.connection.stop();
     };
   }
 
   /** False where nobody is told of it. */
-  say(said: Said): boolean {
-    return this.line.say(said);
+  send(message: ClientMessage): boolean {
+    return this.connection.send(message);
   }
 
   /** What stands now; what went by itself is left out. */
   now(): RoomState {
-    this.state = at(this.state, performance.now());
+    this.state = stateAt(this.state, performance.now());
     return this.state;
   }
 
@@ -79,20 +79,20 @@ export class Room {
     return () => this.painters.delete(painter);
   }
 
-  private take(message: RoomMessage): void {
-    this.wait.everHeard = true;
+  private receive(message: RoomMessage): void {
+    this.wait.everReceived = true;
     this.state = afterMessage(this.state, message, performance.now());
-    this.tell({ stands: true, firstMessage: "received", ...snapshotOf(this.state) });
+    this.publish({ isConnected: true, firstMessage: "received", ...snapshotOf(this.state) });
     for (const paint of this.painters) paint();
   }
 
   private forget(): void {
     this.state = NOBODY;
-    this.tell({ stands: false, firstMessage: this.said.firstMessage, ...snapshotOf(NOBODY) });
+    this.publish({ isConnected: false, firstMessage: this.said.firstMessage, ...snapshotOf(NOBODY) });
     for (const paint of this.painters) paint();
   }
 
-  private tell(next: RoomSnapshot): void {
+  private publish(next: RoomSnapshot): void {
     if (JSON.stringify(next) === JSON.stringify(this.said)) return;
     this.said = next;
     for (const listener of this.listeners) listener();
@@ -105,7 +105,7 @@ function snapshotOf({
   hold,
   fadesAfterS,
   signable,
-}: RoomState): Omit<RoomSnapshot, "stands" | "firstMessage"> {
+}: RoomState): Omit<RoomSnapshot, "isConnected" | "firstMessage"> {
   return { you, people, hold, fadesAfterS, signable };
 }
 

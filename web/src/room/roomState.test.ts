@@ -1,6 +1,6 @@
 import { describe, expect, test } from "vitest";
 import type { RoomMessage } from "./messages";
-import { afterMessage, at, NOBODY } from "./roomState";
+import { afterMessage, stateAt, NOBODY } from "./roomState";
 
 const QUIET: RoomMessage = {
   you: { seat: 3, name: "Guest", role: "viewer" },
@@ -72,9 +72,9 @@ describe("what a page knows of the room", () => {
       grown: [grown(0, [[1, 2]])],
     } satisfies RoomMessage;
     const state = afterMessage(NOBODY, message, 1000);
-    expect(at(state, 2499)).toBe(state);
-    expect(at(state, 2500).pointers).toEqual([]);
-    expect(at(state, 12_999).marks).toHaveLength(1);
-    expect(at(state, 13_000).marks).toEqual([]);
+    expect(stateAt(state, 2499)).toBe(state);
+    expect(stateAt(state, 2500).pointers).toEqual([]);
+    expect(stateAt(state, 12_999).marks).toHaveLength(1);
+    expect(stateAt(state, 13_000).marks).toEqual([]);
   });
 });

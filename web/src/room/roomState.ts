@@ -62,7 +62,7 @@ export function afterMessage(state: RoomState, message: RoomMessage, nowMs: numb
 }
 
 /** Without what went by itself since; the same object where nothing did. */
-export function at(state: RoomState, nowMs: number): RoomState {
+export function stateAt(state: RoomState, nowMs: number): RoomState {
   const pointers = state.pointers.filter((one) => one.goesAtMs > nowMs);
   const marks = state.marks.filter((one) => one.goesAtMs > nowMs);
   if (pointers.length === state.pointers.length && marks.length === state.marks.length) return state;

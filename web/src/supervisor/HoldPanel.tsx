@@ -1,18 +1,18 @@
 import type { ReactNode } from "react";
 import { answered, server } from "../rest/client";
 import { RejectionNote } from "../rest/RejectionNote";
-import { useDo } from "../rest/useDo";
+import { useAction } from "../rest/useAction";
 import { useRoomSnapshot } from "../room/RoomContext";
 import { useTexts } from "../texts/TextsContext";
 import { shownTime } from "../operator/parts/shown";
-import { TwoSteps } from "./TwoSteps";
+import { TwoStepButton } from "./TwoStepButton";
 
 /** Asks those in theatre to hold: big, in two steps so that a slip does nothing. */
 export function HoldPanel(): ReactNode {
   const all = useTexts();
   const texts = all.supervisor.hold;
   const { hold, you } = useRoomSnapshot();
-  const { busy, rejection, run } = useDo();
+  const { busy, rejection, run } = useAction();
   const asked = hold?.requested_by ?? [];
   const mine = hold?.is_yours === true;
   const mayRelease = mine || you?.role === "operator";
@@ -25,7 +25,7 @@ export function HoldPanel(): ReactNode {
         </p>
       )}
       {!mine && (
-        <TwoSteps
+        <TwoStepButton
           className="hold-ask"
           testid="hold-ask"
           first={texts.ask}

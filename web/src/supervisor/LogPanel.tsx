@@ -1,8 +1,8 @@
 import type { ReactNode } from "react";
 import { shownSecond } from "../operator/parts/shown";
 import { answered, server } from "../rest/client";
-import { Unanswered } from "../rest/Unanswered";
-import { useAsked } from "../rest/useAsked";
+import { QueryStatus } from "../rest/QueryStatus";
+import { useQuery } from "../rest/useQuery";
 import { textIn } from "../texts/text";
 import { useTexts } from "../texts/TextsContext";
 import type { Texts } from "../texts/en";
@@ -15,14 +15,14 @@ const LINES = 100;
 export function LogPanel(): ReactNode {
   const texts = useTexts();
   const own = texts.supervisor.log;
-  const asked = useAsked((signal) =>
+  const asked = useQuery((signal) =>
     answered(server.GET("/api/alarms/log", { params: { query: { last: LINES } }, signal })),
   );
   const { data } = asked;
-  if (data === null) return <Unanswered asked={asked} />;
+  if (data === null) return <QueryStatus query={asked} />;
   return (
     <>
-      <button type="button" onClick={asked.again}>
+      <button type="button" onClick={asked.refetch}>
         {own.again}
       </button>
       {data.lines.length === 0 && <p className="soft">{own.none}</p>}

@@ -1,8 +1,8 @@
 import type { ReactNode } from "react";
 import { shownNumber } from "../live/rounding";
 import { answered, server } from "../rest/client";
-import { Unanswered } from "../rest/Unanswered";
-import { useAsked } from "../rest/useAsked";
+import { QueryStatus } from "../rest/QueryStatus";
+import { useQuery } from "../rest/useQuery";
 import type { Signable } from "../room/messages";
 import { useTexts } from "../texts/TextsContext";
 import { vertebraeOf, type ChannelShown, type VertebraShown } from "./planRecords";
@@ -12,13 +12,13 @@ import { SignBox } from "./SignBox";
 export function PlanPanel({ signable }: { signable: Signable }): ReactNode {
   const texts = useTexts().supervisor;
   const key = signable.document_id ?? "";
-  const asked = useAsked(
+  const asked = useQuery(
     (signal) => (key === "" ? Promise.resolve(null) : answered(server.GET("/api/plan", { signal }))),
     { key },
   );
   if (key === "") return <p className="soft">{texts.plan.none}</p>;
   const { data } = asked;
-  if (data === null) return <Unanswered asked={asked} />;
+  if (data === null) return <QueryStatus query={asked} />;
   const active = data.active_channel;
   return (
     <>

@@ -1,8 +1,8 @@
 import type { ReactNode } from "react";
 import { shownNumber } from "../live/rounding";
 import { answered, server } from "../rest/client";
-import { Unanswered } from "../rest/Unanswered";
-import { useAsked } from "../rest/useAsked";
+import { QueryStatus } from "../rest/QueryStatus";
+import { useQuery } from "../rest/useQuery";
 import type { Signable } from "../room/messages";
 import { useTexts } from "../texts/TextsContext";
 import { rowsOf } from "./registrationRows";
@@ -13,13 +13,13 @@ export function RegistrationPanel({ signable }: { signable: Signable }): ReactNo
   const texts = useTexts().supervisor;
   const own = texts.registration;
   const key = signable.document_id ?? "";
-  const asked = useAsked(
+  const asked = useQuery(
     (signal) => (key === "" ? Promise.resolve(null) : answered(server.GET("/api/registration", { signal }))),
     { key },
   );
   if (key === "") return <p className="soft">{own.none}</p>;
   const { data } = asked;
-  if (data === null) return <Unanswered asked={asked} />;
+  if (data === null) return <QueryStatus query={asked} />;
   return (
     <>
       <p>

@@ -4,18 +4,18 @@ import { Maker } from "../operator/parts/Maker";
 import { answered, server } from "../rest/client";
 import { RejectionNote } from "../rest/RejectionNote";
 import { shownTime } from "../operator/parts/shown";
-import { useDo } from "../rest/useDo";
+import { useAction } from "../rest/useAction";
 import type { Signable } from "../room/messages";
 import { useTexts } from "../texts/TextsContext";
 import { SignatureLine } from "./SignatureLine";
-import { TwoSteps } from "./TwoSteps";
+import { TwoStepButton } from "./TwoStepButton";
 
 /** What exactly is signed, by whom it was, and the way to sign it or to take that back. */
 export function SignBox({ signable }: { signable: Signable }): ReactNode {
   const all = useTexts();
   const texts = all.supervisor.sign;
   const { session } = useSession();
-  const { busy, rejection, run } = useDo();
+  const { busy, rejection, run } = useAction();
   const { document_id, signatures, what } = signable;
   if (document_id === null) return null;
   const mine = signatures.find((one) => one.is_yours);
@@ -55,7 +55,7 @@ export function SignBox({ signable }: { signable: Signable }): ReactNode {
       {anybody && <p className="soft">{texts.anybody}</p>}
       {mine === undefined ? (
         signable.out_of_date === "" && (
-          <TwoSteps
+          <TwoStepButton
             testid={`cosign-${what}`}
             className="sign-button"
             first={texts.sign}
@@ -69,7 +69,7 @@ export function SignBox({ signable }: { signable: Signable }): ReactNode {
           />
         )
       ) : (
-        <TwoSteps
+        <TwoStepButton
           testid={`unsign-${what}`}
           first={texts.takeBack}
           second={texts.takeBack}

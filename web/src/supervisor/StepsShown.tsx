@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { useProcedure, type Step } from "../app/procedure";
 import { stateText } from "../operator/stepTexts";
-import { Unanswered } from "../rest/Unanswered";
+import { QueryStatus } from "../rest/QueryStatus";
 import { useTexts } from "../texts/TextsContext";
 
 const SYMBOL: Record<Step["state"], string> = {
@@ -18,7 +18,7 @@ export function StepsShown(): ReactNode {
   const asked = useProcedure();
   const { data } = asked;
   const own = texts.supervisor;
-  if (data === null) return <Unanswered asked={asked} />;
+  if (data === null) return <QueryStatus query={asked} />;
   if (data.case_id === null) return <p className="soft">{own.steps.noCase}</p>;
   return (
     <ol className="steps-shown" data-testid="steps">

@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { AlarmsShownOnceHeard } from "../alarms/UnheardAlarms";
+import { AlarmsAfterFirstMessage } from "../alarms/UnheardAlarms";
 import { SignedIn } from "../app/SignedIn";
 import { ViewSwitch } from "../app/ViewSwitch";
 import { AfterFirstMessage } from "../live/AfterFirstMessage";
@@ -14,7 +14,7 @@ import { ScenePane } from "../panes/ScenePane";
 import { VideoPane } from "../panes/VideoPane";
 import type { Signable } from "../room/messages";
 import { useRoomSnapshot } from "../room/RoomContext";
-import { Watching } from "../room/Watching";
+import { Viewers } from "../room/Viewers";
 import { useTexts } from "../texts/TextsContext";
 import { AgesStrip } from "./Ages";
 import { Fold } from "./Fold";
@@ -43,11 +43,11 @@ export function SupervisorView(): ReactNode {
           </p>
         </div>
         <ViewSwitch />
-        <Watching />
+        <Viewers />
         <PictureSize />
         <SignedIn />
       </header>
-      <AlarmsShownOnceHeard />
+      <AlarmsAfterFirstMessage />
       <AlertBand />
       <main className="supervisor-body">
         <div className="supervisor-picture">
@@ -86,7 +86,7 @@ export function SupervisorView(): ReactNode {
 /** Plan and registration; the state of their signatures is told by the room, and stands there unopened. */
 function Signables(): ReactNode {
   const { supervisor: own, rest } = useTexts();
-  const { stands, firstMessage, signable } = useRoomSnapshot();
+  const { isConnected: stands, firstMessage, signable } = useRoomSnapshot();
   const unheard = firstMessage === "awaited" ? rest.loading : own.notKnown;
   const plan = signable?.find((one) => one.what === "plan") ?? null;
   const registration = signable?.find((one) => one.what === "registration") ?? null;

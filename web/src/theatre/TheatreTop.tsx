@@ -1,17 +1,17 @@
 import type { ReactNode } from "react";
 import { Brand } from "../panes/Brand";
 import { LiveStatus } from "../panes/LiveStatus";
-import { Watching } from "../room/Watching";
+import { Viewers } from "../room/Viewers";
 import { MoreDetails } from "./MoreDetails";
-import { Navigated } from "./Navigated";
+import { NavigationStatus } from "./NavigationStatus";
 
 /** What is navigated, who watches, and whether all of it is there. */
 export function TheatreTop(): ReactNode {
   return (
     <header className="top">
       <Brand />
-      <Navigated />
-      <Watching />
+      <NavigationStatus />
+      <Viewers />
       <LiveStatus />
       <div className="top-tools">
         <MoreDetails />

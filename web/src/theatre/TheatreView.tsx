@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { AlarmBand } from "../alarms/AlarmBand";
-import { AlarmsShownOnceHeard } from "../alarms/UnheardAlarms";
+import { AlarmsAfterFirstMessage } from "../alarms/UnheardAlarms";
 import { useSession, type Role } from "../app/session";
 import { ConfirmRestart } from "../app/ConfirmRestart";
 import { AfterFirstMessage } from "../live/AfterFirstMessage";
@@ -28,7 +28,7 @@ export function TheatreView(): ReactNode {
         {texts.skip}
       </a>
       <TheatreTop />
-      {answersAlarms ? <AlarmBand /> : <AlarmsShownOnceHeard />}
+      {answersAlarms ? <AlarmBand /> : <AlarmsAfterFirstMessage />}
       <ConfirmRestart />
       <AlertBand />
       <main className="theatre-main">

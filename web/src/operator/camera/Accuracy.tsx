@@ -2,16 +2,16 @@ import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { useDo } from "../../rest/useDo";
+import { useAction } from "../../rest/useAction";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
 import { Measure } from "../parts/Measure";
 import { shownTime } from "../parts/shown";
-import { StandsOn } from "../parts/StandsOn";
+import { DocumentValidity } from "../parts/DocumentValidity";
 import { useMaker } from "../parts/useMaker";
-import { number } from "../tool/kept";
+import { number } from "../tool/toolRecord";
 import { isBoard, type Board } from "./board";
 
 interface AccuracyProps {
@@ -26,7 +26,7 @@ export function Accuracy({ board, check, gate, onChecked }: AccuracyProps): Reac
   const all = useTexts();
   const texts = all.camera;
   const madeBy = useMaker();
-  const checking = useDo();
+  const checking = useAction();
   const [checkedHere, setCheckedHere] = useState(false);
   const run = (): void => {
     void checking
@@ -48,7 +48,7 @@ export function Accuracy({ board, check, gate, onChecked }: AccuracyProps): Reac
       <p>{texts.accuracyLead}</p>
       {check !== null && (
         <>
-          <StandsOn heading={check.heading} documents={[]} />
+          <DocumentValidity heading={check.heading} documents={[]} />
           <p className="soft">
             {shownTime(check.heading.made_at, all.language)} · <Maker of={check.heading} />
           </p>

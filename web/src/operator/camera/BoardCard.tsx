@@ -2,7 +2,7 @@ import { Button, SegmentedControl, Select } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { useDo } from "../../rest/useDo";
+import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { saved } from "../parts/saved";
@@ -22,8 +22,8 @@ interface BoardCardProps {
 export function BoardCard({ board, first, onBoard, onBegun }: BoardCardProps): ReactNode {
   const texts = useTexts().camera;
   const [paper, setPaper] = useState<Paper>("A4");
-  const beginning = useDo();
-  const printing = useDo();
+  const beginning = useAction();
+  const printing = useAction();
   const usable = isBoard(board);
   const begin = (): void => {
     void beginning

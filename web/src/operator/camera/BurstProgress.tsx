@@ -2,8 +2,8 @@ import { Button } from "@mantine/core";
 import { useEffect, useRef, type ReactNode } from "react";
 import { answered, Rejection, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
 import { interpolate } from "../../texts/interpolate";
 import { useTexts } from "../../texts/TextsContext";
 
@@ -18,7 +18,7 @@ interface BurstProgressProps {
 /** What to do with the board now, and how far its images have been taken and read. */
 export function BurstProgress({ working, onReady, onEnd }: BurstProgressProps): ReactNode {
   const texts = useTexts().camera.readout;
-  const asked = useAsked((signal) => answered(server.GET("/api/camera/readout/collection", { signal })), {
+  const asked = useQuery((signal) => answered(server.GET("/api/camera/readout/collection", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
   const { data } = asked;
@@ -30,7 +30,7 @@ export function BurstProgress({ working, onReady, onEnd }: BurstProgressProps): 
       onReady();
     }
   }, [data?.stage, onReady]);
-  if (data === null) return <Unanswered asked={asked} />;
+  if (data === null) return <QueryStatus query={asked} />;
   const done = data.stage === "taking" ? data.taken_images : data.read_images;
   return (
     <>

@@ -8,7 +8,7 @@ import { Maker } from "../parts/Maker";
 import { Measure } from "../parts/Measure";
 import { sentence, shownTime } from "../parts/shown";
 import { interpolate } from "../../texts/interpolate";
-import { StandsOn } from "../parts/StandsOn";
+import { DocumentValidity } from "../parts/DocumentValidity";
 import { Plot } from "./Plot";
 import { reportIn, type View } from "./report";
 
@@ -28,7 +28,7 @@ export function CalibrationReport({ caseId, kept, gate, fresh }: CalibrationRepo
   const used = report.views.filter((one) => one.used).length;
   return (
     <Card title={texts.reportTitle} testId="calibration" fresh={fresh}>
-      <StandsOn heading={kept.heading} documents={[]} />
+      <DocumentValidity heading={kept.heading} documents={[]} />
       <p className="soft">
         {shownTime(kept.heading.made_at, all.language)} · <Maker of={kept.heading} /> ·{" "}
         {report.sizePx.join(" × ")} px

@@ -1,8 +1,8 @@
 import { useState, type ReactNode } from "react";
 import { VideoPane } from "../../panes/VideoPane";
 import { answered, server } from "../../rest/client";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
 import { useGates } from "../parts/useGates";
 import { useProcedure } from "../../app/procedure";
@@ -25,14 +25,14 @@ export function CameraPage(): ReactNode {
   const askedGates = useGates();
   const [calibratedHere, setCalibratedHere] = useState(false);
   const [board, setBoard] = useState<Board>(startingBoard);
-  const asked = useAsked((signal) => answered(server.GET("/api/camera", { signal })), {
+  const asked = useQuery((signal) => answered(server.GET("/api/camera", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
-  const { data, again } = asked;
+  const { data, refetch: again } = asked;
   const gates = askedGates.data;
   const changed = (): void => {
     again();
-    procedure.again();
+    procedure.refetch();
   };
   const caseId = procedure.data?.case_id ?? null;
   return (
@@ -40,7 +40,7 @@ export function CameraPage(): ReactNode {
       <div className="cards">
         <CameraTest />
         {gates === null ? (
-          <Unanswered asked={askedGates} />
+          <QueryStatus query={askedGates} />
         ) : (
           <Markers
             gate={gates.tracker}
@@ -48,7 +48,7 @@ export function CameraPage(): ReactNode {
             onChange={changed}
           />
         )}
-        {gates !== null && data === null && <Unanswered asked={asked} />}
+        {gates !== null && data === null && <QueryStatus query={asked} />}
         {procedure.data !== null && caseId === null && <p className="card-lead">{texts.noCase}</p>}
         {data !== null && gates !== null && caseId !== null && (
           <>

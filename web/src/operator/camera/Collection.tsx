@@ -3,15 +3,15 @@ import type { ReactNode } from "react";
 import { answered, Rejection, server } from "../../rest/client";
 import { JobProgress } from "../../rest/JobProgress";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
-import { useDo } from "../../rest/useDo";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
+import { useAction } from "../../rest/useAction";
 import { isOver, useJob } from "../../rest/useJob";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Measure } from "../parts/Measure";
 import { sentence } from "../parts/shown";
-import { TwiceButton } from "../parts/TwiceButton";
+import { ConfirmButton } from "../parts/ConfirmButton";
 import type { Gates } from "../parts/useGates";
 import { useMaker } from "../parts/useMaker";
 import { Coverage } from "./Coverage";
@@ -30,11 +30,11 @@ interface CollectionProps {
 export function Collection({ gates, onCalibrated, onOver }: CollectionProps): ReactNode {
   const texts = useTexts().camera;
   const madeBy = useMaker();
-  const doing = useDo();
-  const asked = useAsked((signal) => answered(server.GET("/api/camera/collection", { signal })), {
+  const doing = useAction();
+  const asked = useQuery((signal) => answered(server.GET("/api/camera/collection", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
-  const { data, again } = asked;
+  const { data, refetch: again } = asked;
   const end = async (): Promise<void> => {
     await doing.run(async () => {
       await answered(server.DELETE("/api/camera/collection"));
@@ -52,7 +52,7 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
       followed.follow(await answered(server.POST("/api/camera/calibration", { body: { made_by: madeBy } })));
     });
   };
-  if (data === null) return <Unanswered asked={asked} />;
+  if (data === null) return <QueryStatus query={asked} />;
   const working = followed.job !== null && !isOver(followed.job);
   const enough = data.missing.length === 0;
   const { collecting } = gates;
@@ -103,9 +103,9 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
         >
           {enough ? texts.calibrate : texts.calibrateAlready}
         </Button>
-        <TwiceButton again={texts.throwAwaySure} onTwice={() => void end()} testId="throw-away">
+        <ConfirmButton confirmLabel={texts.throwAwaySure} onConfirm={() => void end()} testId="throw-away">
           {texts.throwAway}
-        </TwiceButton>
+        </ConfirmButton>
       </div>
       <RejectionNote rejection={doing.rejection} />
       <SentViews disabled={working} onAdded={again} />

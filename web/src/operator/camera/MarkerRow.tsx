@@ -2,11 +2,11 @@ import type { ReactNode } from "react";
 import { useLive } from "../../live/LiveContext";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { useDo } from "../../rest/useDo";
+import { useAction } from "../../rest/useAction";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { Maker } from "../parts/Maker";
-import { TwiceButton } from "../parts/TwiceButton";
+import { ConfirmButton } from "../parts/ConfirmButton";
 import { useMaker } from "../parts/useMaker";
 import type { MarkerGate } from "./Markers";
 import { ScoreBar } from "./ScoreBar";
@@ -24,7 +24,7 @@ export function MarkerRow({ marker, gate, onRemoved }: MarkerRowProps): ReactNod
   const texts = useTexts();
   const { view } = useLive();
   const madeBy = useMaker();
-  const removing = useDo();
+  const removing = useAction();
   // Scores belong to an image as numbers do: they go when it is old.
   const stale = !view.numbers.live && view.numbers.cause !== "unread";
   const found = view.newest?.snapshot?.markers.find((one) => one.name === marker.name) ?? null;
@@ -78,9 +78,9 @@ export function MarkerRow({ marker, gate, onRemoved }: MarkerRowProps): ReactNod
         />
       </div>
       {marker.document_id !== null && (
-        <TwiceButton again={texts.camera.removeSure} loading={removing.busy} onTwice={remove}>
+        <ConfirmButton confirmLabel={texts.camera.removeSure} loading={removing.busy} onConfirm={remove}>
           {texts.camera.remove}
-        </TwiceButton>
+        </ConfirmButton>
       )}
       <RejectionNote rejection={removing.rejection} />
     </li>

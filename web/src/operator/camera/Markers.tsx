@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
@@ -20,17 +20,17 @@ interface MarkersProps {
 /** The markers that are looked for, with their pictures and their search as it goes; another one sent. */
 export function Markers({ gate, canAdd, onChange }: MarkersProps): ReactNode {
   const texts = useTexts().camera;
-  const asked = useAsked((signal) => answered(server.GET("/api/markers", { signal })), {
+  const asked = useQuery((signal) => answered(server.GET("/api/markers", { signal })), {
     everyMs: 3000,
   });
-  const { data, again } = asked;
+  const { data, refetch: again } = asked;
   const changed = (): void => {
     again();
     onChange();
   };
   return (
     <Card title={texts.markersTitle} testId="markers">
-      {data === null && <Unanswered asked={asked} />}
+      {data === null && <QueryStatus query={asked} />}
       {data?.markers.length === 0 && <p className="card-lead">{texts.noMarkers}</p>}
       <ul className="rows">
         {data?.markers.map((marker) => (

@@ -4,9 +4,9 @@ import { shownNumber } from "../../live/rounding";
 import { answered, Rejection, server } from "../../rest/client";
 import { JobProgress } from "../../rest/JobProgress";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
-import { useDo } from "../../rest/useDo";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
+import { useAction } from "../../rest/useAction";
 import { isOver, useJob } from "../../rest/useJob";
 import { interpolate } from "../../texts/interpolate";
 import { useTexts } from "../../texts/TextsContext";
@@ -28,12 +28,12 @@ interface ReadoutCardProps {
 export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
   const texts = useTexts().camera.readout;
   const madeBy = useMaker();
-  const doing = useDo();
+  const doing = useAction();
   const [rejected, setRejected] = useState<Rejection | null>(null);
-  const asked = useAsked((signal) => answered(server.GET("/api/camera/readout", { signal })), {
+  const asked = useQuery((signal) => answered(server.GET("/api/camera/readout", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
-  const { data, again } = asked;
+  const { data, refetch: again } = asked;
   const changed = (): void => {
     again();
     onChange();
@@ -65,7 +65,7 @@ export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
       followed.follow(await answered(server.POST("/api/camera/readout/measurement", { body })));
     });
   };
-  if (data === null) return <Unanswered asked={asked} />;
+  if (data === null) return <QueryStatus query={asked} />;
   const working = followed.job !== null && !isOver(followed.job);
   return (
     <Card title={texts.title} testId="readout">

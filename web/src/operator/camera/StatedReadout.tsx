@@ -2,7 +2,7 @@ import { Button, NumberInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { useDo } from "../../rest/useDo";
+import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import { useMaker } from "../parts/useMaker";
 
@@ -15,7 +15,7 @@ interface StatedReadoutProps {
 export function StatedReadout({ readoutMs, onKept }: StatedReadoutProps): ReactNode {
   const texts = useTexts().camera.readout;
   const madeBy = useMaker();
-  const keeping = useDo();
+  const keeping = useAction();
   const [typed, setTyped] = useState<number | string>(readoutMs ?? "");
   const keep = (): void => {
     const readout_ms = typeof typed === "number" ? typed : null;

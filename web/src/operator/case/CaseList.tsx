@@ -2,7 +2,7 @@ import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { useDo } from "../../rest/useDo";
+import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { shownTime } from "../parts/shown";
@@ -18,7 +18,7 @@ interface CaseListProps {
 /** All other cases: open one, or delete it. */
 export function CaseList({ cases, openedId, onChange }: CaseListProps): ReactNode {
   const texts = useTexts();
-  const opening = useDo();
+  const opening = useAction();
   const [leaving, setLeaving] = useState<Case | null>(null);
   const others = cases.filter((one) => one.id !== openedId);
   const open = (id: string): void => {

@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
 import { useProcedure } from "../../app/procedure";
 import { ArchiveIn } from "./ArchiveIn";
 import { CaseList } from "./CaseList";
@@ -16,16 +16,16 @@ const ASK_EVERY_MS = 3000;
 
 /** The case that is worked in: made, opened, looked through, copied out, put away. */
 export function CasePage(): ReactNode {
-  const { again: askProcedure } = useProcedure();
-  const asked = useAsked((signal) => answered(server.GET("/api/cases", { signal })), {
+  const { refetch: askProcedure } = useProcedure();
+  const asked = useQuery((signal) => answered(server.GET("/api/cases", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
-  const { data, again } = asked;
+  const { data, refetch: again } = asked;
   const changed = (): void => {
     again();
     askProcedure();
   };
-  if (data === null) return <Unanswered asked={asked} />;
+  if (data === null) return <QueryStatus query={asked} />;
   const opened = data.cases.find((one) => one.id === data.opened_id) ?? null;
   const newCase = <NewCase first={data.cases.length === 0} onMade={changed} />;
   return (

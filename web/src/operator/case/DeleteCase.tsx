@@ -2,7 +2,7 @@ import { Button, Modal, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { useDo } from "../../rest/useDo";
+import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import type { Case } from "./OpenedCase";
 
@@ -10,7 +10,7 @@ import type { Case } from "./OpenedCase";
 export function DeleteCase({ leaving, onEnd }: { leaving: Case; onEnd: () => void }): ReactNode {
   const texts = useTexts().case;
   const [confirm, setConfirm] = useState("");
-  const deleting = useDo();
+  const deleting = useAction();
   const remove = async (): Promise<void> => {
     const done = await deleting.run(async () => {
       const params = { path: { case_id: leaving.id } };

@@ -1,8 +1,8 @@
 import { Badge, Switch, Table } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
@@ -19,7 +19,7 @@ const ASK_EVERY_MS = 3000;
 export function Documents({ caseId }: { caseId: string }): ReactNode {
   const texts = useTexts().case;
   const [all, setAll] = useState(false);
-  const asked = useAsked(
+  const asked = useQuery(
     (signal) =>
       answered(
         server.GET("/api/cases/{case_id}/documents", { signal, params: { path: { case_id: caseId } } }),
@@ -43,7 +43,7 @@ export function Documents({ caseId }: { caseId: string }): ReactNode {
         />
       }
     >
-      {data === null && <Unanswered asked={asked} />}
+      {data === null && <QueryStatus query={asked} />}
       {data !== null && shown.length === 0 && <p className="soft">{texts.noDocuments}</p>}
       {shown.length > 0 && (
         <Table.ScrollContainer minWidth={520}>

@@ -1,8 +1,8 @@
 import { Button, Progress } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { useAsked } from "../../rest/useAsked";
-import { useDo } from "../../rest/useDo";
+import { useQuery } from "../../rest/useQuery";
+import { useAction } from "../../rest/useAction";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { isOver, type Job } from "../../rest/useJob";
 import { useTexts } from "../../texts/TextsContext";
@@ -14,8 +14,8 @@ const SHOWN = 5;
 /** Long work, on whatever page it was begun: how far it is, how it ended, and a way to stop it. */
 export function Jobs(): ReactNode {
   const texts = useTexts();
-  const cancelling = useDo();
-  const { data, again } = useAsked((signal) => answered(server.GET("/api/jobs", { signal })), {
+  const cancelling = useAction();
+  const { data, refetch: again } = useQuery((signal) => answered(server.GET("/api/jobs", { signal })), {
     everyMs: 1000,
   });
   const cancel = (job: Job): void => {

@@ -2,7 +2,7 @@ import { Button, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { useDo } from "../../rest/useDo";
+import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 
@@ -10,7 +10,7 @@ import { Card } from "../parts/Card";
 export function NewCase({ first, onMade }: { first: boolean; onMade: () => void }): ReactNode {
   const texts = useTexts().case;
   const [name, setName] = useState("");
-  const making = useDo();
+  const making = useAction();
   const make = async (): Promise<void> => {
     const done = await making.run(async () => {
       const made = await answered(server.POST("/api/cases", { body: { name: name.trim() } }));

@@ -2,7 +2,7 @@ import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { useDo } from "../../rest/useDo";
+import { useAction } from "../../rest/useAction";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
@@ -15,7 +15,7 @@ export type Case = components["schemas"]["CaseMessage"];
 /** The case that is open: its name, its archive, and the way out of it. */
 export function OpenedCase({ opened, onChange }: { opened: Case; onChange: () => void }): ReactNode {
   const texts = useTexts();
-  const closing = useDo();
+  const closing = useAction();
   const close = (): void => {
     void closing
       .run(async () => {

@@ -2,7 +2,7 @@ import { Button, Select } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { useDo } from "../../rest/useDo";
+import { useAction } from "../../rest/useAction";
 import { useRehearsal } from "../../rest/useRehearsal";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
@@ -28,8 +28,8 @@ export function Rehearsal(): ReactNode {
   const asked = useRehearsal({ everyMs: ASK_EVERY_MS });
   // What was just chosen, until the server says that it plays it.
   const [wish, setWish] = useState<Partial<Played>>({});
-  const playing = useDo();
-  const { data, again } = asked;
+  const playing = useAction();
+  const { data, refetch: again } = asked;
   if (data === null) return <RejectionNote rejection={asked.rejection} />;
   // The answer has them as text; they are what was asked for before.
   const played: Played = {

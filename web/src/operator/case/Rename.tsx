@@ -2,7 +2,7 @@ import { Button, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { useDo } from "../../rest/useDo";
+import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import type { Case } from "./OpenedCase";
 
@@ -11,7 +11,7 @@ export function Rename({ case_, onRenamed }: { case_: Case; onRenamed: () => voi
   const texts = useTexts().case;
   const [name, setName] = useState<string | null>(null);
   const [before, setBefore] = useState<string | null>(null);
-  const renaming = useDo();
+  const renaming = useAction();
   const rename = async (to: string): Promise<void> => {
     const was = case_.name;
     const done = await renaming.run(async () => {

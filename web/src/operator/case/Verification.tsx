@@ -2,8 +2,8 @@ import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { useAsked } from "../../rest/useAsked";
-import { useDo } from "../../rest/useDo";
+import { useQuery } from "../../rest/useQuery";
+import { useAction } from "../../rest/useAction";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
@@ -14,9 +14,9 @@ import { interpolate } from "../../texts/interpolate";
 export function Verification({ caseId }: { caseId: string }): ReactNode {
   const { case: texts, rest } = useTexts();
   const [found, setFound] = useState<components["schemas"]["VerificationMessage"] | null>(null);
-  const verifying = useDo();
+  const verifying = useAction();
   const params = { path: { case_id: caseId } };
-  const { data, rejection } = useAsked(
+  const { data, rejection } = useQuery(
     (signal) => answered(server.GET("/api/cases/{case_id}/files", { signal, params })),
     { key: caseId, everyMs: 5000 },
   );

@@ -1,9 +1,9 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
-import { useDo } from "../../rest/useDo";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
+import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import { LiveStage } from "../registration/LiveStage";
 import { interpolate } from "../../texts/interpolate";
@@ -24,12 +24,12 @@ interface CheckChoiceProps {
 /** Which landmark is checked on: one that the registration was not made from. */
 export function CheckChoice({ vertebra, used, maxMm, onBegun }: CheckChoiceProps): ReactNode {
   const texts = useTexts().check;
-  const plan = useAsked((signal) => answered(server.GET("/api/plan", { signal })));
+  const plan = useQuery((signal) => answered(server.GET("/api/plan", { signal })));
   const first = useTools()?.[0]?.name ?? "";
   const [tool, setTool] = useState("");
   const [picked, setPicked] = useState<string | null>(null);
-  const beginning = useDo();
-  if (plan.data === null) return <Unanswered asked={plan} Note={Rejected} />;
+  const beginning = useAction();
+  if (plan.data === null) return <QueryStatus query={plan} Note={Rejected} />;
   const landmarks = plannedVertebrae(plan.data.plan).find((one) => one.name === vertebra)?.landmarks ?? [];
   const free = landmarks.filter((one) => !used.includes(one.name));
   const landmark = free.find((one) => one.name === picked) ?? null;

@@ -1,8 +1,8 @@
 import { useState, type ReactNode } from "react";
 import { Link } from "wouter";
 import { answered, server } from "../../rest/client";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
 import { usedLandmarks } from "../registration/planRead";
@@ -19,7 +19,7 @@ export function CheckPage(): ReactNode {
   const texts = useTexts().check;
   const procedure = useProcedure();
   const register = procedure.data?.steps.find((one) => one.step === "register");
-  if (register === undefined) return <Unanswered asked={procedure} />;
+  if (register === undefined) return <QueryStatus query={procedure} />;
   if (register.state !== "done" || register.document_id === null)
     return (
       <p className="warning" data-testid="check-shut">
@@ -35,20 +35,20 @@ export function CheckPage(): ReactNode {
 function Checking({ registrationId }: { registrationId: string }): ReactNode {
   const running = useRunning();
   const [kept, setKept] = useState(0);
-  const registration = useAsked((signal) => answered(server.GET("/api/registration", { signal })), {
+  const registration = useQuery((signal) => answered(server.GET("/api/registration", { signal })), {
     key: registrationId,
   });
-  if (registration.data === null) return <Unanswered asked={registration} Note={Rejected} />;
+  if (registration.data === null) return <QueryStatus query={registration} Note={Rejected} />;
   const { check, vertebra } = registration.data;
   return (
     <div className="registration">
       <RehearsalStrip scenes={["check"]}>{(told) => <TipRests told={told} />}</RehearsalStrip>
       <CheckDue rule={check} fresh={kept === 0 ? null : String(kept)} />
       {running.data === null ? (
-        <Unanswered asked={running} Note={Rejected} />
+        <QueryStatus query={running} Note={Rejected} />
       ) : running.data.check ? (
         <CheckWork
-          onOver={running.again}
+          onOver={running.refetch}
           onKept={() => {
             setKept(kept + 1);
           }}
@@ -58,7 +58,7 @@ function Checking({ registrationId }: { registrationId: string }): ReactNode {
           vertebra={vertebra}
           used={usedLandmarks(registration.data.made_from)}
           maxMm={check.max_mm}
-          onBegun={running.again}
+          onBegun={running.refetch}
         />
       )}
     </div>

@@ -2,9 +2,9 @@ import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { useLocation } from "wouter";
 import { answered, server } from "../../rest/client";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
-import { useDo } from "../../rest/useDo";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
+import { useAction } from "../../rest/useAction";
 import { Icon } from "../../panes/Icon";
 import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
@@ -29,12 +29,12 @@ export function CheckWork({ onOver, onKept }: CheckWorkProps): ReactNode {
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const [, navigate] = useLocation();
-  const asked = useAsked((signal) => answered(server.GET("/api/registration/check", { signal })), {
+  const asked = useQuery((signal) => answered(server.GET("/api/registration/check", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
-  const doing = useDo();
+  const doing = useAction();
   const { data } = asked;
-  if (data === null) return <Unanswered asked={asked} Note={Rejected} />;
+  if (data === null) return <QueryStatus query={asked} Note={Rejected} />;
   const { outcome, capture } = data;
   const run = (action: () => Promise<unknown>, then: (done: boolean) => void): void => {
     void doing
@@ -64,7 +64,7 @@ export function CheckWork({ onOver, onKept }: CheckWorkProps): ReactNode {
               () =>
                 answered(server.POST("/api/registration/check/conclusion", { body: { made_by: madeBy } })),
               (done) => {
-                procedure.again();
+                procedure.refetch();
                 onOver();
                 if (done) onKept();
                 if (done && passed) navigate("/operator/navigate");
@@ -87,7 +87,7 @@ export function CheckWork({ onOver, onKept }: CheckWorkProps): ReactNode {
                       body: { landmark: capture.landmark, tool: data.tool },
                     }),
                   ),
-                asked.again,
+                asked.refetch,
               );
             }}
           >

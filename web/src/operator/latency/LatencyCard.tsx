@@ -2,7 +2,7 @@ import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, Rejection, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { useDo } from "../../rest/useDo";
+import { useAction } from "../../rest/useAction";
 import { useLatency } from "../../rest/useLatency";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
@@ -13,8 +13,8 @@ import type { Plan, Result } from "./measure";
 /** The latency from light to page, measured with this screen and the camera before it. */
 export function LatencyCard(): ReactNode {
   const texts = useTexts().latency;
-  const { data, again } = useLatency();
-  const beginning = useDo();
+  const { data, refetch: again } = useLatency();
+  const beginning = useAction();
   const [plan, setPlan] = useState<Plan | null>(null);
   const [rejection, setRejection] = useState<Rejection | null>(null);
   const [madeHere, setMadeHere] = useState<string | null>(null);

@@ -90,9 +90,9 @@ function paintEachFrame({ plan, canvas }: Measured, sequence: CodeSequence, note
 }
 
 async function asked(notes: LatencyNotes): Promise<Reading> {
-  const askedAtMs = performance.now();
+  const requestedAtMs = performance.now();
   const reading = await answered(server.GET("/api/latency/measurement"));
-  notes.compare(askedAtMs, performance.now(), reading.server_s);
+  notes.compare(requestedAtMs, performance.now(), reading.server_s);
   return reading;
 }
 

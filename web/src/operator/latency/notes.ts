@@ -47,8 +47,12 @@ export class LatencyNotes {
     this.painted.push({ code, painted_at_ms: nowMs });
   }
 
-  compare(askedAtMs: number, answeredAtMs: number, serverS: number): void {
-    this.comparisons.push({ requested_at_ms: askedAtMs, responded_at_ms: answeredAtMs, server_s: serverS });
+  compare(requestedAtMs: number, answeredAtMs: number, serverS: number): void {
+    this.comparisons.push({
+      requested_at_ms: requestedAtMs,
+      responded_at_ms: answeredAtMs,
+      server_s: serverS,
+    });
   }
 
   /** Images from before the camera saw a code say nothing; codes stay, because images on their way show them. */

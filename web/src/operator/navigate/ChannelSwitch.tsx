@@ -1,14 +1,14 @@
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
-import { useDo } from "../../rest/useDo";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
+import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
 import { interpolate } from "../../texts/interpolate";
 import { plannedVertebrae } from "../registration/planRead";
 import { Rejected } from "../registration/Rejected";
-import { SureButton } from "../registration/SureButton";
+import { ConfirmOrCancelButton } from "../registration/ConfirmOrCancelButton";
 import { useMadeBy } from "../registration/useMadeBy";
 import { useSides } from "../registration/useSides";
 
@@ -19,15 +19,15 @@ export function ChannelSwitch(): ReactNode {
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const isPlanned = procedure.data?.steps.some((one) => one.step === "plan" && one.document_id !== null);
-  const plan = useAsked(
+  const plan = useQuery(
     // Without a plan there is nothing to ask for, and nothing to switch to.
     async (signal) => (isPlanned === true ? answered(server.GET("/api/plan", { signal })) : null),
     { key: String(isPlanned) },
   );
   const [shown, setShown] = useState(false);
-  const switching = useDo();
+  const switching = useAction();
   if (isPlanned === false) return null;
-  if (plan.data === null) return <Unanswered asked={plan} Note={Rejected} />;
+  if (plan.data === null) return <QueryStatus query={plan} Note={Rejected} />;
   const active = plan.data.active_channel;
   const others = plannedVertebrae(plan.data.plan)
     .flatMap((one) => one.sides.map((side) => ({ vertebra: one.name, side })))
@@ -61,13 +61,13 @@ export function ChannelSwitch(): ReactNode {
               <p className="quiet">
                 {stays ? texts.sameVertebra : interpolate(texts.otherVertebra, { vertebra: one.vertebra })}
               </p>
-              <SureButton
-                ask
+              <ConfirmOrCancelButton
+                needsConfirmation
                 variant="default"
-                sure={interpolate(texts.switchSure, { channel: name })}
+                confirmLabel={interpolate(texts.switchSure, { channel: name })}
                 busy={switching.busy}
                 testId={`channel-${one.vertebra}-${one.side}`}
-                onSure={() => {
+                onConfirm={() => {
                   void switching
                     .run(async () => {
                       await answered(
@@ -82,13 +82,13 @@ export function ChannelSwitch(): ReactNode {
                     })
                     .then(() => {
                       setShown(false);
-                      plan.again();
-                      procedure.again();
+                      plan.refetch();
+                      procedure.refetch();
                     });
                 }}
               >
                 {name}
-              </SureButton>
+              </ConfirmOrCancelButton>
             </div>
           );
         })}

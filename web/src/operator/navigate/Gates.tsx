@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { Link } from "wouter";
 import { shownNumber } from "../../live/rounding";
-import { Unanswered } from "../../rest/Unanswered";
+import { QueryStatus } from "../../rest/QueryStatus";
 import { useTexts } from "../../texts/TextsContext";
 import { interpolate } from "../../texts/interpolate";
 import { stateText } from "../stepTexts";
@@ -12,7 +12,7 @@ export function Gates(): ReactNode {
   const texts = useTexts();
   const procedure = useProcedure();
   const { data } = procedure;
-  if (data === null) return <Unanswered asked={procedure} />;
+  if (data === null) return <QueryStatus query={procedure} />;
   const open = data.steps.filter((one) => one.step !== "navigate" && one.state !== "done");
   const check = data.steps.find((one) => one.step === "check");
   if (open.length === 0)

@@ -1,5 +1,5 @@
 import { answered, server } from "../../rest/client";
-import { useAsked } from "../../rest/useAsked";
+import { useQuery } from "../../rest/useQuery";
 import type { components } from "../../schema";
 import { useProcedure } from "../../app/procedure";
 
@@ -9,7 +9,7 @@ type Heading = components["schemas"]["HeadingMessage"];
 export function useDocuments(): readonly Heading[] | null {
   const procedure = useProcedure().data;
   const caseId = procedure?.case_id ?? null;
-  const { data } = useAsked(
+  const { data } = useQuery(
     async (signal) => {
       if (caseId === null) return { documents: [] };
       const params = { path: { case_id: caseId } };

@@ -1,6 +1,6 @@
 // What a touch has made is often below the fold: it is brought into view, and its name read out.
 import { useEffect, useRef, type RefObject } from "react";
-import { calmer } from "../../marks/calmer";
+import { prefersReducedMotion } from "../../marks/reducedMotion";
 import { isInSight, throughAll, type Span } from "./inSight";
 
 const HEADING = "h2, h3, h4";
@@ -29,7 +29,7 @@ export function bringIntoView(shown: HTMLElement): void {
   heading.tabIndex = -1;
   heading.focus({ preventScroll: true });
   if (isInSight(shown.getBoundingClientRect(), throughAll(windowsOf(shown)))) return;
-  shown.scrollIntoView({ behavior: calmer() ? "instant" : "smooth", block: "start" });
+  shown.scrollIntoView({ behavior: prefersReducedMotion() ? "instant" : "smooth", block: "start" });
 }
 
 /** The page below what stays at its top, and every panel around it that scrolls by itself. */

@@ -1,8 +1,8 @@
 import { Alert, Button, Table } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
 import { shownSecond } from "../parts/shown";
 import { auditRow } from "./auditRow";
@@ -15,16 +15,16 @@ export function AuditLog(): ReactNode {
   const texts = all.people;
   const [before, setBefore] = useState<number | null>(null);
   const query = before === null ? { last: LINES } : { last: LINES, before };
-  const asked = useAsked((signal) => answered(server.GET("/api/audit", { params: { query }, signal })), {
+  const asked = useQuery((signal) => answered(server.GET("/api/audit", { params: { query }, signal })), {
     key: String(before),
   });
-  const { data, again } = asked;
+  const { data, refetch: again } = asked;
   const rows = (data?.lines ?? []).map((line) => auditRow(line, all)).reverse();
   const oldest = rows.at(-1)?.number ?? 0;
   return (
     <section className="audit" aria-labelledby="audit">
       <h3 id="audit">{texts.log}</h3>
-      {data === null && <Unanswered asked={asked} />}
+      {data === null && <QueryStatus query={asked} />}
       {data?.is_intact === true && (
         <p>
           ✓ {texts.whole} · {data.count} {texts.lines} · <code title={data.sum}>{data.sum.slice(0, 16)}</code>

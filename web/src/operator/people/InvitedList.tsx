@@ -2,7 +2,7 @@ import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { useDo } from "../../rest/useDo";
+import { useAction } from "../../rest/useAction";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { shownTime } from "../parts/shown";
@@ -16,7 +16,7 @@ interface Props {
 export function InvitedList({ invitations, onRevoked }: Props): ReactNode {
   const all = useTexts();
   const texts = all.people;
-  const { busy, rejection, run } = useDo();
+  const { busy, rejection, run } = useAction();
   const revoke = async (invitation_id: string): Promise<void> => {
     const params = { path: { invitation_id } };
     await answered(server.DELETE("/api/people/invitations/{invitation_id}", { params }));

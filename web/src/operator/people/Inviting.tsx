@@ -3,7 +3,7 @@ import { useState, type ReactNode } from "react";
 import type { Role } from "../../app/session";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { useDo } from "../../rest/useDo";
+import { useAction } from "../../rest/useAction";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { InvitationLink } from "./InvitationLink";
@@ -23,7 +23,7 @@ export function Inviting({ onInvited }: { onInvited: () => void }): ReactNode {
   const [singleUse, setSingleUse] = useState(true);
   const [forMachine, setForMachine] = useState(false);
   const [invited, setInvited] = useState<Invited | null>(null);
-  const { busy, rejection, run } = useDo();
+  const { busy, rejection, run } = useAction();
 
   const invite = async (): Promise<void> => {
     const body = { name: name.trim(), role, lasts_h: hours, single_use: singleUse, for_machine: forMachine };

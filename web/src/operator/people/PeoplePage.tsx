@@ -2,8 +2,8 @@ import { Alert } from "@mantine/core";
 import type { ReactNode } from "react";
 import { SignedIn } from "../../app/SignedIn";
 import { answered, server } from "../../rest/client";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
 import { AuditLog } from "./AuditLog";
 import { Inviting } from "./Inviting";
@@ -15,13 +15,13 @@ const ASK_EVERY_MS = 3000;
 /** Who is signed in, who is invited, and what was done. */
 export function PeoplePage(): ReactNode {
   const texts = useTexts().people;
-  const asked = useAsked((signal) => answered(server.GET("/api/people", { signal })), {
+  const asked = useQuery((signal) => answered(server.GET("/api/people", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
-  const { data, again } = asked;
+  const { data, refetch: again } = asked;
   return (
     <div className="people">
-      {data === null && <Unanswered asked={asked} />}
+      {data === null && <QueryStatus query={asked} />}
       <SignedIn />
       {data?.sign_in_required === false && <Alert title={texts.off} />}
       {data?.sign_in_required === true && (

@@ -1,8 +1,8 @@
 import type { ReactNode } from "react";
 import { Link } from "wouter";
 import { answered, server } from "../../rest/client";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
 import { CtIntake } from "./ct/CtIntake";
@@ -17,7 +17,7 @@ export function PlanPage(): ReactNode {
   const texts = useTexts().plan;
   const asked = useProcedure();
   const { data: procedure } = asked;
-  if (procedure === null) return <Unanswered asked={asked} />;
+  if (procedure === null) return <QueryStatus query={asked} />;
   if (procedure.case_id === null) {
     return (
       <section className="plan-empty">
@@ -33,7 +33,7 @@ export function PlanPage(): ReactNode {
 
 function PlanOfCase({ caseId }: { caseId: string }): ReactNode {
   const texts = useTexts().plan;
-  const ct = useAsked(async (signal) => {
+  const ct = useQuery(async (signal) => {
     const isThere = await hasDocument(caseId, "ct", signal);
     return isThere ? answered(server.GET("/api/ct", { signal })) : "none";
   });
@@ -41,22 +41,22 @@ function PlanOfCase({ caseId }: { caseId: string }): ReactNode {
     return (
       <section className="plan-empty" data-testid="no-ct">
         <h3>{texts.ct.noneTitle}</h3>
-        <CtIntake isSecond={false} onTaken={ct.again} />
+        <CtIntake isSecond={false} onTaken={ct.refetch} />
       </section>
     );
   }
   if (ct.data === null) {
     return (
       <section className="plan-empty">
-        <Unanswered asked={ct} />
+        <QueryStatus query={ct} />
       </section>
     );
   }
   return (
     <PlanProvider caseId={caseId}>
-      <SlicesProvider key={ct.data.heading.id} ct={ct.data} lookAnew={ct.again}>
+      <SlicesProvider key={ct.data.heading.id} ct={ct.data} lookAnew={ct.refetch}>
         <WorkProvider>
-          <Workplace onCtTaken={ct.again} />
+          <Workplace onCtTaken={ct.refetch} />
         </WorkProvider>
       </SlicesProvider>
     </PlanProvider>

@@ -1,5 +1,5 @@
 import { useEffect, type ReactNode } from "react";
-import { Unanswered } from "../../rest/Unanswered";
+import { QueryStatus } from "../../rest/QueryStatus";
 import { useTexts } from "../../texts/TextsContext";
 import { ChannelPart } from "./channel/ChannelPart";
 import { CtPart } from "./ct/CtPart";
@@ -38,7 +38,7 @@ export function Workplace({ onCtTaken }: { onCtTaken: () => void }): ReactNode {
         <Planes drawing={(plane, projection) => <PlanDrawing plane={plane} projection={projection} />} />
         <aside className="plan-side" aria-label={texts.part[part]}>
           {asking && part !== "ct" ? (
-            <Unanswered asked={{ rejection: planRejection, again: askAgain }} />
+            <QueryStatus query={{ rejection: planRejection, refetch: askAgain }} />
           ) : (
             parts[part]()
           )}

@@ -2,9 +2,9 @@ import { Badge } from "@mantine/core";
 import type { ReactNode } from "react";
 import { Link } from "wouter";
 import { answered, server } from "../../rest/client";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
-import { useDo } from "../../rest/useDo";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
+import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import { Maker } from "../parts/Maker";
 import { shownTime } from "../parts/shown";
@@ -12,7 +12,7 @@ import { useProcedure } from "../../app/procedure";
 import { interpolate } from "../../texts/interpolate";
 import { Rejected } from "./Rejected";
 import { RegistrationNumbers } from "./RegistrationNumbers";
-import { SureButton } from "./SureButton";
+import { ConfirmOrCancelButton } from "./ConfirmOrCancelButton";
 import { useMadeBy } from "./useMadeBy";
 
 /** The registration that is there: how it was made, what it states of itself, and what comes next. */
@@ -32,12 +32,12 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
   const texts = all.registration;
   const procedure = useProcedure();
   const madeBy = useMadeBy();
-  const asked = useAsked((signal) => answered(server.GET("/api/registration", { signal })), {
+  const asked = useQuery((signal) => answered(server.GET("/api/registration", { signal })), {
     key: documentId,
   });
-  const withdrawing = useDo();
+  const withdrawing = useAction();
   const { data } = asked;
-  if (data === null) return <Unanswered asked={asked} Note={Rejected} />;
+  if (data === null) return <QueryStatus query={asked} Note={Rejected} />;
   const { heading } = data;
   const lost = heading.withdrawn?.reason ?? heading.out_of_date;
   const check = procedure.data?.steps.find((one) => one.step === "check");
@@ -67,12 +67,12 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
             <Link className="big-link" href="/operator/register/nudges" data-testid="to-nudges">
               {texts.now.nudge}
             </Link>
-            <SureButton
-              ask
+            <ConfirmOrCancelButton
+              needsConfirmation
               variant="default"
-              sure={texts.now.withdrawSure}
+              confirmLabel={texts.now.withdrawSure}
               busy={withdrawing.busy}
-              onSure={() => {
+              onConfirm={() => {
                 void withdrawing
                   .run(async () => {
                     await answered(
@@ -83,13 +83,13 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
                     );
                   })
                   .then(() => {
-                    asked.again();
-                    procedure.again();
+                    asked.refetch();
+                    procedure.refetch();
                   });
               }}
             >
               {texts.now.withdraw}
-            </SureButton>
+            </ConfirmOrCancelButton>
           </>
         )}
       </div>

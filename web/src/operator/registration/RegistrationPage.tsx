@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { Link, useLocation } from "wouter";
-import { Unanswered } from "../../rest/Unanswered";
+import { QueryStatus } from "../../rest/QueryStatus";
 import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
 import { MethodChoice } from "./MethodChoice";
@@ -22,7 +22,7 @@ export function RegistrationPage(): ReactNode {
   const way = Object.hasOwn(WAYS, named) ? (named as Way) : null;
   // The ways begin from what the case is and has: they wait for the first answer. One that fails later must not
   // take away what a hand has marked.
-  if (step === undefined && procedure.rejection === null) return <Unanswered asked={procedure} />;
+  if (step === undefined && procedure.rejection === null) return <QueryStatus query={procedure} />;
   if (step !== undefined && !step.allowed)
     return (
       <p className="warning" data-testid="register-shut">

@@ -2,7 +2,7 @@ import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { useDo } from "../../rest/useDo";
+import { useAction } from "../../rest/useAction";
 import { useRehearsal, type Rehearsed } from "../../rest/useRehearsal";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
@@ -21,8 +21,8 @@ interface RehearsalStripProps {
 export function RehearsalStrip({ scenes, children }: RehearsalStripProps): ReactNode {
   const all = useTexts();
   const texts = all.registration.rehearsal;
-  const { data, again } = useRehearsal({ everyMs: ASK_EVERY_MS, truth: true });
-  const playing = useDo();
+  const { data, refetch: again } = useRehearsal({ everyMs: ASK_EVERY_MS, truth: true });
+  const playing = useAction();
   if (data === null) return null;
   return (
     <aside className="rehearsal" aria-label={texts.title} data-testid="rehearsal">

@@ -1,8 +1,8 @@
 import { Table } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
 import { textIn } from "../../texts/text";
 import { useTexts } from "../../texts/TextsContext";
 import { shownTime } from "../parts/shown";
@@ -13,7 +13,7 @@ const MAX_LINES = 10_000;
 /** The alarm log in short: which, how often, from when to when, acknowledged by whom. */
 export function Alarms(): ReactNode {
   const texts = useTexts();
-  const asked = useAsked((signal) =>
+  const asked = useQuery((signal) =>
     answered(server.GET("/api/alarms/log", { signal, params: { query: { last: MAX_LINES } } })),
   );
   const { data } = asked;
@@ -21,7 +21,7 @@ export function Alarms(): ReactNode {
   return (
     <section className="stack">
       <h4>{texts.report.alarms}</h4>
-      {data === null && <Unanswered asked={asked} />}
+      {data === null && <QueryStatus query={asked} />}
       {data !== null && alarms.length === 0 && <p className="soft">{texts.report.noAlarms}</p>}
       {data?.lines.length === MAX_LINES && <p className="bad">▲ {texts.report.logCut}</p>}
       {alarms.length > 0 && (

@@ -3,8 +3,8 @@ import { Table } from "@mantine/core";
 import type { ReactNode } from "react";
 import { shownFigure } from "../../live/rounding";
 import { answered, server } from "../../rest/client";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { shownTime } from "../parts/shown";
@@ -19,7 +19,7 @@ interface PlanReportProps {
 export function PlanReport({ caseId, heading }: PlanReportProps): ReactNode {
   const all = useTexts();
   const texts = all.report;
-  const asked = useAsked(
+  const asked = useQuery(
     (signal) => {
       const params = { path: { case_id: caseId, document_id: heading.id } };
       return answered(server.GET("/api/cases/{case_id}/documents/{document_id}", { signal, params }));
@@ -35,7 +35,7 @@ export function PlanReport({ caseId, heading }: PlanReportProps): ReactNode {
         {all.case.version} {heading.version} · {shownTime(heading.made_at, all.language)} ·{" "}
         <Maker of={heading} />
       </p>
-      {data === null && <Unanswered asked={asked} />}
+      {data === null && <QueryStatus query={asked} />}
       {data !== null && channels.length === 0 && <p className="soft">{texts.noChannels}</p>}
       {channels.length > 0 && (
         <Table.ScrollContainer minWidth={480}>

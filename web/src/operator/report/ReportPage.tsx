@@ -2,8 +2,8 @@ import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { Link } from "wouter";
 import { answered, server } from "../../rest/client";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
 import { ArchiveOut } from "../case/ArchiveOut";
 import { newestOf } from "../case/newest";
@@ -22,7 +22,7 @@ export function ReportPage(): ReactNode {
   const texts = useTexts().report;
   const procedure = useProcedure();
   const { data } = procedure;
-  if (data === null) return <Unanswered asked={procedure} />;
+  if (data === null) return <QueryStatus query={procedure} />;
   if (data.case_id === null) {
     return (
       <p className="card-lead">
@@ -39,7 +39,7 @@ export function ReportPage(): ReactNode {
 function Report({ caseId }: { caseId: string }): ReactNode {
   const all = useTexts();
   const texts = all.report;
-  const asked = useAsked(
+  const asked = useQuery(
     async (signal) => {
       const params = { path: { case_id: caseId } };
       const [kept, { documents }, procedure] = await Promise.all([
@@ -54,8 +54,8 @@ function Report({ caseId }: { caseId: string }): ReactNode {
     },
     { key: caseId },
   );
-  const { data, again } = asked;
-  if (data === null) return <Unanswered asked={asked} />;
+  const { data, refetch: again } = asked;
+  if (data === null) return <QueryStatus query={asked} />;
   const { kept, documents, entries, contents, procedure, readAt } = data;
   const plan = newestOf(documents).find((one) => one.kind === "plan" && one.name === "main") ?? null;
   return (

@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
 import { SignatureLine } from "../../supervisor/SignatureLine";
 import { useTexts } from "../../texts/TextsContext";
 import { Maker } from "../parts/Maker";
@@ -9,9 +9,9 @@ import { Maker } from "../parts/Maker";
 /** Who signed plan and registration, and who had invited them. */
 export function SignaturesReport(): ReactNode {
   const texts = useTexts().supervisor.sign;
-  const asked = useAsked((signal) => answered(server.GET("/api/supervision/signatures", { signal })));
+  const asked = useQuery((signal) => answered(server.GET("/api/supervision/signatures", { signal })));
   const { data } = asked;
-  if (data === null) return <Unanswered asked={asked} />;
+  if (data === null) return <QueryStatus query={asked} />;
   const there = data.signable.filter((one) => one.document_id !== null);
   if (there.length === 0) return null;
   return (

@@ -2,12 +2,12 @@ import { Button, Select, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { Link } from "wouter";
 import { answered, server } from "../../rest/client";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { NAME } from "../parts/name";
-import type { Purpose } from "./kept";
+import type { Purpose } from "./toolRecord";
 
 interface NewToolProps {
   first: boolean;
@@ -21,7 +21,7 @@ export function NewTool({ first, taken, busy, onBegin }: NewToolProps): ReactNod
   const texts = useTexts().tool;
   const [typed, setTyped] = useState<string | null>(null);
   const [chosen, setChosen] = useState<string | null>(null);
-  const asked = useAsked((signal) => answered(server.GET("/api/markers", { signal })), {
+  const asked = useQuery((signal) => answered(server.GET("/api/markers", { signal })), {
     everyMs: 3000,
   });
   const { data } = asked;
@@ -34,7 +34,7 @@ export function NewTool({ first, taken, busy, onBegin }: NewToolProps): ReactNod
     <Card title={first ? texts.firstTitle : texts.newTitle} testId="new-tool">
       {first && <p className="card-lead">{texts.firstLead}</p>}
       {data === null ? (
-        <Unanswered asked={asked} />
+        <QueryStatus query={asked} />
       ) : markers.length === 0 ? (
         <p>
           {texts.noMarker}{" "}

@@ -5,9 +5,16 @@ import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
 import { Measure } from "../parts/Measure";
-import { StandsOn } from "../parts/StandsOn";
+import { DocumentValidity } from "../parts/DocumentValidity";
 import { shownTime } from "../parts/shown";
-import { keptTool, nextPurpose, number, type KnownTool, type Purpose, type ToolGate } from "./kept";
+import {
+  toolRecordFrom,
+  nextPurpose,
+  number,
+  type KnownTool,
+  type Purpose,
+  type ToolGate,
+} from "./toolRecord";
 
 const PURPOSES: readonly Purpose[] = ["pivot", "spin", "tip_check"];
 
@@ -25,7 +32,7 @@ interface ToolCardProps {
 export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCardProps): ReactNode {
   const all = useTexts();
   const texts = all.tool;
-  const kept = tool.kept === null ? null : keptTool(tool.kept.content);
+  const kept = tool.kept === null ? null : toolRecordFrom(tool.kept.content);
   const radiusMm = kept?.radiusMm ?? tool.radius_mm;
   const next = nextPurpose(tool);
   const canPivotOnly = tool.kept?.heading.current !== true;
@@ -34,7 +41,7 @@ export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCa
       {tool.kept === null && <p className="soft">{tool.from_settings ? texts.ofSettings : texts.nothing}</p>}
       {tool.kept !== null && (
         <>
-          <StandsOn heading={tool.kept.heading} documents={documents} />
+          <DocumentValidity heading={tool.kept.heading} documents={documents} />
           <p className="soft">
             {texts.made} {shownTime(tool.kept.heading.made_at, all.language)} ·{" "}
             <Maker of={tool.kept.heading} />

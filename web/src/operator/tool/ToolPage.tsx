@@ -2,15 +2,15 @@ import { useState, type ReactNode } from "react";
 import { VideoPane } from "../../panes/VideoPane";
 import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { Unanswered } from "../../rest/Unanswered";
-import { useAsked } from "../../rest/useAsked";
-import { useDo } from "../../rest/useDo";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useQuery } from "../../rest/useQuery";
+import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import { useDocuments } from "../parts/useDocuments";
 import { useGates } from "../parts/useGates";
 import { useProcedure } from "../../app/procedure";
-import { Gathering } from "./Gathering";
-import type { Purpose } from "./kept";
+import { PoseCollection } from "./PoseCollection";
+import type { Purpose } from "./toolRecord";
 import { NewTool } from "./NewTool";
 import { ToolCard } from "./ToolCard";
 
@@ -22,12 +22,12 @@ export function ToolPage(): ReactNode {
   const procedure = useProcedure();
   const gates = useGates();
   const documents = useDocuments();
-  const asked = useAsked((signal) => answered(server.GET("/api/tools", { signal })), {
+  const asked = useQuery((signal) => answered(server.GET("/api/tools", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
-  const { data, again } = asked;
-  const beginning = useDo();
-  const [keptHere, setKeptHere] = useState<string | null>(null);
+  const { data, refetch: again } = asked;
+  const beginning = useAction();
+  const [storedHere, setStoredHere] = useState<string | null>(null);
   const begin = (tool: string, purpose: Purpose, marker: string | null): void => {
     void beginning
       .run(async () => {
@@ -36,13 +36,13 @@ export function ToolPage(): ReactNode {
       .then(again);
   };
   const over = (kept: string | null): void => {
-    setKeptHere(kept);
+    setStoredHere(kept);
     again();
-    procedure.again();
+    procedure.refetch();
   };
-  if (data === null) return <Unanswered asked={asked} />;
-  if (gates.data === null) return <Unanswered asked={gates} />;
-  if (procedure.data === null && procedure.rejection === null) return <Unanswered asked={procedure} />;
+  if (data === null) return <QueryStatus query={asked} />;
+  if (gates.data === null) return <QueryStatus query={gates} />;
+  if (procedure.data === null && procedure.rejection === null) return <QueryStatus query={procedure} />;
   const gate = gates.data.tool_calibration;
   if (procedure.data?.case_id === null) return <p className="card-lead">{texts.noCase}</p>;
   return (
@@ -50,7 +50,7 @@ export function ToolPage(): ReactNode {
       <div className="cards">
         <RejectionNote rejection={beginning.rejection} />
         {data.collecting ? (
-          <Gathering tools={data.tools} gate={gate} onOver={over} />
+          <PoseCollection tools={data.tools} gate={gate} onOver={over} />
         ) : (
           <>
             {data.tools.map((tool) => (
@@ -60,7 +60,7 @@ export function ToolPage(): ReactNode {
                 gate={gate}
                 documents={documents}
                 busy={beginning.busy}
-                fresh={keptHere === tool.name ? tool.name : null}
+                fresh={storedHere === tool.name ? tool.name : null}
                 onBegin={begin}
               />
             ))}

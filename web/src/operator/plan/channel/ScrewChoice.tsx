@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
-import { useAsked } from "../../../rest/useAsked";
+import { useQuery } from "../../../rest/useQuery";
 import { useTexts } from "../../../texts/TextsContext";
 import { usePlanning } from "../state/PlanContext";
 import type { PlannedChannel } from "../state/shape";
@@ -19,7 +19,7 @@ interface ScrewChoiceProps {
 export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps): ReactNode {
   const texts = useTexts().plan.screw;
   const { change, busy } = usePlanning();
-  const catalogue = useAsked((signal) => answered(server.GET("/api/plan/catalogue", { signal }))).data;
+  const catalogue = useQuery((signal) => answered(server.GET("/api/plan/catalogue", { signal }))).data;
   const path = { name: vertebra, side: planned.side };
   const screw = planned.screws[0] ?? null;
   const choose = (size: { diameter_mm: number; length_mm: number } | null): void => {

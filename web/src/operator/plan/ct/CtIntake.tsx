@@ -3,7 +3,7 @@ import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { JobProgress } from "../../../rest/JobProgress";
 import { useRehearsal } from "../../../rest/useRehearsal";
-import { useDo } from "../../../rest/useDo";
+import { useAction } from "../../../rest/useAction";
 import { RejectionNote } from "../../../rest/RejectionNote";
 import { isOver, useJob } from "../../../rest/useJob";
 import { useTexts } from "../../../texts/TextsContext";
@@ -27,7 +27,7 @@ export function CtIntake({ isSecond, onTaken }: CtIntakeProps): ReactNode {
   const [uploadId, setUploadId] = useState("");
   const [isAgreed, setAgreed] = useState(false);
   const rehearsal = useRehearsal();
-  const choosing = useDo();
+  const choosing = useAction();
   const job = useJob((ended) => {
     if (ended.state === "done" && seriesOf(ended).length === 0) onTaken();
   });

@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
-import { useAsked } from "../../../rest/useAsked";
+import { useQuery } from "../../../rest/useQuery";
 import { Icon } from "../../../panes/Icon";
 import { useTexts } from "../../../texts/TextsContext";
 import { VertebraChooser } from "../pedicle/VertebraChooser";
@@ -17,7 +17,7 @@ export function LandmarksPart(): ReactNode {
   const texts = useTexts().plan.landmarks;
   const { vertebra, change, busy } = usePlanning();
   const { look, goTo } = useSlices();
-  const catalogue = useAsked((signal) => answered(server.GET("/api/plan/catalogue", { signal }))).data;
+  const catalogue = useQuery((signal) => answered(server.GET("/api/plan/catalogue", { signal }))).data;
   const [isNaming, setNaming] = useState(false);
   if (vertebra === null) return <p>{texts.noVertebra}</p>;
   const { name, landmarks } = vertebra;

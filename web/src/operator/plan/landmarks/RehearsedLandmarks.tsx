@@ -3,7 +3,7 @@ import type { ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { RejectionNote } from "../../../rest/RejectionNote";
 import { useRehearsal } from "../../../rest/useRehearsal";
-import { useDo } from "../../../rest/useDo";
+import { useAction } from "../../../rest/useAction";
 import { useTexts } from "../../../texts/TextsContext";
 import { vec3 } from "../slices/vectors";
 import type { Landmark } from "../state/shape";
@@ -18,7 +18,7 @@ export function RehearsedLandmarks({
 }): ReactNode {
   const texts = useTexts().plan.landmarks;
   const rehearsal = useRehearsal();
-  const asking = useDo();
+  const asking = useAction();
   if (rehearsal.data === null) return null;
   const take = (): void => {
     void asking.run(async () => {

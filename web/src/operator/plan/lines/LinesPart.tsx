@@ -3,7 +3,7 @@ import { useState, type ReactNode } from "react";
 import { shownNumber } from "../../../live/rounding";
 import { answered, server } from "../../../rest/client";
 import { RejectionNote } from "../../../rest/RejectionNote";
-import { useDo } from "../../../rest/useDo";
+import { useAction } from "../../../rest/useAction";
 import { useTexts } from "../../../texts/TextsContext";
 import { useIntoView } from "../../parts/useIntoView";
 import { VertebraChooser } from "../pedicle/VertebraChooser";
@@ -23,7 +23,7 @@ export function LinesPart(): ReactNode {
   const { plan, vertebra, change, busy } = usePlanning();
   const { ct, look, goTo, setPlane } = useSlices();
   const { apartMm, setApartMm } = useWork();
-  const asking = useDo();
+  const asking = useAction();
   const [isLaidHere, setLaidHere] = useState(false);
   const [reference = null] = vertebra?.references ?? [];
   const laid = useIntoView<HTMLElement>(

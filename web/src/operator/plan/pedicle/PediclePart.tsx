@@ -3,7 +3,7 @@ import { useRef, useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { JobProgress } from "../../../rest/JobProgress";
 import { RejectionNote } from "../../../rest/RejectionNote";
-import { useDo } from "../../../rest/useDo";
+import { useAction } from "../../../rest/useAction";
 import { isOver, useJob } from "../../../rest/useJob";
 import { useTexts } from "../../../texts/TextsContext";
 import { useIntoView } from "../../parts/useIntoView";
@@ -23,7 +23,7 @@ export function PediclePart(): ReactNode {
   const { plan, vertebra, side, by, change, changedTo, busy } = usePlanning();
   const { look, goTo } = useSlices();
   const { setPart } = useWork();
-  const asking = useDo();
+  const asking = useAction();
   const [measuredHere, setMeasuredHere] = useState<string | null>(null);
   const now = `${vertebra?.name ?? ""} ${side} ${String(plan?.heading.version ?? 0)}`;
   const numbers = useIntoView<HTMLDivElement>(measuredHere === now ? now : null);

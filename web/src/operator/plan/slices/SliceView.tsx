@@ -41,7 +41,12 @@ export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNod
   const slices = useSlices();
   const { ct, look, zooms, setZoom, goTo, scroll, setGreys, lookAnew } = slices;
   const address = addressOf(plane, look, ct);
-  const { wanted, shown, problem, again } = useSlice(address, neighboursOf(plane, look, ct, isLarge ? 2 : 0));
+  const {
+    requested: wanted,
+    shown,
+    problem,
+    again,
+  } = useSlice(address, neighboursOf(plane, look, ct, isLarge ? 2 : 0));
   const canvas = useRef<HTMLCanvasElement>(null);
   const stage = useRef<HTMLDivElement>(null);
   const { ref, width, height } = useElementSize<HTMLDivElement>();

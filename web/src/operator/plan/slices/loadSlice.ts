@@ -1,7 +1,7 @@
 // A slice as it is shown: pixels and place out of one answer of the server.
 import { Rejection, type Problem } from "../../../rest/client";
 import type { Place } from "./place";
-import { SliceRepository } from "./sliceLine";
+import { SliceRepository } from "./sliceLoader";
 
 export interface Slice {
   pixels: ImageBitmap;
@@ -9,10 +9,10 @@ export interface Slice {
 }
 
 // About 1 MB each.
-const MAX_KEPT = 80;
+const MAX_STORED = 80;
 
 /** One shelf for all views: the same slice is never fetched twice while it is there. */
-export const shelf = new SliceRepository<Slice>(MAX_KEPT);
+export const sliceRepository = new SliceRepository<Slice>(MAX_STORED);
 
 /** The case has another CT now than the one that is looked at. */
 export class OtherCt extends Error {}
@@ -31,11 +31,11 @@ export async function loadSlice(address: string): Promise<Slice> {
     throw new Rejection({ code: "NO_ANSWER", message: "", remedy: "", context: {} });
   }
   if (!answer.ok) throw new Rejection((await answer.json()) as Problem);
-  const told = answer.headers.get("slice-place");
-  if (told === null) throw new Error("a slice came without its place");
+  const placeHeader = answer.headers.get("slice-place");
+  if (placeHeader === null) throw new Error("a slice came without its place");
   // Somebody may have sent another CT meanwhile: its slices must not stand under this one's numbers.
   const { hash } = new URL(address, location.origin);
   if (answer.headers.get("slice-ct") !== hash.slice(1)) throw new OtherCt();
-  const place = JSON.parse(told) as Place;
+  const place = JSON.parse(placeHeader) as Place;
   return { pixels: await createImageBitmap(await answer.blob()), place };
 }

@@ -1,7 +1,7 @@
 // The plan, one change at a time, and the way back.
 import { createContext, use, useCallback, useState, type ReactNode } from "react";
 import { answered, Rejection, server } from "../../../rest/client";
-import { useDo } from "../../../rest/useDo";
+import { useAction } from "../../../rest/useAction";
 import { useMadeBy } from "./madeBy";
 import { vertebraeOf, type PlanAnswer, type Side, type Vertebra } from "./shape";
 import { lastStep, read, withChange, withoutLast, type Step } from "./undo";
@@ -43,8 +43,8 @@ const PlanContext = createContext<PlanValue | null>(null);
 const STEPS = "coaxial.plan.steps";
 
 export function PlanProvider({ caseId, children }: { caseId: string; children: ReactNode }): ReactNode {
-  const { plan, rejection: planRejection, asking, take, again } = usePlan(caseId);
-  const doing = useDo();
+  const { plan, rejection: planRejection, isLoading: asking, take, again } = usePlan(caseId);
+  const doing = useAction();
   const [steps, setSteps] = useState<Step[]>(() => read(sessionStorage.getItem(`${STEPS}.${caseId}`)));
   const [conflict, setConflict] = useState<PlanAnswer["heading"] | null>(null);
   const [chosen, setVertebra] = useState<string | null>(null);

@@ -6,12 +6,12 @@ import type { PlanAnswer } from "./shape";
 
 const ASK_EVERY_MS = 3000;
 
-export interface PlanAsked {
+export interface PlanQuery {
   plan: PlanAnswer | null;
   /** Why there is none that could be shown; null where there simply is none yet. */
   rejection: Rejection | null;
   /** Whether the first answer is still awaited. */
-  asking: boolean;
+  isLoading: boolean;
   /** The answer to a change: what was asked before it does not count any more. */
   take: (plan: PlanAnswer) => void;
   again: () => Promise<PlanAnswer | null>;
@@ -20,24 +20,24 @@ export interface PlanAsked {
 interface Known {
   plan: PlanAnswer | null;
   rejection: Rejection | null;
-  asking: boolean;
+  isLoading: boolean;
 }
 
-export function usePlan(caseId: string): PlanAsked {
-  const [known, setKnown] = useState<Known>({ plan: null, rejection: null, asking: true });
+export function usePlan(caseId: string): PlanQuery {
+  const [known, setKnown] = useState<Known>({ plan: null, rejection: null, isLoading: true });
   const changes = useRef(0);
   const isThere = useRef(false);
 
   const again = useCallback(async (): Promise<PlanAnswer | null> => {
     const before = changes.current;
-    const next = await asked(caseId, isThere.current);
+    const next = await fetchPlan(caseId, isThere.current);
     isThere.current = next.plan !== null;
     if (before === changes.current) setKnown(next);
     return next.plan;
   }, [caseId]);
   const take = useCallback((plan: PlanAnswer) => {
     changes.current += 1;
-    setKnown({ plan, rejection: null, asking: false });
+    setKnown({ plan, rejection: null, isLoading: false });
   }, []);
 
   useEffect(() => {
@@ -51,14 +51,14 @@ export function usePlan(caseId: string): PlanAsked {
   return { ...known, take, again };
 }
 
-async function asked(caseId: string, wasThere: boolean): Promise<Known> {
+async function fetchPlan(caseId: string, wasThere: boolean): Promise<Known> {
   try {
     if (!wasThere && !(await hasDocument(caseId, "plan")))
-      return { plan: null, rejection: null, asking: false };
-    return { plan: await answered(server.GET("/api/plan")), rejection: null, asking: false };
+      return { plan: null, rejection: null, isLoading: false };
+    return { plan: await answered(server.GET("/api/plan")), rejection: null, isLoading: false };
   } catch (error) {
     if (!(error instanceof Rejection)) throw error;
     const isNone = error.problem.code === "PLAN_MISSING";
-    return { plan: null, rejection: isNone ? null : error, asking: false };
+    return { plan: null, rejection: isNone ? null : error, isLoading: false };
   }
 }

@@ -4,9 +4,9 @@ import { shownNumber } from "../../../live/rounding";
 import { answered, server } from "../../../rest/client";
 import { JobProgress } from "../../../rest/JobProgress";
 import { RejectionNote } from "../../../rest/RejectionNote";
-import { Unanswered } from "../../../rest/Unanswered";
-import { useAsked } from "../../../rest/useAsked";
-import { useDo } from "../../../rest/useDo";
+import { QueryStatus } from "../../../rest/QueryStatus";
+import { useQuery } from "../../../rest/useQuery";
+import { useAction } from "../../../rest/useAction";
 import { isOver, useJob } from "../../../rest/useJob";
 import { useTexts } from "../../../texts/TextsContext";
 import { FileButtons } from "../ct/FileButtons";
@@ -27,14 +27,14 @@ export function SurfacePart(): ReactNode {
   const [unit, setUnit] = useState("");
   const { caseId } = usePlanning();
   const { tellSurface } = useWork();
-  const surface = useAsked(async (signal) => {
+  const surface = useQuery(async (signal) => {
     const isThere = await hasDocument(caseId, "surface", signal);
     return isThere ? answered(server.GET("/api/surface", { signal })) : "none";
   });
-  const asking = useDo();
+  const asking = useAction();
   const job = useJob((ended) => {
     if (ended.state !== "done") return;
-    surface.again();
+    surface.refetch();
     tellSurface();
   });
   const upload = useUpload(() => {
@@ -60,7 +60,7 @@ export function SurfacePart(): ReactNode {
       <h3>{texts.title}</h3>
       <p>{texts.hint}</p>
       {surface.data === "none" && <p className="soft">{texts.none}</p>}
-      {surface.data === null && <Unanswered asked={surface} />}
+      {surface.data === null && <QueryStatus query={surface} />}
       {found !== null && <SurfaceNumbers surface={found} />}
       <Button size="xl" fullWidth disabled={isBusy} data-testid="make-surface" onClick={make}>
         {found === null ? texts.make : texts.makeAnew}

@@ -1,5 +1,5 @@
 import { answered, Rejection, server } from "../../../rest/client";
-import { useAsked } from "../../../rest/useAsked";
+import { useQuery } from "../../../rest/useQuery";
 import { hasDocument } from "../state/documents";
 import { trianglesOf, type Triangles } from "./triangles";
 
@@ -8,7 +8,7 @@ let kept: { id: string; triangles: Promise<Triangles | null> } | null = null;
 
 /** The triangles of the surface in the case; asked for again when another one was made on this page. */
 export function useTriangles(caseId: string, surfacesMade: number): Triangles | null {
-  return useAsked(
+  return useQuery(
     async (signal) => {
       if (!(await hasDocument(caseId, "surface", signal))) return null;
       const { heading } = await answered(server.GET("/api/surface", { signal }));

@@ -2,11 +2,11 @@ import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { useLocation } from "wouter";
 import { answered, server } from "../../../rest/client";
-import { useDo } from "../../../rest/useDo";
+import { useAction } from "../../../rest/useAction";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
 import { Rejected } from "../Rejected";
-import { SureButton } from "../SureButton";
+import { ConfirmOrCancelButton } from "../ConfirmOrCancelButton";
 import { useMadeBy } from "../useMadeBy";
 import type { Overlay } from "./overlay";
 import { asked, type NeedleRequest } from "./order";
@@ -42,7 +42,7 @@ export function ConcludeNeedles({
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const [, navigate] = useLocation();
-  const doing = useDo();
+  const doing = useAction();
   const isThere =
     procedure.data?.steps.some((one) => one.step === "register" && one.state === "done") === true;
   return (
@@ -60,13 +60,13 @@ export function ConcludeNeedles({
       ) : (
         <p className="quiet">{texts.needles.fitsLive}</p>
       )}
-      <SureButton
-        ask={isThere}
-        sure={texts.replaceSure}
+      <ConfirmOrCancelButton
+        needsConfirmation={isThere}
+        confirmLabel={texts.replaceSure}
         disabled={disabled || held}
         busy={doing.busy}
         testId="needles-conclude"
-        onSure={() => {
+        onConfirm={() => {
           void doing
             .run(async () => {
               const needles = marked.map((one) => ({ entry_is_seen: true, along_sd_px: 1, ...one }));
@@ -77,13 +77,13 @@ export function ConcludeNeedles({
               );
             })
             .then((done) => {
-              procedure.again();
+              procedure.refetch();
               if (done) navigate("/operator/register");
             });
         }}
       >
         {children}
-      </SureButton>
+      </ConfirmOrCancelButton>
     </div>
   );
 }

@@ -2,16 +2,16 @@ import { useEffect, useRef, type ReactNode } from "react";
 import { useTexts } from "../../../texts/TextsContext";
 import { useImageSize } from "../useImageSize";
 import { applied, type Px } from "./overlay";
-import type { OverlayDesk } from "./overlayDesk";
+import type { OverlayController } from "./overlayController";
 import { useNeedleNames } from "./useNeedleNames";
 
 interface LineLayerProps {
-  desk: OverlayDesk;
+  controller: OverlayController;
   names: readonly string[];
 }
 
 /** The needles' planned lines, from the bone outwards, on which the needles shall lie. */
-export function LineLayer({ desk, names }: LineLayerProps): ReactNode {
+export function LineLayer({ controller: desk, names }: LineLayerProps): ReactNode {
   const texts = useTexts().registration.needles;
   const nameOf = useNeedleNames();
   const { widthPx, heightPx } = useImageSize();

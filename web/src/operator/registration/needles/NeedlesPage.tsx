@@ -1,7 +1,7 @@
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
-import { Unanswered } from "../../../rest/Unanswered";
-import { useAsked } from "../../../rest/useAsked";
+import { QueryStatus } from "../../../rest/QueryStatus";
+import { useQuery } from "../../../rest/useQuery";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
 import { plannedVertebrae } from "../planRead";
@@ -16,12 +16,12 @@ import type { NeedleRequest } from "./order";
 export function NeedlesPage(): ReactNode {
   const texts = useTexts().registration.needles;
   const caseId = useProcedure().data?.case_id ?? "";
-  const plan = useAsked((signal) => answered(server.GET("/api/plan", { signal })));
+  const plan = useQuery((signal) => answered(server.GET("/api/plan", { signal })));
   const known = remembered(caseId);
   const [view, setView] = useState(known ?? FIRST_VIEW);
   const [measured, setMeasured] = useState(known !== null);
   const [chosen, setChosen] = useState<string[] | null>(null);
-  if (plan.data === null) return <Unanswered asked={plan} Note={Rejected} />;
+  if (plan.data === null) return <QueryStatus query={plan} Note={Rejected} />;
   const name = plan.data.active_channel?.vertebra ?? "";
   const vertebra = plannedVertebrae(plan.data.plan).find((one) => one.name === name);
   if (vertebra === undefined) return <p className="warning">▲ {texts.noVertebra}</p>;

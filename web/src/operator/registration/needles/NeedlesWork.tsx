@@ -11,7 +11,7 @@ import { LineLayer } from "./LineLayer";
 import { MarkLayer } from "./MarkLayer";
 import { MarkPanel } from "./MarkPanel";
 import type { Mark } from "./marks";
-import { OverlayDesk } from "./overlayDesk";
+import { OverlayController } from "./overlayController";
 import { OverlayPanel } from "./OverlayPanel";
 import { PlacesForm } from "./PlacesForm";
 import { ProposalPanel, type Proposal } from "./ProposalPanel";
@@ -30,9 +30,9 @@ interface NeedlesWorkProps {
 /** The slice over the live picture, needles that the software found, or needles marked by hand. */
 export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWorkProps): ReactNode {
   const texts = useTexts().registration.needles;
-  const [desk] = useState(
+  const [controller] = useState(
     () =>
-      new OverlayDesk((overlay) =>
+      new OverlayController((overlay) =>
         answered(
           server.POST("/api/registration/needles/overlay", {
             body: { ...asked(order), overlay, marked: [] },
@@ -40,7 +40,7 @@ export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWo
         ),
       ),
   );
-  const state = useSyncExternalStore(desk.subscribe, desk.state);
+  const state = useSyncExternalStore(controller.subscribe, controller.state);
   const stage = useRef<HTMLDivElement>(null);
   const picture = useRef<HTMLCanvasElement>(null);
   const [mode, setMode] = useState<Mode>("overlay");
@@ -49,12 +49,12 @@ export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWo
   const [picked, setPicked] = useState<Proposal | null>(null);
   const [marks, setMarks] = useState<Mark[]>([]);
   useEffect(() => {
-    desk.start();
+    controller.start();
     return () => {
-      desk.stop();
+      controller.stop();
     };
-  }, [desk]);
-  useHandOnStage(desk, stage, mode === "overlay");
+  }, [controller]);
+  useHandOnStage(controller, stage, mode === "overlay");
 
   const names = state.laid?.needles.map((one) => one.name) ?? [];
   return (
@@ -62,9 +62,9 @@ export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWo
       <div className="work-main">
         <LiveStage stage={stage} picture={picture} held={held} onHeld={setHeld}>
           {mode === "overlay" && state.laid?.slice != null && (
-            <SliceLayer desk={desk} slice={state.laid.slice} vertebra={vertebra.name} />
+            <SliceLayer controller={controller} slice={state.laid.slice} vertebra={vertebra.name} />
           )}
-          {mode === "overlay" && <LineLayer desk={desk} names={names} />}
+          {mode === "overlay" && <LineLayer controller={controller} names={names} />}
           {mode === "proposal" && picked !== null && (
             <MarkLayer
               marks={picked.marked.map((one) => ({ entry_px: one.entry_px, head_px: one.head_px }))}
@@ -114,7 +114,7 @@ export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWo
         <Rejected rejection={state.rejection} />
         {mode === "overlay" && (
           <OverlayPanel
-            desk={desk}
+            controller={controller}
             state={state}
             order={order}
             held={held}

@@ -6,7 +6,7 @@ import { useTexts } from "../../../texts/TextsContext";
 import { ConcludeNeedles } from "./ConcludeNeedles";
 import type { NeedleRequest } from "./order";
 import { faded, moved, placeOf, scaled, turned, type Overlay } from "./overlay";
-import type { DeskState, OverlayDesk } from "./overlayDesk";
+import type { OverlayState, OverlayController } from "./overlayController";
 
 const STEPS = {
   fine: { px: 1, deg: 0.25, ratio: 1.0025 },
@@ -14,15 +14,21 @@ const STEPS = {
 } as const;
 
 interface OverlayPanelProps {
-  desk: OverlayDesk;
-  state: DeskState;
+  controller: OverlayController;
+  state: OverlayState;
   order: NeedleRequest;
   held: boolean;
   onRelease: () => void;
 }
 
 /** Small steps for what fingers do roughly: move, turn, scale; fade, undo, and at last register. */
-export function OverlayPanel({ desk, state, order, held, onRelease }: OverlayPanelProps): ReactNode {
+export function OverlayPanel({
+  controller: desk,
+  state,
+  order,
+  held,
+  onRelease,
+}: OverlayPanelProps): ReactNode {
   const texts = useTexts().registration.overlay;
   const [size, setSize] = useState<keyof typeof STEPS>("coarse");
   const step = STEPS[size];

@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
-import { useDo } from "../../../rest/useDo";
+import { useAction } from "../../../rest/useAction";
 import type { components } from "../../../schema";
 import { useTexts } from "../../../texts/TextsContext";
 import { Rejected } from "../Rejected";
@@ -24,7 +24,7 @@ interface ProposalPanelProps {
 export function ProposalPanel({ order, picked, held, onPick, onAdjust }: ProposalPanelProps): ReactNode {
   const texts = useTexts().registration.proposal;
   const [proposals, setProposals] = useState<Proposal[] | null>(null);
-  const finding = useDo();
+  const finding = useAction();
   return (
     <section className="card">
       <p className="warning">▲ {texts.oftenWrong}</p>

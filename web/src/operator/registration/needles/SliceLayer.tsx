@@ -1,16 +1,16 @@
 import { useEffect, useRef, type ReactNode } from "react";
 import { useTexts } from "../../../texts/TextsContext";
 import { cssMatrix, times } from "./overlay";
-import type { Laid, OverlayDesk } from "./overlayDesk";
+import type { OverlayDrawing, OverlayController } from "./overlayController";
 
 interface SliceLayerProps {
-  desk: OverlayDesk;
-  slice: NonNullable<Laid["slice"]>;
+  controller: OverlayController;
+  slice: NonNullable<OverlayDrawing["slice"]>;
   vertebra: string;
 }
 
 /** The plan's picture of the reference slice, translucent over the live picture, where the server lays it. */
-export function SliceLayer({ desk, slice, vertebra }: SliceLayerProps): ReactNode {
+export function SliceLayer({ controller: desk, slice, vertebra }: SliceLayerProps): ReactNode {
   const texts = useTexts().registration.needles;
   const image = useRef<HTMLImageElement>(null);
   useEffect(

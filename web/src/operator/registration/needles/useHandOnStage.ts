@@ -2,7 +2,7 @@ import { useGesture } from "@use-gesture/react";
 import { useEffect, type RefObject } from "react";
 import { useImageSize } from "../useImageSize";
 import { moved, pinched, scaled, type Overlay, type Px } from "./overlay";
-import type { OverlayDesk } from "./overlayDesk";
+import type { OverlayController } from "./overlayController";
 
 const WHEEL_PER_PX = 0.001;
 
@@ -16,7 +16,7 @@ interface Pinch {
 
 /** One finger moves the slice; two move, turn and scale it; a wheel scales it where it points. */
 export function useHandOnStage(
-  desk: OverlayDesk,
+  controller: OverlayController,
   stage: RefObject<HTMLDivElement | null>,
   enabled: boolean,
 ): void {
@@ -35,30 +35,30 @@ export function useHandOnStage(
           cancel();
           return;
         }
-        if (first) desk.begin();
+        if (first) controller.begin();
         const ratio = perPx();
-        desk.change((hand) => moved(hand, [x * ratio, y * ratio]));
+        controller.change((hand) => moved(hand, [x * ratio, y * ratio]));
       },
       onPinch: ({ first, origin, da: [apart, turnDeg], memo }) => {
         let begun = memo as Pinch | undefined;
         if (first || begun === undefined) {
-          const { newest } = desk;
+          const { newest } = controller;
           if (newest === null || apart === 0) return undefined;
-          desk.begin();
+          controller.begin();
           begun = { hand: newest.hand, from: pxAt(origin), apart, turnDeg };
         }
         const { hand, from } = begun;
         const ratio = apart / begun.apart;
         const by = turnDeg - begun.turnDeg;
-        desk.change(() => pinched(hand, { from, to: pxAt(origin), ratio, turnDeg: by }));
+        controller.change(() => pinched(hand, { from, to: pxAt(origin), ratio, turnDeg: by }));
         return begun;
       },
       onWheel: ({ event, delta: [, y], first, ctrlKey }) => {
         // With the key held it comes as a pinch.
         if (ctrlKey) return;
-        if (first) desk.begin();
+        if (first) controller.begin();
         const about = pxAt([event.clientX, event.clientY]);
-        desk.change((hand) => scaled(hand, Math.exp(-y * WHEEL_PER_PX), about));
+        controller.change((hand) => scaled(hand, Math.exp(-y * WHEEL_PER_PX), about));
       },
     },
     {

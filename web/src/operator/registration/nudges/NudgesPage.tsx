@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { Unanswered } from "../../../rest/Unanswered";
+import { QueryStatus } from "../../../rest/QueryStatus";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
@@ -10,7 +10,7 @@ export function NudgesPage(): ReactNode {
   const texts = useTexts().registration.nudges;
   const procedure = useProcedure();
   const step = procedure.data?.steps.find((one) => one.step === "register");
-  if (step === undefined) return <Unanswered asked={procedure} />;
+  if (step === undefined) return <QueryStatus query={procedure} />;
   if (step.state !== "done") return <p className="warning">▲ {texts.needsRegistration}</p>;
   return (
     <div className="work">

@@ -1,9 +1,9 @@
 import { Button, SegmentedControl } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
-import { Unanswered } from "../../../rest/Unanswered";
-import { useAsked } from "../../../rest/useAsked";
-import { useDo } from "../../../rest/useDo";
+import { QueryStatus } from "../../../rest/QueryStatus";
+import { useQuery } from "../../../rest/useQuery";
+import { useAction } from "../../../rest/useAction";
 import { Icon } from "../../../panes/Icon";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
@@ -20,10 +20,10 @@ export function NudgesWork(): ReactNode {
   const texts = useTexts().registration;
   const procedure = useProcedure();
   const madeBy = useMadeBy();
-  const asked = useAsked((signal) => answered(server.GET("/api/registration/nudges", { signal })));
+  const asked = useQuery((signal) => answered(server.GET("/api/registration/nudges", { signal })));
   const [kind, setKind] = useState<Kind>("shift");
   const [step, setStep] = useState("0.5");
-  const doing = useDo();
+  const doing = useAction();
   const { data } = asked;
 
   const run = (action: () => Promise<unknown>): void => {
@@ -32,8 +32,8 @@ export function NudgesWork(): ReactNode {
         await action();
       })
       .then(() => {
-        asked.again();
-        procedure.again();
+        asked.refetch();
+        procedure.refetch();
       });
   };
   const nudge = (axis: Axis, way: 1 | -1): void => {
@@ -73,7 +73,7 @@ export function NudgesWork(): ReactNode {
         </div>
         <NudgePad kind={kind} disabled={doing.busy} onNudge={nudge} />
         <Rejected rejection={doing.rejection} />
-        {data === null && <Unanswered asked={asked} Note={Rejected} />}
+        {data === null && <QueryStatus query={asked} Note={Rejected} />}
         <Button
           size="lg"
           variant="default"

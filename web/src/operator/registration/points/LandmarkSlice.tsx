@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
-import { useAsked } from "../../../rest/useAsked";
+import { useQuery } from "../../../rest/useQuery";
 import { useTexts } from "../../../texts/TextsContext";
 import { pxInSlice } from "./sliceView";
 
@@ -18,7 +18,7 @@ interface LandmarkSliceProps {
 export function LandmarkSlice({ plane, pointMm }: LandmarkSliceProps): ReactNode {
   const texts = useTexts().registration.points;
   const atMm = pointMm[PLANES[plane]] ?? 0;
-  const { data } = useAsked(
+  const { data } = useQuery(
     (signal) =>
       answered(
         server.GET("/api/ct/slices/{plane}", {

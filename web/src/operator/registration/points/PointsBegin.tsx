@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
-import { useDo } from "../../../rest/useDo";
+import { useAction } from "../../../rest/useAction";
 import { useTexts } from "../../../texts/TextsContext";
 import { LiveStage } from "../LiveStage";
 import { Rejected } from "../Rejected";
@@ -15,7 +15,7 @@ export function PointsBegin({ onBegun }: { onBegun: () => void }): ReactNode {
   const first = useTools()?.[0]?.name ?? "";
   const [chosen, setChosen] = useState("");
   const tool = chosen || first;
-  const beginning = useDo();
+  const beginning = useAction();
   return (
     <div className="work">
       <LiveStage />

@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { Unanswered } from "../../../rest/Unanswered";
+import { QueryStatus } from "../../../rest/QueryStatus";
 import { RehearsalStrip } from "../RehearsalStrip";
 import { TipRests } from "../TipRests";
 import { useRunning } from "../useRunning";
@@ -12,12 +12,12 @@ export function PointsPage(): ReactNode {
   return (
     <>
       <RehearsalStrip scenes={["landmarks"]}>{(told) => <TipRests told={told} />}</RehearsalStrip>
-      {running.data === null && <Unanswered asked={running} />}
+      {running.data === null && <QueryStatus query={running} />}
       {running.data !== null &&
         (running.data.points ? (
-          <PointsWork onOver={running.again} />
+          <PointsWork onOver={running.refetch} />
         ) : (
-          <PointsBegin onBegun={running.again} />
+          <PointsBegin onBegun={running.refetch} />
         ))}
     </>
   );

@@ -1,15 +1,15 @@
 import { useState, type ReactNode } from "react";
 import { useLocation } from "wouter";
 import { answered, server } from "../../../rest/client";
-import { Unanswered } from "../../../rest/Unanswered";
-import { useAsked } from "../../../rest/useAsked";
-import { useDo } from "../../../rest/useDo";
+import { QueryStatus } from "../../../rest/QueryStatus";
+import { useQuery } from "../../../rest/useQuery";
+import { useAction } from "../../../rest/useAction";
 import type { components } from "../../../schema";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
 import { Rejected } from "../Rejected";
-import { SureButton } from "../SureButton";
+import { ConfirmOrCancelButton } from "../ConfirmOrCancelButton";
 import { useMadeBy } from "../useMadeBy";
 import { CapturePanel } from "./CapturePanel";
 import { FitPanel } from "./FitPanel";
@@ -26,14 +26,14 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const [, navigate] = useLocation();
-  const asked = useAsked((signal) => answered(server.GET("/api/registration/points", { signal })), {
+  const asked = useQuery((signal) => answered(server.GET("/api/registration/points", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
   const [picked, setPicked] = useState<string | null>(null);
   const [order, setOrder] = useState<string[]>([]);
-  const doing = useDo();
+  const doing = useAction();
   const { data } = asked;
-  if (data === null) return <Unanswered asked={asked} Note={Rejected} />;
+  if (data === null) return <QueryStatus query={asked} Note={Rejected} />;
   const wanted = nextLandmark(data, picked);
   const landmark = data.landmarks.find((one) => one.name === wanted) ?? null;
 
@@ -42,7 +42,7 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
       .run(async () => {
         await action();
       })
-      .then(asked.again);
+      .then(asked.refetch);
   };
   const forget = (name: string): void => {
     setPicked(name);
@@ -77,15 +77,15 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
         <Rejected rejection={doing.rejection ?? asked.rejection} />
         <FitPanel points={data} />
         <div className="row">
-          <SureButton
-            ask={
+          <ConfirmOrCancelButton
+            needsConfirmation={
               procedure.data?.steps.some((one) => one.step === "register" && one.state === "done") === true
             }
-            sure={texts.replaceSure}
+            confirmLabel={texts.replaceSure}
             disabled={data.missing.length > 0}
             busy={doing.busy}
             testId="points-conclude"
-            onSure={() => {
+            onConfirm={() => {
               void doing
                 .run(async () => {
                   await answered(
@@ -93,19 +93,19 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
                   );
                 })
                 .then((done) => {
-                  procedure.again();
+                  procedure.refetch();
                   if (done) navigate("/operator/register");
                 });
             }}
           >
             {texts.points.conclude}
-          </SureButton>
-          <SureButton
-            ask
+          </ConfirmOrCancelButton>
+          <ConfirmOrCancelButton
+            needsConfirmation
             variant="default"
-            sure={texts.throwAwaySure}
+            confirmLabel={texts.throwAwaySure}
             testId="points-end"
-            onSure={() => {
+            onConfirm={() => {
               void doing
                 .run(async () => {
                   await answered(server.DELETE("/api/registration/points"));
@@ -114,7 +114,7 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
             }}
           >
             {texts.throwAway}
-          </SureButton>
+          </ConfirmOrCancelButton>
         </div>
         <LandmarkList
           points={data}

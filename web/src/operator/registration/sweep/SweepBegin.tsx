@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
-import { useDo } from "../../../rest/useDo";
+import { useAction } from "../../../rest/useAction";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
@@ -17,7 +17,7 @@ export function SweepBegin({ onBegun }: { onBegun: () => void }): ReactNode {
   const first = useTools()?.[0]?.name ?? "";
   const [chosen, setChosen] = useState("");
   const tool = chosen || first;
-  const beginning = useDo();
+  const beginning = useAction();
   const registered = procedure?.steps.some((one) => one.step === "register" && one.state === "done") === true;
   return (
     <div className="work">

@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { Unanswered } from "../../../rest/Unanswered";
+import { QueryStatus } from "../../../rest/QueryStatus";
 import { RehearsalStrip } from "../RehearsalStrip";
 import { useRunning } from "../useRunning";
 import { SweepBegin } from "./SweepBegin";
@@ -11,9 +11,13 @@ export function SweepPage(): ReactNode {
   return (
     <>
       <RehearsalStrip scenes={["sweep"]} />
-      {running.data === null && <Unanswered asked={running} />}
+      {running.data === null && <QueryStatus query={running} />}
       {running.data !== null &&
-        (running.data.sweep ? <SweepWork onOver={running.again} /> : <SweepBegin onBegun={running.again} />)}
+        (running.data.sweep ? (
+          <SweepWork onOver={running.refetch} />
+        ) : (
+          <SweepBegin onBegun={running.refetch} />
+        ))}
     </>
   );
 }

@@ -2,16 +2,16 @@ import { Button, Loader } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { useLocation } from "wouter";
 import { answered, Rejection, server } from "../../../rest/client";
-import { Unanswered } from "../../../rest/Unanswered";
-import { useAsked } from "../../../rest/useAsked";
-import { useDo } from "../../../rest/useDo";
+import { QueryStatus } from "../../../rest/QueryStatus";
+import { useQuery } from "../../../rest/useQuery";
+import { useAction } from "../../../rest/useAction";
 import type { components } from "../../../schema";
 import { Icon } from "../../../panes/Icon";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
 import { Rejected } from "../Rejected";
-import { SureButton } from "../SureButton";
+import { ConfirmOrCancelButton } from "../ConfirmOrCancelButton";
 import { ToolSeen } from "../ToolSeen";
 import { useMadeBy } from "../useMadeBy";
 import { SweepFit } from "./SweepFit";
@@ -26,14 +26,14 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const [, navigate] = useLocation();
-  const asked = useAsked((signal) => answered(server.GET("/api/registration/sweep", { signal })), {
+  const asked = useQuery((signal) => answered(server.GET("/api/registration/sweep", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
   const [fit, setFit] = useState<Fit | null>(null);
-  const doing = useDo();
-  const fitting = useDo();
+  const doing = useAction();
+  const fitting = useAction();
   const { data } = asked;
-  if (data === null) return <Unanswered asked={asked} Note={Rejected} />;
+  if (data === null) return <QueryStatus query={asked} Note={Rejected} />;
 
   const run = (action: () => Promise<unknown>, then: (done: boolean) => void): void => {
     void doing
@@ -46,7 +46,7 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
     void fitting.run(async () => {
       // Off the bone while it is looked at: the hand need not hold still for that.
       if (data.taking) await answered(server.PUT("/api/registration/sweep", { body: { taking: false } }));
-      asked.again();
+      asked.refetch();
       setFit(null);
       setFit(await answered(server.POST("/api/registration/sweep/fit")));
     });
@@ -70,7 +70,7 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
               setFit(null);
               run(
                 () => answered(server.PUT("/api/registration/sweep", { body: { taking: !data.taking } })),
-                asked.again,
+                asked.refetch,
               );
             }}
           >
@@ -88,50 +88,50 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
           <Button size="lg" variant="default" loading={fitting.busy} data-testid="sweep-fit" onClick={lay}>
             {texts.sweep.fit}
           </Button>
-          <SureButton
-            ask
-            sure={texts.replaceSure}
+          <ConfirmOrCancelButton
+            needsConfirmation
+            confirmLabel={texts.replaceSure}
             disabled={fit === null || fit.missing.length > 0}
             busy={doing.busy}
             testId="sweep-conclude"
-            onSure={() => {
+            onConfirm={() => {
               run(
                 () =>
                   answered(server.POST("/api/registration/sweep/conclusion", { body: { made_by: madeBy } })),
                 (done) => {
-                  procedure.again();
+                  procedure.refetch();
                   if (done) navigate("/operator/register");
                 },
               );
             }}
           >
             {texts.sweep.conclude}
-          </SureButton>
-          <SureButton
-            ask
+          </ConfirmOrCancelButton>
+          <ConfirmOrCancelButton
+            needsConfirmation
             variant="default"
-            sure={texts.throwAwaySure}
+            confirmLabel={texts.throwAwaySure}
             testId="sweep-again"
-            onSure={() => {
+            onConfirm={() => {
               setFit(null);
               run(
                 () => answered(server.POST("/api/registration/sweep", { body: { tool: data.tool } })),
-                asked.again,
+                asked.refetch,
               );
             }}
           >
             <Icon name="undo" /> {texts.sweep.again}
-          </SureButton>
-          <SureButton
-            ask
+          </ConfirmOrCancelButton>
+          <ConfirmOrCancelButton
+            needsConfirmation
             variant="default"
-            sure={texts.throwAwaySure}
-            onSure={() => {
+            confirmLabel={texts.throwAwaySure}
+            onConfirm={() => {
               run(() => answered(server.DELETE("/api/registration/sweep")), onOver);
             }}
           >
             {texts.throwAway}
-          </SureButton>
+          </ConfirmOrCancelButton>
         </div>
       </div>
     </div>

@@ -1,0 +1,28 @@
+import { useRef, type ReactNode } from "react";
+import { setText } from "../panes/setText";
+import { useTexts } from "../texts/TextsContext";
+import type { PictureDelivery } from "./pictureDelivery";
+import { usePainter } from "./LiveContext";
+import { shownNumber } from "./rounding";
+import type { ConnectionTexts } from "../texts/connection/en";
+
+/** Says in words when the picture is reduced or few images come; empty otherwise. */
+export function ConnectionNote(): ReactNode {
+  const { connection: connectionTexts } = useTexts();
+  const note = useRef<HTMLParagraphElement>(null);
+  usePainter(({ video, pictureDelivery }) => {
+    setText(note.current, video.live ? connectionText(pictureDelivery, connectionTexts) : "");
+  });
+  return <p className="line-note" data-testid="line-note" ref={note} />;
+}
+
+/** "Thin line: 4 images/s, 640x360"; nothing where all that the camera gives comes in full. */
+export function connectionText(
+  { limitedBy, imagesPerS, widthPx, heightPx }: PictureDelivery,
+  texts: ConnectionTexts,
+): string {
+  if (limitedBy === null || widthPx === null || heightPx === null) return "";
+  const size = `${widthPx}x${heightPx}`;
+  if (limitedBy === "reduced") return `${texts.reduced}: ${size}`;
+  return `${texts[limitedBy]}: ${shownNumber(imagesPerS, 0)} ${texts.rate}, ${size}`;
+}

@@ -1,0 +1,52 @@
+// One image on its way from the socket to the page, and where its time goes.
+import type { ImageTimes, Stall } from "./timings";
+
+export class ImageTimer {
+  private decodedAtMs: number;
+  private shownAtMs: number;
+  private readonly stallMs: number;
+  private decodedStallMs = 0;
+
+  /** It was received just now; what the page was too busy to hear before that is the page's time, too. */
+  constructor(
+    private readonly now: () => number,
+    private readonly stall: Stall,
+    private readonly receivedAtMs: number,
+  ) {
+    this.decodedAtMs = this.shownAtMs = receivedAtMs;
+    this.stallMs = stall.overdueMs(receivedAtMs);
+  }
+
+  readonly markDecoded = (): void => {
+    this.decodedAtMs = this.now();
+    this.decodedStallMs = Math.min(
+      this.stall.overdueMs(this.decodedAtMs),
+      this.decodedAtMs - this.receivedAtMs,
+    );
+  };
+
+  markDisplayed(): void {
+    this.shownAtMs = this.now();
+  }
+
+  /**
+   * What this device, and not the network, took for it: the server must not think its line thin for that. Where the
+   * server runs on this very machine nothing lies between, and all since its sending is the machine's.
+   */
+  deviceMs(sentAtMs: number | null, sharesMachine: boolean): number {
+    const lastReceivedAtMs = this.receivedAtMs - this.stallMs;
+    const fromMs =
+      sharesMachine && sentAtMs !== null ? Math.min(sentAtMs, lastReceivedAtMs) : lastReceivedAtMs;
+    return Math.max(0, this.shownAtMs - fromMs);
+  }
+
+  times(sentAtMs: number | null, capturedAtMs: number): ImageTimes {
+    return {
+      atMs: this.shownAtMs,
+      networkMs: sentAtMs === null ? null : Math.max(0, this.receivedAtMs - sentAtMs - this.stallMs),
+      decodingMs: this.decodedAtMs - this.receivedAtMs - this.decodedStallMs,
+      drawingMs: this.shownAtMs - this.decodedAtMs + this.decodedStallMs + this.stallMs,
+      ageMs: this.shownAtMs - capturedAtMs,
+    };
+  }
+}

@@ -1,0 +1,101 @@
+// What this viewer gets: how many images a second, in which size, and what is slow where that is little.
+// Pure: times go in as numbers.
+import { drawingWithScreenMs, type Timings } from "./timings";
+
+export const PICTURE_CHOICES = ["auto", "full", "half", "quarter"] as const;
+export type PictureChoice = (typeof PICTURE_CHOICES)[number];
+
+export interface PictureDelivery {
+  choice: PictureChoice;
+  /** Of the newest picture; null before the first. */
+  widthPx: number | null;
+  heightPx: number | null;
+  scaleRatio: number;
+  imagesPerS: number;
+  /** Why less comes than the camera gives, where it does. */
+  limitedBy: SlowPart | "reduced" | null;
+}
+
+/** What holds the images up. */
+export type SlowPart = "thin" | "server" | "decoding" | "drawing";
+
+/** What this device allows, and where it stands. */
+export interface Device {
+  largestPicture: "full" | "half";
+  sharesMachine: boolean;
+}
+
+const WINDOW_MS = 3000;
+/** Of the camera's rate: below the first something is said, above the second no more. */
+const FEW_RATIO = 0.5;
+const ENOUGH_RATIO = 0.7;
+/** A page that spends more of its time than this on showing images is itself what is slow. */
+const SHOWING_RATIO = 0.5;
+/** Of the time in which nothing comes: what is less on the network is spent in the server. */
+const NETWORK_RATIO = 0.5;
+
+export class PictureDeliveryMonitor {
+  choice: PictureChoice = "auto";
+  private arrivedAtMs: number[] = [];
+  private scaleRatio = 1;
+  private sizePx: [number, number] | null = null;
+  private fewer = false;
+
+  /** A picture stands on the page: grabbed in this size, sent at this scale. */
+  recordPicture(atMs: number, sizePx: [number, number], scaleRatio: number): void {
+    this.arrivedAtMs = [...this.arrivedAtMs.filter((one) => atMs - one <= WINDOW_MS), atMs];
+    this.scaleRatio = scaleRatio;
+    this.sizePx = [Math.round(sizePx[0] * scaleRatio), Math.round(sizePx[1] * scaleRatio)];
+  }
+
+  forget(): void {
+    this.arrivedAtMs = [];
+    this.fewer = false;
+  }
+
+  /** At a camera that gives so many images a second; 0 where that is not known. */
+  update(nowMs: number, cameraHz: number, timings: Timings, device: Device): PictureDelivery {
+    const recent = this.arrivedAtMs.filter((atMs) => nowMs - atMs <= WINDOW_MS);
+    const imagesPerS = rateOf(recent, nowMs);
+    if (imagesPerS < cameraHz * FEW_RATIO) this.fewer = recent.length > 1;
+    else if (imagesPerS >= cameraHz * ENOUGH_RATIO) this.fewer = false;
+    return {
+      choice: this.choice,
+      widthPx: this.sizePx?.[0] ?? null,
+      heightPx: this.sizePx?.[1] ?? null,
+      scaleRatio: this.scaleRatio,
+      imagesPerS,
+      limitedBy: this.limitation(imagesPerS, timings, device),
+    };
+  }
+
+  private limitation(imagesPerS: number, timings: Timings, device: Device): PictureDelivery["limitedBy"] {
+    const isSmall = this.scaleRatio < 1;
+    // The server makes it smaller for its line alone; what this page has asked for is this device's doing.
+    const isOwn = isSmall && device.largestPicture === "half" && this.scaleRatio >= 0.5;
+    if (this.choice === "auto" && isSmall) return isOwn ? slowerOf(timings) : "thin";
+    if (this.fewer) return slowPart(imagesPerS, timings, device);
+    return isSmall ? "reduced" : null;
+  }
+}
+
+function slowPart(imagesPerS: number, timings: Timings, { sharesMachine }: Device): SlowPart {
+  const betweenMs = 1000 / Math.max(imagesPerS, 1);
+  const showingMs = timings.decodingMs + drawingWithScreenMs(timings);
+  if (showingMs > SHOWING_RATIO * betweenMs) return slowerOf(timings);
+  const { networkMs } = timings;
+  const isQuick = networkMs !== null && networkMs < NETWORK_RATIO * (betweenMs - showingMs);
+  return sharesMachine || isQuick ? "server" : "thin";
+}
+
+function slowerOf(timings: Timings): "decoding" | "drawing" {
+  return timings.decodingMs > drawingWithScreenMs(timings) ? "decoding" : "drawing";
+}
+
+/** Images a second, counted by the gaps between them; a gap that still lasts counts too. */
+function rateOf(recent: number[], nowMs: number): number {
+  const [first, last] = [recent[0], recent.at(-1)];
+  if (first === undefined || last === undefined || recent.length < 2) return 0;
+  const gapMs = (last - first) / (recent.length - 1);
+  return 1000 / Math.max(gapMs, (nowMs - first) / recent.length, 1);
+}

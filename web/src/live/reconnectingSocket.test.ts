@@ -1,0 +1,131 @@
+import { beforeEach, expect, test } from "vitest";
+import { LONGEST_WAIT_MS, waitBeforeMs } from "./backoff";
+import { ANSWER_WITHIN_MS, ReconnectingSocket, type WebSocketLike } from "./reconnectingSocket";
+
+class FakeSocket implements WebSocketLike {
+  onopen: (() => void) | null = null;
+  onmessage: ((event: { data: unknown }) => void) | null = null;
+  onclose: (() => void) | null = null;
+  closed = false;
+  send(): void {
+    throw new Error("a kept line says nothing by itself");
+  }
+  close(): void {
+    this.closed = true;
+  }
+}
+
+let sockets: FakeSocket[];
+let waits: { action: () => void; waitMs: number }[];
+let told: string[];
+let reconnecting: ReconnectingSocket<FakeSocket>;
+
+const newest = (): FakeSocket => {
+  const socket = sockets.at(-1);
+  if (!socket) throw new Error("no socket was opened");
+  return socket;
+};
+/** Lets the time pass that was asked for last; answers how long that was. */
+const passLastWait = (): number => {
+  const last = waits.pop();
+  last?.action();
+  return last?.waitMs ?? Number.NaN;
+};
+/** The wait after a loss, and then the line is there again. */
+const loseAndWait = (): number => {
+  newest().onclose?.();
+  return passLastWait();
+};
+
+beforeEach(() => {
+  sockets = [];
+  waits = [];
+  told = [];
+  reconnecting = new ReconnectingSocket<FakeSocket>({
+    open: () => {
+      sockets.push(new FakeSocket());
+      return newest();
+    },
+    later: (action, waitMs) => waits.push({ action, waitMs }),
+    onOpen: () => told.push("open"),
+    onData: (data) => {
+      told.push(String(data));
+      if (data === "bad") reconnecting.reconnect();
+      else reconnecting.markReceived();
+    },
+    onLost: () => told.push("lost"),
+  });
+  reconnecting.start();
+});
+
+test("waits grow, and never over half a second", () => {
+  expect([0, 1, 2, 3, 50].map(waitBeforeMs)).toEqual([100, 200, 400, 500, LONGEST_WAIT_MS]);
+  expect([1, 2, 3, 4, 5].map(loseAndWait)).toEqual([100, 200, 400, 500, 500]);
+  expect(sockets).toHaveLength(6);
+});
+
+test("what is heard sets the wait back to its shortest; to be open is not enough", () => {
+  expect([loseAndWait(), loseAndWait()]).toEqual([100, 200]);
+  newest().onopen?.();
+  expect(loseAndWait()).toBe(400);
+  newest().onopen?.();
+  newest().onmessage?.({ data: "good" });
+  expect(loseAndWait()).toBe(100);
+});
+
+test("it stands from its opening on, and until it is lost", () => {
+  expect([reconnecting.socket === newest(), reconnecting.openSocket]).toEqual([true, null]);
+  newest().onopen?.();
+  expect(reconnecting.openSocket).toBe(newest());
+  newest().onclose?.();
+  expect([reconnecting.socket, reconnecting.openSocket, reconnecting.hasReceived]).toEqual([
+    null,
+    null,
+    false,
+  ]);
+  expect(told).toEqual(["open", "lost"]);
+});
+
+test("what cannot be understood costs the line", () => {
+  newest().onopen?.();
+  newest().onmessage?.({ data: "bad" });
+  expect(told).toEqual(["open", "bad", "lost"]);
+  expect(newest().closed).toBe(true);
+  expect(passLastWait()).toBe(100);
+  expect(sockets).toHaveLength(2);
+});
+
+test("a server that takes the call and never answers is left, one that answered is not", () => {
+  const [answer] = waits;
+  expect(answer?.waitMs).toBe(ANSWER_WITHIN_MS);
+  answer?.action();
+  expect(told).toEqual(["lost"]);
+  passLastWait();
+  newest().onopen?.();
+  waits.at(-1)?.action();
+  expect(told).toEqual(["lost", "open"]);
+  // The first one's time is not the second one's.
+  answer?.action();
+  expect(sockets).toHaveLength(2);
+});
+
+test("a lost line is not heard, and is lost once", () => {
+  const old = newest();
+  old.onopen?.();
+  reconnecting.reconnect();
+  expect([old.onopen, old.onmessage, old.onclose, old.closed]).toEqual([null, null, null, true]);
+  expect(told).toEqual(["open", "lost"]);
+});
+
+test("a stopped line stays down, and a started one comes again", () => {
+  newest().onclose?.();
+  reconnecting.stop();
+  passLastWait();
+  reconnecting.reconnect();
+  expect(sockets).toHaveLength(1);
+  reconnecting.start();
+  expect(sockets).toHaveLength(2);
+  reconnecting.stop();
+  expect(newest().closed).toBe(true);
+  expect(told).toEqual(["lost"]);
+});

@@ -1,0 +1,117 @@
+import { beforeEach, expect, test } from "vitest";
+import { bytes, message } from "./builders";
+import { ViewConnection, type ViewSocket } from "./viewConnection";
+
+class FakeSocket implements ViewSocket {
+  binaryType: BinaryType = "blob";
+  onopen: (() => void) | null = null;
+  onmessage: ((event: { data: unknown }) => void) | null = null;
+  onclose: (() => void) | null = null;
+  sent: string[] = [];
+  closed = false;
+  send(text: string): void {
+    this.sent.push(text);
+  }
+  close(): void {
+    this.closed = true;
+  }
+}
+
+let sockets: FakeSocket[];
+let waits: { action: () => void; waitMs: number }[];
+let states: string[];
+let images: number[];
+let connection: ViewConnection;
+
+const newest = (): FakeSocket => {
+  const socket = sockets.at(-1);
+  if (!socket) throw new Error("no socket was opened");
+  return socket;
+};
+/** Lets the time pass that the last wait asked for. */
+const passWait = (waitMs: number): void => {
+  const due = waits.filter((wait) => wait.waitMs === waitMs);
+  waits = waits.filter((wait) => wait.waitMs !== waitMs);
+  for (const { action } of due) action();
+};
+
+beforeEach(() => {
+  sockets = [];
+  waits = [];
+  states = [];
+  images = [];
+  connection = new ViewConnection({
+    open: () => {
+      sockets.push(new FakeSocket());
+      return newest();
+    },
+    later: (action, waitMs) => waits.push({ action, waitMs }),
+    onLink: (state) => states.push(state),
+    onFrame: (frame) => images.push(frame.message.sequence),
+  });
+  connection.start();
+});
+
+test("grants one image when it opens, and no other before it is told", () => {
+  newest().onopen?.();
+  newest().onmessage?.({ data: bytes(message()) });
+  expect(newest().sent).toEqual(['{"next":true}']);
+  connection.requestNext();
+  expect(newest().sent).toHaveLength(2);
+  expect(images).toEqual([7]);
+});
+
+test("says with a grant how long the page needed, and what it cannot show", () => {
+  newest().onopen?.();
+  connection.requestNext(41.7);
+  connection.limitSize("half");
+  expect(newest().sent.slice(1)).toEqual(['{"next":true,"showing_ms":42}', '{"largest":"half"}']);
+});
+
+test("another size is asked for on a line that stands, and only there", () => {
+  connection.askSize("half");
+  expect(newest().sent).toEqual([]);
+  newest().onopen?.();
+  connection.askSize("half");
+  expect(newest().sent).toEqual(['{"next":true}', '{"size":"half"}']);
+  newest().onclose?.();
+  connection.askSize("full");
+  expect(newest().sent).toHaveLength(2);
+});
+
+test("a lost line is said at once and taken up again", () => {
+  newest().onopen?.();
+  newest().onclose?.();
+  expect(states).toEqual(["open", "lost"]);
+  passWait(100);
+  expect(sockets).toHaveLength(2);
+  newest().onclose?.();
+  passWait(200);
+  expect(sockets).toHaveLength(3);
+});
+
+test("the first message sets the wait back to its shortest", () => {
+  newest().onclose?.();
+  passWait(100);
+  newest().onopen?.();
+  newest().onmessage?.({ data: bytes(message()) });
+  newest().onclose?.();
+  passWait(100);
+  expect(sockets).toHaveLength(3);
+});
+
+test("a bad message costs the line, and nothing of it is shown", () => {
+  newest().onopen?.();
+  newest().onmessage?.({ data: new ArrayBuffer(2) });
+  expect(images).toEqual([]);
+  expect(states).toEqual(["open", "lost"]);
+  expect(newest().closed).toBe(true);
+});
+
+test("what a lost line still brings is not heard", () => {
+  const old = newest();
+  old.onopen?.();
+  connection.restart();
+  expect(old.onmessage).toBeNull();
+  expect(old.onclose).toBeNull();
+});

@@ -1,0 +1,113 @@
+// The canvas over the picture: everything that is marked, painted anew when something moved, came or went.
+import { prefersReducedMotion } from "./reducedMotion";
+import type { MarksInput } from "./marksInput";
+import { paintMark, paintPointer, type Pen } from "./paint";
+import { placed, type Placement } from "./place";
+import type { DisplayedImage } from "./displayedImage";
+import type { Mark, RoomState } from "../room/roomState";
+
+/** From here on before it goes, a drawing fades. */
+const FADES_FOR_MS = 5000;
+const AGAIN_AFTER_MS = 100;
+
+export class MarksCanvas {
+  private waiting = false;
+  private isEmpty = false;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly displayed: DisplayedImage,
+    private readonly room: () => RoomState,
+    private readonly input: () => MarksInput | null,
+    private readonly ageText: (seconds: number) => string,
+  ) {}
+
+  get placement(): Placement | null {
+    return placed(this.displayed.size, { width: this.canvas.clientWidth, height: this.canvas.clientHeight });
+  }
+
+  /** Paint with the next image of the screen. */
+  requestPaint(): void {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      this.paint();
+    });
+  }
+
+  stop(): void {
+    clearTimeout(this.timer);
+    this.waiting = true;
+  }
+
+  private paint(): void {
+    clearTimeout(this.timer);
+    const { canvas, placement } = this;
+    const context = canvas.getContext("2d");
+    if (context === null) return;
+    const state = this.room();
+    const nowMs = performance.now();
+    const you = state.you?.seat ?? 0;
+    const own = this.input()?.own ?? [];
+    this.input()?.settle(
+      (one) =>
+        state.marks.some(
+          (mark) => mark.key === `${you}-${one.key}` && mark.points.length >= one.points.length,
+        ),
+      nowMs,
+    );
+    const pointers = state.pointers.filter((one) => one.seat !== you);
+    canvas.dataset["marks"] = String(state.marks.length);
+    const pointed = this.input()?.pointerAt(nowMs) ?? null;
+    canvas.dataset["pointers"] = String(pointers.length);
+    canvas.dataset["pointed"] = String(pointed !== null);
+    const isEmpty = state.marks.length + own.length + pointers.length === 0 && pointed === null;
+    // To clear what is clear already would still have the whole picture put together anew.
+    if (isEmpty && this.isEmpty) return;
+    this.isEmpty = isEmpty;
+    this.fit(context);
+    if (placement === null) return;
+    const pen: Pen = { context, placement, width: canvas.clientWidth };
+    for (const mark of state.marks) {
+      // What is drawn here now is painted from the hand, which is ahead.
+      if (own.some((one) => mark.key === `${you}-${one.key}`)) continue;
+      paintMark(pen, { ...mark, strength: strengthOf(mark, nowMs), age: this.ageOf(mark, nowMs) });
+    }
+    for (const one of own) {
+      paintMark(pen, { ...one, seat: you, name: state.you?.name ?? "", strength: 1, age: "" });
+    }
+    for (const pointer of pointers) paintPointer(pen, pointer);
+    if (pointed !== null) paintPointer(pen, { ...pointed, seat: you, name: state.you?.name ?? "" });
+    if (!isEmpty) {
+      this.timer = setTimeout(() => {
+        this.requestPaint();
+      }, AGAIN_AFTER_MS);
+    }
+  }
+
+  private ageOf(mark: Mark, nowMs: number): string {
+    const seconds = Math.floor((nowMs - mark.madeAtMs) / 1000);
+    return seconds < 1 ? "" : this.ageText(seconds);
+  }
+
+  /** As many pixels as the screen has, and nothing on them. */
+  private fit(context: CanvasRenderingContext2D): void {
+    const { canvas } = this;
+    const ratio = Math.min(devicePixelRatio, 2);
+    const width = Math.round(canvas.clientWidth * ratio);
+    const height = Math.round(canvas.clientHeight * ratio);
+    if (canvas.width !== width || canvas.height !== height) {
+      canvas.width = width;
+      canvas.height = height;
+    }
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, canvas.clientWidth, canvas.clientHeight);
+  }
+}
+
+function strengthOf(mark: Mark, nowMs: number): number {
+  if (prefersReducedMotion()) return 1;
+  return Math.min(1, 0.3 + (0.7 * (mark.goesAtMs - nowMs)) / FADES_FOR_MS);
+}

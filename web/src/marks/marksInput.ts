@@ -1,0 +1,155 @@
+// A hand that points and draws: from where it goes to what is said. Pure: time and image are handed in.
+import type { Moment, Point, ClientMessage, Shape } from "../room/messages";
+import { POINTER_GOES_AFTER_MS } from "../room/roomState";
+
+export type Tool = "point" | Shape;
+
+/** What was drawn here and has not come back from the server yet. */
+export interface LocalMark {
+  key: number;
+  shape: Shape;
+  points: Point[];
+  /** How many of them were said. */
+  sentPoints: number;
+  endedAtMs: number | null;
+}
+
+const POINT_EVERY_MS = 45;
+const EXTEND_EVERY_MS = 60;
+/** Nearer points say nothing; in image pixels. */
+const MIN_STEP_PX = 2.5;
+/** As the server takes them: points to a message, points to a drawing. */
+const MAX_A_MESSAGE = 50;
+const MAX_A_DRAWING = 380;
+const FORGOTTEN_AFTER_MS = 3000;
+
+/** Where the others see this hand point. */
+export interface LocalPointer {
+  at: Point;
+  goesAtMs: number;
+}
+
+export class MarksInput {
+  readonly own: LocalMark[] = [];
+  private key = 0;
+  private pointedAtMs = -Infinity;
+  private sentAtMs = -Infinity;
+  private drawing: LocalMark | null = null;
+  private moment: Moment | null = null;
+  /** Where the hand is, while that was not said. */
+  private pending: { at: Point; moment: Moment } | null = null;
+
+  private localPointer: LocalPointer | null = null;
+
+  constructor(private readonly send: (message: ClientMessage) => boolean) {}
+
+  point(at: Point, moment: Moment, nowMs: number): void {
+    this.pending = { at, moment };
+    this.flush(nowMs);
+  }
+
+  /** To be called often: where a hand came to rest is said too, when its time has come. */
+  flush(nowMs: number): void {
+    const { pending: rests, drawing } = this;
+    if (rests !== null && nowMs - this.pointedAtMs >= POINT_EVERY_MS) {
+      this.pointedAtMs = nowMs;
+      this.pending = null;
+      const isSent = this.send({ point: { at_px: rests.at, ...rests.moment } });
+      // What nobody was told of is not shown here either.
+      this.localPointer = isSent ? { at: rests.at, goesAtMs: nowMs + POINTER_GOES_AFTER_MS } : null;
+    }
+    if (drawing?.shape === "pen" && nowMs - this.sentAtMs >= EXTEND_EVERY_MS) this.sendPen(drawing, nowMs);
+  }
+
+  /** Null once it is gone for the others, too. */
+  pointerAt(nowMs: number): LocalPointer | null {
+    return this.localPointer !== null && this.localPointer.goesAtMs > nowMs ? this.localPointer : null;
+  }
+
+  lift(): void {
+    this.pending = null;
+    this.localPointer = null;
+    this.send({ lift: true });
+  }
+
+  down(shape: Shape, at: Point, moment: Moment, nowMs: number): void {
+    this.key += 1;
+    this.drawing = {
+      key: this.key,
+      shape,
+      points: shape === "pen" ? [at] : [at, at],
+      sentPoints: 0,
+      endedAtMs: null,
+    };
+    this.moment = moment;
+    this.own.push(this.drawing);
+    this.sentAtMs = nowMs;
+  }
+
+  move(at: Point, nowMs: number): void {
+    const { drawing } = this;
+    if (drawing === null) return;
+    if (drawing.shape !== "pen") {
+      drawing.points[1] = at;
+      return;
+    }
+    const last = drawing.points.at(-1);
+    if (last !== undefined && Math.hypot(at[0] - last[0], at[1] - last[1]) < MIN_STEP_PX) return;
+    drawing.points.push(at);
+    this.flush(nowMs);
+    if (drawing.points.length < MAX_A_DRAWING) return;
+    // A line without end is several drawings.
+    const { moment } = this;
+    this.up(nowMs);
+    if (moment !== null) this.down("pen", at, moment, nowMs);
+  }
+
+  up(nowMs: number): void {
+    const { drawing, moment } = this;
+    this.drawing = null;
+    if (drawing === null || moment === null) return;
+    drawing.endedAtMs = nowMs;
+    if (drawing.shape === "pen") {
+      this.sendPen(drawing, nowMs);
+      return;
+    }
+    const [from, to] = drawing.points;
+    const short = !from || !to || Math.hypot(to[0] - from[0], to[1] - from[1]) < 2 * MIN_STEP_PX;
+    // A slip of the finger is no arrow.
+    if (short) this.own.splice(this.own.indexOf(drawing), 1);
+    else this.send({ draw: { key: drawing.key, shape: drawing.shape, points_px: [from, to], ...moment } });
+  }
+
+  undo(): void {
+    this.send({ undo: true });
+    this.own.length = 0;
+  }
+
+  clear(whose: "own" | "all"): void {
+    this.send({ clear: whose });
+    this.own.length = 0;
+  }
+
+  /** Lets go of what has come back, or never will. */
+  settle(hasCome: (own: LocalMark) => boolean, nowMs: number): void {
+    const remaining = this.own.filter(
+      (one) => !hasCome(one) && !(one.endedAtMs !== null && nowMs - one.endedAtMs > FORGOTTEN_AFTER_MS),
+    );
+    if (remaining.length < this.own.length) this.own.splice(0, this.own.length, ...remaining);
+  }
+
+  private sendPen(drawing: LocalMark, nowMs: number): void {
+    this.sentAtMs = nowMs;
+    const { key, shape, points } = drawing;
+    while (drawing.sentPoints < points.length) {
+      const points_px = points.slice(drawing.sentPoints, drawing.sentPoints + MAX_A_MESSAGE);
+      const message: ClientMessage =
+        drawing.sentPoints === 0 && this.moment !== null
+          ? { draw: { key, shape, points_px, ...this.moment } }
+          : { extend: { key, points_px } };
+      // A line that is full takes the rest with the next points.
+      if (!this.send(message)) return;
+      drawing.sentPoints += points_px.length;
+    }
+  }
+}

@@ -1,0 +1,53 @@
+import { Button } from "@mantine/core";
+import { useEffect, useState, type ReactNode } from "react";
+
+const FORGET_AFTER_MS = 5000;
+
+interface ConfirmButtonProps {
+  /** What the second touch says that it does. */
+  confirmLabel: string;
+  color?: string;
+  variant?: string;
+  loading?: boolean;
+  testId?: string;
+  onConfirm: () => void;
+  children: ReactNode;
+}
+
+/** Does what it says with the second touch, so that a slip of the hand does nothing. */
+export function ConfirmButton(props: ConfirmButtonProps): ReactNode {
+  const {
+    confirmLabel,
+    color = "gray",
+    variant = "default",
+    loading = false,
+    testId,
+    onConfirm: onTwice,
+    children,
+  } = props;
+  const [isAsking, setIsAsking] = useState(false);
+  useEffect(() => {
+    if (!isAsking) return;
+    const timer = setTimeout(() => {
+      setIsAsking(false);
+    }, FORGET_AFTER_MS);
+    return () => {
+      clearTimeout(timer);
+    };
+  }, [isAsking]);
+  return (
+    <Button
+      size="lg"
+      variant={isAsking ? "filled" : variant}
+      color={isAsking ? "red" : color}
+      loading={loading}
+      data-testid={testId}
+      onClick={() => {
+        setIsAsking(!isAsking);
+        if (isAsking) onTwice();
+      }}
+    >
+      {isAsking ? confirmLabel : children}
+    </Button>
+  );
+}

@@ -1,0 +1,34 @@
+import type { ReactNode } from "react";
+import type { components } from "../../schema";
+import { useTexts } from "../../texts/TextsContext";
+import { documentTitle } from "../case/documentTitle";
+import { sentence } from "./shown";
+
+type Heading = components["schemas"]["HeadingMessage"];
+
+/** Whether a document holds, and what it was made from. */
+export function DocumentValidity({
+  heading,
+  documents,
+}: {
+  heading: Heading;
+  /** Null until they are known: then nothing is said of what it was made from. */
+  documents: readonly Heading[] | null;
+}): ReactNode {
+  const texts = useTexts().case;
+  const bases = (documents === null ? [] : heading.depends_on).map((id) => {
+    const found = documents?.find((one) => one.id === id);
+    return found === undefined
+      ? texts.another
+      : `${documentTitle(found, texts)}, ${texts.version} ${String(found.version)}`;
+  });
+  return (
+    <p className="soft">
+      <span className={heading.current ? "good" : "bad"}>
+        {heading.current ? `✓ ${texts.standings.current}` : `! ${texts.standings.outOfDate}`}
+      </span>
+      {heading.out_of_date !== null && ` · ${sentence(heading.out_of_date)}`}
+      {bases.length > 0 && ` · ${texts.standsOn} ${bases.join("; ")}`}
+    </p>
+  );
+}

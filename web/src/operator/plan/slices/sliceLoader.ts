@@ -1,0 +1,106 @@
+// The newest slice wins: one picture is asked for at a time, what was asked meanwhile comes next, and an older
+// picture never takes the place of a newer one. When nothing is asked, the neighbours are fetched ahead.
+
+export interface SliceState<Slice> {
+  /** What was asked for last. */
+  requested: string | null;
+  /** The picture that stands there, and under which key it was asked for. */
+  shown: { key: string; slice: Slice } | null;
+  /** Why the one that is wanted cannot be had. */
+  problem: unknown;
+}
+
+export type LoadSlice<Slice> = (key: string) => Promise<Slice>;
+
+/** What was loaded, the longest unused first to go. */
+export class SliceRepository<Slice> {
+  private readonly slices = new Map<string, Slice>();
+
+  constructor(private readonly maxSlices: number) {}
+
+  get(key: string): Slice | undefined {
+    const slice = this.slices.get(key);
+    if (slice !== undefined) {
+      this.slices.delete(key);
+      this.slices.set(key, slice);
+    }
+    return slice;
+  }
+
+  put(key: string, slice: Slice): void {
+    this.slices.set(key, slice);
+    for (const old of this.slices.keys()) {
+      if (this.slices.size <= this.maxSlices) return;
+      this.slices.delete(old);
+    }
+  }
+}
+
+export class SliceLoader<Slice> {
+  private state: SliceState<Slice> = { requested: null, shown: null, problem: null };
+  private readonly listeners = new Set<() => void>();
+  private loading = false;
+  private ahead: string[] = [];
+
+  constructor(
+    private readonly load: LoadSlice<Slice>,
+    private readonly repository: SliceRepository<Slice>,
+  ) {}
+
+  /** Ask for a slice, and say which may be asked for next. */
+  request(key: string, ahead: readonly string[] = []): void {
+    this.ahead = [...ahead];
+    if (key !== this.state.requested) {
+      const stored = this.repository.get(key);
+      const shown = stored === undefined ? this.state.shown : { key, slice: stored };
+      this.publish({ requested: key, shown, problem: null });
+    }
+    void this.next();
+  }
+
+  /** Ask again for what could not be had. */
+  retry(): void {
+    this.publish({ ...this.state, problem: null });
+    void this.next();
+  }
+
+  subscribe = (listener: () => void): (() => void) => {
+    this.listeners.add(listener);
+    return () => this.listeners.delete(listener);
+  };
+
+  snapshot = (): SliceState<Slice> => this.state;
+
+  private async next(): Promise<void> {
+    if (this.loading) return;
+    const { requested, shown, problem } = this.state;
+    const isRequested = requested !== null && problem === null && shown?.key !== requested;
+    const key = isRequested ? requested : this.ahead.find((one) => this.repository.get(one) === undefined);
+    if (key === undefined) return;
+    this.loading = true;
+    try {
+      this.take(key, await this.load(key), isRequested);
+    } catch (error) {
+      this.ahead = this.ahead.filter((one) => one !== key);
+      if (key === this.state.requested) this.publish({ ...this.state, problem: error });
+    } finally {
+      this.loading = false;
+    }
+    void this.next();
+  }
+
+  private take(key: string, slice: Slice, wasRequested: boolean): void {
+    this.repository.put(key, slice);
+    const { requested, shown } = this.state;
+    // Between the one that stands and the one that is wanted it shows that something moves; its own place is
+    // printed with it. Where the wanted one stands already, it came from the repository: nothing older follows it.
+    if (key === requested || (wasRequested && shown?.key !== requested)) {
+      this.publish({ ...this.state, shown: { key, slice } });
+    }
+  }
+
+  private publish(state: SliceState<Slice>): void {
+    this.state = state;
+    for (const listener of this.listeners) listener();
+  }
+}

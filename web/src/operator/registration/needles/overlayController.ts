@@ -1,0 +1,136 @@
+// The slice in the hand, and the newest word of the server about it: painted at once, asked after as fast as
+// the server answers, exact again with each answer.
+import { Rejection } from "../../../rest/client";
+import type { components } from "../../../schema";
+import { same, similarity, type Matrix, type Overlay } from "./overlay";
+
+export type OverlayDrawing = components["schemas"]["LaidMessage"];
+
+export interface OverlayState {
+  hand: Overlay | null;
+  laid: OverlayDrawing | null;
+  rejection: Rejection | null;
+  /** What is drawn is what the server has, exactly. */
+  settled: boolean;
+  canUndo: boolean;
+}
+
+const MAX_UNDO = 50;
+
+export class OverlayController {
+  private hand: Overlay | null = null;
+  private laid: OverlayDrawing | null = null;
+  private rejection: Rejection | null = null;
+  private before: Overlay[] = [];
+  private asking = false;
+  private stopped = false;
+  private readonly painters = new Set<() => void>();
+  private readonly readers = new Set<() => void>();
+  private published: OverlayState = {
+    hand: null,
+    laid: null,
+    rejection: null,
+    settled: false,
+    canUndo: false,
+  };
+
+  constructor(private readonly fetchOverlay: (overlay: Overlay | null) => Promise<OverlayDrawing>) {}
+
+  /** Called whenever something is to be drawn elsewhere, past React's state. */
+  onPaint(paint: () => void): () => void {
+    this.painters.add(paint);
+    paint();
+    return () => this.painters.delete(paint);
+  }
+
+  readonly subscribe = (reader: () => void): (() => void) => {
+    this.readers.add(reader);
+    return () => this.readers.delete(reader);
+  };
+
+  readonly state = (): OverlayState => this.published;
+
+  /** Where the ruler has it. */
+  start(): void {
+    this.stopped = false;
+    if (this.laid === null) void this.requestNow(true);
+  }
+
+  stop(): void {
+    this.stopped = true;
+  }
+
+  /** Remembers where the slice is, before a hand moves it. */
+  begin(): void {
+    if (this.hand === null) return;
+    this.before = [...this.before.slice(-MAX_UNDO), this.hand];
+  }
+
+  change(next: (hand: Overlay) => Overlay): void {
+    if (this.hand === null) return;
+    this.hand = next(this.hand);
+    this.paint();
+    void this.requestNow(false);
+  }
+
+  /** A step that is begun and over at once. */
+  step(next: (hand: Overlay) => Overlay): void {
+    this.begin();
+    this.change(next);
+  }
+
+  undo(): void {
+    const last = this.before.pop();
+    if (last === undefined) return;
+    this.change(() => last);
+  }
+
+  /** Back to where the ruler has it; can be undone. */
+  reset(): void {
+    this.begin();
+    void this.requestNow(true);
+  }
+
+  /** Takes what the server drew last to where the hand has it. */
+  get sinceAnswer(): Matrix | null {
+    return this.laid === null || this.hand === null ? null : similarity(this.laid.overlay, this.hand);
+  }
+
+  get newest(): { hand: Overlay; laid: OverlayDrawing } | null {
+    return this.laid === null || this.hand === null ? null : { hand: this.hand, laid: this.laid };
+  }
+
+  private async requestNow(fresh: boolean): Promise<void> {
+    if (this.asking && !fresh) return;
+    this.asking = true;
+    this.publish();
+    try {
+      const requested = fresh ? null : this.hand;
+      const laid = await this.fetchOverlay(requested);
+      this.laid = laid;
+      this.rejection = null;
+      // What the hand did meanwhile goes on from there.
+      if (requested === null) this.hand = laid.overlay;
+    } catch (error) {
+      if (!(error instanceof Rejection)) throw error;
+      this.rejection = error;
+    } finally {
+      this.asking = false;
+    }
+    this.paint();
+    this.publish();
+    const behind = this.laid !== null && this.hand !== null && !same(this.laid.overlay, this.hand);
+    if (behind && this.rejection === null && !this.stopped) void this.requestNow(false);
+  }
+
+  private paint(): void {
+    for (const paint of this.painters) paint();
+  }
+
+  private publish(): void {
+    const { hand, laid, rejection } = this;
+    const settled = hand !== null && laid !== null && rejection === null && same(laid.overlay, hand);
+    this.published = { hand, laid, rejection, settled, canUndo: this.before.length > 0 };
+    for (const reader of this.readers) reader();
+  }
+}

@@ -1,0 +1,112 @@
+import type { ReactNode } from "react";
+import { useTexts } from "../../texts/TextsContext";
+import { Measure } from "../parts/Measure";
+import { sentence } from "../parts/shown";
+import type { PoseCollectionState, ToolGate } from "./toolRecord";
+
+const KINDS = ["not_seen", "too_uncertain", "jumped", "nothing_new"] as const;
+
+/** The numbers of a gathering against the gate, and how many images were passed over and why. */
+export function PoseCollectionMeasures({
+  collection,
+  gate,
+}: {
+  collection: PoseCollectionState;
+  gate: ToolGate;
+}): ReactNode {
+  const texts = useTexts().tool;
+  const { outcome, purpose } = collection;
+  const tilt = { kind: "least", value: gate.min_tilt_deg } as const;
+  const rms = { kind: "most", value: gate.max_rms_3d_mm } as const;
+  const passedOver = KINDS.filter((kind) => (collection.rejected_images[kind] ?? 0) > 0);
+  return (
+    <>
+      <dl className="measures">
+        <Measure
+          name={texts.poses}
+          value={collection.taken}
+          unit=""
+          decimals={0}
+          limit={{ kind: "least", value: gate.min_poses }}
+          bar
+          testId="poses"
+        />
+        {purpose === "spin" ? (
+          <Measure
+            name={texts.spinRange}
+            value={collection.spin_range_deg}
+            unit="°"
+            decimals={0}
+            limit={{ kind: "least", value: gate.min_spin_deg }}
+            bar
+          />
+        ) : (
+          <>
+            <Measure
+              name={texts.tilt}
+              value={collection.tilt_range_deg}
+              unit="°"
+              decimals={0}
+              limit={tilt}
+              bar
+            />
+            <Measure
+              name={texts.tiltAcross}
+              value={collection.tilt_range_across_deg}
+              unit="°"
+              decimals={0}
+              limit={tilt}
+              bar
+            />
+          </>
+        )}
+        {purpose === "spin" ? (
+          <>
+            <Measure
+              name={texts.axisSd}
+              value={outcome?.axis_sd_deg ?? null}
+              unit="°"
+              limit={{ kind: "most", value: gate.max_axis_sd_deg }}
+            />
+            <Measure
+              name={texts.wobble}
+              value={outcome?.wobble_deg ?? null}
+              unit="°"
+              limit={{ kind: "most", value: gate.max_wobble_deg }}
+            />
+          </>
+        ) : (
+          <Measure
+            name={texts.tipRms}
+            value={outcome?.rms_3d_mm ?? null}
+            unit="mm"
+            limit={rms}
+            testId="rms"
+          />
+        )}
+        {purpose === "pivot" && (
+          <Measure
+            name={texts.tipSd}
+            value={outcome?.tip_sd_mm ?? null}
+            unit="mm"
+            limit={{ kind: "most", value: gate.max_tip_sd_mm }}
+          />
+        )}
+        {purpose === "tip_check" && (
+          <Measure name={texts.checkMost} value={outcome?.max_mm ?? null} unit="mm" />
+        )}
+      </dl>
+      {collection.outcome_problem !== null && collection.taken > 0 && (
+        <p className="soft">{sentence(collection.outcome_problem.message)}</p>
+      )}
+      {passedOver.length > 0 && (
+        <p className="soft">
+          {texts.passedOver}:{" "}
+          {passedOver
+            .map((kind) => `${texts.passed[kind]} ${String(collection.rejected_images[kind] ?? 0)}`)
+            .join(" · ")}
+        </p>
+      )}
+    </>
+  );
+}

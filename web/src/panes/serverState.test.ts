@@ -1,0 +1,53 @@
+import { expect, test } from "vitest";
+import { message } from "../live/builders";
+import { Live } from "../live/live";
+import { REACHED_WITHIN_MS } from "../live/firstMessage";
+import { serverStateOf } from "./serverState";
+
+function page() {
+  const clock = { nowMs: 0 };
+  const live = new Live(() => clock.nowMs);
+  return { clock, live };
+}
+
+test.each(["connecting", "open", "lost"] as const)(
+  "while a page loads, a line that is %s is connecting",
+  (link) => {
+    const { live, clock } = page();
+    live.setLink(link);
+    clock.nowMs = REACHED_WITHIN_MS;
+    expect(serverStateOf(live.update())).toEqual({
+      linkState: "connecting",
+      source: null,
+      snapshot: null,
+      isOfNow: false,
+    });
+    clock.nowMs += 1;
+    expect(serverStateOf(live.update()).linkState).toBe("not-reached");
+  },
+);
+
+test("once it was heard, a lost or silent server is gone, and nothing of it is told any more", async () => {
+  const { live, clock } = page();
+  live.setLink("open");
+  await live.receive({ message: message(), jpeg: new Uint8Array() });
+  expect(serverStateOf(live.update())).toMatchObject({
+    linkState: "open",
+    source: { name: "rehearsal" },
+    isOfNow: true,
+  });
+  clock.nowMs = 700;
+  expect(serverStateOf(live.update()), "heard, and what stood on the page is too old").toMatchObject({
+    linkState: "open",
+    isOfNow: false,
+  });
+  clock.nowMs = 801;
+  expect(serverStateOf(live.update())).toEqual({
+    linkState: "lost",
+    source: null,
+    snapshot: null,
+    isOfNow: false,
+  });
+  live.setLink("lost");
+  expect(serverStateOf(live.update()).linkState).toBe("lost");
+});

@@ -1,0 +1,29 @@
+// What may still be said of the server: nothing that it told before it went.
+import { isOfNow } from "../live/assess";
+import type { LinkState } from "../live/viewConnection";
+import type { View } from "../live/live";
+import type { LiveMessage } from "../live/messages";
+
+export interface ServerState {
+  linkState: LinkState | "not-reached";
+  source: LiveMessage["source"] | null;
+  snapshot: LiveMessage["snapshot"];
+  /** The newest image is young enough for its figures: what is well is shown as well only then. */
+  isOfNow: boolean;
+}
+
+export function serverStateOf({ link, firstMessage, video, numbers, newest }: View): ServerState {
+  if (firstMessage !== "received") {
+    const linkState = firstMessage === "awaited" ? "connecting" : "not-reached";
+    return { linkState, source: null, snapshot: null, isOfNow: false };
+  }
+  const gone = link === "open" && !video.live && video.cause === "server-gone";
+  const linkState = gone ? "lost" : link;
+  const isConnected = linkState === "open";
+  return {
+    linkState,
+    source: isConnected ? (newest?.source ?? null) : null,
+    snapshot: isConnected ? (newest?.snapshot ?? null) : null,
+    isOfNow: isConnected && isOfNow(numbers),
+  };
+}

@@ -1,0 +1,145 @@
+// The line to `/ws/camera`: answers pings, counts credit, sends an image in parts. `reconnectingSocket.ts` keeps it.
+import { ReconnectingSocket, type WebSocketLike } from "../live/reconnectingSocket";
+import type { CameraFacts, FrameTime, Note, ServerMessage, Problem, Welcome } from "./messages";
+
+export interface PhoneSocket extends WebSocketLike {
+  readonly bufferedAmount: number;
+  send(data: string | ArrayBuffer): void;
+}
+
+export interface PhoneConnectionOptions {
+  open(): PhoneSocket;
+  later(action: () => void, waitMs: number): void;
+  nowMs(): number;
+  onWelcome(welcome: Welcome): void;
+  onNote(note: Note): void;
+  /** The server does not take this device's images; the line is given up. */
+  onRejected(problem: Problem): void;
+  onLost(): void;
+}
+
+/** The server speaks twice a second. */
+export const QUIET_MS = 2500;
+
+export class PhoneConnection {
+  private readonly socket: ReconnectingSocket<PhoneSocket>;
+  private welcome: Welcome | null = null;
+  private facts: CameraFacts | null = null;
+  private credit = 0;
+  private sent = 0;
+  private lastReceivedAtMs = 0;
+
+  constructor(
+    key: string,
+    private readonly options: PhoneConnectionOptions,
+  ) {
+    this.socket = new ReconnectingSocket<PhoneSocket>({
+      open: () => options.open(),
+      later: (action, waitMs) => {
+        options.later(action, waitMs);
+      },
+      onOpen: (socket) => {
+        this.lastReceivedAtMs = options.nowMs();
+        socket.send(JSON.stringify({ hello: { key } }));
+      },
+      onData: (data) => {
+        this.receive(data);
+      },
+      onLost: () => {
+        this.forget();
+        options.onLost();
+      },
+    });
+  }
+
+  start(): void {
+    this.socket.start();
+  }
+
+  stop(): void {
+    this.socket.stop();
+    this.forget();
+  }
+
+  /** What the browser granted, said again on each new line. */
+  describe(facts: CameraFacts): void {
+    const changed = JSON.stringify(facts) !== JSON.stringify(this.facts);
+    this.facts = facts;
+    if (changed && this.welcome !== null) this.sendMessage({ camera: facts });
+  }
+
+  /** Whether an image may be taken for sending: granted, and none of the last one waits on this device. */
+  get isFree(): boolean {
+    const socket = this.socket.openSocket;
+    return (
+      socket !== null &&
+      this.welcome !== null &&
+      this.facts !== null &&
+      this.sent < this.credit &&
+      socket.bufferedAmount === 0
+    );
+  }
+
+  /** Whether it went: between the frame and its JPEG the line may have been lost. */
+  send(jpeg: ArrayBuffer, time: FrameTime): boolean {
+    const socket = this.socket.openSocket;
+    if (socket === null || this.welcome === null || this.sent >= this.credit) return false;
+    this.sent += 1;
+    this.sendMessage({ image: { bytes: jpeg.byteLength, ...time } });
+    for (let at = 0; at < jpeg.byteLength; at += this.welcome.part_bytes) {
+      socket.send(jpeg.slice(at, at + this.welcome.part_bytes));
+    }
+    return true;
+  }
+
+  /** To be called now and then: a server that fell silent is left for a new line. */
+  checkTimeout(): void {
+    if (this.socket.openSocket !== null && this.options.nowMs() - this.lastReceivedAtMs > QUIET_MS)
+      this.socket.reconnect();
+  }
+
+  private receive(data: unknown): void {
+    const nowMs = this.options.nowMs();
+    const message = serverMessageFrom(data);
+    if (message === null) {
+      this.socket.reconnect();
+      return;
+    }
+    this.lastReceivedAtMs = nowMs;
+    this.socket.markReceived();
+    if ("note" in message) {
+      // At once: each moment spent here would count as a difference of the clocks.
+      this.sendMessage({ pong: { ping: message.note.ping, at_ms: nowMs } });
+      this.credit = message.note.credit;
+      this.options.onNote(message.note);
+    } else if ("welcome" in message) {
+      this.welcome = message.welcome;
+      if (this.facts !== null) this.sendMessage({ camera: this.facts });
+      this.options.onWelcome(message.welcome);
+    } else {
+      this.stop();
+      this.options.onRejected(message.rejected);
+    }
+  }
+
+  private sendMessage(message: object): void {
+    this.socket.openSocket?.send(JSON.stringify(message));
+  }
+
+  private forget(): void {
+    this.welcome = null;
+    this.credit = this.sent = 0;
+  }
+}
+
+function serverMessageFrom(data: unknown): ServerMessage | null {
+  try {
+    const message: unknown = typeof data === "string" ? JSON.parse(data) : null;
+    if (typeof message !== "object" || message === null) return null;
+    return "note" in message || "welcome" in message || "rejected" in message
+      ? (message as ServerMessage)
+      : null;
+  } catch {
+    return null;
+  }
+}

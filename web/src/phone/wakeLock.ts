@@ -1,0 +1,24 @@
+// Keeps the screen on: a page that is not seen gets no frames.
+
+/** Asked for now, and again whenever the page is seen again; tells whether it was granted. */
+export function keepScreenOn(signal: AbortSignal, onChange: (isLocked: boolean) => void): void {
+  if (!("wakeLock" in navigator)) {
+    onChange(false);
+    return;
+  }
+  const locks: WakeLockSentinel[] = [];
+  const release = (): void => {
+    for (const lock of locks.splice(0)) void lock.release();
+  };
+  const ask = async (): Promise<void> => {
+    if (document.visibilityState !== "visible") return;
+    const lock = await navigator.wakeLock.request("screen").catch(() => null);
+    if (lock !== null) locks.push(lock);
+    // It may have been stopped while this was asked for.
+    if (signal.aborted) release();
+    else onChange(lock !== null);
+  };
+  document.addEventListener("visibilitychange", () => void ask(), { signal });
+  signal.addEventListener("abort", release);
+  void ask();
+}

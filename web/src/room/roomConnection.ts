@@ -1,0 +1,86 @@
+// The line to /ws/room: asks for the next message when one is dealt with. `live/reconnectingSocket.ts` takes it up again.
+import { ReconnectingSocket, type WebSocketLike } from "../live/reconnectingSocket";
+import type { RoomMessage, ClientMessage } from "./messages";
+
+export interface RoomSocket extends WebSocketLike {
+  readonly bufferedAmount: number;
+}
+
+export interface RoomConnectionOptions {
+  open(): RoomSocket;
+  later(action: () => void, waitMs: number): void;
+  now(): number;
+  onMessage(message: RoomMessage): void;
+  /** It stands and has spoken, or it is gone. */
+  onConnection(isConnected: boolean): void;
+}
+
+/** The server says something each second. */
+export const SILENT_AFTER_MS = 3000;
+/** Marks that wait for a thin line would come too late: above this much unsent they are left out. */
+const MAX_UNSENT_BYTES = 4096;
+const NEXT = JSON.stringify({ next: true } satisfies ClientMessage);
+
+export class RoomConnection {
+  private readonly socket: ReconnectingSocket<RoomSocket>;
+  private lastReceivedAtMs = 0;
+
+  constructor(private readonly options: RoomConnectionOptions) {
+    this.socket = new ReconnectingSocket<RoomSocket>({
+      open: () => {
+        this.lastReceivedAtMs = options.now();
+        return options.open();
+      },
+      later: (action, waitMs) => {
+        options.later(action, waitMs);
+      },
+      onOpen: (socket) => {
+        socket.send(NEXT);
+      },
+      onData: (data) => {
+        this.receive(data);
+      },
+      onLost: () => {
+        options.onConnection(false);
+      },
+    });
+  }
+
+  start(): void {
+    this.socket.start();
+  }
+
+  stop(): void {
+    this.socket.stop();
+  }
+
+  /** To be called now and then: a line on which nothing comes is taken anew. */
+  checkTimeout(): void {
+    if (this.socket.socket !== null && this.options.now() - this.lastReceivedAtMs > SILENT_AFTER_MS)
+      this.socket.reconnect();
+  }
+
+  /** False where it did not go out: there is no line, or it is full. */
+  send(message: ClientMessage): boolean {
+    const { socket } = this.socket;
+    if (socket === null || !this.socket.hasReceived || socket.bufferedAmount > MAX_UNSENT_BYTES) return false;
+    socket.send(JSON.stringify(message));
+    return true;
+  }
+
+  private receive(data: unknown): void {
+    let message: RoomMessage;
+    try {
+      message = JSON.parse(String(data)) as RoomMessage;
+    } catch {
+      this.socket.reconnect();
+      return;
+    }
+    this.lastReceivedAtMs = this.options.now();
+    this.socket.markReceived();
+    this.options.onConnection(true);
+    this.options.onMessage(message);
+    // Where hearing it has ended the line, there is none to ask for more.
+    this.socket.openSocket?.send(NEXT);
+  }
+}

@@ -1,0 +1,43 @@
+import type { ReactNode } from "react";
+import { useProcedure } from "../app/procedure";
+import { useLive } from "../live/LiveContext";
+import { Fact } from "../panes/Fact";
+import { serverStateOf } from "../panes/serverState";
+import { useTexts } from "../texts/TextsContext";
+import { checkText, registrationText, type StatusText } from "./statusTexts";
+
+/** What is well is not shown as well beside a picture and figures that are too old. */
+function dimmed(said: StatusText | null, isOfNow: boolean): StatusText | null {
+  return said?.mood === "good" && !isOfNow ? { ...said, mood: "waiting" } : said;
+}
+
+/** Which case, level and side are navigated, how it was registered, and how old that and its check are. */
+export function NavigationStatus(): ReactNode {
+  const texts = useTexts();
+  const { view } = useLive();
+  const { linkState, snapshot, isOfNow } = serverStateOf(view);
+  const isConnected = linkState === "open";
+  const procedure = useProcedure();
+  const known = isConnected ? procedure.data : null;
+  const t = texts.theatre;
+  const registration = dimmed(registrationText(snapshot, known, t), isOfNow);
+  const check = dimmed(checkText(snapshot, known, t), isOfNow);
+  const unknown = isConnected && procedure.rejection !== null ? t.unknown : "—";
+  const unseen = isConnected ? t.unknown : "—";
+  return (
+    <dl className="facts facts-navigated" aria-label={t.facts}>
+      <Fact
+        name={t.case}
+        value={known === null ? unknown : (known.case_name ?? t.noCase)}
+        testid="case-name"
+      />
+      <Fact
+        name={t.channel}
+        value={snapshot === null ? unseen : (snapshot.channel_name ?? t.noChannel)}
+        testid="channel-name"
+      />
+      <Fact name={t.registration} {...(registration ?? { value: unseen })} testid="registered-by" />
+      {check !== null && <Fact name={t.check} {...check} testid="checked" />}
+    </dl>
+  );
+}
