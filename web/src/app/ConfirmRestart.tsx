@@ -5,7 +5,7 @@ import { answered, server } from "../rest/client";
 import { RejectionNote } from "../rest/RejectionNote";
 import { useAction } from "../rest/useAction";
 import { useTexts } from "../texts/TextsContext";
-import { useProcedureOften } from "./procedure";
+import { useFrequentProcedure } from "./procedure";
 import { useSession } from "./session";
 
 /** After a start: why navigation is stopped, and the operator's button to go on. Nothing at other times. */
@@ -22,7 +22,7 @@ export function ConfirmRestart(): ReactNode {
 function Question(): ReactNode {
   const texts = useTexts().restart;
   const { session } = useSession();
-  const { data, refetch: again } = useProcedureOften();
+  const { data, refetch } = useFrequentProcedure();
   const doing = useAction();
   const [needed, setNeeded] = useState(data?.confirmation ?? null);
   // A server that does not answer has not said that it is over either.
@@ -34,7 +34,7 @@ function Question(): ReactNode {
       const body = { registration_id: needed.registration_id };
       await answered(server.POST("/api/procedure/confirmation", { body }));
     });
-    again();
+    refetch();
   };
   return (
     <section className="restart" role="alert" aria-labelledby="restart-title">

@@ -13,19 +13,19 @@ import { useSession } from "./session";
 export function SignedIn(): ReactNode {
   const texts = useTexts().signIn;
   const { session, leave } = useSession();
-  const [asked, setAsked] = useState(false);
+  const [isConfirming, setIsConfirming] = useState(false);
   const { busy, rejection, run, forget } = useAction();
   const isOperator = session.state === "in" && session.who.role === "operator";
   const { data: people, rejection: silent } = useQuery(
-    async (signal) => (asked && isOperator ? answered(server.GET("/api/people", { signal })) : null),
-    { key: String(asked && isOperator) },
+    async (signal) => (isConfirming && isOperator ? answered(server.GET("/api/people", { signal })) : null),
+    { key: String(isConfirming && isOperator) },
   );
   if (session.state !== "in" || !session.required) return null;
   const isUnknown = isOperator && people === null && silent === null;
   const isOnly = people !== null && isOnlyOperator(people);
   const { name, role } = session.who;
   const close = (): void => {
-    setAsked(false);
+    setIsConfirming(false);
     forget();
   };
   return (
@@ -34,13 +34,13 @@ export function SignedIn(): ReactNode {
         variant="default"
         size="lg"
         onClick={() => {
-          setAsked(true);
+          setIsConfirming(true);
         }}
         data-testid="signed-in"
       >
         {name} · {texts.role[role]}
       </Button>
-      <Modal opened={asked} onClose={close} title={texts.leaveTitle} centered withCloseButton={false}>
+      <Modal opened={isConfirming} onClose={close} title={texts.leaveTitle} centered withCloseButton={false}>
         {isOnly ? (
           <Alert className="consequence" title={texts.onlyTitle} role="alert" data-testid="only-operator">
             <p>{texts.onlySentence}</p>

@@ -51,7 +51,7 @@ export function useProcedure(): QueryState<Procedure> {
 }
 
 /** Asked for often as long as this stands on the page, and at once when it comes. */
-export function useProcedureOften(): QueryState<Procedure> {
+export function useFrequentProcedure(): QueryState<Procedure> {
   const shared = useShared();
   const { hurry, refetch } = shared;
   useEffect(() => {

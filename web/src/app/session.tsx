@@ -17,7 +17,7 @@ export type { Role, Session, Who } from "./sessionAfter";
 interface SessionValue {
   session: Session;
   /** Ask the server again who this is. */
-  again: () => void;
+  refetch: () => void;
   /** Sign out; every picture and socket of this session ends. */
   leave: () => Promise<void>;
 }
@@ -44,7 +44,7 @@ export function SessionProvider({ children }: { children: ReactNode }): ReactNod
   // Who comes by a link is nobody yet: whoever takes the link asks.
   const [byLink] = useState(() => location.pathname === "/enter" && location.hash.length > 1);
 
-  const again = useCallback(() => {
+  const refetch = useCallback(() => {
     if (asking.current) return;
     asking.current = true;
     void ask()
@@ -63,25 +63,25 @@ export function SessionProvider({ children }: { children: ReactNode }): ReactNod
 
   const onTick = useEffectEvent(() => {
     // Who is out comes back by a link, or by having signed in beside; each question would count as a try.
-    if (session.state !== "out") again();
+    if (session.state !== "out") refetch();
   });
   const onGone = useEffectEvent(() => {
-    if (session.state === "in") again();
+    if (session.state === "in") refetch();
   });
   useEffect(() => {
     const stop = new AbortController();
-    if (!byLink) again();
+    if (!byLink) refetch();
     const timer = setInterval(onTick, ASK_EVERY_MS);
     const endGone = onSessionGone(onGone);
-    addEventListener("focus", again, { signal: stop.signal });
+    addEventListener("focus", refetch, { signal: stop.signal });
     return () => {
       stop.abort();
       endGone();
       clearInterval(timer);
     };
-  }, [again, byLink]);
+  }, [refetch, byLink]);
 
-  return <SessionContext value={{ session, again, leave }}>{children}</SessionContext>;
+  return <SessionContext value={{ session, refetch, leave }}>{children}</SessionContext>;
 }
 
 export function useSession(): SessionValue {

@@ -3,7 +3,7 @@ import { setText } from "../panes/setText";
 import { useTexts } from "../texts/TextsContext";
 import type { PictureDelivery } from "./pictureDelivery";
 import { usePainter } from "./LiveContext";
-import { shownNumber } from "./rounding";
+import { formatNumber } from "./rounding";
 import type { ConnectionTexts } from "../texts/connection/en";
 
 /** Says in words when the picture is reduced or few images come; empty otherwise. */
@@ -24,5 +24,5 @@ export function connectionText(
   if (limitedBy === null || widthPx === null || heightPx === null) return "";
   const size = `${widthPx}x${heightPx}`;
   if (limitedBy === "reduced") return `${texts.reduced}: ${size}`;
-  return `${texts[limitedBy]}: ${shownNumber(imagesPerS, 0)} ${texts.rate}, ${size}`;
+  return `${texts[limitedBy]}: ${formatNumber(imagesPerS, 0)} ${texts.rate}, ${size}`;
 }

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { shownDuration, shownFigure, shownNumber } from "./rounding";
+import { formatDuration, formatFigure, formatNumber } from "./rounding";
 
 // The same table holds for `server/number_format.py`, which burns the digits into the video.
 test.each([
@@ -19,12 +19,12 @@ test.each([
   [NaN, "--"],
   [null, "--"],
 ])("%d is shown as %s", (value, text) => {
-  expect(shownNumber(value)).toBe(text);
+  expect(formatNumber(value)).toBe(text);
 });
 
 test("figures have a true minus sign, absence has none", () => {
-  expect(shownFigure(-3.21)).toBe("−3.2");
-  expect(shownFigure(null)).toBe("--");
+  expect(formatFigure(-3.21)).toBe("−3.2");
+  expect(formatFigure(null)).toBe("--");
 });
 
 test.each([
@@ -32,5 +32,5 @@ test.each([
   [1240, "1.2 s"],
   [180_000, "3 min"],
 ])("%d ms lasts %s", (ms, text) => {
-  expect(shownDuration(ms)).toBe(text);
+  expect(formatDuration(ms)).toBe(text);
 });

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
-import { shownNumber } from "../live/rounding";
+import { formatNumber } from "../live/rounding";
 import { useRoomSnapshot } from "../room/RoomContext";
 import { Icon } from "../panes/Icon";
 import { useTexts } from "../texts/TextsContext";
@@ -13,11 +13,11 @@ const TOOLS: readonly Tool[] = ["point", "pen", "arrow", "circle"];
 export function MarksTools(): ReactNode {
   const { marks: texts, rest } = useTexts();
   const marking = useMarking();
-  const { isConnected: stands, firstMessage, you, fadesAfterS } = useRoomSnapshot();
+  const { isConnected, firstMessage, you, fadesAfterS } = useRoomSnapshot();
   const { view } = useLive();
   if (marking === null) return null;
   const isLoading = firstMessage === "awaited" || view.firstMessage === "awaited";
-  const gone = !stands ? texts.lineGone : !view.video.live ? texts.noPicture : "";
+  const gone = !isConnected ? texts.lineGone : !view.video.live ? texts.noPicture : "";
   const problem = isLoading ? rest.loading : gone === "" ? "" : `▲ ${gone}`;
   return (
     <div className="marks-tools" role="toolbar" aria-label={texts.tools}>
@@ -37,7 +37,7 @@ export function MarksTools(): ReactNode {
       <button
         type="button"
         data-testid="marks-undo"
-        disabled={!stands}
+        disabled={!isConnected}
         onClick={() => {
           marking.input.undo();
         }}
@@ -47,7 +47,7 @@ export function MarksTools(): ReactNode {
       <button
         type="button"
         data-testid="marks-clear"
-        disabled={!stands}
+        disabled={!isConnected}
         onClick={() => {
           marking.input.clear("own");
         }}
@@ -58,7 +58,7 @@ export function MarksTools(): ReactNode {
         <button
           type="button"
           data-testid="marks-clear-all"
-          disabled={!stands}
+          disabled={!isConnected}
           onClick={() => {
             marking.input.clear("all");
           }}
@@ -71,7 +71,7 @@ export function MarksTools(): ReactNode {
           ? problem
           : fadesAfterS === null
             ? texts.seenBy
-            : `${texts.seenBy} ${texts.fades.replace("#", shownNumber(fadesAfterS, 0))}`}
+            : `${texts.seenBy} ${texts.fades.replace("#", formatNumber(fadesAfterS, 0))}`}
       </p>
     </div>
   );

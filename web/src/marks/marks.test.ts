@@ -29,34 +29,34 @@ describe("where a mark stands", () => {
 
 describe("a hand", () => {
   function hand(takes: () => boolean = () => true) {
-    const said: ClientMessage[] = [];
+    const messages: ClientMessage[] = [];
     const made = new MarksInput((one) => {
       if (!takes()) return false;
-      said.push(one);
+      messages.push(one);
       return true;
     });
-    return { made, said };
+    return { made, said: messages };
   }
 
   test("points no more often than is seen", () => {
-    const { made, said } = hand();
+    const { made, said: messages } = hand();
     for (let ms = 0; ms < 1000; ms += 5) made.point([ms, 1], MOMENT, ms);
-    expect(said.length).toBeLessThan(25);
-    expect(said[0]).toEqual({ point: { at_px: [0, 1], ...MOMENT } });
+    expect(messages.length).toBeLessThan(25);
+    expect(messages[0]).toEqual({ point: { at_px: [0, 1], ...MOMENT } });
   });
 
   test("is said where it came to rest", () => {
-    const { made, said } = hand();
+    const { made, said: messages } = hand();
     made.point([1, 1], MOMENT, 0);
     made.point([2, 2], MOMENT, 10);
     made.flush(40);
-    expect(said).toHaveLength(1);
+    expect(messages).toHaveLength(1);
     made.flush(45);
     made.flush(200);
-    expect(said.slice(1)).toEqual([{ point: { at_px: [2, 2], ...MOMENT } }]);
+    expect(messages.slice(1)).toEqual([{ point: { at_px: [2, 2], ...MOMENT } }]);
     made.down("pen", [0, 0], MOMENT, 300);
     made.flush(361);
-    expect(said).toHaveLength(3);
+    expect(messages).toHaveLength(3);
   });
 
   test("is seen here where the others see it, for as long, and not where nobody was told", () => {
@@ -79,25 +79,25 @@ describe("a hand", () => {
   });
 
   test("says a pen's line in parts that make the whole", () => {
-    const { made, said } = hand();
+    const { made, said: messages } = hand();
     made.down("pen", [0, 0], MOMENT, 0);
     for (let n = 1; n <= 200; n += 1) made.move([n * 3, 0], n * 10);
     made.up(3000);
-    const points = said.flatMap((one) =>
+    const points = messages.flatMap((one) =>
       "draw" in one ? one.draw.points_px : "extend" in one ? one.extend.points_px : [],
     );
     expect(points).toHaveLength(201);
-    expect(said.filter((one) => "draw" in one)).toHaveLength(1);
-    expect(Math.max(...said.map((one) => JSON.stringify(one).length))).toBeLessThan(1024);
+    expect(messages.filter((one) => "draw" in one)).toHaveLength(1);
+    expect(Math.max(...messages.map((one) => JSON.stringify(one).length))).toBeLessThan(1024);
   });
 
   test("a line without end becomes several drawings, none too long", () => {
-    const { made, said } = hand();
+    const { made, said: messages } = hand();
     made.down("pen", [0, 0], MOMENT, 0);
     for (let n = 1; n <= 900; n += 1) made.move([n * 3, 0], n * 10);
     made.up(10_000);
     const lengths = new Map<number, number>();
-    for (const one of said) {
+    for (const one of messages) {
       const part = "draw" in one ? one.draw : "extend" in one ? one.extend : null;
       if (part) lengths.set(part.key, (lengths.get(part.key) ?? 0) + part.points_px.length);
     }
@@ -107,12 +107,12 @@ describe("a hand", () => {
 
   test("what a full line did not take is said later", () => {
     let open = false;
-    const { made, said } = hand(() => open);
+    const { made, said: messages } = hand(() => open);
     made.down("pen", [0, 0], MOMENT, 0);
     made.move([10, 0], 100);
     open = true;
     made.move([20, 0], 200);
-    expect(said).toEqual([
+    expect(messages).toEqual([
       {
         draw: {
           key: 1,
@@ -129,15 +129,15 @@ describe("a hand", () => {
   });
 
   test("an arrow is said when it is done, and a slip is none", () => {
-    const { made, said } = hand();
+    const { made, said: messages } = hand();
     made.down("arrow", [0, 0], MOMENT, 0);
     made.move([50, 0], 10);
     made.move([60, 10], 20);
-    expect(said).toEqual([]);
+    expect(messages).toEqual([]);
     made.up(30);
     made.down("arrow", [0, 0], MOMENT, 40);
     made.up(50);
-    expect(said).toEqual([
+    expect(messages).toEqual([
       {
         draw: {
           key: 1,

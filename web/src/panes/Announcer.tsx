@@ -12,10 +12,10 @@ export function Announcer(): ReactNode {
   const picture = video.live ? texts.video.title : `${texts.video.none}: ${texts.cause[video.cause].state}`;
   const tracking = numbers.live ? texts.numbers.tracking : texts.numbers.none;
   const sentence = firstMessage === "awaited" ? texts.cause.connecting.sentence : `${picture}. ${tracking}.`;
-  const [said, setSaid] = useState("");
+  const [announcement, setAnnouncement] = useState("");
   useEffect(() => {
     const timer = setTimeout(() => {
-      setSaid(sentence);
+      setAnnouncement(sentence);
     }, LASTS_MS);
     return () => {
       clearTimeout(timer);
@@ -23,7 +23,7 @@ export function Announcer(): ReactNode {
   }, [sentence]);
   return (
     <p className="heard-only" aria-live="polite" role="status">
-      {said}
+      {announcement}
     </p>
   );
 }

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
-import { shownNumber } from "../live/rounding";
+import { formatNumber } from "../live/rounding";
 import { useLatency } from "../rest/useLatency";
 import { useTexts } from "../texts/TextsContext";
 import { cameraFacts } from "./cameraFacts";
@@ -22,8 +22,8 @@ export function DetailsPane(): ReactNode {
   const searchMs = snapshot === null ? null : searchTimeMs(snapshot.stage_ms);
   const facts: [string, string, string?][] = [
     [h.source, source?.name ?? NONE, "source"],
-    [h.rate, source ? `${shownNumber(source.rate_hz, 0)} /s` : NONE],
-    [h.searchTime, searchMs === null ? NONE : `${shownNumber(searchMs)} ms`, "search-time"],
+    [h.rate, source ? `${formatNumber(source.rate_hz, 0)} /s` : NONE],
+    [h.searchTime, searchMs === null ? NONE : `${formatNumber(searchMs)} ms`, "search-time"],
     [
       texts.latency.lightToPage,
       latency === null ? NONE : latencyText(latency, texts.latency),
@@ -51,7 +51,7 @@ export function DetailsPane(): ReactNode {
             <dt>
               {d.stage} {stage}
             </dt>
-            <dd>{shownNumber(ms)} ms</dd>
+            <dd>{formatNumber(ms)} ms</dd>
           </div>
         ))}
       </dl>

@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import type { FigureMessage, Status } from "../live/messages";
 import type { Reading } from "../live/reading";
-import { shownFigure, shownNumber } from "../live/rounding";
+import { formatFigure, formatNumber } from "../live/rounding";
 import type { Texts } from "../texts/en";
 import { useTexts } from "../texts/TextsContext";
 import { figureOf, type FigureName } from "./limits";
@@ -56,12 +56,12 @@ export function paintFigure(
   const tile = pane?.querySelector<HTMLElement>(`[data-reading=${name}]`);
   if (!tile) return;
   const figure = reading === null ? null : figureOf(reading, name);
-  setText(tile.querySelector("[data-part=value]"), figure ? shownFigure(figure.value) : REMOVED);
+  setText(tile.querySelector("[data-part=value]"), figure ? formatFigure(figure.value) : REMOVED);
   setText(tile.querySelector("[data-part=limit]"), figure ? limitText(figure, name, texts) : "");
   setText(tile.querySelector("[data-part=hint]"), hintOf(reading, name, texts));
   setData(tile, "standing", figure?.status ?? "none");
   if (name === "depth") {
-    const toGo = reading === null ? REMOVED : shownFigure(reading.assessment.figures.to_go.value);
+    const toGo = reading === null ? REMOVED : formatFigure(reading.assessment.figures.to_go.value);
     setText(tile.querySelector("[data-part=to-go]"), toGo);
   }
 }
@@ -70,7 +70,7 @@ function limitText({ limit, status }: FigureMessage, name: FigureName, texts: Te
   const { theatre, depthTexts } = texts;
   if (name === "depth" && status === "through") return `${MARKS.through}${depthTexts.past}`;
   if (limit === null) return "";
-  const amount = shownNumber(limit);
+  const amount = formatNumber(limit);
   if (name === "depth") return `${theatre.of} ${amount}`;
   const mark = MARKS[status];
   // The wall's own limit is 0; this is the distance from which on it is near.

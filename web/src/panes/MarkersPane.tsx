@@ -2,7 +2,7 @@ import { Table } from "@mantine/core";
 import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import type { MarkerMessage } from "../live/messages";
-import { shownPercent } from "../live/rounding";
+import { formatPercent } from "../live/rounding";
 import type { Texts } from "../texts/en";
 import { useTexts } from "../texts/TextsContext";
 import { Pane } from "./Pane";
@@ -58,9 +58,9 @@ function MarkerRow({
     <Table.Tr data-testid={`marker-${name}`}>
       <Table.Th scope="row">{name}</Table.Th>
       <Table.Td>{stale ? texts.markers.unknown : state}</Table.Td>
-      <Table.Td className="figure">{stale || score === null ? "—" : shownPercent(score)}</Table.Td>
+      <Table.Td className="figure">{stale || score === null ? "—" : formatPercent(score)}</Table.Td>
       <Table.Td className="figure">
-        {stale || !seen ? "—" : shownPercent(sighting.target_score_ratio)}
+        {stale || !seen ? "—" : formatPercent(sighting.target_score_ratio)}
       </Table.Td>
     </Table.Tr>
   );

@@ -2,7 +2,7 @@ import { useRef, type ReactNode } from "react";
 import type { NumbersVerdict } from "../live/assess";
 import { useLive, usePainter } from "../live/LiveContext";
 import type { HeadlineMessage } from "../live/messages";
-import { shownDuration } from "../live/rounding";
+import { formatDuration } from "../live/rounding";
 import type { Texts } from "../texts/en";
 import { textOf } from "../texts/text";
 import { useTexts } from "../texts/TextsContext";
@@ -27,7 +27,7 @@ export function NumbersState(): ReactNode {
     setText(detail.current, live === null ? reasonTexts(numbers, texts) : textOf(live.detail, texts));
     setText(event.current, eventText(numbers, texts));
     setText(risk.current, numbers.live ? riskText(numbers.reading.assessment, texts) : "");
-    setText(since.current, untrackedMs === null ? "" : shownDuration(untrackedMs));
+    setText(since.current, untrackedMs === null ? "" : formatDuration(untrackedMs));
     setText(error.current, errorLine(numbers, texts));
     const differ = numbers.live && video.live && numbers.imageNumber !== video.imageNumber;
     setText(

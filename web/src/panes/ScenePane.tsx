@@ -1,12 +1,12 @@
 import { useEffect, useRef, useState, type ReactNode } from "react";
 import type { DrawingBudget } from "../live/budget";
 import { usePainter, useLive } from "../live/LiveContext";
-import { shownDuration, shownNumber } from "../live/rounding";
+import { formatDuration, formatNumber } from "../live/rounding";
 import { useTexts } from "../texts/TextsContext";
 import { Cover } from "./Cover";
 import { Pane } from "./Pane";
 import { PaintRateLimiter } from "./paintRateLimiter";
-import { setSize, tellRate, tellView, VIEWS, type ViewName } from "./sceneFrame";
+import { setSize, sendRate, sendView, VIEWS, type ViewName } from "./sceneFrame";
 import { setData, setText } from "./setText";
 import { hasWebGl } from "./webgl";
 
@@ -25,7 +25,7 @@ export function ScenePane(): ReactNode {
   const age = useRef<HTMLSpanElement>(null);
   const frame = useRef<HTMLIFrameElement>(null);
   const limiter = useRef(new PaintRateLimiter());
-  const told = useRef<DrawingBudget | null>(null);
+  const sentView = useRef<DrawingBudget | null>(null);
   const [attempt, setAttempt] = useState(0);
   const [chosen, setChosen] = useState<ViewName>("behind");
   // Before the server has spoken there is no scene to load; a frame loaded then would show an error page.
@@ -34,9 +34,9 @@ export function ScenePane(): ReactNode {
   if (known && !wanted) setWanted(true);
 
   usePainter(({ nowMs, scene, budget }) => {
-    if (budget !== told.current) {
-      told.current = budget;
-      tellRate(frame.current, budget);
+    if (budget !== sentView.current) {
+      sentView.current = budget;
+      sendRate(frame.current, budget);
       setSize(frame.current, budget);
     }
     setData(stage.current, "live", String(scene.state === "live"));
@@ -45,10 +45,10 @@ export function ScenePane(): ReactNode {
     setText(
       stamp.current,
       scene.state === "live"
-        ? `${texts.video.image} ${scene.imageNumber}${behind} · ${texts.video.age} ${shownNumber(scene.ageMs, 0)} ms`
+        ? `${texts.video.image} ${scene.imageNumber}${behind} · ${texts.video.age} ${formatNumber(scene.ageMs, 0)} ms`
         : "",
     );
-    setText(age.current, scene.state === "stale" && scene.ageMs !== null ? shownDuration(scene.ageMs) : "");
+    setText(age.current, scene.state === "stale" && scene.ageMs !== null ? formatDuration(scene.ageMs) : "");
   });
 
   const lives = view.scene.state === "live";
@@ -84,8 +84,8 @@ export function ScenePane(): ReactNode {
             src="/scene/"
             title={texts.scene.title}
             onLoad={() => {
-              tellView(frame.current, chosen);
-              tellRate(frame.current, live.load.budget);
+              sendView(frame.current, chosen);
+              sendRate(frame.current, live.load.budget);
             }}
           />
         )}
@@ -98,7 +98,7 @@ export function ScenePane(): ReactNode {
               data-testid={`view-${name}`}
               onClick={() => {
                 setChosen(name);
-                tellView(frame.current, name);
+                sendView(frame.current, name);
               }}
             >
               {texts.scene.view[name]}

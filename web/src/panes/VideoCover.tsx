@@ -15,6 +15,6 @@ export function VideoCover({ cause, problem }: VideoCoverProps): ReactNode {
   const texts = useTexts();
   const { state, sentence } = texts.cause[cause];
   if (cause === "connecting") return <Cover urgency="none" title={state} sentence={sentence} />;
-  const said = problem === undefined ? sentence : `${problem.message}. ${problem.remedy}`;
-  return <Cover urgency="medium" title={texts.video.none} state={state} sentence={said} />;
+  const text = problem === undefined ? sentence : `${problem.message}. ${problem.remedy}`;
+  return <Cover urgency="medium" title={texts.video.none} state={state} sentence={text} />;
 }

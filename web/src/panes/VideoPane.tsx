@@ -1,7 +1,7 @@
 import { useLayoutEffect, useRef, type ReactNode } from "react";
 import { ConnectionNote } from "../live/ConnectionNote";
 import { useLive, usePainter } from "../live/LiveContext";
-import { shownNumber } from "../live/rounding";
+import { formatNumber } from "../live/rounding";
 import { MarksLayer } from "../marks/MarksLayer";
 import { useTexts } from "../texts/TextsContext";
 import { Announcer } from "./Announcer";
@@ -59,7 +59,7 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
       painted.current = false;
     }
     if (!limiter.current.isDue(nowMs, video.live ? `${video.imageNumber}` : "")) return;
-    const age = video.live ? `${shownNumber(video.ageMs, 0)} ms` : "";
+    const age = video.live ? `${formatNumber(video.ageMs, 0)} ms` : "";
     const number = video.live ? `${texts.video.image} ${video.imageNumber}` : "";
     setText(stamp.current, video.live ? `${number} · ${texts.video.age} ${age}` : "");
   });

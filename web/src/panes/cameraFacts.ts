@@ -1,5 +1,5 @@
 import type { CameraModeMessage, CameraStatusMessage } from "../live/messages";
-import { shownNumber } from "../live/rounding";
+import { formatNumber } from "../live/rounding";
 import type { Texts } from "../texts/catalogue";
 
 /** What a camera's driver granted, and whose clock stamps its images; nothing where there is no camera. */
@@ -13,6 +13,6 @@ export function cameraFacts(camera: CameraStatusMessage | null, texts: Texts): [
 
 function modeText({ fourcc, width_px, height_px, rate_hz }: CameraModeMessage): string {
   const size = `${String(width_px)} × ${String(height_px)} px`;
-  const rate = rate_hz > 0 ? `${shownNumber(rate_hz)} Hz` : "";
+  const rate = rate_hz > 0 ? `${formatNumber(rate_hz)} Hz` : "";
   return [size, fourcc, rate].filter((part) => part !== "").join(", ");
 }

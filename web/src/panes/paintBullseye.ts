@@ -1,7 +1,7 @@
 // Puts the bull's-eye onto its drawing, past React's state. In mm, up is up.
 import type { BullseyeMessage } from "../live/messages";
 import type { Reading } from "../live/reading";
-import { drawnFrom, type Place } from "./bullseye";
+import { bullseyeGeometry, type Point } from "./bullseyeGeometry";
 import { figureOf } from "./limits";
 
 const CROSS_MM = 0.8;
@@ -22,7 +22,7 @@ export function paintBullseye(
   set(svg, "view", "visibility", along === null ? "hidden" : "visible");
   if (along === null || reading === null) return;
   frame(svg, along);
-  const drawn = drawnFrom(along);
+  const drawn = bullseyeGeometry(along);
   set(svg, "way", "d", drawn.way === null ? "" : line(drawn.way));
   set(svg, "end", "d", drawn.end === null ? "" : closed(square(drawn.end)));
   set(svg, "ellipse", "d", drawn.ellipse === null ? "" : closed(drawn.ellipse));
@@ -59,7 +59,7 @@ function set(svg: SVGSVGElement, name: string, attribute: string, value: string)
   if (element && element.getAttribute(attribute) !== value) element.setAttribute(attribute, value);
 }
 
-function circle(svg: SVGSVGElement, name: string, at: Place | null, radius: number): void {
+function circle(svg: SVGSVGElement, name: string, at: Point | null, radius: number): void {
   set(svg, name, "r", at === null ? "0" : fixed(radius));
   if (at === null) return;
   set(svg, name, "cx", fixed(at[0]));
@@ -72,15 +72,15 @@ function letter(svg: SVGSVGElement, name: string, x: number, y: number, size: nu
   set(svg, name, "font-size", fixed(size));
 }
 
-function line(places: readonly Place[]): string {
+function line(places: readonly Point[]): string {
   return `M${places.map(([x, y]) => `${fixed(x)} ${fixed(-y)}`).join("L")}`;
 }
 
-function closed(places: readonly Place[]): string {
+function closed(places: readonly Point[]): string {
   return `${line(places)}Z`;
 }
 
-function square([x, y]: Place): Place[] {
+function square([x, y]: Point): Point[] {
   return [
     [x - SQUARE_MM, y - SQUARE_MM],
     [x + SQUARE_MM, y - SQUARE_MM],
@@ -90,7 +90,7 @@ function square([x, y]: Place): Place[] {
 }
 
 /** A short bar across the way from the tip to the place that is nearest to a wall. */
-function bar(nearest: Place, tip: Place): string {
+function bar(nearest: Point, tip: Point): string {
   const [x, y] = [nearest[0] - tip[0], nearest[1] - tip[1]];
   const away = Math.hypot(x, y);
   if (away < 1e-6) return "";

@@ -5,12 +5,12 @@ export const VIEWS = ["behind", "channel", "camera"] as const;
 export type ViewName = (typeof VIEWS)[number];
 
 /** Put the viewer there. */
-export function tellView(frame: HTMLIFrameElement | null, view: ViewName): void {
+export function sendView(frame: HTMLIFrameElement | null, view: ViewName): void {
   frame?.contentWindow?.postMessage({ kind: "coaxial-view", view }, location.origin);
 }
 
 /** Draw no more often than this. */
-export function tellRate(frame: HTMLIFrameElement | null, { sceneIntervalMs }: DrawingBudget): void {
+export function sendRate(frame: HTMLIFrameElement | null, { sceneIntervalMs }: DrawingBudget): void {
   const message = { kind: "coaxial-rate", min_interval_ms: sceneIntervalMs };
   frame?.contentWindow?.postMessage(message, location.origin);
 }

@@ -1,6 +1,6 @@
 // The parts of offset and angle in the patient's directions, in words. Pure.
 import type { Reading } from "../live/reading";
-import { shownNumber } from "../live/rounding";
+import { formatNumber } from "../live/rounding";
 import type { Texts } from "../texts/en";
 
 export type SplitPart = "entry" | "angle";
@@ -24,7 +24,7 @@ export function splitOf({ deviation }: Reading, part: SplitPart, texts: Texts): 
 /** The size of a part with its direction in words; no direction where it rounds to nothing. */
 function signed(value: number | null, unit: string, positive: string, negative: string): string {
   if (value === null) return "";
-  const size = shownNumber(Math.abs(value));
+  const size = formatNumber(Math.abs(value));
   if (Number(size) === 0) return `${size}${unit}`;
   return `${size}${unit} ${value > 0 ? positive : negative}`;
 }

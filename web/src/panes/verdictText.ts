@@ -1,6 +1,6 @@
 // What stands beside the headline, from the figures. Pure, so that it is tested without a page.
 import type { AssessmentMessage, Tone } from "../live/messages";
-import { shownNumber } from "../live/rounding";
+import { formatNumber } from "../live/rounding";
 import type { Texts } from "../texts/en";
 
 /** A shape of its own for each, as in the video: the colour says nothing that the shape does not. */
@@ -16,19 +16,19 @@ export const TONE_SYMBOL: Record<Tone, string> = {
 export function riskText({ figures }: AssessmentMessage, texts: Texts): string {
   const { risk, end } = figures;
   const parts = [
-    risk.value === null ? "" : `${texts.wall.soon} ${shownNumber(risk.value, 0)} %`,
-    end.value === null ? "" : `${texts.wall.atEnd} ${shownNumber(end.value, 0)} %`,
+    risk.value === null ? "" : `${texts.wall.soon} ${formatNumber(risk.value, 0)} %`,
+    end.value === null ? "" : `${texts.wall.atEnd} ${formatNumber(end.value, 0)} %`,
   ].filter((part) => part !== "");
   if (parts.length === 0) return "";
-  return `${texts.wall.risk}: ${parts.join(", ")} · ${texts.theatre.limit} ${shownNumber(risk.limit, 0)} %`;
+  return `${texts.wall.risk}: ${parts.join(", ")} · ${texts.theatre.limit} ${formatNumber(risk.limit, 0)} %`;
 }
 
 /** The error of the whole chain, marker, registration and tool, and what the pedicle leaves. */
 export function errorText({ figures }: AssessmentMessage, texts: Texts): string {
   const { value, limit } = figures.error;
   if (value === null) return texts.numbers.errorUnknown;
-  const of = limit === null ? "" : ` · ${texts.theatre.limit} ${shownNumber(limit, 2)} mm`;
-  return `${texts.numbers.error} ±${shownNumber(value, 2)} mm${of}`;
+  const of = limit === null ? "" : ` · ${texts.theatre.limit} ${formatNumber(limit, 2)} mm`;
+  return `${texts.numbers.error} ±${formatNumber(value, 2)} mm${of}`;
 }
 
 /** How far the shown tip may lag behind one that moves, to be added to the error; empty at rest. */
@@ -36,8 +36,8 @@ export function lagText({ lag }: AssessmentMessage, texts: Texts): string {
   const speedMmS = lag?.speed_mm_s ?? 0;
   if (lag === null || speedMmS === 0) return "";
   if (lag.margin_mm === null || lag.latency_ms === null) return texts.numbers.latencyUnknown;
-  const by = `${shownNumber(speedMmS, 0)} mm/s × ${shownNumber(lag.latency_ms, 0)} ms`;
-  return `${texts.numbers.whileMoving} +${shownNumber(lag.margin_mm)} mm (${by})`;
+  const by = `${formatNumber(speedMmS, 0)} mm/s × ${formatNumber(lag.latency_ms, 0)} ms`;
+  return `${texts.numbers.whileMoving} +${formatNumber(lag.margin_mm)} mm (${by})`;
 }
 
 /** Which wall is the nearest; that the drill is outside, where none is. */

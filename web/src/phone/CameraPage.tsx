@@ -4,9 +4,9 @@ import { SignedIn } from "../app/SignedIn";
 import { useSession } from "../app/session";
 import { useTexts } from "../texts/TextsContext";
 import { unfit } from "./noCamera";
-import { SendingFacts } from "./SendingFacts";
-import { SendingProblems } from "./SendingProblems";
-import { useSending } from "./useSending";
+import { StreamFacts } from "./StreamFacts";
+import { StreamProblems } from "./StreamProblems";
+import { useCameraStream } from "./useCameraStream";
 
 /** This device as camera: its picture, one button, and what is sent and said. */
 export function CameraPage(): ReactNode {
@@ -14,7 +14,7 @@ export function CameraPage(): ReactNode {
   const texts = all.phone;
   const { session } = useSession();
   const video = useRef<HTMLVideoElement>(null);
-  const { sending, start, stop } = useSending(video);
+  const { sending, start, stop } = useCameraStream(video);
   const lacks = unfit(
     isSecureContext,
     "mediaDevices" in navigator,
@@ -35,8 +35,8 @@ export function CameraPage(): ReactNode {
         <p className="phone-state" role="status">
           {texts.state[sending.state]}
         </p>
-        <SendingProblems sending={sending} lacks={lacks} />
-        {isOn ? <SendingFacts sending={sending} /> : <p className="phone-lead">{texts.lead}</p>}
+        <StreamProblems sending={sending} lacks={lacks} />
+        {isOn ? <StreamFacts sending={sending} /> : <p className="phone-lead">{texts.lead}</p>}
         <Button
           className="phone-button"
           variant={isOn ? "default" : "filled"}

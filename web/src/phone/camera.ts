@@ -32,7 +32,7 @@ export interface Constraints extends MediaTrackConstraints {
 }
 
 /** The camera at the back; a size of its sensor, not one that the browser scales or cuts. */
-export function wanted(welcome: Welcome): Constraints {
+export function requestedConstraints(welcome: Welcome): Constraints {
   return {
     facingMode: { ideal: "environment" },
     width: { ideal: welcome.width_px },
@@ -58,7 +58,7 @@ export function withLockedFocus(
     focusM === undefined || min === undefined || max === undefined
       ? { focusMode: "manual" }
       : { focusMode: "manual", focusDistance: Math.min(Math.max(focusM, min), max) };
-  return { ...wanted(welcome), advanced: [lock] };
+  return { ...requestedConstraints(welcome), advanced: [lock] };
 }
 
 /** What the server is told: the size as frames have it, the rest as the track's settings say. */

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { factsOf, wanted, withLockedFocus } from "./camera";
+import { factsOf, requestedConstraints, withLockedFocus } from "./camera";
 import { frameTime } from "./frameTime";
 import { noCameraOf, unfit } from "./noCamera";
 import { Rate } from "./rate";
@@ -27,7 +27,7 @@ test.each([
 });
 
 test("asks for the back camera in the server's size, neither scaled nor cut", () => {
-  expect(wanted(WELCOME)).toMatchObject({
+  expect(requestedConstraints(WELCOME)).toMatchObject({
     facingMode: { ideal: "environment" },
     width: { ideal: 1920 },
     resizeMode: { ideal: "none" },
@@ -44,9 +44,9 @@ test.each([
   ["not, where the browser cannot", {}, { focusMode: ["continuous"] }, undefined, null],
   ["not, where there is no such thing", {}, {}, undefined, null],
   ["not, where the settings leave it alone", { lock_focus: false }, RANGE, 0.42, null],
-])("the focus is locked %s", (_, asked, capabilities, focusDistance, lock) => {
+])("the focus is locked %s", (_, request, capabilities, focusDistance, lock) => {
   const settings = focusDistance === undefined ? {} : { focusDistance };
-  const constraints = withLockedFocus({ ...WELCOME, ...asked }, capabilities, settings);
+  const constraints = withLockedFocus({ ...WELCOME, ...request }, capabilities, settings);
   expect(constraints?.advanced?.[0] ?? null).toEqual(lock);
   // Constraints replace each other: without its size the camera would go back to its own.
   if (constraints !== null) expect(constraints.width).toEqual({ ideal: 1920 });

@@ -12,7 +12,7 @@ interface QueryStatusProps {
 
 /** In place of an answer that is not there: that it is awaited, or why it failed and a way to ask again. */
 export function QueryStatus({
-  query: { rejection, refetch: again },
+  query: { rejection, refetch },
   Note = RejectionNote,
 }: QueryStatusProps): ReactNode {
   const texts = useTexts().rest;
@@ -25,7 +25,7 @@ export function QueryStatus({
   return (
     <div className="stack unanswered">
       <Note rejection={rejection} />
-      <Button size="lg" variant="default" onClick={again}>
+      <Button size="lg" variant="default" onClick={refetch}>
         {texts.again}
       </Button>
     </div>

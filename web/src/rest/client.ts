@@ -50,10 +50,10 @@ interface Answer<Data> {
  *
  * @throws Rejection
  */
-export async function answered<Data>(asked: Promise<Answer<Data>>): Promise<Data> {
+export async function answered<Data>(request: Promise<Answer<Data>>): Promise<Data> {
   let answer: Answer<Data>;
   try {
-    answer = await asked;
+    answer = await request;
   } catch (error) {
     if (error instanceof DOMException && error.name === "AbortError") throw error;
     throw new Rejection(NO_ANSWER);

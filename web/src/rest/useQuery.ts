@@ -48,6 +48,6 @@ export function useQuery<Data>(
     setRound((before) => before + 1);
   }, []);
   // The answer to another question is none to this one.
-  const { data, rejection, isLoading: asking } = state.key === key ? state : NOTHING;
-  return { data, rejection, isLoading: asking, refetch };
+  const { data, rejection, isLoading } = state.key === key ? state : NOTHING;
+  return { data, rejection, isLoading, refetch };
 }

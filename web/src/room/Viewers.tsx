@@ -8,8 +8,8 @@ const SYMBOL: Record<ConnectionState, string> = { good: "●", slow: "◐", sile
 /** Who is watching: how many, who, in which role, and how their line does. */
 export function Viewers(): ReactNode {
   const { room: texts, rest } = useTexts();
-  const { isConnected: stands, firstMessage, people } = useRoomSnapshot();
-  if (!stands) {
+  const { isConnected, firstMessage, people } = useRoomSnapshot();
+  if (!isConnected) {
     return (
       <p className="watching" data-testid="watching" data-known="false">
         {firstMessage === "awaited" ? rest.loading : texts.unknown}

@@ -21,7 +21,7 @@ const CHECK_EVERY_MS = 500;
 
 export class Room {
   private state: RoomState = NOBODY;
-  private said: RoomSnapshot = { isConnected: false, firstMessage: "awaited", ...snapshotOf(NOBODY) };
+  private published: RoomSnapshot = { isConnected: false, firstMessage: "awaited", ...snapshotOf(NOBODY) };
   private readonly wait: FirstMessageWait = { everReceived: false, waitingSinceMs: performance.now() };
   private readonly listeners = new Set<() => void>();
   private readonly painters = new Set<() => void>();
@@ -47,7 +47,7 @@ export class Room {
     this.connection.start();
     const timer = setInterval(() => {
       this.connection.checkTimeout();
-      this.publish({ ...this.said, firstMessage: firstMessageAt(this.wait, performance.now()) });
+      this.publish({ ...this.published, firstMessage: firstMessageAt(this.wait, performance.now()) });
     }, CHECK_EVERY_MS);
     return () => {
       clearInterval(timer);
@@ -66,7 +66,7 @@ export class Room {
     return this.state;
   }
 
-  snapshot = (): RoomSnapshot => this.said;
+  snapshot = (): RoomSnapshot => this.published;
 
   onSnapshot = (listener: () => void): (() => void) => {
     this.listeners.add(listener);
@@ -88,13 +88,13 @@ export class Room {
 
   private forget(): void {
     this.state = NOBODY;
-    this.publish({ isConnected: false, firstMessage: this.said.firstMessage, ...snapshotOf(NOBODY) });
+    this.publish({ isConnected: false, firstMessage: this.published.firstMessage, ...snapshotOf(NOBODY) });
     for (const paint of this.painters) paint();
   }
 
   private publish(next: RoomSnapshot): void {
-    if (JSON.stringify(next) === JSON.stringify(this.said)) return;
-    this.said = next;
+    if (JSON.stringify(next) === JSON.stringify(this.published)) return;
+    this.published = next;
     for (const listener of this.listeners) listener();
   }
 }

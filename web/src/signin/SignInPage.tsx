@@ -9,7 +9,7 @@ import { useTexts } from "../texts/TextsContext";
 import { tokenIn } from "./token";
 import { useSignIn } from "./useSignIn";
 
-interface Told {
+interface SignInMessage {
   kind: string;
   title: string;
   sentence: string;
@@ -23,7 +23,7 @@ export function SignInPage(): ReactNode {
   const { busy, rejection, signIn } = useSignIn();
   const [typed, setTyped] = useState("");
   const token = tokenIn(typed);
-  const told = toldOf(session, rejection, texts);
+  const message = messageFor(session, rejection, texts);
   const waiting = busy || (session.state === "asking" && !session.silent);
   return (
     <main className="enter">
@@ -37,9 +37,9 @@ export function SignInPage(): ReactNode {
           <Loader size="md" aria-hidden="true" /> {busy ? texts.entering : texts.asking}
         </p>
       ) : (
-        <section role={rejection === null ? "status" : "alert"} data-testid="enter" data-kind={told.kind}>
-          <h2>{told.title}</h2>
-          <p>{told.sentence}</p>
+        <section role={rejection === null ? "status" : "alert"} data-testid="enter" data-kind={message.kind}>
+          <h2>{message.title}</h2>
+          <p>{message.sentence}</p>
         </section>
       )}
       {session.state === "in" && !busy && (
@@ -76,12 +76,12 @@ export function SignInPage(): ReactNode {
 }
 
 /** What happened and what to do, in the page's own words where it has some. */
-function toldOf(session: Session, rejection: Rejection | null, texts: SignInTexts): Told {
+function messageFor(session: Session, rejection: Rejection | null, texts: SignInTexts): SignInMessage {
   if (rejection !== null) {
     const { code, message, remedy, context } = rejection.problem;
-    const said = texts.rejected[code as keyof SignInTexts["rejected"]] as Said | undefined;
+    const text = texts.rejected[code as keyof SignInTexts["rejected"]] as RejectionText | undefined;
     const wait = typeof context["wait_s"] === "number" ? ` (${String(context["wait_s"])} s)` : "";
-    if (said !== undefined) return { kind: code, title: said.title, sentence: said.sentence + wait };
+    if (text !== undefined) return { kind: code, title: text.title, sentence: text.sentence + wait };
     return { kind: code, title: message, sentence: remedy };
   }
   if (session.state === "asking") return { kind: "silent", ...texts.silent };
@@ -95,7 +95,7 @@ function toldOf(session: Session, rejection: Rejection | null, texts: SignInText
   return session.expired ? { kind: "expired", ...texts.expired } : { kind: "needed", ...texts.needed };
 }
 
-interface Said {
+interface RejectionText {
   title: string;
   sentence: string;
 }

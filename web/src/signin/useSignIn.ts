@@ -14,7 +14,7 @@ export interface SignIn {
 
 /** Takes a link out of the address at once; `enter` takes one that was typed. */
 export function useSignIn(): SignIn {
-  const { again } = useSession();
+  const { refetch } = useSession();
   const [, go] = useLocation();
   const [busy, setBusy] = useState(false);
   const [rejection, setRejection] = useState<Rejection | null>(null);
@@ -27,11 +27,11 @@ export function useSignIn(): SignIn {
     setRejection(null);
     answered(server.POST("/api/session", { body: { invitation: token } }))
       .then(({ role }) => {
-        again();
+        refetch();
         go(homeOf(role), { replace: true });
       })
       .catch((error: unknown) => {
-        again();
+        refetch();
         if (!(error instanceof Rejection)) throw error;
         setRejection(error);
       })

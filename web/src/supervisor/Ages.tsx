@@ -1,7 +1,7 @@
 import { useRef, type ReactNode } from "react";
 import { usePainter } from "../live/LiveContext";
 import type { View } from "../live/live";
-import { shownDuration, shownNumber } from "../live/rounding";
+import { formatDuration, formatNumber } from "../live/rounding";
 import { setData, setText } from "../panes/setText";
 import { useTexts } from "../texts/TextsContext";
 
@@ -47,12 +47,12 @@ function agesOf(
   const young = (ageMs: number): Ages[Part] => ({
     live: true,
     mark: "●",
-    text: `${shownNumber(ageMs, 0)} ms`,
+    text: `${formatNumber(ageMs, 0)} ms`,
   });
   const gone = (ageMs: number | null): Ages[Part] => ({
     live: false,
     mark: "▲",
-    text: ageMs === null ? say("gone") : `${say("gone")}, ${shownDuration(ageMs)}`,
+    text: ageMs === null ? say("gone") : `${say("gone")}, ${formatDuration(ageMs)}`,
   });
   const stands = link === "open" && firstMessage === "received";
   return {

@@ -4,7 +4,7 @@ import { RejectionNote } from "../rest/RejectionNote";
 import { useAction } from "../rest/useAction";
 import { useRoomSnapshot } from "../room/RoomContext";
 import { useTexts } from "../texts/TextsContext";
-import { shownTime } from "../operator/parts/shown";
+import { formatTime } from "../operator/parts/format";
 import { TwoStepButton } from "./TwoStepButton";
 
 /** Asks those in theatre to hold: big, in two steps so that a slip does nothing. */
@@ -13,15 +13,15 @@ export function HoldPanel(): ReactNode {
   const texts = all.supervisor.hold;
   const { hold, you } = useRoomSnapshot();
   const { busy, rejection, run } = useAction();
-  const asked = hold?.requested_by ?? [];
+  const query = hold?.requested_by ?? [];
   const mine = hold?.is_yours === true;
   const mayRelease = mine || you?.role === "operator";
   return (
-    <section className="hold" aria-label={texts.title} data-testid="hold" data-asked={asked.length > 0}>
-      {asked.length > 0 && (
+    <section className="hold" aria-label={texts.title} data-testid="hold" data-asked={query.length > 0}>
+      {query.length > 0 && (
         <p className="hold-asked" role="status">
-          <span aria-hidden="true">▲▲</span> {texts.asked} <strong>{asked.join(", ")}</strong>
-          {hold?.since != null && ` (${texts.since} ${shownTime(hold.since, all.language)})`}
+          <span aria-hidden="true">▲▲</span> {texts.asked} <strong>{query.join(", ")}</strong>
+          {hold?.since != null && ` (${texts.since} ${formatTime(hold.since, all.language)})`}
         </p>
       )}
       {!mine && (
@@ -38,7 +38,7 @@ export function HoldPanel(): ReactNode {
           }
         />
       )}
-      {asked.length > 0 &&
+      {query.length > 0 &&
         (mayRelease ? (
           <button
             type="button"

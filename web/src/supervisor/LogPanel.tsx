@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { shownSecond } from "../operator/parts/shown";
+import { formatSecond } from "../operator/parts/format";
 import { answered, server } from "../rest/client";
 import { QueryStatus } from "../rest/QueryStatus";
 import { useQuery } from "../rest/useQuery";
@@ -15,21 +15,21 @@ const LINES = 100;
 export function LogPanel(): ReactNode {
   const texts = useTexts();
   const own = texts.supervisor.log;
-  const asked = useQuery((signal) =>
+  const query = useQuery((signal) =>
     answered(server.GET("/api/alarms/log", { params: { query: { last: LINES } }, signal })),
   );
-  const { data } = asked;
-  if (data === null) return <QueryStatus query={asked} />;
+  const { data } = query;
+  if (data === null) return <QueryStatus query={query} />;
   return (
     <>
-      <button type="button" onClick={asked.refetch}>
+      <button type="button" onClick={query.refetch}>
         {own.again}
       </button>
       {data.lines.length === 0 && <p className="soft">{own.none}</p>}
       <ul className="log" data-testid="log">
         {[...data.lines].reverse().map((line, index) => (
           <li key={`${text(line, "at")} ${index}`}>
-            <time>{shownSecond(text(line, "at"), texts.language)}</time> {said(line, texts)}
+            <time>{formatSecond(text(line, "at"), texts.language)}</time> {entryText(line, texts)}
           </li>
         ))}
       </ul>
@@ -38,7 +38,7 @@ export function LogPanel(): ReactNode {
 }
 
 /** As the alarm band had it: what happened to which alarm, in its words of that moment, and by whom. */
-function said(line: Line, texts: Texts): string {
+function entryText(line: Line, texts: Texts): string {
   const change = text(line, "change");
   const { change: changes, by } = texts.supervisor.log;
   const parts = [

@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { shownNumber } from "../live/rounding";
+import { formatNumber } from "../live/rounding";
 import { answered, server } from "../rest/client";
 import { QueryStatus } from "../rest/QueryStatus";
 import { useQuery } from "../rest/useQuery";
@@ -12,13 +12,13 @@ import { SignBox } from "./SignBox";
 export function PlanPanel({ signable }: { signable: Signable }): ReactNode {
   const texts = useTexts().supervisor;
   const key = signable.document_id ?? "";
-  const asked = useQuery(
+  const query = useQuery(
     (signal) => (key === "" ? Promise.resolve(null) : answered(server.GET("/api/plan", { signal }))),
     { key },
   );
   if (key === "") return <p className="soft">{texts.plan.none}</p>;
-  const { data } = asked;
-  if (data === null) return <QueryStatus query={asked} />;
+  const { data } = query;
+  if (data === null) return <QueryStatus query={query} />;
   const active = data.active_channel;
   return (
     <>
@@ -77,22 +77,22 @@ function Channel({ channel }: { channel: ChannelShown }): ReactNode {
         {texts.channel} {texts.side[channel.side]}
       </dt>
       <dd>
-        {channel.diameterMm !== null && `Ø ${shownNumber(channel.diameterMm)} mm`}
-        {channel.lengthMm !== null && ` × ${shownNumber(channel.lengthMm)} mm`}
+        {channel.diameterMm !== null && `Ø ${formatNumber(channel.diameterMm)} mm`}
+        {channel.lengthMm !== null && ` × ${formatNumber(channel.lengthMm)} mm`}
         {` · ${channel.byHand ? texts.byHand : texts.measured}`}
       </dd>
       <dt>{texts.screw}</dt>
       <dd>
         {screw === null
           ? texts.noScrew
-          : `Ø ${shownNumber(screw.diameterMm)} × ${shownNumber(screw.lengthMm, 0)} mm`}
+          : `Ø ${formatNumber(screw.diameterMm)} × ${formatNumber(screw.lengthMm, 0)} mm`}
       </dd>
       {screw?.minMm != null && (
         <>
           <dt>{texts.clearance}</dt>
           <dd data-bad={screw.minMm < 0}>
             {screw.minMm < 0 && <span aria-hidden="true">▲ </span>}
-            {shownNumber(screw.minMm)} mm {screw.minWall !== null && texts.wall[screw.minWall]}
+            {formatNumber(screw.minMm)} mm {screw.minWall !== null && texts.wall[screw.minWall]}
             {screw.grade !== "" && ` · ${texts.grade} ${screw.grade}`}
           </dd>
         </>
@@ -100,7 +100,7 @@ function Channel({ channel }: { channel: ChannelShown }): ReactNode {
       {screw?.meanHu != null && (
         <>
           <dt>{texts.density}</dt>
-          <dd>{shownNumber(screw.meanHu, 0)} HU</dd>
+          <dd>{formatNumber(screw.meanHu, 0)} HU</dd>
         </>
       )}
     </dl>

@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { shownNumber } from "../live/rounding";
+import { formatNumber } from "../live/rounding";
 import { answered, server } from "../rest/client";
 import { QueryStatus } from "../rest/QueryStatus";
 import { useQuery } from "../rest/useQuery";
@@ -13,13 +13,13 @@ export function RegistrationPanel({ signable }: { signable: Signable }): ReactNo
   const texts = useTexts().supervisor;
   const own = texts.registration;
   const key = signable.document_id ?? "";
-  const asked = useQuery(
+  const query = useQuery(
     (signal) => (key === "" ? Promise.resolve(null) : answered(server.GET("/api/registration", { signal }))),
     { key },
   );
   if (key === "") return <p className="soft">{own.none}</p>;
-  const { data } = asked;
-  if (data === null) return <QueryStatus query={asked} />;
+  const { data } = query;
+  if (data === null) return <QueryStatus query={query} />;
   return (
     <>
       <p>
@@ -32,10 +32,10 @@ export function RegistrationPanel({ signable }: { signable: Signable }): ReactNo
               <th scope="row">{own.numbers[row.name]}</th>
               <td>
                 {row.past && <span aria-hidden="true">▲ </span>}
-                {shownNumber(row.value, row.unit === "" ? 0 : 2)} {row.unit}
+                {formatNumber(row.value, row.unit === "" ? 0 : 2)} {row.unit}
               </td>
               <td className="soft">
-                {row.most !== null && `${own.allowed} ${shownNumber(row.most, 2)} ${row.unit}`}
+                {row.most !== null && `${own.allowed} ${formatNumber(row.most, 2)} ${row.unit}`}
               </td>
             </tr>
           ))}

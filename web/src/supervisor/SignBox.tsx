@@ -3,7 +3,7 @@ import { useSession } from "../app/session";
 import { Maker } from "../operator/parts/Maker";
 import { answered, server } from "../rest/client";
 import { RejectionNote } from "../rest/RejectionNote";
-import { shownTime } from "../operator/parts/shown";
+import { formatTime } from "../operator/parts/format";
 import { useAction } from "../rest/useAction";
 import type { Signable } from "../room/messages";
 import { useTexts } from "../texts/TextsContext";
@@ -32,7 +32,7 @@ export function SignBox({ signable }: { signable: Signable }): ReactNode {
       </h3>
       <p>
         {texts.signs} <b>{signable.title}</b>, {texts.madeBy} <Maker of={signable} />,{" "}
-        {shownTime(signable.made_at, all.language)}, {texts.print}{" "}
+        {formatTime(signable.made_at, all.language)}, {texts.print}{" "}
         <code title={signable.sha256}>{signable.sha256.slice(0, 12)}</code>
       </p>
       {signable.out_of_date !== "" && (

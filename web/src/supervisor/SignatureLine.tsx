@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { shownTime } from "../operator/parts/shown";
+import { formatTime } from "../operator/parts/format";
 import { interpolate } from "../texts/interpolate";
 import type { components } from "../schema";
 import { useTexts } from "../texts/TextsContext";
@@ -11,7 +11,7 @@ export function SignatureLine({ of: one }: { of: components["schemas"]["Signatur
   return (
     <>
       <span aria-hidden="true">{one.second_person ? "✓" : "○"}</span> {texts.signedBy} <b>{one.by}</b>,{" "}
-      {shownTime(one.at, all.language)}
+      {formatTime(one.at, all.language)}
       {!one.second_person && ` · ${texts.notSecond}`}
       {one.invited_by_maker
         ? ` · ${interpolate(texts.invitedByMaker, { name: one.invited_by })}`

@@ -15,10 +15,10 @@ const SYMBOL: Record<Step["state"], string> = {
 /** How every step of the procedure stands, in the server's own sentences. */
 export function StepsShown(): ReactNode {
   const texts = useTexts();
-  const asked = useProcedure();
-  const { data } = asked;
+  const query = useProcedure();
+  const { data } = query;
   const own = texts.supervisor;
-  if (data === null) return <QueryStatus query={asked} />;
+  if (data === null) return <QueryStatus query={query} />;
   if (data.case_id === null) return <p className="soft">{own.steps.noCase}</p>;
   return (
     <ol className="steps-shown" data-testid="steps">

@@ -86,7 +86,7 @@ export function SupervisorView(): ReactNode {
 /** Plan and registration; the state of their signatures is told by the room, and stands there unopened. */
 function Signables(): ReactNode {
   const { supervisor: own, rest } = useTexts();
-  const { isConnected: stands, firstMessage, signable } = useRoomSnapshot();
+  const { isConnected, firstMessage, signable } = useRoomSnapshot();
   const unheard = firstMessage === "awaited" ? rest.loading : own.notKnown;
   const plan = signable?.find((one) => one.what === "plan") ?? null;
   const registration = signable?.find((one) => one.what === "registration") ?? null;
@@ -94,14 +94,14 @@ function Signables(): ReactNode {
     <>
       <Fold id="plan" title={own.plan.title} aside={<SignState signable={plan} />}>
         {plan === null ? (
-          <p className="soft">{stands ? own.plan.none : unheard}</p>
+          <p className="soft">{isConnected ? own.plan.none : unheard}</p>
         ) : (
           <PlanPanel signable={plan} />
         )}
       </Fold>
       <Fold id="registration" title={own.registration.title} aside={<SignState signable={registration} />}>
         {registration === null ? (
-          <p className="soft">{stands ? own.registration.none : unheard}</p>
+          <p className="soft">{isConnected ? own.registration.none : unheard}</p>
         ) : (
           <RegistrationPanel signable={registration} />
         )}

@@ -7,8 +7,8 @@ import { useTexts } from "../texts/TextsContext";
 import { checkText, registrationText, type StatusText } from "./statusTexts";
 
 /** What is well is not shown as well beside a picture and figures that are too old. */
-function dimmed(said: StatusText | null, isOfNow: boolean): StatusText | null {
-  return said?.mood === "good" && !isOfNow ? { ...said, mood: "waiting" } : said;
+function dimmed(status: StatusText | null, isOfNow: boolean): StatusText | null {
+  return status?.mood === "good" && !isOfNow ? { ...status, mood: "waiting" } : status;
 }
 
 /** Which case, level and side are navigated, how it was registered, and how old that and its check are. */

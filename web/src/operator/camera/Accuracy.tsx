@@ -8,7 +8,7 @@ import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
 import { Measure } from "../parts/Measure";
-import { shownTime } from "../parts/shown";
+import { formatTime } from "../parts/format";
 import { DocumentValidity } from "../parts/DocumentValidity";
 import { useMaker } from "../parts/useMaker";
 import { number } from "../tool/toolRecord";
@@ -50,7 +50,7 @@ export function Accuracy({ board, check, gate, onChecked }: AccuracyProps): Reac
         <>
           <DocumentValidity heading={check.heading} documents={[]} />
           <p className="soft">
-            {shownTime(check.heading.made_at, all.language)} · <Maker of={check.heading} />
+            {formatTime(check.heading.made_at, all.language)} · <Maker of={check.heading} />
           </p>
           <dl className="measures">
             <Measure

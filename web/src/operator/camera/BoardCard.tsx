@@ -34,12 +34,12 @@ export function BoardCard({ board, first, onBoard, onBegun }: BoardCardProps): R
   };
   const print = (): void => {
     void printing.run(async () => {
-      const asked = server.POST("/api/camera/board", {
+      const query = server.POST("/api/camera/board", {
         body: { board, paper, file: "pdf" },
         parseAs: "blob",
       });
       saved(
-        await answered(asked as Promise<{ data?: Blob; error?: unknown; response: Response }>),
+        await answered(query as Promise<{ data?: Blob; error?: unknown; response: Response }>),
         `board-${paper}.pdf`,
       );
     });

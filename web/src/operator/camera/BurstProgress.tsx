@@ -18,10 +18,10 @@ interface BurstProgressProps {
 /** What to do with the board now, and how far its images have been taken and read. */
 export function BurstProgress({ working, onReady, onEnd }: BurstProgressProps): ReactNode {
   const texts = useTexts().camera.readout;
-  const asked = useQuery((signal) => answered(server.GET("/api/camera/readout/collection", { signal })), {
+  const query = useQuery((signal) => answered(server.GET("/api/camera/readout/collection", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
-  const { data } = asked;
+  const { data } = query;
   const ready = useRef(false);
   useEffect(() => {
     // Once a burst: what was refused is taken anew, not fitted again.
@@ -30,7 +30,7 @@ export function BurstProgress({ working, onReady, onEnd }: BurstProgressProps): 
       onReady();
     }
   }, [data?.stage, onReady]);
-  if (data === null) return <QueryStatus query={asked} />;
+  if (data === null) return <QueryStatus query={query} />;
   const done = data.stage === "taking" ? data.taken_images : data.read_images;
   return (
     <>

@@ -1,12 +1,12 @@
 import { Table } from "@mantine/core";
 import type { ReactNode } from "react";
-import { shownFigure } from "../../live/rounding";
+import { formatFigure } from "../../live/rounding";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
 import { Measure } from "../parts/Measure";
-import { sentence, shownTime } from "../parts/shown";
+import { sentence, formatTime } from "../parts/format";
 import { interpolate } from "../../texts/interpolate";
 import { DocumentValidity } from "../parts/DocumentValidity";
 import { Plot } from "./Plot";
@@ -30,7 +30,7 @@ export function CalibrationReport({ caseId, kept, gate, fresh }: CalibrationRepo
     <Card title={texts.reportTitle} testId="calibration" fresh={fresh}>
       <DocumentValidity heading={kept.heading} documents={[]} />
       <p className="soft">
-        {shownTime(kept.heading.made_at, all.language)} · <Maker of={kept.heading} /> ·{" "}
+        {formatTime(kept.heading.made_at, all.language)} · <Maker of={kept.heading} /> ·{" "}
         {report.sizePx.join(" × ")} px
       </p>
       <dl className="measures">
@@ -69,9 +69,9 @@ export function CalibrationReport({ caseId, kept, gate, fresh }: CalibrationRepo
               {report.parameters.map((one) => (
                 <Table.Tr key={one.name}>
                   <Table.Th scope="row">{one.name}</Table.Th>
-                  <Table.Td className="figure">{shownFigure(one.value, 4)}</Table.Td>
+                  <Table.Td className="figure">{formatFigure(one.value, 4)}</Table.Td>
                   <Table.Td className="figure">
-                    {shownFigure(one.low95, 4)} … {shownFigure(one.high95, 4)}
+                    {formatFigure(one.low95, 4)} … {formatFigure(one.high95, 4)}
                   </Table.Td>
                 </Table.Tr>
               ))}
@@ -104,7 +104,7 @@ function Views({ views }: { views: readonly View[] }): ReactNode {
             {one.used ? "✓" : "✕"} {one.image}
           </span>
           <span className="soft">
-            {shownFigure(one.rmsPx, 2)} px · {one.points ?? "—"} {texts.points}
+            {formatFigure(one.rmsPx, 2)} px · {one.points ?? "—"} {texts.points}
             {one.reason !== "" && ` · ${one.reason}`}
           </span>
         </li>

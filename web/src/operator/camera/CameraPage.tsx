@@ -25,13 +25,13 @@ export function CameraPage(): ReactNode {
   const askedGates = useGates();
   const [calibratedHere, setCalibratedHere] = useState(false);
   const [board, setBoard] = useState<Board>(startingBoard);
-  const asked = useQuery((signal) => answered(server.GET("/api/camera", { signal })), {
+  const query = useQuery((signal) => answered(server.GET("/api/camera", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
-  const { data, refetch: again } = asked;
+  const { data, refetch } = query;
   const gates = askedGates.data;
   const changed = (): void => {
-    again();
+    refetch();
     procedure.refetch();
   };
   const caseId = procedure.data?.case_id ?? null;
@@ -48,7 +48,7 @@ export function CameraPage(): ReactNode {
             onChange={changed}
           />
         )}
-        {gates !== null && data === null && <QueryStatus query={asked} />}
+        {gates !== null && data === null && <QueryStatus query={query} />}
         {procedure.data !== null && caseId === null && <p className="card-lead">{texts.noCase}</p>}
         {data !== null && gates !== null && caseId !== null && (
           <>

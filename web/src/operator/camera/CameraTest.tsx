@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { useLive } from "../../live/LiveContext";
-import { shownNumber } from "../../live/rounding";
+import { formatNumber } from "../../live/rounding";
 import { cameraFacts } from "../../panes/cameraFacts";
 import { searchTimeMs } from "../../panes/searchTime";
 import { problemsOf } from "../../panes/problems";
@@ -24,15 +24,15 @@ export function CameraTest(): ReactNode {
       snapshot === null ? "—" : `${String(snapshot.width_px)} × ${String(snapshot.height_px)} px`,
     ],
     ...cameraFacts(newest?.source.camera ?? null, texts).map(([name, value]) => [name, value] as const),
-    [texts.header.rate, rateHz === null ? "—" : `${shownNumber(rateHz)} Hz`],
+    [texts.header.rate, rateHz === null ? "—" : `${formatNumber(rateHz)} Hz`],
     [
       texts.camera.age,
-      video.live ? `${shownNumber(video.ageMs, 0)} ms` : noAge,
+      video.live ? `${formatNumber(video.ageMs, 0)} ms` : noAge,
       dashboard === null
         ? undefined
-        : `${texts.case.measure.most} ${shownNumber(dashboard.limits.video_stale_after_ms, 0)} ms`,
+        : `${texts.case.measure.most} ${formatNumber(dashboard.limits.video_stale_after_ms, 0)} ms`,
     ],
-    [texts.camera.searchTime, searchMs === null ? "—" : `${shownNumber(searchMs)} ms`],
+    [texts.camera.searchTime, searchMs === null ? "—" : `${formatNumber(searchMs)} ms`],
     [texts.details.skipped, newest === null ? "—" : String(newest.source.skipped_images)],
     [
       texts.camera.calibrated,

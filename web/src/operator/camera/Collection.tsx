@@ -10,7 +10,7 @@ import { isOver, useJob } from "../../rest/useJob";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Measure } from "../parts/Measure";
-import { sentence } from "../parts/shown";
+import { sentence } from "../parts/format";
 import { ConfirmButton } from "../parts/ConfirmButton";
 import type { Gates } from "../parts/useGates";
 import { useMaker } from "../parts/useMaker";
@@ -31,10 +31,10 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
   const texts = useTexts().camera;
   const madeBy = useMaker();
   const doing = useAction();
-  const asked = useQuery((signal) => answered(server.GET("/api/camera/collection", { signal })), {
+  const query = useQuery((signal) => answered(server.GET("/api/camera/collection", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
-  const { data, refetch: again } = asked;
+  const { data, refetch } = query;
   const end = async (): Promise<void> => {
     await doing.run(async () => {
       await answered(server.DELETE("/api/camera/collection"));
@@ -52,7 +52,7 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
       followed.follow(await answered(server.POST("/api/camera/calibration", { body: { made_by: madeBy } })));
     });
   };
-  if (data === null) return <QueryStatus query={asked} />;
+  if (data === null) return <QueryStatus query={query} />;
   const working = followed.job !== null && !isOver(followed.job);
   const enough = data.missing.length === 0;
   const { collecting } = gates;
@@ -108,7 +108,7 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
         </ConfirmButton>
       </div>
       <RejectionNote rejection={doing.rejection} />
-      <SentViews disabled={working} onAdded={again} />
+      <SentViews disabled={working} onAdded={refetch} />
     </Card>
   );
 }

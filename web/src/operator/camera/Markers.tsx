@@ -20,17 +20,17 @@ interface MarkersProps {
 /** The markers that are looked for, with their pictures and their search as it goes; another one sent. */
 export function Markers({ gate, canAdd, onChange }: MarkersProps): ReactNode {
   const texts = useTexts().camera;
-  const asked = useQuery((signal) => answered(server.GET("/api/markers", { signal })), {
+  const query = useQuery((signal) => answered(server.GET("/api/markers", { signal })), {
     everyMs: 3000,
   });
-  const { data, refetch: again } = asked;
+  const { data, refetch } = query;
   const changed = (): void => {
-    again();
+    refetch();
     onChange();
   };
   return (
     <Card title={texts.markersTitle} testId="markers">
-      {data === null && <QueryStatus query={asked} />}
+      {data === null && <QueryStatus query={query} />}
       {data?.markers.length === 0 && <p className="card-lead">{texts.noMarkers}</p>}
       <ul className="rows">
         {data?.markers.map((marker) => (

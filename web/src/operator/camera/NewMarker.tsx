@@ -2,7 +2,7 @@ import { Button, NumberInput, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { useTexts } from "../../texts/TextsContext";
 import { FileButton } from "../parts/FileButton";
-import { sent } from "../parts/transfer";
+import { uploadFile } from "../parts/transfer";
 import { TransferProgress } from "../parts/TransferProgress";
 import { useMaker } from "../parts/useMaker";
 import { useTransfer } from "../parts/useTransfer";
@@ -45,13 +45,13 @@ export function NewMarker({
   const add = (): void => {
     if (!ready) return;
     void transfer.run(async (onMoved, signal) => {
-      const asked = new URLSearchParams({
+      const query = new URLSearchParams({
         name,
         side_mm: String(sideMm),
         made_by: madeBy,
         file: chosen.file.name,
       });
-      await sent(`/api/markers?${asked.toString()}`, chosen.file, onMoved, signal);
+      await uploadFile(`/api/markers?${query.toString()}`, chosen.file, onMoved, signal);
       choose(null);
       setName("");
       setSideMm("");

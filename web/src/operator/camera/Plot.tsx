@@ -3,7 +3,7 @@ import { useEffect, useState, type ReactNode } from "react";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { Rejection } from "../../rest/client";
 import { useTexts } from "../../texts/TextsContext";
-import { fetched } from "../parts/transfer";
+import { downloadFile } from "../parts/transfer";
 
 /** A picture that belongs to a calibration. It comes as plain bytes, and is only ever shown as a picture. */
 export function Plot({ caseId, file, name }: { caseId: string; file: string; name: string }): ReactNode {
@@ -13,7 +13,7 @@ export function Plot({ caseId, file, name }: { caseId: string; file: string; nam
   useEffect(() => {
     const stop = new AbortController();
     let made: string | null = null;
-    fetched(`/api/cases/${caseId}/files/${file}`, () => undefined, stop.signal)
+    downloadFile(`/api/cases/${caseId}/files/${file}`, () => undefined, stop.signal)
       .then((bytes) => {
         if (stop.signal.aborted) return;
         made = URL.createObjectURL(new Blob([bytes], { type: "image/svg+xml" }));

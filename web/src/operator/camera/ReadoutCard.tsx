@@ -1,6 +1,6 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { shownNumber } from "../../live/rounding";
+import { formatNumber } from "../../live/rounding";
 import { answered, Rejection, server } from "../../rest/client";
 import { JobProgress } from "../../rest/JobProgress";
 import { RejectionNote } from "../../rest/RejectionNote";
@@ -30,12 +30,12 @@ export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
   const madeBy = useMaker();
   const doing = useAction();
   const [rejected, setRejected] = useState<Rejection | null>(null);
-  const asked = useQuery((signal) => answered(server.GET("/api/camera/readout", { signal })), {
+  const query = useQuery((signal) => answered(server.GET("/api/camera/readout", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
-  const { data, refetch: again } = asked;
+  const { data, refetch } = query;
   const changed = (): void => {
-    again();
+    refetch();
     onChange();
   };
   const end = (): void => {
@@ -43,7 +43,7 @@ export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
       .run(async () => {
         await answered(server.DELETE("/api/camera/readout/collection"));
       })
-      .then(again);
+      .then(refetch);
   };
   const followed = useJob((job) => {
     // What the motion did not determine is said, and another burst is taken.
@@ -57,7 +57,7 @@ export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
       .run(async () => {
         await answered(server.POST("/api/camera/readout/collection", { body: { board } }));
       })
-      .then(again);
+      .then(refetch);
   };
   const measure = (): void => {
     void doing.run(async () => {
@@ -65,7 +65,7 @@ export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
       followed.follow(await answered(server.POST("/api/camera/readout/measurement", { body })));
     });
   };
-  if (data === null) return <QueryStatus query={asked} />;
+  if (data === null) return <QueryStatus query={query} />;
   const working = followed.job !== null && !isOver(followed.job);
   return (
     <Card title={texts.title} testId="readout">
@@ -73,7 +73,7 @@ export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
       <p data-testid="readout-kept">
         {readoutText(data, texts)}
         {data.found_by === "measured" &&
-          ` ${interpolate(texts.spread, { sd: shownNumber(data.sd_ms ?? NaN) })}`}
+          ` ${interpolate(texts.spread, { sd: formatNumber(data.sd_ms ?? NaN) })}`}
       </p>
       {data.collecting ? (
         <>
@@ -82,7 +82,7 @@ export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
         </>
       ) : (
         <>
-          <StatedReadout readoutMs={data.readout_ms} onKept={changed} />
+          <StatedReadout readoutMs={data.readout_ms} onStored={changed} />
           <div>
             <Button
               size="lg"

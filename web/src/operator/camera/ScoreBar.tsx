@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { shownPercent } from "../../live/rounding";
+import { formatPercent } from "../../live/rounding";
 import { useTexts } from "../../texts/TextsContext";
 
 interface ScoreBarProps {
@@ -21,10 +21,10 @@ export function ScoreBar({ name, ratio, acceptRatio }: ScoreBarProps): ReactNode
         <span className="score-accept" style={{ left: `${String(100 * acceptRatio)}%` }} />
       </span>
       <span className="score-value">
-        {ratio === null ? "—" : `${accepted ? "✓" : "✕"} ${shownPercent(ratio)}`}
+        {ratio === null ? "—" : `${accepted ? "✓" : "✕"} ${formatPercent(ratio)}`}
         <span className="soft">
           {" "}
-          {texts.least} {shownPercent(acceptRatio)}
+          {texts.least} {formatPercent(acceptRatio)}
         </span>
       </span>
     </div>

@@ -4,7 +4,7 @@ import { Rejection } from "../../rest/client";
 import { useTexts } from "../../texts/TextsContext";
 import { FileButton } from "../parts/FileButton";
 import { interpolate } from "../../texts/interpolate";
-import { sent } from "../parts/transfer";
+import { uploadFile } from "../parts/transfer";
 import { TransferProgress } from "../parts/TransferProgress";
 import { useTransfer } from "../parts/useTransfer";
 
@@ -18,28 +18,28 @@ export function SentViews({ disabled, onAdded }: { disabled: boolean; onAdded: (
   const texts = useTexts().camera;
   const transfer = useTransfer();
   const [rejected, setRejected] = useState<readonly Rejected[]>([]);
-  const [taken, setTaken] = useState<number | null>(null);
+  const [storedViews, setStoredViews] = useState<number | null>(null);
   const send = (files: readonly File[]): void => {
     setRejected([]);
-    setTaken(null);
+    setStoredViews(null);
     void transfer.run(async (onMoved, signal) => {
-      let kept = 0;
+      let stored = 0;
       for (const file of files) {
         try {
-          await sent(
+          await uploadFile(
             `/api/camera/collection/images?name=${encodeURIComponent(file.name)}`,
             file,
             onMoved,
             signal,
           );
-          kept += 1;
+          stored += 1;
         } catch (error) {
           if (!(error instanceof Rejection)) throw error;
           setRejected((before) => [...before, { file: file.name, rejection: error }]);
         }
         onAdded();
       }
-      setTaken(kept);
+      setStoredViews(stored);
     });
   };
   return (
@@ -57,7 +57,7 @@ export function SentViews({ disabled, onAdded }: { disabled: boolean; onAdded: (
         <p className="soft grow">{texts.sendViewsHint}</p>
       </div>
       <TransferProgress transfer={transfer} name={texts.sendViews} />
-      {taken !== null && <p role="status">{interpolate(texts.viewsSent, { count: taken })}</p>}
+      {storedViews !== null && <p role="status">{interpolate(texts.viewsSent, { count: storedViews })}</p>}
       {rejected.map(({ file, rejection }) => (
         <RejectionNote key={file} rejection={rejection} />
       ))}

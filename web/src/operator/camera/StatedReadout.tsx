@@ -8,11 +8,11 @@ import { useMaker } from "../parts/useMaker";
 
 interface StatedReadoutProps {
   readoutMs: number | null;
-  onKept: () => void;
+  onStored: () => void;
 }
 
 /** A readout out of the data sheet; an empty field is one that is not known. */
-export function StatedReadout({ readoutMs, onKept }: StatedReadoutProps): ReactNode {
+export function StatedReadout({ readoutMs, onStored: onKept }: StatedReadoutProps): ReactNode {
   const texts = useTexts().camera.readout;
   const madeBy = useMaker();
   const keeping = useAction();

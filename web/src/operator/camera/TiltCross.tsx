@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { shownFigure } from "../../live/rounding";
+import { formatFigure } from "../../live/rounding";
 import { useTexts } from "../../texts/TextsContext";
 import { armsOf, type Way } from "./tilts";
 
@@ -21,10 +21,10 @@ export function TiltCross({
 }): ReactNode {
   const texts = useTexts().camera;
   const arms = armsOf(tiltDeg, wantedDeg);
-  const told = arms.map((arm) => `${texts.ways[arm.way]} ${shownFigure(arm.reachedDeg, 0)}°`).join(", ");
+  const text = arms.map((arm) => `${texts.ways[arm.way]} ${formatFigure(arm.reachedDeg, 0)}°`).join(", ");
   return (
     <figure className="tilts">
-      <svg viewBox="-40 0 280 200" role="img" aria-label={`${texts.tilts}: ${told}`}>
+      <svg viewBox="-40 0 280 200" role="img" aria-label={`${texts.tilts}: ${text}`}>
         {arms.map(({ way, reachedDeg, ratio }) => {
           const { x, y, dx, dy } = PLACES[way];
           const to = (share: number): { x2: number; y2: number } => ({
@@ -37,7 +37,7 @@ export function TiltCross({
               <line className="arm-done" x1={x} y1={y} {...to(Math.max(ratio, 0.001))} />
               <text x={x + dx * 94} y={y + dy * 74 + 5} textAnchor="middle">
                 {ratio >= 1 ? "✓" : ""}
-                {shownFigure(reachedDeg, 0)}°
+                {formatFigure(reachedDeg, 0)}°
               </text>
             </g>
           );
@@ -45,7 +45,7 @@ export function TiltCross({
         <rect className="tilt-board" x="88" y="88" width="24" height="24" rx="3" />
       </svg>
       <figcaption>
-        {texts.tilts}, {texts.tiltWanted} {shownFigure(wantedDeg, 0)}°
+        {texts.tilts}, {texts.tiltWanted} {formatFigure(wantedDeg, 0)}°
       </figcaption>
     </figure>
   );

@@ -1,5 +1,5 @@
 // What the calibration says of the readout, in one sentence.
-import { shownNumber } from "../../live/rounding";
+import { formatNumber } from "../../live/rounding";
 import type { components } from "../../schema";
 import { interpolate } from "../../texts/interpolate";
 import type { ReadoutTexts } from "../../texts/camera/readout";
@@ -7,5 +7,5 @@ import type { ReadoutTexts } from "../../texts/camera/readout";
 export function readoutText(readout: components["schemas"]["ReadoutMessage"], texts: ReadoutTexts): string {
   const { readout_ms: ms, found_by: by } = readout;
   if (ms === null || by === null) return texts.notKnown;
-  return ms === 0 ? texts.global[by] : interpolate(texts.rolling[by], { ms: shownNumber(ms) });
+  return ms === 0 ? texts.global[by] : interpolate(texts.rolling[by], { ms: formatNumber(ms) });
 }

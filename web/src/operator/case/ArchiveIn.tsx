@@ -3,7 +3,7 @@ import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { FileButton } from "../parts/FileButton";
 import { interpolate } from "../../texts/interpolate";
-import { sent } from "../parts/transfer";
+import { uploadFile } from "../parts/transfer";
 import { TransferProgress } from "../parts/TransferProgress";
 import { useTransfer } from "../parts/useTransfer";
 import type { Case } from "./OpenedCase";
@@ -17,7 +17,7 @@ export function ArchiveIn({ onTaken }: { onTaken: () => void }): ReactNode {
     setTaken(null);
     void transfer.run(async (onMoved, signal) => {
       const body = new Blob([file], { type: "application/zip" });
-      setTaken(await sent<Case>("/api/cases/archive", body, onMoved, signal));
+      setTaken(await uploadFile<Case>("/api/cases/archive", body, onMoved, signal));
       onTaken();
     });
   };

@@ -2,7 +2,7 @@ import { Button, Checkbox } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { useTexts } from "../../texts/TextsContext";
 import { saved } from "../parts/saved";
-import { fetched } from "../parts/transfer";
+import { downloadFile } from "../parts/transfer";
 import { TransferProgress } from "../parts/TransferProgress";
 import { useTransfer } from "../parts/useTransfer";
 
@@ -14,7 +14,7 @@ export function ArchiveOut({ caseId }: { caseId: string }): ReactNode {
   const copyOut = (): void => {
     void transfer.run(async (onMoved, signal) => {
       const path = `/api/cases/${caseId}/archive?with_identity=${String(withIdentity)}`;
-      saved(await fetched(path, onMoved, signal), `coaxial-case-${caseId.slice(0, 6)}.zip`);
+      saved(await downloadFile(path, onMoved, signal), `coaxial-case-${caseId.slice(0, 6)}.zip`);
     });
   };
   return (

@@ -5,7 +5,7 @@ import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
-import { shownTime } from "../parts/shown";
+import { formatTime } from "../parts/format";
 import { DeleteCase } from "./DeleteCase";
 import type { Case } from "./OpenedCase";
 
@@ -37,7 +37,7 @@ export function CaseList({ cases, openedId, onChange }: CaseListProps): ReactNod
             <div className="grow">
               <p className="case-name">{one.name}</p>
               <p className="soft">
-                {texts.case.changedAt} {shownTime(one.changed_at, texts.language)}
+                {texts.case.changedAt} {formatTime(one.changed_at, texts.language)}
               </p>
             </div>
             <Button

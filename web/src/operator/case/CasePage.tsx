@@ -17,15 +17,15 @@ const ASK_EVERY_MS = 3000;
 /** The case that is worked in: made, opened, looked through, copied out, put away. */
 export function CasePage(): ReactNode {
   const { refetch: askProcedure } = useProcedure();
-  const asked = useQuery((signal) => answered(server.GET("/api/cases", { signal })), {
+  const query = useQuery((signal) => answered(server.GET("/api/cases", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
-  const { data, refetch: again } = asked;
+  const { data, refetch } = query;
   const changed = (): void => {
-    again();
+    refetch();
     askProcedure();
   };
-  if (data === null) return <QueryStatus query={asked} />;
+  if (data === null) return <QueryStatus query={query} />;
   const opened = data.cases.find((one) => one.id === data.opened_id) ?? null;
   const newCase = <NewCase first={data.cases.length === 0} onMade={changed} />;
   return (

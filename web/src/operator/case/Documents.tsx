@@ -7,7 +7,7 @@ import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
-import { sentence, shownTime } from "../parts/shown";
+import { sentence, formatTime } from "../parts/format";
 import { documentTitle } from "./documentTitle";
 import { newestOf } from "./newest";
 
@@ -19,14 +19,14 @@ const ASK_EVERY_MS = 3000;
 export function Documents({ caseId }: { caseId: string }): ReactNode {
   const texts = useTexts().case;
   const [all, setAll] = useState(false);
-  const asked = useQuery(
+  const query = useQuery(
     (signal) =>
       answered(
         server.GET("/api/cases/{case_id}/documents", { signal, params: { path: { case_id: caseId } } }),
       ),
     { key: caseId, everyMs: ASK_EVERY_MS },
   );
-  const { data } = asked;
+  const { data } = query;
   const shown = data === null ? [] : all ? [...data.documents].reverse() : newestOf(data.documents);
   return (
     <Card
@@ -43,7 +43,7 @@ export function Documents({ caseId }: { caseId: string }): ReactNode {
         />
       }
     >
-      {data === null && <QueryStatus query={asked} />}
+      {data === null && <QueryStatus query={query} />}
       {data !== null && shown.length === 0 && <p className="soft">{texts.noDocuments}</p>}
       {shown.length > 0 && (
         <Table.ScrollContainer minWidth={520}>
@@ -91,7 +91,7 @@ function DocumentRow({ heading }: { heading: Heading }): ReactNode {
         )}
       </Table.Td>
       <Table.Td>
-        {shownTime(heading.made_at, texts.language)}{" "}
+        {formatTime(heading.made_at, texts.language)}{" "}
         <span className="soft">
           · <Maker of={heading} />
         </span>

@@ -7,7 +7,7 @@ import { RejectionNote } from "../../rest/RejectionNote";
 import { isOver, type Job } from "../../rest/useJob";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
-import { sentence } from "../parts/shown";
+import { sentence } from "../parts/format";
 
 const SHOWN = 5;
 
@@ -15,7 +15,7 @@ const SHOWN = 5;
 export function Jobs(): ReactNode {
   const texts = useTexts();
   const cancelling = useAction();
-  const { data, refetch: again } = useQuery((signal) => answered(server.GET("/api/jobs", { signal })), {
+  const { data, refetch } = useQuery((signal) => answered(server.GET("/api/jobs", { signal })), {
     everyMs: 1000,
   });
   const cancel = (job: Job): void => {
@@ -23,7 +23,7 @@ export function Jobs(): ReactNode {
       .run(async () => {
         await answered(server.DELETE("/api/jobs/{job_id}", { params: { path: { job_id: job.id } } }));
       })
-      .then(again);
+      .then(refetch);
   };
   if (data === null || data.jobs.length === 0) return null;
   return (

@@ -6,7 +6,7 @@ import { useAction } from "../../rest/useAction";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
-import { shownTime } from "../parts/shown";
+import { formatTime } from "../parts/format";
 import { ArchiveOut } from "./ArchiveOut";
 import { Rename } from "./Rename";
 
@@ -32,8 +32,8 @@ export function OpenedCase({ opened, onChange }: { opened: Case; onChange: () =>
     >
       <Rename case_={opened} onRenamed={onChange} />
       <p className="soft">
-        {texts.case.madeAt} {shownTime(opened.created_at, texts.language)} · {texts.case.changedAt}{" "}
-        {shownTime(opened.changed_at, texts.language)}
+        {texts.case.madeAt} {formatTime(opened.created_at, texts.language)} · {texts.case.changedAt}{" "}
+        {formatTime(opened.changed_at, texts.language)}
         {opened.copied_from !== null && ` · ${texts.case.cameAsArchive}`}
       </p>
       <div className="row">

@@ -25,12 +25,12 @@ const ASK_EVERY_MS = 1500;
 /** Only where the camera is the theatre in software: what is played before it. */
 export function Rehearsal(): ReactNode {
   const texts = useTexts().case.rehearsal;
-  const asked = useRehearsal({ everyMs: ASK_EVERY_MS });
+  const query = useRehearsal({ everyMs: ASK_EVERY_MS });
   // What was just chosen, until the server says that it plays it.
   const [wish, setWish] = useState<Partial<Played>>({});
   const playing = useAction();
-  const { data, refetch: again } = asked;
-  if (data === null) return <RejectionNote rejection={asked.rejection} />;
+  const { data, refetch } = query;
+  if (data === null) return <RejectionNote rejection={query.rejection} />;
   // The answer has them as text; they are what was asked for before.
   const played: Played = {
     scene: data.scene as Scene,
@@ -46,7 +46,7 @@ export function Rehearsal(): ReactNode {
         await answered(server.PUT("/api/rehearsal", { body }));
       })
       .then(() => {
-        again();
+        refetch();
         setWish({});
       });
   };

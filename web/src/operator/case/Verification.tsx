@@ -7,7 +7,7 @@ import { useAction } from "../../rest/useAction";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
-import { sentence, shownBytes } from "../parts/shown";
+import { sentence, formatBytes } from "../parts/format";
 import { interpolate } from "../../texts/interpolate";
 
 /** The files of a case, read from end to end when somebody wants to know. */
@@ -34,7 +34,7 @@ export function Verification({ caseId }: { caseId: string }): ReactNode {
         <p className="grow">
           {data === null
             ? rejection === null && rest.loading
-            : interpolate(texts.filesCount, { count: data.files.length, size: shownBytes(bytes) })}
+            : interpolate(texts.filesCount, { count: data.files.length, size: formatBytes(bytes) })}
         </p>
         <Button size="lg" variant="default" loading={verifying.busy} onClick={verify}>
           {texts.verify}

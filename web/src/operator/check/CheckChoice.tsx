@@ -7,9 +7,9 @@ import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import { LiveStage } from "../registration/LiveStage";
 import { interpolate } from "../../texts/interpolate";
-import { plannedVertebrae } from "../registration/planRead";
+import { plannedVertebrae } from "../registration/planReader";
 import { WhereToTouch } from "../registration/points/WhereToTouch";
-import { Rejected } from "../registration/Rejected";
+import { RegistrationRejection } from "../registration/RegistrationRejection";
 import { ToolChoice } from "../registration/ToolChoice";
 import { ToolSeen } from "../registration/ToolSeen";
 import { useTools } from "../registration/useTools";
@@ -29,7 +29,7 @@ export function CheckChoice({ vertebra, used, maxMm, onBegun }: CheckChoiceProps
   const [tool, setTool] = useState("");
   const [picked, setPicked] = useState<string | null>(null);
   const beginning = useAction();
-  if (plan.data === null) return <QueryStatus query={plan} Note={Rejected} />;
+  if (plan.data === null) return <QueryStatus query={plan} Note={RegistrationRejection} />;
   const landmarks = plannedVertebrae(plan.data.plan).find((one) => one.name === vertebra)?.landmarks ?? [];
   const free = landmarks.filter((one) => !used.includes(one.name));
   const landmark = free.find((one) => one.name === picked) ?? null;
@@ -71,7 +71,7 @@ export function CheckChoice({ vertebra, used, maxMm, onBegun }: CheckChoiceProps
         </ul>
         <ToolChoice tool={touching} onTool={setTool} />
         <ToolSeen tool={touching} />
-        <Rejected rejection={beginning.rejection} />
+        <RegistrationRejection rejection={beginning.rejection} />
         <Button
           size="xl"
           disabled={landmark === null || touching === ""}

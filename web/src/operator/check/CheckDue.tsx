@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { shownNumber } from "../../live/rounding";
+import { formatNumber } from "../../live/rounding";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
@@ -20,25 +20,25 @@ export function CheckDue({ rule, fresh }: CheckDueProps): ReactNode {
   const left = minutesLeft(step?.numbers["age_min"], rule.again_after_min);
   const every = interpolate(texts.every, {
     minutes: rule.again_after_min,
-    most: shownNumber(rule.max_mm, 1),
+    most: formatNumber(rule.max_mm, 1),
   });
-  const said = useIntoView<HTMLParagraphElement>(fresh);
+  const text = useIntoView<HTMLParagraphElement>(fresh);
   if (step?.state === "due")
     return (
-      <p className="warning" ref={said}>
+      <p className="warning" ref={text}>
         ▲ {texts.dueNow}
       </p>
     );
   if (step?.state === "failed")
     return (
-      <p className="warning" role="status" data-testid="check-failed" ref={said}>
+      <p className="warning" role="status" data-testid="check-failed" ref={text}>
         ▲▲ {texts.lastFailed} {every}
       </p>
     );
   return (
-    <p className="quiet" data-testid="check-due" ref={said}>
+    <p className="quiet" data-testid="check-due" ref={text}>
       {step?.state === "done" && left !== null
-        ? `${interpolate(texts.dueIn, { minutes: shownNumber(left, 0) })} ${every}`
+        ? `${interpolate(texts.dueIn, { minutes: formatNumber(left, 0) })} ${every}`
         : every}
     </p>
   );

@@ -1,6 +1,6 @@
 import { Progress } from "@mantine/core";
 import type { ReactNode } from "react";
-import { shownNumber } from "../../live/rounding";
+import { formatNumber } from "../../live/rounding";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { interpolate } from "../../texts/interpolate";
@@ -10,7 +10,7 @@ export function CheckOutcome({ outcome }: { outcome: components["schemas"]["Chec
   const texts = useTexts().check;
   const [left = 0, back = 0, head = 0] = outcome.off_lps_mm;
   const way = (mm: number, plus: string, minus: string): string =>
-    `${shownNumber(Math.abs(mm), 1)} mm ${mm < 0 ? minus : plus}`;
+    `${formatNumber(Math.abs(mm), 1)} mm ${mm < 0 ? minus : plus}`;
   return (
     <div className="outcome" data-passed={outcome.passed} data-testid="check-outcome" role="status">
       <p className="outcome-state">
@@ -18,9 +18,9 @@ export function CheckOutcome({ outcome }: { outcome: components["schemas"]["Chec
         {outcome.passed ? texts.passed : texts.failed}
       </p>
       <p className="outcome-figure">
-        {shownNumber(outcome.distance_mm, 1)} <span className="unit">mm</span>
+        {formatNumber(outcome.distance_mm, 1)} <span className="unit">mm</span>
         <small>
-          {texts.allowed} {shownNumber(outcome.max_mm, 1)} mm
+          {texts.allowed} {formatNumber(outcome.max_mm, 1)} mm
         </small>
       </p>
       <Progress
@@ -34,7 +34,7 @@ export function CheckOutcome({ outcome }: { outcome: components["schemas"]["Chec
         {way(head, texts.head, texts.feet)}
       </p>
       <p className="quiet">
-        {interpolate(texts.sure, { sd: shownNumber(outcome.sd_mm, 1), images: outcome.images })}
+        {interpolate(texts.sure, { sd: formatNumber(outcome.sd_mm, 1), images: outcome.images })}
       </p>
       {!outcome.passed && <p>{texts.failedRemedy}</p>}
     </div>

@@ -5,11 +5,11 @@ import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
-import { usedLandmarks } from "../registration/planRead";
-import { Rejected } from "../registration/Rejected";
+import { usedLandmarks } from "../registration/planReader";
+import { RegistrationRejection } from "../registration/RegistrationRejection";
 import { RehearsalStrip } from "../registration/RehearsalStrip";
-import { TipRests } from "../registration/TipRests";
-import { useRunning } from "../registration/useRunning";
+import { TipContact } from "../registration/TipContact";
+import { useActiveProcedures } from "../registration/useActiveProcedures";
 import { CheckChoice } from "./CheckChoice";
 import { CheckDue } from "./CheckDue";
 import { CheckWork } from "./CheckWork";
@@ -33,24 +33,24 @@ export function CheckPage(): ReactNode {
 }
 
 function Checking({ registrationId }: { registrationId: string }): ReactNode {
-  const running = useRunning();
-  const [kept, setKept] = useState(0);
+  const running = useActiveProcedures();
+  const [stored, setStored] = useState(0);
   const registration = useQuery((signal) => answered(server.GET("/api/registration", { signal })), {
     key: registrationId,
   });
-  if (registration.data === null) return <QueryStatus query={registration} Note={Rejected} />;
+  if (registration.data === null) return <QueryStatus query={registration} Note={RegistrationRejection} />;
   const { check, vertebra } = registration.data;
   return (
     <div className="registration">
-      <RehearsalStrip scenes={["check"]}>{(told) => <TipRests told={told} />}</RehearsalStrip>
-      <CheckDue rule={check} fresh={kept === 0 ? null : String(kept)} />
+      <RehearsalStrip scenes={["check"]}>{(stored) => <TipContact rehearsal={stored} />}</RehearsalStrip>
+      <CheckDue rule={check} fresh={stored === 0 ? null : String(stored)} />
       {running.data === null ? (
-        <QueryStatus query={running} Note={Rejected} />
+        <QueryStatus query={running} Note={RegistrationRejection} />
       ) : running.data.check ? (
         <CheckWork
           onOver={running.refetch}
-          onKept={() => {
-            setKept(kept + 1);
+          onStored={() => {
+            setStored(stored + 1);
           }}
         />
       ) : (

@@ -10,7 +10,7 @@ import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
 import { CaptureProgress } from "../registration/CaptureProgress";
 import { LiveStage } from "../registration/LiveStage";
-import { Rejected } from "../registration/Rejected";
+import { RegistrationRejection } from "../registration/RegistrationRejection";
 import { ToolSeen } from "../registration/ToolSeen";
 import { useMadeBy } from "../registration/useMadeBy";
 import { CheckOutcome } from "./CheckOutcome";
@@ -20,21 +20,21 @@ const ASK_EVERY_MS = 250;
 interface CheckWorkProps {
   onOver: () => void;
   /** It was kept, whether it passed or not. */
-  onKept: () => void;
+  onStored: () => void;
 }
 
 /** The tip held on the landmark until it is taken; then its distance, and what to do with it. */
-export function CheckWork({ onOver, onKept }: CheckWorkProps): ReactNode {
+export function CheckWork({ onOver, onStored: onKept }: CheckWorkProps): ReactNode {
   const texts = useTexts().check;
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const [, navigate] = useLocation();
-  const asked = useQuery((signal) => answered(server.GET("/api/registration/check", { signal })), {
+  const query = useQuery((signal) => answered(server.GET("/api/registration/check", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
   const doing = useAction();
-  const { data } = asked;
-  if (data === null) return <QueryStatus query={asked} Note={Rejected} />;
+  const { data } = query;
+  if (data === null) return <QueryStatus query={query} Note={RegistrationRejection} />;
   const { outcome, capture } = data;
   const run = (action: () => Promise<unknown>, then: (done: boolean) => void): void => {
     void doing
@@ -51,7 +51,7 @@ export function CheckWork({ onOver, onKept }: CheckWorkProps): ReactNode {
         <ToolSeen tool={data.tool} />
         <CaptureProgress capture={capture} maxSpreadMm={data.max_spread_mm} />
         {outcome === null ? <p className="quiet">{texts.byEye}</p> : <CheckOutcome outcome={outcome} />}
-        <Rejected rejection={doing.rejection} />
+        <RegistrationRejection rejection={doing.rejection} />
         <Button
           size="xl"
           disabled={outcome === null}
@@ -87,7 +87,7 @@ export function CheckWork({ onOver, onKept }: CheckWorkProps): ReactNode {
                       body: { landmark: capture.landmark, tool: data.tool },
                     }),
                   ),
-                asked.refetch,
+                query.refetch,
               );
             }}
           >

@@ -13,7 +13,7 @@ import type { Plan, Result } from "./measure";
 /** The latency from light to page, measured with this screen and the camera before it. */
 export function LatencyCard(): ReactNode {
   const texts = useTexts().latency;
-  const { data, refetch: again } = useLatency();
+  const { data, refetch } = useLatency();
   const beginning = useAction();
   const [plan, setPlan] = useState<Plan | null>(null);
   const [rejection, setRejection] = useState<Rejection | null>(null);
@@ -29,7 +29,7 @@ export function LatencyCard(): ReactNode {
     setRejection(rejected);
     if (result === null) return;
     setMadeHere(result.at);
-    again();
+    refetch();
   };
   const result = data?.result ?? null;
   return (

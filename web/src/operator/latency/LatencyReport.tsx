@@ -1,9 +1,9 @@
 import type { ReactNode } from "react";
-import { shownNumber } from "../../live/rounding";
+import { formatNumber } from "../../live/rounding";
 import { interpolate } from "../../texts/interpolate";
 import { useTexts } from "../../texts/TextsContext";
 import { Measure } from "../parts/Measure";
-import { shownTime } from "../parts/shown";
+import { formatTime } from "../parts/format";
 import { STAGES, type Result } from "./result";
 
 /** What was measured, its stages, and what it cannot tell. */
@@ -14,8 +14,8 @@ export function LatencyReport({ result }: { result: Result }): ReactNode {
   return (
     <>
       <p className="soft">
-        {shownTime(result.at, all.language)} · {result.made_by} · {result.camera} · {result.width_px} ×{" "}
-        {result.height_px} px · {shownNumber(result.rate_hz)} {texts.perSecond}
+        {formatTime(result.at, all.language)} · {result.made_by} · {result.camera} · {result.width_px} ×{" "}
+        {result.height_px} px · {formatNumber(result.rate_hz)} {texts.perSecond}
       </p>
       <dl className="measures">
         <Measure
@@ -42,10 +42,10 @@ export function LatencyReport({ result }: { result: Result }): ReactNode {
           samples: report.samples,
           images: report.images,
           skipped: report.skipped_images,
-          period: shownNumber(report.image_period_ms, 0),
-          late: shownNumber(report.late_on_average_ms, 0),
-          screen: shownNumber(screen.period_ms, 0),
-          clocks: shownNumber(report.clock_error_ms),
+          period: formatNumber(report.image_period_ms, 0),
+          late: formatNumber(report.late_on_average_ms, 0),
+          screen: formatNumber(screen.period_ms, 0),
+          clocks: formatNumber(report.clock_error_ms),
         })}
       </p>
     </>

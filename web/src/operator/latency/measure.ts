@@ -50,7 +50,7 @@ export async function measure(measured: Measured): Promise<Result | null> {
     while (performance.now() < overAtMs) {
       await later(ASK_EVERY_MS);
       if (signal.aborted) return null;
-      const reading = await asked(notes);
+      const reading = await fetchResult(notes);
       if (reading.problem !== null) throw new Rejection(reading.problem);
       if (reading.read_images > 0 && !sequence.isCounting) {
         notes.begin();
@@ -89,7 +89,7 @@ function paintEachFrame({ plan, canvas }: Measured, sequence: CodeSequence, note
   };
 }
 
-async function asked(notes: LatencyNotes): Promise<Reading> {
+async function fetchResult(notes: LatencyNotes): Promise<Reading> {
   const requestedAtMs = performance.now();
   const reading = await answered(server.GET("/api/latency/measurement"));
   notes.compare(requestedAtMs, performance.now(), reading.server_s);

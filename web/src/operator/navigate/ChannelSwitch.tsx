@@ -6,8 +6,8 @@ import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
 import { interpolate } from "../../texts/interpolate";
-import { plannedVertebrae } from "../registration/planRead";
-import { Rejected } from "../registration/Rejected";
+import { plannedVertebrae } from "../registration/planReader";
+import { RegistrationRejection } from "../registration/RegistrationRejection";
 import { ConfirmOrCancelButton } from "../registration/ConfirmOrCancelButton";
 import { useMadeBy } from "../registration/useMadeBy";
 import { useSides } from "../registration/useSides";
@@ -27,7 +27,7 @@ export function ChannelSwitch(): ReactNode {
   const [shown, setShown] = useState(false);
   const switching = useAction();
   if (isPlanned === false) return null;
-  if (plan.data === null) return <QueryStatus query={plan} Note={Rejected} />;
+  if (plan.data === null) return <QueryStatus query={plan} Note={RegistrationRejection} />;
   const active = plan.data.active_channel;
   const others = plannedVertebrae(plan.data.plan)
     .flatMap((one) => one.sides.map((side) => ({ vertebra: one.name, side })))
@@ -92,7 +92,7 @@ export function ChannelSwitch(): ReactNode {
             </div>
           );
         })}
-      <Rejected rejection={switching.rejection} />
+      <RegistrationRejection rejection={switching.rejection} />
     </section>
   );
 }

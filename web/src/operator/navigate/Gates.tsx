@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { Link } from "wouter";
-import { shownNumber } from "../../live/rounding";
+import { formatNumber } from "../../live/rounding";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useTexts } from "../../texts/TextsContext";
 import { interpolate } from "../../texts/interpolate";
@@ -48,5 +48,5 @@ export function Gates(): ReactNode {
 function checkSaid(texts: string, { landmark, distance_mm, max_mm }: Step["numbers"]): string {
   if (typeof landmark !== "string" || typeof distance_mm !== "number" || typeof max_mm !== "number")
     return "";
-  return interpolate(texts, { landmark, mm: shownNumber(distance_mm, 1), most: shownNumber(max_mm, 1) });
+  return interpolate(texts, { landmark, mm: formatNumber(distance_mm, 1), most: formatNumber(max_mm, 1) });
 }

@@ -7,7 +7,7 @@ import { useProcedure } from "../../app/procedure";
 import { RehearsalStrip } from "../registration/RehearsalStrip";
 import { ChannelSwitch } from "./ChannelSwitch";
 import { Gates } from "./Gates";
-import { Moved } from "./Moved";
+import { MovementWarning } from "./MovementWarning";
 import { Steadiness } from "./Steadiness";
 
 /** What the operator watches while the surgeon drills: picture, numbers, gates, and the channel in work. */
@@ -16,7 +16,7 @@ export function NavigatePage(): ReactNode {
   return (
     <div className="registration" data-testid="navigate" data-may={data?.may_navigate}>
       <RehearsalStrip scenes={["operation"]} />
-      <Moved />
+      <MovementWarning />
       <Gates />
       <div className="work navigate">
         <div className="work-main">

@@ -1,6 +1,6 @@
 import { useRef, type ReactNode } from "react";
 import { useLive, usePainter } from "../../live/LiveContext";
-import { shownNumber } from "../../live/rounding";
+import { formatNumber } from "../../live/rounding";
 import { setText } from "../../panes/setText";
 import { errorText } from "../../panes/verdictText";
 import { useTexts } from "../../texts/TextsContext";
@@ -20,7 +20,7 @@ export function Steadiness(): ReactNode {
       reading === null
         ? "—"
         : reading.lagMs > 0
-          ? `${texts.navigate.steadied} ${shownNumber(reading.lagMs, 0)} ms`
+          ? `${texts.navigate.steadied} ${formatNumber(reading.lagMs, 0)} ms`
           : texts.navigate.notSteadied,
     );
     const markers = newest?.snapshot?.markers ?? [];
@@ -29,7 +29,7 @@ export function Steadiness(): ReactNode {
       markers
         .map(({ name, sighting, unseen_s }) => {
           if (sighting.kind === "seen") return `${name} ✓`;
-          return `${name} ▲ ${unseen_s === null ? texts.navigate.neverSeen : `${shownNumber(unseen_s, 1)} s`}`;
+          return `${name} ▲ ${unseen_s === null ? texts.navigate.neverSeen : `${formatNumber(unseen_s, 1)} s`}`;
         })
         .join(" · ") || "—",
     );

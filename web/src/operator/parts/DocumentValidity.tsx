@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { documentTitle } from "../case/documentTitle";
-import { sentence } from "./shown";
+import { sentence } from "./format";
 
 type Heading = components["schemas"]["HeadingMessage"];
 

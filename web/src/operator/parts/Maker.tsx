@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
-import { shownTime } from "./shown";
+import { formatTime } from "./format";
 
 interface Made {
   made_by: string | null;
@@ -15,7 +15,7 @@ export function Maker({ of: made }: { of: Made }): ReactNode {
   const { claimed_maker, by, at } = made.imported;
   return (
     <span data-imported="true">
-      {claimed_maker}, {texts.maker.saysArchive} ({texts.maker.takenIn} {by}, {shownTime(at, language)})
+      {claimed_maker}, {texts.maker.saysArchive} ({texts.maker.takenIn} {by}, {formatTime(at, language)})
     </span>
   );
 }

@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { NOT_KNOWN, shownFigure } from "../../live/rounding";
+import { NOT_KNOWN, formatFigure } from "../../live/rounding";
 import { useTexts } from "../../texts/TextsContext";
 
 export interface Limit {
@@ -29,7 +29,7 @@ export function isWithin(value: number | null, limit: Limit | undefined): boolea
 export function Measure({ name, value, unit, decimals = 2, limit, bar, testId }: MeasureProps): ReactNode {
   const texts = useTexts().case.measure;
   const within = isWithin(value, limit);
-  const shown = value === null ? NOT_KNOWN : shownFigure(value, decimals);
+  const shown = value === null ? NOT_KNOWN : formatFigure(value, decimals);
   const interpolate =
     limit === undefined || value === null ? 0 : Math.min(1, Math.max(0, value / limit.value));
   return (
@@ -46,7 +46,7 @@ export function Measure({ name, value, unit, decimals = 2, limit, bar, testId }:
                 {within ? "✓" : "✕"}
               </span>
             )}
-            {limit.kind === "most" ? texts.most : texts.least} {shownFigure(limit.value, decimals)} {unit}
+            {limit.kind === "most" ? texts.most : texts.least} {formatFigure(limit.value, decimals)} {unit}
           </span>
         )}
         {bar === true && (

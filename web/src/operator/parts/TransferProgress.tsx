@@ -2,7 +2,7 @@ import { Button, Progress } from "@mantine/core";
 import type { ReactNode } from "react";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useTexts } from "../../texts/TextsContext";
-import { shownBytes } from "./shown";
+import { formatBytes } from "./format";
 import type { Transfer } from "./useTransfer";
 
 /** How far a file is on its way, with a way to stop it; how it ended. */
@@ -21,7 +21,7 @@ export function TransferProgress({ transfer, name }: { transfer: Transfer; name:
         {name} ·{" "}
         {arrived
           ? texts.case.serverWorks
-          : `${shownBytes(doneBytes)}${allBytes > 0 ? ` / ${shownBytes(allBytes)}` : ""}`}
+          : `${formatBytes(doneBytes)}${allBytes > 0 ? ` / ${formatBytes(allBytes)}` : ""}`}
       </p>
       <Progress
         value={arrived || allBytes === 0 ? 100 : percent}

@@ -2,9 +2,9 @@ import type { Problem } from "../../rest/client";
 
 /** What a refusal's body says; the page has its own words for one that says nothing. */
 export function problemIn(text: string, status: number): Problem {
-  const told = parsed(text);
-  if (typeof told === "object" && told !== null && "code" in told && "message" in told)
-    return told as Problem;
+  const body = parsed(text);
+  if (typeof body === "object" && body !== null && "code" in body && "message" in body)
+    return body as Problem;
   return { code: "NO_ANSWER", message: "", remedy: "", context: { status } };
 }
 

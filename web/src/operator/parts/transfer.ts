@@ -2,23 +2,23 @@
 import { Rejection } from "../../rest/client";
 import { parsed, problemIn } from "./problem";
 
-export interface Moved {
+export interface TransferredBytes {
   doneBytes: number;
   /** 0 while nobody knows how much it will be. */
   allBytes: number;
 }
 
-export type OnMoved = (moved: Moved) => void;
+export type OnProgress = (moved: TransferredBytes) => void;
 
 /**
  * Sends a file as the body of a request. `fetch` does not say how far it is with that, so an older way is taken.
  *
  * @throws Rejection, or a DOMException AbortError when it was stopped
  */
-export function sent<Answer>(
+export function uploadFile<Answer>(
   path: string,
   body: Blob,
-  onMoved: OnMoved,
+  onMoved: OnProgress,
   signal: AbortSignal,
 ): Promise<Answer> {
   return new Promise((resolve, reject) => {
@@ -50,7 +50,7 @@ export function sent<Answer>(
  *
  * @throws Rejection, or a DOMException AbortError when it was stopped
  */
-export async function fetched(path: string, onMoved: OnMoved, signal: AbortSignal): Promise<Blob> {
+export async function downloadFile(path: string, onMoved: OnProgress, signal: AbortSignal): Promise<Blob> {
   let answer: Response;
   try {
     answer = await fetch(path, { signal, cache: "no-store" });

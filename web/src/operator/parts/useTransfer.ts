@@ -1,14 +1,14 @@
 // One file on its way at a time: how far it is, how it ended, and a way to stop it.
 import { useCallback, useEffect, useRef, useState } from "react";
 import { Rejection } from "../../rest/client";
-import type { Moved, OnMoved } from "./transfer";
+import type { TransferredBytes, OnProgress } from "./transfer";
 
 export interface Transfer {
   /** Null while nothing is on its way. */
-  moved: Moved | null;
+  moved: TransferredBytes | null;
   rejection: Rejection | null;
   stopped: boolean;
-  run: (move: (onMoved: OnMoved, signal: AbortSignal) => Promise<void>) => Promise<void>;
+  run: (move: (onMoved: OnProgress, signal: AbortSignal) => Promise<void>) => Promise<void>;
   stop: () => void;
 }
 

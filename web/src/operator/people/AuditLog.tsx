@@ -4,7 +4,7 @@ import { answered, server } from "../../rest/client";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
-import { shownSecond } from "../parts/shown";
+import { formatSecond } from "../parts/format";
 import { auditRow } from "./auditRow";
 
 const LINES = 25;
@@ -14,17 +14,20 @@ export function AuditLog(): ReactNode {
   const all = useTexts();
   const texts = all.people;
   const [before, setBefore] = useState<number | null>(null);
-  const query = before === null ? { last: LINES } : { last: LINES, before };
-  const asked = useQuery((signal) => answered(server.GET("/api/audit", { params: { query }, signal })), {
-    key: String(before),
-  });
-  const { data, refetch: again } = asked;
+  const range = before === null ? { last: LINES } : { last: LINES, before };
+  const query = useQuery(
+    (signal) => answered(server.GET("/api/audit", { params: { query: range }, signal })),
+    {
+      key: String(before),
+    },
+  );
+  const { data, refetch } = query;
   const rows = (data?.lines ?? []).map((line) => auditRow(line, all)).reverse();
   const oldest = rows.at(-1)?.number ?? 0;
   return (
     <section className="audit" aria-labelledby="audit">
       <h3 id="audit">{texts.log}</h3>
-      {data === null && <QueryStatus query={asked} />}
+      {data === null && <QueryStatus query={query} />}
       {data?.is_intact === true && (
         <p>
           ✓ {texts.whole} · {data.count} {texts.lines} · <code title={data.sum}>{data.sum.slice(0, 16)}</code>
@@ -50,7 +53,7 @@ export function AuditLog(): ReactNode {
             {rows.map((row) => (
               <Table.Tr key={row.number}>
                 <Table.Td>{row.number}</Table.Td>
-                <Table.Td>{row.at === "" ? "" : shownSecond(row.at, all.language)}</Table.Td>
+                <Table.Td>{row.at === "" ? "" : formatSecond(row.at, all.language)}</Table.Td>
                 <Table.Td>{row.who}</Table.Td>
                 <Table.Td title={row.written}>
                   {row.what}
@@ -83,7 +86,7 @@ export function AuditLog(): ReactNode {
           variant="default"
           onClick={() => {
             setBefore(null);
-            again();
+            refetch();
           }}
         >
           {texts.newest}

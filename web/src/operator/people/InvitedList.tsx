@@ -5,7 +5,7 @@ import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
-import { shownTime } from "../parts/shown";
+import { formatTime } from "../parts/format";
 
 interface Props {
   invitations: components["schemas"]["InvitationMessage"][];
@@ -33,7 +33,7 @@ export function InvitedList({ invitations, onRevoked }: Props): ReactNode {
             <span>
               <strong>{one.name}</strong> · {all.signIn.role[one.role]} · {texts.state[one.state]}
               <small>
-                {texts.until} {shownTime(one.expires_at, all.language)}
+                {texts.until} {formatTime(one.expires_at, all.language)}
               </small>
             </span>
             {one.state === "open" && (

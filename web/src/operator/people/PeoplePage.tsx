@@ -6,7 +6,7 @@ import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
 import { AuditLog } from "./AuditLog";
-import { Inviting } from "./Inviting";
+import { InvitationForm } from "./InvitationForm";
 import { InvitedList } from "./InvitedList";
 import { SignedInList } from "./SignedInList";
 
@@ -15,20 +15,20 @@ const ASK_EVERY_MS = 3000;
 /** Who is signed in, who is invited, and what was done. */
 export function PeoplePage(): ReactNode {
   const texts = useTexts().people;
-  const asked = useQuery((signal) => answered(server.GET("/api/people", { signal })), {
+  const query = useQuery((signal) => answered(server.GET("/api/people", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
-  const { data, refetch: again } = asked;
+  const { data, refetch } = query;
   return (
     <div className="people">
-      {data === null && <QueryStatus query={asked} />}
+      {data === null && <QueryStatus query={query} />}
       <SignedIn />
       {data?.sign_in_required === false && <Alert title={texts.off} />}
       {data?.sign_in_required === true && (
         <>
-          <Inviting onInvited={again} />
-          <SignedInList sessions={data.sessions} onEnded={again} />
-          <InvitedList invitations={data.invitations} onRevoked={again} />
+          <InvitationForm onInvited={refetch} />
+          <SignedInList sessions={data.sessions} onEnded={refetch} />
+          <InvitedList invitations={data.invitations} onRevoked={refetch} />
         </>
       )}
       <AuditLog />

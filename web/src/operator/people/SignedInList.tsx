@@ -5,7 +5,7 @@ import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
-import { shownTime } from "../parts/shown";
+import { formatTime } from "../parts/format";
 
 interface Props {
   sessions: components["schemas"]["SignedInMessage"][];
@@ -33,7 +33,7 @@ export function SignedInList({ sessions, onEnded }: Props): ReactNode {
               <strong>{one.name}</strong> · {all.signIn.role[one.role]}
               {one.for_machine && ` · ${texts.machine}`}
               <small>
-                {texts.until} {shownTime(one.expires_at, all.language)}
+                {texts.until} {formatTime(one.expires_at, all.language)}
               </small>
             </span>
             {one.is_own ? (

@@ -64,8 +64,8 @@ function ofText(value: unknown, { registration }: Texts): string[] {
 
 function changeText(change: Line, texts: Texts): string {
   const title = titleOf(text(change["what"]), text(change["name"]), texts);
-  const said = text(change["said"]);
-  if (said !== "") return `${title}: ${said}`;
+  const statement = text(change["said"]);
+  if (statement !== "") return `${title}: ${statement}`;
   // The ids of cases say nothing to anybody.
   if (change["what"] === "open case") return title;
   const [from, to] = [text(change["from"]), text(change["to"])];

@@ -15,9 +15,9 @@ import { Workplace } from "./Workplace";
 /** Planning on CT: the CT comes in, and on its slices the plan is made. */
 export function PlanPage(): ReactNode {
   const texts = useTexts().plan;
-  const asked = useProcedure();
-  const { data: procedure } = asked;
-  if (procedure === null) return <QueryStatus query={asked} />;
+  const query = useProcedure();
+  const { data: procedure } = query;
+  if (procedure === null) return <QueryStatus query={query} />;
   if (procedure.case_id === null) {
     return (
       <section className="plan-empty">

@@ -20,7 +20,7 @@ import { SurfacePart } from "./surface/SurfacePart";
 export function Workplace({ onCtTaken }: { onCtTaken: () => void }): ReactNode {
   const texts = useTexts().plan;
   const { part } = useWork();
-  const { asking, planRejection, askAgain } = usePlanning();
+  const { isLoading, planRejection, askAgain } = usePlanning();
   useWayOfChannel();
   const parts: Record<Part, () => ReactNode> = {
     ct: () => <CtPart onTaken={onCtTaken} />,
@@ -37,7 +37,7 @@ export function Workplace({ onCtTaken }: { onCtTaken: () => void }): ReactNode {
       <div className="plan-body">
         <Planes drawing={(plane, projection) => <PlanDrawing plane={plane} projection={projection} />} />
         <aside className="plan-side" aria-label={texts.part[part]}>
-          {asking && part !== "ct" ? (
+          {isLoading && part !== "ct" ? (
             <QueryStatus query={{ rejection: planRejection, refetch: askAgain }} />
           ) : (
             parts[part]()

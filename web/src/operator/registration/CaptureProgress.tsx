@@ -1,12 +1,12 @@
 import { Progress } from "@mantine/core";
 import type { ReactNode } from "react";
-import { shownNumber } from "../../live/rounding";
+import { formatNumber } from "../../live/rounding";
 import { Rejection } from "../../rest/client";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { interpolate } from "../../texts/interpolate";
-import { lookingText } from "./lookingText";
-import { Rejected } from "./Rejected";
+import { captureText } from "./captureText";
+import { RegistrationRejection } from "./RegistrationRejection";
 
 interface CaptureProgressProps {
   capture: components["schemas"]["CaptureMessage"];
@@ -22,7 +22,7 @@ export function CaptureProgress({ capture, maxSpreadMm }: CaptureProgressProps):
         <p>
           ▲ <strong>{capture.landmark}</strong>: {texts.rejected}
         </p>
-        <Rejected rejection={new Rejection(capture.problem)} />
+        <RegistrationRejection rejection={new Rejection(capture.problem)} />
       </div>
     );
   if (capture.state === "taken") {
@@ -32,8 +32,8 @@ export function CaptureProgress({ capture, maxSpreadMm }: CaptureProgressProps):
         ✓ <strong>{capture.landmark}</strong>{" "}
         {interpolate(texts.taken, {
           images: capture.images,
-          spread: shownNumber(worst, 2),
-          most: shownNumber(maxSpreadMm, 2),
+          spread: formatNumber(worst, 2),
+          most: formatNumber(maxSpreadMm, 2),
         })}
       </p>
     );
@@ -42,7 +42,7 @@ export function CaptureProgress({ capture, maxSpreadMm }: CaptureProgressProps):
   return (
     <div role="status" data-testid="capturing">
       <p>
-        ● <strong>{capture.landmark}</strong> {lookingText(capture, texts)}
+        ● <strong>{capture.landmark}</strong> {captureText(capture, texts)}
       </p>
       <Progress value={share} size="xl" aria-label={texts.images} />
     </div>

@@ -1,13 +1,13 @@
 import { Button } from "@mantine/core";
 import { useEffect, useLayoutEffect, useRef, useState, type ReactNode, type RefObject } from "react";
 import { useLive, usePainter } from "../../live/LiveContext";
-import { shownNumber } from "../../live/rounding";
+import { formatNumber } from "../../live/rounding";
 import { Announcer } from "../../panes/Announcer";
 import { clearPicture, drawPicture } from "../../panes/drawPicture";
 import { setData, setText } from "../../panes/setText";
 import { VideoCover } from "../../panes/VideoCover";
 import { useTexts } from "../../texts/TextsContext";
-import { shownClock } from "../parts/shown";
+import { formatClock } from "../parts/format";
 import { interpolate } from "../../texts/interpolate";
 import { useImageSize } from "./useImageSize";
 
@@ -17,12 +17,18 @@ interface LiveStageProps {
   stage?: RefObject<HTMLDivElement | null>;
   /** The canvas on which the live picture stands. */
   picture?: RefObject<HTMLCanvasElement | null>;
-  held?: boolean;
-  onHeld?: (held: boolean) => void;
+  isFrozen?: boolean;
+  onFreeze?: (isFrozen: boolean) => void;
 }
 
 /** The live video with something laid over it; it can be held, and then says loudly that it is. */
-export function LiveStage({ children, stage, picture, held = false, onHeld }: LiveStageProps): ReactNode {
+export function LiveStage({
+  children,
+  stage,
+  picture,
+  isFrozen = false,
+  onFreeze: onHeld,
+}: LiveStageProps): ReactNode {
   const texts = useTexts();
   const { live, view } = useLive();
   const size = useImageSize();
@@ -30,8 +36,8 @@ export function LiveStage({ children, stage, picture, held = false, onHeld }: Li
   const ownCanvas = useRef<HTMLCanvasElement>(null);
   const still = useRef<HTMLCanvasElement>(null);
   const stamp = useRef<HTMLParagraphElement>(null);
-  const heldAt = useRef(0);
-  const [heldClock, setHeldClock] = useState("");
+  const frozenAt = useRef(0);
+  const [frozenClock, setFrozenClock] = useState("");
   const box = stage ?? ownStage;
   const canvas = picture ?? ownCanvas;
 
@@ -57,13 +63,13 @@ export function LiveStage({ children, stage, picture, held = false, onHeld }: Li
   }, [box, size.widthPx]);
 
   usePainter(({ video, nowMs }) => {
-    setData(box.current, "live", String(video.live || held));
-    if (held) {
+    setData(box.current, "live", String(video.live || isFrozen));
+    if (isFrozen) {
       setText(
         stamp.current,
         interpolate(texts.registration.held.stamp, {
-          clock: heldClock,
-          age: shownNumber((nowMs - heldAt.current) / 1000, 0),
+          clock: frozenClock,
+          age: formatNumber((nowMs - frozenAt.current) / 1000, 0),
         }),
       );
       return;
@@ -71,7 +77,7 @@ export function LiveStage({ children, stage, picture, held = false, onHeld }: Li
     setText(
       stamp.current,
       video.live
-        ? `${texts.video.image} ${video.imageNumber} · ${texts.video.age} ${shownNumber(video.ageMs, 0)} ms`
+        ? `${texts.video.image} ${video.imageNumber} · ${texts.video.age} ${formatNumber(video.ageMs, 0)} ms`
         : "",
     );
     if (!video.live && canvas.current) clearPicture(canvas.current);
@@ -79,30 +85,30 @@ export function LiveStage({ children, stage, picture, held = false, onHeld }: Li
 
   const hold = (): void => {
     if (canvas.current === null || still.current === null || onHeld === undefined) return;
-    if (!held) {
+    if (!isFrozen) {
       still.current.width = canvas.current.width;
       still.current.height = canvas.current.height;
       still.current.getContext("2d", { alpha: false })?.drawImage(canvas.current, 0, 0);
-      heldAt.current = performance.now();
-      setHeldClock(shownClock(new Date().toISOString(), texts.language));
+      frozenAt.current = performance.now();
+      setFrozenClock(formatClock(new Date().toISOString(), texts.language));
     }
-    onHeld(!held);
+    onHeld(!isFrozen);
   };
 
   const cause = view.video.live ? "old" : view.video.cause;
   return (
-    <div className="live-stage" data-held={held}>
+    <div className="live-stage" data-held={isFrozen}>
       <div className="live-stage-head">
         <p className="stamp" ref={stamp} data-testid="stage-stamp" />
         {onHeld !== undefined && (
           <Button
             size="md"
-            variant={held ? "filled" : "default"}
+            variant={isFrozen ? "filled" : "default"}
             color="yellow"
-            aria-pressed={held}
+            aria-pressed={isFrozen}
             onClick={hold}
           >
-            {held ? texts.registration.held.release : texts.registration.held.hold}
+            {isFrozen ? texts.registration.held.release : texts.registration.held.hold}
           </Button>
         )}
       </div>
@@ -114,7 +120,14 @@ export function LiveStage({ children, stage, picture, held = false, onHeld }: Li
         style={{ aspectRatio: `${size.widthPx} / ${size.heightPx}` }}
       >
         <canvas ref={canvas} width={1280} height={720} role="img" aria-label={texts.registration.videoAlt} />
-        <canvas className="still" ref={still} width={1280} height={720} hidden={!held} aria-hidden="true" />
+        <canvas
+          className="still"
+          ref={still}
+          width={1280}
+          height={720}
+          hidden={!isFrozen}
+          aria-hidden="true"
+        />
         <div className="stage-space" style={{ width: size.widthPx, height: size.heightPx }}>
           {children}
         </div>

@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { shownNumber } from "../../live/rounding";
+import { formatNumber } from "../../live/rounding";
 import { useTexts } from "../../texts/TextsContext";
 
 interface MeasureProps {
@@ -16,25 +16,26 @@ interface MeasureProps {
 export function Measure({ name, value, unit, most, digits = 2, hint }: MeasureProps): ReactNode {
   const texts = useTexts().registration.measure;
   const limited = most !== undefined && most !== null;
-  const kept = value === null || !limited ? null : value <= most;
+  const isWithinLimit = value === null || !limited ? null : value <= most;
   return (
-    <div className="limit" data-kept={kept ?? undefined}>
+    <div className="limit" data-kept={isWithinLimit ?? undefined}>
       <dt>
         {name}
         {hint !== undefined && <small>{hint}</small>}
       </dt>
       <dd>
         <strong>
-          {value === null ? "—" : shownNumber(value, digits)} <span className="unit">{unit}</span>
+          {value === null ? "—" : formatNumber(value, digits)} <span className="unit">{unit}</span>
         </strong>
         {limited && (
           <small>
-            {kept !== null && (
+            {isWithinLimit !== null && (
               <b>
-                <span aria-hidden="true">{kept ? "✓" : "▲"}</span> {kept ? texts.kept : texts.over} ·{" "}
+                <span aria-hidden="true">{isWithinLimit ? "✓" : "▲"}</span>{" "}
+                {isWithinLimit ? texts.kept : texts.over} ·{" "}
               </b>
             )}
-            {texts.allowed} {shownNumber(most, digits)} {unit}
+            {texts.allowed} {formatNumber(most, digits)} {unit}
           </small>
         )}
       </dd>

@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { Link } from "wouter";
 import { useTexts } from "../../texts/TextsContext";
 import { RegistrationNow } from "./RegistrationNow";
-import { useRunning } from "./useRunning";
+import { useActiveProcedures } from "./useActiveProcedures";
 
 export const METHODS = ["points", "needles", "surface"] as const;
 const PATH = { points: "points", needles: "needles", surface: "sweep" } as const;
@@ -10,7 +10,7 @@ const PATH = { points: "points", needles: "needles", surface: "sweep" } as const
 /** The ways to register, what each sees and does not see, and what is there already. */
 export function MethodChoice(): ReactNode {
   const texts = useTexts().registration;
-  const running = useRunning().data;
+  const running = useActiveProcedures().data;
   const begun = { points: running?.points === true, needles: false, surface: running?.sweep === true };
   return (
     <>

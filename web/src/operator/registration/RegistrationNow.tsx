@@ -7,10 +7,10 @@ import { useQuery } from "../../rest/useQuery";
 import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import { Maker } from "../parts/Maker";
-import { shownTime } from "../parts/shown";
+import { formatTime } from "../parts/format";
 import { useProcedure } from "../../app/procedure";
 import { interpolate } from "../../texts/interpolate";
-import { Rejected } from "./Rejected";
+import { RegistrationRejection } from "./RegistrationRejection";
 import { RegistrationNumbers } from "./RegistrationNumbers";
 import { ConfirmOrCancelButton } from "./ConfirmOrCancelButton";
 import { useMadeBy } from "./useMadeBy";
@@ -32,12 +32,12 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
   const texts = all.registration;
   const procedure = useProcedure();
   const madeBy = useMadeBy();
-  const asked = useQuery((signal) => answered(server.GET("/api/registration", { signal })), {
+  const query = useQuery((signal) => answered(server.GET("/api/registration", { signal })), {
     key: documentId,
   });
   const withdrawing = useAction();
-  const { data } = asked;
-  if (data === null) return <QueryStatus query={asked} Note={Rejected} />;
+  const { data } = query;
+  if (data === null) return <QueryStatus query={query} Note={RegistrationRejection} />;
   const { heading } = data;
   const lost = heading.withdrawn?.reason ?? heading.out_of_date;
   const check = procedure.data?.steps.find((one) => one.step === "check");
@@ -50,14 +50,14 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
         </Badge>
       </h3>
       <p>
-        {texts.method[data.method]} · <Maker of={heading} /> · {shownTime(heading.made_at, all.language)} ·{" "}
+        {texts.method[data.method]} · <Maker of={heading} /> · {formatTime(heading.made_at, all.language)} ·{" "}
         {data.reference === null
           ? texts.now.toCamera
           : interpolate(texts.now.toMarker, { marker: data.reference })}
       </p>
       {lost !== null && <p className="warning">▲ {lost}</p>}
       <RegistrationNumbers method={data.method} numbers={data.numbers} />
-      <Rejected rejection={withdrawing.rejection} />
+      <RegistrationRejection rejection={withdrawing.rejection} />
       <div className="row">
         {heading.current && (
           <>
@@ -83,7 +83,7 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
                     );
                   })
                   .then(() => {
-                    asked.refetch();
+                    query.refetch();
                     procedure.refetch();
                   });
               }}

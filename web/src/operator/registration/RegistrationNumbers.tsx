@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { shownNumber } from "../../live/rounding";
+import { formatNumber } from "../../live/rounding";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { interpolate } from "../../texts/interpolate";
@@ -42,10 +42,10 @@ export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProp
           <Measure name={texts.worstOffsetPx} value={of("worst_offset_px")} unit="px" digits={1} />
         </dl>
         <ul className="said" data-testid="needles-said">
-          <li>{interpolate(texts.depthSaid, { mm: shownNumber(of("depth_sd_mm"), 1) })}</li>
-          <li>{interpolate(texts.acrossSaid, { mm: shownNumber(of("across_sd_mm"), 1) })}</li>
-          <li>{interpolate(texts.tiltSaid, { deg: shownNumber(of("tilt_sd_deg"), 1) })}</li>
-          <li>{interpolate(texts.turnSaid, { deg: shownNumber(of("turn_sd_deg"), 1) })}</li>
+          <li>{interpolate(texts.depthSaid, { mm: formatNumber(of("depth_sd_mm"), 1) })}</li>
+          <li>{interpolate(texts.acrossSaid, { mm: formatNumber(of("across_sd_mm"), 1) })}</li>
+          <li>{interpolate(texts.tiltSaid, { deg: formatNumber(of("tilt_sd_deg"), 1) })}</li>
+          <li>{interpolate(texts.turnSaid, { deg: formatNumber(of("turn_sd_deg"), 1) })}</li>
         </ul>
       </>
     );

@@ -14,14 +14,14 @@ const ASK_EVERY_MS = 400;
 interface RehearsalStripProps {
   scenes: readonly Scene[];
   /** Something more that only a rehearsal can tell. */
-  children?: (told: Rehearsed) => ReactNode;
+  children?: (rehearsal: Rehearsed) => ReactNode;
 }
 
 /** In a rehearsal alone: which scene is played before the camera, so that a step can be done without hardware. */
 export function RehearsalStrip({ scenes, children }: RehearsalStripProps): ReactNode {
   const all = useTexts();
   const texts = all.registration.rehearsal;
-  const { data, refetch: again } = useRehearsal({ everyMs: ASK_EVERY_MS, truth: true });
+  const { data, refetch } = useRehearsal({ everyMs: ASK_EVERY_MS, truth: true });
   const playing = useAction();
   if (data === null) return null;
   return (
@@ -45,7 +45,7 @@ export function RehearsalStrip({ scenes, children }: RehearsalStripProps): React
                     server.PUT("/api/rehearsal", { body: { scene, skill: null, events: data.events } }),
                   );
                 })
-                .then(again);
+                .then(refetch);
             }}
           >
             {all.case.rehearsal.scenes[scene]}

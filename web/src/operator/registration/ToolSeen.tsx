@@ -1,6 +1,6 @@
 import { useRef, type ReactNode } from "react";
 import { usePainter } from "../../live/LiveContext";
-import { shownNumber } from "../../live/rounding";
+import { formatNumber } from "../../live/rounding";
 import { setData, setText } from "../../panes/setText";
 import { useTexts } from "../../texts/TextsContext";
 
@@ -21,7 +21,7 @@ export function ToolSeen({ tool }: { tool: string }): ReactNode {
       line.current,
       pose === null
         ? `▲ ${tool} ${texts.unseen}`
-        : `✓ ${tool} ${texts.seen} · ${texts.tip} ± ${shownNumber(pose.tip_sd_mm, 2)} mm`,
+        : `✓ ${tool} ${texts.seen} · ${texts.tip} ± ${formatNumber(pose.tip_sd_mm, 2)} mm`,
     );
   });
   return <p className="tool-seen" data-testid="tool-seen" ref={line} />;

@@ -5,7 +5,7 @@ import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { textIn } from "../../texts/text";
 import { useTexts } from "../../texts/TextsContext";
-import { shownTime } from "../parts/shown";
+import { formatTime } from "../parts/format";
 import { alarmsIn } from "./alarmSummary";
 
 const MAX_LINES = 10_000;
@@ -13,15 +13,15 @@ const MAX_LINES = 10_000;
 /** The alarm log in short: which, how often, from when to when, acknowledged by whom. */
 export function Alarms(): ReactNode {
   const texts = useTexts();
-  const asked = useQuery((signal) =>
+  const query = useQuery((signal) =>
     answered(server.GET("/api/alarms/log", { signal, params: { query: { last: MAX_LINES } } })),
   );
-  const { data } = asked;
+  const { data } = query;
   const alarms = data === null ? [] : alarmsIn(data.lines);
   return (
     <section className="stack">
       <h4>{texts.report.alarms}</h4>
-      {data === null && <QueryStatus query={asked} />}
+      {data === null && <QueryStatus query={query} />}
       {data !== null && alarms.length === 0 && <p className="soft">{texts.report.noAlarms}</p>}
       {data?.lines.length === MAX_LINES && <p className="bad">▲ {texts.report.logCut}</p>}
       {alarms.length > 0 && (
@@ -43,7 +43,7 @@ export function Alarms(): ReactNode {
                   <Table.Td className="figure">{one.raised}</Table.Td>
                   <Table.Td>{textIn(one.line, "sentence", texts)}</Table.Td>
                   <Table.Td>
-                    {shownTime(one.firstAt, texts.language)} – {shownTime(one.lastAt, texts.language)}
+                    {formatTime(one.firstAt, texts.language)} – {formatTime(one.lastAt, texts.language)}
                   </Table.Td>
                   <Table.Td>{one.acknowledgedBy.join(", ") || "—"}</Table.Td>
                 </Table.Tr>

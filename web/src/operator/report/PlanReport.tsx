@@ -1,13 +1,13 @@
 import { Maker } from "../parts/Maker";
 import { Table } from "@mantine/core";
 import type { ReactNode } from "react";
-import { shownFigure } from "../../live/rounding";
+import { formatFigure } from "../../live/rounding";
 import { answered, server } from "../../rest/client";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
-import { shownTime } from "../parts/shown";
+import { formatTime } from "../parts/format";
 import { channelsIn } from "./plan";
 
 interface PlanReportProps {
@@ -19,23 +19,23 @@ interface PlanReportProps {
 export function PlanReport({ caseId, heading }: PlanReportProps): ReactNode {
   const all = useTexts();
   const texts = all.report;
-  const asked = useQuery(
+  const query = useQuery(
     (signal) => {
       const params = { path: { case_id: caseId, document_id: heading.id } };
       return answered(server.GET("/api/cases/{case_id}/documents/{document_id}", { signal, params }));
     },
     { key: heading.id },
   );
-  const { data } = asked;
+  const { data } = query;
   const channels = data === null ? [] : channelsIn(data.content);
   return (
     <section className="stack">
       <h4>{texts.plan}</h4>
       <p className="soft">
-        {all.case.version} {heading.version} · {shownTime(heading.made_at, all.language)} ·{" "}
+        {all.case.version} {heading.version} · {formatTime(heading.made_at, all.language)} ·{" "}
         <Maker of={heading} />
       </p>
-      {data === null && <QueryStatus query={asked} />}
+      {data === null && <QueryStatus query={query} />}
       {data !== null && channels.length === 0 && <p className="soft">{texts.noChannels}</p>}
       {channels.length > 0 && (
         <Table.ScrollContainer minWidth={480}>
@@ -54,13 +54,13 @@ export function PlanReport({ caseId, heading }: PlanReportProps): ReactNode {
                   <Table.Th scope="row">{one.vertebra}</Table.Th>
                   <Table.Td>{texts.sides[one.side] ?? one.side}</Table.Td>
                   <Table.Td className="figure">
-                    Ø {shownFigure(one.diameterMm, 1)} mm, {shownFigure(one.lengthMm, 1)} mm
+                    Ø {formatFigure(one.diameterMm, 1)} mm, {formatFigure(one.lengthMm, 1)} mm
                     {one.byHand && ` · ${texts.byHand}`}
                   </Table.Td>
                   <Table.Td className="figure">
                     {one.screw === null
                       ? "—"
-                      : `Ø ${shownFigure(one.screw.diameterMm, 1)} × ${shownFigure(one.screw.lengthMm, 0)} mm`}
+                      : `Ø ${formatFigure(one.screw.diameterMm, 1)} × ${formatFigure(one.screw.lengthMm, 0)} mm`}
                   </Table.Td>
                 </Table.Tr>
               ))}

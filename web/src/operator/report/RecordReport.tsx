@@ -1,10 +1,10 @@
 import { Maker } from "../parts/Maker";
 import { Table } from "@mantine/core";
 import type { ReactNode } from "react";
-import { shownFigure } from "../../live/rounding";
+import { formatFigure } from "../../live/rounding";
 import { useTexts } from "../../texts/TextsContext";
 import { documentTitle } from "../case/documentTitle";
-import { sentence, shownTime } from "../parts/shown";
+import { sentence, formatTime } from "../parts/format";
 import { interpolate } from "../../texts/interpolate";
 import { useSides } from "../registration/useSides";
 import { factsOf, type Fact } from "./facts";
@@ -37,7 +37,7 @@ export function RecordReport({ entries, contents, readAt }: RecordReportProps): 
                 <Table.Th scope="col">{texts.report.says}</Table.Th>
                 <Table.Th scope="col">{texts.report.by}</Table.Th>
                 <Table.Th scope="col">
-                  {interpolate(texts.report.heldAt, { time: shownTime(readAt, texts.language) })}
+                  {interpolate(texts.report.heldAt, { time: formatTime(readAt, texts.language) })}
                 </Table.Th>
               </Table.Tr>
             </Table.Thead>
@@ -60,11 +60,11 @@ function EntryRow({ entry, content }: { entry: Entry; content: Record<string, un
   return (
     <Table.Tr>
       <Table.Td className="record-time">
-        {shownTime(first.made_at, texts.language)}
+        {formatTime(first.made_at, texts.language)}
         {!isOne && (
           <>
             {" "}
-            {texts.report.until} {shownTime(last.made_at, texts.language)}
+            {texts.report.until} {formatTime(last.made_at, texts.language)}
           </>
         )}
       </Table.Td>
@@ -87,7 +87,7 @@ function EntryRow({ entry, content }: { entry: Entry; content: Record<string, un
         <Maker of={last} />
       </Table.Td>
       <Table.Td>
-        <Standing heading={last} />
+        <Validity heading={last} />
       </Table.Td>
     </Table.Tr>
   );
@@ -98,21 +98,21 @@ function FactLine({ fact }: { fact: Fact }): ReactNode {
   const sideName = useSides();
   const { name, value, unit, most } = fact;
   const methods = texts.registration.method as Partial<Record<string, string>>;
-  const shown = typeof value === "string" ? (methods[value] ?? sideName(value)) : shownFigure(value, 2);
+  const shown = typeof value === "string" ? (methods[value] ?? sideName(value)) : formatFigure(value, 2);
   return (
     <p>
       {texts.report.facts[name]}: {shown} {unit}
       {most !== null && (
         <span className="soft">
           {" "}
-          ({texts.report.allowed} {shownFigure(most, 2)} {unit})
+          ({texts.report.allowed} {formatFigure(most, 2)} {unit})
         </span>
       )}
     </p>
   );
 }
 
-function Standing({ heading }: { heading: Heading }): ReactNode {
+function Validity({ heading }: { heading: Heading }): ReactNode {
   const texts = useTexts().case;
   const { current, withdrawn, out_of_date: why } = heading;
   if (current) return `✓ ${texts.standings.current}`;

@@ -7,7 +7,7 @@ import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
 import { ArchiveOut } from "../case/ArchiveOut";
 import { newestOf } from "../case/newest";
-import { shownTime } from "../parts/shown";
+import { formatTime } from "../parts/format";
 import { useProcedure } from "../../app/procedure";
 import { Alarms } from "./Alarms";
 import { TELLING } from "./facts";
@@ -39,7 +39,7 @@ export function ReportPage(): ReactNode {
 function Report({ caseId }: { caseId: string }): ReactNode {
   const all = useTexts();
   const texts = all.report;
-  const asked = useQuery(
+  const query = useQuery(
     async (signal) => {
       const params = { path: { case_id: caseId } };
       const [kept, { documents }, procedure] = await Promise.all([
@@ -54,8 +54,8 @@ function Report({ caseId }: { caseId: string }): ReactNode {
     },
     { key: caseId },
   );
-  const { data, refetch: again } = asked;
-  if (data === null) return <QueryStatus query={asked} />;
+  const { data, refetch } = query;
+  if (data === null) return <QueryStatus query={query} />;
   const { kept, documents, entries, contents, procedure, readAt } = data;
   const plan = newestOf(documents).find((one) => one.kind === "plan" && one.name === "main") ?? null;
   return (
@@ -69,7 +69,7 @@ function Report({ caseId }: { caseId: string }): ReactNode {
         >
           {texts.print}
         </Button>
-        <Button size="lg" variant="default" onClick={again}>
+        <Button size="lg" variant="default" onClick={refetch}>
           {texts.again}
         </Button>
         <ArchiveOut caseId={caseId} />
@@ -81,8 +81,8 @@ function Report({ caseId }: { caseId: string }): ReactNode {
           </h3>
           <p className="report-notice">{all.notice}</p>
           <p className="soft">
-            {texts.made} {shownTime(readAt, all.language)} · {all.case.madeAt}{" "}
-            {shownTime(kept.created_at, all.language)} · {texts.caseId} {kept.id}
+            {texts.made} {formatTime(readAt, all.language)} · {all.case.madeAt}{" "}
+            {formatTime(kept.created_at, all.language)} · {texts.caseId} {kept.id}
           </p>
           <p className="soft">{texts.identity}</p>
         </header>

@@ -9,9 +9,9 @@ import { Maker } from "../parts/Maker";
 /** Who signed plan and registration, and who had invited them. */
 export function SignaturesReport(): ReactNode {
   const texts = useTexts().supervisor.sign;
-  const asked = useQuery((signal) => answered(server.GET("/api/supervision/signatures", { signal })));
-  const { data } = asked;
-  if (data === null) return <QueryStatus query={asked} />;
+  const query = useQuery((signal) => answered(server.GET("/api/supervision/signatures", { signal })));
+  const { data } = query;
+  if (data === null) return <QueryStatus query={query} />;
   const there = data.signable.filter((one) => one.document_id !== null);
   if (there.length === 0) return null;
   return (

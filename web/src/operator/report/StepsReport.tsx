@@ -3,7 +3,7 @@ import type { ReactNode } from "react";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { stateText } from "../stepTexts";
-import { sentence, shownTime } from "../parts/shown";
+import { sentence, formatTime } from "../parts/format";
 import { interpolate } from "../../texts/interpolate";
 
 interface StepsReportProps {
@@ -16,7 +16,7 @@ export function StepsReport({ procedure, readAt }: StepsReportProps): ReactNode 
   const texts = useTexts();
   return (
     <section className="stack">
-      <h4>{interpolate(texts.report.steps, { time: shownTime(readAt, texts.language) })}</h4>
+      <h4>{interpolate(texts.report.steps, { time: formatTime(readAt, texts.language) })}</h4>
       <p className="soft">{texts.report.stepsLead}</p>
       <Table.ScrollContainer minWidth={480}>
         <Table>

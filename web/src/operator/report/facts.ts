@@ -19,7 +19,8 @@ export const TELLING: ReadonlySet<string> = new Set(["camera", "tool", "registra
 export function factsOf(kind: string, content: Content): Fact[] {
   if (kind === "camera") return some(mm("fit", part(content["report"])["rms_px"], null, "px"));
   if (kind === "tool") return some(mm("tip", part(content["pivot"])["rms_3d_mm"]));
-  if (kind === "plan") return some(said("vertebra", content["vertebra"]), said("side", content["side"]));
+  if (kind === "plan")
+    return some(textFact("vertebra", content["vertebra"]), textFact("side", content["side"]));
   if (kind === "check") return checkFacts(content);
   if (kind === "registration") return registrationFacts(content);
   return [];
@@ -27,7 +28,7 @@ export function factsOf(kind: string, content: Content): Fact[] {
 
 function checkFacts(content: Content): Fact[] {
   return some(
-    said("landmark", content["landmark"]),
+    textFact("landmark", content["landmark"]),
     mm("distance", content["distance_mm"], content["max_mm"]),
     mm("known", content["maximum_error_mm"], content["limit_mm"]),
     mm("tipMoved", content["rms_3d_mm"]),
@@ -37,7 +38,7 @@ function checkFacts(content: Content): Fact[] {
 function registrationFacts(content: Content): Fact[] {
   const numbers = part(content["numbers"]);
   return some(
-    said("method", content["method"]),
+    textFact("method", content["method"]),
     mm("atEntry", numbers["tre_at_entry_mm"], numbers["max_tre_mm"]),
     mm("points", numbers["fre_rms_mm"], numbers["max_fre_mm"]),
     mm("leftOut", numbers["leave_one_out_mm"], numbers["max_left_out_mm"]),
@@ -51,7 +52,7 @@ function mm(name: FactName, value: unknown, most: unknown = null, unit: Fact["un
   return number(value) === null ? null : { name, value: number(value) ?? 0, unit, most: number(most) };
 }
 
-function said(name: FactName, value: unknown): Fact | null {
+function textFact(name: FactName, value: unknown): Fact | null {
   return typeof value === "string" && value !== "" ? { name, value, unit: "", most: null } : null;
 }
 

@@ -11,30 +11,30 @@ import type { Purpose } from "./toolRecord";
 
 interface NewToolProps {
   first: boolean;
-  taken: readonly string[];
+  usedNames: readonly string[];
   busy: boolean;
   onBegin: (tool: string, purpose: Purpose, marker: string | null) => void;
 }
 
 /** Another tool: what it is called, and behind which marker it is held. */
-export function NewTool({ first, taken, busy, onBegin }: NewToolProps): ReactNode {
+export function NewTool({ first, usedNames, busy, onBegin }: NewToolProps): ReactNode {
   const texts = useTexts().tool;
   const [typed, setTyped] = useState<string | null>(null);
   const [chosen, setChosen] = useState<string | null>(null);
-  const asked = useQuery((signal) => answered(server.GET("/api/markers", { signal })), {
+  const query = useQuery((signal) => answered(server.GET("/api/markers", { signal })), {
     everyMs: 3000,
   });
-  const { data } = asked;
+  const { data } = query;
   const markers = (data?.markers ?? []).map((one) => one.name);
   const marker = chosen !== null && markers.includes(chosen) ? chosen : (markers[0] ?? null);
   // The first tool is mostly called as its marker is.
-  const name = typed ?? (marker !== null && !taken.includes(marker) ? marker : "");
-  const isNew = !taken.includes(name);
+  const name = typed ?? (marker !== null && !usedNames.includes(marker) ? marker : "");
+  const isNew = !usedNames.includes(name);
   return (
     <Card title={first ? texts.firstTitle : texts.newTitle} testId="new-tool">
       {first && <p className="card-lead">{texts.firstLead}</p>}
       {data === null ? (
-        <QueryStatus query={asked} />
+        <QueryStatus query={query} />
       ) : markers.length === 0 ? (
         <p>
           {texts.noMarker}{" "}

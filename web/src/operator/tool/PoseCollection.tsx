@@ -21,7 +21,7 @@ interface PoseCollectionProps {
   tools: readonly KnownTool[];
   gate: ToolGate;
   /** With the name of the tool that was kept; null where nothing was. */
-  onOver: (kept: string | null) => void;
+  onOver: (stored: string | null) => void;
 }
 
 /** Poses as they are gathered: how far it has come, what is missing, and what they give so far. */
@@ -30,10 +30,10 @@ export function PoseCollection({ tools, gate, onOver }: PoseCollectionProps): Re
   const madeBy = useMaker();
   const doing = useAction();
   const [shape, setShape] = useState<ShapeMm>({ diameterMm: "", lengthMm: "" });
-  const asked = useQuery((signal) => answered(server.GET("/api/tools/collection", { signal })), {
+  const query = useQuery((signal) => answered(server.GET("/api/tools/collection", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
-  const { data } = asked;
+  const { data } = query;
   const end = (): void => {
     void doing
       .run(async () => {
@@ -43,7 +43,7 @@ export function PoseCollection({ tools, gate, onOver }: PoseCollectionProps): Re
         onOver(null);
       });
   };
-  if (data === null) return <QueryStatus query={asked} />;
+  if (data === null) return <QueryStatus query={query} />;
   const known = tools.find((tool) => tool.name === data.tool) ?? null;
   const before = known?.kept == null ? null : toolRecordFrom(known.kept.content);
   const needsShape = data.purpose === "pivot" && (before?.radiusMm ?? known?.radius_mm ?? null) === null;

@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { useTexts } from "../../texts/TextsContext";
 import { Measure } from "../parts/Measure";
-import { sentence } from "../parts/shown";
+import { sentence } from "../parts/format";
 import type { PoseCollectionState, ToolGate } from "./toolRecord";
 
 const KINDS = ["not_seen", "too_uncertain", "jumped", "nothing_new"] as const;

@@ -6,7 +6,7 @@ import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
 import { Measure } from "../parts/Measure";
 import { DocumentValidity } from "../parts/DocumentValidity";
-import { shownTime } from "../parts/shown";
+import { formatTime } from "../parts/format";
 import {
   toolRecordFrom,
   nextPurpose,
@@ -32,8 +32,8 @@ interface ToolCardProps {
 export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCardProps): ReactNode {
   const all = useTexts();
   const texts = all.tool;
-  const kept = tool.kept === null ? null : toolRecordFrom(tool.kept.content);
-  const radiusMm = kept?.radiusMm ?? tool.radius_mm;
+  const stored = tool.kept === null ? null : toolRecordFrom(tool.kept.content);
+  const radiusMm = stored?.radiusMm ?? tool.radius_mm;
   const next = nextPurpose(tool);
   const canPivotOnly = tool.kept?.heading.current !== true;
   return (
@@ -43,36 +43,36 @@ export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCa
         <>
           <DocumentValidity heading={tool.kept.heading} documents={documents} />
           <p className="soft">
-            {texts.made} {shownTime(tool.kept.heading.made_at, all.language)} ·{" "}
+            {texts.made} {formatTime(tool.kept.heading.made_at, all.language)} ·{" "}
             <Maker of={tool.kept.heading} />
           </p>
         </>
       )}
       <dl className="measures">
-        {kept !== null && (
+        {stored !== null && (
           <>
             <Measure
               name={texts.tipRms}
-              value={kept.tipRmsMm}
+              value={stored.tipRmsMm}
               unit="mm"
               limit={{ kind: "most", value: gate.max_rms_3d_mm }}
             />
             <Measure
               name={texts.tilt}
-              value={kept.tiltDeg}
+              value={stored.tiltDeg}
               unit="°"
               decimals={0}
               limit={{ kind: "least", value: gate.min_tilt_deg }}
             />
             <Measure
               name={texts.axisSd}
-              value={kept.axisSdDeg}
+              value={stored.axisSdDeg}
               unit="°"
               limit={{ kind: "most", value: gate.max_axis_sd_deg }}
             />
             <Measure
               name={texts.wobble}
-              value={kept.wobbleDeg}
+              value={stored.wobbleDeg}
               unit="°"
               limit={{ kind: "most", value: gate.max_wobble_deg }}
             />
@@ -84,7 +84,7 @@ export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCa
           unit="mm"
           decimals={1}
         />
-        <Measure name={texts.length} value={kept?.lengthMm ?? tool.length_mm} unit="mm" decimals={0} />
+        <Measure name={texts.length} value={stored?.lengthMm ?? tool.length_mm} unit="mm" decimals={0} />
         {tool.check?.heading.current === true && (
           <Measure name={texts.checkMost} value={number(tool.check.content["max_mm"])} unit="mm" />
         )}
@@ -97,7 +97,7 @@ export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCa
           />
         )}
       </dl>
-      {kept?.hasAxis === false && <p className="bad">▲ {texts.noAxis}</p>}
+      {stored?.hasAxis === false && <p className="bad">▲ {texts.noAxis}</p>}
       <div className="row">
         {PURPOSES.map((purpose) => (
           <Button

@@ -22,10 +22,10 @@ export function ToolPage(): ReactNode {
   const procedure = useProcedure();
   const gates = useGates();
   const documents = useDocuments();
-  const asked = useQuery((signal) => answered(server.GET("/api/tools", { signal })), {
+  const query = useQuery((signal) => answered(server.GET("/api/tools", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
-  const { data, refetch: again } = asked;
+  const { data, refetch } = query;
   const beginning = useAction();
   const [storedHere, setStoredHere] = useState<string | null>(null);
   const begin = (tool: string, purpose: Purpose, marker: string | null): void => {
@@ -33,14 +33,14 @@ export function ToolPage(): ReactNode {
       .run(async () => {
         await answered(server.POST("/api/tools/collection", { body: { tool, purpose, marker } }));
       })
-      .then(again);
+      .then(refetch);
   };
-  const over = (kept: string | null): void => {
-    setStoredHere(kept);
-    again();
+  const over = (stored: string | null): void => {
+    setStoredHere(stored);
+    refetch();
     procedure.refetch();
   };
-  if (data === null) return <QueryStatus query={asked} />;
+  if (data === null) return <QueryStatus query={query} />;
   if (gates.data === null) return <QueryStatus query={gates} />;
   if (procedure.data === null && procedure.rejection === null) return <QueryStatus query={procedure} />;
   const gate = gates.data.tool_calibration;
@@ -66,7 +66,7 @@ export function ToolPage(): ReactNode {
             ))}
             <NewTool
               first={data.tools.length === 0}
-              taken={data.tools.map((tool) => tool.name)}
+              usedNames={data.tools.map((tool) => tool.name)}
               busy={beginning.busy}
               onBegin={begin}
             />

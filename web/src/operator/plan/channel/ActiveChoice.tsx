@@ -1,6 +1,6 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
-import { shownNumber } from "../../../live/rounding";
+import { formatNumber } from "../../../live/rounding";
 import { answered, server } from "../../../rest/client";
 import { useTexts } from "../../../texts/TextsContext";
 import { usePlanning } from "../state/PlanContext";
@@ -33,9 +33,9 @@ export function ActiveChoice({
   return (
     <section className="active-choice" data-active={isActive || undefined}>
       <p data-testid="channel-numbers">
-        {planned.by_hand ? texts.isByHand : texts.isMeasured} · Ø {shownNumber(draft.diameterMm, 1)} mm ·{" "}
-        {shownNumber(lengthMm(draft), 1)} mm · {texts.transverse} {shownNumber(transverseDeg, 1)}° ·{" "}
-        {texts.sagittal} {shownNumber(sagittalDeg, 1)}°
+        {planned.by_hand ? texts.isByHand : texts.isMeasured} · Ø {formatNumber(draft.diameterMm, 1)} mm ·{" "}
+        {formatNumber(lengthMm(draft), 1)} mm · {texts.transverse} {formatNumber(transverseDeg, 1)}° ·{" "}
+        {texts.sagittal} {formatNumber(sagittalDeg, 1)}°
       </p>
       {isActive && (
         <p className="is-active" data-testid="is-active">

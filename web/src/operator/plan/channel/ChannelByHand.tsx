@@ -1,6 +1,6 @@
 import { Button, SegmentedControl } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { shownNumber } from "../../../live/rounding";
+import { formatNumber } from "../../../live/rounding";
 import { answered, server } from "../../../rest/client";
 import { useTexts } from "../../../texts/TextsContext";
 import { ArrowPad } from "../slices/ArrowPad";
@@ -15,11 +15,11 @@ import {
   anglesOf,
   isSame,
   MIN_DIAMETER_MM,
-  lengthened,
+  extendChannel,
   lengthMm,
   MAX_DIAMETER_MM,
-  shifted,
-  turnedBy,
+  shiftChannel,
+  rotateChannel,
   type Draft,
   type Moved,
 } from "./draft";
@@ -82,30 +82,30 @@ export function ChannelByHand({ of, draft, planned }: ChannelByHandProps): React
           const place = largePlace();
           if (place === null) return;
           const shift = plus(times(rightOf(place), right * STEP_MM), times(downOf(place), down * STEP_MM));
-          put(shifted(draft, what, shift));
+          put(shiftChannel(draft, what, shift));
         }}
       />
       <Stepper
         name="turn"
         label={texts.turn}
-        value={`${texts.transverse} ${shownNumber(transverseDeg, 1)}° · ${texts.sagittal} ${shownNumber(sagittalDeg, 1)}°`}
+        value={`${texts.transverse} ${formatNumber(transverseDeg, 1)}° · ${texts.sagittal} ${formatNumber(sagittalDeg, 1)}°`}
         onStep={(direction) => {
           const place = largePlace();
-          if (place !== null) put(turnedBy(draft, normalOf(place), direction));
+          if (place !== null) put(rotateChannel(draft, normalOf(place), direction));
         }}
       />
       <Stepper
         name="reach"
         label={texts.length}
-        value={`${shownNumber(lengthMm(draft), 1)} mm`}
+        value={`${formatNumber(lengthMm(draft), 1)} mm`}
         onStep={(direction) => {
-          put(lengthened(draft, direction));
+          put(extendChannel(draft, direction));
         }}
       />
       <Stepper
         name="bore"
         label={texts.diameter}
-        value={`${shownNumber(draft.diameterMm, 1)} mm`}
+        value={`${formatNumber(draft.diameterMm, 1)} mm`}
         onStep={(direction) => {
           const wanted = draft.diameterMm + direction * STEP_MM;
           put({ ...draft, diameterMm: Math.min(MAX_DIAMETER_MM, Math.max(MIN_DIAMETER_MM, wanted)) });

@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { shownNumber } from "../../../live/rounding";
+import { formatNumber } from "../../../live/rounding";
 import { useTexts } from "../../../texts/TextsContext";
 import { WALLS, type Screw } from "../state/shape";
 
@@ -14,7 +14,7 @@ export function ScrewNumbers({ screw }: { screw: Screw }): ReactNode {
         <strong>
           {texts.grade} {clearance.grade}
         </strong>{" "}
-        {breaks ? `${texts.breaks} ${shownNumber(clearance.breach_mm, 1)} mm` : texts.within}
+        {breaks ? `${texts.breaks} ${formatNumber(clearance.breach_mm, 1)} mm` : texts.within}
       </p>
       <dl className="figures">
         {WALLS.map((wall) => {
@@ -23,7 +23,7 @@ export function ScrewNumbers({ screw }: { screw: Screw }): ReactNode {
             <div key={wall} className="figure" data-breaks={value < 0 || undefined}>
               <dt>{texts.wall[wall]}</dt>
               <dd>
-                {shownNumber(value, 1)} mm{value < 0 && ` ${texts.through}`}
+                {formatNumber(value, 1)} mm{value < 0 && ` ${texts.through}`}
               </dd>
             </div>
           );
@@ -31,17 +31,18 @@ export function ScrewNumbers({ screw }: { screw: Screw }): ReactNode {
         <div className="figure">
           <dt>{texts.tolerance}</dt>
           <dd>
-            {shownNumber(tolerance.max_offset_mm, 1)} mm {texts.or} {shownNumber(tolerance.max_angle_deg, 1)}°
+            {formatNumber(tolerance.max_offset_mm, 1)} mm {texts.or}{" "}
+            {formatNumber(tolerance.max_angle_deg, 1)}°
             <span className="soft">
               {" "}
-              {texts.both} {shownNumber(tolerance.both_mm, 1)} mm + {shownNumber(tolerance.both_deg, 1)}°
+              {texts.both} {formatNumber(tolerance.both_mm, 1)} mm + {formatNumber(tolerance.both_deg, 1)}°
             </span>
           </dd>
         </div>
         <div className="figure">
           <dt>{texts.bone}</dt>
           <dd>
-            {shownNumber(bone.mean_hu, 0)} HU
+            {formatNumber(bone.mean_hu, 0)} HU
             {bone.inside_ratio < 0.999 && <span className="warning"> {texts.beyondCt}</span>}
           </dd>
         </div>

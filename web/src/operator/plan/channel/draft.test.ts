@@ -1,18 +1,30 @@
 import { expect, test } from "vitest";
-import { anglesOf, besideMm, isSame, lengthened, lengthMm, shifted, turnedBy, type Draft } from "./draft";
+import {
+  anglesOf,
+  besideMm,
+  isSame,
+  extendChannel,
+  lengthMm,
+  shiftChannel,
+  rotateChannel,
+  type Draft,
+} from "./draft";
 
 /** 40 mm straight forwards. */
 const DRAFT: Draft = { entry: [15, 20, 5], target: [15, -20, 5], diameterMm: 6 };
 
 test("the whole channel, its entry or its end is moved", () => {
-  expect(shifted(DRAFT, "whole", [1, 0, 2])).toMatchObject({ entry: [16, 20, 7], target: [16, -20, 7] });
-  expect(shifted(DRAFT, "entry", [1, 0, 2])).toMatchObject({ entry: [16, 20, 7], target: [15, -20, 5] });
-  expect(shifted(DRAFT, "target", [1, 0, 2])).toMatchObject({ entry: [15, 20, 5], target: [16, -20, 7] });
+  expect(shiftChannel(DRAFT, "whole", [1, 0, 2])).toMatchObject({ entry: [16, 20, 7], target: [16, -20, 7] });
+  expect(shiftChannel(DRAFT, "entry", [1, 0, 2])).toMatchObject({ entry: [16, 20, 7], target: [15, -20, 5] });
+  expect(shiftChannel(DRAFT, "target", [1, 0, 2])).toMatchObject({
+    entry: [15, 20, 5],
+    target: [16, -20, 7],
+  });
 });
 
 test("turned about its entry it keeps its length, clockwise on the slice", () => {
   // On an axial slice left is to the right and one looks to the head; clockwise turns what points up to the right.
-  const turned = turnedBy(DRAFT, [0, 0, 1], 30);
+  const turned = rotateChannel(DRAFT, [0, 0, 1], 30);
   expect(turned.entry).toEqual(DRAFT.entry);
   expect(lengthMm(turned)).toBeCloseTo(40, 9);
   expect(turned.target[0]).toBeCloseTo(15 + 20, 9);
@@ -25,8 +37,8 @@ test("to the head the sagittal angle is positive", () => {
 });
 
 test("it grows at its end, and never turns over", () => {
-  expect(lengthened(DRAFT, 5).target).toEqual([15, -25, 5]);
-  expect(lengthMm(lengthened(DRAFT, -99))).toBe(1);
+  expect(extendChannel(DRAFT, 5).target).toEqual([15, -25, 5]);
+  expect(lengthMm(extendChannel(DRAFT, -99))).toBe(1);
 });
 
 test("a point beside the axis", () => {

@@ -30,7 +30,7 @@ export function isSame(draft: Draft, channel: Channel): boolean {
 
 export type Moved = "whole" | "entry" | "target";
 
-export function shifted(draft: Draft, what: Moved, by: Vec3): Draft {
+export function shiftChannel(draft: Draft, what: Moved, by: Vec3): Draft {
   return {
     ...draft,
     entry: what === "target" ? draft.entry : plus(draft.entry, by),
@@ -39,12 +39,12 @@ export function shifted(draft: Draft, what: Moved, by: Vec3): Draft {
 }
 
 /** Turned about its entry, as seen on a slice whose normal points away from the viewer: positive is clockwise. */
-export function turnedBy(draft: Draft, normal: Vec3, angleDeg: number): Draft {
+export function rotateChannel(draft: Draft, normal: Vec3, angleDeg: number): Draft {
   return { ...draft, target: plus(draft.entry, turned(minus(draft.target, draft.entry), normal, angleDeg)) };
 }
 
 /** Longer at its end. */
-export function lengthened(draft: Draft, byMm: number): Draft {
+export function extendChannel(draft: Draft, byMm: number): Draft {
   const length = lengthMm(draft);
   return { ...draft, target: plus(draft.entry, times(axisOf(draft), Math.max(1, length + byMm))) };
 }

@@ -1,9 +1,9 @@
 import { useState, type ReactNode } from "react";
 import { Alert, Button } from "@mantine/core";
-import { shownNumber } from "../../../live/rounding";
+import { formatNumber } from "../../../live/rounding";
 import { useTexts } from "../../../texts/TextsContext";
 import { Maker } from "../../parts/Maker";
-import { shownTime } from "../../parts/shown";
+import { formatTime } from "../../parts/format";
 import { useSlices } from "../slices/SlicesContext";
 import { CtIntake } from "./CtIntake";
 
@@ -14,21 +14,21 @@ export function CtPart({ onTaken }: { onTaken: () => void }): ReactNode {
   const { ct } = useSlices();
   const [isReplacing, setReplacing] = useState(false);
   const { description } = ct;
-  const told = [description["words"], description["modality"], description["kernel"]].filter(
+  const details = [description["words"], description["modality"], description["kernel"]].filter(
     (one): one is string => typeof one === "string" && one !== "",
   );
   return (
     <>
       <h3>{texts.title}</h3>
-      <p>{told.join(" · ")}</p>
+      <p>{details.join(" · ")}</p>
       <dl className="figures">
         <dt>{texts.voxels}</dt>
         <dd>{ct.size_ijk.join(" × ")}</dd>
         <dt>{texts.spacing}</dt>
-        <dd>{ct.spacing_mm.map((one) => shownNumber(one, 2)).join(" × ")} mm</dd>
+        <dd>{ct.spacing_mm.map((one) => formatNumber(one, 2)).join(" × ")} mm</dd>
         <dt>{texts.madeBy}</dt>
         <dd>
-          <Maker of={ct.heading} />, {shownTime(ct.heading.made_at, all.language)}
+          <Maker of={ct.heading} />, {formatTime(ct.heading.made_at, all.language)}
         </dd>
       </dl>
       {ct.warnings.map((warning) => (

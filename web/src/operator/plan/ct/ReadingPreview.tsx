@@ -10,10 +10,10 @@ export function ReadingPreview({ uploadId, of }: { uploadId: string; of: Job }):
   const [isThere, setThere] = useState(false);
   // Asked again as the reading goes on, until it is there.
   const round = isThere ? "kept" : String(Math.floor(of.progress_ratio / TRIES_EVERY_RATIO));
-  const [kept, setKept] = useState("");
-  const source = kept !== "" ? kept : `/api/ct/uploads/${uploadId}/preview.png?round=${round}`;
+  const [stored, setStored] = useState("");
+  const source = stored !== "" ? stored : `/api/ct/uploads/${uploadId}/preview.png?round=${round}`;
   // Before anything is read there is surely none, and in the end it goes.
-  if (kept === "" && (of.progress_ratio === 0 || of.state !== "running")) return null;
+  if (stored === "" && (of.progress_ratio === 0 || of.state !== "running")) return null;
   return (
     <img
       className="ct-preview"
@@ -22,7 +22,7 @@ export function ReadingPreview({ uploadId, of }: { uploadId: string; of: Job }):
       hidden={!isThere}
       onLoad={() => {
         setThere(true);
-        setKept(source);
+        setStored(source);
       }}
     />
   );

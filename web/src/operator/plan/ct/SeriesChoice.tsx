@@ -1,6 +1,6 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
-import { shownNumber } from "../../../live/rounding";
+import { formatNumber } from "../../../live/rounding";
 import type { Job } from "../../../rest/useJob";
 import { useTexts } from "../../../texts/TextsContext";
 
@@ -50,7 +50,7 @@ export function SeriesChoice({ series, busy, onChoose }: SeriesChoiceProps): Rea
               </strong>
               <p>
                 {one.images} {texts.images} · {one.size_wh_px.join(" × ")} ·{" "}
-                {shownNumber(one.thickness_mm, 2)} mm {texts.thick}
+                {formatNumber(one.thickness_mm, 2)} mm {texts.thick}
                 {one.kernel !== "" && ` · ${one.kernel}`}
                 {patients > 1 && ` · ${texts.patient} ${one.patient}`}
               </p>

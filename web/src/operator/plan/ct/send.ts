@@ -7,7 +7,7 @@ import { Rejection, type Problem } from "../../../rest/client";
  * @throws Rejection
  * @throws DOMException - AbortError, after `stop`.
  */
-export function sent<Answer>(
+export function uploadCt<Answer>(
   address: string,
   body: Blob,
   onSent: (ratio: number) => void,

@@ -2,8 +2,8 @@
 import { useRef, useState } from "react";
 import { Rejection } from "../../../rest/client";
 import type { Job } from "../../../rest/useJob";
-import { sent } from "./send";
-import { MAX_BYTES, MAX_FILES, zipped } from "./zip";
+import { uploadCt } from "./send";
+import { MAX_BYTES, MAX_FILES, zipFiles } from "./zip";
 
 export type Phase = "packing" | "sending" | "fetching";
 
@@ -40,7 +40,7 @@ export function useUpload(address: () => string, onTaken: (begun: Begun) => void
       const content = await body(stop.signal);
       if (content === null) return;
       setState({ ...IDLE, phase: "sending" });
-      const answer = await sent<Begun>(
+      const answer = await uploadCt<Begun>(
         address(),
         content,
         (ratio) => {
@@ -73,7 +73,7 @@ export function useUpload(address: () => string, onTaken: (begun: Begun) => void
     }
     const named = files.map((file) => ({ name: file.webkitRelativePath || file.name, content: file }));
     void run((stop) =>
-      zipped(
+      zipFiles(
         named,
         (done) => {
           if (done % 10 === 0) setState({ ...IDLE, phase: "packing", ratio: done / named.length });

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { crc32, zipped } from "./zip";
+import { crc32, zipFiles } from "./zip";
 
 test("the sum of nine digits is the one that every book prints", () => {
   expect(crc32(new TextEncoder().encode("123456789"))).toBe(0xcbf43926);
@@ -12,7 +12,7 @@ test("the directory leads to each file, whole and under its own name", async () 
     { name: "empty", content: new Blob([]) },
   ];
   const done: number[] = [];
-  const zip = await zipped(files, (count) => done.push(count));
+  const zip = await zipFiles(files, (count) => done.push(count));
   const found = new DataView(await zip.arrayBuffer());
   const end = found.byteLength - 22;
   expect(found.getUint32(end, true)).toBe(0x06054b50);
@@ -43,5 +43,5 @@ test("the directory leads to each file, whole and under its own name", async () 
 test("it stops when it is told to", async () => {
   const stop = new AbortController();
   stop.abort();
-  await expect(zipped([{ name: "a", content: new Blob(["a"]) }], undefined, stop.signal)).rejects.toThrow();
+  await expect(zipFiles([{ name: "a", content: new Blob(["a"]) }], undefined, stop.signal)).rejects.toThrow();
 });

@@ -34,7 +34,7 @@ interface Entry {
  * @param onRead - is told how many are done.
  * @param stop - ends it with an AbortError.
  */
-export async function zipped(
+export async function zipFiles(
   files: readonly { name: string; content: Blob }[],
   onRead: (done: number) => void = () => undefined,
   stop?: AbortSignal,

@@ -4,13 +4,13 @@ import { useTexts } from "../../../texts/TextsContext";
 
 interface LandmarkNamesProps {
   opened: boolean;
-  taken: readonly string[];
+  usedNames: readonly string[];
   onClose: () => void;
   onName: (name: string) => void;
 }
 
 /** A name for a landmark: one of the usual ones by a tap, or typed. */
-export function LandmarkNames({ opened, taken, onClose, onName }: LandmarkNamesProps): ReactNode {
+export function LandmarkNames({ opened, usedNames, onClose, onName }: LandmarkNamesProps): ReactNode {
   const texts = useTexts().plan.landmarks;
   const [typed, setTyped] = useState("");
   const name = typed.trim();
@@ -24,7 +24,7 @@ export function LandmarkNames({ opened, taken, onClose, onName }: LandmarkNamesP
     >
       <div className="landmark-names">
         {Object.values(texts.usual)
-          .filter((one) => !taken.includes(one))
+          .filter((one) => !usedNames.includes(one))
           .map((one) => (
             <Button
               key={one}
@@ -42,7 +42,7 @@ export function LandmarkNames({ opened, taken, onClose, onName }: LandmarkNamesP
         className="landmark-typed"
         onSubmit={(event) => {
           event.preventDefault();
-          if (name === "" || taken.includes(name)) return;
+          if (name === "" || usedNames.includes(name)) return;
           setTyped("");
           onName(name);
         }}
@@ -56,7 +56,7 @@ export function LandmarkNames({ opened, taken, onClose, onName }: LandmarkNamesP
             setTyped(event.currentTarget.value);
           }}
         />
-        <Button size="lg" type="submit" disabled={name === "" || taken.includes(name)}>
+        <Button size="lg" type="submit" disabled={name === "" || usedNames.includes(name)}>
           {texts.take}
         </Button>
       </form>

@@ -56,7 +56,7 @@ export function LandmarksPart(): ReactNode {
       </Button>
       <LandmarkNames
         opened={isNaming}
-        taken={landmarks.map((one) => one.name)}
+        usedNames={landmarks.map((one) => one.name)}
         onClose={() => {
           setNaming(false);
         }}

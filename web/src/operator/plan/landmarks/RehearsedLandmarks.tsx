@@ -17,14 +17,14 @@ export function RehearsedLandmarks({
   onTake: (landmarks: Landmark[]) => void;
 }): ReactNode {
   const texts = useTexts().plan.landmarks;
-  const rehearsal = useRehearsal();
-  const asking = useAction();
-  if (rehearsal.data === null) return null;
+  const query = useRehearsal();
+  const action = useAction();
+  if (query.data === null) return null;
   const take = (): void => {
-    void asking.run(async () => {
-      const told = await answered(server.GET("/api/rehearsal", { params: { query: { truth: true } } }));
-      if (told.truth === null) return;
-      const all = [...told.truth.landmarks, told.truth.check_landmark];
+    void action.run(async () => {
+      const rehearsal = await answered(server.GET("/api/rehearsal", { params: { query: { truth: true } } }));
+      if (rehearsal.truth === null) return;
+      const all = [...rehearsal.truth.landmarks, rehearsal.truth.check_landmark];
       onTake(all.map((one) => ({ name: one.name, point_lps_mm: vec3(one.point_lps_mm) ?? [0, 0, 0] })));
     });
   };
@@ -34,13 +34,13 @@ export function RehearsedLandmarks({
       <Button
         size="lg"
         variant="default"
-        disabled={busy || asking.busy}
+        disabled={busy || action.busy}
         data-testid="rehearsed-landmarks"
         onClick={take}
       >
         {texts.takeRehearsed}
       </Button>
-      <RejectionNote rejection={asking.rejection} />
+      <RejectionNote rejection={action.rejection} />
     </div>
   );
 }

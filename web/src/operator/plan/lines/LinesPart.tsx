@@ -1,6 +1,6 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { shownNumber } from "../../../live/rounding";
+import { formatNumber } from "../../../live/rounding";
 import { answered, server } from "../../../rest/client";
 import { RejectionNote } from "../../../rest/RejectionNote";
 import { useAction } from "../../../rest/useAction";
@@ -23,7 +23,7 @@ export function LinesPart(): ReactNode {
   const { plan, vertebra, change, busy } = usePlanning();
   const { ct, look, goTo, setPlane } = useSlices();
   const { apartMm, setApartMm } = useWork();
-  const asking = useAction();
+  const action = useAction();
   const [isLaidHere, setLaidHere] = useState(false);
   const [reference = null] = vertebra?.references ?? [];
   const laid = useIntoView<HTMLElement>(
@@ -32,7 +32,7 @@ export function LinesPart(): ReactNode {
   if (vertebra === null) return <p>{texts.noVertebra}</p>;
   const { name } = vertebra;
   const showProposal = (): void => {
-    void asking.run(async () => {
+    void action.run(async () => {
       const query = { vertebra: name };
       const proposed = await answered(server.GET("/api/plan/proposals/slice", { params: { query } }));
       const middle = vec3(proposed.middle_lps_mm) ?? look.cursor;
@@ -63,18 +63,18 @@ export function LinesPart(): ReactNode {
         size="lg"
         variant="default"
         fullWidth
-        disabled={asking.busy}
+        disabled={action.busy}
         data-testid="propose-slice"
         onClick={showProposal}
       >
         {texts.propose}
       </Button>
-      <RejectionNote rejection={asking.rejection} />
+      <RejectionNote rejection={action.rejection} />
       <CursorPad />
       <Stepper
         name="apart"
         label={texts.apart}
-        value={`${shownNumber(apartMm, 1)} mm`}
+        value={`${formatNumber(apartMm, 1)} mm`}
         onStep={(direction) => {
           setApartMm(Math.min(100, Math.max(1, apartMm + direction * STEP_MM)));
         }}
@@ -90,7 +90,7 @@ export function LinesPart(): ReactNode {
             data-testid="reference"
           />
           <figcaption>
-            {texts.slice} {reference.slice_index} · {shownNumber(reference.apart_mm, 1)} mm {texts.toSides}
+            {texts.slice} {reference.slice_index} · {formatNumber(reference.apart_mm, 1)} mm {texts.toSides}
           </figcaption>
         </figure>
       )}

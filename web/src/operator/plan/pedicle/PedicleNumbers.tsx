@@ -1,6 +1,6 @@
 import { Alert, Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { shownNumber } from "../../../live/rounding";
+import { formatNumber } from "../../../live/rounding";
 import { answered, server } from "../../../rest/client";
 import { useTexts } from "../../../texts/TextsContext";
 import { useSlices } from "../slices/SlicesContext";
@@ -40,11 +40,11 @@ export function PedicleNumbers({ record, vertebra }: { record: PedicleRecord; ve
             <div key={name} className="figure">
               <dt>{texts.number[name]}</dt>
               <dd>
-                {shownNumber(corrected[name] ?? measured[name], 1)} {unitOf(name)}
+                {formatNumber(corrected[name] ?? measured[name], 1)} {unitOf(name)}
                 <span className="soft">
                   {corrected[name] === undefined
-                    ? ` ± ${shownNumber(measured.sd[name], 1)}`
-                    : ` ${texts.byHand} (${shownNumber(measured[name], 1)})`}
+                    ? ` ± ${formatNumber(measured.sd[name], 1)}`
+                    : ` ${texts.byHand} (${formatNumber(measured[name], 1)})`}
                 </span>
               </dd>
             </div>
@@ -56,7 +56,7 @@ export function PedicleNumbers({ record, vertebra }: { record: PedicleRecord; ve
             key={name}
             name={name}
             label={texts.number[name]}
-            value={`${shownNumber(now[name] ?? measured[name], 1)} ${unitOf(name)}`}
+            value={`${formatNumber(now[name] ?? measured[name], 1)} ${unitOf(name)}`}
             onStep={(direction) => {
               const value = (now[name] ?? measured[name]) + direction * STEP[name];
               setDraft({ ...now, [name]: Math.round(value * 10) / 10 });

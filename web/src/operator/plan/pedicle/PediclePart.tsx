@@ -23,7 +23,7 @@ export function PediclePart(): ReactNode {
   const { plan, vertebra, side, by, change, changedTo, busy } = usePlanning();
   const { look, goTo } = useSlices();
   const { setPart } = useWork();
-  const asking = useAction();
+  const action = useAction();
   const [measuredHere, setMeasuredHere] = useState<string | null>(null);
   const now = `${vertebra?.name ?? ""} ${side} ${String(plan?.heading.version ?? 0)}`;
   const numbers = useIntoView<HTMLDivElement>(measuredHere === now ? now : null);
@@ -45,10 +45,10 @@ export function PediclePart(): ReactNode {
   }
   const { name } = vertebra;
   const record = recordOf(vertebra, side);
-  const isMeasuring = asking.busy || (job.job !== null && !isOver(job.job));
+  const isMeasuring = action.busy || (job.job !== null && !isOver(job.job));
   const measure = (): void => {
     documentBefore.current = plan?.heading.id ?? null;
-    void asking.run(async () => {
+    void action.run(async () => {
       const body = { ...by, seed_lps_mm: [...look.cursor] };
       job.follow(
         await answered(
@@ -78,7 +78,7 @@ export function PediclePart(): ReactNode {
       <Button size="xl" fullWidth disabled={isMeasuring || busy} data-testid="measure" onClick={measure}>
         {record === null ? texts.measure[side] : texts.again[side]}
       </Button>
-      <RejectionNote rejection={asking.rejection} />
+      <RejectionNote rejection={action.rejection} />
       <JobProgress followed={job} />
       {doubtfulAt !== null && (
         <Button

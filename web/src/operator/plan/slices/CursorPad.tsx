@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { shownNumber } from "../../../live/rounding";
+import { formatNumber } from "../../../live/rounding";
 import { useTexts } from "../../../texts/TextsContext";
 import { ArrowPad } from "./ArrowPad";
 import { downOf, rightOf } from "./place";
@@ -26,7 +26,7 @@ export function CursorPad(): ReactNode {
         <br />
         {texts.axes.map((axis, i) => (
           <span key={axis} className="coordinate">
-            {axis} {shownNumber(look.cursor[i as 0 | 1 | 2], 1)}
+            {axis} {formatNumber(look.cursor[i as 0 | 1 | 2], 1)}
           </span>
         ))}
         <span className="soft">{texts.step}</span>

@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { shownNumber } from "../../../live/rounding";
+import { formatNumber } from "../../../live/rounding";
 import { useTexts } from "../../../texts/TextsContext";
 import { isFlat, type PlaneName } from "./address";
 import type { Projection } from "./projection";
@@ -18,13 +18,13 @@ interface SliceLabelsProps {
 export function SliceLabels({ plane, projection, address, isLate, isLarge }: SliceLabelsProps): ReactNode {
   const texts = useTexts().plan.slices;
   const { edges, at_mm } = projection.place;
-  const asked = new URL(address, location.origin).searchParams;
+  const query = new URL(address, location.origin).searchParams;
   const ruler = rulerMm(projection.pxPerMm, isLarge ? 140 : 70);
   const where = isFlat(plane)
-    ? `${texts.axis[plane]} ${shownNumber(at_mm, 1)} mm`
+    ? `${texts.axis[plane]} ${formatNumber(at_mm, 1)} mm`
     : plane === "along"
-      ? `${texts.turned} ${asked.get("rotation_deg") ?? ""}°`
-      : `${texts.deep} ${shownNumber(Number(asked.get("depth_mm")), 1)} mm`;
+      ? `${texts.turned} ${query.get("rotation_deg") ?? ""}°`
+      : `${texts.deep} ${formatNumber(Number(query.get("depth_mm")), 1)} mm`;
   return (
     <>
       <span className="slice-edge slice-edge-left">{edges.left}</span>

@@ -45,7 +45,7 @@ export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNod
     requested: wanted,
     shown,
     problem,
-    again,
+    retry,
   } = useSlice(address, neighboursOf(plane, look, ct, isLarge ? 2 : 0));
   const canvas = useRef<HTMLCanvasElement>(null);
   const stage = useRef<HTMLDivElement>(null);
@@ -82,10 +82,10 @@ export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNod
     onGreys: setGreys,
   });
 
-  const { tellLargePlace } = slices;
+  const { setLargePlace } = slices;
   useEffect(() => {
-    if (isLarge) tellLargePlace(place);
-  }, [isLarge, place, tellLargePlace]);
+    if (isLarge) setLargePlace(place);
+  }, [isLarge, place, setLargePlace]);
 
   const onKeyDown = (event: KeyboardEvent): void => {
     const steps = KEY_STEPS.get(event.key);
@@ -136,7 +136,7 @@ export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNod
       {problem instanceof Rejection && (
         <div className="slice-trouble">
           <RejectionNote rejection={problem} />
-          <Button size="lg" onClick={again}>
+          <Button size="lg" onClick={retry}>
             {texts.again}
           </Button>
         </div>

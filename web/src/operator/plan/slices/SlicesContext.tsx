@@ -36,7 +36,7 @@ interface SlicesValue {
   setWay: (way: Way | null) => void;
   /** Where the large picture lies that stands there now; told by it, read when somebody touches something. */
   largePlace: () => Place | null;
-  tellLargePlace: (place: Place | null) => void;
+  setLargePlace: (place: Place | null) => void;
 }
 
 const SlicesContext = createContext<SlicesValue | null>(null);
@@ -86,7 +86,7 @@ export function SlicesProvider({ ct, lookAnew, children }: SlicesProviderProps):
 
   const large = useRef<Place | null>(null);
   const largePlace = useCallback(() => large.current, []);
-  const tellLargePlace = useCallback((place: Place | null) => {
+  const setLargePlace = useCallback((place: Place | null) => {
     large.current = place;
   }, []);
 
@@ -108,7 +108,7 @@ export function SlicesProvider({ ct, lookAnew, children }: SlicesProviderProps):
       setGreys,
       setWay,
       largePlace,
-      tellLargePlace,
+      setLargePlace,
     }),
     [
       ct,
@@ -123,7 +123,7 @@ export function SlicesProvider({ ct, lookAnew, children }: SlicesProviderProps):
       setGreys,
       setWay,
       largePlace,
-      tellLargePlace,
+      setLargePlace,
     ],
   );
   return <SlicesContext value={value}>{children}</SlicesContext>;

@@ -3,11 +3,11 @@ import { SliceLoader, SliceRepository } from "./sliceLoader";
 
 /** A server that answers when it is told to. */
 class Slow {
-  asked: string[] = [];
+  requested: string[] = [];
   private waiting = new Map<string, { give: (slice: string) => void; reject: (why: Error) => void }>();
 
   load = (key: string): Promise<string> => {
-    this.asked.push(key);
+    this.requested.push(key);
     return new Promise((give, reject) => this.waiting.set(key, { give, reject }));
   };
 
@@ -36,10 +36,10 @@ beforeEach(() => {
 describe("slices while a finger moves", () => {
   test("one is asked for at a time, and what was passed over is never asked for", async () => {
     for (const key of ["1", "2", "3", "4"]) loader.request(key);
-    expect(server.asked).toEqual(["1"]);
+    expect(server.requested).toEqual(["1"]);
     await server.answer("1");
     expect(loader.snapshot().shown?.key).toBe("1");
-    expect(server.asked).toEqual(["1", "4"]);
+    expect(server.requested).toEqual(["1", "4"]);
     await server.answer("4");
     expect(loader.snapshot()).toMatchObject({ requested: "4", shown: { key: "4", slice: "slice 4" } });
   });
@@ -62,7 +62,7 @@ describe("slices while a finger moves", () => {
     await server.answer("0");
     loader.request("2");
     expect(loader.snapshot().shown?.key).toBe("2");
-    expect(server.asked).toEqual(["1", "2", "0"]);
+    expect(server.requested).toEqual(["1", "2", "0"]);
   });
 
   test("while one is fetched ahead, what is wanted comes right after it", async () => {
@@ -71,7 +71,7 @@ describe("slices while a finger moves", () => {
     loader.request("9", []);
     await server.answer("2");
     expect(loader.snapshot().shown?.key).toBe("1");
-    expect(server.asked).toEqual(["1", "2", "9"]);
+    expect(server.requested).toEqual(["1", "2", "9"]);
   });
 });
 
@@ -92,7 +92,7 @@ describe("a slice that cannot be had", () => {
     await server.answer("1");
     await server.reject("2");
     expect(loader.snapshot().problem).toBeNull();
-    expect(server.asked).toEqual(["1", "2", "3"]);
+    expect(server.requested).toEqual(["1", "2", "3"]);
   });
 });
 

@@ -6,7 +6,7 @@ import { SliceLoader, type SliceState } from "./sliceLoader";
 export function useSlice(
   address: string | null,
   ahead: readonly string[],
-): SliceState<Slice> & { again: () => void } {
+): SliceState<Slice> & { retry: () => void } {
   const [loader] = useState(() => new SliceLoader<Slice>(loadSlice, sliceRepository));
   const state = useSyncExternalStore(loader.subscribe, loader.snapshot);
   const next = ahead.join("\n");
@@ -15,7 +15,7 @@ export function useSlice(
   }, [loader, address, next]);
   return {
     ...state,
-    again: () => {
+    retry: () => {
       loader.retry();
     },
   };

@@ -50,7 +50,7 @@ export function zoomedAt(zoom: Zoom, stage: Stage, frame: Box, at: Vec2, factor:
   const fixed = planeFromStage(zoom, stage, at);
   const least = whole(frame, stage).pxPerMm * FARTHEST_RATIO;
   const pxPerMm = Math.min(CLOSEST_PX_PER_MM, Math.max(least, zoom.pxPerMm * factor));
-  return held(
+  return clampZoom(
     {
       centre: [
         fixed[0] - (at[0] - stage.width / 2) / pxPerMm,
@@ -63,14 +63,14 @@ export function zoomedAt(zoom: Zoom, stage: Stage, frame: Box, at: Vec2, factor:
 }
 
 export function moved(zoom: Zoom, frame: Box, [dx, dy]: Vec2): Zoom {
-  return held(
+  return clampZoom(
     { ...zoom, centre: [zoom.centre[0] - dx / zoom.pxPerMm, zoom.centre[1] - dy / zoom.pxPerMm] },
     frame,
   );
 }
 
 /** The middle of the stage stays on the slice: nobody loses it. */
-function held(zoom: Zoom, frame: Box): Zoom {
+function clampZoom(zoom: Zoom, frame: Box): Zoom {
   const within = (value: number, low: number, size: number): number =>
     Math.min(low + size, Math.max(low, value));
   return {

@@ -17,7 +17,7 @@ interface PlanValue {
   plan: PlanAnswer | null;
   planRejection: Rejection | null;
   /** Whether the first answer is still awaited. */
-  asking: boolean;
+  isLoading: boolean;
   askAgain: () => void;
   vertebrae: Vertebra[];
   /** The vertebra that is worked on; null while there is none. */
@@ -43,7 +43,7 @@ const PlanContext = createContext<PlanValue | null>(null);
 const STEPS = "coaxial.plan.steps";
 
 export function PlanProvider({ caseId, children }: { caseId: string; children: ReactNode }): ReactNode {
-  const { plan, rejection: planRejection, isLoading: asking, take, again } = usePlan(caseId);
+  const { plan, rejection: planRejection, isLoading, take, refetch } = usePlan(caseId);
   const doing = useAction();
   const [steps, setSteps] = useState<Step[]>(() => read(sessionStorage.getItem(`${STEPS}.${caseId}`)));
   const [conflict, setConflict] = useState<PlanAnswer["heading"] | null>(null);
@@ -51,7 +51,7 @@ export function PlanProvider({ caseId, children }: { caseId: string; children: R
   const [side, setSide] = useState<Side>("left");
   const madeBy = useMadeBy();
 
-  const remember = (next: Step[]): void => {
+  const storeView = (next: Step[]): void => {
     setSteps(next);
     sessionStorage.setItem(`${STEPS}.${caseId}`, JSON.stringify(next));
   };
@@ -67,7 +67,7 @@ export function PlanProvider({ caseId, children }: { caseId: string; children: R
         take(made);
       } catch (error) {
         if (!(error instanceof Rejection) || error.problem.code !== "VERSION_CONFLICT") throw error;
-        setConflict((await again())?.heading ?? null);
+        setConflict((await refetch())?.heading ?? null);
       }
     });
     return made;
@@ -75,13 +75,13 @@ export function PlanProvider({ caseId, children }: { caseId: string; children: R
   const change = async (action: (by: By) => Promise<PlanAnswer>): Promise<boolean> => {
     const made = await run(() => action(by));
     if (made !== null && made.heading.version > version) {
-      remember(withChange(steps, plan?.heading.id ?? null, made.heading.version));
+      storeView(withChange(steps, plan?.heading.id ?? null, made.heading.version));
     }
     return made !== null;
   };
   const changedTo = (madeVersion: number, documentBefore: string | null): void => {
-    remember(withChange(steps, documentBefore, madeVersion));
-    void again();
+    storeView(withChange(steps, documentBefore, madeVersion));
+    void refetch();
   };
   const step = lastStep(steps, version);
   const undo = (): void => {
@@ -90,7 +90,7 @@ export function PlanProvider({ caseId, children }: { caseId: string; children: R
       const before = await contentOf(caseId, step.documentId, plan);
       return answered(server.PUT("/api/plan", { body: { ...by, plan: before } }));
     }).then((made) => {
-      if (made !== null) remember(withoutLast(steps, made.heading.version));
+      if (made !== null) storeView(withoutLast(steps, made.heading.version));
     });
   };
   const { forget: forgetDoing } = doing;
@@ -104,8 +104,8 @@ export function PlanProvider({ caseId, children }: { caseId: string; children: R
     caseId,
     plan,
     planRejection,
-    asking,
-    askAgain: () => void again(),
+    isLoading,
+    askAgain: () => void refetch(),
     vertebrae,
     side,
     conflict,

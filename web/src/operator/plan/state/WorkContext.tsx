@@ -16,7 +16,7 @@ interface WorkValue {
   setApartMm: (apartMm: number) => void;
   /** How often a surface was made while this page is open. */
   surfaces: number;
-  tellSurface: () => void;
+  refreshSurfaces: () => void;
 }
 
 const WorkContext = createContext<WorkValue | null>(null);
@@ -27,12 +27,12 @@ export function WorkProvider({ children }: { children: ReactNode }): ReactNode {
   const [draft, setDraft] = useState<WorkValue["draft"]>(null);
   const [apartMm, setApartMm] = useState(USUAL_APART_MM);
   const [surfaces, setSurfaces] = useState(0);
-  const tellSurface = useCallback(() => {
+  const refreshSurfaces = useCallback(() => {
     setSurfaces((before) => before + 1);
   }, []);
   const value = useMemo(
-    () => ({ part, setPart, draft, setDraft, apartMm, setApartMm, surfaces, tellSurface }),
-    [part, draft, apartMm, surfaces, tellSurface],
+    () => ({ part, setPart, draft, setDraft, apartMm, setApartMm, surfaces, refreshSurfaces }),
+    [part, draft, apartMm, surfaces, refreshSurfaces],
   );
   return <WorkContext value={value}>{children}</WorkContext>;
 }

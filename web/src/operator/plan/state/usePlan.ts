@@ -14,7 +14,7 @@ export interface PlanQuery {
   isLoading: boolean;
   /** The answer to a change: what was asked before it does not count any more. */
   take: (plan: PlanAnswer) => void;
-  again: () => Promise<PlanAnswer | null>;
+  refetch: () => Promise<PlanAnswer | null>;
 }
 
 interface Known {
@@ -28,7 +28,7 @@ export function usePlan(caseId: string): PlanQuery {
   const changes = useRef(0);
   const isThere = useRef(false);
 
-  const again = useCallback(async (): Promise<PlanAnswer | null> => {
+  const refetch = useCallback(async (): Promise<PlanAnswer | null> => {
     const before = changes.current;
     const next = await fetchPlan(caseId, isThere.current);
     isThere.current = next.plan !== null;
@@ -41,14 +41,14 @@ export function usePlan(caseId: string): PlanQuery {
   }, []);
 
   useEffect(() => {
-    const timer = setInterval(() => void again(), ASK_EVERY_MS);
-    const soon = setTimeout(() => void again());
+    const timer = setInterval(() => void refetch(), ASK_EVERY_MS);
+    const soon = setTimeout(() => void refetch());
     return () => {
       clearInterval(timer);
       clearTimeout(soon);
     };
-  }, [again]);
-  return { ...known, take, again };
+  }, [refetch]);
+  return { ...known, take, refetch };
 }
 
 async function fetchPlan(caseId: string, wasThere: boolean): Promise<Known> {

@@ -1,6 +1,6 @@
 import { Alert } from "@mantine/core";
 import type { ReactNode } from "react";
-import { shownNumber } from "../../../live/rounding";
+import { formatNumber } from "../../../live/rounding";
 import type { components } from "../../../schema";
 import { useTexts } from "../../../texts/TextsContext";
 import { vec3 } from "../slices/vectors";
@@ -37,13 +37,13 @@ export function SurfaceNumbers({ surface }: { surface: Surface }): ReactNode {
         {low !== null && high !== null && (
           <div className="figure">
             <dt>{texts.size}</dt>
-            <dd>{high.map((one, i) => shownNumber(one - (low[i] ?? 0), 0)).join(" × ")} mm</dd>
+            <dd>{high.map((one, i) => formatNumber(one - (low[i] ?? 0), 0)).join(" × ")} mm</dd>
           </div>
         )}
         {typeof content["threshold_hu"] === "number" && (
           <div className="figure">
             <dt>{texts.threshold}</dt>
-            <dd>{shownNumber(content["threshold_hu"], 0)} HU</dd>
+            <dd>{formatNumber(content["threshold_hu"], 0)} HU</dd>
           </div>
         )}
       </dl>

@@ -1,6 +1,6 @@
 import { Alert, Button, NativeSelect } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { shownNumber } from "../../../live/rounding";
+import { formatNumber } from "../../../live/rounding";
 import { answered, server } from "../../../rest/client";
 import { JobProgress } from "../../../rest/JobProgress";
 import { RejectionNote } from "../../../rest/RejectionNote";
@@ -26,24 +26,24 @@ export function SurfacePart(): ReactNode {
   const madeBy = useMadeBy();
   const [unit, setUnit] = useState("");
   const { caseId } = usePlanning();
-  const { tellSurface } = useWork();
+  const { refreshSurfaces } = useWork();
   const surface = useQuery(async (signal) => {
     const isThere = await hasDocument(caseId, "surface", signal);
     return isThere ? answered(server.GET("/api/surface", { signal })) : "none";
   });
-  const asking = useAction();
+  const action = useAction();
   const job = useJob((ended) => {
     if (ended.state !== "done") return;
     surface.refetch();
-    tellSurface();
+    refreshSurfaces();
   });
   const upload = useUpload(() => {
     const query = new URLSearchParams({ made_by: madeBy, ...(unit === "" ? {} : { unit }) });
     return `/api/surface?${query.toString()}`;
   }, job.follow);
-  const isBusy = asking.busy || upload.phase !== null || (job.job !== null && !isOver(job.job));
+  const isBusy = action.busy || upload.phase !== null || (job.job !== null && !isOver(job.job));
   const make = (): void => {
-    void asking.run(async () => {
+    void action.run(async () => {
       job.follow(
         await answered(
           server.POST("/api/surface/from-ct", {
@@ -65,7 +65,7 @@ export function SurfacePart(): ReactNode {
       <Button size="xl" fullWidth disabled={isBusy} data-testid="make-surface" onClick={make}>
         {found === null ? texts.make : texts.makeAnew}
       </Button>
-      <RejectionNote rejection={asking.rejection} />
+      <RejectionNote rejection={action.rejection} />
       <JobProgress followed={job} />
       {typeof proposed === "string" && (
         <Alert className="consequence" title={`${texts.proposedUnit} ${proposed}`}>
@@ -95,7 +95,7 @@ export function SurfacePart(): ReactNode {
         }}
       />
       <p className="soft">
-        {shownNumber(100, 0)} MB {texts.most}
+        {formatNumber(100, 0)} MB {texts.most}
       </p>
     </>
   );

@@ -4,7 +4,7 @@ import { hasDocument } from "../state/documents";
 import { trianglesOf, type Triangles } from "./triangles";
 
 /** The last that was fetched: all views of the CT draw the same one. */
-let kept: { id: string; triangles: Promise<Triangles | null> } | null = null;
+let cache: { id: string; triangles: Promise<Triangles | null> } | null = null;
 
 /** The triangles of the surface in the case; asked for again when another one was made on this page. */
 export function useTriangles(caseId: string, surfacesMade: number): Triangles | null {
@@ -12,8 +12,8 @@ export function useTriangles(caseId: string, surfacesMade: number): Triangles | 
     async (signal) => {
       if (!(await hasDocument(caseId, "surface", signal))) return null;
       const { heading } = await answered(server.GET("/api/surface", { signal }));
-      if (kept?.id !== heading.id) kept = { id: heading.id, triangles: fetched() };
-      return kept.triangles;
+      if (cache?.id !== heading.id) cache = { id: heading.id, triangles: fetched() };
+      return cache.triangles;
     },
     { key: `${caseId} ${surfacesMade}` },
   ).data;
@@ -26,6 +26,6 @@ async function fetched(): Promise<Triangles | null> {
   } catch {
     // Told below, as any other line that is lost.
   }
-  kept = null;
+  cache = null;
   throw new Rejection({ code: "NO_ANSWER", message: "", remedy: "", context: {} });
 }

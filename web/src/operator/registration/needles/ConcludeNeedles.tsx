@@ -5,11 +5,11 @@ import { answered, server } from "../../../rest/client";
 import { useAction } from "../../../rest/useAction";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
-import { Rejected } from "../Rejected";
+import { RegistrationRejection } from "../RegistrationRejection";
 import { ConfirmOrCancelButton } from "../ConfirmOrCancelButton";
 import { useMadeBy } from "../useMadeBy";
 import type { Overlay } from "./overlay";
-import { asked, type NeedleRequest } from "./order";
+import { needleRequestBody, type NeedleRequest } from "./order";
 
 interface ConcludeNeedlesProps {
   order: NeedleRequest;
@@ -21,7 +21,7 @@ interface ConcludeNeedlesProps {
     along_sd_px?: number;
   }[];
   picked?: boolean;
-  held: boolean;
+  isFrozen: boolean;
   disabled: boolean;
   onRelease?: (() => void) | undefined;
   children: ReactNode;
@@ -33,7 +33,7 @@ export function ConcludeNeedles({
   overlay = null,
   marked = [],
   picked = false,
-  held,
+  isFrozen,
   disabled,
   onRelease,
   children,
@@ -47,8 +47,8 @@ export function ConcludeNeedles({
     procedure.data?.steps.some((one) => one.step === "register" && one.state === "done") === true;
   return (
     <div className="conclude">
-      <Rejected rejection={doing.rejection} />
-      {held ? (
+      <RegistrationRejection rejection={doing.rejection} />
+      {isFrozen ? (
         <>
           <p className="warning">▲ {texts.needles.heldNoFit}</p>
           {onRelease !== undefined && (
@@ -63,7 +63,7 @@ export function ConcludeNeedles({
       <ConfirmOrCancelButton
         needsConfirmation={isThere}
         confirmLabel={texts.replaceSure}
-        disabled={disabled || held}
+        disabled={disabled || isFrozen}
         busy={doing.busy}
         testId="needles-conclude"
         onConfirm={() => {
@@ -72,7 +72,7 @@ export function ConcludeNeedles({
               const needles = marked.map((one) => ({ entry_is_seen: true, along_sd_px: 1, ...one }));
               await answered(
                 server.POST("/api/registration/needles/conclusion", {
-                  body: { ...asked(order), overlay, marked: needles, picked, made_by: madeBy },
+                  body: { ...needleRequestBody(order), overlay, marked: needles, picked, made_by: madeBy },
                 }),
               );
             })

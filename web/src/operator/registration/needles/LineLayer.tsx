@@ -1,7 +1,7 @@
 import { useEffect, useRef, type ReactNode } from "react";
 import { useTexts } from "../../../texts/TextsContext";
 import { useImageSize } from "../useImageSize";
-import { applied, type Px } from "./overlay";
+import { applyMatrix, type Px } from "./overlay";
 import type { OverlayController } from "./overlayController";
 import { useNeedleNames } from "./useNeedleNames";
 
@@ -22,7 +22,7 @@ export function LineLayer({ controller: desk, names }: LineLayerProps): ReactNod
         const { newest, sinceAnswer } = desk;
         if (group.current === null || newest === null || sinceAnswer === null) return;
         newest.laid.needles.forEach((needle, index) => {
-          const points = needle.line_px.map(([x = 0, y = 0]) => applied(sinceAnswer, [x, y]));
+          const points = needle.line_px.map(([x = 0, y = 0]) => applyMatrix(sinceAnswer, [x, y]));
           draw(group.current?.children[index] ?? null, points);
         });
       }),

@@ -25,11 +25,19 @@ interface MarkPanelProps {
   onMarks: (marks: Mark[]) => void;
   stage: RefObject<HTMLDivElement | null>;
   picture: RefObject<HTMLCanvasElement | null>;
-  held: boolean;
+  isFrozen: boolean;
 }
 
 /** Needles touched in the picture one after the other: where each leaves the bone, then its head. */
-export function MarkPanel({ order, names, marks, onMarks, stage, picture, held }: MarkPanelProps): ReactNode {
+export function MarkPanel({
+  order,
+  names,
+  marks,
+  onMarks,
+  stage,
+  picture,
+  isFrozen,
+}: MarkPanelProps): ReactNode {
   const texts = useTexts().registration;
   const nameOf = useNeedleNames();
   const [chosen, setChosen] = useState<End | null>(null);
@@ -116,7 +124,7 @@ export function MarkPanel({ order, names, marks, onMarks, stage, picture, held }
       <ConcludeNeedles
         order={order}
         marked={placed}
-        held={held}
+        isFrozen={isFrozen}
         disabled={next !== null || names.length === 0}
       >
         {texts.mark.conclude}

@@ -4,12 +4,12 @@ import { QueryStatus } from "../../../rest/QueryStatus";
 import { useQuery } from "../../../rest/useQuery";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
-import { plannedVertebrae } from "../planRead";
-import { Rejected } from "../Rejected";
+import { plannedVertebrae } from "../planReader";
+import { RegistrationRejection } from "../RegistrationRejection";
 import { NeedlesWork } from "./NeedlesWork";
 import { PlacesForm } from "./PlacesForm";
 import { RulerForm } from "./RulerForm";
-import { FIRST_VIEW, remember, remembered } from "./ruler";
+import { FIRST_VIEW, storeView, storedView } from "./ruler";
 import type { NeedleRequest } from "./order";
 
 /** Registration by three needles: first what a ruler says and where the needles stand, then the picture. */
@@ -17,11 +17,11 @@ export function NeedlesPage(): ReactNode {
   const texts = useTexts().registration.needles;
   const caseId = useProcedure().data?.case_id ?? "";
   const plan = useQuery((signal) => answered(server.GET("/api/plan", { signal })));
-  const known = remembered(caseId);
+  const known = storedView(caseId);
   const [view, setView] = useState(known ?? FIRST_VIEW);
   const [measured, setMeasured] = useState(known !== null);
   const [chosen, setChosen] = useState<string[] | null>(null);
-  if (plan.data === null) return <QueryStatus query={plan} Note={Rejected} />;
+  if (plan.data === null) return <QueryStatus query={plan} Note={RegistrationRejection} />;
   const name = plan.data.active_channel?.vertebra ?? "";
   const vertebra = plannedVertebrae(plan.data.plan).find((one) => one.name === name);
   if (vertebra === undefined) return <p className="warning">▲ {texts.noVertebra}</p>;
@@ -36,7 +36,7 @@ export function NeedlesPage(): ReactNode {
           middleMm={[0, 40, 0]}
           done={measured}
           onDone={() => {
-            remember(caseId, view);
+            storeView(caseId, view);
             setMeasured(true);
           }}
         />

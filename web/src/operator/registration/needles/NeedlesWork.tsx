@@ -3,10 +3,10 @@ import { useEffect, useRef, useState, useSyncExternalStore, type ReactNode } fro
 import { answered, server } from "../../../rest/client";
 import { useTexts } from "../../../texts/TextsContext";
 import { interpolate } from "../../../texts/interpolate";
-import type { PlannedVertebra } from "../planRead";
-import { Rejected } from "../Rejected";
+import type { PlannedVertebra } from "../planReader";
+import { RegistrationRejection } from "../RegistrationRejection";
 import { LiveStage } from "../LiveStage";
-import { asked, type NeedleRequest } from "./order";
+import { needleRequestBody, type NeedleRequest } from "./order";
 import { LineLayer } from "./LineLayer";
 import { MarkLayer } from "./MarkLayer";
 import { MarkPanel } from "./MarkPanel";
@@ -35,7 +35,7 @@ export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWo
       new OverlayController((overlay) =>
         answered(
           server.POST("/api/registration/needles/overlay", {
-            body: { ...asked(order), overlay, marked: [] },
+            body: { ...needleRequestBody(order), overlay, marked: [] },
           }),
         ),
       ),
@@ -44,7 +44,7 @@ export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWo
   const stage = useRef<HTMLDivElement>(null);
   const picture = useRef<HTMLCanvasElement>(null);
   const [mode, setMode] = useState<Mode>("overlay");
-  const [held, setHeld] = useState(false);
+  const [isFrozen, setIsFrozen] = useState(false);
   const [placing, setPlacing] = useState(false);
   const [picked, setPicked] = useState<Proposal | null>(null);
   const [marks, setMarks] = useState<Mark[]>([]);
@@ -60,7 +60,7 @@ export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWo
   return (
     <div className="work" data-testid="needles-work">
       <div className="work-main">
-        <LiveStage stage={stage} picture={picture} held={held} onHeld={setHeld}>
+        <LiveStage stage={stage} picture={picture} isFrozen={isFrozen} onFreeze={setIsFrozen}>
           {mode === "overlay" && state.laid?.slice != null && (
             <SliceLayer controller={controller} slice={state.laid.slice} vertebra={vertebra.name} />
           )}
@@ -111,15 +111,15 @@ export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWo
             { value: "mark", label: texts.mark },
           ]}
         />
-        <Rejected rejection={state.rejection} />
+        <RegistrationRejection rejection={state.rejection} />
         {mode === "overlay" && (
           <OverlayPanel
             controller={controller}
             state={state}
             order={order}
-            held={held}
+            isFrozen={isFrozen}
             onRelease={() => {
-              setHeld(false);
+              setIsFrozen(false);
             }}
           />
         )}
@@ -127,7 +127,7 @@ export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWo
           <ProposalPanel
             order={order}
             picked={picked}
-            held={held}
+            isFrozen={isFrozen}
             onPick={setPicked}
             onAdjust={(proposal) => {
               setMarks(proposal.marked.map((one) => ({ entry_px: one.entry_px, head_px: one.head_px })));
@@ -143,7 +143,7 @@ export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWo
             onMarks={setMarks}
             stage={stage}
             picture={picture}
-            held={held}
+            isFrozen={isFrozen}
           />
         )}
       </div>

@@ -1,11 +1,11 @@
 import { Button, SegmentedControl, Slider } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { shownNumber } from "../../../live/rounding";
+import { formatNumber } from "../../../live/rounding";
 import { Icon } from "../../../panes/Icon";
 import { useTexts } from "../../../texts/TextsContext";
 import { ConcludeNeedles } from "./ConcludeNeedles";
 import type { NeedleRequest } from "./order";
-import { faded, moved, placeOf, scaled, turned, type Overlay } from "./overlay";
+import { fadeOverlay, translateOverlay, placeOf, scaleOverlay, rotateOverlay, type Overlay } from "./overlay";
 import type { OverlayState, OverlayController } from "./overlayController";
 
 const STEPS = {
@@ -17,7 +17,7 @@ interface OverlayPanelProps {
   controller: OverlayController;
   state: OverlayState;
   order: NeedleRequest;
-  held: boolean;
+  isFrozen: boolean;
   onRelease: () => void;
 }
 
@@ -26,21 +26,21 @@ export function OverlayPanel({
   controller: desk,
   state,
   order,
-  held,
+  isFrozen,
   onRelease,
 }: OverlayPanelProps): ReactNode {
   const texts = useTexts().registration.overlay;
   const [size, setSize] = useState<keyof typeof STEPS>("coarse");
   const step = STEPS[size];
-  const turn = (deg: number) => (hand: Overlay) => turned(hand, deg, placeOf(hand));
-  const grow = (ratio: number) => (hand: Overlay) => scaled(hand, ratio, placeOf(hand));
+  const turn = (deg: number) => (hand: Overlay) => rotateOverlay(hand, deg, placeOf(hand));
+  const grow = (ratio: number) => (hand: Overlay) => scaleOverlay(hand, ratio, placeOf(hand));
   const pad: [ReactNode, string, (hand: Overlay) => Overlay][] = [
     [<Icon key="left" name="turnLeft" />, texts.turnLeft, turn(-step.deg)],
-    ["↑", texts.up, (hand) => moved(hand, [0, -step.px])],
+    ["↑", texts.up, (hand) => translateOverlay(hand, [0, -step.px])],
     [<Icon key="right" name="turnRight" />, texts.turnRight, turn(step.deg)],
-    ["←", texts.left, (hand) => moved(hand, [-step.px, 0])],
-    ["↓", texts.down, (hand) => moved(hand, [0, step.px])],
-    ["→", texts.right, (hand) => moved(hand, [step.px, 0])],
+    ["←", texts.left, (hand) => translateOverlay(hand, [-step.px, 0])],
+    ["↓", texts.down, (hand) => translateOverlay(hand, [0, step.px])],
+    ["→", texts.right, (hand) => translateOverlay(hand, [step.px, 0])],
     ["−", texts.smaller, grow(1 / step.ratio)],
     ["+", texts.larger, grow(step.ratio)],
   ];
@@ -50,7 +50,7 @@ export function OverlayPanel({
       <p>{texts.hint}</p>
       <label className="fade">
         <span>
-          {texts.fade} {shownNumber(100 * (hand?.fade_ratio ?? 0.5), 0)} %
+          {texts.fade} {formatNumber(100 * (hand?.fade_ratio ?? 0.5), 0)} %
         </span>
         <Slider
           size="xl"
@@ -63,7 +63,7 @@ export function OverlayPanel({
           value={100 * (hand?.fade_ratio ?? 0.5)}
           disabled={hand === null}
           onChange={(percent) => {
-            desk.change((now) => faded(now, percent / 100));
+            desk.change((now) => fadeOverlay(now, percent / 100));
           }}
         />
       </label>
@@ -130,7 +130,7 @@ export function OverlayPanel({
       <ConcludeNeedles
         order={order}
         overlay={hand}
-        held={held}
+        isFrozen={isFrozen}
         disabled={!state.settled}
         onRelease={onRelease}
       >

@@ -2,7 +2,7 @@ import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { useTexts } from "../../../texts/TextsContext";
 import { interpolate } from "../../../texts/interpolate";
-import type { PlannedVertebra } from "../planRead";
+import type { PlannedVertebra } from "../planReader";
 
 const NEEDLES = 3;
 

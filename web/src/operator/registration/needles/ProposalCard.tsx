@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { shownFigure, shownNumber, shownPercent } from "../../../live/rounding";
+import { formatFigure, formatNumber, formatPercent } from "../../../live/rounding";
 import { useTexts } from "../../../texts/TextsContext";
 import { interpolate } from "../../../texts/interpolate";
 import type { Proposal } from "./ProposalPanel";
@@ -28,7 +28,7 @@ export function ProposalCard({ number, proposal, isPicked, onPick }: ProposalCar
         data-testid={`proposal-${number}`}
       >
         <strong>{interpolate(texts.number, { number })}</strong>{" "}
-        <span>{interpolate(texts.probability, { percent: shownPercent(probability_ratio) })}</span>
+        <span>{interpolate(texts.probability, { percent: formatPercent(probability_ratio) })}</span>
         <table>
           <thead>
             <tr>
@@ -42,15 +42,15 @@ export function ProposalCard({ number, proposal, isPicked, onPick }: ProposalCar
             {laid.needles.map((needle) => (
               <tr key={needle.name}>
                 <th scope="row">{nameOf(needle.name)}</th>
-                <td>{shownFigure(needle.offset_px, 1)}</td>
-                <td>{shownFigure(needle.offset_mm, 1)}</td>
-                <td>{shownFigure(needle.lean_deg, 0)}°</td>
+                <td>{formatFigure(needle.offset_px, 1)}</td>
+                <td>{formatFigure(needle.offset_mm, 1)}</td>
+                <td>{formatFigure(needle.lean_deg, 0)}°</td>
               </tr>
             ))}
           </tbody>
         </table>
         {depth !== undefined && (
-          <small>{interpolate(texts.depth, { sd: shownNumber(depth.sd, 1), unit: depth.unit })}</small>
+          <small>{interpolate(texts.depth, { sd: formatNumber(depth.sd, 1), unit: depth.unit })}</small>
         )}
       </button>
     </li>

@@ -4,10 +4,10 @@ import { answered, server } from "../../../rest/client";
 import { useAction } from "../../../rest/useAction";
 import type { components } from "../../../schema";
 import { useTexts } from "../../../texts/TextsContext";
-import { Rejected } from "../Rejected";
+import { RegistrationRejection } from "../RegistrationRejection";
 import { ConcludeNeedles } from "./ConcludeNeedles";
 import type { NeedleRequest } from "./order";
-import { asked } from "./order";
+import { needleRequestBody } from "./order";
 import { ProposalCard } from "./ProposalCard";
 
 export type Proposal = components["schemas"]["ProposalMessage"];
@@ -15,13 +15,13 @@ export type Proposal = components["schemas"]["ProposalMessage"];
 interface ProposalPanelProps {
   order: NeedleRequest;
   picked: Proposal | null;
-  held: boolean;
+  isFrozen: boolean;
   onPick: (proposal: Proposal | null) => void;
   onAdjust: (proposal: Proposal) => void;
 }
 
 /** What the software takes for the needles, each likely naming of its own; only a person picks one. */
-export function ProposalPanel({ order, picked, held, onPick, onAdjust }: ProposalPanelProps): ReactNode {
+export function ProposalPanel({ order, picked, isFrozen, onPick, onAdjust }: ProposalPanelProps): ReactNode {
   const texts = useTexts().registration.proposal;
   const [proposals, setProposals] = useState<Proposal[] | null>(null);
   const finding = useAction();
@@ -36,16 +36,16 @@ export function ProposalPanel({ order, picked, held, onPick, onAdjust }: Proposa
           onPick(null);
           setProposals(null);
           void finding.run(async () => {
-            const told = await answered(
-              server.POST("/api/registration/needles/proposal", { body: asked(order) }),
+            const rehearsal = await answered(
+              server.POST("/api/registration/needles/proposal", { body: needleRequestBody(order) }),
             );
-            setProposals(told.proposals);
+            setProposals(rehearsal.proposals);
           });
         }}
       >
         {proposals === null ? texts.find : texts.findAgain}
       </Button>
-      <Rejected rejection={finding.rejection} />
+      <RegistrationRejection rejection={finding.rejection} />
       {proposals !== null && (
         <>
           <p>{texts.pick}</p>
@@ -75,7 +75,7 @@ export function ProposalPanel({ order, picked, held, onPick, onAdjust }: Proposa
           >
             {texts.adjust}
           </Button>
-          <ConcludeNeedles order={order} marked={picked.marked} picked held={held} disabled={false}>
+          <ConcludeNeedles order={order} marked={picked.marked} picked isFrozen={isFrozen} disabled={false}>
             {texts.conclude}
           </ConcludeNeedles>
         </>

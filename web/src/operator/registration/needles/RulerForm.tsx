@@ -27,14 +27,15 @@ export function RulerForm({ view, onView, middleMm, done, onDone }: RulerFormPro
       <h3>{texts.title}</h3>
       <p>{texts.hint}</p>
       <RehearsalStrip scenes={["landmarks"]}>
-        {(told) => (
+        {(rehearsal) => (
           <Button
             size="md"
             variant="default"
-            disabled={!told.truth?.moment}
+            disabled={!rehearsal.truth?.moment}
             data-testid="ruler-rehearsed"
             onClick={() => {
-              if (told.truth?.moment) onView(viewOfTruth(told.truth.moment.camera_from_vertebra, middleMm));
+              if (rehearsal.truth?.moment)
+                onView(viewOfTruth(rehearsal.truth.moment.camera_from_vertebra, middleMm));
             }}
           >
             {texts.rehearsed}

@@ -1,6 +1,6 @@
 import { useEffect, useRef, type ReactNode } from "react";
 import { useTexts } from "../../../texts/TextsContext";
-import { cssMatrix, times } from "./overlay";
+import { cssMatrix, multiply } from "./overlay";
 import type { OverlayDrawing, OverlayController } from "./overlayController";
 
 interface SliceLayerProps {
@@ -19,7 +19,7 @@ export function SliceLayer({ controller: desk, slice, vertebra }: SliceLayerProp
         const { newest, sinceAnswer } = desk;
         const place = newest?.laid.slice;
         if (image.current === null || newest === null || sinceAnswer === null || !place) return;
-        image.current.style.transform = cssMatrix(times(sinceAnswer, place.image_from_slice.flat()));
+        image.current.style.transform = cssMatrix(multiply(sinceAnswer, place.image_from_slice.flat()));
         image.current.style.opacity = String(newest.hand.fade_ratio);
       }),
     [desk],

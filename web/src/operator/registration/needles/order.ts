@@ -9,6 +9,8 @@ export interface NeedleRequest {
 
 const WIRE_RADIUS_MM = 0.8;
 
-export function asked(order: NeedleRequest): NeedleRequest & { radius_mm: number; use_touched: boolean } {
-  return { ...order, radius_mm: WIRE_RADIUS_MM, use_touched: false };
+export function needleRequestBody(
+  request: NeedleRequest,
+): NeedleRequest & { radius_mm: number; use_touched: boolean } {
+  return { ...request, radius_mm: WIRE_RADIUS_MM, use_touched: false };
 }

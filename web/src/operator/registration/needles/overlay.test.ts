@@ -1,13 +1,13 @@
 import { describe, expect, test } from "vitest";
 import {
-  applied,
+  applyMatrix,
   cssMatrix,
-  moved,
-  pinched,
+  translateOverlay,
+  pinchOverlay,
   placeOf,
-  scaled,
+  scaleOverlay,
   similarity,
-  turned,
+  rotateOverlay,
   type Overlay,
   type Px,
 } from "./overlay";
@@ -22,43 +22,43 @@ function near(actual: Px, expected: Px): void {
 
 describe("the slice in the hand", () => {
   test("moves by as many pixels as the finger", () => {
-    expect(moved(AT, [12, -5])).toEqual({ ...AT, shift_px: [652, 355] });
+    expect(translateOverlay(AT, [12, -5])).toEqual({ ...AT, shift_px: [652, 355] });
   });
 
   test("turns clockwise about a point: what is right of it goes below it", () => {
-    const after = turned(AT, 90, [540, 360]);
+    const after = rotateOverlay(AT, 90, [540, 360]);
     near(placeOf(after), [540, 460]);
     expect(after.rotation_deg).toBe(100);
   });
 
   test("has a turn between -180 and 180 degrees", () => {
-    expect(turned(AT, 175, [0, 0]).rotation_deg).toBe(-175);
-    expect(turned(AT, -195, [0, 0]).rotation_deg).toBe(175);
+    expect(rotateOverlay(AT, 175, [0, 0]).rotation_deg).toBe(-175);
+    expect(rotateOverlay(AT, -195, [0, 0]).rotation_deg).toBe(175);
   });
 
   test("grows away from a point", () => {
-    const after = scaled(AT, 2, [600, 300]);
+    const after = scaleOverlay(AT, 2, [600, 300]);
     near(placeOf(after), [680, 420]);
     expect(after.scale_px_per_mm).toBe(6);
   });
 
   test("is never larger than the server takes, and is then where that size has it", () => {
-    const after = scaled(AT, 1000, SCREEN_TOP_LEFT);
+    const after = scaleOverlay(AT, 1000, SCREEN_TOP_LEFT);
     expect(after.scale_px_per_mm).toBe(100);
     near(placeOf(after), [(640 * 100) / 3, (360 * 100) / 3]);
   });
 });
 
 const HANDS: [string, Overlay][] = [
-  ["moved", moved(AT, [31, 17])],
-  ["turned", turned(AT, -33, [100, 700])],
-  ["scaled", scaled(AT, 0.7, [900, 20])],
-  ["pinched", pinched(AT, { from: [500, 300], to: [520, 310], ratio: 1.3, turnDeg: 25 })],
+  ["moved", translateOverlay(AT, [31, 17])],
+  ["turned", rotateOverlay(AT, -33, [100, 700])],
+  ["scaled", scaleOverlay(AT, 0.7, [900, 20])],
+  ["pinched", pinchOverlay(AT, { from: [500, 300], to: [520, 310], ratio: 1.3, turnDeg: 25 })],
 ];
 
 describe("what is drawn between two answers", () => {
   test.each(HANDS)("has the middle of the needles where the hand has it: %s", (_, hand) => {
-    near(applied(similarity(AT, hand), placeOf(AT)), placeOf(hand));
+    near(applyMatrix(similarity(AT, hand), placeOf(AT)), placeOf(hand));
   });
 
   test.each(HANDS)("has a point a millimetre away as far and as turned as the hand says: %s", (_, hand) => {
@@ -67,11 +67,11 @@ describe("what is drawn between two answers", () => {
       const [x = 0, y = 0] = shift_px;
       return [x + scale_px_per_mm * Math.cos(radians), y + scale_px_per_mm * Math.sin(radians)];
     };
-    near(applied(similarity(AT, hand), besides(AT)), besides(hand));
+    near(applyMatrix(similarity(AT, hand), besides(AT)), besides(hand));
   });
 
   test("is what the server drew, exactly, where nothing was moved", () => {
-    near(applied(similarity(AT, AT), [123.25, 45.5]), [123.25, 45.5]);
+    near(applyMatrix(similarity(AT, AT), [123.25, 45.5]), [123.25, 45.5]);
   });
 
   test("keeps what was under two fingers under them", () => {
@@ -79,10 +79,10 @@ describe("what is drawn between two answers", () => {
       [500, 300],
       [540, 260],
     ];
-    const hand = pinched(AT, { from, to, ratio: 2, turnDeg: 40 });
-    near(applied(similarity(AT, hand), from), to);
+    const hand = pinchOverlay(AT, { from, to, ratio: 2, turnDeg: 40 });
+    near(applyMatrix(similarity(AT, hand), from), to);
     const radians = (40 * Math.PI) / 180;
-    near(applied(similarity(AT, hand), [510, 300]), [
+    near(applyMatrix(similarity(AT, hand), [510, 300]), [
       540 + 20 * Math.cos(radians),
       260 + 20 * Math.sin(radians),
     ]);

@@ -16,12 +16,12 @@ export interface Overlay {
 export const MIN_SCALE = 0.05;
 export const MAX_SCALE = 100;
 
-export function moved(overlay: Overlay, by: Px): Overlay {
+export function translateOverlay(overlay: Overlay, by: Px): Overlay {
   const [x, y] = placeOf(overlay);
   return { ...overlay, shift_px: [x + by[0], y + by[1]] };
 }
 
-export function turned(overlay: Overlay, byDeg: number, about: Px): Overlay {
+export function rotateOverlay(overlay: Overlay, byDeg: number, about: Px): Overlay {
   const radians = (byDeg * Math.PI) / 180;
   const [cosine, sine] = [Math.cos(radians), Math.sin(radians)];
   const [x, y] = placeOf(overlay);
@@ -34,7 +34,7 @@ export function turned(overlay: Overlay, byDeg: number, about: Px): Overlay {
 }
 
 /** Held within what the server takes, with the place that belongs to the scale that it then has. */
-export function scaled(overlay: Overlay, byRatio: number, about: Px): Overlay {
+export function scaleOverlay(overlay: Overlay, byRatio: number, about: Px): Overlay {
   const scale = clamp(overlay.scale_px_per_mm * byRatio, MIN_SCALE, MAX_SCALE);
   const ratio = scale / overlay.scale_px_per_mm;
   const [x, y] = placeOf(overlay);
@@ -45,17 +45,17 @@ export function scaled(overlay: Overlay, byRatio: number, about: Px): Overlay {
   };
 }
 
-export function faded(overlay: Overlay, toRatio: number): Overlay {
+export function fadeOverlay(overlay: Overlay, toRatio: number): Overlay {
   return { ...overlay, fade_ratio: clamp(toRatio, 0, 1) };
 }
 
 /** Two fingers: what was under them stays under them. */
-export function pinched(
+export function pinchOverlay(
   overlay: Overlay,
   { from, to, ratio, turnDeg }: { from: Px; to: Px; ratio: number; turnDeg: number },
 ): Overlay {
-  const turnedThere = turned(scaled(overlay, ratio, from), turnDeg, from);
-  return moved(turnedThere, [to[0] - from[0], to[1] - from[1]]);
+  const turnedThere = rotateOverlay(scaleOverlay(overlay, ratio, from), turnDeg, from);
+  return translateOverlay(turnedThere, [to[0] - from[0], to[1] - from[1]]);
 }
 
 /** Takes what is drawn for one overlay to where another has it. */
@@ -68,14 +68,14 @@ export function similarity(from: Overlay, to: Overlay): Matrix {
   return [a, -b, toX - a * x + b * y, b, a, toY - b * x - a * y, 0, 0, 1];
 }
 
-export function times(left: Matrix, right: Matrix): Matrix {
+export function multiply(left: Matrix, right: Matrix): Matrix {
   return Array.from({ length: 9 }, (_, at) => {
     const [row, column] = [3 * Math.floor(at / 3), at % 3];
     return [0, 1, 2].reduce((sum, k) => sum + at3(left, row + k) * at3(right, 3 * k + column), 0);
   });
 }
 
-export function applied(matrix: Matrix, [x, y]: Px): Px {
+export function applyMatrix(matrix: Matrix, [x, y]: Px): Px {
   const [u, v, w] = [0, 3, 6].map(
     (row) => at3(matrix, row) * x + at3(matrix, row + 1) * y + at3(matrix, row + 2),
   ) as [number, number, number];
@@ -84,14 +84,14 @@ export function applied(matrix: Matrix, [x, y]: Px): Px {
 
 /** For an element whose top-left corner is the origin: half a pixel lies between it and a pixel's centre. */
 export function cssMatrix(imageFromPicture: Matrix): string {
-  const [a, b, c, d, e, f, g, h, i] = times(
-    times([1, 0, 0.5, 0, 1, 0.5, 0, 0, 1], imageFromPicture),
+  const [a, b, c, d, e, f, g, h, i] = multiply(
+    multiply([1, 0, 0.5, 0, 1, 0.5, 0, 0, 1], imageFromPicture),
     [1, 0, -0.5, 0, 1, -0.5, 0, 0, 1],
   );
   return `matrix3d(${[a, d, 0, g, b, e, 0, h, 0, 0, 1, 0, c, f, 0, i].join(",")})`;
 }
 
-export function same(one: Overlay, other: Overlay): boolean {
+export function isSameOverlay(one: Overlay, other: Overlay): boolean {
   return (
     one.rotation_deg === other.rotation_deg &&
     one.scale_px_per_mm === other.scale_px_per_mm &&

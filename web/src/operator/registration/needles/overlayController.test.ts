@@ -1,6 +1,6 @@
 import { expect, test, vi } from "vitest";
 import { Rejection } from "../../../rest/client";
-import { applied, moved, placeOf, type Overlay } from "./overlay";
+import { applyMatrix, translateOverlay, placeOf, type Overlay } from "./overlay";
 import { OverlayController, type OverlayDrawing } from "./overlayController";
 
 // Before anything is imported: the client of the server asks where the page came from.
@@ -45,8 +45,8 @@ test("the slice begins where the ruler has it, and follows the hand before the s
   controller.start();
   await server.answer();
   expect(controller.state()).toMatchObject({ hand: RULER, settled: true });
-  controller.change((hand) => moved(hand, [10, 0]));
-  expect(applied(controller.sinceAnswer ?? [], placeOf(RULER))).toEqual([650, 360]);
+  controller.change((hand) => translateOverlay(hand, [10, 0]));
+  expect(applyMatrix(controller.sinceAnswer ?? [], placeOf(RULER))).toEqual([650, 360]);
 });
 
 test("one question is on its way at a time, and the last place of the hand is always asked for", async () => {
@@ -54,7 +54,7 @@ test("one question is on its way at a time, and the last place of the hand is al
   const controller = new OverlayController(server.ask);
   controller.start();
   await server.answer();
-  for (let step = 0; step < 5; step += 1) controller.change((hand) => moved(hand, [1, 0]));
+  for (let step = 0; step < 5; step += 1) controller.change((hand) => translateOverlay(hand, [1, 0]));
   expect(server.requests.map((one) => one?.shift_px[0])).toEqual([undefined, 641]);
   await server.answer();
   expect(controller.state().settled).toBe(false);
@@ -70,8 +70,8 @@ test("what a hand did is undone as a whole, and so is the way back to the ruler"
   controller.start();
   await server.answer();
   controller.begin();
-  controller.change((hand) => moved(hand, [1, 0]));
-  controller.change((hand) => moved(hand, [1, 0]));
+  controller.change((hand) => translateOverlay(hand, [1, 0]));
+  controller.change((hand) => translateOverlay(hand, [1, 0]));
   controller.undo();
   expect(controller.newest?.hand).toEqual(RULER);
 });
@@ -85,7 +85,7 @@ test("a refusal is kept with what the server said last, and nothing asks for eve
   });
   controller.start();
   await new Promise((resolve) => setTimeout(resolve));
-  controller.step((hand) => moved(hand, [5, 0]));
+  controller.step((hand) => translateOverlay(hand, [5, 0]));
   await new Promise((resolve) => setTimeout(resolve));
   expect(controller.state()).toMatchObject({ rejection, settled: false, laid: laid(RULER) });
   expect(count).toBe(2);

@@ -2,7 +2,7 @@
 // the server answers, exact again with each answer.
 import { Rejection } from "../../../rest/client";
 import type { components } from "../../../schema";
-import { same, similarity, type Matrix, type Overlay } from "./overlay";
+import { isSameOverlay, similarity, type Matrix, type Overlay } from "./overlay";
 
 export type OverlayDrawing = components["schemas"]["LaidMessage"];
 
@@ -22,7 +22,7 @@ export class OverlayController {
   private laid: OverlayDrawing | null = null;
   private rejection: Rejection | null = null;
   private before: Overlay[] = [];
-  private asking = false;
+  private isRequesting = false;
   private stopped = false;
   private readonly painters = new Set<() => void>();
   private readonly readers = new Set<() => void>();
@@ -101,8 +101,8 @@ export class OverlayController {
   }
 
   private async requestNow(fresh: boolean): Promise<void> {
-    if (this.asking && !fresh) return;
-    this.asking = true;
+    if (this.isRequesting && !fresh) return;
+    this.isRequesting = true;
     this.publish();
     try {
       const requested = fresh ? null : this.hand;
@@ -115,11 +115,11 @@ export class OverlayController {
       if (!(error instanceof Rejection)) throw error;
       this.rejection = error;
     } finally {
-      this.asking = false;
+      this.isRequesting = false;
     }
     this.paint();
     this.publish();
-    const behind = this.laid !== null && this.hand !== null && !same(this.laid.overlay, this.hand);
+    const behind = this.laid !== null && this.hand !== null && !isSameOverlay(this.laid.overlay, this.hand);
     if (behind && this.rejection === null && !this.stopped) void this.requestNow(false);
   }
 
@@ -129,7 +129,7 @@ export class OverlayController {
 
   private publish(): void {
     const { hand, laid, rejection } = this;
-    const settled = hand !== null && laid !== null && rejection === null && same(laid.overlay, hand);
+    const settled = hand !== null && laid !== null && rejection === null && isSameOverlay(laid.overlay, hand);
     this.published = { hand, laid, rejection, settled, canUndo: this.before.length > 0 };
     for (const reader of this.readers) reader();
   }

@@ -34,16 +34,16 @@ export function viewOfTruth(
 const KEY = "coaxial-ruler";
 
 /** As it was last given on this tablet for this case; null where it never was. */
-export function remembered(caseId: string): RuledView | null {
+export function storedView(caseId: string): RuledView | null {
   try {
-    const kept: unknown = JSON.parse(localStorage.getItem(`${KEY} ${caseId}`) ?? "null");
-    return typeof kept === "object" && kept !== null ? { ...FIRST_VIEW, ...kept } : null;
+    const stored: unknown = JSON.parse(localStorage.getItem(`${KEY} ${caseId}`) ?? "null");
+    return typeof stored === "object" && stored !== null ? { ...FIRST_VIEW, ...stored } : null;
   } catch {
     return null;
   }
 }
 
-export function remember(caseId: string, view: RuledView): void {
+export function storeView(caseId: string, view: RuledView): void {
   try {
     localStorage.setItem(`${KEY} ${caseId}`, JSON.stringify(view));
   } catch {

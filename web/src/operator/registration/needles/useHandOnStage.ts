@@ -1,7 +1,7 @@
 import { useGesture } from "@use-gesture/react";
 import { useEffect, type RefObject } from "react";
 import { useImageSize } from "../useImageSize";
-import { moved, pinched, scaled, type Overlay, type Px } from "./overlay";
+import { translateOverlay, pinchOverlay, scaleOverlay, type Overlay, type Px } from "./overlay";
 import type { OverlayController } from "./overlayController";
 
 const WHEEL_PER_PX = 0.001;
@@ -37,7 +37,7 @@ export function useHandOnStage(
         }
         if (first) controller.begin();
         const ratio = perPx();
-        controller.change((hand) => moved(hand, [x * ratio, y * ratio]));
+        controller.change((hand) => translateOverlay(hand, [x * ratio, y * ratio]));
       },
       onPinch: ({ first, origin, da: [apart, turnDeg], memo }) => {
         let begun = memo as Pinch | undefined;
@@ -50,7 +50,7 @@ export function useHandOnStage(
         const { hand, from } = begun;
         const ratio = apart / begun.apart;
         const by = turnDeg - begun.turnDeg;
-        controller.change(() => pinched(hand, { from, to: pxAt(origin), ratio, turnDeg: by }));
+        controller.change(() => pinchOverlay(hand, { from, to: pxAt(origin), ratio, turnDeg: by }));
         return begun;
       },
       onWheel: ({ event, delta: [, y], first, ctrlKey }) => {
@@ -58,7 +58,7 @@ export function useHandOnStage(
         if (ctrlKey) return;
         if (first) controller.begin();
         const about = pxAt([event.clientX, event.clientY]);
-        controller.change((hand) => scaled(hand, Math.exp(-y * WHEEL_PER_PX), about));
+        controller.change((hand) => scaleOverlay(hand, Math.exp(-y * WHEEL_PER_PX), about));
       },
     },
     {

@@ -1,8 +1,8 @@
 import type { ReactNode } from "react";
-import { shownFigure } from "../../../live/rounding";
+import { formatFigure } from "../../../live/rounding";
 import type { components } from "../../../schema";
 import { useTexts } from "../../../texts/TextsContext";
-import { shownSecond } from "../../parts/shown";
+import { formatSecond } from "../../parts/format";
 
 /** Every nudge that holds, the newest first: what, who, when. */
 export function NudgeLog({ nudges }: { nudges: components["schemas"]["NudgeRecord"][] }): ReactNode {
@@ -17,10 +17,10 @@ export function NudgeLog({ nudges }: { nudges: components["schemas"]["NudgeRecor
         return (
           <li key={`${one.made_at} ${one.axis}`}>
             <strong>
-              {shownFigure(Math.abs(one.amount), 1)} {shift ? "mm" : "°"} {way}
+              {formatFigure(Math.abs(one.amount), 1)} {shift ? "mm" : "°"} {way}
             </strong>{" "}
             <small>
-              {one.made_by} · {shownSecond(one.made_at, all.language)}
+              {one.made_by} · {formatSecond(one.made_at, all.language)}
             </small>
           </li>
         );

@@ -1,6 +1,6 @@
 import { Progress } from "@mantine/core";
 import type { ReactNode } from "react";
-import { shownNumber } from "../../../live/rounding";
+import { formatNumber } from "../../../live/rounding";
 import type { components } from "../../../schema";
 import { useTexts } from "../../../texts/TextsContext";
 
@@ -25,10 +25,10 @@ export function NudgeSums({ nudges }: { nudges: components["schemas"]["NudgesMes
           </dt>
           <dd>
             <strong>
-              {shownNumber(value, 1)} <span className="unit">{unit}</span>
+              {formatNumber(value, 1)} <span className="unit">{unit}</span>
             </strong>
             <small>
-              {texts.allowed} {shownNumber(most, 1)} {unit}
+              {texts.allowed} {formatNumber(most, 1)} {unit}
             </small>
           </dd>
         </div>

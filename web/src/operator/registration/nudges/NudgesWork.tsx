@@ -7,7 +7,7 @@ import { useAction } from "../../../rest/useAction";
 import { Icon } from "../../../panes/Icon";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
-import { Rejected } from "../Rejected";
+import { RegistrationRejection } from "../RegistrationRejection";
 import { useMadeBy } from "../useMadeBy";
 import { NudgeLog } from "./NudgeLog";
 import { NudgePad, type Axis, type Kind } from "./NudgePad";
@@ -20,11 +20,11 @@ export function NudgesWork(): ReactNode {
   const texts = useTexts().registration;
   const procedure = useProcedure();
   const madeBy = useMadeBy();
-  const asked = useQuery((signal) => answered(server.GET("/api/registration/nudges", { signal })));
+  const query = useQuery((signal) => answered(server.GET("/api/registration/nudges", { signal })));
   const [kind, setKind] = useState<Kind>("shift");
   const [step, setStep] = useState("0.5");
   const doing = useAction();
-  const { data } = asked;
+  const { data } = query;
 
   const run = (action: () => Promise<unknown>): void => {
     void doing
@@ -32,7 +32,7 @@ export function NudgesWork(): ReactNode {
         await action();
       })
       .then(() => {
-        asked.refetch();
+        query.refetch();
         procedure.refetch();
       });
   };
@@ -72,8 +72,8 @@ export function NudgesWork(): ReactNode {
           />
         </div>
         <NudgePad kind={kind} disabled={doing.busy} onNudge={nudge} />
-        <Rejected rejection={doing.rejection} />
-        {data === null && <QueryStatus query={asked} Note={Rejected} />}
+        <RegistrationRejection rejection={doing.rejection} />
+        {data === null && <QueryStatus query={query} Note={RegistrationRejection} />}
         <Button
           size="lg"
           variant="default"

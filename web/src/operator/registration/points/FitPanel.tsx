@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { Rejection } from "../../../rest/client";
 import { useTexts } from "../../../texts/TextsContext";
 import { Measure } from "../Measure";
-import { Rejected } from "../Rejected";
+import { RegistrationRejection } from "../RegistrationRejection";
 import { useSides } from "../useSides";
 import type { Points } from "./PointsWork";
 
@@ -50,7 +50,7 @@ export function FitPanel({ points }: { points: Points }): ReactNode {
       ))}
       <div data-testid="points-missing">
         {points.missing.map((problem) => (
-          <Rejected key={problem.code} rejection={new Rejection(problem)} />
+          <RegistrationRejection key={problem.code} rejection={new Rejection(problem)} />
         ))}
       </div>
       {points.missing.length === 0 && (

@@ -1,6 +1,6 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
-import { shownNumber } from "../../../live/rounding";
+import { formatNumber } from "../../../live/rounding";
 import { useTexts } from "../../../texts/TextsContext";
 import type { Points } from "./PointsWork";
 
@@ -37,7 +37,7 @@ export function LandmarkList({ points, wanted, onPick, onUse, onForget }: Landma
             <span aria-hidden="true">{one.touched ? (one.used ? "✓" : "–") : "○"}</span>
             <span>
               {one.name}
-              <small>{said(one, texts)}</small>
+              <small>{landmarkText(one, texts)}</small>
             </span>
           </button>
           {one.touched && (
@@ -69,14 +69,14 @@ export function LandmarkList({ points, wanted, onPick, onUse, onForget }: Landma
   );
 }
 
-function said(
+function landmarkText(
   one: Points["landmarks"][number],
   texts: { notTouched: string; residual: string; leftOutBy: string; noFit: string; notUsed: string },
 ): string {
   if (!one.touched) return texts.notTouched;
   const far =
-    one.residual_mm === null ? texts.noFit : `${texts.residual} ${shownNumber(one.residual_mm, 2)} mm`;
+    one.residual_mm === null ? texts.noFit : `${texts.residual} ${formatNumber(one.residual_mm, 2)} mm`;
   const others =
-    one.leave_one_out_mm === null ? "" : ` · ${texts.leftOutBy} ${shownNumber(one.leave_one_out_mm, 2)} mm`;
+    one.leave_one_out_mm === null ? "" : ` · ${texts.leftOutBy} ${formatNumber(one.leave_one_out_mm, 2)} mm`;
   return one.used ? `${far}${others}` : `${texts.notUsed} · ${far}`;
 }

@@ -4,7 +4,7 @@ import { answered, server } from "../../../rest/client";
 import { useAction } from "../../../rest/useAction";
 import { useTexts } from "../../../texts/TextsContext";
 import { LiveStage } from "../LiveStage";
-import { Rejected } from "../Rejected";
+import { RegistrationRejection } from "../RegistrationRejection";
 import { ToolChoice } from "../ToolChoice";
 import { ToolSeen } from "../ToolSeen";
 import { useTools } from "../useTools";
@@ -29,7 +29,7 @@ export function PointsBegin({ onBegun }: { onBegun: () => void }): ReactNode {
           </ol>
           <ToolChoice tool={tool} onTool={setChosen} />
           <ToolSeen tool={tool} />
-          <Rejected rejection={beginning.rejection} />
+          <RegistrationRejection rejection={beginning.rejection} />
           <Button
             size="xl"
             disabled={tool === ""}

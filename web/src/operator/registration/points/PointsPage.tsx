@@ -1,17 +1,19 @@
 import type { ReactNode } from "react";
 import { QueryStatus } from "../../../rest/QueryStatus";
 import { RehearsalStrip } from "../RehearsalStrip";
-import { TipRests } from "../TipRests";
-import { useRunning } from "../useRunning";
+import { TipContact } from "../TipContact";
+import { useActiveProcedures } from "../useActiveProcedures";
 import { PointsBegin } from "./PointsBegin";
 import { PointsWork } from "./PointsWork";
 
 /** Registration by points: the tip on landmarks of the plan. */
 export function PointsPage(): ReactNode {
-  const running = useRunning();
+  const running = useActiveProcedures();
   return (
     <>
-      <RehearsalStrip scenes={["landmarks"]}>{(told) => <TipRests told={told} />}</RehearsalStrip>
+      <RehearsalStrip scenes={["landmarks"]}>
+        {(rehearsal) => <TipContact rehearsal={rehearsal} />}
+      </RehearsalStrip>
       {running.data === null && <QueryStatus query={running} />}
       {running.data !== null &&
         (running.data.points ? (

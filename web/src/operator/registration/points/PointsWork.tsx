@@ -8,7 +8,7 @@ import type { components } from "../../../schema";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
-import { Rejected } from "../Rejected";
+import { RegistrationRejection } from "../RegistrationRejection";
 import { ConfirmOrCancelButton } from "../ConfirmOrCancelButton";
 import { useMadeBy } from "../useMadeBy";
 import { CapturePanel } from "./CapturePanel";
@@ -26,14 +26,14 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const [, navigate] = useLocation();
-  const asked = useQuery((signal) => answered(server.GET("/api/registration/points", { signal })), {
+  const query = useQuery((signal) => answered(server.GET("/api/registration/points", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
   const [picked, setPicked] = useState<string | null>(null);
   const [order, setOrder] = useState<string[]>([]);
   const doing = useAction();
-  const { data } = asked;
-  if (data === null) return <QueryStatus query={asked} Note={Rejected} />;
+  const { data } = query;
+  if (data === null) return <QueryStatus query={query} Note={RegistrationRejection} />;
   const wanted = nextLandmark(data, picked);
   const landmark = data.landmarks.find((one) => one.name === wanted) ?? null;
 
@@ -42,7 +42,7 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
       .run(async () => {
         await action();
       })
-      .then(asked.refetch);
+      .then(query.refetch);
   };
   const forget = (name: string): void => {
     setPicked(name);
@@ -74,7 +74,7 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
             );
           }}
         />
-        <Rejected rejection={doing.rejection ?? asked.rejection} />
+        <RegistrationRejection rejection={doing.rejection ?? query.rejection} />
         <FitPanel points={data} />
         <div className="row">
           <ConfirmOrCancelButton

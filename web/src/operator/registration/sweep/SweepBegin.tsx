@@ -5,7 +5,7 @@ import { useAction } from "../../../rest/useAction";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
-import { Rejected } from "../Rejected";
+import { RegistrationRejection } from "../RegistrationRejection";
 import { ToolChoice } from "../ToolChoice";
 import { ToolSeen } from "../ToolSeen";
 import { useTools } from "../useTools";
@@ -32,7 +32,7 @@ export function SweepBegin({ onBegun }: { onBegun: () => void }): ReactNode {
         {!registered && <p className="warning">▲ {texts.sweep.needsPoints}</p>}
         <ToolChoice tool={tool} onTool={setChosen} />
         <ToolSeen tool={tool} />
-        <Rejected rejection={beginning.rejection} />
+        <RegistrationRejection rejection={beginning.rejection} />
         <Button
           size="xl"
           disabled={tool === "" || !registered}

@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { Rejection } from "../../../rest/client";
 import type { components } from "../../../schema";
 import { useTexts } from "../../../texts/TextsContext";
-import { Rejected } from "../Rejected";
+import { RegistrationRejection } from "../RegistrationRejection";
 import { RegistrationNumbers } from "../RegistrationNumbers";
 
 /** What the sweep gives, which way it holds the bone least, and what keeps it from being kept. */
@@ -23,7 +23,7 @@ export function SweepFit({ fit }: { fit: components["schemas"]["SweepFitMessage"
         </p>
       ))}
       {fit.missing.map((problem) => (
-        <Rejected key={problem.code} rejection={new Rejection(problem)} />
+        <RegistrationRejection key={problem.code} rejection={new Rejection(problem)} />
       ))}
       {fit.missing.length === 0 && <p className="good">✓ {texts.passes}</p>}
     </section>

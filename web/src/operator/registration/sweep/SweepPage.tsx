@@ -1,13 +1,13 @@
 import type { ReactNode } from "react";
 import { QueryStatus } from "../../../rest/QueryStatus";
 import { RehearsalStrip } from "../RehearsalStrip";
-import { useRunning } from "../useRunning";
+import { useActiveProcedures } from "../useActiveProcedures";
 import { SweepBegin } from "./SweepBegin";
 import { SweepWork } from "./SweepWork";
 
 /** Registration refined by a sweep of the tip over bare bone. */
 export function SweepPage(): ReactNode {
-  const running = useRunning();
+  const running = useActiveProcedures();
   return (
     <>
       <RehearsalStrip scenes={["sweep"]} />

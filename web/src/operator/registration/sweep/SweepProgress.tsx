@@ -1,12 +1,12 @@
 import type { ReactNode } from "react";
-import { shownNumber } from "../../../live/rounding";
+import { formatNumber } from "../../../live/rounding";
 import type { components } from "../../../schema";
 import { useTexts } from "../../../texts/TextsContext";
 
 /** How many places the tip was taken at, and how far they reach. */
 export function SweepProgress({ sweep }: { sweep: components["schemas"]["SweepMessage"] }): ReactNode {
   const texts = useTexts().registration.sweep;
-  const reach = sweep.reach_mm.map((mm) => shownNumber(mm, 0)).join(" × ");
+  const reach = sweep.reach_mm.map((mm) => formatNumber(mm, 0)).join(" × ");
   return (
     <dl className="limits" data-testid="sweep-progress" data-points={sweep.points}>
       <div className="limit">

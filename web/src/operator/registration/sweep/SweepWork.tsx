@@ -10,7 +10,7 @@ import { Icon } from "../../../panes/Icon";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
-import { Rejected } from "../Rejected";
+import { RegistrationRejection } from "../RegistrationRejection";
 import { ConfirmOrCancelButton } from "../ConfirmOrCancelButton";
 import { ToolSeen } from "../ToolSeen";
 import { useMadeBy } from "../useMadeBy";
@@ -26,14 +26,14 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const [, navigate] = useLocation();
-  const asked = useQuery((signal) => answered(server.GET("/api/registration/sweep", { signal })), {
+  const query = useQuery((signal) => answered(server.GET("/api/registration/sweep", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
   const [fit, setFit] = useState<Fit | null>(null);
   const doing = useAction();
   const fitting = useAction();
-  const { data } = asked;
-  if (data === null) return <QueryStatus query={asked} Note={Rejected} />;
+  const { data } = query;
+  if (data === null) return <QueryStatus query={query} Note={RegistrationRejection} />;
 
   const run = (action: () => Promise<unknown>, then: (done: boolean) => void): void => {
     void doing
@@ -46,7 +46,7 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
     void fitting.run(async () => {
       // Off the bone while it is looked at: the hand need not hold still for that.
       if (data.taking) await answered(server.PUT("/api/registration/sweep", { body: { taking: false } }));
-      asked.refetch();
+      query.refetch();
       setFit(null);
       setFit(await answered(server.POST("/api/registration/sweep/fit")));
     });
@@ -58,7 +58,7 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
         <section className="card">
           <ToolSeen tool={data.tool} />
           <SweepProgress sweep={data} />
-          {data.problem !== null && <Rejected rejection={new Rejection(data.problem)} />}
+          {data.problem !== null && <RegistrationRejection rejection={new Rejection(data.problem)} />}
           <Button
             size="xl"
             fullWidth
@@ -70,14 +70,14 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
               setFit(null);
               run(
                 () => answered(server.PUT("/api/registration/sweep", { body: { taking: !data.taking } })),
-                asked.refetch,
+                query.refetch,
               );
             }}
           >
             {data.taking ? texts.sweep.lift : texts.sweep.take}
           </Button>
         </section>
-        <Rejected rejection={doing.rejection ?? fitting.rejection} />
+        <RegistrationRejection rejection={doing.rejection ?? fitting.rejection} />
         {fitting.busy && (
           <p className="row" role="status">
             <Loader size="sm" /> {texts.sweep.fitting}
@@ -116,7 +116,7 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
               setFit(null);
               run(
                 () => answered(server.POST("/api/registration/sweep", { body: { tool: data.tool } })),
-                asked.refetch,
+                query.refetch,
               );
             }}
           >

@@ -5,7 +5,7 @@ import { useLive } from "../../live/LiveContext";
 import { useTexts } from "../../texts/TextsContext";
 
 /** Camera or patient moved: what that ends, and the way back. */
-export function Moved(): ReactNode {
+export function MovementWarning(): ReactNode {
   const texts = useTexts().navigate;
   const watched = useLive().view.newest?.snapshot?.motion;
   if (!watched) return null;

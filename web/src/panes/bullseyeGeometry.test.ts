@@ -1,9 +1,9 @@
 import { describe, expect, test } from "vitest";
 import { along } from "../live/builders";
-import { drawnFrom, heldWithin } from "./bullseye";
+import { bullseyeGeometry, clampToReach } from "./bullseyeGeometry";
 
 test("a drill within the border is drawn where it is", () => {
-  const drawn = drawnFrom(along());
+  const drawn = bullseyeGeometry(along());
   expect(drawn.tip).toEqual([1, -0.5]);
   expect(drawn.way).toEqual([
     [0.6, 0.8],
@@ -15,7 +15,7 @@ test("a drill within the border is drawn where it is", () => {
 });
 
 test("the ellipse lies around the tip with the half axes that were sent", () => {
-  const ellipse = drawnFrom(along()).ellipse ?? [];
+  const ellipse = bullseyeGeometry(along()).ellipse ?? [];
   const right = ellipse.map(([x]) => x - 1);
   const up = ellipse.map(([, y]) => y + 0.5);
   expect(Math.max(...right)).toBeCloseTo(0.5, 6);
@@ -23,7 +23,7 @@ test("the ellipse lies around the tip with the half axes that were sent", () => 
 });
 
 test("a tip beyond the border is an arrow towards it, and nothing else", () => {
-  const drawn = drawnFrom(along({ tip_mm: [0, -30] }));
+  const drawn = bullseyeGeometry(along({ tip_mm: [0, -30] }));
   expect(drawn.arrow?.[1]).toEqual([0, -8]);
   expect([drawn.tip, drawn.way, drawn.end, drawn.ellipse, drawn.nearest]).toEqual([
     null,
@@ -35,7 +35,7 @@ test("a tip beyond the border is an arrow towards it, and nothing else", () => {
 });
 
 test("a drill across the channel is a tip without a line", () => {
-  const drawn = drawnFrom(along({ at_entry_mm: null, at_target_mm: null, nearest_mm: null }));
+  const drawn = bullseyeGeometry(along({ at_entry_mm: null, at_target_mm: null, nearest_mm: null }));
   expect(drawn.way).toEqual([
     [1, -0.5],
     [1, -0.5],
@@ -61,7 +61,7 @@ describe.each([
   ],
 ] as const)("%j from %j", (at, tip, expected) => {
   test("is held within reach along its own line", () => {
-    const held = heldWithin(at, tip, 8);
+    const held = clampToReach(at, tip, 8);
     expect(held[0]).toBeCloseTo(expected[0], 9);
     expect(held[1]).toBeCloseTo(expected[1], 9);
   });

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { plannedVertebrae, usedLandmarks } from "./planRead";
+import { plannedVertebrae, usedLandmarks } from "./planReader";
 
 test("a plan tells its vertebrae, their channels' sides and their landmarks", () => {
   const plan = {

@@ -1,16 +1,22 @@
 import { Alert } from "@mantine/core";
 import type { ReactNode } from "react";
-import { sentence } from "../operator/parts/shown";
+import { sentence } from "../operator/parts/format";
 import { useTexts } from "../texts/TextsContext";
 import type { Problem } from "./messages";
 import type { NoCamera } from "./noCamera";
-import type { Sending } from "./useSending";
+import type { CameraStream } from "./useCameraStream";
 
 /** What is wrong and what to do: of this device in the page's words, of the server in its own. */
-export function SendingProblems({ sending, lacks }: { sending: Sending; lacks: NoCamera | null }): ReactNode {
+export function StreamProblems({
+  sending,
+  lacks,
+}: {
+  sending: CameraStream;
+  lacks: NoCamera | null;
+}): ReactNode {
   const texts = useTexts().phone;
   const noCamera = lacks ?? sending.noCamera;
-  const told = sending.rejected ?? sending.note?.problem ?? null;
+  const problem = sending.rejected ?? sending.note?.problem ?? null;
   const isOn = sending.state !== "idle";
   return (
     <>
@@ -19,13 +25,13 @@ export function SendingProblems({ sending, lacks }: { sending: Sending; lacks: N
           {texts.noCamera[noCamera].sentence}
         </Alert>
       )}
-      {told !== null && <Told problem={told} />}
+      {problem !== null && <ServerProblem problem={problem} />}
       {isOn && !sending.hasWakeLock && <p className="phone-warning">{texts.screenOff}</p>}
     </>
   );
 }
 
-function Told({ problem }: { problem: Problem }): ReactNode {
+function ServerProblem({ problem }: { problem: Problem }): ReactNode {
   return (
     <Alert
       className="rejection"

@@ -1,12 +1,12 @@
 import type { ReactNode } from "react";
-import { shownNumber } from "../live/rounding";
-import { shownBytes } from "../operator/parts/shown";
+import { formatNumber } from "../live/rounding";
+import { formatBytes } from "../operator/parts/format";
 import { interpolate } from "../texts/interpolate";
 import { useTexts } from "../texts/TextsContext";
-import type { Sending } from "./useSending";
+import type { CameraStream } from "./useCameraStream";
 
 /** What is sent, and what the server says; what is not known yet has no line. */
-export function SendingFacts({ sending }: { sending: Sending }): ReactNode {
+export function StreamFacts({ sending }: { sending: CameraStream }): ReactNode {
   const all = useTexts();
   const texts = all.phone;
   const { welcome, facts, last, note } = sending;
@@ -18,21 +18,21 @@ export function SendingFacts({ sending }: { sending: Sending }): ReactNode {
           {interpolate(texts.imageValue, {
             width: facts.width_px,
             height: facts.height_px,
-            size: shownBytes(last.bytes),
+            size: formatBytes(last.bytes),
             quality: Math.round(welcome.quality_ratio * 100),
           })}
         </Fact>
       )}
       {isSent && (
         <Fact name={texts.rate} id="sent">
-          {interpolate(texts.perSecond, { rate: shownNumber(last.rateHz, 1) })}
+          {interpolate(texts.perSecond, { rate: formatNumber(last.rateHz, 1) })}
         </Fact>
       )}
       {facts !== null && (
         <Fact name={texts.focus} id="focus" bad={facts.focus !== "locked"}>
           {texts.focusState[facts.focus]}
           {facts.focus_mm !== null &&
-            ` ${interpolate(texts.focusAt, { distance: shownNumber(facts.focus_mm / 1000, 2) })}`}
+            ` ${interpolate(texts.focusAt, { distance: formatNumber(facts.focus_mm / 1000, 2) })}`}
         </Fact>
       )}
       {isSent && (
@@ -44,7 +44,7 @@ export function SendingFacts({ sending }: { sending: Sending }): ReactNode {
         <Fact name={texts.server} id="server">
           {interpolate(texts.serverValue, {
             state: all.cameraState[note.source_state ?? "unknown"],
-            rate: shownNumber(note.rate_hz, 1),
+            rate: formatNumber(note.rate_hz, 1),
           })}
         </Fact>
       )}

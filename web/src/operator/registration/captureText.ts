@@ -1,4 +1,4 @@
-import { shownNumber } from "../../live/rounding";
+import { formatNumber } from "../../live/rounding";
 import type { components } from "../../schema";
 import type { RegistrationTexts } from "../../texts/registration/en";
 import { interpolate } from "../../texts/interpolate";
@@ -7,13 +7,13 @@ type Capture = Pick<components["schemas"]["CaptureMessage"], "images" | "wanted"
 type CaptureTexts = Pick<RegistrationTexts["capture"], "looking" | "lookingAtRate">;
 
 /** How many images a running capture has, and how long the tip is still to be held at the camera's rate. */
-export function lookingText(capture: Capture, texts: CaptureTexts): string {
+export function captureText(capture: Capture, texts: CaptureTexts): string {
   const { images, wanted, rate_hz, left_s } = capture;
   if (rate_hz === null || left_s === null) return interpolate(texts.looking, { images, wanted });
   return interpolate(texts.lookingAtRate, {
     images,
     wanted,
-    left: shownNumber(left_s, 1),
-    rate: shownNumber(rate_hz, 1),
+    left: formatNumber(left_s, 1),
+    rate: formatNumber(rate_hz, 1),
   });
 }

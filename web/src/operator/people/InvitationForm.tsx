@@ -14,7 +14,7 @@ const ROLES: readonly Role[] = ["supervisor", "viewer", "screen", "camera", "ope
 const HOURS = [1, 24, 168];
 
 /** An invitation: who, as what, for how long; then its link, once. */
-export function Inviting({ onInvited }: { onInvited: () => void }): ReactNode {
+export function InvitationForm({ onInvited }: { onInvited: () => void }): ReactNode {
   const all = useTexts();
   const texts = all.people;
   const [name, setName] = useState("");

@@ -4,7 +4,7 @@ import { RejectionNote } from "../../rest/RejectionNote";
 import { useTexts } from "../../texts/TextsContext";
 
 /** A refusal with what to do on this page, where the server can only name its own doors. */
-export function Rejected({ rejection }: { rejection: Rejection | null }): ReactNode {
+export function RegistrationRejection({ rejection }: { rejection: Rejection | null }): ReactNode {
   const texts = useTexts().registration.remedies;
   if (rejection === null) return null;
   const { problem } = rejection;

@@ -1,18 +1,18 @@
 // How times, sizes and sentences are shown on the pages of the set-up.
-import { shownNumber } from "../../live/rounding";
+import { formatNumber } from "../../live/rounding";
 
 /** The day and time where this page is, to the minute. */
-export function shownTime(iso: string, language: string, zone?: string): string {
+export function formatTime(iso: string, language: string, zone?: string): string {
   return shownAs(iso, { dateStyle: "medium", timeStyle: "short" }, language, zone);
 }
 
 /** The same to the second, for logs, in which much happens within a minute. */
-export function shownSecond(iso: string, language: string, zone?: string): string {
+export function formatSecond(iso: string, language: string, zone?: string): string {
   return shownAs(iso, { dateStyle: "medium", timeStyle: "medium" }, language, zone);
 }
 
 /** The time of today alone, to the second. */
-export function shownClock(iso: string, language: string, zone?: string): string {
+export function formatClock(iso: string, language: string, zone?: string): string {
   return shownAs(iso, { timeStyle: "medium" }, language, zone);
 }
 
@@ -30,7 +30,7 @@ function shownAs(
 }
 
 /** In the unit that leaves one to three digits before the point. */
-export function shownBytes(bytes: number): string {
+export function formatBytes(bytes: number): string {
   const units = ["B", "kB", "MB", "GB"] as const;
   let size = bytes;
   let place = 0;
@@ -38,7 +38,7 @@ export function shownBytes(bytes: number): string {
     size /= 1000;
     place += 1;
   }
-  return `${shownNumber(size, place === 0 || size >= 100 ? 0 : 1)} ${units[place] ?? ""}`;
+  return `${formatNumber(size, place === 0 || size >= 100 ? 0 : 1)} ${units[place] ?? ""}`;
 }
 
 /** The server's sentences begin small, because they also stand after others. */

@@ -3,12 +3,12 @@ import { useCallback, useEffect, useRef, useState, type RefObject } from "react"
 import type { CameraFacts, FrameTime, Note, Problem, Welcome } from "./messages";
 import { noCameraOf, type NoCamera } from "./noCamera";
 import { Rate } from "./rate";
-import { startSending } from "./sending";
+import { startCameraStream } from "./cameraStream";
 
-export type SendingState = "idle" | "connecting" | "opening" | "sending" | "lost" | "none";
+export type CameraStreamState = "idle" | "connecting" | "opening" | "sending" | "lost" | "none";
 
-export interface Sending {
-  state: SendingState;
+export interface CameraStream {
+  state: CameraStreamState;
   welcome: Welcome | null;
   facts: CameraFacts | null;
   last: { bytes: number; clock: FrameTime["clock"]; rateHz: number } | null;
@@ -18,7 +18,7 @@ export interface Sending {
   noCamera: NoCamera | null;
 }
 
-const IDLE: Sending = {
+const IDLE: CameraStream = {
   state: "idle",
   welcome: null,
   facts: null,
@@ -29,12 +29,12 @@ const IDLE: Sending = {
   noCamera: null,
 };
 
-export function useSending(video: RefObject<HTMLVideoElement | null>): {
-  sending: Sending;
+export function useCameraStream(video: RefObject<HTMLVideoElement | null>): {
+  sending: CameraStream;
   start: () => void;
   stop: () => void;
 } {
-  const [sending, setSending] = useState<Sending>(IDLE);
+  const [sending, setSending] = useState<CameraStream>(IDLE);
   const running = useRef<(() => void) | null>(null);
 
   const stop = useCallback(() => {
@@ -44,16 +44,16 @@ export function useSending(video: RefObject<HTMLVideoElement | null>): {
   }, []);
   const start = (): void => {
     if (video.current === null || running.current !== null) return;
-    const change = (part: Partial<Sending>): void => {
+    const change = (part: Partial<CameraStream>): void => {
       setSending((before) => ({ ...before, ...part }));
     };
-    const over = (part: Partial<Sending>): void => {
+    const over = (part: Partial<CameraStream>): void => {
       running.current = null;
       setSending({ ...IDLE, ...part });
     };
     const rate = new Rate();
     setSending({ ...IDLE, state: "connecting" });
-    running.current = startSending(video.current, {
+    running.current = startCameraStream(video.current, {
       onWelcome: (welcome) => {
         change({ welcome, state: "opening" });
       },

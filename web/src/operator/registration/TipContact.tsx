@@ -3,9 +3,9 @@ import { useTexts } from "../../texts/TextsContext";
 import type { Rehearsed } from "../../rest/useRehearsal";
 
 /** Only a rehearsal knows where the tip really rests. */
-export function TipRests({ told }: { told: Rehearsed }): ReactNode {
+export function TipContact({ rehearsal }: { rehearsal: Rehearsed }): ReactNode {
   const texts = useTexts().registration.rehearsal;
-  const touched = told.truth?.moment?.touched ?? "";
+  const touched = rehearsal.truth?.moment?.touched ?? "";
   return (
     <p data-testid="tip-rests" data-landmark={touched}>
       {touched === "" ? texts.inTheAir : `${texts.restsOn} ${touched}`}

@@ -1,5 +1,5 @@
 // Joins the pure parts to the browser: camera, video frames, canvas, WebSocket, and the screen that stays on.
-import { factsOf, wanted, withLockedFocus, type Capabilities } from "./camera";
+import { factsOf, requestedConstraints, withLockedFocus, type Capabilities } from "./camera";
 import { frameTime, type FrameTimes } from "./frameTime";
 import type { CameraFacts, FrameTime, Note, Problem, Welcome } from "./messages";
 import { PhoneConnection, type PhoneSocket } from "./phoneConnection";
@@ -9,7 +9,7 @@ import { keepScreenOn } from "./wakeLock";
 const FOCUS_SETTLES_MS = 3000;
 const CHECK_EVERY_MS = 500;
 
-export interface Sent {
+export interface SentImage {
   images: number;
   bytes: number;
   clock: FrameTime["clock"];
@@ -18,7 +18,7 @@ export interface Sent {
 export interface Listener {
   onWelcome(welcome: Welcome): void;
   onFacts(facts: CameraFacts): void;
-  onSent(sent: Sent): void;
+  onSent(sent: SentImage): void;
   onNote(note: Note | null): void;
   onWakeLock(isLocked: boolean): void;
   /** It is over: the server refused, or the browser gave no camera. */
@@ -27,7 +27,7 @@ export interface Listener {
 }
 
 /** Sends this device's camera, shown in `video`, until the answer is called. */
-export function startSending(video: HTMLVideoElement, listener: Listener): () => void {
+export function startCameraStream(video: HTMLVideoElement, listener: Listener): () => void {
   const stop = new AbortController();
   const { signal } = stop;
   let track: MediaStreamTrack | null = null;
@@ -100,7 +100,10 @@ export function startSending(video: HTMLVideoElement, listener: Listener): () =>
 }
 
 async function openCamera(video: HTMLVideoElement, welcome: Welcome): Promise<MediaStreamTrack> {
-  const stream = await navigator.mediaDevices.getUserMedia({ audio: false, video: wanted(welcome) });
+  const stream = await navigator.mediaDevices.getUserMedia({
+    audio: false,
+    video: requestedConstraints(welcome),
+  });
   const track = stream.getVideoTracks()[0];
   if (track === undefined) throw new DOMException("", "NotFoundError");
   video.srcObject = stream;
