@@ -1,4 +1,4 @@
-// One image on its way from the socket to the page, and where its time goes.
+// Times the stages of one image: received, decoded, displayed.
 import type { ImageTimes, Stall } from "./timings";
 
 export class ImageTimer {
@@ -7,7 +7,7 @@ export class ImageTimer {
   private readonly stallMs: number;
   private decodedStallMs = 0;
 
-  /** It was received just now; what the page was too busy to hear before that is the page's time, too. */
+  /** Starts at reception; a stall of the page before that counts as the page's time, too. */
   constructor(
     private readonly now: () => number,
     private readonly stall: Stall,

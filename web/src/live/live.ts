@@ -1,5 +1,5 @@
-// All that the page knows of now: one line in, one verdict for each pane out, looked at again with every
-// image of the screen and by a timer, so that what is old goes by itself.
+// The live state of the page: messages of one connection in, one verdict for each pane out. It is updated with
+// every screen refresh and by a timer, so that old content is removed even without a message.
 import {
   isOfNow,
   numbersVerdict,
@@ -28,12 +28,12 @@ export class Live {
   private draw: Draw = () => Promise.resolve(false);
   private readonly situation: Situation;
   private trackedAtMs: number | null = null;
-  /** Grows with each line, so that what a lost line still delivers is dropped. */
+  /** Incremented with each connection, so that late results of a lost connection are dropped. */
   private generation = 0;
   private readonly clock = new ServerClock();
   private readonly recoveryDelay = new RecoveryDelay();
   private readonly sceneAge = new SceneAge();
-  /** What this page can carry, and what is slow. */
+  /** What this device can display, and what is slow. */
   readonly load: Load;
   private onChoice: (choice: PictureChoice) => void = () => undefined;
   onShown: ((image: PaintedImage) => void) | null = null;
@@ -44,7 +44,7 @@ export class Live {
     this.load = new Load(now);
   }
 
-  /** Called with every look; must only touch the page where something changed. */
+  /** Called with every update; must only touch the page where something changed. */
   onUpdate(painter: (view: View) => void): () => void {
     this.painters.add(painter);
     return () => this.painters.delete(painter);
@@ -55,7 +55,7 @@ export class Live {
     const numbers = this.withRecoveryDelay(numbersVerdict(this.situation, nowMs), nowMs);
     if (numbers.live) this.trackedAtMs = nowMs - numbers.ageMs;
     const video = videoVerdict(this.situation, nowMs);
-    // A picture that was taken away does not come back: only a new one does.
+    // A removed picture is not shown again: only a new one is.
     if (!video.live) this.situation.picture = null;
     const scene: SceneVerdict = this.load.sceneSwitch.isOn
       ? this.sceneAge.verdict(nowMs, this.situation.limits.scene_stale_after_ms)
@@ -134,7 +134,7 @@ export class Live {
     this.update();
   }
 
-  /** Takes one frame; resolves when it stands on the page and the next may be granted. */
+  /** Receives one frame; resolves when it is displayed and the next may be requested. */
   async receive({ message, jpeg }: ViewFrame): Promise<DisplayResult> {
     const generation = this.generation;
     const isCurrent = (): boolean => generation === this.generation;

@@ -1,4 +1,4 @@
-// What this viewer gets: how many images a second, in which size, and what is slow where that is little.
+// Picture delivery to this viewer: rate, size, and what limits it.
 // Pure: times go in as numbers.
 import { drawingWithScreenMs, type Timings } from "./timings";
 
@@ -12,7 +12,7 @@ export interface PictureDelivery {
   heightPx: number | null;
   scaleRatio: number;
   imagesPerS: number;
-  /** Why less comes than the camera gives, where it does. */
+  /** What limits the delivery below the camera's rate and size; null if nothing does. */
   limitedBy: SlowPart | "reduced" | null;
 }
 
@@ -41,7 +41,7 @@ export class PictureDeliveryMonitor {
   private sizePx: [number, number] | null = null;
   private fewer = false;
 
-  /** A picture stands on the page: grabbed in this size, sent at this scale. */
+  /** Records a displayed picture: captured in this size, sent at this scale. */
   recordPicture(atMs: number, sizePx: [number, number], scaleRatio: number): void {
     this.arrivedAtMs = [...this.arrivedAtMs.filter((one) => atMs - one <= WINDOW_MS), atMs];
     this.scaleRatio = scaleRatio;

@@ -1,8 +1,8 @@
-// A line to the server that is kept: opened, taken anew after a loss with growing patience, and let go.
-// What is said on it is the business of who keeps it (`viewConnection.ts`, `room/roomConnection.ts`).
+// A WebSocket that reconnects after a loss, with a growing delay. The messages are defined by its users
+// (`viewConnection.ts`, `room/roomConnection.ts`, `phone/phoneConnection.ts`).
 import { waitBeforeMs } from "./backoff";
 
-/** What is used of a WebSocket; tests bring their own. */
+/** The part of a WebSocket that is used here; tests pass a fake. */
 export interface WebSocketLike {
   onopen: (() => void) | null;
   onmessage: ((event: { data: unknown }) => void) | null;
@@ -14,14 +14,14 @@ export interface WebSocketLike {
 export interface ReconnectingSocketOptions<S extends WebSocketLike> {
   open(): S;
   later(action: () => void, waitMs: number): void;
-  /** It stands: the first word may be said. */
+  /** The socket is open: the first message may be sent. */
   onOpen(socket: S): void;
-  /** Something came; who understands it says `heard()`, who cannot, `lose()`: a new line starts clean. */
+  /** A message was received: call `markReceived()` if it is valid, `reconnect()` if not. */
   onData(data: unknown): void;
   onLost(): void;
 }
 
-/** A server that takes the call but never answers is left after this long. */
+/** Timeout for opening the socket. */
 export const ANSWER_WITHIN_MS = 2000;
 
 export class ReconnectingSocket<S extends WebSocketLike> {
@@ -32,17 +32,17 @@ export class ReconnectingSocket<S extends WebSocketLike> {
 
   constructor(private readonly options: ReconnectingSocketOptions<S>) {}
 
-  /** The line that was opened, whether or not it stands yet; null between two of them. */
+  /** The current socket, open or still connecting; null between two attempts. */
   get socket(): S | null {
     return this.current;
   }
 
-  /** The same, once it stands. */
+  /** The current socket once it is open, else null. */
   get openSocket(): S | null {
     return this.isOpen ? this.current : null;
   }
 
-  /** Whether something was understood since the last loss. */
+  /** Whether a valid message was received since the last loss. */
   get hasReceived(): boolean {
     return this.current !== null && this.attempt === 0;
   }
@@ -57,12 +57,12 @@ export class ReconnectingSocket<S extends WebSocketLike> {
     this.release();
   }
 
-  /** What came was understood: after the next loss the first wait is the shortest again. */
+  /** A valid message was received: resets the reconnect delay. */
   markReceived(): void {
     this.attempt = 0;
   }
 
-  /** Give this line up, and take a new one after the wait that is due. */
+  /** Closes the current socket and opens a new one after the reconnect delay. */
   reconnect(): void {
     if (this.stopped) return;
     this.release();

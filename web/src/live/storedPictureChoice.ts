@@ -1,4 +1,4 @@
-// The picture's size that was chosen on this device, kept over visits.
+// The picture size chosen on this device, stored across visits.
 import { PICTURE_CHOICES, type PictureChoice } from "./pictureDelivery";
 
 const KEY = "coaxial.picture-size";
@@ -8,7 +8,7 @@ export function storedPictureChoice(): PictureChoice {
     const stored = localStorage.getItem(KEY);
     return PICTURE_CHOICES.find((choice) => choice === stored) ?? "auto";
   } catch {
-    // A browser that keeps nothing: as on the first visit.
+    // Storage is unavailable: same as on the first visit.
     return "auto";
   }
 }
@@ -17,6 +17,6 @@ export function storePictureChoice(choice: PictureChoice): void {
   try {
     localStorage.setItem(KEY, choice);
   } catch {
-    // Then it holds for this visit.
+    // The choice then applies to this visit only.
   }
 }

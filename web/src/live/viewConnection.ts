@@ -1,4 +1,4 @@
-// The line to /ws/view: grants one image at a time. `reconnectingSocket.ts` takes it up again after a loss.
+// The connection to /ws/view: requests one image at a time; reconnects after a loss (`reconnectingSocket.ts`).
 import { frameFromBytes, type ViewFrame } from "./frame";
 import { ReconnectingSocket, type WebSocketLike } from "./reconnectingSocket";
 
@@ -49,23 +49,23 @@ export class ViewConnection {
     this.socket.stop();
   }
 
-  /** Give up this line and take a new one at once. */
+  /** Closes the connection and opens a new one. */
   restart(): void {
     this.socket.reconnect();
   }
 
-  /** The last image is dealt with, and the page needed so long for that: the server may send the newest one. */
+  /** Requests the newest image, and reports how long the page needed to show the last one. */
   requestNext(showingMs?: number): void {
     const spent = showingMs === undefined ? {} : { showing_ms: Math.round(showingMs) };
     this.socket.openSocket?.send(JSON.stringify({ next: true, ...spent }));
   }
 
-  /** No picture larger than this from the next one on: the device cannot show more. */
+  /** Limits the picture size from the next image on: the device cannot show more. */
   limitSize(largest: string): void {
     this.socket.openSocket?.send(JSON.stringify({ largest }));
   }
 
-  /** Ask for pictures of another size, from the next one on. */
+  /** Requests another picture size from the next image on. */
   askSize(size: string): void {
     this.socket.openSocket?.send(JSON.stringify({ size }));
   }
@@ -76,7 +76,7 @@ export class ViewConnection {
       if (!(data instanceof ArrayBuffer)) return;
       frame = frameFromBytes(data);
     } catch {
-      // What cannot be read is not shown; a new line starts clean, and says so until it stands.
+      // An invalid frame is not shown; a new connection starts with a clean state.
       this.socket.reconnect();
       return;
     }

@@ -10,7 +10,7 @@ interface QueryStatusProps {
   Note?: typeof RejectionNote;
 }
 
-/** In place of an answer that is not there: that it is awaited, or why it failed and a way to ask again. */
+/** Shown while a query has no data: loading, or the reason of the failure with a button that fetches again. */
 export function QueryStatus({
   query: { rejection, refetch },
   Note = RejectionNote,

@@ -1,4 +1,4 @@
-// Something that a person does: one at a time, with its refusal kept until the next try.
+// A user action: one at a time; its rejection is stored until the next attempt.
 import { useCallback, useRef, useState } from "react";
 import { Rejection } from "./client";
 

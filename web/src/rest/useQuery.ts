@@ -1,4 +1,4 @@
-// A question to the server whose answer a page shows: asked at once, and again whenever somebody says so.
+// A server query whose result a component shows: fetched at once, and again with `refetch()`.
 import { useCallback, useEffect, useEffectEvent, useState } from "react";
 import { Rejection } from "./client";
 

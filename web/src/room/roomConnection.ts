@@ -1,4 +1,4 @@
-// The line to /ws/room: asks for the next message when one is dealt with. `live/reconnectingSocket.ts` takes it up again.
+// The connection to /ws/room: requests the next message after each one; reconnects (`live/reconnectingSocket.ts`).
 import { ReconnectingSocket, type WebSocketLike } from "../live/reconnectingSocket";
 import type { RoomMessage, ClientMessage } from "./messages";
 
@@ -11,7 +11,7 @@ export interface RoomConnectionOptions {
   later(action: () => void, waitMs: number): void;
   now(): number;
   onMessage(message: RoomMessage): void;
-  /** It stands and has spoken, or it is gone. */
+  /** Called with true after a valid message, with false after a loss. */
   onConnection(isConnected: boolean): void;
 }
 
@@ -54,13 +54,13 @@ export class RoomConnection {
     this.socket.stop();
   }
 
-  /** To be called now and then: a line on which nothing comes is taken anew. */
+  /** Call periodically: reconnects when nothing was received for `SILENT_AFTER_MS`. */
   checkTimeout(): void {
     if (this.socket.socket !== null && this.options.now() - this.lastReceivedAtMs > SILENT_AFTER_MS)
       this.socket.reconnect();
   }
 
-  /** False where it did not go out: there is no line, or it is full. */
+  /** Returns false if the message was not sent: no connection, or too much is unsent. */
   send(message: ClientMessage): boolean {
     const { socket } = this.socket;
     if (socket === null || !this.socket.hasReceived || socket.bufferedAmount > MAX_UNSENT_BYTES) return false;
@@ -80,7 +80,7 @@ export class RoomConnection {
     this.socket.markReceived();
     this.options.onConnection(true);
     this.options.onMessage(message);
-    // Where hearing it has ended the line, there is none to ask for more.
+    // The listener may have closed the connection.
     this.socket.openSocket?.send(NEXT);
   }
 }

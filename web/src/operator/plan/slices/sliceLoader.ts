@@ -1,5 +1,5 @@
-// The newest slice wins: one picture is asked for at a time, what was asked meanwhile comes next, and an older
-// picture never takes the place of a newer one. When nothing is asked, the neighbours are fetched ahead.
+// Loads one slice at a time; the newest request is served next, and an older slice never replaces a newer one.
+// When idle, it prefetches the neighbours.
 
 export interface SliceState<Slice> {
   /** What was asked for last. */
@@ -12,7 +12,7 @@ export interface SliceState<Slice> {
 
 export type LoadSlice<Slice> = (key: string) => Promise<Slice>;
 
-/** What was loaded, the longest unused first to go. */
+/** Cache of loaded slices; evicts the least recently used. */
 export class SliceRepository<Slice> {
   private readonly slices = new Map<string, Slice>();
 

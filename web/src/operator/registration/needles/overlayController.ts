@@ -1,5 +1,5 @@
-// The slice in the hand, and the newest word of the server about it: painted at once, asked after as fast as
-// the server answers, exact again with each answer.
+// Controls the overlay that a hand moves: painted at once, requested from the server as fast as it answers,
+// exact again with each answer.
 import { Rejection } from "../../../rest/client";
 import type { components } from "../../../schema";
 import { isSameOverlay, similarity, type Matrix, type Overlay } from "./overlay";
