@@ -18,8 +18,8 @@ RIGS_BY_SIZE = (RIG_VGA, RIG_A, RIG_HD, RIG_B)
 FOUR = (SAIL, ORBIT, CODE, ANVIL)
 # Markers known, and in view.
 LOADS = ((1, 1), (1, 0), (4, 1), (4, 4))
-# One in which all is found, and as many as all parts of an idle search take.
-STEPS_OF_A_SCENE = 17
+# One in which all is found, and some more: with a marker out of view as many as all parts of an idle search.
+STEPS_OF_A_SCENE, IDLE_STEPS_OF_A_SCENE = 6, 17
 
 
 @dataclass(slots=True)
@@ -74,7 +74,7 @@ def _pace_of(run: PaceRun, scene: Scene, peers: Sequence[Peer]) -> None:
         run.peers_ms[peer.name].append(elapsed_ms(partial(peer.detect, image)))
     run.search_ms.append(elapsed_ms(partial(tracker.search, image)))
     tracker.step(image, captured_at_s=0.0)
-    for number in range(1, STEPS_OF_A_SCENE):
+    for number in range(1, IDLE_STEPS_OF_A_SCENE if run.in_view < run.known else STEPS_OF_A_SCENE):
         image = image_of(replace(scene, noise_seed=(*scene.noise_seed, number)))
         run.by_step_ms.append(elapsed_ms(partial(peers[0].detect, image)))
         run.step_ms.append(elapsed_ms(partial(tracker.step, image, captured_at_s=number / RATE_HZ)))
