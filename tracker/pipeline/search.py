@@ -8,7 +8,7 @@ certainty, since the illumination is then not poor, and in `Tracker.step`, where
 search that finds nothing takes three times as long because of it.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -28,7 +28,7 @@ from tracker.pose import (
 
 
 class Search:
-    """An incremental search of one image, or of a window of it, for some markers. Mutable.
+    """A search of one image, or of a window of it, for some markers. Mutable.
 
     Attributes:
         best: the best sighting of each marker so far, by name.
@@ -53,30 +53,10 @@ class Search:
             left, top, right, bottom = window
             self._image = np.ascontiguousarray(pixels.image[top:bottom, left:right])
             self._corner_px = np.array([left, top], dtype=np.float64)
-        self._rounds = candidate_rounds(self._image, templates)
-        # Models whose candidates of this round have not been fitted yet.
-        self._waiting: list[tuple[MarkerModel, list[Candidate]]] = []
         # Names of markers in the image whose rotation about the normal is ambiguous.
         self._undecided: set[str] = set()
         # Maximum number of fitted candidates per model and round.
         self._max_fits = MAX_FITS
-
-    def advance(self) -> bool:
-        """Compute the candidates of a round, or fit those of one model; return False at the end."""
-        if not self._waiting:
-            candidates = next(self._rounds, None)
-            self._fitter.stages.end("candidates")
-            self._waiting = [pair for pair in zip(self._models, candidates or [], strict=False) if pair[1]]
-            return candidates is not None
-        model, own = self._waiting.pop(0)
-        if not self._is_over(model, is_certain):
-            own = [replace(one, corners_px=one.corners_px + self._corner_px) for one in own]
-            for found in self._fitter.fit_candidates(self._pixels, model, own, maximum=self._max_fits):
-                self._take(model.name, found)
-                # A certain sighting ends the search for this model.
-                if self._is_over(model, is_certain):
-                    break
-        return True
 
     def _take(self, name: str, found: Sighting) -> None:
         """Store the better sighting, or `Unseen` where both differ by a rotation and neither is certain."""
@@ -92,24 +72,38 @@ class Search:
         return model.name in self._undecided or enough(self.best[model.name])
 
     def run(self, *, thorough: bool = False) -> dict[str, Sighting]:
-        """Run the remaining search while it can improve; return the best sighting of each marker.
+        """Search while that can improve the result; return the best sighting of each marker.
 
         `thorough`: search again for unseen markers at far higher cost, unless another marker was found with
         certainty, since the illumination is then not poor.
         """
-        self._advance_until(is_certain)
+        self._search_until(is_certain, candidate_rounds(self._image, self._templates))
         unseen = [k for k, model in enumerate(self._models) if not self._is_over(model, _is_seen)]
         if thorough and unseen and not any(is_certain(one) for one in self.best.values()):
             self._models, self._max_fits = [self._models[k] for k in unseen], MAX_THOROUGH_FITS
-            self._rounds = thorough_rounds(self._image, self._templates[unseen])
-            self._advance_until(_is_seen)
+            self._search_until(_is_seen, thorough_rounds(self._image, self._templates[unseen]))
         return self.best
 
-    def _advance_until(self, enough: Callable[[Sighting], bool]) -> None:
-        while self.advance():
-            if all(self._is_over(model, enough) for model in self._models):
-                break
-        self._waiting = []
+    def _search_until(
+        self, enough: Callable[[Sighting], bool], rounds: Iterator[list[list[Candidate]]]
+    ) -> None:
+        """Fit the candidates of each round, until the best sighting of each marker is good enough."""
+        for candidates in rounds:
+            self._fitter.stages.end("candidates")
+            for model, own in zip(self._models, candidates, strict=True):
+                if own and not self._is_over(model, is_certain):
+                    self._fit(model, own)
+                if all(self._is_over(one, enough) for one in self._models):
+                    return
+        self._fitter.stages.end("candidates")
+
+    def _fit(self, model: MarkerModel, candidates: Sequence[Candidate]) -> None:
+        """Fit candidates in px of the window; a certain sighting ends the search for this model."""
+        own = [replace(one, corners_px=one.corners_px + self._corner_px) for one in candidates]
+        for found in self._fitter.fit_candidates(self._pixels, model, own, maximum=self._max_fits):
+            self._take(model.name, found)
+            if self._is_over(model, is_certain):
+                return
 
 
 def _is_seen(sighting: Sighting) -> bool:
