@@ -20,6 +20,7 @@ from tracker.marker.score import (
 )
 from tracker.marker.search import (
     COSTLY_ROUNDS,
+    SAME_OUTLINE_SIDE_RATIO,
     Candidate,
     candidate_rounds,
     costly_candidates,
@@ -30,6 +31,7 @@ from tracker.marker.template_matching import Templates, templates_of
 
 __all__ = [
     "COSTLY_ROUNDS",
+    "SAME_OUTLINE_SIDE_RATIO",
     "ActiveEdges",
     "Agreement",
     "Candidate",

@@ -19,6 +19,7 @@ import numpy as np
 
 from tracker.marker import (
     COSTLY_ROUNDS,
+    SAME_OUTLINE_SIDE_RATIO,
     Candidate,
     MarkerModel,
     Templates,
@@ -26,16 +27,13 @@ from tracker.marker import (
     four_sided_candidates,
 )
 from tracker.pipeline.fitter import Fitter
-from tracker.pose import ImageContext, Seen, Sighting, Unseen, UnseenReason, rank_score
-from tracker.pose.occurrence import side_px_of
+from tracker.pose import ImageContext, Seen, Sighting, Unseen, UnseenReason, rank_score, side_px_of
 
 # Every how many images one gets a costly round: without another marker in view, and with one.
 IDLE_PERIOD_IMAGES, TRACKING_PERIOD_IMAGES = 4, 8
 # A rejected candidate at the same place is fitted again after so many images, or when its correlation has
 # increased by so much, as that of a marker that comes to rest.
 REFIT_IMAGES, MIN_GAIN = 10, 0.02
-# Candidates no further apart at any corner than by this ratio of a side are at the same place.
-SAME_PLACE_RATIO = 0.06
 NO_CANDIDATE = Unseen(reason=UnseenReason.NO_CANDIDATE, best_score_ratio=None)
 
 
@@ -135,7 +133,7 @@ class IdleSearch:
 
     def _is_rejected(self, model: MarkerModel, candidate: Candidate) -> bool:
         """Whether a candidate at this place that matched as well was fitted some images ago."""
-        reach_px = SAME_PLACE_RATIO * side_px_of(candidate.corners_px)
+        reach_px = SAME_OUTLINE_SIDE_RATIO * side_px_of(candidate.corners_px)
         return any(
             one.name == model.name
             and one.candidate is not None

@@ -95,7 +95,9 @@ def _of_returns(run: LimitsRun) -> Iterator[Named]:
             yield f"{name}, found within {most} images", Share(count=count, of=len(one.images))
         yield (
             f"{name}, wrong",
-            Share(count=one.wrong, of=len(one.claims), is_good=False, is_strict=True) if one.claims else None,
+            Share(count=wrong(one.claims), of=len(one.claims), is_good=False, is_strict=True)
+            if one.claims
+            else None,
         )
 
 

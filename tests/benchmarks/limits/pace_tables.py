@@ -147,7 +147,7 @@ def _return_table(run: LimitsRun) -> Table:
                 str(len(one.images)),
                 *(number(share) for share in within),
                 NOTHING if goal is None else f"0.95 within {goal}",
-                str(one.wrong),
+                str(wrong(one.claims)),
             ]
         )
     return Table(

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
-from tests.benchmarks.limits.evaluation import Evaluation, Outcome, claim_of, evaluate
+from tests.benchmarks.limits.evaluation import Evaluation, claim_of, evaluate
 from tests.benchmarks.limits.finders import tracker_of
 from tests.benchmarks.scenes.conditions import conditions_of
 from tests.benchmarks.scenes.faces import FACES
@@ -33,11 +33,6 @@ class ReturnRun:
     condition: str
     images: list[int] = field(default_factory=list)
     claims: list[Evaluation] = field(default_factory=list)
-
-    @property
-    def wrong(self) -> int:
-        """Return how many of the first sightings are something else."""
-        return sum(one.outcome is Outcome.WRONG for one in self.claims)
 
 
 def measure_returns(

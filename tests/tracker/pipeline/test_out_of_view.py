@@ -27,7 +27,7 @@ from tracker.pipeline.idle_search import REFIT_IMAGES
 
 ABSENT = ((1, 1, 0), (0, 1, 0), (1, 0, 0))
 HERE = pose_of((130.0, 180.0))
-# As many images as the parts of two searches take: one that was under way, and one to be in time for.
+# More images than all parts of a search take.
 PATIENCE = 60
 
 
