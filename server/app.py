@@ -2,7 +2,7 @@
 
 import asyncio
 import contextlib
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from dataclasses import dataclass
 
 from fastapi import Depends, FastAPI
@@ -44,8 +44,7 @@ from server.api.tools import tools_router
 from server.capture.address import source_from_text
 from server.config import Config
 from server.jobs import Jobs
-from server.live import LiveHub
-from server.loop.publisher import PictureEncoder
+from server.live import LiveHub, Problem
 from server.loop.rehearsal_control import RehearsalControl
 from server.overlay.panel_readings import RESEARCH_SOFTWARE
 from server.procedure import Steps
@@ -162,15 +161,10 @@ def create_app(parts: AppParts) -> FastAPI:
     return app
 
 
-def picture_of(app: FastAPI) -> PictureEncoder:
-    """Return the functions that draw and encode an image once for all viewers of this application."""
+def picture_problem_of(app: FastAPI) -> Callable[[], Problem | None]:
+    """Return a function for any thread: why this application cannot draw a picture, None while it can."""
     pictures: PictureCache = app.state.pictures
-    return PictureEncoder(
-        draw=pictures.draw,
-        encode=pictures.encode,
-        is_watched=pictures.is_watched,
-        is_watched_in_full=pictures.is_watched_in_full,
-    )
+    return lambda: pictures.problem
 
 
 def _add_streams(app: FastAPI, parts: AppParts, viewers: Viewers, video: Video, view: ViewContext) -> None:

@@ -166,12 +166,9 @@ class Instant:
         process: State of the tracking process.
         snapshot: Result of the newest image; None before the first image and while capture or tracking is
             stopped, so that an old result is not shown as live.
-        jpeg: The image with the overlay; empty without a snapshot or without recent full-size viewers.
-        drawn: The decoded picture of that JPEG, (h, w, 3) uint8 BGR, for other sizes; None without a
-            snapshot or without recent viewers. Read-only.
-        image: The camera image without overlay, (h, w, 3) uint8 BGR, for set-up; None without a snapshot.
-            Read-only.
-        server_ms: Duration of the server stages ("overlay", "encode") for this image.
+        image: The camera image without overlay, (h, w, 3) uint8 BGR; None without a snapshot. Read-only.
+        jpeg: A picture that stands in for the image with its overlay, where there is one already; empty for
+            images of a source, whose overlay is drawn for who watches (`server/stream/scaling`).
         alarms: Alarms, including this image.
     """
 
@@ -179,10 +176,8 @@ class Instant:
     source: SourceStatus
     process: ProcessStatus
     snapshot: NavigationSnapshot | None = None
-    jpeg: bytes = b""
-    drawn: npt.NDArray[np.uint8] | None = None
     image: npt.NDArray[np.uint8] | None = None
-    server_ms: dict[str, float] = field(default_factory=dict)
+    jpeg: bytes = b""
     alarms: AlarmSnapshot = QUIET
 
     @property
@@ -196,9 +191,8 @@ class Instant:
 
     @property
     def has_picture(self) -> bool:
-        """Whether a picture is available, drawn and encoded or not."""
-        drawable = self.image is not None and self.snapshot is not None
-        return bool(self.jpeg) or self.drawn is not None or drawable
+        """Whether there is a picture, drawn and encoded or not."""
+        return bool(self.jpeg) or (self.image is not None and self.snapshot is not None)
 
 
 class LiveHub:

@@ -52,6 +52,10 @@ class Metrics:
             registry=self.registry,
         )
         self.registry.register(_Now(hub, viewers, pictures))
+        pictures.observe_stage = self._observe_stage
+
+    def _observe_stage(self, stage: str, spent_s: float) -> None:
+        self._stages.labels(stage).observe(spent_s)
 
     async def follow(self) -> None:
         """Count instants until cancelled."""
@@ -67,8 +71,8 @@ class Metrics:
         if snapshot is None or snapshot.captured_at_s == self._captured_at_s:
             return
         self._captured_at_s = snapshot.captured_at_s
-        for stage, spent_ms in {**snapshot.stage_ms, **instant.server_ms}.items():
-            self._stages.labels(stage).observe(spent_ms / 1000.0)
+        for stage, spent_ms in snapshot.stage_ms.items():
+            self._observe_stage(stage, spent_ms / 1000.0)
         for marker, sighting in snapshot.sightings.items():
             if isinstance(sighting, Seen):
                 self._seen.labels(marker).inc()
@@ -88,7 +92,7 @@ class _Now(Collector):
         yield from _viewer_metrics(self._viewers)
         encoded = CounterMetricFamily(
             "coaxial_pictures_encoded",
-            "Pictures encoded for those who watch, by size; full ones count where they were asked for late.",
+            "Pictures encoded for those who watch, by size.",
             labels=["size"],
         )
         for size in PictureSize:

@@ -22,7 +22,9 @@ length of the header (4 bytes, unsigned, little endian), the header (a `LiveMess
 the same instant, empty if there is no image. One image is in flight at a time. The size is full, half or
 quarter, or auto to match the bandwidth; `{"size": "half"}` changes it, and `shown_scale_ratio` in the header
 is the size of the image. A client may report its display time, `{"next": true, "showing_ms": 12}`, so that it
-is not counted as network delay, and its largest displayable size, `{"largest": "half"}`.
+is not counted as network delay, and its largest displayable size, `{"largest": "half"}`. With
+`{"interval_ms": 50}` (0 to 1000) images are at least that far apart on average; a state without image and an
+alarm that changes are sent at once.
 
 `WS /ws/camera`: the page `/camera` sends the images of its device's camera, where `camera.source` is `phone`.
 Text messages are JSON with one key. The page sends `hello` with its key and receives `welcome`

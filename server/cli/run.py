@@ -70,7 +70,7 @@ def _serve(
         preparation = build_setup(config)
         _warn_about_markers(preparation)
         from server.alarms import AlarmService, StoredAlarmLog  # noqa: PLC0415
-        from server.app import AppParts, create_app, picture_of  # noqa: PLC0415
+        from server.app import AppParts, create_app, picture_problem_of  # noqa: PLC0415
         from server.cli.web import serve_until  # noqa: PLC0415
         from server.procedure import Steps  # noqa: PLC0415
 
@@ -104,7 +104,7 @@ def _serve(
                 rehearsed=_rehearsed(config, preparation, tracked),
             )
         )
-        tracked.publish(picture_of(app), check_alarms=alarms.observe)
+        tracked.publish(check_alarms=alarms.observe, picture_problem=picture_problem_of(app))
         serve_until(
             app,
             listener,

@@ -1,16 +1,15 @@
 """Publishes the newest report of the tracking process as the newest instant.
 
-One thread draws the overlay and encodes it once for all viewers, while there are any. Newest wins: reports
-that arrive meanwhile are dropped, and counted. An instant is published at least once a second, and never with
-a picture that is known to be stale. Alarms are evaluated with every image, before it is drawn, and twenty
-times a second without one: they go out with the image that raised them, and missing images raise an alarm
-too.
+Newest wins: reports that arrive while one is published are dropped, and counted. An instant is published at
+least once a second, and never with an image that is known to be stale. Alarms are evaluated with every
+image, before it is published, and twenty times a second without one: they go out with the image that raised
+them, and missing images raise an alarm too. Nothing is drawn here (`server/stream/scaling`).
 """
 
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -28,38 +27,18 @@ Image: TypeAlias = npt.NDArray[np.uint8]
 AlarmCheck: TypeAlias = Callable[[NavigationSnapshot | None, SourceStatus, ProcessStatus], AlarmSnapshot]
 HEARTBEAT_S = 0.9
 TICK_S = 0.05
-# An alarm between two images is published with the previous picture, if that is no older than this.
+# An alarm between two images is published with the previous image, if that is no older than this.
 SHOWN_AGAIN_S = 0.15
 
 log = structlog.get_logger(__name__)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PictureEncoder:
-    """Functions that make the outgoing picture.
-
-    Attributes:
-        draw: returns a new image with the overlay of a snapshot and its alarms.
-        encode: returns the JPEG of an image.
-        is_watched: whether there is a viewer of any size; otherwise nothing is drawn.
-        is_watched_in_full: whether there is a viewer of the full size; otherwise that JPEG is not made.
-    """
-
-    draw: Callable[[Image, NavigationSnapshot, AlarmSnapshot], Image]
-    encode: Callable[[Image], bytes]
-    is_watched: Callable[[], bool] = lambda: True
-    is_watched_in_full: Callable[[], bool] = lambda: True
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class PublishedImage:
-    """An image with its snapshot and pictures; all fields are empty without an image."""
+    """An image with its snapshot; both are None without an image."""
 
     snapshot: NavigationSnapshot | None = None
     image: Image | None = None
-    jpeg: bytes = b""
-    drawn: Image | None = None
-    server_ms: dict[str, float] = field(default_factory=dict)
 
 
 class Publisher:
@@ -70,12 +49,12 @@ class Publisher:
         *,
         status: SharedStatus,
         hub: LiveHub,
-        picture: PictureEncoder,
         check_alarms: AlarmCheck = without_alarms,
+        picture_problem: Callable[[], Problem | None] = lambda: None,
     ) -> None:
         self._shared = status
         self._hub = hub
-        self._picture = picture
+        self._picture_problem = picture_problem
         self._check_alarms = check_alarms
         self._stop = threading.Event()
         self._sequence = 0
@@ -125,10 +104,10 @@ class Publisher:
         self._problem = report.problem
         snapshot = None if image is None else report.snapshot
         self._update_alarms(snapshot, report.source)
-        shown = PublishedImage() if snapshot is None or image is None else self._drawn(snapshot, image)
+        shown = PublishedImage() if snapshot is None else PublishedImage(snapshot=snapshot, image=image)
         now = self._shared.current
         if now.generation != current.generation:
-            # The process died while its picture was drawn.
+            # The process died while its image was looked at.
             self._publish_without_image(now)
             return
         self._publish(now.process, report.source, shown)
@@ -177,7 +156,9 @@ class Publisher:
             )
 
     def _status(self, process: ProcessStatus) -> ProcessStatus:
-        problem = process.problem or (self._problem if process.state is ProcessState.RUNNING else None)
+        problem = process.problem
+        if problem is None and process.state is ProcessState.RUNNING:
+            problem = self._problem or self._picture_problem()
         return replace(process, problem=problem, dropped_images=self._dropped)
 
     def _publish(self, process: ProcessStatus, source: SourceStatus, shown: PublishedImage) -> None:
@@ -186,35 +167,13 @@ class Publisher:
             source=source,
             process=self._status(process),
             snapshot=shown.snapshot,
-            jpeg=shown.jpeg,
-            drawn=shown.drawn,
             image=shown.image,
-            server_ms=shown.server_ms,
             alarms=self._alarms,
         )
         self._shown = shown
         self._sequence += 1
         self._last, self._last_at_s = instant, time.monotonic()
         self._hub.publish(instant)
-
-    def _drawn(self, snapshot: NavigationSnapshot, image: Image) -> PublishedImage:
-        """Return the picture of a snapshot; an empty one on failure, with the reason in the status."""
-        if not self._picture.is_watched():
-            # A viewer that connects now gets this image drawn on demand; the next one is drawn here.
-            return PublishedImage(snapshot=snapshot, image=image)
-        started_s = time.monotonic()
-        try:
-            drawn = self._picture.draw(image, snapshot, self._alarms)
-            drawn_s = time.monotonic()
-            jpeg = self._picture.encode(drawn) if self._picture.is_watched_in_full() else b""
-        except Exception as error:  # noqa: BLE001  logged once below, and shown on the page
-            self._report_failure(error, code="OVERLAY_FAILED", what="the overlay cannot be drawn")
-            return PublishedImage()
-        done_s = time.monotonic()
-        server_ms = {"overlay": (drawn_s - started_s) * 1e3}
-        if jpeg:
-            server_ms["encode"] = (done_s - drawn_s) * 1e3
-        return PublishedImage(snapshot=snapshot, image=image, jpeg=jpeg, drawn=drawn, server_ms=server_ms)
 
     def _report_failure(self, error: Exception, *, code: str, what: str, remedy: str = "") -> None:
         sentence = f"{type(error).__name__}: {error}"

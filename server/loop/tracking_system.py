@@ -1,13 +1,15 @@
 """Everything between a source and the live hub, started and stopped as one."""
 
+from collections.abc import Callable
+
 from server.alarms import without_alarms
 from server.capture.address import SourceKind, source_from_text
 from server.capture.rehearsal import PlayedScene
 from server.config import Config
-from server.live import LiveHub
+from server.live import LiveHub, Problem
 from server.logs import LogSettings
 from server.loop.phone_inbox import PhoneInbox
-from server.loop.publisher import AlarmCheck, PictureEncoder, Publisher
+from server.loop.publisher import AlarmCheck, Publisher
 from server.loop.shared_status import SharedStatus
 from server.loop.staging import SceneOrder
 from server.loop.supervisor import Supervisor, WatchdogSettings
@@ -41,10 +43,15 @@ class TrackingSystem:
         """Start the tracking process; call it from the main thread. Nothing is published yet."""
         self._supervisor.start()
 
-    def publish(self, picture: PictureEncoder, *, check_alarms: AlarmCheck = without_alarms) -> None:
-        """Start publishing, with these picture and alarm functions."""
+    def publish(
+        self,
+        *,
+        check_alarms: AlarmCheck = without_alarms,
+        picture_problem: Callable[[], Problem | None] = lambda: None,
+    ) -> None:
+        """Start publishing; `picture_problem` returns why no picture can be drawn, None while it can."""
         self._publisher = Publisher(
-            status=self._status, hub=self.hub, picture=picture, check_alarms=check_alarms
+            status=self._status, hub=self.hub, check_alarms=check_alarms, picture_problem=picture_problem
         )
         self._publisher.start()
 

@@ -122,8 +122,8 @@ def run_worker(order: WorkerOrder, link: WorkerLink) -> None:
     die_with_parent()
     configure_logging(order.log, process="tracking")
     os.set_blocking(link.notice.fileno(), False)
-    # Two threads: one core is left to the server, and the tracker's images are small.
-    cv2.setNumThreads(2)
+    # One core is left to the server; with two, a second thread of OpenCV spends more than it saves.
+    cv2.setNumThreads(min(2, max(1, (os.cpu_count() or 1) - 1)))
     stop = threading.Event()
     newest, scenes = LatestCase(), LatestScene()
     listening = (link.orders, newest, scenes, stop)

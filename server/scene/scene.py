@@ -13,7 +13,7 @@ from starlette.responses import RedirectResponse, Response
 from starlette.routing import BaseRoute, Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from server.live import LiveHub
+from server.live import Instant, LiveHub
 from server.scene.door import SUBPROTOCOL, Door
 from server.scene.gate import Gate, Verdict
 from server.scene.page import make_page
@@ -87,6 +87,7 @@ class Scene:
         )
         self._door: Door | None = None
         self._stage: Stage | None = None
+        self._instant: Instant | None = None
         self._follower: asyncio.Task[None] | None = None
         self.viewers = 0
         self.slow_viewers = 0
@@ -134,15 +135,20 @@ class Scene:
                     instant = await self._hub.next_after(sequence)
             except TimeoutError:
                 # Nobody says anything any more: what stands in the scene is not true now.
+                self._instant = None
                 stage.show_nothing()
                 continue
-            sequence = instant.sequence
-            try:
-                stage.show(instant)
-            except Exception:  # noqa: BLE001 one bad instant must not freeze the scene for ever
-                _log.exception("scene_instant_failed", sequence=sequence)
-                stage.show_nothing()
+            sequence, self._instant = instant.sequence, instant
+            if self.viewers > 0:
+                self._draw(stage, instant)
             await asyncio.sleep(MIN_INTERVAL_S)
+
+    def _draw(self, stage: Stage, instant: Instant) -> None:
+        try:
+            stage.show(instant)
+        except Exception:  # noqa: BLE001 one bad instant must not freeze the scene for ever
+            _log.exception("scene_instant_failed", sequence=instant.sequence)
+            stage.show_nothing()
 
     async def _answer(self, request: Request) -> Response:
         return self._page.answer(request)
@@ -164,6 +170,9 @@ class Scene:
     async def _show(self, door: Door, websocket: WebSocket) -> None:
         """One who was let in."""
         self.viewers += 1
+        if self.viewers == 1 and self._stage is not None and self._instant is not None:
+            # Nothing was drawn while nobody watched.
+            self._draw(self._stage, self._instant)
         try:
             await websocket.accept(subprotocol=SUBPROTOCOL)
             code = await self._serve(door, websocket)
@@ -174,6 +183,9 @@ class Scene:
             _log.info("scene_viewer_gone")
         finally:
             self.viewers -= 1
+            if self.viewers == 0 and self._stage is not None:
+                # What stands in it is not renewed, and the next viewer must not find it.
+                self._stage.show_nothing()
 
     async def _serve(self, door: Door, websocket: WebSocket) -> int | None:
         """Speak and listen until one of both ends; the close code, or None when nobody is left to close."""

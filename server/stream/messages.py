@@ -114,9 +114,7 @@ def live_message(instant: Instant, *, now_s: float, shown_scale_ratio: float = 1
         shown_scale_ratio=shown_scale_ratio,
         source=source_message(instant.source),
         process=process_message(instant.process),
-        snapshot=None
-        if instant.snapshot is None
-        else snapshot_message(instant.snapshot, instant.server_ms, now_s=now_s),
+        snapshot=None if instant.snapshot is None else snapshot_message(instant.snapshot, now_s=now_s),
         headline=headline_message(headline_of(instant.snapshot, instant.alarms)),
         alarms=alarms_message(instant.alarms, now_s=now_s),
     )

@@ -1,6 +1,5 @@
 """Message of one image and its navigation results."""
 
-from collections.abc import Mapping
 from typing import Annotated
 
 from pydantic import Field
@@ -88,13 +87,11 @@ class SnapshotMessage(Message):
     displayed_tool: str | None
     """The tool whose figures are displayed: the one with the most severe verdict; null without any."""
     stage_ms: dict[str, float]
-    """Time of each stage, of the tracking process and of the server."""
+    """Time of each stage of the tracking process."""
     skipped_images: int
 
 
-def snapshot_message(
-    snapshot: NavigationSnapshot, server_ms: Mapping[str, float], *, now_s: float
-) -> SnapshotMessage:
+def snapshot_message(snapshot: NavigationSnapshot, *, now_s: float) -> SnapshotMessage:
     """Return the message of a snapshot, sent at monotonic time `now_s`."""
     setup, registration = snapshot.setup, snapshot.setup.registration
     return SnapshotMessage(
@@ -122,7 +119,7 @@ def snapshot_message(
         ],
         tools=[_tool_state(snapshot, name) for name in snapshot.tools],
         displayed_tool=snapshot.displayed_tool or None,
-        stage_ms={**snapshot.stage_ms, **server_ms},
+        stage_ms=dict(snapshot.stage_ms),
         skipped_images=snapshot.skipped_images,
     )
 

@@ -11,7 +11,8 @@ images instead of older ones. A second `{"next": true}` before the answer has no
 "showing_ms": 12}` also reports how long the client needed to display the last image: that time does not count
 against its connection. `{"size": "half"}` requests another size from the next image on: full, half, quarter,
 or auto for the one that suits the connection. `{"largest": "half"}`: with auto, send none larger, because the
-client cannot display it.
+client cannot display it. `{"interval_ms": 50}`: send images at least this far apart, on average, because the
+client has no time for more; what is no image, and an alarm that changes, is sent at once.
 
 Picture and pose cannot belong to different images, and the client sets the rate. MJPEG has neither property,
 and browsers display a part only when the next one begins; it remains for programs that show pictures only.
@@ -23,6 +24,7 @@ import math
 import struct
 import time
 from dataclasses import dataclass
+from typing import TypeGuard
 
 from starlette.websockets import WebSocket
 
@@ -39,8 +41,9 @@ from server.stream.viewers import Viewer, ViewerKind, Viewers
 HEADER_LENGTH = struct.Struct("<I")
 NEXT_REQUEST = {"next": True}
 EXPECTED_MESSAGES = (
-    'only {"next": true, "showing_ms"?: 0 or more}, {"size": ...} and {"largest": ...} are accepted'
+    'only {"next": true, "showing_ms"?: ms}, {"size": s}, {"largest": s} and {"interval_ms": 0 to 1000}'
 )
+MAX_INTERVAL_MS = 1000.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,6 +62,32 @@ class ViewContext:
     texts: MessageCache
 
 
+class ImagePace:
+    """Selects images that are at least `interval_s` apart, on average.
+
+    Of a camera with 33 ms between images an interval of 50 ms takes two of three: a fixed distance would take
+    every second one. A pause of the camera is not made up for.
+    """
+
+    def __init__(self) -> None:
+        self.interval_s = 0.0
+        self._due_s = -math.inf
+        self._alarm_revision = -1
+
+    def takes(self, instant: Instant) -> bool:
+        """Return whether this instant is sent; call it once for each."""
+        changed = instant.alarms.revision != self._alarm_revision
+        self._alarm_revision = instant.alarms.revision
+        if instant.snapshot is None or self.interval_s == 0.0:
+            return True
+        captured_at_s = instant.snapshot.captured_at_s
+        if captured_at_s < self._due_s and not changed:
+            return False
+        is_late = captured_at_s - self._due_s >= self.interval_s
+        self._due_s = (captured_at_s if is_late else self._due_s) + self.interval_s
+        return True
+
+
 class ViewRequests:
     """Requests of the client.
 
@@ -66,6 +95,7 @@ class ViewRequests:
         requested: set while the next image may be sent.
         at_s: time of the last request, monotonic.
         showing_s: time that the client reported for displaying the last image.
+        pace: spacing of the images that the client asked for.
     """
 
     def __init__(self, viewer: Viewer) -> None:
@@ -73,6 +103,7 @@ class ViewRequests:
         self.requested = asyncio.Event()
         self.at_s = 0.0
         self.showing_s = 0.0
+        self.pace = ImagePace()
 
     def receive_text(self, text: str) -> None:
         """Handle one message of the client.
@@ -90,6 +121,8 @@ class ViewRequests:
             self._viewer.adaptive_size.choose(SizeChoice(message["size"]))
         elif list(message) == ["largest"] and message["largest"] in list(PictureSize):
             self._viewer.adaptive_size.limit(PictureSize(message["largest"]))
+        elif list(message) == ["interval_ms"] and _is_number(message["interval_ms"], MAX_INTERVAL_MS):
+            self.pace.interval_s = message["interval_ms"] / 1000.0
         elif message.pop("next", None) is True and (showing_ms := _showing_ms(message)) is not None:
             self.at_s, self.showing_s = time.monotonic(), showing_ms / 1000.0
             self.requested.set()
@@ -107,9 +140,14 @@ class ViewRequests:
 def _showing_ms(rest: dict[str, object]) -> float | None:
     """Return the reported display time, 0 without one; None for an invalid message."""
     showing_ms = rest.pop("showing_ms", 0.0)
-    if rest or isinstance(showing_ms, bool) or not isinstance(showing_ms, int | float):
-        return None
-    return float(showing_ms) if math.isfinite(showing_ms) and showing_ms >= 0.0 else None
+    return None if rest or not _is_number(showing_ms, math.inf) else float(showing_ms)
+
+
+def _is_number(value: object, maximum: float) -> TypeGuard[float]:
+    """Return whether this is a finite number from 0 to the maximum."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    return math.isfinite(value) and 0.0 <= value <= maximum
 
 
 async def view_message(view: ViewContext, instant: Instant, viewer: Viewer) -> bytes:
@@ -151,6 +189,8 @@ async def _show(websocket: WebSocket, view: ViewContext, viewer: Viewer) -> None
                 free_at_s = requests.connection_free_at_s(drained_at_s=drained_at_s)
                 viewer.adaptive_size.sent(began_s=began_s, ended_s=free_at_s, missed=missed)
             instant = await view.hub.next_after(viewer.sequence)
+            while not requests.pace.takes(instant):
+                instant = await view.hub.next_after(instant.sequence)
             requests.requested.clear()
             viewer.mark_taken(instant.sequence)
             content = await view_message(view, instant, viewer)

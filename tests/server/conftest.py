@@ -143,7 +143,6 @@ def make_instant(
         process=process or ProcessStatus(state=ProcessState.RUNNING),
         snapshot=snapshot,
         jpeg=jpeg,
-        server_ms={} if snapshot is None else {"overlay": 2.0},
     )
 
 

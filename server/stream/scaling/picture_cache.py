@@ -1,4 +1,4 @@
-"""Pictures of an instant by size: encoded once for all viewers, and only on demand.
+"""Pictures of an instant by size: drawn and encoded once for all viewers, and only on demand.
 
 The finished picture is scaled, so that figures and image belong to one instant; small print is unreadable at
 a quarter of the width, the main figures stay readable.
@@ -14,15 +14,11 @@ import numpy as np
 import numpy.typing as npt
 import structlog
 
-from server.live import Instant
+from server.live import Instant, Problem
 from server.overlay import draw_overlay, encode_jpeg
 from server.stream.scaling.sizes import PictureSize
 from server.texts import Language
-from tracker.navigation import NavigationSnapshot
-from tracker.navigation.alarms import AlarmSnapshot
 
-# A viewer counts as present for this long after the last request.
-REQUESTED_WITHIN_S = 1.0
 # A higher JPEG quality for small pictures: fine strokes of the overlay suffer first, and the bytes are few.
 BETTER_WHEN_SMALL = 10
 BEST_QUALITY = 95
@@ -31,46 +27,25 @@ _log = structlog.get_logger(__name__)
 
 
 class PictureCache:
-    """Encodes in its own thread, beside the event loop and away from the tracker. For one event loop."""
+    """Draws and encodes in its own thread, beside the event loop. For one event loop."""
 
-    def __init__(
-        self, *, quality: int, language: Language = "en", clock: Callable[[], float] = time.monotonic
-    ) -> None:
+    def __init__(self, *, quality: int, language: Language = "en") -> None:
         self._quality = quality
         self._language: Language = language
-        self._clock = clock
-        self._requested_at_s = -float("inf")
-        self._full_requested_at_s = -float("inf")
         self._made: dict[PictureSize, tuple[int, asyncio.Future[bytes]]] = {}
         self._thread = ThreadPoolExecutor(1, thread_name_prefix="pictures")
         self.encoded = dict.fromkeys(PictureSize, 0)
-        """How many pictures were made here, by size."""
-
-    def encode(self, drawn: npt.NDArray[np.uint8]) -> bytes:
-        """Return the JPEG of the full picture. Any thread."""
-        return encode_jpeg(drawn, self._quality)
-
-    def draw(
-        self, image: npt.NDArray[np.uint8], snapshot: NavigationSnapshot, alarms: AlarmSnapshot
-    ) -> npt.NDArray[np.uint8]:
-        """Return a new image with the overlay. Any thread."""
-        return draw_overlay(image, snapshot, alarms, language=self._language)
-
-    def is_watched(self) -> bool:
-        """Return whether there is a viewer; then the overlay is drawn with each image. Any thread."""
-        return self._clock() - self._requested_at_s <= REQUESTED_WITHIN_S
-
-    def is_watched_in_full(self) -> bool:
-        """Return whether there is a viewer of the full size, made with each image. Any thread."""
-        return self._clock() - self._full_requested_at_s <= REQUESTED_WITHIN_S
+        """How many pictures were made, by size."""
+        self.problem: Problem | None = None
+        """Why the last picture could not be made; None when it was. Any thread may read it."""
+        self.observe_stage: Callable[[str, float], None] = lambda _stage, _spent_s: None
+        """Called with the seconds of each stage, "overlay" and "encode", from the thread of the pictures."""
+        self._drawn: tuple[int, npt.NDArray[np.uint8]] | None = None
 
     async def of(self, instant: Instant, size: PictureSize) -> bytes:
         """Return the JPEG of an instant in this size; empty without a picture."""
-        self._requested_at_s = self._clock()
-        if size is PictureSize.FULL:
-            self._full_requested_at_s = self._requested_at_s
-            if instant.jpeg:
-                return instant.jpeg
+        if size is PictureSize.FULL and instant.jpeg:
+            return instant.jpeg
         if not instant.has_picture:
             return b""
         sequence, making = self._made.get(size, (-1, None))
@@ -87,28 +62,49 @@ class PictureCache:
 
     def _make(self, instant: Instant, size: PictureSize) -> bytes:
         try:
-            content = self._encoded(self._drawn(instant), size)
-        except Exception:  # noqa: BLE001  logged here, and the page says that there is no picture
-            _log.exception("a picture could not be drawn or encoded", size=size)
+            drawn = self._drawn_of(instant)
+            started_s = time.monotonic()
+            content = self._encoded(drawn, size)
+            self.observe_stage("encode", time.monotonic() - started_s)
+        except Exception as error:  # noqa: BLE001  logged here, and the page says that there is no picture
+            self._report(error, size)
             return b""
+        self.problem = None
         self.encoded[size] += 1
         return content
 
+    def _drawn_of(self, instant: Instant) -> npt.NDArray[np.uint8]:
+        """Return the image with its overlay, which is drawn once for all sizes."""
+        if self._drawn is not None and self._drawn[0] == instant.sequence:
+            return self._drawn[1]
+        if instant.image is not None and instant.snapshot is not None:
+            started_s = time.monotonic()
+            drawn = draw_overlay(instant.image, instant.snapshot, instant.alarms, language=self._language)
+            self.observe_stage("overlay", time.monotonic() - started_s)
+        else:
+            drawn = _decoded(instant.jpeg)
+        self._drawn = instant.sequence, drawn
+        return drawn
+
     def _encoded(self, drawn: npt.NDArray[np.uint8], size: PictureSize) -> bytes:
         if size is PictureSize.FULL:
-            return self.encode(drawn)
+            return encode_jpeg(drawn, self._quality)
         height, width = drawn.shape[:2]
         wanted = (max(1, round(width * size.scale_ratio)), max(1, round(height * size.scale_ratio)))
         small = cv2.resize(drawn, wanted, interpolation=cv2.INTER_AREA)
         quality = max(self._quality, min(self._quality + BETTER_WHEN_SMALL, BEST_QUALITY))
         return encode_jpeg(np.asarray(small, np.uint8), quality)
 
-    def _drawn(self, instant: Instant) -> npt.NDArray[np.uint8]:
-        if instant.drawn is not None:
-            return instant.drawn
-        if not instant.jpeg and instant.image is not None and instant.snapshot is not None:
-            return self.draw(instant.image, instant.snapshot, instant.alarms)
-        return _decoded(instant.jpeg)
+    def _report(self, error: Exception, size: PictureSize) -> None:
+        """Log a failure once, and keep it for the page."""
+        message = f"the overlay cannot be drawn: {type(error).__name__}: {error}"
+        if self.problem is None or self.problem.message != message:
+            _log.error("a picture could not be drawn or encoded", size=size, exc_info=error)
+        self.problem = Problem(
+            code="OVERLAY_FAILED",
+            message=message,
+            remedy="Restart the program; if it happens again, report it with the log.",
+        )
 
 
 def _decoded(jpeg: bytes) -> npt.NDArray[np.uint8]:

@@ -43,7 +43,6 @@ def test_an_image_is_counted_once_however_often_it_is_published(
     metrics.count(instant_of(3, snapshot=snapshot_of(image_number=1, captured_at_s=2.0, seen=False)))
     assert value(metrics, "coaxial_stage_seconds_count", stage="edges") == 2.0
     assert value(metrics, "coaxial_stage_seconds_sum", stage="edges") == pytest.approx(0.006)
-    assert value(metrics, "coaxial_stage_seconds_count", stage="overlay") == 2.0
     assert value(metrics, "coaxial_marker_seen_total", marker="drill") == 1.0
     assert value(metrics, "coaxial_marker_unseen_total", marker="drill", reason="SCORE_TOO_LOW") == 1.0
 

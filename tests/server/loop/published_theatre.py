@@ -10,7 +10,7 @@ from server.alarms import AlarmService
 from server.capture.shot import Shot
 from server.config import Config, RehearsalEventConfig
 from server.live import Instant, ProcessState, ProcessStatus, SourceState, SourceStatus
-from server.loop.publisher import PictureEncoder, Publisher
+from server.loop.publisher import Publisher
 from server.loop.report import Report, ReportPacker
 from server.loop.ring import ImageRing
 from server.loop.shared_status import SharedStatus
@@ -127,8 +127,6 @@ class ShownTheatre:
         self._publisher = Publisher(
             status=self._board,
             hub=self._hub,
-            # Not compressed: what is asked is which pixels were drawn into.
-            picture=PictureEncoder(draw=draw_overlay, encode=lambda image: image.tobytes()),
             check_alarms=self._service.observe,
         )
         self._board.post(ProcessStatus(state=ProcessState.RUNNING), self._ring)
@@ -172,7 +170,7 @@ class ShownTheatre:
 
     def _is_drawn(self, instant: Instant) -> bool:
         """Whether most pixels along the shaft were drawn into."""
-        if not instant.jpeg or instant.image is None or instant.snapshot is None:
+        if instant.image is None or instant.snapshot is None:
             return False
         at_s = BEGIN_S + instant.snapshot.image_number / RATE_HZ
         tool = self._theatre.truth_at(at_s).camera_from_tool
@@ -180,6 +178,6 @@ class ShownTheatre:
         columns, rows = np.rint(self._theatre.camera.px_from_camera(points)).astype(int).T
         inside = (columns >= 0) & (columns < WIDTH) & (rows >= 0) & (rows < HEIGHT)
         assert inside.sum() > 20
-        drawn = np.frombuffer(instant.jpeg, np.uint8).reshape(HEIGHT, WIDTH, 3).astype(int)
+        drawn = draw_overlay(instant.image, instant.snapshot, instant.alarms).astype(int)
         change = np.abs(drawn - instant.image.astype(int)).max(axis=2)[rows[inside], columns[inside]]
         return bool((change > DRAWN_BY).mean() > 0.5)

@@ -1,16 +1,18 @@
 """From reports to instants, with time and process controlled by the test."""
 
+from collections.abc import Callable
+
 import pytest
 
 from server.alarms import without_alarms
-from server.live import Problem, ProcessState, ProcessStatus, SourceState
-from server.loop.publisher import AlarmCheck, Image, PictureEncoder, Publisher
+from server.live import Problem, ProcessState, ProcessStatus, SourceState, SourceStatus
+from server.loop.publisher import AlarmCheck, Publisher
 from server.loop.report import Report, ReportPacker
 from server.loop.ring import ImageRing
 from server.loop.shared_status import SharedStatus
 from tests.server.loop.fake_workers import Seen, made_image, made_snapshot, made_source
 from tracker.navigation import NavigationSnapshot
-from tracker.navigation.alarms import AlarmSnapshot
+from tracker.navigation.alarms import QUIET, AlarmSnapshot
 
 RUNNING = ProcessStatus(state=ProcessState.STARTING)
 DEAD = ProcessStatus(
@@ -22,7 +24,9 @@ class Stage:
     """A publisher on a board with a ring, and what it has published."""
 
     def __init__(
-        self, picture: PictureEncoder | None = None, check_alarms: AlarmCheck = without_alarms
+        self,
+        check_alarms: AlarmCheck = without_alarms,
+        picture_problem: Callable[[], Problem | None] = lambda: None,
     ) -> None:
         self.hub = Seen()
         self.status = SharedStatus("made")
@@ -32,11 +36,8 @@ class Stage:
         self.publisher = Publisher(
             status=self.status,
             hub=self.hub,
-            picture=picture
-            or PictureEncoder(
-                draw=lambda image, _snapshot, _alarms: image + 1, encode=lambda image: image.tobytes()[:2]
-            ),
             check_alarms=check_alarms,
+            picture_problem=picture_problem,
         )
         self.status.post(RUNNING, self.ring)
 
@@ -52,39 +53,17 @@ class Stage:
         monkeypatch.setattr("server.loop.publisher.time.monotonic", lambda: now_s)
 
 
-def test_picture_and_snapshot_of_an_instant_belong_together() -> None:
+def test_image_and_snapshot_of_an_instant_belong_together() -> None:
     stage = Stage()
     stage.report_image(5)
     stage.publisher.publish_newest()
     instant = stage.hub.instants[-1]
     assert instant.snapshot is not None
     assert instant.snapshot.image_number == 5
-    assert instant.jpeg == bytes([6, 6])
     assert instant.image is not None
     assert instant.image[0, 0, 0] == 5, "without the overlay"
-    assert set(instant.server_ms) == {"overlay", "encode"}
     assert instant.process.state is ProcessState.RUNNING
     assert instant.source == made_source(6)
-
-
-def test_nothing_is_drawn_for_nobody() -> None:
-    drawn: list[Image] = []
-
-    def draw(image: Image, _snapshot: NavigationSnapshot, _alarms: AlarmSnapshot) -> Image:
-        drawn.append(image)
-        return image
-
-    watched = False
-    stage = Stage(PictureEncoder(draw=draw, encode=lambda _: b"jpeg", is_watched=lambda: watched))
-    stage.report_image(0)
-    stage.publisher.publish_newest()
-    unwatched = stage.hub.instants[-1]
-    assert (drawn, unwatched.jpeg, unwatched.drawn, unwatched.server_ms) == ([], b"", None, {})
-    assert unwatched.has_picture, "whoever comes now still gets this image"
-    watched = True
-    stage.report_image(1)
-    stage.publisher.publish_newest()
-    assert (len(drawn), stage.hub.instants[-1].jpeg) == (1, b"jpeg")
 
 
 def test_the_newest_wins_and_what_was_dropped_is_counted() -> None:
@@ -108,19 +87,19 @@ def test_a_dead_process_takes_its_picture_with_it_at_once() -> None:
     stage.publisher.publish_newest()
     instant = stage.hub.instants[-1]
     assert instant.snapshot is None
-    assert instant.jpeg == b""
+    assert instant.image is None
     assert instant.process == DEAD
     assert instant.source.state is SourceState.OPENING
     assert instant.source.images == 1
 
 
-def test_a_process_that_dies_while_its_picture_is_drawn_is_not_shown_any_more() -> None:
-    def draw(image: Image, snapshot: NavigationSnapshot, _alarms: AlarmSnapshot) -> Image:
-        del snapshot
-        stage.status.post(DEAD, None)
-        return image
+def test_a_process_that_dies_while_its_image_is_looked_at_is_not_shown_any_more() -> None:
+    def look(snapshot: NavigationSnapshot | None, _: SourceStatus, _process: ProcessStatus) -> AlarmSnapshot:
+        if snapshot is not None:
+            stage.status.post(DEAD, None)
+        return QUIET
 
-    stage = Stage(PictureEncoder(draw=draw, encode=lambda _: b"jpeg"))
+    stage = Stage(check_alarms=look)
     stage.report_image(0)
     stage.publisher.publish_newest()
     assert [instant.snapshot for instant in stage.hub.instants] == [None]
@@ -155,14 +134,14 @@ def test_sequences_grow_by_one_over_images_deaths_and_signs_of_life() -> None:
     assert stage.hub.instants[-1].snapshot is not None
 
 
-def test_a_failing_overlay_is_told_and_shows_nothing() -> None:
-    def draw(image: Image, snapshot: NavigationSnapshot, _alarms: AlarmSnapshot) -> Image:
-        raise ZeroDivisionError(f"a bug in image {snapshot.image_number} of {image.shape}")
-
-    stage = Stage(PictureEncoder(draw=draw, encode=lambda _: b"jpeg"))
+def test_a_picture_that_cannot_be_drawn_is_told_and_the_figures_go_on() -> None:
+    failed = Problem(code="OVERLAY_FAILED", message="m", remedy="r")
+    stage = Stage(picture_problem=lambda: failed)
     stage.report_image(0)
     stage.publisher.publish_newest()
     instant = stage.hub.instants[-1]
-    assert (instant.snapshot, instant.jpeg) == (None, b"")
-    assert instant.process.problem is not None
-    assert instant.process.problem.code == "OVERLAY_FAILED"
+    assert instant.snapshot is not None
+    assert instant.process.problem == failed
+    stage.status.post(DEAD, None)
+    stage.publisher.publish_newest()
+    assert stage.hub.instants[-1].process.problem == DEAD.problem, "what is worse is said"

@@ -10,7 +10,7 @@ from server.config import Config
 from server.live import Instant, ProcessState
 from server.logs import LogSettings
 from server.loop.compiling import Progress
-from server.loop.publisher import PictureEncoder, Publisher
+from server.loop.publisher import Publisher
 from server.loop.shared_status import SharedStatus
 from server.loop.supervisor import Supervisor, Target, WatchdogSettings
 from server.loop.worker import WorkerOrder
@@ -39,8 +39,7 @@ class Stage:
             clock=lambda: self.now_s,
             compiled=compiled,
         )
-        picture = PictureEncoder(draw=lambda image, _, _alarms: image, encode=lambda _: b"jpeg")
-        self.publisher = Publisher(status=status, hub=self.hub, picture=picture)
+        self.publisher = Publisher(status=status, hub=self.hub)
         self.supervisor.start()
         self.publisher.start()
 
@@ -98,7 +97,7 @@ def test_a_killed_process_is_told_at_once_and_replaced(
     os.kill(pid, signal.SIGKILL)
     dead = stage.hub.until(is_dead)
     assert dead.snapshot is None
-    assert dead.jpeg == b""
+    assert dead.image is None
     assert dead.process.problem is not None
     assert dead.process.problem.message == "the tracking process ended"
     assert dead.process.problem.context == {"pid": pid, "how": "by signal 9 (SIGKILL)"}

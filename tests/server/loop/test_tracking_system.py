@@ -16,7 +16,6 @@ import pytest
 from server.config import CameraConfig, Config, MarkerConfig
 from server.live import SourceState
 from server.logs import LogSettings
-from server.loop.publisher import PictureEncoder
 from server.loop.tracking_system import TrackingSystem
 from server.setup import CaseSetup, nominal_camera
 from tests.server.loop.fake_workers import Seen
@@ -55,7 +54,7 @@ class Running:
         self.hub = Seen()
         self.tracked.hub = self.hub
         self.tracked.start()
-        self.tracked.publish(PictureEncoder(draw=lambda image, _, _alarms: image, encode=lambda _: b"jpeg"))
+        self.tracked.publish()
 
 
 @pytest.fixture
@@ -84,7 +83,6 @@ def test_a_file_that_comes_later_is_found_and_tracked_by_itself(
     assert set(shown.snapshot.sightings) == {"m"}
     assert not shown.snapshot.setup.camera_calibrated
     assert {"waiting", "navigation"} <= set(shown.snapshot.stage_ms)
-    assert {"overlay", "encode"} <= set(shown.server_ms)
 
 
 def test_a_file_that_is_not_looped_ends_and_its_last_picture_goes(
@@ -93,7 +91,7 @@ def test_a_file_that_is_not_looped_ends_and_its_last_picture_goes(
     film(tmp_path / "v.avi", images=3)
     running.append(Running(config(tmp_path, loop=False)))
     ended = running[0].hub.until(
-        lambda instant: instant.source.state is SourceState.ENDED and not instant.jpeg
+        lambda instant: instant.source.state is SourceState.ENDED and instant.image is None
     )
     assert ended.source.images == 3
     assert ended.snapshot is None
@@ -138,7 +136,6 @@ import sys
 from pathlib import Path
 from server.config import CameraConfig, Config
 from server.logs import LogSettings, configure_logging
-from server.loop.publisher import PictureEncoder
 from server.loop.tracking_system import TrackingSystem
 
 if __name__ == "__main__":
@@ -147,7 +144,7 @@ if __name__ == "__main__":
     configure_logging(log)
     tracked = TrackingSystem(Config(camera=camera), log=log)
     tracked.start()
-    tracked.publish(PictureEncoder(draw=lambda image, _, _alarms: image, encode=lambda _: b"jpeg"))
+    tracked.publish()
     import asyncio
     sequence = -1
     while True:

@@ -8,23 +8,36 @@ from collections.abc import Callable
 
 import cv2
 import numpy as np
+import numpy.typing as npt
 import pytest
 
 from server.live import Instant
 from server.overlay import draw_overlay, encode_jpeg
 from server.stream.messages import live_message
 from server.stream.scaling.message_cache import MessageCache
-from server.stream.scaling.picture_cache import REQUESTED_WITHIN_S, PictureCache
+from server.stream.scaling.picture_cache import PictureCache
 from server.stream.scaling.sizes import PictureSize
+from tracker.navigation import NavigationSnapshot
 
 LiveInstant = Callable[..., Instant]
+Image = npt.NDArray[np.uint8]
 
 
 @pytest.fixture
-def drawn(live_instant: LiveInstant) -> Instant:
-    """An instant whose picture nobody has encoded."""
+def drawn(live_instant: LiveInstant, monkeypatch: pytest.MonkeyPatch) -> Instant:
+    """An instant whose picture, even and grey, nobody has encoded."""
     picture = np.full((90, 160, 3), 77, np.uint8)
-    return dataclasses.replace(live_instant(5), jpeg=b"", drawn=picture)
+    monkeypatch.setattr("server.stream.scaling.picture_cache.draw_overlay", lambda *_, **_named: picture)
+    return dataclasses.replace(live_instant(5), jpeg=b"", image=picture)
+
+
+@pytest.fixture
+def imaged(live_instant: LiveInstant) -> Instant:
+    """An instant with its image, into which nothing has been drawn."""
+    instant = live_instant(5)
+    assert instant.snapshot is not None
+    width, height = instant.snapshot.size_wh_px
+    return dataclasses.replace(instant, jpeg=b"", image=np.full((height, width, 3), 77, np.uint8))
 
 
 def size_px(jpeg: bytes) -> tuple[int, int]:
@@ -72,27 +85,47 @@ def test_an_older_instant_does_not_throw_out_the_newest(drawn: Instant) -> None:
     assert pictures.encoded[PictureSize.HALF] == 2
 
 
-def test_pictures_are_drawn_and_encoded_only_while_somebody_watches(drawn: Instant) -> None:
-    now_s = 100.0
-    pictures = PictureCache(quality=80, clock=lambda: now_s)
-    assert (pictures.is_watched(), pictures.is_watched_in_full()) == (False, False)
-    asyncio.run(all_of(pictures, drawn, PictureSize.HALF))
-    assert (pictures.is_watched(), pictures.is_watched_in_full()) == (True, False)
-    asyncio.run(all_of(pictures, drawn, PictureSize.FULL))
-    assert (pictures.is_watched(), pictures.is_watched_in_full()) == (True, True)
-    now_s += REQUESTED_WITHIN_S + 0.01
-    assert (pictures.is_watched(), pictures.is_watched_in_full()) == (False, False)
+def test_an_image_is_drawn_once_for_all_sizes_and_its_stages_are_told(
+    imaged: Instant, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawings: list[int] = []
+
+    def draw(image: Image, snapshot: NavigationSnapshot, *_: object, **_named: object) -> Image:
+        drawings.append(snapshot.image_number)
+        return image
+
+    monkeypatch.setattr("server.stream.scaling.picture_cache.draw_overlay", draw)
+    pictures, stages = PictureCache(quality=80), list[str]()
+    pictures.observe_stage = lambda stage, _spent_s: stages.append(stage)
+    asyncio.run(all_of(pictures, imaged, PictureSize.FULL, PictureSize.HALF, PictureSize.QUARTER))
+    assert len(drawings) == 1
+    assert (stages.count("overlay"), stages.count("encode")) == (1, 3)
+    asyncio.run(all_of(pictures, dataclasses.replace(imaged, sequence=6), PictureSize.FULL))
+    assert len(drawings) == 2, "an alarm between two images is drawn into the same image again"
 
 
-def test_the_first_viewer_gets_the_overlay_of_an_image_that_was_not_drawn(live_instant: LiveInstant) -> None:
-    instant = live_instant(5)
-    assert instant.snapshot is not None
-    width, height = instant.snapshot.size_wh_px
-    image = np.full((height, width, 3), 77, np.uint8)
-    instant = dataclasses.replace(instant, jpeg=b"", drawn=None, image=image)
-    full = asyncio.run(all_of(PictureCache(quality=80), instant, PictureSize.FULL))[0]
-    assert instant.snapshot is not None
-    expected = draw_overlay(image, instant.snapshot, instant.alarms)
+def test_a_failing_overlay_is_told_until_a_picture_can_be_drawn_again(
+    imaged: Instant, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def draw(*_: object, **_named: object) -> Image:
+        raise ZeroDivisionError("a bug")
+
+    pictures = PictureCache(quality=80)
+    with monkeypatch.context() as patch:
+        patch.setattr("server.stream.scaling.picture_cache.draw_overlay", draw)
+        assert asyncio.run(all_of(pictures, imaged, PictureSize.FULL)) == [b""]
+        assert pictures.problem is not None
+        assert pictures.problem.code == "OVERLAY_FAILED"
+    assert asyncio.run(all_of(pictures, dataclasses.replace(imaged, sequence=6), PictureSize.FULL)) != [b""]
+    assert pictures.problem is None
+
+
+def test_a_viewer_gets_the_image_with_its_overlay(imaged: Instant) -> None:
+    image = imaged.image
+    full = asyncio.run(all_of(PictureCache(quality=80), imaged, PictureSize.FULL))[0]
+    assert image is not None
+    assert imaged.snapshot is not None
+    expected = draw_overlay(image, imaged.snapshot, imaged.alarms)
     assert not np.array_equal(expected, image), "an overlay that draws nothing shows nothing here"
     assert full == encode_jpeg(expected, 80)
     assert np.array_equal(image, np.full_like(image, 77)), "the camera's image is never drawn into"

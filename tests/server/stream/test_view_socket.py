@@ -1,5 +1,6 @@
 """`/ws/view`: image and pose of one instant in one message, and only on request."""
 
+import dataclasses
 import json
 import struct
 from collections.abc import Callable
@@ -13,8 +14,9 @@ from starlette.testclient import WebSocketTestSession
 from starlette.websockets import WebSocketDisconnect
 
 from server.live import Instant, LiveHub
-from server.stream.view_socket import ViewRequests
+from server.stream.view_socket import ImagePace, ViewRequests
 from server.stream.viewers import Viewer, ViewerKind
+from tracker.navigation import NavigationSnapshot
 
 LiveInstant = Callable[..., Instant]
 OpenSocket = Callable[..., WebSocketTestSession]
@@ -79,6 +81,8 @@ def test_an_instant_without_image_comes_with_an_empty_jpeg(
         pytest.param('{"next": true, "showing_ms": "12"}', 1008, "only {", id="no-number"),
         pytest.param('{"next": true, "showing_ms": true}', 1008, "only {", id="a-truth-value"),
         pytest.param('{"next": true, "showing_ms": Infinity}', 1008, "only {", id="for-ever"),
+        pytest.param('{"interval_ms": 1001}', 1008, "interval_ms", id="too-seldom"),
+        pytest.param('{"interval_ms": NaN}', 1008, "interval_ms", id="no-interval"),
         pytest.param('{"largest": "auto"}', 1008, "only {", id="largest-of-all"),
         pytest.param('{"size": "tiny"}', 1008, "only {", id="unknown-size"),
         pytest.param('{"size": ["full"]}', 1008, "only {", id="sizes"),
@@ -99,6 +103,69 @@ def test_anything_else_ends_with_a_reason(
             socket.receive_bytes()
     assert reported.value.code == code
     assert reason in reported.value.reason
+
+
+@pytest.mark.parametrize(
+    ("interval_ms", "expected"),
+    [
+        (0.0, [0, 1, 2, 3, 4, 5, 6, 7, 8]),
+        (50.0, [0, 2, 3, 5, 6, 8]),
+        (60.0, [0, 2, 4, 6, 8]),
+        (120.0, [0, 4, 8]),
+    ],
+)
+def test_images_are_as_far_apart_as_asked_on_average(
+    instant_of: LiveInstant,
+    snapshot_of: Callable[..., NavigationSnapshot],
+    interval_ms: float,
+    expected: list[int],
+) -> None:
+    pace = ImagePace()
+    pace.interval_s = interval_ms / 1000.0
+    images = [instant_of(n, snapshot=snapshot_of(image_number=n, captured_at_s=n / 30.0)) for n in range(9)]
+    assert [image.sequence for image in images if pace.takes(image)] == expected
+
+
+def test_a_pause_of_the_camera_is_not_made_up_for(
+    instant_of: LiveInstant, snapshot_of: Callable[..., NavigationSnapshot]
+) -> None:
+    pace = ImagePace()
+    pace.interval_s = 0.1
+    at_s = [0.0, 5.0, 5.033, 5.066, 5.1, 5.133]
+    images = [instant_of(n, snapshot=snapshot_of(captured_at_s=one)) for n, one in enumerate(at_s)]
+    assert [image.sequence for image in images if pace.takes(image)] == [0, 1, 4]
+
+
+def test_no_image_and_a_change_of_alarms_are_sent_at_once(
+    instant_of: LiveInstant, snapshot_of: Callable[..., NavigationSnapshot]
+) -> None:
+    pace = ImagePace()
+    pace.interval_s = 1.0
+    image = instant_of(0, snapshot=snapshot_of(captured_at_s=7.0))
+    rung = dataclasses.replace(image, alarms=dataclasses.replace(image.alarms, revision=1))
+    assert [pace.takes(one) for one in (image, image, rung, rung, instant_of(4))] == [
+        True,
+        False,
+        True,
+        False,
+        True,
+    ]
+
+
+def test_the_interval_that_a_client_asks_for_is_kept(
+    open_socket: OpenSocket, hub: LiveHub, live_instant: LiveInstant, instant_of: LiveInstant
+) -> None:
+    with open_socket("/ws/view") as socket:
+        socket.send_text('{"interval_ms": 1000}')
+        hub.publish(live_instant(0))
+        socket.send_text('{"next": true}')
+        first = unpacked(socket.receive_bytes())[0]
+        # Within a second of the first, and not sent; one without image is not kept back.
+        hub.publish(live_instant(1))
+        socket.send_text('{"next": true}')
+        hub.publish(instant_of(2))
+        then = unpacked(socket.receive_bytes())[0]
+    assert (first["sequence"], then["sequence"]) == (0, 2)
 
 
 def test_the_size_is_requested_in_the_query_and_changed_later(

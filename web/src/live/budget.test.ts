@@ -1,5 +1,5 @@
 import { beforeEach, expect, test } from "vitest";
-import { BudgetControl, budgetSteps, strainIn, strainOf } from "./budget";
+import { BudgetControl, budgetSteps, strainIn, strainOf, UNLIMITED } from "./budget";
 import type { Timings } from "./timings";
 
 const STEPS = budgetSteps(500);
@@ -32,20 +32,22 @@ beforeEach(() => {
   step = 0;
 });
 
-test("gives way in this order: the scene's rate, its size, the picture's size", () => {
+test("gives way in this order: the scene's rate, its size, the picture's rate, the picture's size", () => {
   const seen = [];
   for (let second = 0; second < 30; second += 1) {
     pass(1, SLOW);
     if (STEPS[step] !== seen.at(-1)) seen.push(STEPS[step]);
   }
-  const full = { largestPicture: "full" };
+  const smallScene = { ...UNLIMITED, sceneIntervalMs: 200, sceneScale: 0.5 };
   expect(seen).toEqual([
-    { sceneIntervalMs: 80, sceneScale: 1, ...full },
-    { sceneIntervalMs: 125, sceneScale: 1, ...full },
-    { sceneIntervalMs: 200, sceneScale: 1, ...full },
-    { sceneIntervalMs: 200, sceneScale: 0.7, ...full },
-    { sceneIntervalMs: 200, sceneScale: 0.5, ...full },
-    { sceneIntervalMs: 200, sceneScale: 0.5, largestPicture: "half" },
+    { ...UNLIMITED, sceneIntervalMs: 80 },
+    { ...UNLIMITED, sceneIntervalMs: 125 },
+    { ...UNLIMITED, sceneIntervalMs: 200 },
+    { ...UNLIMITED, sceneIntervalMs: 200, sceneScale: 0.7 },
+    smallScene,
+    { ...smallScene, pictureIntervalMs: 50 },
+    { ...smallScene, pictureIntervalMs: 62 },
+    { ...smallScene, pictureIntervalMs: 62, largestPicture: "half" },
   ]);
 });
 

@@ -9,6 +9,7 @@ import {
   type NumbersVerdict,
   type Situation,
   type ReceivedImage,
+  type VideoVerdict,
 } from "./assess";
 import type { PictureChoice } from "./pictureDelivery";
 import { ServerClock } from "./clock";
@@ -72,6 +73,7 @@ export class Live {
       untrackedMs: numbers.live || this.trackedAtMs === null ? null : nowMs - this.trackedAtMs,
       scene,
       ages: agesOf(video, numbers, scene, this.clock.aheadMs),
+      expiresAtMs: this.expiresAtMs(numbers, video),
       pictureDelivery: this.load.update(
         nowMs,
         this.situation.limits,
@@ -81,6 +83,15 @@ export class Live {
     };
     for (const painter of this.painters) painter(view);
     return view;
+  }
+
+  private expiresAtMs(numbers: NumbersVerdict, video: VideoVerdict): number | null {
+    const { limits, numbers: image, picture } = this.situation;
+    const times = [];
+    // A limit is kept, and one more millisecond passes it.
+    if (numbers.live && image !== null) times.push(image.capturedAtMs + limits.pose_stale_after_ms + 1);
+    if (video.live && picture !== null) times.push(picture.capturedAtMs + limits.video_stale_after_ms + 1);
+    return times.length === 0 ? null : Math.min(...times);
   }
 
   setDraw(draw: Draw): void {

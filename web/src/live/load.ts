@@ -1,6 +1,6 @@
 // What this page can carry: measured with each image, told as what is slow, and kept within by what gives way.
 import type { Limits } from "./assess";
-import { BudgetControl, budgetSteps, strainIn, type DrawingBudget } from "./budget";
+import { BudgetControl, budgetSteps, strainIn, UNLIMITED, type DrawingBudget } from "./budget";
 import { PictureDeliveryMonitor, type PictureDelivery, type PictureChoice } from "./pictureDelivery";
 import { SceneSwitch } from "./sceneSwitch";
 import { ImageTimer } from "./imageTimer";
@@ -32,16 +32,16 @@ export class Load {
   }
 
   get budget(): DrawingBudget {
-    return this.steps[this.current] ?? { sceneIntervalMs: 0, sceneScale: 1, largestPicture: "full" };
+    return this.steps[this.current] ?? UNLIMITED;
   }
 
   tick(nowMs: number): void {
     this.stall.tick(nowMs);
   }
 
-  screenImage(nowMs: number): void {
-    this.stall.tick(nowMs);
-    this.window.screen(nowMs);
+  /** The screen needed so long for an image. */
+  screenImage(atMs: number, intervalMs: number): void {
+    this.window.screen(atMs, intervalMs);
   }
 
   /** An image was received just now. */

@@ -4,6 +4,7 @@ import type { components, paths } from "../schema";
 import { storedPictureChoice, storePictureChoice } from "./storedPictureChoice";
 import { ViewConnection, type ViewSocket } from "./viewConnection";
 import type { Live } from "./live";
+import { UNLIMITED } from "./budget";
 import { UPDATE_EVERY_MS } from "./load";
 import { isSceneNote } from "./sceneAge";
 
@@ -62,15 +63,8 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
     if (!isRequesting && (quietMs > ASK_WHEN_QUIET_MS || compareClocks)) void request();
   };
 
-  const onEachScreenImage = (): void => {
-    if (signal.aborted) return;
-    live.load.screenImage(performance.now());
-    live.update();
-    requestAnimationFrame(onEachScreenImage);
-  };
-
   const timer = setInterval(update, UPDATE_EVERY_MS);
-  requestAnimationFrame(onEachScreenImage);
+  const leaveExpiry = updateAtExpiry(live);
   const onVisibility = (): void => {
     // Covered before it is hidden: the first thing seen on return must not be an old picture.
     live.setHidden(document.visibilityState === "hidden");
@@ -91,11 +85,12 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
     storePictureChoice(choice);
     connection.askSize(choice);
   });
-  const leaveSize = reportLargestSize(live, connection);
+  const leaveBudget = reportPictureBudget(live, connection);
   connection.start();
   return () => {
     stop.abort();
-    leaveSize();
+    leaveBudget();
+    leaveExpiry();
     clearInterval(timer);
     connection.stop();
   };
@@ -115,20 +110,51 @@ function viewConnection(live: Live, onOpen: () => void): ViewConnection {
     },
     onFrame: (frame) => {
       void live.receive(frame).then(({ isDisplayed, showingMs }) => {
-        if (isDisplayed) connection.requestNext(showingMs);
+        if (!isDisplayed) return;
+        measureScreen(live);
+        connection.requestNext(showingMs);
       });
     },
   });
   return connection;
 }
 
-/** Tells the server, on each line anew, when this device can show no full picture. */
-function reportLargestSize(live: Live, connection: ViewConnection): () => void {
-  let reportedSize = "full";
+/** Measures how long the screen needs for the image that was just drawn. A loop over all images of the screen would tell
+ * the same, and make the browser put the page together 60 times a second where 20 images come. */
+function measureScreen(live: Live): void {
+  requestAnimationFrame((beganAtMs) => {
+    requestAnimationFrame((endedAtMs) => {
+      live.load.screenImage(endedAtMs, endedAtMs - beganAtMs);
+    });
+  });
+}
+
+/** Updates at the very moment at which figures or picture become too old, between two looks of the timer. */
+function updateAtExpiry(live: Live): () => void {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const leave = live.onUpdate(({ nowMs, expiresAtMs }) => {
+    clearTimeout(timer);
+    if (expiresAtMs === null || expiresAtMs - nowMs >= UPDATE_EVERY_MS) return;
+    timer = setTimeout(() => live.update(), expiresAtMs - nowMs);
+  });
+  return () => {
+    clearTimeout(timer);
+    leave();
+  };
+}
+
+/** Tells the server, on each line anew, which size and rate of the picture this device can show. */
+function reportPictureBudget(live: Live, connection: ViewConnection): () => void {
+  let reported = UNLIMITED;
   return live.onUpdate(({ link, budget }) => {
-    if (link !== "open") reportedSize = "full";
-    else if (budget.largestPicture !== reportedSize)
-      connection.limitSize((reportedSize = budget.largestPicture));
+    if (link !== "open") {
+      reported = UNLIMITED;
+      return;
+    }
+    if (budget.largestPicture !== reported.largestPicture) connection.limitSize(budget.largestPicture);
+    if (budget.pictureIntervalMs !== reported.pictureIntervalMs)
+      connection.limitRate(budget.pictureIntervalMs);
+    reported = budget;
   });
 }
 

@@ -46,7 +46,7 @@ test("means are of the last seconds, and of what came since a change", () => {
   window.image({ ...image, atMs: 0, decodingMs: 1000 });
   window.image({ ...image, atMs: 3500, decodingMs: 40 });
   window.image({ ...image, atMs: 4500, decodingMs: 20 });
-  for (let atMs = 3000; atMs <= 4500; atMs += 50) window.screen(atMs);
+  for (let atMs = 3000; atMs <= 4500; atMs += 50) window.screen(atMs, 50);
   expect(window.means(4500)).toMatchObject({
     images: 2,
     networkMs: null,

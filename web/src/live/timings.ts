@@ -20,7 +20,7 @@ export interface Timings {
   decodingMs: number;
   drawingMs: number;
   ageMs: number;
-  /** Between two images of the screen: a browser that draws slowly gives fewer. */
+  /** From the screen's image with a picture to its next: a browser that draws slowly needs longer. */
   screenIntervalMs: number;
 }
 
@@ -30,21 +30,22 @@ const SCREEN_INTERVAL_MS = 17;
 
 export class TimingWindow {
   private shown: ImageTimes[] = [];
-  private screenAtMs: number[] = [];
+  private screens: { atMs: number; intervalMs: number }[] = [];
 
   image(times: ImageTimes): void {
     this.shown.push(times);
     this.shown = this.shown.filter((one) => times.atMs - one.atMs <= WINDOW_MS);
   }
 
-  screen(atMs: number): void {
-    this.screenAtMs.push(atMs);
-    while (atMs - (this.screenAtMs[0] ?? atMs) > WINDOW_MS) this.screenAtMs.shift();
+  /** The screen needed so long for an image. */
+  screen(atMs: number, intervalMs: number): void {
+    this.screens.push({ atMs, intervalMs });
+    this.screens = this.screens.filter((one) => atMs - one.atMs <= WINDOW_MS);
   }
 
   forget(): void {
     this.shown = [];
-    this.screenAtMs = [];
+    this.screens = [];
   }
 
   /** The ages of the images that have come since `fromMs`, within the window. */
@@ -56,15 +57,14 @@ export class TimingWindow {
   means(nowMs: number, fromMs = -Infinity): Timings {
     const from = Math.max(fromMs, nowMs - WINDOW_MS);
     const shown = this.since(nowMs, fromMs);
-    const screens = this.screenAtMs.filter((atMs) => atMs >= from);
-    const [first, last] = [screens[0] ?? 0, screens.at(-1) ?? 0];
+    const screens = this.screens.filter((one) => one.atMs >= from);
     return {
       images: shown.length,
       networkMs: mean(shown.flatMap(({ networkMs }) => networkMs ?? [])),
       decodingMs: mean(shown.map((one) => one.decodingMs)) ?? 0,
       drawingMs: mean(shown.map((one) => one.drawingMs)) ?? 0,
       ageMs: mean(shown.map((one) => one.ageMs)) ?? 0,
-      screenIntervalMs: screens.length < 2 ? SCREEN_INTERVAL_MS : (last - first) / (screens.length - 1),
+      screenIntervalMs: mean(screens.map((one) => one.intervalMs)) ?? SCREEN_INTERVAL_MS,
     };
   }
 

@@ -31,6 +31,8 @@ export interface View {
   untrackedMs: number | null;
   scene: SceneVerdict;
   ages: Ages;
+  /** When figures or picture will be too old, if nothing newer comes; null when neither stands. */
+  expiresAtMs: number | null;
   /** What this viewer's line carries. */
   pictureDelivery: PictureDelivery;
   /** What this device can draw. */

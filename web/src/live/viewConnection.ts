@@ -65,6 +65,11 @@ export class ViewConnection {
     this.socket.openSocket?.send(JSON.stringify({ largest }));
   }
 
+  /** Limits the picture rate: at least this time from one image to the next, on average. */
+  limitRate(intervalMs: number): void {
+    this.socket.openSocket?.send(JSON.stringify({ interval_ms: intervalMs }));
+  }
+
   /** Requests another picture size from the next image on. */
   askSize(size: string): void {
     this.socket.openSocket?.send(JSON.stringify({ size }));
