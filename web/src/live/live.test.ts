@@ -31,6 +31,18 @@ test("numbers go by themselves 150 ms after their image was grabbed, with no mes
   expect(live.update().video).toMatchObject({ live: false, cause: "old" });
 });
 
+test("says when figures and then the picture expire, to the millisecond at which they do", async () => {
+  expect(live.update().expiresAtMs).toBeNull();
+  await live.receive(frame(1));
+  expect(live.update().expiresAtMs).toBe(1131);
+  nowMs = 1131;
+  const withoutFigures = live.update();
+  expect(withoutFigures.numbers.live).toBe(false);
+  expect(withoutFigures.expiresAtMs).toBe(1481);
+  nowMs = 1481;
+  expect(live.update().expiresAtMs).toBeNull();
+});
+
 test("the time without numbers is counted from the last image that had them", async () => {
   await live.receive(frame(1));
   nowMs = 2180;

@@ -65,7 +65,12 @@ test("says with a grant how long the page needed, and what it cannot show", () =
   newest().onopen?.();
   connection.requestNext(41.7);
   connection.limitSize("half");
-  expect(newest().sent.slice(1)).toEqual(['{"next":true,"showing_ms":42}', '{"largest":"half"}']);
+  connection.limitRate(50);
+  expect(newest().sent.slice(1)).toEqual([
+    '{"next":true,"showing_ms":42}',
+    '{"largest":"half"}',
+    '{"interval_ms":50}',
+  ]);
 });
 
 test("another size is asked for on a line that stands, and only there", () => {
