@@ -4,6 +4,7 @@ import contextlib
 import os
 import re
 import socket
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from time import monotonic
@@ -104,6 +105,35 @@ def test_who_comes_late_gets_the_state_at_once(theatre: Theatre) -> None:
             reach(first, 41)
         with viewer(server) as late:
             assert next_number(late) == 41
+
+
+def test_nothing_is_drawn_for_nobody_and_nothing_old_is_left_for_the_next_viewer(
+    theatre: Theatre, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown: list[int] = []
+    cleared = threading.Event()
+    show, show_nothing = Stage.show, Stage.show_nothing
+
+    def note(stage: Stage, instant: Instant) -> None:
+        shown.append(instant.sequence)
+        show(stage, instant)
+
+    def clear(stage: Stage) -> None:
+        show_nothing(stage)
+        cleared.set()
+
+    monkeypatch.setattr(Stage, "show", note)
+    monkeypatch.setattr(Stage, "show_nothing", clear)
+    with running(theatre, stale_after_ms=60_000) as server:
+        server.hub.publish(theatre.instant(0, image_number=41))
+        with viewer(server) as line:
+            reach(line, 41)
+        assert cleared.wait(20.0)
+        before = list(shown)
+        server.hub.publish(theatre.instant(1, image_number=42))
+        with viewer(server) as line:
+            reach(line, 42)
+    assert (before, shown[-1]) == ([0], 1)
 
 
 def test_many_viewers_get_the_newest(theatre: Theatre) -> None:
