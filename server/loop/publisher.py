@@ -151,9 +151,7 @@ class Publisher:
         try:
             self._alarms = self._check_alarms(snapshot, source, self._shared.current.process)
         except Exception as error:  # noqa: BLE001  logged once below, and shown on the page
-            self._report_failure(
-                error, code="ALARMS_FAILED", what="alarms cannot be raised", remedy="Do not navigate. "
-            )
+            self._report_failure(error)
 
     def _status(self, process: ProcessStatus) -> ProcessStatus:
         problem = process.problem
@@ -175,13 +173,13 @@ class Publisher:
         self._last, self._last_at_s = instant, time.monotonic()
         self._hub.publish(instant)
 
-    def _report_failure(self, error: Exception, *, code: str, what: str, remedy: str = "") -> None:
-        sentence = f"{type(error).__name__}: {error}"
+    def _report_failure(self, error: Exception) -> None:
+        message = f"alarms cannot be raised: {type(error).__name__}: {error}"
         self._problem = Problem(
-            code=code,
-            message=f"{what}: {sentence}",
-            remedy=f"{remedy}Restart the program; if it happens again, report it with the log.",
+            code="ALARMS_FAILED",
+            message=message,
+            remedy="Do not navigate. Restart the program; if it happens again, report it with the log.",
         )
-        if self._logged_failure != f"{code} {sentence}":
-            self._logged_failure = f"{code} {sentence}"
-            log.error(what, exc_info=error)
+        if self._logged_failure != message:
+            self._logged_failure = message
+            log.error("alarms cannot be raised", exc_info=error)

@@ -40,6 +40,8 @@ from tracker.errors import NavigationError
 # Report interval when no image comes.
 HEARTBEAT_S = 0.5
 STOP_GRACE_S = 0.7
+# One core is left to the server; with two cores, a second thread of OpenCV spends more than it saves.
+OPENCV_THREADS = min(2, max(1, (os.cpu_count() or 1) - 1))
 
 Value = TypeVar("Value")
 
@@ -122,8 +124,7 @@ def run_worker(order: WorkerOrder, link: WorkerLink) -> None:
     die_with_parent()
     configure_logging(order.log, process="tracking")
     os.set_blocking(link.notice.fileno(), False)
-    # One core is left to the server; with two, a second thread of OpenCV spends more than it saves.
-    cv2.setNumThreads(min(2, max(1, (os.cpu_count() or 1) - 1)))
+    cv2.setNumThreads(OPENCV_THREADS)
     stop = threading.Event()
     newest, scenes = LatestCase(), LatestScene()
     listening = (link.orders, newest, scenes, stop)

@@ -16,6 +16,7 @@ import cv2
 from server.capture.frozen_image import FrozenImageDetector
 from server.capture.shot import Shot
 from server.loop.still_files import StillFiles
+from server.loop.worker import OPENCV_THREADS
 from tests.benchmarks.machine import machine_line
 from tests.benchmarks.tables import Table, number, percentile
 from tracker.rehearsal import BoardKind, Event, EventKind, Renderer, Scene, Skill, Theatre, TheatreSettings
@@ -23,8 +24,6 @@ from tracker.rehearsal.board_renderer import BoardRenderer
 
 RATE_HZ = 30.0
 WARMING = 5
-# As in the tracking process.
-THREADS = 2
 EVENTS = (
     Event(kind=EventKind.CAMERA_MOVES, at_s=8.0, lasts_s=6.0),
     Event(kind=EventKind.PATIENT_MOVES, at_s=12.0, lasts_s=6.0),
@@ -135,7 +134,7 @@ def _start(size_wh_px: tuple[int, int], home: Path) -> Steps:
 
 
 def _started(size_wh_px: tuple[int, int], home: Path) -> Steps:
-    cv2.setNumThreads(THREADS)
+    cv2.setNumThreads(OPENCV_THREADS)
     marks = [(time.process_time(), time.perf_counter())]
     theatre = Theatre(PLAYED[0].settings(size_wh_px))
     marks.append((time.process_time(), time.perf_counter()))
@@ -159,7 +158,7 @@ def main() -> None:
     )
     parser.add_argument("--images", type=int, default=150, help="of each scene")
     parser.add_argument("--size", default="1280x720", help="width x height in px")
-    parser.add_argument("--threads", type=int, default=THREADS, help="of OpenCV")
+    parser.add_argument("--threads", type=int, default=OPENCV_THREADS, help="of OpenCV")
     given = parser.parse_args()
     width, height = (int(side) for side in given.size.split("x"))
     cv2.setNumThreads(given.threads)
