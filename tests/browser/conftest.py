@@ -1,10 +1,12 @@
 """A server process with a feeder that does as it is told, and pages that watch it."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
 
+import pluggy
 import pytest
 from playwright.sync_api import Browser
+from playwright.sync_api import Error as PlaywrightError
 
 from tests.browser.theatre import CHECKOUT, PATIENCE_MS, Theatre, WatchedPage
 
@@ -48,6 +50,21 @@ def watch_for_all(browser: Browser) -> Iterator[Callable[..., WatchedPage]]:
     """The same for a page that all tests of a file share: to load it costs more than most of them."""
     with watching(browser) as opened:
         yield opened
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, "pluggy.Result[pytest.TestReport]"]:
+    """What stood on each page when a test failed, which no later run may show again."""
+    report = (yield).get_result()
+    browser = getattr(item, "funcargs", {}).get("browser")
+    if not report.failed or browser is None:
+        return
+    for context in browser.contexts:
+        for page in context.pages:
+            try:
+                report.sections.append((f"page {page.url}", page.inner_text("body", timeout=5_000)))
+            except PlaywrightError as error:
+                report.sections.append((f"page {page.url}", f"not to be read: {error.message}"))
 
 
 @contextmanager

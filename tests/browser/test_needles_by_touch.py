@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Page, Route, expect
 from playwright.sync_api import TimeoutError as PlaywrightTimeout
 
 from server.config import Config
@@ -60,6 +60,26 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RealServer]:
 def tablet(server: RealServer, browser: Browser) -> Iterator[Tablet]:
     with tablet_at(browser, server.port, patience_ms=PATIENCE_MS) as held:
         yield held
+
+
+def test_one_failed_answer_does_not_end_the_work_on_the_plan(tablet: Tablet) -> None:
+    page = tablet.page
+    tablet.go("plan")
+    tablet.tap("part-landmarks")
+    tablet.tap("set-landmark")
+    name = page.get_by_role("button", name="left transverse process", exact=True)
+    expect(name).to_be_visible()
+    message = "the case is being written"
+    problem = {"code": "STORE_BUSY", "message": message, "remedy": "Wait.", "context": {}}
+
+    def refuse(route: Route) -> None:
+        route.fulfill(status=409, json=problem)
+
+    page.route("**/api/procedure", refuse)
+    expect(page.get_by_text(message)).to_be_visible()
+    page.unroute("**/api/procedure", refuse)
+    expect(page.get_by_text(message)).to_be_hidden()
+    expect(name).to_be_visible()
 
 
 def test_the_slice_is_dragged_pinched_and_turned_over_the_live_picture(

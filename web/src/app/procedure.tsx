@@ -16,6 +16,8 @@ const SELDOM_MS = 4000;
 interface SharedQuery extends QueryState<Procedure> {
   /** From now on it is asked for often, until what this gives is called. */
   hurry: () => () => void;
+  /** The open case of the last answer; null where none was open, undefined before the first answer. */
+  caseId: string | null | undefined;
 }
 
 const ProcedureContext = createContext<SharedQuery | null>(null);
@@ -32,9 +34,11 @@ export function ProcedureProvider({ view, children }: { view: ViewName; children
     };
   }, []);
   const { data, rejection, isLoading, refetch } = query;
+  const [caseId, setCaseId] = useState<string | null>();
+  if (data !== null && data.case_id !== caseId) setCaseId(data.case_id);
   const shared = useMemo(
-    () => ({ data, rejection, isLoading, refetch, hurry }),
-    [data, rejection, isLoading, refetch, hurry],
+    () => ({ data, rejection, isLoading, refetch, hurry, caseId }),
+    [data, rejection, isLoading, refetch, hurry, caseId],
   );
   return <ProcedureContext value={shared}>{children}</ProcedureContext>;
 }
@@ -48,6 +52,14 @@ function useShared(): SharedQuery {
 /** As the page asks for it anyway. */
 export function useProcedure(): QueryState<Procedure> {
   return useShared();
+}
+
+/**
+ * The open case of the last answer, also while the server does not answer: unsaved work on a page belongs to its case,
+ * and must not go with one failed request. Null where no case is open, undefined before the first answer.
+ */
+export function useCaseId(): string | null | undefined {
+  return useShared().caseId;
 }
 
 /** Asked for often as long as this stands on the page, and at once when it comes. */

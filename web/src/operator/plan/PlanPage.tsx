@@ -4,7 +4,7 @@ import { answered, server } from "../../rest/client";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
-import { useProcedure } from "../../app/procedure";
+import { useCaseId, useProcedure } from "../../app/procedure";
 import { CtIntake } from "./ct/CtIntake";
 import { SlicesProvider } from "./slices/SlicesContext";
 import { hasDocument } from "./state/documents";
@@ -16,9 +16,9 @@ import { Workplace } from "./Workplace";
 export function PlanPage(): ReactNode {
   const texts = useTexts().plan;
   const query = useProcedure();
-  const { data: procedure } = query;
-  if (procedure === null) return <QueryStatus query={query} />;
-  if (procedure.case_id === null) {
+  const caseId = useCaseId();
+  if (caseId === undefined) return <QueryStatus query={query} />;
+  if (caseId === null) {
     return (
       <section className="plan-empty">
         <p>{texts.noCase}</p>
@@ -28,7 +28,7 @@ export function PlanPage(): ReactNode {
       </section>
     );
   }
-  return <PlanOfCase key={procedure.case_id} caseId={procedure.case_id} />;
+  return <PlanOfCase key={caseId} caseId={caseId} />;
 }
 
 function PlanOfCase({ caseId }: { caseId: string }): ReactNode {

@@ -3,7 +3,7 @@ import { answered, server } from "../../../rest/client";
 import { QueryStatus } from "../../../rest/QueryStatus";
 import { useQuery } from "../../../rest/useQuery";
 import { useTexts } from "../../../texts/TextsContext";
-import { useProcedure } from "../../../app/procedure";
+import { useCaseId } from "../../../app/procedure";
 import { plannedVertebrae } from "../planReader";
 import { RegistrationRejection } from "../RegistrationRejection";
 import { NeedlesWork } from "./NeedlesWork";
@@ -15,7 +15,7 @@ import type { NeedleRequest } from "./order";
 /** Registration by three needles: first what a ruler says and where the needles stand, then the picture. */
 export function NeedlesPage(): ReactNode {
   const texts = useTexts().registration.needles;
-  const caseId = useProcedure().data?.case_id ?? "";
+  const caseId = useCaseId() ?? "";
   const plan = useQuery((signal) => answered(server.GET("/api/plan", { signal })));
   const known = storedView(caseId);
   const [view, setView] = useState(known ?? FIRST_VIEW);
