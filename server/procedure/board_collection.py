@@ -17,6 +17,8 @@ from tracker.geometry import Array
 
 # Board detection is expensive; the video needs the rest of the processor.
 MIN_PAUSE_S = 0.1
+# Pause relative to the processing time: also a slow machine must see a board twice while it is held still.
+PAUSE_RATIO = 0.3
 MAX_VIEWS = 60
 NO_POINTS: Array = np.zeros((0, 2))
 
@@ -81,7 +83,11 @@ class BoardCollection:
         self._message = "waiting for an image"
         self._points_px = NO_POINTS
         self._listener = LiveListener(
-            hub, self._process, name="collecting views of the board", min_pause_s=MIN_PAUSE_S
+            hub,
+            self._process,
+            name="collecting views of the board",
+            min_pause_s=MIN_PAUSE_S,
+            pause_ratio=PAUSE_RATIO,
         )
 
     @property
