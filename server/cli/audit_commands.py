@@ -37,8 +37,8 @@ def verify(
     the server's folder can replace the whole log with a consistent one. To detect this, record the SHA-256
     elsewhere and pass it with --sum for an export of that time.
     """
+    from server.home_folder import home_folder  # noqa: PLC0415
     from server.security.audit.files import verify_files  # noqa: PLC0415  loaded when needed
-    from server.store import home_folder  # noqa: PLC0415
 
     room = home_folder() / "security"
     log = room / "audit.jsonl" if file is None else file

@@ -33,7 +33,7 @@ def show(
     ] = False,
 ) -> None:
     """Print the last measurement of each camera. Exit status 1 if there is none."""
-    from server.store import home_folder  # noqa: PLC0415  loaded when needed
+    from server.home_folder import home_folder  # noqa: PLC0415  loaded when needed
     from server.store.latency_file import LatencyFile  # noqa: PLC0415
 
     results = LatencyFile(home_folder()).results()

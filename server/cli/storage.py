@@ -5,9 +5,10 @@ from dataclasses import dataclass
 
 import structlog
 
+from server.home_folder import home_folder
 from server.jobs import Jobs
 from server.logs import LogSettings
-from server.store import CaseStore, Home, home_folder
+from server.store import CaseStore, Home
 
 log = structlog.get_logger(__name__)
 

@@ -24,6 +24,7 @@ from server.capture.rehearsal import RehearsalSource
 from server.capture.shot import Shot, Source
 from server.capture.source_factory import source_from_config
 from server.config import Config
+from server.home_folder import home_folder
 from server.live import Problem
 from server.logs import LogSettings, configure_logging
 from server.loop.parent import die_with_parent
@@ -34,7 +35,6 @@ from server.loop.staging import SceneOrder, Staging
 from server.loop.still_files import StillFiles
 from server.loop.tracking import Tracking
 from server.setup import CaseSetup, Preparation, build_setup
-from server.store.home import home_folder
 from tracker.errors import NavigationError
 
 # Report interval when no image comes.

@@ -15,7 +15,7 @@ from server.store.changes import Change
 from server.store.documents import NewDocument
 from server.store.errors import NotFound, OutOfDateError, StoreConflict, StoreError, translate_errors
 from server.store.files import NewFile
-from server.store.home import Home, home_folder
+from server.store.home import Home
 from server.store.records import (
     Case,
     Current,
@@ -55,7 +55,6 @@ __all__ = [
     "StoredFile",
     "Validity",
     "Withdrawal",
-    "home_folder",
     "says_archive",
     "translate_errors",
 ]

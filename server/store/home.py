@@ -5,18 +5,15 @@ import fcntl
 import os
 import secrets
 import shutil
-from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 
 import filelock
-import platformdirs
 
 from server.disk import reject_without_space
 from server.store.errors import StoreError, translate_errors
 
-FOLDER_VARIABLE = "COAXIAL_HOME"
 # Patient data is accessible to the user who runs the server only.
 PRIVATE = 0o700
 RESERVE_BYTES = 2**20
@@ -24,12 +21,6 @@ RESERVE_BYTES = 2**20
 WITHOUT_LOCKS = frozenset({errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP})
 # On macOS fsync leaves data in the drive's cache.
 FULL_SYNC: int | None = getattr(fcntl, "F_FULLFSYNC", None)
-
-
-def home_folder(environment: Mapping[str, str] = os.environ) -> Path:
-    """Return the data folder: `COAXIAL_HOME`, or the user data directory of the system."""
-    named = environment.get(FOLDER_VARIABLE, "").strip()
-    return Path(named).expanduser().absolute() if named else platformdirs.user_data_path("coaxial")
 
 
 class Home:

@@ -16,7 +16,8 @@ from alembic.runtime.migration import MigrationContext
 from sqlalchemy import create_engine
 
 from server.clock import utc_now
-from server.store import CaseStore, DocumentKind, Home, ImportRecord, StoreError, home_folder
+from server.home_folder import home_folder
+from server.store import CaseStore, DocumentKind, Home, ImportRecord, StoreError
 from server.store.database import MIGRATIONS, open_database
 from server.store.tables import Table
 
