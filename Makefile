@@ -30,8 +30,9 @@ export npm_config_audit := false
 # The page's lock must not remember from where its packages came.
 export npm_config_omit_lockfile_registry_resolved := true
 
-# So many files of tests run side by side: two more than the least of cores, because some only wait for a server.
-WORKERS ?= 4
+# So many files of tests run side by side: one more than the least of cores, because some only wait for a server. Each more
+# collects all tests once more, and takes from the servers, which run in real time.
+WORKERS ?= 3
 
 TRACKER_SOURCES := $(shell find tracker -name '*.py')
 # Folders are listed too: their time changes when a file in them goes away. The schema's types are made, not written.

@@ -18,7 +18,7 @@ from websockets.sync.client import connect
 
 CHECKOUT = Path(__file__).resolve().parents[2]
 # How long anything may take on a busy machine before it counts as not happening.
-PATIENCE_S = 300.0
+PATIENCE_S = 600.0
 LOOK_AGAIN_S = 0.02
 # A busy machine brings images late: when that is an alarm, others ask. A screen is armed once and stays so.
 BUSY_MACHINE: Mapping[str, object] = {

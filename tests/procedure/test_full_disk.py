@@ -33,7 +33,7 @@ def small_disk(tmp_path: Path) -> Iterator[Path]:
     pytest.skip("no small disk can be mounted here")
 
 
-@pytest.mark.timeout(600)
+@pytest.mark.timeout(900)
 def test_a_full_disk_is_an_alarm_and_navigation_goes_on(small_disk: Path) -> None:
     filler = small_disk / "home" / "filler"
     with real_server(small_disk, SETTINGS) as server:

@@ -28,7 +28,7 @@ def kinds(tool: dict[str, Any]) -> dict[str, str]:
     return {name: tool[name]["kind"] for name in ALL_TOLD}
 
 
-@pytest.mark.timeout(600)
+@pytest.mark.timeout(900)
 def test_what_is_lost_is_not_told_in_any_message_and_its_alarm_comes(tmp_path: Path) -> None:
     reasons, alarms = defaultdict[str, set[str]](set), defaultdict[str, set[str]](set)
     with real_server(tmp_path, SETTINGS) as server:

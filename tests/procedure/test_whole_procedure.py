@@ -23,7 +23,7 @@ CONFIG = Config.model_validate(SETTINGS)
 WITHIN_SD = 3.0
 
 
-@pytest.mark.timeout(900)
+@pytest.mark.timeout(1800)
 def test_from_an_empty_case_to_drilling(tmp_path: Path) -> None:
     with real_server(tmp_path, SETTINGS) as server:
         team = Team(server=server, config=CONFIG)

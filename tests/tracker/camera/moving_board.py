@@ -32,6 +32,8 @@ def shaken(
 ) -> Motion:
     """A hand that shakes the board to and fro, with a little of everything else."""
 
+    middle_mm = np.asarray(BOARD.object_points_mm).mean(axis=0)
+
     def at(at_s: float) -> Pose:
         phase = 2.0 * np.pi * hz * at_s
         turns = [
@@ -40,8 +42,7 @@ def shaken(
             rotation_deg * np.sin(phase),
         ]
         rotation = rotation_from_vector(np.radians(turns))
-        points = np.asarray(BOARD.object_points_mm)
-        middle = rotation @ points.mean(axis=0)
+        middle = rotation @ middle_mm
         shift = [
             sideways_mm * np.sin(phase),
             upwards_mm * np.sin(0.83 * phase + 0.6),
