@@ -172,7 +172,12 @@ class CameraStep:
         *,
         controls: Mapping[CameraControl, int],
     ) -> Document:
-        """Store an accepted calibration with its plots."""
+        """Store an accepted calibration with its plots.
+
+        Raises:
+            CalibrationError: CALIBRATION_ABOVE_GATE.
+            InvalidInput: CAMERA_MODEL_INVALID, no lens can be what fits the views.
+        """
         rms_px = float(report["rms_px"])
         if not rms_px <= self._gate.max_rms_px:
             raise CalibrationError(
@@ -181,6 +186,7 @@ class CameraStep:
                 "Take sharp views of a flat, stiff board, or look at the report for views that do not fit.",
                 {"rms_px": rms_px, "max_rms_px": self._gate.max_rms_px},
             )
+        CameraModel.from_mapping(report)
         files = {}
         for name, picture in plots.items():
             with self._store.new_file(case.id, ".svg") as new:

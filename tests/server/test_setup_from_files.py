@@ -91,6 +91,12 @@ def test_a_camera_file_may_be_yaml_or_json(tmp_path: Path) -> None:
             id="a-control-that-is-none",
         ),
         pytest.param(json.dumps({**CAMERA, "distortion": [0]}), "CAMERA_MODEL_INVALID", id="one-coefficient"),
+        pytest.param(
+            json.dumps({**CAMERA, "size_wh_px": [64.5, 48]}), "CAMERA_MODEL_INVALID", id="half-a-pixel"
+        ),
+        pytest.param(
+            json.dumps({**CAMERA, "distortion": [1e6, 0, 0, 0, 0]}), "CAMERA_MODEL_INVALID", id="no-lens"
+        ),
     ],
 )
 def test_a_camera_file_that_cannot_be_used_names_itself(tmp_path: Path, text: str, code: str) -> None:

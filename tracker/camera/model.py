@@ -1,20 +1,22 @@
 """Pinhole camera model with lens distortion."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import InitVar, dataclass, field
+from typing import cast
 
 import cv2
 import numpy as np
 import numpy.typing as npt
 
 from tracker.camera.lens import pack_lens
+from tracker.camera.plausibility import implausibility_of, normalised_from_px
 from tracker.errors import InvalidInput
 from tracker.geometry import Array
 
 DISTORTION_LENGTHS = (4, 5, 8, 12, 14)
-# A field of view of 157 degrees, and a principal point one image size off centre: values beyond are errors.
-MIN_FOCAL_RATIO, MAX_PRINCIPAL_RATIO = 0.1, 1.0
-UNDISTORT_CRITERIA = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 40, 1e-10)
+# A pinhole that sees 157 degrees: a focal length below is a wrong unit, whatever the distortion.
+MIN_FOCAL_RATIO = 0.1
+REMEDY = "Calibrate the camera again, or give OpenCV's K (3x3), distortion and image size."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,6 +28,8 @@ class CameraModel:
         distortion: OpenCV's coefficients, 4, 5, 8, 12 or 14 of them (k1 k2 p1 p2 k3 ...).
         size_wh_px: width and height of the images that it was calibrated on.
         lens: the same as the compiled loops want it, see `pack_lens`; made here.
+        is_fit: The numbers are a fit to views, which may run away in corners that no view reached. Its report
+            warns of a distortion that no lens can have; what is taken into use is rejected for it.
 
     Raises:
         InvalidInput: CAMERA_MODEL_INVALID, with the number that cannot be.
@@ -35,20 +39,17 @@ class CameraModel:
     distortion: Array
     size_wh_px: tuple[int, int]
     lens: Array = field(init=False, repr=False, compare=False)
+    is_fit: InitVar[bool] = False
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, is_fit: bool) -> None:
         matrix = np.array(self.matrix, dtype=np.float64)
         distortion = np.array(self.distortion, dtype=np.float64).ravel()
         if distortion.size == 0:
             distortion = np.zeros(5)
+        malformed = _malformed(matrix, distortion, np.asarray(self.size_wh_px, dtype=np.float64).ravel())
+        if malformed:
+            raise _invalid(malformed, REMEDY)
         width, height = (int(v) for v in self.size_wh_px)
-        problem = _problem(matrix, distortion, width, height)
-        if problem:
-            raise InvalidInput(
-                "CAMERA_MODEL_INVALID",
-                f"the camera model cannot be used: {problem}",
-                "Calibrate the camera again, or give OpenCV's K (3x3), distortion and image size.",
-            )
         lens = pack_lens(matrix, distortion)
         for one in (matrix, distortion, lens):
             one.setflags(write=False)
@@ -56,6 +57,18 @@ class CameraModel:
         object.__setattr__(self, "distortion", distortion)
         object.__setattr__(self, "size_wh_px", (width, height))
         object.__setattr__(self, "lens", lens)
+        if not is_fit:
+            self.require_plausible()
+
+    def require_plausible(self) -> None:
+        """Raise where no lens can be this; see `implausibility_of`.
+
+        Raises:
+            InvalidInput: CAMERA_MODEL_INVALID.
+        """
+        found = implausibility_of(self.matrix, self.distortion, self.size_wh_px)
+        if found is not None:
+            raise _invalid(found.message, found.remedy)
 
     def __reduce__(self) -> tuple[object, ...]:
         """Pickle so that the arrays are read-only in another process too.
@@ -79,8 +92,9 @@ class CameraModel:
         try:
             matrix = np.asarray(values["matrix"], dtype=np.float64)
             distortion = np.asarray(values["distortion"], dtype=np.float64)
-            size = np.asarray(values["size_wh_px"], dtype=np.int64).ravel()
-            width, height = (int(v) for v in size)
+            # Not as integers: 1920.5 px must be rejected, not cut.
+            width, height = np.asarray(values["size_wh_px"], dtype=np.float64).ravel().tolist()
+            size_wh_px = cast("tuple[int, int]", (width, height))
         except (TypeError, ValueError) as error:
             raise InvalidInput(
                 "CAMERA_FILE_INVALID",
@@ -88,7 +102,7 @@ class CameraModel:
                 "A camera file has matrix (3 rows of 3), distortion (4, 5, 8, 12 or 14 numbers) "
                 "and size_wh_px (width, height).",
             ) from error
-        return cls(matrix=matrix, distortion=distortion, size_wh_px=(width, height))
+        return cls(matrix=matrix, distortion=distortion, size_wh_px=size_wh_px)
 
     def has_aspect_of(self, size_wh_px: tuple[int, int]) -> bool:
         """Whether images of this size have exactly the calibrated ratio of width to height."""
@@ -126,37 +140,37 @@ class CameraModel:
 
     def normalised_from_px(self, px: npt.ArrayLike) -> Array:
         """Return undistorted normalised coordinates x/z, y/z (n, 2) of pixels (n, 2)."""
-        points = np.asarray(px, dtype=np.float64).reshape(-1, 1, 2)
-        out = cv2.undistortPoints(points, self.matrix, self.distortion, criteria=UNDISTORT_CRITERIA)
-        return np.asarray(out, dtype=np.float64).reshape(-1, 2)
+        return normalised_from_px(np.asarray(px, dtype=np.float64), self.matrix, self.distortion)
 
 
 def _made(matrix: Array, distortion: Array, size_wh_px: tuple[int, int]) -> CameraModel:
-    return CameraModel(matrix=matrix, distortion=distortion, size_wh_px=size_wh_px)
+    # It was judged when it was made first.
+    return CameraModel(matrix=matrix, distortion=distortion, size_wh_px=size_wh_px, is_fit=True)
 
 
-def _problem(matrix: Array, distortion: Array, width: int, height: int) -> str:
-    """Return what is invalid, or an empty string."""
+def _invalid(problem: str, remedy: str) -> InvalidInput:
+    return InvalidInput("CAMERA_MODEL_INVALID", f"the camera model cannot be used: {problem}", remedy)
+
+
+def _malformed(matrix: Array, distortion: Array, size_wh_px: Array) -> str:
+    """Return what is no camera matrix, distortion or image size, or an empty string."""
     if matrix.shape != (3, 3):
         return f"its matrix has shape {matrix.shape}, needed (3, 3)"
     if distortion.size not in DISTORTION_LENGTHS:
         return f"it has {distortion.size} distortion coefficients, allowed {DISTORTION_LENGTHS}"
     if not (np.isfinite(matrix).all() and np.isfinite(distortion).all()):
         return "a number is not finite"
+    if size_wh_px.size != 2 or not (np.isfinite(size_wh_px) & (size_wh_px == np.round(size_wh_px))).all():
+        return f"its image size is {'x'.join(map(str, size_wh_px.tolist()))} px, needed two whole numbers"
+    width, height = size_wh_px.tolist()
     if width < 16 or height < 16:
-        return f"its image size is {width}x{height} px, at least 16x16"
+        return f"its image size is {width:.0f}x{height:.0f} px, at least 16x16"
     if matrix[0, 0] <= 0 or matrix[1, 1] <= 0:
         return f"its focal lengths are {matrix[0, 0]:g} and {matrix[1, 1]:g} px, needed above 0"
     if min(matrix[0, 0], matrix[1, 1]) < MIN_FOCAL_RATIO * max(width, height):
         return (
             f"its focal lengths are {matrix[0, 0]:g} and {matrix[1, 1]:g} px, needed at least "
-            f"{MIN_FOCAL_RATIO * max(width, height):g} px for {width}x{height} px"
-        )
-    away = np.abs(matrix[:2, 2] / [width, height] - 0.5).max()
-    if away > MAX_PRINCIPAL_RATIO:
-        return (
-            f"its principal point is ({matrix[0, 2]:g}, {matrix[1, 2]:g}) px, {away:.1f} image sizes from "
-            f"the middle of {width}x{height} px, allowed {MAX_PRINCIPAL_RATIO:g}"
+            f"{MIN_FOCAL_RATIO * max(width, height):g} px for {width:.0f}x{height:.0f} px"
         )
     if abs(matrix[0, 1]) > 1e-9 or np.abs(matrix[2] - [0, 0, 1]).max() > 1e-9 or abs(matrix[1, 0]) > 1e-9:
         return "its matrix is not [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]"

@@ -67,7 +67,8 @@ def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
     """Write the camera file, tell the report, and give the exit status: 0, or 1 if the RMS is too large.
 
     Raises:
-        NavigationError: the images, the board or the views cannot be used, or a file cannot be written.
+        NavigationError: the images, the board or the views cannot be used, no lens can fit them, or a
+            file cannot be written.
     """
     config = load_config(order.config)
     max_rms_px = config.calibration.max_rms_px if order.max_rms_px is None else order.max_rms_px
@@ -88,6 +89,9 @@ def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
         report = with_board_size_warning(report, [one for one in shown if isinstance(one, BoardView)], board)
     entries = entries_of(looked.names, looked.seen, report)
     passed = report.rms_px <= max_rms_px
+    if passed:
+        # Before a file is written, because no other command would take it.
+        report.camera.require_plausible()
     written = _write(order, report, entries, looked.boards) if passed else ()
     if as_json:
         typer.echo(

@@ -6,6 +6,7 @@ import numpy as np
 
 from tracker.camera import Board, CameraModel, DotBoard
 from tracker.camera.detection import BoardView
+from tracker.errors import InvalidInput
 from tracker.geometry import Array, rotation_from_vector
 
 BOARD = DotBoard(columns=14, rows=10, pitch_mm=8.0)
@@ -29,7 +30,18 @@ class KnownCamera:
 
 
 def known_camera(rng: np.random.Generator, *, coefficients: int = 5) -> KnownCamera:
-    """Return a random camera: slightly non-square pixels, radial distortion, offset principal point."""
+    """Return a random camera: slightly non-square pixels, radial distortion, offset principal point.
+
+    Some draws fold the corners of the image, which no lens does; they are drawn again.
+    """
+    while True:
+        try:
+            return _drawn_camera(rng, coefficients)
+        except InvalidInput:
+            continue
+
+
+def _drawn_camera(rng: np.random.Generator, coefficients: int) -> KnownCamera:
     width, height = 1280, 720
     focal = rng.uniform(900.0, 1500.0)
     matrix = np.array(

@@ -131,7 +131,9 @@ def test_points_that_give_no_plane_are_refused(fit: Array, said: str) -> None:
 
 
 def test_points_of_another_image_size_are_refused() -> None:
-    small = CameraModel(matrix=MATRIX, distortion=np.zeros(5), size_wh_px=(640, 480))
+    matrix = np.array(MATRIX)
+    matrix[:2, 2] = 319.5, 239.5
+    small = CameraModel(matrix=matrix, distortion=np.zeros(5), size_wh_px=(640, 480))
     with pytest.raises(InvalidInput, match="640x480"):
         accuracy_left_out(small, rows())
 

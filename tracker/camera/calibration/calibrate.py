@@ -13,6 +13,7 @@ from tracker.camera.calibration.one_camera import two_camera_warnings
 from tracker.camera.calibration.outliers import InlierViews, reject_outlier_points, reject_outlier_views
 from tracker.camera.calibration.report import (
     CalibrationReport,
+    CalibrationWarning,
     ModelChoice,
     ParameterEstimate,
     ViewReport,
@@ -22,6 +23,7 @@ from tracker.camera.calibration.uncertainty import Uncertainty, noise_is_correla
 from tracker.camera.calibration.view_checks import PARALLEL_DEG, fault_of, reject_one_pose
 from tracker.camera.detection.view import BoardView
 from tracker.camera.model import CameraModel
+from tracker.camera.plausibility import implausibility_of
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.geometry import Array, Camera, Pattern, Rigid
 
@@ -74,8 +76,7 @@ def calibrate(
     usable = [views[index] for index in sound]
     reject_one_pose(usable, size_wh_px)
     first = reject_outlier_views(usable, size_wh_px, FIRST_MODEL)
-    reach_px = float(np.linalg.norm(size_wh_px)) / 2.0
-    choice = _choice(settings, first, size_wh_px, reach_px)
+    choice = _choice(settings, first, size_wh_px)
     retained = reject_outlier_points(usable, first, size_wh_px, choice.coefficients)
     out = {index: fault for index, fault in enumerate(faults) if fault}
     out |= {sound[index]: reason for index, reason in retained.out.items()}
@@ -85,7 +86,7 @@ def calibrate(
     sure = uncertainty(blocks, is_noise_correlated=alike)
     parameters = _parameters(retained.fit, sure)
     camera = CameraModel(
-        matrix=retained.fit.matrix, distortion=retained.fit.distortion, size_wh_px=size_wh_px
+        matrix=retained.fit.matrix, distortion=retained.fit.distortion, size_wh_px=size_wh_px, is_fit=True
     )
     reports = _view_reports(views, names, retained, sound, out)
     _reject_undetermined(reports, parameters)
@@ -101,7 +102,19 @@ def calibrate(
         coverage=coverage,
         choice=choice,
         warnings=two_camera_warnings(retained.fit, blocks, [view.name for view in reports if view.used])
-        + warnings_of(reports, parameters, coverage, choice, size_wh_px),
+        + warnings_of(reports, parameters, coverage, choice, size_wh_px)
+        + _implausible(camera),
+    )
+
+
+def _implausible(camera: CameraModel) -> tuple[CalibrationWarning, ...]:
+    found = implausibility_of(camera.matrix, camera.distortion, camera.size_wh_px)
+    if found is None:
+        return ()
+    return (
+        CalibrationWarning(
+            code="LENS_IMPLAUSIBLE", message=f"no lens can be this: {found.message}", remedy=found.remedy
+        ),
     )
 
 
@@ -111,16 +124,14 @@ def _read_only(array: Array) -> Array:
     return copied
 
 
-def _choice(
-    settings: CalibrationSettings, retained: InlierViews, size_wh_px: tuple[int, int], reach_px: float
-) -> ModelChoice:
+def _choice(settings: CalibrationSettings, retained: InlierViews, size_wh_px: tuple[int, int]) -> ModelChoice:
     if settings.coefficients is not None:
         return ModelChoice(
             coefficients=settings.coefficients,
             held_out_rms_px=(),
             reason=f"{settings.coefficients} were asked for",
         )
-    return choose_model(retained.views, size_wh_px, reach_px)
+    return choose_model(retained.views, size_wh_px)
 
 
 def _parameters(fit: Fit, sure: Uncertainty) -> tuple[ParameterEstimate, ...]:

@@ -12,6 +12,7 @@ import numpy as np
 from tracker.camera.calibration.fit import MODELS, board_pose, fit_camera, projected
 from tracker.camera.calibration.report import ModelChoice
 from tracker.camera.detection.view import BoardView
+from tracker.camera.plausibility import implausibility_of
 from tracker.errors import CalibrationError
 from tracker.geometry import Array
 
@@ -25,8 +26,8 @@ SIMPLER_BY, RICHER_BY = 0.005, 0.02
 MAX_POINT_SDS = 6.0
 
 
-def choose_model(views: Sequence[BoardView], size_wh_px: tuple[int, int], reach_px: float) -> ModelChoice:
-    """4, 5 or 8 coefficients. `reach_px` is how far from the middle the lens must stay one to one."""
+def choose_model(views: Sequence[BoardView], size_wh_px: tuple[int, int]) -> ModelChoice:
+    """4, 5 or 8 coefficients; 8 only where a lens can have them, up to the corners of the image."""
     if len(views) < MIN_VIEWS:
         few = 4 if len(views) < 3 else USUAL
         return ModelChoice(
@@ -37,7 +38,7 @@ def choose_model(views: Sequence[BoardView], size_wh_px: tuple[int, int], reach_
     held = {model: held_out_rms_px(views, size_wh_px, model) for model in MODELS}
     reported = tuple((model, rms) for model, rms in held.items() if np.isfinite(rms))
     usual = held[USUAL]
-    if held[8] < (1.0 - RICHER_BY) * min(usual, held[4]) and _is_one_to_one(views, size_wh_px, reach_px):
+    if held[8] < (1.0 - RICHER_BY) * min(usual, held[4]) and _is_plausible(views, size_wh_px):
         return ModelChoice(
             coefficients=8,
             held_out_rms_px=reported,
@@ -77,17 +78,10 @@ def held_out_rms_px(views: Sequence[BoardView], size_wh_px: tuple[int, int], mod
     return float(np.sqrt(np.minimum(together, limit).mean()))
 
 
-def _is_one_to_one(views: Sequence[BoardView], size_wh_px: tuple[int, int], reach_px: float) -> bool:
-    """Whether farther out in the world is farther out in the image, up to the image's corners."""
+def _is_plausible(views: Sequence[BoardView], size_wh_px: tuple[int, int]) -> bool:
+    """Whether a lens can have the 8 coefficients that fit best."""
     try:
         fit = fit_camera(views, size_wh_px, 8)
     except CalibrationError:
         return False
-    k1, k2, _, _, k3, k4, k5, k6 = fit.distortion
-    r = np.linspace(0.0, 1.5 * reach_px / float(fit.matrix[0, 0]), 400)
-    r2 = r * r
-    below = 1 + r2 * (k4 + r2 * (k5 + r2 * k6))
-    out = r * (1 + r2 * (k1 + r2 * (k2 + r2 * k3))) / below
-    inside = out <= reach_px / float(fit.matrix[0, 0])
-    upto = int(np.argmin(inside)) if not inside.all() else len(r)
-    return bool((below[:upto] > 0.05).all() and (np.diff(out[: max(upto, 2)]) > 0).all())
+    return implausibility_of(fit.matrix, fit.distortion, size_wh_px) is None

@@ -148,7 +148,10 @@ def _moved(bundle: Bundle, shared: Array, own: Sequence[Array]) -> Bundle:
         step = shared[lenses[name]]
         matrix = model.matrix + np.array([[step[0], 0, step[2]], [0, step[1], step[3]], [0, 0, 0]])
         models[name] = CameraModel(
-            matrix=matrix, distortion=model.distortion + step[4:], size_wh_px=model.size_wh_px
+            matrix=matrix,
+            distortion=model.distortion + step[4:],
+            size_wh_px=model.size_wh_px,
+            is_fit=True,
         )
     cameras = {
         name: _stepped(place, shared[places[name]]) if name in places else place
