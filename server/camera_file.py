@@ -28,6 +28,7 @@ class CameraFile:
         camera_source: `camera.source` of the calibrated camera; None if not stated.
         controls: Camera controls at the calibration, in driver units; empty if not stated.
         readout_ms: Readout time from the first to the last row; None if not stated.
+        report: What is stated of the calibration (rms_px, sd, warnings); see `server.camera_remarks`.
     """
 
     model: CameraModel
@@ -35,6 +36,7 @@ class CameraFile:
     camera_source: str | None = None
     controls: Mapping[CameraControl, int] = field(default_factory=dict)
     readout_ms: float | None = None
+    report: Mapping[str, object] = field(default_factory=dict)
 
 
 def load_camera_file(path: Path) -> CameraModel:
@@ -69,6 +71,7 @@ def read_camera_file(path: Path) -> CameraFile:
         camera_source=_text(whose.get("source")),
         controls=controls,
         readout_ms=readout_ms,
+        report=values,
     )
 
 

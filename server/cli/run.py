@@ -69,6 +69,7 @@ def _serve(
         access = AccessControl.of(config, storage.store, new_operator_link=new_operator_link)
         preparation = build_setup(config)
         _warn_about_markers(preparation)
+        _warn_about_camera(config)
         from server.alarms import AlarmService, StoredAlarmLog  # noqa: PLC0415
         from server.app import AppParts, create_app, picture_problem_of  # noqa: PLC0415
         from server.cli.web import serve_until  # noqa: PLC0415
@@ -124,6 +125,12 @@ def _warn_about_markers(preparation: "Preparation") -> None:
             code="NO_MARKER",
             remedy="Give its image with --marker and its side with --side-mm, or add it to the settings.",
         )
+
+
+def _warn_about_camera(config: Config) -> None:
+    from server.camera_remarks import warn_of_configured_camera  # noqa: PLC0415
+
+    warn_of_configured_camera(config)
 
 
 def _phone(config: Config, preparation: "Preparation", tracked: "TrackingSystem") -> "Receiver | None":

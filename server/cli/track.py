@@ -21,6 +21,7 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
+from server.camera_remarks import warn_of_configured_camera
 from server.capture.address import SourceKind, source_from_text
 from server.capture.codecs import open_file
 from server.capture.shot import Shot, Source
@@ -68,6 +69,7 @@ def track_video(
         )
     preparation = _require_marker(build_setup(config))
     warn_of_ambiguous_markers(preparation.models)
+    warn_of_configured_camera(config)
     theatre = preparation.theatre
     if theatre is not None:
         cycle = round(theatre.cycle_s * config.rehearsal.rate_hz)

@@ -247,8 +247,10 @@ def camera_from_document(document: Document, *, source: str) -> CameraFile:
             "Calibrate this camera, or start with the one that was calibrated.",
             {"calibrated": made_for, "source": source},
         )
+    report = document.content.get("report")
     return CameraFile(
         model=CameraModel.from_mapping(values),
+        report=report if isinstance(report, Mapping) else {},
         camera_source=source,
         controls=controls_in(values),
         readout_ms=readout_in(values),

@@ -14,6 +14,7 @@ import structlog
 
 from server.alarms import ProcedureFacts
 from server.camera_file import CameraFile
+from server.camera_remarks import warn_of_doubtful_camera
 from server.procedure.camera import MAIN_CAMERA, camera_from_document
 from server.procedure.confirmation import confirmation_name
 from server.procedure.drill_reference import DrillReferenceBuilder
@@ -132,7 +133,11 @@ class SetupPublisher:
         for document in documents:
             try:
                 if document.kind is DocumentKind.CAMERA:
-                    cameras[document.name] = camera_from_document(document, source=self._defaults.source)
+                    camera_file = camera_from_document(document, source=self._defaults.source)
+                    cameras[document.name] = camera_file
+                    warn_of_doubtful_camera(
+                        camera_file, title=document.title, max_rms_px=self._defaults.max_rms_px
+                    )
                 elif document.kind is DocumentKind.MARKER:
                     # Markers are read together, because no two of them may be confusable.
                     continue

@@ -223,6 +223,7 @@ def defaults_from_config(config: Config) -> SetupDefaults:
     rehearsed = REHEARSED_REFERENCE if is_rehearsal and config.rehearsal.reference else ""
     return SetupDefaults(
         source=source.name,
+        max_rms_px=config.calibration.max_rms_px,
         reference=config.reference.marker or rehearsed,
         has_camera=config.camera.calibration is not None or knows_itself,
         tools=frozenset(config.tools) | (frozenset({REHEARSED_TOOL}) if knows_itself else frozenset()),

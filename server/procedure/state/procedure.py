@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from datetime import datetime
 
 from server.clock import utc_now
-from server.config import CosignConfig, RegistrationConfig
+from server.config import CalibrationConfig, CosignConfig, RegistrationConfig
 from server.procedure.camera import ACCURACY, MAIN_CAMERA, camera_from_document
 from server.procedure.confirmation import (
     ConfirmationPrompt,
@@ -54,9 +54,11 @@ class SetupDefaults:
         has_camera: whether they provide a camera calibration.
         tools: names of the configured tools.
         reference: the reference marker on the patient; empty if there is none.
+        max_rms_px: limit of a calibration's RMS, above which it is warned of.
     """
 
     source: str
+    max_rms_px: float = CalibrationConfig().max_rms_px
     reference: str = ""
     has_camera: bool = False
     tools: frozenset[str] = frozenset()
