@@ -191,13 +191,13 @@ class RegistrationConfig(Section):
     """Limits that a registration and its check must meet before navigation starts."""
 
     min_points: Annotated[int, Field(ge=3, le=40)] = 3
-    """Number of landmarks; a wrong one can be detected with four, not with three."""
+    """Number of landmarks; three cannot show a wrong one, and their stated error then exceeds max_tre_mm."""
     max_fre_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 1.5
     """Fiducial registration error (FRE, RMS)."""
     max_tre_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 2.0
     """Stated target registration error (TRE, 3-D RMS) at the entry point of every channel of the vertebra."""
     max_left_out_mm: Annotated[float, Field(gt=0.0, le=50.0)] = 5.0
-    """Leave-one-out error of any landmark; needs at least four."""
+    """Leave-one-out error of any landmark; if others cannot exclude one of this size, it is stated."""
     capture_images: Annotated[int, Field(ge=3, le=300)] = 12
     """Consecutive images with the tip visible and at rest on a landmark."""
     capture_s: Annotated[float, Field(ge=0.05, le=10.0)] = 0.4

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +10,8 @@ import numpy as np
 import typer
 
 from server.cli.landmark_rows import LandmarkRows, read_landmarks
+from server.config_file import load_config
+from server.point_limits import point_gate, point_settings
 from tracker.errors import InvalidInput, RegistrationError
 from tracker.geometry import Array
 from tracker.plan.remark import Remark
@@ -17,7 +19,6 @@ from tracker.registration.points import (
     PointGate,
     PointPairs,
     PointRegistration,
-    PointSettings,
     register_points,
 )
 
@@ -34,30 +35,37 @@ class PointsOptions:
     excluded: Sequence[str]
     min_fle_mm: float
     max_fre_mm: float | None
+    max_left_out_mm: float | None
     max_tre_mm: float | None
+    config: Path | None
 
 
 def register_from_files(options: PointsOptions, *, as_json: bool) -> int:
-    """Register and print the result. Return the exit status: 0, or 1 if a given limit is exceeded.
+    """Register and print the result. Return the exit status: 0, or 1 if a limit is exceeded.
+
+    FRE and leave-one-out error have the limits of the settings, as on the server, unless others are given.
+    The TRE is limited only if a limit is given: a target may lie anywhere, the server's are entry points.
 
     Raises:
         NavigationError: a file cannot be used, or the points do not determine a transform.
     """
     targets = [target_from_text(text) for text in options.targets]
     pairs = pairs_of_files(read_landmarks(options.fixed), read_landmarks(options.moving))
-    settings = PointSettings(min_fle_mm=options.min_fle_mm)
+    limits = load_config(options.config).registration
+    settings, gate = point_settings(limits), point_gate(limits)
+    settings = replace(settings, min_fle_mm=options.min_fle_mm)
+    if options.max_left_out_mm is not None:
+        settings = replace(settings, max_left_out_mm=options.max_left_out_mm)
+    if options.max_fre_mm is not None:
+        gate = replace(gate, max_fre_mm=options.max_fre_mm)
+    gate = replace(gate, max_tre_mm=np.inf if options.max_tre_mm is None else options.max_tre_mm)
     found = register_points(pairs, excluded=_excluded(options.excluded, pairs), settings=settings)
-    failures = found.failures(
-        PointGate(
-            max_fre_mm=np.inf if options.max_fre_mm is None else options.max_fre_mm,
-            max_tre_mm=np.inf if options.max_tre_mm is None else options.max_tre_mm,
-        ),
-        targets,
-    )
+    failures = found.failures(gate, targets)
+    outliers = found.outliers(gate)
     if as_json:
-        typer.echo(json.dumps(_mapping(found, targets, failures), allow_nan=False))
+        typer.echo(json.dumps(_mapping(found, targets, gate, failures), allow_nan=False))
     else:
-        typer.echo("\n".join(_lines(found, targets)))
+        typer.echo("\n".join(_lines(found, targets, outliers)))
         for remark in found.remarks:
             typer.echo(f"Note: {remark.message}.\n{remark.remedy}", err=True)
     for failure in failures:
@@ -115,10 +123,13 @@ def _excluded(names: Sequence[str], pairs: PointPairs) -> list[int]:
 
 
 def _mapping(
-    found: PointRegistration, targets: Sequence[Array], failures: Sequence[RegistrationError]
+    found: PointRegistration,
+    targets: Sequence[Array],
+    gate: PointGate,
+    failures: Sequence[RegistrationError],
 ) -> dict[str, Any]:
     tre = [found.tre_expected_mm(target) for target in targets]
-    left_out = found.leave_one_out_mm
+    outliers = found.outliers(gate)
     return {
         "fixed_from_moving": found.fixed_from_moving.matrix.tolist(),
         "fre_rms_mm": found.fre_rms_mm,
@@ -130,6 +141,7 @@ def _mapping(
                 "target_mm": target.tolist(),
                 "tre_expected_mm": expected,
                 "tre_stated_mm": found.tre_stated_mm(target),
+                "tre_without_outlier_mm": found.tre_without_outlier_mm(target),
             }
             for target, expected in zip(targets, tre, strict=True)
         ],
@@ -139,7 +151,11 @@ def _mapping(
                 "used": bool(found.used[index]),
                 "residual_xyz_mm": found.residuals_mm[index].tolist(),
                 "residual_mm": float(found.distances_mm[index]),
-                "leave_one_out_mm": left_out.get(index),
+                "leave_one_out_mm": found.leave_one_out_mm.get(index),
+                "fre_without_mm": found.fre_without_mm.get(index),
+                # Null if the other points exclude no error of this one, however large.
+                "undetected_mm": _finite(found.undetected_mm.get(index)),
+                "outlier": index in outliers,
             }
             for index, label in enumerate(found.pairs.labels)
         ],
@@ -148,24 +164,39 @@ def _mapping(
         "covariance": found.covariance.tolist(),
         "covariance_of": "fixed_from_moving [mm, rad]: translation, then a small left-multiplied rotation",
         "warnings": [_failure_value(remark) for remark in found.remarks],
+        "limits": {
+            "max_fre_mm": gate.max_fre_mm,
+            "max_left_out_mm": found.settings.max_left_out_mm,
+            "max_tre_mm": _finite(gate.max_tre_mm),
+        },
         "gate": {"passed": not failures, "failures": [_failure_value(failure) for failure in failures]},
     }
+
+
+def _finite(number: float | None) -> float | None:
+    return None if number is None or not np.isfinite(number) else number
 
 
 def _failure_value(failure: Remark | RegistrationError) -> dict[str, str]:
     return {"code": failure.code, "message": failure.message, "remedy": failure.remedy}
 
 
-def _lines(found: PointRegistration, targets: Sequence[Array]) -> list[str]:
+def _lines(found: PointRegistration, targets: Sequence[Array], outliers: Sequence[int]) -> list[str]:
     left_out = found.leave_one_out_mm
     width = max(5, *(len(label) for label in found.pairs.labels))
-    lines = [f"{'point':<{width}}   off mm   x       y       z    left out mm"]
+    lines = [f"{'point':<{width}}   off mm   x       y       z    left out mm   others fit mm"]
     for index, label in enumerate(found.pairs.labels):
         x, y, z = found.residuals_mm[index]
-        alone = f"{left_out[index]:6.2f}" if index in left_out else "     -"
+        alone, others = (
+            f"{by[index]:6.2f}" if index in by else "     -" for by in (left_out, found.fre_without_mm)
+        )
         note = "" if found.used[index] else "  not used"
+        if index in outliers:
+            note = "  outlier" if len(outliers) == 1 else "  possible outlier"
+            note += ", the likeliest" if len(outliers) > 1 and index == outliers[0] else ""
         lines.append(
-            f"{label:<{width}}   {found.distances_mm[index]:6.2f} {x:7.2f} {y:7.2f} {z:7.2f}   {alone}{note}"
+            f"{label:<{width}}   {found.distances_mm[index]:6.2f} {x:7.2f} {y:7.2f} {z:7.2f}   "
+            f"{alone}        {others}{note}"
         )
     lines += [
         f"Landmarks fit to {found.fre_rms_mm:.2f} mm RMS (FRE); error of a single landmark about "
@@ -175,8 +206,16 @@ def _lines(found: PointRegistration, targets: Sequence[Array]) -> list[str]:
         at = ", ".join(f"{number:g}" for number in target)
         lines.append(
             f"At the target {at} mm: {found.tre_expected_mm(target):.2f} mm expected (TRE, RMS), "
-            f"{found.tre_stated_mm(target):.2f} mm stated (includes the uncertainty from few points)"
+            f"{found.tre_stated_mm(target):.2f} mm stated (includes the uncertainty from few points"
+            f"{_outlier_share(found, target)})"
         )
     lines.append("fixed_from_moving:")
     lines += ["  " + " ".join(f"{number:12.6f}" for number in row) for row in found.fixed_from_moving.matrix]
     return lines
+
+
+def _outlier_share(found: PointRegistration, target: Array) -> str:
+    alone = found.tre_without_outlier_mm(target)
+    if not found.tre_stated_mm(target) > alone:
+        return ""
+    return f" and a mistaken landmark that the others do not exclude; {alone:.2f} mm without one"

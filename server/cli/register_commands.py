@@ -22,6 +22,10 @@ MovingOption = Annotated[
         metavar="CSV",
     ),
 ]
+ConfigOption = Annotated[
+    Path | None,
+    typer.Option("--config", help="Settings file; default: ./config.yaml if it exists.", metavar="FILE"),
+]
 TargetOption = Annotated[
     list[str] | None,
     typer.Option(
@@ -64,7 +68,22 @@ def points(
     min_fle_mm: MinFleOption = 0.5,
     max_fre_mm: Annotated[
         float | None,
-        typer.Option("--max-fre-mm", help="Exit status 1 if the FRE (RMS) exceeds this.", metavar="MM"),
+        typer.Option(
+            "--max-fre-mm",
+            help="Exit status 1 if the FRE (RMS) exceeds this; default: registration.max_fre_mm of the "
+            "settings.",
+            metavar="MM",
+        ),
+    ] = None,
+    max_left_out_mm: Annotated[
+        float | None,
+        typer.Option(
+            "--max-left-out-mm",
+            help="Exit status 1 if the leave-one-out error of a landmark exceeds this; default: "
+            "registration.max_left_out_mm of the settings.",
+            metavar="MM",
+            min=0.0,
+        ),
     ] = None,
     max_tre_mm: Annotated[
         float | None,
@@ -74,12 +93,14 @@ def points(
             metavar="MM",
         ),
     ] = None,
+    config: ConfigOption = None,
     json: JsonOption = False,
 ) -> None:
     """Register by landmarks: print the transform, the residual of each point, and the error at targets.
 
-    Points are paired by name if both files have names, otherwise by order. Exit status 2 if the points are
-    too few, collinear or mirrored, or if another order fits better.
+    Points are paired by name if both files have names, otherwise by order. Exit status 1 if a limit is
+    exceeded, with the possible outliers marked in the table; 2 if the points are too few, collinear or
+    mirrored, or if another order fits better.
     """
     from server.cli.register import PointsOptions, register_from_files  # noqa: PLC0415  loaded when needed
 
@@ -90,7 +111,9 @@ def points(
         excluded=tuple(exclude or ()),
         min_fle_mm=min_fle_mm,
         max_fre_mm=max_fre_mm,
+        max_left_out_mm=max_left_out_mm,
         max_tre_mm=max_tre_mm,
+        config=config,
     )
     raise typer.Exit(register_from_files(options, as_json=json))
 
@@ -134,11 +157,13 @@ def surface(
             "--tip-radius-mm", help="Radius of a ball tip whose centre is tracked.", min=0.0, max=20.0
         ),
     ] = 0.0,
+    config: ConfigOption = None,
     json: JsonOption = False,
 ) -> None:
     """Register points swept over the bone to its mesh, starting from a registration by landmarks.
 
-    Exit status 2 if the sweep leaves a direction undetermined, fits in two places, or does not fit the mesh.
+    Exit status 2 if the sweep leaves a direction undetermined, fits in two places, or does not fit the mesh,
+    or if the landmarks exceed their limits in the settings.
     """
     from server.cli.register_surface import SurfaceOptions, register_sweep  # noqa: PLC0415  loaded when needed
 
@@ -151,5 +176,6 @@ def surface(
         moving=moving,
         targets=tuple(target_mm or ()),
         tip_radius_mm=tip_radius_mm,
+        config=config,
     )
     register_sweep(options, as_json=json)

@@ -11,7 +11,9 @@ import typer
 
 from server.cli.landmark_rows import read_landmarks
 from server.cli.register import pairs_of_files, target_from_text
+from server.config_file import load_config
 from server.imaging.meshes import read_mesh
+from server.point_limits import point_gate, point_settings
 from tracker.errors import InvalidInput
 from tracker.geometry import Anchor, Array, Rigid, Vertebra
 from tracker.plan.remark import Remark
@@ -41,6 +43,7 @@ class SurfaceOptions:
     moving: Path | None
     targets: Sequence[str]
     tip_radius_mm: float
+    config: Path | None
 
 
 def register_sweep(options: SurfaceOptions, *, as_json: bool) -> None:
@@ -70,7 +73,13 @@ def register_sweep(options: SurfaceOptions, *, as_json: bool) -> None:
 
 
 def _start(options: SurfaceOptions) -> tuple[Rigid[Vertebra, Anchor], PointPairs | None]:
-    """Return the initial transform, and the landmarks that also enter the fit; none with --start."""
+    """Return the initial transform, and the landmarks that also enter the fit; none with --start.
+
+    Raises:
+        InvalidInput: REGISTRATION_START_MISSING or REGISTRATION_START_INVALID.
+        RegistrationError: as `register_points`; or POINTS_FIT_TOO_LARGE or POINT_STRAYS, the landmarks exceed
+            the limits of the settings.
+    """
     if options.start is not None and options.fixed is None and options.moving is None:
         return _matrix(options.start), None
     if options.start is not None or options.fixed is None or options.moving is None:
@@ -80,7 +89,12 @@ def _start(options: SurfaceOptions) -> tuple[Rigid[Vertebra, Anchor], PointPairs
             START_REMEDY,
         )
     pairs = pairs_of_files(read_landmarks(options.fixed), read_landmarks(options.moving))
-    return register_points(pairs).fixed_from_moving, pairs
+    limits = load_config(options.config).registration
+    found = register_points(pairs, settings=point_settings(limits))
+    # Their error at the targets is not limited: the sweep is there to reduce it.
+    for failure in found.failures(point_gate(limits), ()):
+        raise failure
+    return found.fixed_from_moving, pairs
 
 
 def _matrix(path: Path) -> Rigid[Vertebra, Anchor]:

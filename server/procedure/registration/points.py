@@ -7,6 +7,7 @@ import numpy as np
 
 from server.config import RegistrationConfig
 from server.live import LiveHub
+from server.point_limits import point_gate, point_settings
 from server.procedure.active_collection import ActiveCollection
 from server.procedure.registration.capture_settings import capture_settings
 from server.procedure.registration.context import RegistrationContext, RegistrationContextFinder
@@ -16,7 +17,7 @@ from server.procedure.registration_record import Value
 from server.store import Document
 from tracker.errors import RegistrationError
 from tracker.registration.needles import TouchedPoint
-from tracker.registration.points import PointGate, PointRegistration
+from tracker.registration.points import PointRegistration
 
 # Fiducial localisation error of a landmark on CT and bone together, per axis.
 LANDMARK_SD_MM = 0.7
@@ -33,7 +34,7 @@ class TargetError:
         depth_mm: distance from the entry point along the channel; 0 is the entry point.
         expected_mm: 3-D RMS by Fitzpatrick's formula, from the residuals only.
         stated_mm: 3-D RMS as displayed and compared with the limit; larger for few points, and includes the
-            depth error of the tip.
+            depth error of the tip and a gross error of a landmark that the others do not exclude.
     """
 
     side: str
@@ -65,6 +66,7 @@ class PointsStep:
         self._repository = repository
         self.gate = gate
         self._captures = capture_settings(gate)
+        self._settings = point_settings(gate)
         self._active: ActiveCollection[PointsSession] = ActiveCollection(
             "landmarks are",
             remedy="Begin with the points, and say with which tool.",
@@ -88,7 +90,7 @@ class PointsStep:
                 "Mark landmarks on the CT, in the plan; one more serves as the check.",
                 {"landmarks": there, "needed": needed},
             )
-        return self._active.begin(lambda: PointsSession(self._hub, context, self._captures))
+        return self._active.begin(lambda: PointsSession(self._hub, context, self._captures, self._settings))
 
     @property
     def session(self) -> PointsSession:
@@ -124,11 +126,7 @@ class PointsStep:
             if problem is None:
                 raise RuntimeError("neither a fit nor a problem")
             return (RegistrationError(problem.code, problem.message, problem.remedy, problem.context),)
-        gate = PointGate(max_fre_mm=self.gate.max_fre_mm, max_tre_mm=self.gate.max_tre_mm)
-        return (
-            *status.fit.failures(gate, list(status.context.entries_mm)),
-            *strays(status.fit, max_mm=self.gate.max_left_out_mm),
-        )
+        return status.fit.failures(point_gate(self.gate), list(status.context.entries_mm))
 
     def conclude(self, *, made_by: str) -> Document:
         """Store the registration in the open case if it is accepted, and end the session.
@@ -193,25 +191,6 @@ def touched_points(step: PointsStep) -> tuple[TouchedPoint, ...]:
         )
         for one in status.used
         if one.touched is not None
-    )
-
-
-def strays(fit: PointRegistration, *, max_mm: float) -> tuple[RegistrationError, ...]:
-    """Return the error for the landmark with the largest leave-one-out residual, if that exceeds `max_mm`.
-
-    One wrong landmark among five pulls the fit towards itself, so the overall RMS does not reveal it.
-    """
-    worst = max(fit.leave_one_out_mm, key=lambda index: fit.leave_one_out_mm[index], default=None)
-    if worst is None or fit.leave_one_out_mm[worst] <= max_mm:
-        return ()
-    name, far_mm = fit.pairs.labels[worst], fit.leave_one_out_mm[worst]
-    return (
-        RegistrationError(
-            "POINT_STRAYS",
-            f"'{name}' lies {far_mm:.2f} mm from where all other landmarks have it, allowed {max_mm:.2f} mm",
-            "Touch that landmark again, or leave it out.",
-            {"landmark": name, "leave_one_out_mm": far_mm, "allowed_mm": max_mm},
-        ),
     )
 
 

@@ -10,7 +10,7 @@ from server.procedure.registration.landmark_capture import CaptureState, Capture
 from tracker.errors import RegistrationError
 from tracker.geometry import Array
 from tracker.registration.capture import CapturedLandmark, CaptureSettings
-from tracker.registration.points import PointRegistration, register_points
+from tracker.registration.points import PointRegistration, PointSettings, register_points
 from tracker.registration.tip import pairs_of_touches
 
 
@@ -60,8 +60,11 @@ class PointsStatus:
 class PointsSession:
     """Captured points of one registration, until it is stored or discarded. Thread-safe."""
 
-    def __init__(self, hub: LiveHub, context: RegistrationContext, gate: CaptureSettings) -> None:
+    def __init__(
+        self, hub: LiveHub, context: RegistrationContext, gate: CaptureSettings, settings: PointSettings
+    ) -> None:
         self.context = context
+        self._settings = settings
         self._hub = hub
         self._gate = gate
         self._lock = threading.Lock()
@@ -139,7 +142,7 @@ class PointsSession:
         )
         fit, problem = None, None
         try:
-            fit = fit_of(landmarks, self.context.tool)
+            fit = fit_of(landmarks, self.context.tool, self._settings)
         except RegistrationError as error:
             problem = Problem.from_error(error)
         return PointsStatus(
@@ -179,7 +182,9 @@ class PointsSession:
             )
 
 
-def fit_of(landmarks: tuple[LandmarkMeasurement, ...], tool: str) -> PointRegistration:
+def fit_of(
+    landmarks: tuple[LandmarkMeasurement, ...], tool: str, settings: PointSettings
+) -> PointRegistration:
     """Fit the used points. Excluded points are not fitted, but have residuals.
 
     Raises:
@@ -194,6 +199,7 @@ def fit_of(landmarks: tuple[LandmarkMeasurement, ...], tool: str) -> PointRegist
             tool=tool,
         ),
         excluded=[index for index, (one, _) in enumerate(pairs) if not one.used],
+        settings=settings,
     )
 
 

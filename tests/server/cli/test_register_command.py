@@ -96,6 +96,62 @@ def test_a_limit_that_was_asked_for_ends_with_status_1(tmp_path: Path) -> None:
     ]
 
 
+def test_a_mistaken_landmark_ends_with_status_1_and_is_marked(tmp_path: Path) -> None:
+    truth = touched(VERTEBRA, np.random.default_rng(4), 0.3)
+    moving = truth.moving_mm.copy()
+    moving[3] += [0.0, 6.0, 0.0]
+    words = (
+        "points",
+        "--fixed",
+        written(tmp_path / "f.csv", truth.fixed_mm, "name,x,y,z", "abcdef"),
+        "--moving",
+        written(tmp_path / "m.csv", moving, "name,x,y,z", "abcdef"),
+    )
+    status, text = typed(*words)
+    assert status == 1
+    assert [line[0] for line in text.splitlines() if line.endswith("outlier")] == ["d"]
+    status, text = typed(*words, "--json")
+    document = json.loads(text)
+    assert status == 1
+    assert [one["name"] for one in document["points"] if one["outlier"]] == ["d"]
+    assert [one["code"] for one in document["gate"]["failures"]] == ["POINTS_FIT_TOO_LARGE", "POINT_STRAYS"]
+    assert typed(*words, "--max-fre-mm", "9", "--max-left-out-mm", "9")[0] == 0
+    assert typed(*words, "--exclude", "d")[0] == 0
+
+
+def test_the_limits_are_those_of_the_settings_unless_others_are_given(tmp_path: Path) -> None:
+    config = tmp_path / "config.yaml"
+    config.write_text("registration: {max_fre_mm: 0.1, max_left_out_mm: 0.2}\n")
+    truth = touched(VERTEBRA, np.random.default_rng(5), 0.3)
+    words = (
+        "points",
+        "--fixed",
+        written(tmp_path / "f.csv", truth.fixed_mm),
+        "--moving",
+        written(tmp_path / "m.csv", truth.moving_mm),
+        "--json",
+    )
+    assert typed(*words)[0] == 0
+    status, text = typed(*words, "--config", config)
+    assert status == 1
+    assert json.loads(text)["limits"] == {"max_fre_mm": 0.1, "max_left_out_mm": 0.2, "max_tre_mm": None}
+    assert typed(*words, "--config", config, "--max-fre-mm", "2", "--max-left-out-mm", "5")[0] == 0
+
+
+def test_what_four_landmarks_do_not_exclude_is_noted_and_stated(tmp_path: Path) -> None:
+    four = VERTEBRA[[0, 1, 2, 4]]
+    truth = touched(four, np.random.default_rng(3), 0.3)
+    fixed, moving = written(tmp_path / "f.csv", four), written(tmp_path / "m.csv", truth.moving_mm)
+    words = ("points", "--fixed", fixed, "--moving", moving, "--target-mm", "10,-44,4")
+    status, text = typed(*words)
+    assert status == 0
+    assert "mistaken landmark that the others do not exclude" in text
+    document = json.loads(typed(*words, "--json")[1])
+    assert "POINTS_OUTLIER_NOT_EXCLUDED" in [one["code"] for one in document["warnings"]]
+    (target,) = document["targets"]
+    assert target["tre_stated_mm"] > 2.0 * target["tre_without_outlier_mm"]
+
+
 @pytest.mark.parametrize("words", ["1,2", "1,2,x", "1,2,nan", "1,2,3,4", ""])
 def test_a_target_that_is_none_is_told(tmp_path: Path, words: str) -> None:
     fixed = written(tmp_path / "f.csv", VERTEBRA)

@@ -41,6 +41,10 @@ def test_a_sweep_from_a_start_and_from_landmarks(tmp_path: Path, mesh: Path, tru
     status, text = typed(*words, "--fixed", fixed, "--moving", moving)
     assert status == 0
     assert "At the target 15, 10, 5 mm" in text
+    mistaken = VERTEBRA + np.eye(6, 3) * [0.0, 6.0, 0.0]
+    moving = written(tmp_path / "w.csv", truth.fixed_from_moving.inverse.move_points(mistaken))
+    status, text = typed(*words, "--fixed", fixed, "--moving", moving)
+    assert (status, text.split(":")[0]) == (2, "POINTS_FIT_TOO_LARGE")
 
 
 @pytest.mark.parametrize(

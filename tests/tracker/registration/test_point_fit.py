@@ -109,13 +109,15 @@ def test_three_points_leave_none_out() -> None:
 def test_the_gate_names_the_worst_point_and_the_target() -> None:
     truth = touched(VERTEBRA, np.random.default_rng(8))
     moving = truth.moving_mm.copy()
-    moving[4] += [0.0, 5.0, 0.0]
+    moving[4] += [0.0, 6.0, 0.0]
     found = register_points(pairs(truth.fixed_mm, moving))
     gate = PointGate(max_fre_mm=1.0, max_tre_mm=1.0)
     codes = [error.code for error in found.failures(gate, [VERTEBRA[0] - [0, 60, 0]])]
-    assert codes == ["POINTS_FIT_TOO_LARGE", "POINTS_TARGET_UNCERTAIN"]
+    assert codes == ["POINTS_FIT_TOO_LARGE", "POINT_STRAYS", "POINTS_TARGET_UNCERTAIN"]
     assert "point 5" in found.failures(gate, [])[0].message
-    assert found.failures(PointGate(max_fre_mm=9.0, max_tre_mm=9.0), [VERTEBRA[0]]) == ()
+    assert found.failures(gate, [])[1].context["landmark"] == "5"
+    lenient = register_points(pairs(truth.fixed_mm, moving), settings=PointSettings(max_left_out_mm=9.0))
+    assert lenient.failures(PointGate(max_fre_mm=9.0, max_tre_mm=9.0), [VERTEBRA[0]]) == ()
 
 
 def test_navigation_gets_the_inverse_with_its_own_covariance() -> None:

@@ -107,7 +107,7 @@ def test_sides_that_look_alike_are_a_warning_and_no_refusal() -> None:
     fixed = np.array([[20.0, 0.0, 10.0], [-20.0, 0.0, 10.0], [0.0, 30.0, -5.0]])
     truth = touched(fixed, np.random.default_rng(3), 0.3)
     found = register_points(PointPairs(fixed_mm=fixed, moving_mm=truth.moving_mm))
-    assert [one.code for one in found.remarks] == ["POINTS_SWAP_UNDETECTABLE"]
+    assert [one.code for one in found.remarks] == ["POINTS_SWAP_UNDETECTABLE", "POINTS_OUTLIER_NOT_EXCLUDED"]
     assert "points 1 and 2" in found.remarks[0].message
 
 

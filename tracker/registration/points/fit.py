@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tracker.geometry import Anchor, Array, Rigid, Vertebra, rotation_from_vector
+from tracker.geometry import Anchor, Array, Rigid, Vertebra, rotation_from_vector, skew
 
 MAX_ROUNDS = 30
 TOLERANCE = 1e-9  # mm and rad
@@ -54,3 +54,14 @@ def jacobians(arms_mm: Array) -> Array:
     rows[:, 1, 3], rows[:, 1, 5] = -z, x
     rows[:, 2, 3], rows[:, 2, 4] = y, -x
     return rows
+
+
+def covariance_about_origin(fit: Rigid[Vertebra, Anchor], about_mm: Array, covariance: Array) -> Array:
+    """Return the covariance (6, 6) of a fit, given that of a shift and a rotation about a point on the CT.
+
+    The result is of the translation and of a small left-multiplied rotation, which is about the anchor's
+    origin.
+    """
+    carried = np.eye(6)
+    carried[:3, 3:] = -skew(fit.translation_mm - about_mm)
+    return np.asarray(carried @ covariance @ carried.T)

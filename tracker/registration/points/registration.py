@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
+from scipy import special
 
 from tracker.errors import RegistrationError
 from tracker.geometry import (
@@ -18,16 +19,30 @@ from tracker.geometry import (
 )
 from tracker.plan.remark import Remark
 from tracker.registration.points.correspondence import reject_swapped_or_mirrored
-from tracker.registration.points.fit import fit_rigid, fit_rigid_weighted
+from tracker.registration.points.fit import (
+    covariance_about_origin,
+    fit_rigid,
+    fit_rigid_weighted,
+    weights_on_ct,
+)
+from tracker.registration.points.outliers import (
+    LeftOut,
+    covariance_spanning,
+    covariance_with_outlier,
+    outlier_remarks,
+    undetected_error_mm,
+)
 from tracker.registration.points.pairs import PointPairs
 from tracker.registration.points.rejections import MIN_POINTS, reject_unfit, scale_ratio
 from tracker.registration.points.settings import PointGate, PointSettings
 from tracker.registration.points.uncertainty import (
     common_tip_jacobian,
-    covariance_from_noise,
-    covariance_from_residuals,
+    degrees_of_freedom,
     expected_tre_mm,
     fle_from_fre_mm,
+    normal_matrix,
+    variance_factor,
+    variance_from_residuals_mm2,
 )
 from tracker.registration.record import AnchoredTo, Method, Registration
 
@@ -47,12 +62,19 @@ class PointRegistration:
         used: (n,) which of them were fitted.
         fixed_from_moving: from the anchor frame to the CT.
         covariance: (6, 6) of it [mm, rad], translation first, then a small left-multiplied rotation vector on
-            the CT axes.
+            the CT axes. It spans each gross error of a single landmark that the others do not exclude.
+        covariance_without_outlier: (6, 6), the same if no landmark has a gross error.
         tip_jacobian: (6, 3), derivative with respect to the common tip; 0 if not known.
         residuals_mm: (n, 3) transformed tip minus landmark on the CT, including unused points.
         fre_rms_mm: fiducial registration error: RMS residual length of the used points.
         fle_mm: fiducial localisation error (3-D RMS) estimated from these residuals.
         settings: of the fit.
+        leave_one_out_mm: by index, the distance of a used point from its landmark when fitted without it.
+            Missing for a point without which the others are too few or collinear, and for more than 200
+            points.
+        fre_without_mm: by index, the FRE of the other used points alone. Missing as above.
+        undetected_mm: by index, the largest error of a used point that the others do not exclude; infinite if
+            they exclude none. Missing for more than 200 points.
         scale_ratio: size of the points on the CT relative to their size as captured.
         remarks: such as a swap that would not be detected.
     """
@@ -61,11 +83,15 @@ class PointRegistration:
     used: npt.NDArray[np.bool_]
     fixed_from_moving: Rigid[Vertebra, Anchor]
     covariance: Array
+    covariance_without_outlier: Array
     tip_jacobian: Array
     residuals_mm: Array
     fre_rms_mm: float
     fle_mm: float
     settings: PointSettings
+    leave_one_out_mm: Mapping[int, float]
+    fre_without_mm: Mapping[int, float]
+    undetected_mm: Mapping[int, float]
     scale_ratio: float
     remarks: tuple[Remark, ...]
 
@@ -73,16 +99,6 @@ class PointRegistration:
     def distances_mm(self) -> Array:
         """(n,) distance of each transformed tip from its landmark."""
         return np.asarray(np.linalg.norm(self.residuals_mm, axis=1))
-
-    @property
-    def leave_one_out_mm(self) -> Mapping[int, float]:
-        """By index, the distance of a used point from its landmark when fitted without it.
-
-        Missing for a point without which the others are too few or collinear, and for more than 200 points.
-        Fits again for each point.
-        """
-        chosen = [int(index) for index in np.flatnonzero(self.used)]
-        return _leave_one_out_mm(self.pairs, chosen, self.settings)
 
     def tre_expected_mm(self, target_mm: npt.ArrayLike) -> float:
         """Return the expected TRE (3-D RMS) at a target (3,) on the CT, by Fitzpatrick's formula."""
@@ -98,6 +114,38 @@ class PointRegistration:
         """Return the stated TRE (3-D RMS) at a target (3,) on the CT; larger than expected for few points."""
         return float(np.sqrt(np.trace(self.target_covariance_mm2(target_mm))))
 
+    def tre_without_outlier_mm(self, target_mm: npt.ArrayLike) -> float:
+        """Return the stated TRE (3-D RMS) at a target (3,) on the CT if no landmark has a gross error."""
+        at = self.fixed_from_moving.inverse.move_points(target_mm)
+        covariance = point_covariance_mm2(self.fixed_from_moving, self.covariance_without_outlier, at)
+        return float(np.sqrt(np.trace(covariance)))
+
+    def outliers(self, gate: PointGate) -> tuple[int, ...]:
+        """Return the indices of the points that may be mistaken, the likeliest first; empty if it passes.
+
+        The likeliest is the point without which the others fit best: with four points, the largest
+        leave-one-out residual is another's in half of the cases, because the outlier displaces the fits
+        without its neighbours, too. The points without which the others fit almost as well (Fisher's F, 95 %)
+        may be mistaken instead.
+        """
+        if self.fre_rms_mm <= gate.max_fre_mm and self._max_left_out_mm <= self.settings.max_left_out_mm:
+            return ()
+        if not self.fre_without_mm:
+            return ()
+        order = sorted(self.fre_without_mm, key=lambda index: self.fre_without_mm[index])
+        others = int(self.used.sum()) - 1
+        freedom = degrees_of_freedom(others)
+        # A better fit than landmarks can be localised is chance.
+        best_mm2 = max(
+            self.fre_without_mm[order[0]] ** 2, freedom * self.settings.min_fle_mm**2 / 3.0 / others
+        )
+        limit_mm = float(np.sqrt(best_mm2 * special.fdtri(freedom, freedom, 0.95)))
+        return tuple(index for index in order if self.fre_without_mm[index] <= limit_mm)
+
+    @property
+    def _max_left_out_mm(self) -> float:
+        return max(self.leave_one_out_mm.values(), default=0.0)
+
     def registration(self, anchored_to: AnchoredTo) -> Registration:
         """Return the record that navigation uses."""
         return Registration(
@@ -112,29 +160,65 @@ class PointRegistration:
     def failures(self, gate: PointGate, targets_mm: Sequence[npt.ArrayLike]) -> tuple[RegistrationError, ...]:
         """Return the errors that prevent its use for these targets on the CT; empty if it passes."""
         found = []
+        labels, allowed_mm = self.pairs.labels, self.settings.max_left_out_mm
+        outliers = self.outliers(gate)
+        names = [labels[index] for index in outliers]
+        named = {"landmark": names[0] if names else None, "possible_outliers": names}
         if not self.fre_rms_mm <= gate.max_fre_mm:
-            worst = int(np.argmax(np.where(self.used, self.distances_mm, -1.0)))
             found.append(
                 RegistrationError(
                     "POINTS_FIT_TOO_LARGE",
                     f"landmarks fit to {self.fre_rms_mm:.2f} mm RMS, allowed {gate.max_fre_mm:.2f} mm; "
-                    f"point {self.pairs.labels[worst]} is off by {self.distances_mm[worst]:.2f} mm",
-                    "Touch that landmark again, or leave it out, then register again.",
-                    {"fre_rms_mm": self.fre_rms_mm, "allowed_mm": gate.max_fre_mm},
+                    f"{self._outlier_text(outliers)}",
+                    _outlier_remedy(names),
+                    {"fre_rms_mm": self.fre_rms_mm, "allowed_mm": gate.max_fre_mm, **named},
                 )
             )
-        stated = max((self.tre_stated_mm(target) for target in targets_mm), default=0.0)
-        if not stated <= gate.max_tre_mm:
+        if not self._max_left_out_mm <= allowed_mm:
+            found.append(
+                RegistrationError(
+                    "POINT_STRAYS",
+                    f"a landmark lies {self._max_left_out_mm:.2f} mm from where all others have it, allowed "
+                    f"{allowed_mm:.2f} mm; {self._outlier_text(outliers)}",
+                    _outlier_remedy(names),
+                    {"leave_one_out_mm": self._max_left_out_mm, "allowed_mm": allowed_mm, **named},
+                )
+            )
+        worst_target = max(targets_mm, key=self.tre_stated_mm, default=None)
+        if worst_target is not None and not self.tre_stated_mm(worst_target) <= gate.max_tre_mm:
+            stated, alone = self.tre_stated_mm(worst_target), self.tre_without_outlier_mm(worst_target)
+            spans = f", and to {alone:.2f} mm if no landmark is mistaken" if stated > alone else ""
             found.append(
                 RegistrationError(
                     "POINTS_TARGET_UNCERTAIN",
                     f"at the target the registration is known to {stated:.2f} mm (3-D RMS), "
-                    f"allowed {gate.max_tre_mm:.2f} mm",
+                    f"allowed {gate.max_tre_mm:.2f} mm{spans}",
                     "Add landmarks, farther apart and around the target, then register again.",
-                    {"tre_stated_mm": stated, "allowed_mm": gate.max_tre_mm},
+                    {
+                        "tre_stated_mm": stated,
+                        "tre_without_outlier_mm": alone,
+                        "allowed_mm": gate.max_tre_mm,
+                    },
                 )
             )
         return tuple(found)
+
+    def _outlier_text(self, outliers: Sequence[int]) -> str:
+        labels = self.pairs.labels
+        if not outliers:
+            worst = int(np.argmax(np.where(self.used, self.distances_mm, -1.0)))
+            return f"point {labels[worst]} is off by {self.distances_mm[worst]:.2f} mm"
+        fits = [f"without point {labels[one]} to {self.fre_without_mm[one]:.2f} mm" for one in outliers]
+        return f"the others fit {', '.join(fits)}"
+
+
+def _outlier_remedy(outliers: Sequence[str]) -> str:
+    if len(outliers) > 1:
+        return (
+            f"Touch {outliers[0]} again, which is the likeliest; {' or '.join(outliers[1:])} may be mistaken "
+            "instead, which another landmark would show."
+        )
+    return "Touch that landmark again, or leave it out, then register again."
 
 
 def register_points(
@@ -156,72 +240,135 @@ def register_points(
     plain = fit_rigid(used.fixed_mm, used.moving_mm)
     plain_fre = _rms(plain.move_points(used.moving_mm) - used.fixed_mm)
     remarks = reject_swapped_or_mirrored(used, plain_fre, settings)
-    fit, covariance = _fitted(used, settings)
+    fit, scale = _fitted(used, settings)
+    left_out = _left_out(used, settings)
+    undetected = _undetected_mm(used, fit, left_out, settings)
+    suspects = [index for index, mm in undetected.items() if mm > settings.max_left_out_mm]
+    alone, covariance = _covariances(used, fit, scale, {one: left_out.get(one) for one in suspects}, settings)
     slope = _tip_jacobian(used, fit, settings)
     if used.common is not None:
-        covariance = covariance + slope @ used.common.covariance_mm2 @ slope.T
+        common = slope @ used.common.covariance_mm2 @ slope.T
+        alone, covariance = alone + common, covariance + common
     residuals = fit.move_points(pairs.moving_mm) - pairs.fixed_mm
     fre = _rms(residuals[chosen])
     fle = fle_from_fre_mm(fre, len(used))
     mask = np.zeros(len(pairs), dtype=np.bool_)
     mask[chosen] = True
-    for array in (mask, covariance, residuals, slope):
+    for array in (mask, covariance, alone, residuals, slope):
         array.setflags(write=False)
     return PointRegistration(
         pairs=pairs,
         used=mask,
         fixed_from_moving=fit,
         covariance=covariance,
+        covariance_without_outlier=alone,
         tip_jacobian=slope,
         residuals_mm=residuals,
         fre_rms_mm=fre,
         fle_mm=fle,
         settings=settings,
+        leave_one_out_mm={chosen[index]: one.distance_mm for index, one in left_out.items()},
+        fre_without_mm={chosen[index]: one.others_fre_mm for index, one in left_out.items()},
+        undetected_mm={chosen[index]: mm for index, mm in undetected.items()},
         scale_ratio=scale_ratio(used),
-        remarks=(*remarks, *_scale_remarks(used, fle)),
+        remarks=(
+            *remarks,
+            *_scale_remarks(used, fle),
+            *outlier_remarks(used.labels, undetected, suspects, settings.max_left_out_mm),
+        ),
     )
 
 
-def _fitted(used: PointPairs, settings: PointSettings) -> tuple[Rigid[Vertebra, Anchor], Array]:
+def _fitted(used: PointPairs, settings: PointSettings) -> tuple[Rigid[Vertebra, Anchor], float]:
+    """Return the fit, and the scale of `_noise` by its residuals."""
     if used.moving_covariances_mm2 is None:
         fit = fit_rigid(used.fixed_mm, used.moving_mm)
-        covariance = covariance_from_residuals(
-            fit, used.fixed_mm, used.moving_mm, min_fle_mm=settings.min_fle_mm
-        )
-        return fit, covariance
-    noise = _noise(used.moving_covariances_mm2, settings)
+        residuals = fit.move_points(used.moving_mm) - used.fixed_mm
+        return fit, variance_from_residuals_mm2(residuals, min_fle_mm=settings.min_fle_mm)
+    noise = _noise(used, settings)
     fit = fit_rigid_weighted(used.fixed_mm, used.moving_mm, noise)
-    return fit, covariance_from_noise(fit, used.fixed_mm, used.moving_mm, noise)
+    residuals = fit.move_points(used.moving_mm) - used.fixed_mm
+    return fit, variance_factor(residuals, weights_on_ct(fit, noise))
 
 
-def _noise(stated_mm2: Array, settings: PointSettings) -> Array:
-    return np.asarray(stated_mm2 + settings.min_fle_mm**2 / 3.0 * np.eye(3))
+def _noise(used: PointPairs, settings: PointSettings) -> Array:
+    """Return the covariances (n, 3, 3) of the points in the anchor frame, before they are scaled."""
+    if used.moving_covariances_mm2 is None:
+        return np.tile(np.eye(3), (len(used), 1, 1))
+    return np.asarray(used.moving_covariances_mm2 + settings.min_fle_mm**2 / 3.0 * np.eye(3))
 
 
-def _tip_jacobian(used: PointPairs, fit: Rigid[Vertebra, Anchor], settings: PointSettings) -> Array:
-    if used.common is None:
-        return np.zeros((6, 3))
-    stated = used.moving_covariances_mm2
-    # As in the fit: unweighted without covariances.
-    noise = np.tile(np.eye(3), (len(used), 1, 1)) if stated is None else _noise(stated, settings)
-    return common_tip_jacobian(fit, used.moving_mm, noise, used.common.anchor_from_marker)
-
-
-def _leave_one_out_mm(pairs: PointPairs, chosen: Sequence[int], settings: PointSettings) -> dict[int, float]:
-    found: dict[int, float] = {}
-    if not MIN_POINTS < len(chosen) <= MAX_LEAVE_ONE_OUT:
+def _left_out(used: PointPairs, settings: PointSettings) -> dict[int, LeftOut]:
+    found: dict[int, LeftOut] = {}
+    if not MIN_POINTS < len(used) <= MAX_LEAVE_ONE_OUT:
         return found
-    for index in chosen:
-        others = pairs.of([one for one in chosen if one != index])
+    for index in range(len(used)):
+        others = used.of([one for one in range(len(used)) if one != index])
         try:
             reject_unfit(others, settings)
         except RegistrationError:
             # The others alone determine no transform.
             continue
-        fit = _fitted(others, settings)[0]
-        off = fit.move_points(pairs.moving_mm[index]) - pairs.fixed_mm[index]
-        found[index] = float(np.linalg.norm(off))
+        fit, scale = _fitted(others, settings)
+        off = fit.move_points(used.moving_mm[index]) - used.fixed_mm[index]
+        found[index] = LeftOut(
+            distance_mm=float(np.linalg.norm(off)),
+            others_fre_mm=_rms(fit.move_points(others.moving_mm) - others.fixed_mm),
+            noise_scale=scale,
+        )
     return found
+
+
+def _undetected_mm(
+    used: PointPairs,
+    fit: Rigid[Vertebra, Anchor],
+    left_out: Mapping[int, LeftOut],
+    settings: PointSettings,
+) -> dict[int, float]:
+    if len(used) > MAX_LEAVE_ONE_OUT:
+        return {}
+    noise = _noise(used, settings)
+    return {
+        index: undetected_error_mm(fit, used.moving_mm, noise, index, left_out.get(index))
+        for index in range(len(used))
+    }
+
+
+def _covariances(
+    used: PointPairs,
+    fit: Rigid[Vertebra, Anchor],
+    scale: float,
+    suspects: Mapping[int, LeftOut | None],
+    settings: PointSettings,
+) -> tuple[Array, Array]:
+    """Return the covariance (6, 6) without a gross error, and the one that spans those of the suspects."""
+    noise = _noise(used, settings)
+    moved = fit.move_points(used.moving_mm)
+    middle = moved.mean(axis=0)
+    alone = np.asarray(np.linalg.inv(normal_matrix(moved - middle, weights_on_ct(fit, scale * noise))))
+    spanned = [alone]
+    for index, one in suspects.items():
+        own_scale = scale if one is None else one.noise_scale
+        spanned.append(
+            covariance_with_outlier(
+                fit,
+                used.fixed_mm,
+                used.moving_mm,
+                own_scale * noise,
+                index,
+                settings.max_left_out_mm,
+            )
+        )
+    return (
+        covariance_about_origin(fit, middle, alone),
+        covariance_about_origin(fit, middle, covariance_spanning(spanned)),
+    )
+
+
+def _tip_jacobian(used: PointPairs, fit: Rigid[Vertebra, Anchor], settings: PointSettings) -> Array:
+    if used.common is None:
+        return np.zeros((6, 3))
+    return common_tip_jacobian(fit, used.moving_mm, _noise(used, settings), used.common.anchor_from_marker)
 
 
 def _scale_remarks(used: PointPairs, fle_mm: float) -> tuple[Remark, ...]:

@@ -18,6 +18,8 @@ class PointSettings:
         max_accepted_fre_mm: an order with a smaller FRE is never rejected.
         min_improvement_ratio: by which factor another order or the mirror image must fit better to be
             preferred.
+        max_left_out_mm: size of a gross error. A used point with a larger leave-one-out residual prevents the
+            use of the fit. The covariance spans gross errors that the points do not exclude; infinity: none.
     """
 
     min_fle_mm: float = 0.5
@@ -26,6 +28,7 @@ class PointSettings:
     max_rotation_sd_deg: float = 5.0
     max_accepted_fre_mm: float = 1.5
     min_improvement_ratio: float = 3.0
+    max_left_out_mm: float = 5.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -47,43 +47,38 @@ def expected_tre_mm(fixed_mm: Array, fle_mm: float, target_mm: Array) -> float:
     return float(fle_mm * np.sqrt((1.0 + lever / 3.0) / len(fixed_mm)))
 
 
-def covariance_from_residuals(
-    fit: Rigid[Vertebra, Anchor], fixed_mm: Array, moving_mm: Array, *, min_fle_mm: float
-) -> Array:
-    """Return the covariance (6, 6) of a fit from its residuals only.
+def variance_from_residuals_mm2(residuals_mm: Array, *, min_fle_mm: float) -> float:
+    """Return the variance of a landmark along each axis, from the residuals (n, 3) of an unweighted fit only.
 
     Few points estimate their variance badly: it is inflated so that the ellipsoid at a target, nominally 95 %
     by a chi-square with three degrees of freedom, contains 95 % (Fisher's F).
     """
-    freedom = degrees_of_freedom(len(fixed_mm))
-    residuals = fit.move_points(moving_mm) - fixed_mm
-    variance = float((residuals**2).sum()) / freedom * small_sample_factor(freedom) * ANISOTROPY_FACTOR
-    variance = max(variance, min_fle_mm**2 / 3.0)
-    rows = jacobians(moving_mm @ fit.rotation.T)
-    return np.asarray(variance * np.linalg.inv(np.einsum("nik,nil->kl", rows, rows)))
+    freedom = degrees_of_freedom(len(residuals_mm))
+    variance = float((residuals_mm**2).sum()) / freedom * small_sample_factor(freedom) * ANISOTROPY_FACTOR
+    return max(variance, min_fle_mm**2 / 3.0)
 
 
-def covariance_from_noise(
-    fit: Rigid[Vertebra, Anchor], fixed_mm: Array, moving_mm: Array, noise_mm2: Array
-) -> Array:
-    """Return the covariance (6, 6) of a fit from covariances (n, 3, 3) in the anchor frame.
+def variance_factor(residuals_mm: Array, weights: Array) -> float:
+    """Return the factor of stated covariances, from the residuals (n, 3) and their inverses (n, 3, 3).
 
     The stated noise is corrected by the residuals: strongly if they are larger, weakly if they are smaller.
     By simulation the 95 % region contains 0.95 to 0.98 of the truths if the noise is stated correctly, and
     0.92 if it is 1.4 times as large.
     """
-    weights = weights_on_ct(fit, noise_mm2)
-    residuals = fit.move_points(moving_mm) - fixed_mm
-    squares = float(np.einsum("ni,nij,nj->", residuals, weights, residuals))
-    freedom = PRIOR_DEGREES_OF_FREEDOM + degrees_of_freedom(len(fixed_mm))
-    factor = max(
+    squares = float(np.einsum("ni,nij,nj->", residuals_mm, weights, residuals_mm))
+    freedom = PRIOR_DEGREES_OF_FREEDOM + degrees_of_freedom(len(residuals_mm))
+    return max(
         (PRIOR_DEGREES_OF_FREEDOM + squares)
         / freedom
         * small_sample_factor(freedom + PRIOR_DEGREES_OF_FREEDOM),
         MIN_FACTOR,
     )
-    rows = jacobians(moving_mm @ fit.rotation.T)
-    return np.asarray(factor * np.linalg.inv(np.einsum("nik,nij,njl->kl", rows, weights, rows)))
+
+
+def normal_matrix(arms_mm: Array, weights: Array) -> Array:
+    """Return the normal matrix (6, 6) of a shift and a rotation, of points at these arms (n, 3)."""
+    rows = jacobians(arms_mm)
+    return np.asarray(np.einsum("nik,nij,njl->kl", rows, weights, rows))
 
 
 def common_tip_jacobian(
