@@ -10,11 +10,11 @@ import numpy as np
 import typer
 
 from server.cli.landmark_rows import LandmarkRows, read_landmarks
+from server.cli.registration_form import finite, registration_form
 from server.config_file import load_config
 from server.point_limits import point_gate, point_settings
 from tracker.errors import InvalidInput, RegistrationError
 from tracker.geometry import Array
-from tracker.plan.remark import Remark
 from tracker.registration.points import (
     PointGate,
     PointPairs,
@@ -128,23 +128,29 @@ def _mapping(
     gate: PointGate,
     failures: Sequence[RegistrationError],
 ) -> dict[str, Any]:
-    tre = [found.tre_expected_mm(target) for target in targets]
     outliers = found.outliers(gate)
+    form = registration_form(
+        found.fixed_from_moving,
+        found.covariance,
+        {
+            "tre_expected_mm": found.tre_expected_mm,
+            "tre_stated_mm": found.tre_stated_mm,
+            "tre_without_outlier_mm": found.tre_without_outlier_mm,
+        },
+        targets,
+        floors={"min_fle_mm": found.settings.min_fle_mm},
+        limits={
+            "max_fre_mm": gate.max_fre_mm,
+            "max_left_out_mm": found.settings.max_left_out_mm,
+            "max_tre_mm": gate.max_tre_mm,
+        },
+        remarks=found.remarks,
+        failures=failures,
+    )
     return {
-        "fixed_from_moving": found.fixed_from_moving.matrix.tolist(),
+        **form,
         "fre_rms_mm": found.fre_rms_mm,
         "residuals_mm": found.distances_mm.tolist(),
-        # A number for one target, a list for several, null without a target.
-        "tre_expected_mm": tre[0] if len(tre) == 1 else (tre or None),
-        "targets": [
-            {
-                "target_mm": target.tolist(),
-                "tre_expected_mm": expected,
-                "tre_stated_mm": found.tre_stated_mm(target),
-                "tre_without_outlier_mm": found.tre_without_outlier_mm(target),
-            }
-            for target, expected in zip(targets, tre, strict=True)
-        ],
         "points": [
             {
                 "name": label,
@@ -154,31 +160,14 @@ def _mapping(
                 "leave_one_out_mm": found.leave_one_out_mm.get(index),
                 "fre_without_mm": found.fre_without_mm.get(index),
                 # Null if the other points exclude no error of this one, however large.
-                "undetected_mm": _finite(found.undetected_mm.get(index)),
+                "undetected_mm": finite(found.undetected_mm.get(index)),
                 "outlier": index in outliers,
             }
             for index, label in enumerate(found.pairs.labels)
         ],
         "fle_rms_mm": found.fle_mm,
         "scale_ratio": found.scale_ratio,
-        "covariance": found.covariance.tolist(),
-        "covariance_of": "fixed_from_moving [mm, rad]: translation, then a small left-multiplied rotation",
-        "warnings": [_failure_value(remark) for remark in found.remarks],
-        "limits": {
-            "max_fre_mm": gate.max_fre_mm,
-            "max_left_out_mm": found.settings.max_left_out_mm,
-            "max_tre_mm": _finite(gate.max_tre_mm),
-        },
-        "gate": {"passed": not failures, "failures": [_failure_value(failure) for failure in failures]},
     }
-
-
-def _finite(number: float | None) -> float | None:
-    return None if number is None or not np.isfinite(number) else number
-
-
-def _failure_value(failure: Remark | RegistrationError) -> dict[str, str]:
-    return {"code": failure.code, "message": failure.message, "remedy": failure.remedy}
 
 
 def _lines(found: PointRegistration, targets: Sequence[Array], outliers: Sequence[int]) -> list[str]:

@@ -162,8 +162,8 @@ def surface(
 ) -> None:
     """Register points swept over the bone to its mesh, starting from a registration by landmarks.
 
-    Exit status 2 if the sweep leaves a direction undetermined, fits in two places, or does not fit the mesh,
-    or if the landmarks exceed their limits in the settings.
+    Exit status 1 if a limit is exceeded; 2 if the sweep leaves a direction undetermined, fits in two places,
+    or does not fit the mesh, or if the landmarks exceed their limits in the settings.
     """
     from server.cli.register_surface import SurfaceOptions, register_sweep  # noqa: PLC0415  loaded when needed
 
@@ -178,4 +178,4 @@ def surface(
         tip_radius_mm=tip_radius_mm,
         config=config,
     )
-    register_sweep(options, as_json=json)
+    raise typer.Exit(register_sweep(options, as_json=json))

@@ -10,16 +10,18 @@ import numpy as np
 import typer
 
 from server.cli.landmark_rows import read_landmarks
-from server.cli.register import pairs_of_files, target_from_text
+from server.cli.register import FAILED, pairs_of_files, target_from_text
+from server.cli.registration_form import registration_form
 from server.config_file import load_config
 from server.imaging.meshes import read_mesh
 from server.point_limits import point_gate, point_settings
-from tracker.errors import InvalidInput
+from tracker.errors import InvalidInput, RegistrationError
 from tracker.geometry import Anchor, Array, Rigid, Vertebra
 from tracker.plan.remark import Remark
 from tracker.registration.points import PointPairs, register_points
 from tracker.registration.surface import (
     ClosestPointQuery,
+    SurfaceGate,
     SurfaceRegistration,
     SurfaceSettings,
     register_surface,
@@ -46,8 +48,10 @@ class SurfaceOptions:
     config: Path | None
 
 
-def register_sweep(options: SurfaceOptions, *, as_json: bool) -> None:
-    """Register the sweep to the surface and print the result.
+def register_sweep(options: SurfaceOptions, *, as_json: bool) -> int:
+    """Register the sweep to the surface and print the result. Return 0, or 1 if a limit is exceeded.
+
+    The RMS distance has the limit of the settings, as on the server.
 
     Raises:
         NavigationError: a file cannot be used, or the sweep does not determine the registration.
@@ -55,21 +59,30 @@ def register_sweep(options: SurfaceOptions, *, as_json: bool) -> None:
     targets = [target_from_text(text) for text in options.targets]
     start, landmarks = _start(options)
     mesh = read_mesh(options.surface, unit=options.unit)
+    settings = SurfaceSettings(tip_radius_mm=options.tip_radius_mm)
+    # A target may lie anywhere, the server's are entry points: its error has no limit here.
+    gate = SurfaceGate(
+        max_rms_mm=load_config(options.config).registration.max_surface_rms_mm, max_tre_mm=np.inf
+    )
     found = register_surface(
         ClosestPointQuery(mesh.surface),
         read_landmarks(options.points).points_mm,
         start,
         targets_mm=targets,
         landmarks=landmarks,
-        settings=SurfaceSettings(tip_radius_mm=options.tip_radius_mm),
+        settings=settings,
     )
     remarks = (*mesh.remarks, *found.remarks)
+    failures = found.failures(gate, targets)
     if as_json:
-        typer.echo(json.dumps(_mapping(found, targets, remarks), allow_nan=False))
-        return
-    typer.echo("\n".join(_lines(found, targets)))
-    for remark in remarks:
-        typer.echo(f"Note: {remark.message}.\n{remark.remedy}", err=True)
+        typer.echo(json.dumps(_mapping(found, targets, settings, gate, remarks, failures), allow_nan=False))
+    else:
+        typer.echo("\n".join(_lines(found, targets)))
+        for remark in remarks:
+            typer.echo(f"Note: {remark.message}.\n{remark.remedy}", err=True)
+    for failure in failures:
+        typer.echo(f"Failed: {failure.message}.\n{failure.remedy}", err=True)
+    return FAILED if failures else 0
 
 
 def _start(options: SurfaceOptions) -> tuple[Rigid[Vertebra, Anchor], PointPairs | None]:
@@ -119,24 +132,39 @@ def _matrix(path: Path) -> Rigid[Vertebra, Anchor]:
 
 
 def _mapping(
-    found: SurfaceRegistration, targets: Sequence[Array], remarks: Sequence[Remark]
+    found: SurfaceRegistration,
+    targets: Sequence[Array],
+    settings: SurfaceSettings,
+    gate: SurfaceGate,
+    remarks: Sequence[Remark],
+    failures: Sequence[RegistrationError],
 ) -> dict[str, Any]:
-    stated = [found.tre_stated_mm(target) for target in targets]
+    form = registration_form(
+        found.fixed_from_moving,
+        found.covariance,
+        {"tre_expected_mm": found.tre_expected_mm, "tre_stated_mm": found.tre_stated_mm},
+        targets,
+        floors={"min_sd_mm": settings.min_sd_mm},
+        limits={
+            "max_rms_mm": gate.max_rms_mm,
+            "max_moved_mm": gate.max_moved_mm,
+            "max_tre_mm": gate.max_tre_mm,
+        },
+        remarks=remarks,
+        failures=failures,
+    )
     return {
-        "fixed_from_moving": found.fixed_from_moving.matrix.tolist(),
+        **form,
         "rms_mm": found.rms_mm,
         "used_ratio": found.used_ratio,
         "used": found.used.tolist(),
         "off_mm": found.off_mm.tolist(),
         "moved_mm": found.moved_mm,
         "moved_deg": found.moved_deg,
-        "tre_expected_mm": stated[0] if len(stated) == 1 else (stated or None),
         "weakest": {
             "direction": found.least_observable.description,
             "sd_mm": min(found.least_observable.sd_mm, 1000.0),
         },
-        "covariance": found.covariance.tolist(),
-        "warnings": [{"code": one.code, "message": one.message, "remedy": one.remedy} for one in remarks],
     }
 
 
@@ -149,7 +177,10 @@ def _lines(found: SurfaceRegistration, targets: Sequence[Array]) -> list[str]:
     ]
     for target in targets:
         at = ", ".join(f"{number:g}" for number in target)
-        lines.append(f"At the target {at} mm: {found.tre_stated_mm(target):.2f} mm expected (TRE, RMS)")
+        lines.append(
+            f"At the target {at} mm: {found.tre_expected_mm(target):.2f} mm expected (TRE, RMS), "
+            f"{found.tre_stated_mm(target):.2f} mm stated (not below a floor, larger for few points)"
+        )
     lines.append("fixed_from_moving:")
     lines += ["  " + " ".join(f"{number:12.6f}" for number in row) for row in found.fixed_from_moving.matrix]
     return lines

@@ -47,6 +47,52 @@ def test_a_sweep_from_a_start_and_from_landmarks(tmp_path: Path, mesh: Path, tru
     assert (status, text.split(":")[0]) == (2, "POINTS_FIT_TOO_LARGE")
 
 
+def test_both_commands_state_their_errors_in_one_form_and_by_the_convention_that_they_name(
+    tmp_path: Path, mesh: Path, truth: SweepTruth
+) -> None:
+    tips = truth.fixed_from_moving.inverse.move_points(VERTEBRA)
+    tips = tips + 0.3 * np.random.default_rng(2).normal(size=tips.shape)
+    files = (
+        "--fixed",
+        written(tmp_path / "f.csv", VERTEBRA),
+        "--moving",
+        written(tmp_path / "m.csv", tips),
+        "--target-mm",
+        "15,10,5",
+        "--json",
+    )
+    sweep = written(tmp_path / "p.csv", truth.moving_mm)
+    by_points = json.loads(typed("points", *files)[1])
+    status, text = typed("surface", "--surface", mesh, "--points", sweep, *files)
+    by_surface = json.loads(text)
+    assert status == 0
+    shared = {"fixed_from_moving", "covariance", "covariance_of", "targets", "floors", "limits", "gate"}
+    shared |= {"tre_expected_mm", "tre_expected_is", "tre_stated_is", "warnings"}
+    assert shared <= set(by_points) & set(by_surface)
+    assert (by_points["floors"], by_surface["floors"]) == ({"min_fle_mm": 0.5}, {"min_sd_mm": 0.3})
+    for document in (by_points, by_surface):
+        (target,) = document["targets"]
+        matrix, at = np.array(document["fixed_from_moving"]), np.array(target["target_mm"])
+        # x = exp([r]x) R m + t + d, with R m = x - t.
+        x, y, z = at - matrix[:3, 3]
+        jacobian = np.hstack([np.eye(3), [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]])
+        at_target = jacobian @ np.array(document["covariance"]) @ jacobian.T
+        assert target["tre_stated_mm"] == pytest.approx(np.sqrt(np.trace(at_target)), rel=1e-6)
+        assert target["tre_expected_mm"] == document["tre_expected_mm"] < target["tre_stated_mm"]
+
+
+def test_a_sweep_off_the_bone_ends_with_status_1(tmp_path: Path, mesh: Path, truth: SweepTruth) -> None:
+    start, config = tmp_path / "start.json", tmp_path / "config.yaml"
+    start.write_text(json.dumps(truth.start.matrix.tolist()))
+    config.write_text("registration: {max_surface_rms_mm: 0.02}\n")
+    points = written(tmp_path / "p.csv", truth.moving_mm)
+    words = ("surface", "--surface", mesh, "--points", points, "--start", start, "--json")
+    assert typed(*words)[0] == 0
+    status, text = typed(*words, "--config", config)
+    assert status == 1
+    assert [one["code"] for one in json.loads(text)["gate"]["failures"]] == ["SURFACE_FIT_TOO_LARGE"]
+
+
 @pytest.mark.parametrize(
     ("content", "code"),
     [

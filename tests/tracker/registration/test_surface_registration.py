@@ -61,7 +61,7 @@ def test_an_exact_sweep_comes_to_lie_where_it_was_made() -> None:
 
 
 def test_the_stated_uncertainty_holds_the_truth() -> None:
-    rng, inside, off, stated = np.random.default_rng(2), [], [], []
+    rng, inside, off, stated, expected = np.random.default_rng(2), [], [], [], []
     for _ in range(12):
         truth = sweep_over(corners_from_behind(), rng)
         found = laid(truth)
@@ -69,8 +69,15 @@ def test_the_stated_uncertainty_holds_the_truth() -> None:
         inside.append(bool(error @ np.linalg.solve(covariance, error) < stats.chi2.ppf(0.95, 3)))
         off.append(float(error @ error))
         stated.append(found.tre_stated_mm(TARGET))
+        expected.append(found.tre_expected_mm(TARGET))
     assert sum(inside) >= 10
     assert 0.5 < np.mean(stated) / np.sqrt(np.mean(off)) < 2.0
+    assert 0.7 < np.mean(expected) / np.sqrt(np.mean(off)) < 1.5
+
+
+def test_below_the_floor_of_the_noise_only_the_expected_error_follows_the_residuals() -> None:
+    found = laid(sweep_over(corners_from_behind(), np.random.default_rng(8), sd_mm=0.1, count=60))
+    assert found.tre_expected_mm(TARGET) < 0.5 * found.tre_stated_mm(TARGET)
 
 
 def test_a_third_of_outliers_does_not_pull() -> None:

@@ -14,12 +14,11 @@ from tracker.geometry import (
     Vertebra,
     inverse_covariance,
     point_covariance_mm2,
-    skew,
     vector_from_rotation,
 )
 from tracker.plan.remark import Remark
 from tracker.registration.points import PointPairs
-from tracker.registration.points.fit import weights_on_ct
+from tracker.registration.points.fit import covariance_about_origin, weights_on_ct
 from tracker.registration.points.uncertainty import small_sample_factor
 from tracker.registration.record import AnchoredTo, Method, Registration
 from tracker.registration.surface.closest_points import ClosestPointQuery
@@ -44,6 +43,8 @@ class SurfaceRegistration:
         fixed_from_moving: from the anchor frame to the CT.
         covariance: (6, 6) of it [mm, rad], translation first, then a small left-multiplied rotation vector on
             the CT axes.
+        covariance_expected: (6, 6), the same from the residuals alone: without the floor of the noise and
+            without what is added for few points.
         off_mm: (n,) signed distance of each swept point from the surface; negative inside.
         used: (n,) inliers.
         used_ratio: their share.
@@ -55,6 +56,7 @@ class SurfaceRegistration:
 
     fixed_from_moving: Rigid[Vertebra, Anchor]
     covariance: Array
+    covariance_expected: Array
     off_mm: Array
     used: npt.NDArray[np.bool_]
     used_ratio: float
@@ -68,6 +70,12 @@ class SurfaceRegistration:
         """Return the covariance (3, 3), on the CT axes, of a target (3,) on the CT."""
         target_in_moving = self.fixed_from_moving.inverse.move_points(target_mm)
         return point_covariance_mm2(self.fixed_from_moving, self.covariance, target_in_moving)
+
+    def tre_expected_mm(self, target_mm: npt.ArrayLike) -> float:
+        """Return the expected TRE (3-D RMS) at a target (3,) on the CT, from the residuals alone."""
+        at = self.fixed_from_moving.inverse.move_points(target_mm)
+        covariance = point_covariance_mm2(self.fixed_from_moving, self.covariance_expected, at)
+        return float(np.sqrt(np.trace(covariance)))
 
     def tre_stated_mm(self, target_mm: npt.ArrayLike) -> float:
         """Return the stated TRE (3-D RMS) at a target (3,) on the CT."""
@@ -206,15 +214,16 @@ def _result(
                 context={"direction": alone.description},
             )
         )
-    covariance = _covariance(nearest, sweep, best)
+    expected, covariance = _covariances(nearest, sweep, best)
     off = np.array(best.off_mm)
-    for array in (covariance, off, used):
+    for array in (covariance, expected, off, used):
         array.setflags(write=False)
     say = sweep.shares * used
     moved = fit.move_points(middle_of_sweep) - start.move_points(middle_of_sweep)
     return SurfaceRegistration(
         fixed_from_moving=fit,
         covariance=covariance,
+        covariance_expected=expected,
         off_mm=off,
         used=used,
         used_ratio=float(say.sum() / sweep.shares.sum()),
@@ -226,20 +235,24 @@ def _result(
     )
 
 
-def _covariance(nearest: ClosestPointQuery, sweep: Sweep, best: SweepFit) -> Array:
-    """Return the covariance (6, 6) of the fit, inflated for few points."""
+def _covariances(nearest: ClosestPointQuery, sweep: Sweep, best: SweepFit) -> tuple[Array, Array]:
+    """Return the covariance (6, 6) of the fit from residuals alone, and the one that is stated.
+
+    The stated one has a noise not below its floor, and is inflated for few points.
+    """
     fit = best.fixed_from_moving
     middle = fit.move_points(sweep.points_mm).mean(axis=0)
     say = sweep.shares * best.weights
     freedom = max(float(say.sum()) + 3.0 * len(sweep.landmarks_fixed_mm) - 6.0, 1.0)
-    variance = max(float((say * best.off_mm**2).sum()) / freedom, sweep.min_sd_mm**2)
+    # Points that lie exactly on the mesh leave no residual, and the normal matrix needs a noise.
+    residual_variance = max(float((say * best.off_mm**2).sum()) / freedom, 1e-12)
     smooth = nearest.smooth_normals(best.nearest_mm)
-    by_sweep = equations(sweep, best, middle, normals=smooth, landmarks=False)[0]
-    by_landmarks = equations(sweep, best, middle, normals=smooth)[0] - by_sweep
-    about_middle = np.linalg.inv(by_sweep * best.sd_mm**2 / variance + by_landmarks) * small_sample_factor(
-        freedom
+    by_sweep = equations(sweep, best, middle, normals=smooth, landmarks=False)[0] * best.sd_mm**2
+    by_landmarks = equations(sweep, best, middle, normals=smooth)[0] - by_sweep / best.sd_mm**2
+    expected = np.linalg.inv(by_sweep / residual_variance + by_landmarks)
+    variance = max(residual_variance, sweep.min_sd_mm**2)
+    stated = np.linalg.inv(by_sweep / variance + by_landmarks) * small_sample_factor(freedom)
+    return (
+        covariance_about_origin(fit, middle, np.asarray(expected)),
+        covariance_about_origin(fit, middle, np.asarray(stated)),
     )
-    # From a turn about the sweep's middle to one about the anchor's origin, which the record is of.
-    carried = np.eye(6)
-    carried[:3, 3:] = -skew(fit.translation_mm - middle)
-    return np.asarray(carried @ about_middle @ carried.T)

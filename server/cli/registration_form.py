@@ -1,0 +1,66 @@
+"""What the JSON of both registration commands has in common."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from tracker.errors import RegistrationError
+from tracker.geometry import Anchor, Array, Rigid, Vertebra
+from tracker.plan.remark import Remark
+
+COVARIANCE_OF = (
+    "(d, r) in x_fixed = exp([r]x) R x_moving + t + d, with fixed_from_moving = [R t]: d in mm and r in rad, "
+    "both on the axes of the fixed frame; r rotates about the moved origin, which lies at t"
+)
+EXPECTED = "3-D RMS, from the residuals alone"
+STATED = (
+    "3-D RMS of the covariance: not below the floors, larger for few points, so that 95 % of its normal "
+    "distribution contain the truth in 95 % of cases"
+)
+
+Error = Callable[[Array], float]
+
+
+def registration_form(
+    fixed_from_moving: Rigid[Vertebra, Anchor],
+    covariance: Array,
+    errors: Mapping[str, Error],
+    targets: Sequence[Array],
+    *,
+    floors: Mapping[str, float],
+    limits: Mapping[str, float],
+    remarks: Sequence[Remark],
+    failures: Sequence[RegistrationError],
+) -> dict[str, Any]:
+    """Return transform, covariance, errors at targets, floors, limits, warnings and gate.
+
+    `errors`: by name of the field, the error at a target; has `tre_expected_mm`.
+    """
+    expected = [errors["tre_expected_mm"](target) for target in targets]
+    return {
+        "fixed_from_moving": fixed_from_moving.matrix.tolist(),
+        # A number for one target, a list for several, null without a target.
+        "tre_expected_mm": expected[0] if len(expected) == 1 else (expected or None),
+        "targets": [
+            {"target_mm": target.tolist(), **{name: error(target) for name, error in errors.items()}}
+            for target in targets
+        ],
+        "tre_expected_is": EXPECTED,
+        "tre_stated_is": STATED,
+        "floors": dict(floors),
+        "covariance": covariance.tolist(),
+        "covariance_of": COVARIANCE_OF,
+        "warnings": [_text(remark) for remark in remarks],
+        "limits": {name: finite(limit) for name, limit in limits.items()},
+        "gate": {"passed": not failures, "failures": [_text(failure) for failure in failures]},
+    }
+
+
+def finite(number: float | None) -> float | None:
+    """Return the number, or None if it is infinite."""
+    return None if number is None or not np.isfinite(number) else number
+
+
+def _text(one: Remark | RegistrationError) -> dict[str, str]:
+    return {"code": one.code, "message": one.message, "remedy": one.remedy}
