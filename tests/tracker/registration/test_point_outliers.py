@@ -5,9 +5,10 @@ import pytest
 
 from tests.tracker.registration.constellations import VERTEBRA, touched
 from tests.tracker.registration.outlier_study import GATE, OUTLIER_MM, TARGETS, study
+from tracker.geometry import vector_from_rotation
 from tracker.registration.points import PointPairs, PointRegistration, PointSettings, register_points
-from tracker.registration.points.fit import jacobians
-from tracker.registration.points.outliers import covariance_spanning
+from tracker.registration.points.fit import fit_rigid, jacobians
+from tracker.registration.points.outliers import covariance_spanning, covariance_with_outlier
 from tracker.registration.points.uncertainty import normal_matrix
 
 # Left and right facet, left transverse process, spinous process: what a surgeon takes first.
@@ -91,6 +92,21 @@ def test_eight_good_landmarks_exclude_every_gross_error_and_nothing_is_added() -
     assert max(found.undetected_mm.values()) < PointSettings().max_left_out_mm
     assert np.array_equal(found.covariance, found.covariance_without_outlier)
     assert found.outliers(GATE) == ()
+
+
+def test_the_covariance_with_an_outlier_has_the_distance_by_which_it_moved_the_fit() -> None:
+    exact = np.array(VERTEBRA)
+    moving = exact.copy()
+    moving[2] += [0.0, 6.0, 0.0]
+    fit = fit_rigid(exact, moving)
+    # Landmarks known to 0.01 mm: without the outlier the fit is exact, and all its error the separation.
+    noise = np.tile(1e-4 * np.eye(3), (len(exact), 1, 1))
+    moment = covariance_with_outlier(fit, exact, moving, noise, 2, 5.0)
+    shift = fit.move_points(moving.mean(axis=0)) - moving.mean(axis=0)
+    turn = vector_from_rotation(fit.rotation)
+    error = np.concatenate([shift, turn])
+    assert np.linalg.norm(shift) > 0.5
+    assert np.allclose(moment, np.outer(error, error), atol=2e-2)
 
 
 def test_the_spanning_covariance_is_nowhere_smaller_than_any() -> None:
