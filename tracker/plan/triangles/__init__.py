@@ -1,8 +1,14 @@
 """Triangle mesh operations: connectivity, winding, smoothing, decimation."""
 
-from tracker.plan.triangles.connectivity import Connectivity, connectivity_of, largest_part, referenced
+from tracker.plan.triangles.connectivity import (
+    Connectivity,
+    connectivity_of,
+    largest_part,
+    referenced,
+    vertex_normals,
+)
 from tracker.plan.triangles.decimation import decimated
-from tracker.plan.triangles.smoothing import smoothed
+from tracker.plan.triangles.smoothing import smoothed, smoothed_values
 from tracker.plan.triangles.winding import wound_outwards
 
 __all__ = [
@@ -12,5 +18,7 @@ __all__ = [
     "largest_part",
     "referenced",
     "smoothed",
+    "smoothed_values",
+    "vertex_normals",
     "wound_outwards",
 ]

@@ -79,6 +79,16 @@ def areas_of(vertices_mm: Array, faces: Faces) -> Array:
     return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0)
 
 
+def vertex_normals(vertices_mm: Array, faces: Faces) -> Array:
+    """Return the unit normals (n, 3) of vertices: means of their triangles' normals, weighted by area."""
+    a, b, c = (vertices_mm[faces[:, i]] for i in range(3))
+    of_faces = np.cross(b - a, c - a)
+    corners = faces.ravel()
+    summed = [np.bincount(corners, np.repeat(of_faces[:, i], 3), len(vertices_mm)) for i in range(3)]
+    normals = np.stack(summed, axis=1)
+    return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12))
+
+
 def referenced(vertices_mm: Array, faces: Faces) -> tuple[Array, Faces]:
     """Return the mesh without unreferenced vertices."""
     used, renamed = np.unique(faces, return_inverse=True)

@@ -4,7 +4,7 @@ It works on a sparse matrix; the smoothing in trimesh visits each vertex in Pyth
 """
 
 import numpy as np
-from scipy.sparse import coo_array
+from scipy.sparse import coo_array, csr_array
 
 from tracker.geometry import Array
 from tracker.plan.triangles.connectivity import Faces, connectivity_of
@@ -12,6 +12,7 @@ from tracker.plan.triangles.connectivity import Faces, connectivity_of
 # Taubin 1995: a step in, and a slightly longer one out. What is larger than 1/PASS_BAND of an edge stays.
 STEP_RATIO = 0.5
 PASS_BAND = 0.1
+VALUE_ROUNDS = 30
 
 
 def smoothed(vertices_mm: Array, faces: Faces, *, rounds: int) -> Array:
@@ -23,16 +24,35 @@ def smoothed(vertices_mm: Array, faces: Faces, *, rounds: int) -> Array:
     """
     connectivity = connectivity_of(faces)
     count = vertices_mm.shape[0]
-    a, b = connectivity.edges.T
-    graph = coo_array(
-        (np.ones(2 * a.size), (np.concatenate([a, b]), np.concatenate([b, a]))), shape=(count, count)
-    ).tocsr()
-    neighbours = np.maximum(np.asarray(graph.sum(axis=1)).reshape(-1, 1), 1.0)
+    graph, neighbours = _graph(connectivity.edges, count)
     moves = np.ones((count, 1))
     moves[connectivity.border_vertices] = 0.0
     back_ratio = 1.0 / (PASS_BAND - 1.0 / STEP_RATIO)
     out = vertices_mm - vertices_mm.mean(axis=0)
     for _ in range(rounds):
         for ratio in (STEP_RATIO, back_ratio):
-            out = out + ratio * moves * (graph @ out / neighbours - out)
+            out = out + ratio * moves * (graph @ out / neighbours[:, None] - out)
     return np.asarray(out + vertices_mm.mean(axis=0))
+
+
+def smoothed_values(values: Array, sd: Array, faces: Faces, *, step_sd: float) -> Array:
+    """Return values (n,) of vertices, each weighed by its standard deviation against its neighbours.
+
+    Neighbours differ by `step_sd`; a value of a large standard deviation follows them (a Gaussian Markov
+    random field, by Jacobi's iteration).
+    """
+    graph, neighbours = _graph(connectivity_of(faces).edges, values.size)
+    own, coupling = 1.0 / sd**2, 1.0 / step_sd**2
+    out = values.copy()
+    for _ in range(VALUE_ROUNDS):
+        out = (own * values + coupling * (graph @ out)) / (own + coupling * neighbours)
+    return np.asarray(out)
+
+
+def _graph(edges: Faces, count: int) -> tuple[csr_array, Array]:
+    """Return the adjacency (n, n) of vertices, and the number (n,) of neighbours, at least 1."""
+    a, b = edges.T
+    graph = coo_array(
+        (np.ones(2 * a.size), (np.concatenate([a, b]), np.concatenate([b, a]))), shape=(count, count)
+    ).tocsr()
+    return graph, np.maximum(np.asarray(graph.sum(axis=1)).reshape(-1), 1.0)

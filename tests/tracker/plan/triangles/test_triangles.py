@@ -4,7 +4,15 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from tracker.plan.triangles import connectivity_of, decimated, largest_part, referenced, smoothed
+from tracker.plan.triangles import (
+    connectivity_of,
+    decimated,
+    largest_part,
+    referenced,
+    smoothed,
+    smoothed_values,
+    vertex_normals,
+)
 from tracker.plan.triangles.connectivity import equal_rows
 
 TETRAHEDRON = np.array([[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [0.0, 10.0, 0.0], [0.0, 0.0, 10.0]])
@@ -83,3 +91,22 @@ def test_equal_rows_are_found_as_numpy_does() -> None:
     unique, inverse = np.unique(rows, axis=0, return_inverse=True)
     assert rows[first].tolist() == unique.tolist()
     assert group.tolist() == inverse.reshape(-1).tolist()
+
+
+def test_normals_of_vertices_point_outwards_and_weigh_triangles_by_area() -> None:
+    normals = vertex_normals(TETRAHEDRON, OUTWARDS)
+    # Three equal triangles meet at the origin; the large one leans the others towards itself.
+    np.testing.assert_allclose(normals[0], -np.ones(3) / np.sqrt(3.0))
+    np.testing.assert_allclose(normals[1], [1.0, 0.0, 0.0], atol=1e-12)
+    np.testing.assert_allclose(vertex_normals(*sheet()), np.tile([0.0, 0.0, 1.0], (144, 1)))
+
+
+def test_an_uncertain_value_follows_its_neighbours_and_a_certain_one_stays() -> None:
+    faces = sheet()[1]
+    values, sd = np.full(144, 0.3), np.full(144, 0.05)
+    values[66], sd[66] = 0.0, 1.0
+    values[13], sd[13] = 1.0, 1e-4
+    smooth = smoothed_values(values, sd, faces, step_sd=0.05)
+    assert smooth[66] == pytest.approx(0.3, abs=0.02)
+    assert smooth[13] == pytest.approx(1.0, abs=0.01)
+    assert smooth[135] == pytest.approx(0.3, abs=0.02)
