@@ -75,12 +75,10 @@ def fill_holes(solid: Flags, *, step_mm: float, closing_radius_mm: float) -> Fla
     outside[int(sizes.argmax())] = True
     outside[0] = False
     reached = outside[spaces]
-    # Further than it was held off: into the corners that a ball does not fill.
-    for n in range(int(np.ceil(1.5 * rounds)) + 1):
-        reached = (
-            ndimage.binary_dilation(reached, CONNECTIVITY_26 if n % 2 else CONNECTIVITY_6, mask=~solid)
-            | reached
-        )
+    # Further than it was held off: into the corners that a ball does not fill. A diagonal step would pass
+    # through cortex that is one node thick.
+    for _ in range(2 * rounds + 1):
+        reached = ndimage.binary_dilation(reached, CONNECTIVITY_6, mask=~solid) | reached
     return np.asarray(~reached)
 
 
