@@ -13,14 +13,15 @@ from server.procedure.surface import MAIN_SURFACE
 from server.store import CaseStore, Current, Document, DocumentKind
 from tracker.errors import NavigationError
 from tracker.navigation import DrillReference, ScrewSize
-from tracker.navigation.clearance import WallSelection, select_wall
+from tracker.navigation.clearance import WallSelection, WallSource, select_wall
 from tracker.navigation.uncertainty import PedicleTolerance
 from tracker.plan import PedicleMeasure, ScrewPlan, plan_from_mapping
 from tracker.plan.document.changes import vertebra_named
 
 # What a channel is drilled with, where the wall is judged by whether the plan itself stays within it.
 USUAL_RADIUS_MM = 2.0
-# How far a threshold puts the bone's surface from where it is: about a third of a usual voxel.
+# Standard deviation of a wall that states none, an imported mesh or the plan's outline: a third of a usual
+# voxel.
 WALL_SD_MM = 0.3
 
 log = structlog.get_logger(__name__)
@@ -85,7 +86,8 @@ class DrillReferenceBuilder:
                 if self._made is None or self._made[0] != key:
                     # Another channel is drilled by now, or the bone has another surface.
                     return {"in_use": False}
-                self._made = (key, replace(drill_reference, wall=chosen.wall))
+                wall_sd_mm = _surface_sd_mm(surface) if chosen.wall.against is WallSource.BONE else WALL_SD_MM
+                self._made = (key, replace(drill_reference, wall=chosen.wall, wall_sd_mm=wall_sd_mm))
             for remark in chosen.remarks:
                 log.warning(remark.message, code=remark.code, remedy=remark.remedy)
             self.on_change()
@@ -127,6 +129,12 @@ class DrillReferenceBuilder:
         if document is None or not document.files:
             return None
         return document if isinstance(self._store.validity(document), Current) else None
+
+
+def _surface_sd_mm(surface: Document) -> float:
+    """Return the standard deviation of a surface's position; the usual one if its document states none."""
+    stated = surface.content.get("sd_mm")
+    return float(stated) if isinstance(stated, int | float) else WALL_SD_MM
 
 
 def _guide(planned: _Planned, chosen: WallSelection) -> DrillReference:

@@ -1,5 +1,6 @@
 """What is drilled is held against the bone of the case, as soon as the distances to it are measured."""
 
+from server.procedure.drill_reference import WALL_SD_MM
 from tests.procedure.conftest import Server
 from tests.procedure.test_ct_step import BY
 from tests.procedure.test_plan_step import planned
@@ -21,3 +22,8 @@ def test_the_surface_of_the_case_becomes_the_wall(server: Server) -> None:
     drill_reference = server.adopted[-1].drill_reference
     assert drill_reference is not None
     assert drill_reference.wall.against == "bone"
+    # The probability of a breach counts how sure this surface is, and not a usual one.
+    surface = server.ask("GET", "/api/surface", 200)["content"]
+    assert drill_reference.wall_sd_mm == surface["sd_mm"]
+    assert 0.05 < surface["sd_mm"] < 1.0
+    assert server.adopted[0].drill_reference.wall_sd_mm == WALL_SD_MM != surface["sd_mm"]

@@ -40,7 +40,7 @@ class DrillReference:
         tolerance: allowed error in this pedicle; None derives it from the radii of channel and drill.
         screw: the planned one; None if there is none.
         side: of the patient, as planned; None if not stated.
-        wall_sd_mm: standard deviation of the wall's position: half a voxel, and the segmentation threshold.
+        wall_sd_mm: standard deviation of the wall's position: of the surface as extracted, or a usual one.
     """
 
     wall: WallDistanceField
