@@ -24,7 +24,7 @@ from tracker.navigation import (
 )
 from tracker.navigation.alarms import ALARM_RULES, Alarm, AlarmSnapshot, AlarmState, Kind, Presence, Priority
 from tracker.navigation.clearance import WallSource
-from tracker.pose import Seen, Unseen
+from tracker.pose import Seen, Unseen, is_twice_in_view
 
 
 class Tone(StrEnum):
@@ -102,6 +102,9 @@ def absence_of(snapshot: NavigationSnapshot) -> tuple[AbsentReason, str]:
         if isinstance(assessment, Absent):
             return assessment.reason, snapshot.setup.tools[name].marker
     # No tool belongs to any marker: what is missing first.
+    for marker, sighting in snapshot.sightings.items():
+        if is_twice_in_view(sighting):
+            return AbsentReason.MARKER_TWICE, marker
     if not any(isinstance(sighting, Seen) for sighting in snapshot.sightings.values()):
         return AbsentReason.MARKER_UNSEEN, next(iter(snapshot.sightings), "")
     if not snapshot.setup.camera_calibrated:
@@ -110,6 +113,9 @@ def absence_of(snapshot: NavigationSnapshot) -> tuple[AbsentReason, str]:
 
 
 def _why(snapshot: NavigationSnapshot, reason: AbsentReason, marker: str, language: Language) -> str:
+    if reason is AbsentReason.MARKER_TWICE:
+        twice = ", ".join(name for name, one in snapshot.sightings.items() if is_twice_in_view(one))
+        return f"{twice}: {STATES[language][reason].detail}".removeprefix(": ")
     sighting = snapshot.sightings.get(marker)
     if reason is AbsentReason.MARKER_UNSEEN and isinstance(sighting, Unseen):
         return f"{marker}: {UNSEEN[language][sighting.reason]}"

@@ -84,6 +84,12 @@ ENGLISH: Mapping[Condition, Phrases] = {
         past="Patient marker was not seen for {worst}.",
         remedy="Clear the view of the patient marker.",
     ),
+    Condition.MARKER_TWICE: Phrases(
+        title="MARKER TWICE IN VIEW",
+        present="Two prints of one marker are in view.",
+        past="Two prints of one marker were in view.",
+        remedy="Stop. Cover or remove all but one.",
+    ),
     Condition.CAMERA_STALLED: Phrases(
         title="NO IMAGE",
         present="No image for {value}.",
@@ -231,6 +237,12 @@ GERMAN: Mapping[Condition, Phrases] = {
         present="Patientenmarker seit {value} nicht gesehen.",
         past="Patientenmarker war {worst} nicht gesehen.",
         remedy="Sicht auf den Patientenmarker freimachen.",
+    ),
+    Condition.MARKER_TWICE: Phrases(
+        title="MARKER DOPPELT IM BILD",
+        present="Ein Marker ist zweimal im Bild.",
+        past="Ein Marker war zweimal im Bild.",
+        remedy="Anhalten. Alle bis auf einen abdecken oder entfernen.",
     ),
     Condition.CAMERA_STALLED: Phrases(
         title="KEIN BILD",

@@ -19,6 +19,7 @@ class State:
 STATES: Mapping[Language, Mapping[AbsentReason, State]] = {
     "en": {
         AbsentReason.MARKER_UNSEEN: State("NO TRACKING", "marker not seen"),
+        AbsentReason.MARKER_TWICE: State("MARKER TWICE IN VIEW", "cover or remove all but one"),
         AbsentReason.CAMERA_NOT_CALIBRATED: State("CAMERA NOT CALIBRATED", "calibrate the camera first"),
         AbsentReason.CAMERA_CHANGED: State("CAMERA CHANGED", "set it back, or calibrate again"),
         AbsentReason.POSE_UNCERTAIN: State("POSE UNCERTAIN", "hold the marker closer, steadier, more tilted"),
@@ -35,6 +36,9 @@ STATES: Mapping[Language, Mapping[AbsentReason, State]] = {
     },
     "de": {
         AbsentReason.MARKER_UNSEEN: State("KEIN TRACKING", "Marker nicht gesehen"),
+        AbsentReason.MARKER_TWICE: State(
+            "MARKER DOPPELT IM BILD", "alle bis auf einen abdecken oder entfernen"
+        ),
         AbsentReason.CAMERA_NOT_CALIBRATED: State("KAMERA NICHT KALIBRIERT", "zuerst die Kamera kalibrieren"),
         AbsentReason.CAMERA_CHANGED: State("KAMERA VERSTELLT", "zurückstellen oder neu kalibrieren"),
         AbsentReason.POSE_UNCERTAIN: State("LAGE UNSICHER", "Marker näher, ruhiger, schräger zeigen"),
@@ -62,11 +66,13 @@ UNSEEN: Mapping[Language, Mapping[UnseenReason, str]] = {
         UnseenReason.SCORE_TOO_LOW: "not seen, too few of its edges",
         UnseenReason.TARGET_SCORE_TOO_LOW: "not seen, edges that do not belong to it",
         UnseenReason.SHAPE_DIFFERS: "not seen, similar object with another shape",
+        UnseenReason.MARKER_TWICE: "in view twice, cover or remove all but one",
     },
     "de": {
         UnseenReason.NO_CANDIDATE: "nicht gesehen, kein ähnliches Quadrat",
         UnseenReason.SCORE_TOO_LOW: "nicht gesehen, zu wenige seiner Kanten",
         UnseenReason.TARGET_SCORE_TOO_LOW: "nicht gesehen, Kanten, die nicht dazugehören",
         UnseenReason.SHAPE_DIFFERS: "nicht gesehen, ähnliches Objekt mit anderer Form",
+        UnseenReason.MARKER_TWICE: "doppelt im Bild, alle bis auf einen abdecken oder entfernen",
     },
 }

@@ -25,6 +25,7 @@ from tracker.marker.search import (
     candidate_rounds,
     costly_candidates,
     four_sided_candidates,
+    second_print_candidates,
     thorough_rounds,
 )
 from tracker.marker.template_matching import Templates, templates_of
@@ -50,6 +51,7 @@ __all__ = [
     "reach_px",
     "reject_similar",
     "scale_space_of",
+    "second_print_candidates",
     "shape_mismatch_of",
     "target_coverage_ratio",
     "templates_of",

@@ -59,6 +59,11 @@ MAX_SHARES = 4
 MAX_REFINED_FOUR_SIDED = 8
 # The coarse match ranks the true one within these in nearly all images.
 MAX_PARALLEL = 40
+# A quad whose centre is nearer than this, in sides, to a marker that is seen lies on that marker.
+SAME_PLACE_SIDES = 0.5
+# Before refinement, a free-standing marker has 0.88 or more at half size, other dark squares up to 0.84. To
+# refine and fit those in each image would cost more than to find them.
+MIN_DISTINCT_CORRELATION = 0.86
 # Where one outline is as like as this, those that are so far behind are not it.
 CERTAIN_CORRELATION, MAX_CORRELATION_GAP = 0.94, 0.08
 
@@ -146,6 +151,48 @@ def costly_candidates(image: GreyImage, templates: Templates, *, index: int) -> 
         return _COSTLY_ROUNDS[index](_Features(image, levels), templates)
 
     return _joined(_rounds(image, templates, stage, IDLE), templates)
+
+
+def second_print_candidates(
+    image: GreyImage, templates: Templates, *, seen_px: Array, thorough: bool
+) -> list[list[Candidate]]:
+    """Return for each model (m) the candidates of dark regions that are not on a marker that is seen.
+
+    Args:
+        image: grey (h, w).
+        templates: of the models.
+        seen_px: (n, 4, 2), corners of the markers that are seen in it.
+        thorough: whether partly occluded and small prints are candidates too, at ten times the cost.
+            Otherwise free-standing ones of 10 px or more at the level after the first are: at half size, or
+            at a quarter in images of over a million pixels.
+    """
+
+    def stage(image: GreyImage, levels: ImagePyramid, templates: Templates) -> _Stage:
+        features = _Features(image, levels)
+        for one in (_match_occluded if thorough else _match_distinct)(features, templates):
+            # Before they are ranked: next to the marker itself, an occluded print is no candidate.
+            elsewhere = ~_are_on(one.level.image_from_level(one.quads), seen_px)
+            yield one._replace(quads=one.quads[elsewhere], correlation=one.correlation[elsewhere])
+
+    return _joined(_rounds(image, templates, stage, IDLE), templates)
+
+
+def _match_occluded(features: "_Features", templates: Templates) -> "_Stage":
+    for stage in (_match_four_sides, _match_border_corners, _match_full_size):
+        yield from stage(features, templates)
+
+
+def _match_distinct(features: "_Features", templates: Templates) -> "_Stage":
+    level = features.half or features.first
+    matched = _from_regions(level, _regions(level), templates)
+    is_distinct = matched.correlation.max(axis=(1, 2), initial=-1.0) >= MIN_DISTINCT_CORRELATION
+    yield matched._replace(quads=matched.quads[is_distinct], correlation=matched.correlation[is_distinct])
+
+
+def _are_on(quads: Quads, seen_px: Array) -> npt.NDArray[np.bool_]:
+    """Return which quads (q, 4, 2) have their centre on one of these squares (n, 4, 2)."""
+    apart_px = np.linalg.norm(quads.mean(axis=1)[:, None] - seen_px.mean(axis=1), axis=2)
+    return np.asarray((apart_px < SAME_PLACE_SIDES * _sides_px(seen_px)).any(axis=1))
 
 
 def _joined(rounds: Iterator[list[list[Candidate]]], templates: Templates) -> list[list[Candidate]]:

@@ -34,6 +34,7 @@ class AbsentReason(StrEnum):
     """Why a pose or a number is missing."""
 
     MARKER_UNSEEN = "MARKER_UNSEEN"  # the marker is not seen in this image
+    MARKER_TWICE = "MARKER_TWICE"  # two prints of the tool's or the patient's marker are in view
     CAMERA_NOT_CALIBRATED = "CAMERA_NOT_CALIBRATED"  # detected, but without a metric pose
     CAMERA_CHANGED = "CAMERA_CHANGED"  # focus or zoom are not what they were at the calibration
     POSE_UNCERTAIN = "POSE_UNCERTAIN"  # seen, but the uncertainty of the tip is too large

@@ -19,7 +19,7 @@ from tracker.navigation.snapshot import (
     VertebraPose,
 )
 from tracker.navigation.uncertainty import DrillAnalysis, UncertainPose
-from tracker.pose import Seen, Sighting, SmoothedPose, ToolModel
+from tracker.pose import Seen, Sighting, SmoothedPose, ToolModel, is_twice_in_view
 from tracker.registration import AnchoredTo
 
 
@@ -35,7 +35,7 @@ def locate_tool(
     A smoothed pose replaces the measured one, unless its uncertainty at the present tip is too large.
     """
     if not isinstance(sighting, Seen):
-        return Absent(reason=AbsentReason.MARKER_UNSEEN)
+        return _unseen(sighting, AbsentReason.MARKER_UNSEEN)
     if not setup.camera_calibrated:
         return Absent(reason=AbsentReason.CAMERA_NOT_CALIBRATED)
     if motion.camera_changes:
@@ -50,6 +50,11 @@ def locate_tool(
         return own
     steady = _placed(tool, steadied.camera_from_marker, steadied.pose_covariance, lag_ms=steadied.lag_ms)
     return own if _tip_sd_mm(steady) > setup.max_tip_sd_mm else steady
+
+
+def _unseen(sighting: Sighting | None, reason: AbsentReason) -> Absent:
+    """Return this reason for a marker that is not seen, or that it is in view twice."""
+    return Absent(reason=AbsentReason.MARKER_TWICE if is_twice_in_view(sighting) else reason)
 
 
 def _placed(
@@ -88,7 +93,7 @@ def locate_vertebra(
         )
     seen = sightings.get(setup.reference)
     if not isinstance(seen, Seen):
-        return Absent(reason=AbsentReason.REFERENCE_UNSEEN)
+        return _unseen(seen, AbsentReason.REFERENCE_UNSEEN)
     if not setup.camera_calibrated:
         return Absent(reason=AbsentReason.CAMERA_NOT_CALIBRATED)
     if setup.reference in motion.jumped:

@@ -11,7 +11,7 @@ Only a complete search of the same image decides about what a part of it finds, 
 else may be the marker.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -133,11 +133,21 @@ class IdleSearch:
 
     def _is_rejected(self, model: MarkerModel, candidate: Candidate) -> bool:
         """Whether a candidate at this place that matched as well was fitted some images ago."""
-        reach_px = SAME_OUTLINE_SIDE_RATIO * side_px_of(candidate.corners_px)
-        return any(
-            one.name == model.name
-            and one.candidate is not None
-            and candidate.correlation < one.candidate.correlation + MIN_GAIN
-            and float(np.abs(one.candidate.corners_px - candidate.corners_px).max()) < reach_px
-            for one in self._rejections
+        return matches_no_better(
+            candidate,
+            (
+                one.candidate
+                for one in self._rejections
+                if one.name == model.name and one.candidate is not None
+            ),
         )
+
+
+def matches_no_better(candidate: Candidate, rejected: Iterable[Candidate]) -> bool:
+    """Whether one of the rejected candidates of its model has the same place and matched as well."""
+    reach_px = SAME_OUTLINE_SIDE_RATIO * side_px_of(candidate.corners_px)
+    return any(
+        candidate.correlation < one.correlation + MIN_GAIN
+        and float(np.abs(one.corners_px - candidate.corners_px).max()) < reach_px
+        for one in rejected
+    )

@@ -22,6 +22,7 @@ from tracker.pipeline.fitter import Fitter
 from tracker.pipeline.idle_search import IdleSearch
 from tracker.pipeline.image import RepeatedPatch, grey_of, image_context_of
 from tracker.pipeline.search import Search
+from tracker.pipeline.second_prints import SecondPrints
 from tracker.pipeline.warm_up_image import warm_up_image
 from tracker.pose import (
     ImageContext,
@@ -98,6 +99,7 @@ class Tracker:
         self._stages = StageTimer(clock)
         self._fitter = Fitter(camera=camera, settings=self.settings, stages=self._stages)
         self._idle_search = IdleSearch(self._fitter, self._templates_for)
+        self._second_prints = SecondPrints(self._fitter, self._templates_for)
         self._stepped_at_s = -np.inf
         if self.models and not Tracker._has_loaded:
             Tracker._has_loaded = True
@@ -122,6 +124,10 @@ class Tracker:
         out of view is searched for in a part of each image (`idle_search`), so a free-standing one is found
         within two images, and a blurred or partly occluded one within some more. A marker whose pixels
         repeat, as from a frozen camera, is seen again, and its certainty does not grow.
+
+        A marker of which a second print is in view is `Unseen` with `MARKER_TWICE`, until one of them was
+        alone in view for a second and 16 images. A free-standing second print that comes
+        into view is noticed within 8 images, a partly occluded or small one within 256 (`second_prints`).
 
         Args:
             image: grey (h, w) or BGR (h, w, 3), uint8, of the camera's size.
@@ -155,6 +161,9 @@ class Tracker:
             prior.update(now, captured_at_s, is_repeated=again[name])
             if isinstance(now, Seen) and not again[name]:
                 self._patches[name].store(pixels.image, now.corners_px)
+        seen = self._second_prints.withhold_duplicates(
+            pixels, self.models, seen, captured_at_s, full_search=full_search
+        )
         self.stage_ms = self._stages.elapsed_ms
         return {model.name: seen[model.name] for model in self.models}
 
@@ -205,13 +214,17 @@ class Tracker:
         """Return a sighting of each marker in this image by a search of the whole image, without state.
 
         If no marker is found with certainty, the illumination may be poor, and a second, much slower search
-        follows. `step` omits it, because another image follows.
+        follows. `step` omits it, because another image follows. A marker of which a second
+        print is in view is `Unseen` with `MARKER_TWICE`.
 
         Raises:
             InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
         """
-        sightings = self._search_of(self._pixels(image), self.models).run(thorough=True)
-        seen = suppress_overlaps(sightings)
+        pixels = self._pixels(image)
+        seen = suppress_overlaps(self._search_of(pixels, self.models).run(thorough=True))
+        seen = SecondPrints(self._fitter, self._templates_for).withhold_duplicates(
+            pixels, self.models, seen, 0.0, full_search=False
+        )
         seen = {model.name: self._without_shear(model, seen[model.name]) for model in self.models}
         self.stage_ms = self._stages.elapsed_ms
         return seen

@@ -13,9 +13,9 @@ from tracker.pose.planar import flipped_pose, pose_from_corners
 from tracker.pose.prior import Prior
 from tracker.pose.refinement import EdgeFit, fit_pose_to_edges
 from tracker.pose.rolling_shutter import RollingShutter
-from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
+from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason, is_twice_in_view
 from tracker.pose.smoothing import PoseSmoother, SmoothedPose, SmoothingSettings
-from tracker.pose.suppression import differ_by_rotation, rank_score, suppress_overlaps
+from tracker.pose.suppression import differ_by_rotation, is_same_square, rank_score, suppress_overlaps
 from tracker.pose.tool import ToolModel
 from tracker.pose.window import Window, window_around
 
@@ -40,6 +40,8 @@ __all__ = [
     "differ_by_rotation",
     "fit_pose_to_edges",
     "flipped_pose",
+    "is_same_square",
+    "is_twice_in_view",
     "occurrence_near",
     "pose_from_corners",
     "rank_score",

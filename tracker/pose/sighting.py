@@ -22,6 +22,9 @@ class UnseenReason(StrEnum):
     SCORE_TOO_LOW = "SCORE_TOO_LOW"  # the best candidate has too few of the model's edges
     TARGET_SCORE_TOO_LOW = "TARGET_SCORE_TOO_LOW"  # ... or has edges that the model does not have
     SHAPE_DIFFERS = "SHAPE_DIFFERS"  # its edges fit, but a part inside has inverted contrast: another shape
+    MARKER_TWICE = (
+        "MARKER_TWICE"  # two prints of its shape are in view, and nothing tells which is the marker
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,3 +82,8 @@ class Unseen:
 
 
 Sighting: TypeAlias = Seen | Unseen
+
+
+def is_twice_in_view(sighting: Sighting | None) -> bool:
+    """Whether two prints of this marker are in view."""
+    return isinstance(sighting, Unseen) and sighting.reason is UnseenReason.MARKER_TWICE

@@ -18,6 +18,12 @@ def differ_by_rotation(one: Sighting, other: Sighting) -> bool:
     return any(float(apart.max()) < near for apart in turned)
 
 
+def is_same_square(one: Seen, other: Seen) -> bool:
+    """Whether the centre of the other square is nearer than half a side of this one."""
+    apart_px = np.linalg.norm(other.corners_px.mean(axis=0) - one.corners_px.mean(axis=0))
+    return bool(apart_px < 0.5 * side_px_of(one.corners_px))
+
+
 def suppress_overlaps(sightings: dict[str, Sighting]) -> dict[str, Sighting]:
     """Return the sightings by name; of two markers on one square, only the higher ranked one stays `Seen`."""
     remaining = dict(sightings)
@@ -29,8 +35,7 @@ def suppress_overlaps(sightings: dict[str, Sighting]) -> dict[str, Sighting]:
         sighting = sightings[name]
         if not isinstance(sighting, Seen):
             continue
-        centre, side = sighting.corners_px.mean(axis=0), side_px_of(sighting.corners_px)
-        if any(np.linalg.norm(other.corners_px.mean(axis=0) - centre) < 0.5 * side for other in places):
+        if any(is_same_square(sighting, other) for other in places):
             remaining[name] = Unseen(reason=UnseenReason.SHAPE_DIFFERS, best_score_ratio=sighting.score_ratio)
         else:
             places.append(sighting)

@@ -21,6 +21,7 @@ from tracker.registration.tip import tip_in_anchor
 
 UNSEEN = {
     AbsentReason.MARKER_UNSEEN: "the tool's marker is not seen",
+    AbsentReason.MARKER_TWICE: "the tool's marker is in view twice",
     AbsentReason.POSE_UNCERTAIN: "the tip could be millimetres away from where it seems",
     AbsentReason.CAMERA_NOT_CALIBRATED: "the camera is not calibrated",
     AbsentReason.CAMERA_CHANGED: "the camera's focus or zoom is not as it was calibrated",

@@ -142,7 +142,23 @@ def test_without_figures_there_is_a_reason_and_no_verdict(
         assert headline.detail[language]
 
 
-@pytest.mark.parametrize("reason", UnseenReason)
+def test_a_marker_that_is_twice_in_view_is_named_with_what_to_do(snapshot_of: SnapshotOf) -> None:
+    once, twice = snapshot_of(), Unseen(reason=UnseenReason.MARKER_TWICE)
+    absent = {"drill": Absent(reason=AbsentReason.MARKER_TWICE)}
+    # The tool's own marker, the patient's, and a marker while there are no tools.
+    for sightings, assessments, name in (
+        ({"drill": twice}, absent, "drill"),
+        ({**once.sightings, "patient": twice}, absent, "patient"),
+        ({**once.sightings, "drill": twice}, {}, "drill"),
+    ):
+        snapshot = dataclasses.replace(once, sightings=sightings, assessments=assessments)
+        headline = headline_of(snapshot, QUIET)
+        assert headline.title == {"en": "MARKER TWICE IN VIEW", "de": "MARKER DOPPELT IM BILD"}
+        assert headline.detail["en"] == f"{name}: cover or remove all but one"
+        assert headline.detail["de"] == f"{name}: alle bis auf einen abdecken oder entfernen"
+
+
+@pytest.mark.parametrize("reason", [one for one in UnseenReason if one is not UnseenReason.MARKER_TWICE])
 def test_a_marker_that_is_not_seen_is_named_with_its_reason(
     snapshot_of: SnapshotOf, reason: UnseenReason
 ) -> None:

@@ -171,6 +171,7 @@ SEEN = Seen(
     found_by="search",
 )
 UNSEEN = Unseen(reason=UnseenReason.SCORE_TOO_LOW, best_score_ratio=0.6)
+TWICE = Unseen(reason=UnseenReason.MARKER_TWICE, best_score_ratio=0.9)
 TOOL = ToolModel.from_tip_and_axis(
     name="drill",
     marker="square",
@@ -208,6 +209,7 @@ NOT_REGISTERED = Absent(reason=AbsentReason.NOT_REGISTERED)
     ("setup", "sighting", "tool", "deviation"),
     [
         pytest.param(SETUP, UNSEEN, "MARKER_UNSEEN", "MARKER_UNSEEN", id="marker not seen"),
+        pytest.param(SETUP, TWICE, "MARKER_TWICE", "MARKER_TWICE", id="marker twice in view"),
         pytest.param(
             replace(SETUP, camera_calibrated=False),
             SEEN,

@@ -90,6 +90,8 @@ def test_the_vertebra_is_placed_through_the_reference_as_it_is_seen_in_this_imag
 def test_without_the_reference_nobody_knows_where_the_vertebra_is() -> None:
     unseen = Unseen(reason=UnseenReason.NO_CANDIDATE)
     assert concluded(SETUP, unseen).vertebra == Absent(reason=AbsentReason.REFERENCE_UNSEEN)
+    twice = Unseen(reason=UnseenReason.MARKER_TWICE)
+    assert concluded(SETUP, twice).vertebra == Absent(reason=AbsentReason.MARKER_TWICE)
     # Not even where the settings name no reference: it is fixed to one all the same.
     nameless = replace(SETUP, reference="")
     assert concluded(nameless, SEEN).vertebra == Absent(reason=AbsentReason.REFERENCE_UNSEEN)

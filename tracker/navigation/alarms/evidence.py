@@ -226,6 +226,7 @@ _EVALUATORS: Mapping[Condition, Evaluator] = MappingProxyType(
         Condition.CLEARANCE_LOW: _clearance_low,
         Condition.DRILL_UNSEEN: _drill_unseen,
         Condition.REFERENCE_UNSEEN: _reference_unseen,
+        Condition.MARKER_TWICE: lambda inputs, _limits, _standing: _flag(not inputs.markers_unique),
         Condition.CAMERA_STALLED: _camera_stalled,
         Condition.CAMERA_GONE: lambda inputs, _limits, _standing: _flag(not inputs.camera_works),
         Condition.TRACKING_STOPPED: lambda inputs, _limits, _standing: _flag(not inputs.tracker_works),

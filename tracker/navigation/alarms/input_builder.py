@@ -9,7 +9,7 @@ from tracker.navigation.deviation import Deviation
 from tracker.navigation.figures import FigureName, Status
 from tracker.navigation.snapshot import Absent, AbsentReason, NavigationSnapshot
 from tracker.plan import Channel
-from tracker.pose import Seen
+from tracker.pose import Seen, Sighting, is_twice_in_view
 
 NOT_ENTERED_CLEARANCE_MM = 100.0
 NOT_REGISTERED = Absent(reason=AbsentReason.NOT_REGISTERED)
@@ -22,7 +22,7 @@ class AlarmInputHistory:
 
     Attributes:
         navigating: figures were displayed, and plan and registration are still valid.
-        drill_seen_at_s: capture time of the last image with a visible tool.
+        drill_seen_at_s: capture time of the last image with a visible tool, also where it is in view twice.
         reference_seen_at_s: capture time of the last image in which the patient's marker was not missing.
     """
 
@@ -46,12 +46,17 @@ def update_history(
     elif any(isinstance(deviation, Deviation) for deviation in snapshot.deviations.values()):
         history = replace(history, navigating=history.navigating or now_s - at_s <= fresh_s)
     markers = {tool.marker for tool in setup.tools.values()}
-    if any(isinstance(snapshot.sightings.get(marker), Seen) for marker in markers):
+    # A marker that is in view twice is not missing: `MARKER_TWICE` reports it.
+    if any(_is_in_view(snapshot.sightings.get(marker)) for marker in markers):
         history = replace(history, drill_seen_at_s=at_s)
     # Where there is no patient reference, nothing is missed.
     if snapshot.vertebra != REFERENCE_UNSEEN:
         history = replace(history, reference_seen_at_s=at_s)
     return history
+
+
+def _is_in_view(sighting: Sighting | None) -> bool:
+    return isinstance(sighting, Seen) or is_twice_in_view(sighting)
 
 
 def alarm_inputs(
@@ -90,6 +95,7 @@ def alarm_inputs(
         camera_silent_s=silent_s,
         image_current=silent_s <= fresh_s,
         reference_unseen_s=reference_s if history.navigating else 0.0,
+        markers_unique=AbsentReason.MARKER_TWICE not in reasons,
         pose_certain=AbsentReason.POSE_UNCERTAIN not in reasons,
         pose_steady=AbsentReason.POSE_JUMPED not in reasons,
         camera_in_place=AbsentReason.CAMERA_MOVED not in reasons,

@@ -55,6 +55,7 @@ class AlarmInputs:
         drill_unseen_s: how long the drill was not seen, up to the newest image; 0 while it is seen.
         drill_put_away: not seen for so long that it was put away.
         reference_unseen_s: as for the drill; 0 without a patient reference.
+        markers_unique: no second print of the drill's or the patient's marker is in view.
         camera_silent_s: age of the newest image.
         image_current: the newest image is within its age limit, and camera and tracker work.
         camera_works: the source runs, or its state is unknown because nothing tracks.
@@ -89,6 +90,7 @@ class AlarmInputs:
     drill_unseen_s: float = 0.0
     drill_put_away: bool = False
     reference_unseen_s: float = 0.0
+    markers_unique: bool = True
     camera_silent_s: float = 0.0
     image_current: bool = True
     camera_works: bool = True

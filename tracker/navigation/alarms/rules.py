@@ -44,6 +44,7 @@ class Condition(StrEnum):
     CLEARANCE_LOW = "CLEARANCE_LOW"  # less bone is left beside the drill than the warning distance
     DRILL_UNSEEN = "DRILL_UNSEEN"  # the drill's marker is not seen for longer than its limit
     REFERENCE_UNSEEN = "REFERENCE_UNSEEN"  # the patient's marker is not seen for longer than its limit
+    MARKER_TWICE = "MARKER_TWICE"  # two prints of the drill's or the patient's marker are in view
     CAMERA_STALLED = "CAMERA_STALLED"  # no image came for longer than its limit
     CAMERA_GONE = "CAMERA_GONE"  # the camera is known to give no images
     TRACKING_STOPPED = "TRACKING_STOPPED"  # the process that tracks is known not to run
@@ -137,6 +138,7 @@ ALARM_RULES: Mapping[Condition, AlarmRule] = MappingProxyType(
         # Their confirmation is the time unseen, or silent, that is their limit.
         Condition.DRILL_UNSEEN: _of_newest_image(),
         Condition.REFERENCE_UNSEEN: _of_newest_image(),
+        Condition.MARKER_TWICE: _of_newest_image(),
         Condition.CAMERA_STALLED: _technical(Priority.MEDIUM),
         Condition.CAMERA_GONE: _technical(Priority.MEDIUM),
         Condition.TRACKING_STOPPED: _technical(Priority.MEDIUM),

@@ -232,6 +232,7 @@ ALARMING: dict[Condition, dict[str, object]] = {
     Condition.CLEARANCE_LOW: {"clearance_mm": 0.7},
     Condition.DRILL_UNSEEN: {**UNSEEN, "drill_unseen_s": 1.2},
     Condition.REFERENCE_UNSEEN: {"reference_unseen_s": 1.2},
+    Condition.MARKER_TWICE: {"markers_unique": False},
     Condition.CAMERA_STALLED: {"camera_silent_s": 0.7},
     Condition.CAMERA_GONE: {"camera_works": False},
     Condition.TRACKING_STOPPED: {"tracker_works": False},
@@ -255,7 +256,13 @@ ALARMING: dict[Condition, dict[str, object]] = {
 
 @pytest.mark.parametrize(
     "condition",
-    [Condition.DRILL_UNSEEN, Condition.REFERENCE_UNSEEN, Condition.POSE_UNCERTAIN, Condition.POSE_JUMPED],
+    [
+        Condition.DRILL_UNSEEN,
+        Condition.REFERENCE_UNSEEN,
+        Condition.MARKER_TWICE,
+        Condition.POSE_UNCERTAIN,
+        Condition.POSE_JUMPED,
+    ],
 )
 def test_what_only_a_new_image_shows_is_not_claimed_of_an_old_one(condition: Condition) -> None:
     stream = Stream()

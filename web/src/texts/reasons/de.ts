@@ -40,5 +40,6 @@ export const reasonsDe: Pick<Texts, "cause" | "unseen"> = {
     SCORE_TOO_LOW: "zu wenige seiner Kanten sind da",
     TARGET_SCORE_TOO_LOW: "Kanten, die er nicht hat",
     SHAPE_DIFFERS: "innen eine andere Form: ein Doppelgänger",
+    MARKER_TWICE: "ein zweiter Ausdruck davon ist im Bild: alle bis auf einen abdecken oder entfernen",
   },
 };

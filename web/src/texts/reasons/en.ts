@@ -31,5 +31,6 @@ export const reasonsEn: Pick<Texts, "cause" | "unseen"> = {
     SCORE_TOO_LOW: "too few of its edges are there",
     TARGET_SCORE_TOO_LOW: "edges are there that it does not have",
     SHAPE_DIFFERS: "a look-alike: another shape inside",
+    MARKER_TWICE: "a second print of it is in view: cover or remove all but one",
   },
 };
