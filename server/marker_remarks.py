@@ -1,10 +1,10 @@
-"""Warnings about markers that are usable but nearly symmetric."""
+"""Rejection of markers that are their own mirror image, and warnings about nearly symmetric ones."""
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 
 import structlog
 
-from tracker.marker import MarkerModel
+from tracker.marker import MarkerModel, reject_mirror_symmetric
 
 log = structlog.get_logger(__name__)
 
@@ -13,8 +13,13 @@ MAX_SELF_CORRELATION = 0.9
 DESIGNED = "print a marker made with 'coaxial marker design'"
 
 
-def warn_of_ambiguous_markers(models: Iterable[MarkerModel]) -> None:
-    """Log a warning for markers that resemble their own rotation or mirror image."""
+def reject_ambiguous_markers(models: Sequence[MarkerModel]) -> None:
+    """Reject markers that equal their mirror image; warn of those that resemble it or their own rotation.
+
+    Raises:
+        InvalidInput: MARKER_MIRROR_SYMMETRIC.
+    """
+    reject_mirror_symmetric(models)
     for model in models:
         turned, mirrored = model.own_correlation
         if turned > MAX_SELF_CORRELATION:

@@ -68,7 +68,7 @@ def _serve(
         storage = Storage.opened(ending, settings)
         access = AccessControl.of(config, storage.store, new_operator_link=new_operator_link)
         preparation = build_setup(config)
-        _warn_about_markers(preparation)
+        _check_markers(preparation)
         _warn_about_camera(config)
         from server.alarms import AlarmService, StoredAlarmLog  # noqa: PLC0415
         from server.app import AppParts, create_app, picture_problem_of  # noqa: PLC0415
@@ -115,10 +115,10 @@ def _serve(
         )
 
 
-def _warn_about_markers(preparation: "Preparation") -> None:
-    from server.marker_remarks import warn_of_ambiguous_markers  # noqa: PLC0415
+def _check_markers(preparation: "Preparation") -> None:
+    from server.marker_remarks import reject_ambiguous_markers  # noqa: PLC0415
 
-    warn_of_ambiguous_markers(preparation.models)
+    reject_ambiguous_markers(preparation.models)
     if not preparation.models:
         log.warning(
             "no marker is configured, so nothing is tracked",

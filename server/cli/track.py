@@ -32,7 +32,7 @@ from server.cli.stop_signal import StopSignal
 from server.config import Config
 from server.errors import CaptureError
 from server.logs import LogSettings, configure_logging
-from server.marker_remarks import warn_of_ambiguous_markers
+from server.marker_remarks import reject_ambiguous_markers
 from server.setup import Preparation, build_setup
 from tracker.errors import InvalidInput
 from tracker.navigation import Setup
@@ -68,7 +68,7 @@ def track_video(
             "Give a video file, a folder of images or 'rehearsal'; for a live source use 'coaxial run'.",
         )
     preparation = _require_marker(build_setup(config))
-    warn_of_ambiguous_markers(preparation.models)
+    reject_ambiguous_markers(preparation.models)
     warn_of_configured_camera(config)
     theatre = preparation.theatre
     if theatre is not None:

@@ -21,7 +21,7 @@ from server.procedure.documents import parse_document
 from server.procedure.open_case import require_open_case
 from server.store import CaseStore, Document, DocumentKind, NotFound
 from tracker.errors import InvalidInput, NavigationError
-from tracker.marker import MarkerModel, reject_similar
+from tracker.marker import MarkerModel, reject_mirror_symmetric, reject_similar
 
 # Each one costs search time in every image.
 MAX_MARKERS = 8
@@ -69,6 +69,7 @@ class MarkerStep:
                 continue
             try:
                 model = self._model_of(document)
+                reject_mirror_symmetric([model])
                 reject_similar([*(one.model for one in known), model])
             except NavigationError as error:
                 # It is not tracked; the others are.
@@ -112,12 +113,14 @@ class MarkerStep:
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, MARKER_OF_SETTINGS.
-            InvalidInput: the image is not a valid marker, MARKERS_TOO_SIMILAR, MARKERS_ENOUGH.
+            InvalidInput: the image is not a valid marker, MARKER_MIRROR_SYMMETRIC, MARKERS_TOO_SIMILAR,
+                MARKERS_ENOUGH.
         """
         case = require_open_case(self._store)
         self._reject_configured(name)
         content = picture.read_bytes()
         model = MarkerModel.from_image(marker_image(content, named=named), side_mm=side_mm, name=name)
+        reject_mirror_symmetric([model])
         self._reject_among_others(model)
         with self._store.new_file(case.id, ".picture") as new:
             new.path.write_bytes(content)

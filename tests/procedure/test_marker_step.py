@@ -22,6 +22,14 @@ def picture(turn: int = 0) -> np.ndarray:
     return np.ascontiguousarray(np.rot90(other.image, turn))
 
 
+def arrow() -> np.ndarray:
+    """Of a marker that is its own mirror image."""
+    image = np.zeros((100, 100), np.uint8)
+    image[15:85, 15:85] = 255
+    image[25:76, 45:55] = image[25:41, 25:75] = 0
+    return image
+
+
 def names(server: Server) -> dict[str, bool]:
     """The markers that are looked for, and whether the case keeps them."""
     reported = server.ask("GET", "/api/markers", 200)["markers"]
@@ -101,6 +109,7 @@ def test_marker_whose_picture_is_damaged_is_left_out_and_can_be_taken_away(serve
         pytest.param(
             Theatre(TheatreSettings()).marker.image, {}, 422, "MARKERS_TOO_SIMILAR", id="as-another"
         ),
+        pytest.param(arrow(), {}, 422, "MARKER_MIRROR_SYMMETRIC", id="its-own-mirror-image"),
         pytest.param(None, {"side_mm": 0.0}, 422, "REQUEST_INVALID", id="no-size"),
         pytest.param(None, {"name": "a b"}, 422, "REQUEST_INVALID", id="a-name-with-a-blank"),
     ],

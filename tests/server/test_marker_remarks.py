@@ -6,9 +6,10 @@ import pytest
 import structlog
 
 from server.config import Config
-from server.marker_remarks import warn_of_ambiguous_markers
+from server.marker_remarks import reject_ambiguous_markers
 from server.setup import build_setup
 from tests.benchmarks.scenes.faces import FACES
+from tracker.errors import InvalidInput
 from tracker.marker import MarkerModel
 
 
@@ -24,8 +25,8 @@ def marker_of(*strokes: tuple[tuple[int, int], tuple[int, int]]) -> MarkerModel:
 @pytest.mark.parametrize(
     ("marker", "codes"),
     [
-        # An arrow: as good as its own mirror image, and unlike itself when turned.
-        (marker_of(((45, 25), (54, 75)), ((25, 25), (74, 40))), ["MARKER_NEARLY_MIRRORED"]),
+        # An arrow with its head a little aside: nearly its own mirror image, and unlike itself when turned.
+        (marker_of(((45, 25), (54, 75)), ((28, 25), (77, 40))), ["MARKER_NEARLY_MIRRORED"]),
         # Two opposite corners of nearly the same size: that, and its own mirror image about a diagonal.
         (
             marker_of(((25, 25), (50, 45)), ((52, 55), (74, 74))),
@@ -39,16 +40,24 @@ def test_what_may_be_taken_for_itself_is_told_with_its_likeness(
     marker: MarkerModel, codes: list[str]
 ) -> None:
     with structlog.testing.capture_logs() as said:
-        warn_of_ambiguous_markers([marker])
+        reject_ambiguous_markers([marker])
     assert [line["code"] for line in said] == codes
     for line, correlation in zip(said, [one for one in marker.own_correlation if one > 0.9], strict=True):
         assert f"correlation {correlation:.2f}" in line["event"]
         assert "coaxial marker design" in line["remedy"]
 
 
+def test_a_marker_that_is_its_own_mirror_image_is_rejected() -> None:
+    arrow = marker_of(((45, 25), (54, 75)), ((25, 25), (74, 40)))
+    with pytest.raises(InvalidInput, match=r"own mirror image: correlation 1\.000, allowed 0\.985") as caught:
+        reject_ambiguous_markers([FACES[0].model, arrow])
+    assert caught.value.code == "MARKER_MIRROR_SYMMETRIC"
+    assert "coaxial marker design" in caught.value.remedy
+
+
 def test_the_rehearsal_s_own_markers_need_no_word() -> None:
     with structlog.testing.capture_logs() as said:
-        warn_of_ambiguous_markers(
+        reject_ambiguous_markers(
             build_setup(Config.model_validate({"rehearsal": {"reference": True}})).models
         )
     assert said == []

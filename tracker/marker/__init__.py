@@ -1,7 +1,7 @@
 """The marker: model with active edges, candidates in an image, edge scores, photometric verification."""
 
 from tracker.marker.active_edges import ActiveEdges
-from tracker.marker.model import MarkerModel, reject_similar
+from tracker.marker.model import MarkerModel, reject_mirror_symmetric, reject_similar
 from tracker.marker.photometric_fit import (
     PhotometricFit,
     ShapeMismatch,
@@ -49,6 +49,7 @@ __all__ = [
     "model_agreement",
     "photometric_fit_of",
     "reach_px",
+    "reject_mirror_symmetric",
     "reject_similar",
     "scale_space_of",
     "second_print_candidates",

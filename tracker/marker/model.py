@@ -1,6 +1,6 @@
 """Marker model: a printed square with a unique shape, described by its edges."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from math import log
@@ -20,7 +20,8 @@ SQUARE_TOLERANCE_RATIO = 0.02
 MIN_CONTRAST_GREY = 40
 # The border must be dark for all but a worn corner.
 MIN_DARK_BORDER_RATIO = 0.9
-# A shape with a quarter or half turn symmetry has no unique orientation.
+# A shape with a quarter or half turn symmetry has no unique orientation, and one that is its own mirror image
+# cannot be told from its reflection.
 MAX_SYMMETRY = 0.985
 # More similar shapes are confused when small or blurred. Those of a printed sheet reach 0.88, a shape and its
 # mirror image 0.98.
@@ -157,6 +158,26 @@ def reject_similar(models: Sequence[MarkerModel]) -> None:
                 f"correlation {correlation:.3f}, allowed {MAX_SIMILARITY}",
                 "Use shapes that differ, so that none is taken for another: another seed designs another.",
                 {"names": [names[a], names[b]], "correlation": correlation},
+            )
+
+
+def reject_mirror_symmetric(models: Iterable[MarkerModel]) -> None:
+    """Reject models that equal their own mirror image: a reflection of the print is detected as the marker.
+
+    The pose of the print itself is unambiguous, so a recording without reflections may be tracked with one.
+
+    Raises:
+        InvalidInput: MARKER_MIRROR_SYMMETRIC.
+    """
+    for model in models:
+        _, correlation = model.own_correlation
+        if correlation > MAX_SYMMETRY:
+            raise InvalidInput(
+                "MARKER_MIRROR_SYMMETRIC",
+                f"marker '{model.name}' is its own mirror image: correlation {correlation:.3f}, allowed "
+                f"{MAX_SYMMETRY}; its reflection in steel would be taken for it, at a wrong pose",
+                "Use a shape that differs from its mirror image; 'coaxial marker design' makes one.",
+                {"name": model.name, "correlation": correlation},
             )
 
 

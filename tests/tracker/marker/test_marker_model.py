@@ -6,7 +6,7 @@ import pytest
 
 from tests.tracker.scenes import CODE, Image8, code_image
 from tracker import InvalidInput, MarkerModel
-from tracker.marker import ActiveEdges
+from tracker.marker import ActiveEdges, reject_mirror_symmetric
 from tracker.rehearsal.marker_images import drill_marker_image
 
 SIDE_MM = 40.0
@@ -72,6 +72,17 @@ def test_a_rotationally_symmetric_shape_is_rejected(
 
 def test_a_mirror_symmetric_shape_is_accepted() -> None:
     MarkerModel.from_image(code_image(((1, 1, 0), (0, 0, 1), (1, 1, 0))), side_mm=SIDE_MM, name="mine")
+
+
+def test_a_mirror_symmetric_shape_is_rejected_where_a_reflection_can_be_in_view() -> None:
+    arrow, other = (
+        MarkerModel.from_image(code_image(fields), side_mm=SIDE_MM, name=name)
+        for name, fields in (("arrow", ((1, 1, 0), (0, 0, 1), (1, 1, 0))), ("other", CODE))
+    )
+    reject_mirror_symmetric([other])
+    with pytest.raises(InvalidInput, match="'arrow' is its own mirror image") as caught:
+        reject_mirror_symmetric([other, arrow])
+    assert caught.value.code == "MARKER_MIRROR_SYMMETRIC"
 
 
 def test_corners_go_clockwise_from_the_top_left_with_y_up() -> None:
