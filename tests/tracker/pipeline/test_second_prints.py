@@ -46,7 +46,7 @@ def _under_a_finger(image: Image8, pose: Rigid[Camera, Marker]) -> Image8:
     """The image with something grey over a corner of the marker, so that its dark region has more sides."""
     corners = corners_px_of(CAMERA, pose)
     a, b, d = corners[0], corners[1], corners[3]
-    finger = [a + 0.3 * (a - b), a + 0.4 * (b - a), a + 0.4 * (d - a), a + 0.3 * (a - d)]
+    finger = [a + 0.5 * (a - b), a + 0.6 * (b - a), a + 0.6 * (d - a), a + 0.5 * (a - d)]
     cv2.fillConvexPoly(image, np.rint(finger).astype(np.int32), (150.0,), cv2.LINE_AA)
     return image
 
@@ -93,7 +93,7 @@ def test_a_free_standing_print_that_comes_into_view_is_noticed_within_eight_imag
 
 
 def test_a_small_or_occluded_print_that_comes_into_view_is_noticed_later() -> None:
-    small = pose_of((340.0, 150.0), 15.0)
+    small = pose_of((340.0, 150.0), 13.0)
     first = [_alone(seed=k) for k in range(2)]
     for then in (
         [_twice(small, seed=k) for k in range(2)],
