@@ -2,9 +2,9 @@
 
 While a marker is tracked, only the surroundings of its predicted pose are examined. So one image in eight is
 searched at half size for dark regions with four sides, which find a free-standing second print. One in 256 is
-searched thoroughly, from single corners and at full size too, which finds a partly occluded or a small one:
-seldom enough to leave the 99th percentile of a step as it was. The image in which a marker comes into view is
-searched thoroughly as well.
+searched thoroughly, from single corners and at full size too, which finds a partly occluded or a small one
+and costs as much as several steps. So is the image in which a marker comes into view. In processor time the
+median step costs 3 to 4 % more, the 99th percentile 2 to 4 ms more.
 
 While two are in view, and until one was alone for a second, the marker has no pose. Meanwhile the second one
 is tracked, and more images are searched.
