@@ -26,4 +26,6 @@ def test_the_surface_of_the_case_becomes_the_wall(server: Server) -> None:
     surface = server.ask("GET", "/api/surface", 200)["content"]
     assert drill_reference.wall_sd_mm == surface["sd_mm"]
     assert 0.05 < surface["sd_mm"] < 1.0
-    assert server.adopted[0].drill_reference.wall_sd_mm == WALL_SD_MM != surface["sd_mm"]
+    before = server.adopted[0].drill_reference
+    assert before is not None
+    assert before.wall_sd_mm == WALL_SD_MM != surface["sd_mm"]
