@@ -148,7 +148,11 @@ def run(
 
     Without options it starts the rehearsal, a simulated operating theatre.
     """
-    from server.cli.options import SettingOptions  # noqa: PLC0415  loaded when needed, see above
+    from server.loop.forks import forking_context  # noqa: PLC0415  loaded when needed, see above
+
+    # The tracker loads in its own process meanwhile.
+    forking_context()
+    from server.cli.options import SettingOptions  # noqa: PLC0415
     from server.cli.run import run_dashboard  # noqa: PLC0415
 
     given = SettingOptions(
