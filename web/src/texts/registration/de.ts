@@ -98,7 +98,7 @@ export const registrationDe: RegistrationTexts = {
   points: {
     before: "Punkte der Planung antasten",
     steps: [
-      "Mindestens drei weit auseinanderliegende Punkte antasten; vier decken einen Fehler auf.",
+      "Mindestens vier weit auseinanderliegende Punkte antasten; fünf oder sechs decken fast jeden Fehler auf.",
       "Spitze auf den Knochen setzen, Taste drücken, ruhig halten, bis sie aufgenommen ist: eine halbe Sekunde bei 30 Bildern/s, 2,4 s bei 5.",
       "Einen Punkt auslassen: Er wird für die Prüfung gebraucht.",
     ],

@@ -97,7 +97,7 @@ export const registrationEn = {
   points: {
     before: "Touch the landmarks of the plan",
     steps: [
-      "Touch at least three landmarks that lie far apart; four show a mistake.",
+      "Touch at least four landmarks that lie far apart; five or six show almost every mistake.",
       "Rest the tip on the bone, press the button, hold still until it is taken: half a second at 30 images/s, 2.4 s at 5.",
       "Leave one landmark untouched: the check needs it.",
     ],

@@ -15,7 +15,7 @@ interface LandmarkListProps {
 /** Every landmark with its residual; a touch on one asks for it, or for it again. */
 export function LandmarkList({ points, wanted, onPick, onUse, onForget }: LandmarkListProps): ReactNode {
   const texts = useTexts().registration.points;
-  const strays = new Set(points.missing.map((one) => one.context["landmark"]));
+  const outliers = new Set(points.missing.flatMap((one) => one.context["possible_outliers"] ?? []));
   return (
     <ul className="landmarks" aria-label={texts.landmarks}>
       {points.landmarks.map((one) => (
@@ -23,7 +23,7 @@ export function LandmarkList({ points, wanted, onPick, onUse, onForget }: Landma
           key={one.name}
           data-touched={one.touched}
           data-used={one.used}
-          data-strays={strays.has(one.name) || undefined}
+          data-strays={outliers.has(one.name) || undefined}
           data-testid={`landmark-${one.name}`}
         >
           <button
