@@ -76,7 +76,7 @@ def errors_like(median_mm: float, *, seed: int, count: int = 24) -> Size:
         ),
     ],
 )
-def test_a_worsening_is_told_from_noise(then: Figure, now: Figure, expected: bool) -> None:
+def test_a_worsening_is_distinguished_from_noise(then: Figure, now: Figure, expected: bool) -> None:
     assert is_worse(then, now) is expected
 
 
@@ -185,7 +185,7 @@ def test_no_scenes_are_no_measurement(count: str, capsys: pytest.CaptureFixture[
         pytest.param(["--viewers", "0"], "numbers of 1 or more, needed some as 1,2,3", id="nobody"),
     ],
 )
-def test_what_is_no_number_of_its_kind_is_told_with_its_form(
+def test_what_is_no_number_of_its_kind_is_reported_with_its_form(
     words: list[str], reported: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     with pytest.raises(SystemExit):

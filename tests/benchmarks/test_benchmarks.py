@@ -82,7 +82,7 @@ def test_the_truth_itself_has_no_error(theatre: Theatre) -> None:
     np.testing.assert_allclose(dataclasses.astuple(judged.outcome.error), 0.0, atol=1e-6)
 
 
-def test_a_marker_a_millimetre_too_far_away_is_told_with_its_sign(theatre: Theatre) -> None:
+def test_a_marker_a_millimetre_too_far_away_is_reported_with_its_sign(theatre: Theatre) -> None:
     claim = true_claim(theatre, 13.0)
     pose = claim.camera_from_marker
     sight = pose.translation_mm / np.linalg.norm(pose.translation_mm)

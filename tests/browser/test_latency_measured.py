@@ -130,7 +130,7 @@ def test_a_page_that_is_left_ends_it(filming: RealServer, page: Page) -> None:
     filming.until("the end of reading", lambda: not filming.ask("GET", "/api/latency", 200)["measuring"])
 
 
-def test_a_camera_under_a_hand_is_told_in_numbers(
+def test_a_camera_under_a_hand_is_reported_in_numbers(
     camera: ScreenCamera, filming: RealServer, page: Page
 ) -> None:
     stored = filming.ask("GET", "/api/latency", 200)["result"]

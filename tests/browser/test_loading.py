@@ -244,7 +244,7 @@ def test_nothing_false_is_seen_while_a_page_loads(
 @pytest.mark.parametrize(
     ("person", "path"), [("o1", "theatre"), ("s1", "supervisor"), ("o1", "operator/check")]
 )
-def test_server_that_is_not_reached_is_told_after_ten_seconds_and_not_before(
+def test_server_that_is_not_reached_is_reported_after_ten_seconds_and_not_before(
     supervised: Supervised, watch: Watch, person: str, path: str
 ) -> None:
     loading = begun(watch, supervised, person, path, rejects=True)

@@ -235,7 +235,7 @@ def test_a_signature_says_who_invited_the_signer_and_whether_that_was_the_maker(
     assert (reported["invited_by"], reported["invited_by_maker"]) == ("ito", False)
 
 
-def test_the_room_is_told_of_a_signature_at_once(guarded: Callable[..., Server]) -> None:
+def test_the_room_is_informed_of_a_signature_at_once(guarded: Callable[..., Server]) -> None:
     server = guarded()
     with server.door.websocket_connect("ws://127.0.0.1:8000/ws/room?view=supervisor&person=s2") as socket:
 

@@ -61,7 +61,7 @@ def stored(server: Server) -> list[Any]:
     return [(server.store.outline(case.id), server.store.files(case.id)) for case in server.store.list()]
 
 
-def test_bad_cts_are_told_and_leave_nothing(server: Server, tmp_path: Path) -> None:
+def test_bad_cts_are_reported_and_leave_nothing(server: Server, tmp_path: Path) -> None:
     opened(server)
     assert sent(server, dicom_zip())["state"] == "done"
     before = stored(server)

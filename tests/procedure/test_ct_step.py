@@ -184,7 +184,7 @@ def test_nothing_of_a_closed_case_stays_mapped(server: Server) -> None:
         ),
     ],
 )
-def test_slices_that_cannot_be_shown_are_told(viewed: Server, path: str, status: int, code: str) -> None:
+def test_slices_that_cannot_be_shown_are_reported(viewed: Server, path: str, status: int, code: str) -> None:
     assert viewed.ask("GET", f"/api/ct/{path}", status)["code"] == code
 
 

@@ -29,7 +29,7 @@ def kinds(tool: dict[str, Any]) -> dict[str, str]:
 
 
 @pytest.mark.timeout(900)
-def test_what_is_lost_is_not_told_in_any_message_and_its_alarm_comes(tmp_path: Path) -> None:
+def test_what_is_lost_is_not_reported_in_any_message_and_its_alarm_comes(tmp_path: Path) -> None:
     reasons, alarms = defaultdict[str, set[str]](set), defaultdict[str, set[str]](set)
     with real_server(tmp_path, SETTINGS) as server:
         team = Team(server=server, config=Config.model_validate(SETTINGS))

@@ -124,7 +124,7 @@ TOOL = {
         ),
     ],
 )
-def test_a_mistake_is_told_with_file_key_value_and_what_is_allowed(
+def test_a_mistake_is_reported_with_file_key_value_and_what_is_allowed(
     tmp_path: Path, content: object, words: list[str]
 ) -> None:
     error = rejected(tmp_path, content)
@@ -132,14 +132,14 @@ def test_a_mistake_is_told_with_file_key_value_and_what_is_allowed(
         assert word in error.message
 
 
-def test_all_mistakes_are_told_at_once(tmp_path: Path) -> None:
+def test_all_mistakes_are_reported_at_once(tmp_path: Path) -> None:
     error = rejected(tmp_path, {"server": {"port": -1, "hots": ""}, "video": {"jpeg_quality": 101}})
     mistakes = error.context["mistakes"]
     assert isinstance(mistakes, list)
     assert [mistake["key"] for mistake in mistakes] == ["server.port", "server.hots", "video.jpeg_quality"]
 
 
-def test_a_file_that_is_not_there_is_told(tmp_path: Path) -> None:
+def test_a_file_that_is_not_there_is_reported(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match=r"nowhere\.yaml") as caught:
         load_config(tmp_path / "nowhere.yaml", environment={})
     assert caught.value.code == "CONFIG_FILE_UNREADABLE"

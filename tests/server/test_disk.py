@@ -34,7 +34,7 @@ def test_the_room_of_a_ct_is_its_own_before_the_first_voxel(tmp_path: Path) -> N
     assert np.load(tmp_path / "voxels.npy").min() == 7
 
 
-def test_a_disk_that_is_full_all_the_same_is_told_and_leaves_nothing(
+def test_a_disk_that_is_full_all_the_same_is_reported_and_leaves_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def reject(*_requested: object) -> None:

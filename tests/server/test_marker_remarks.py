@@ -36,7 +36,7 @@ def marker_of(*strokes: tuple[tuple[int, int], tuple[int, int]]) -> MarkerModel:
     ],
     ids=["arrow", "opposite", *(face.name for face in FACES)],
 )
-def test_what_may_be_taken_for_itself_is_told_with_its_likeness(
+def test_what_may_be_taken_for_itself_is_reported_with_its_likeness(
     marker: MarkerModel, codes: list[str]
 ) -> None:
     with structlog.testing.capture_logs() as said:

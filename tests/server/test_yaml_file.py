@@ -23,7 +23,7 @@ from tracker.errors import InvalidInput
         pytest.param(None, id="a-folder"),
     ],
 )
-def test_what_cannot_be_read_is_told(tmp_path: Path, content: bytes | None) -> None:
+def test_what_cannot_be_read_is_reported(tmp_path: Path, content: bytes | None) -> None:
     path = tmp_path / "file.yaml"
     if content is None:
         path.mkdir()

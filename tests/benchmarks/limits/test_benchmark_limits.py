@@ -54,7 +54,7 @@ def test_the_truth_has_no_error_and_lies_inside_its_ellipsoid() -> None:
     assert not one.is_mirrored
 
 
-def test_errors_are_told_by_parameter() -> None:
+def test_errors_are_reported_by_parameter() -> None:
     scene = tilted_scene(0.0)
     pose = scene.pose
     sight = pose.translation_mm / np.linalg.norm(pose.translation_mm)

@@ -85,7 +85,7 @@ def conditions(picture: AlarmSnapshot) -> list[Condition]:
     return [alarm.condition for alarm in picture.alarms]
 
 
-def test_too_deep_is_told_with_its_image_and_kept_with_the_pose(room: Room) -> None:
+def test_too_deep_is_reported_with_its_image_and_kept_with_the_pose(room: Room) -> None:
     assert room.images(1.0).alarms == ()
     room.image(tip_in_vertebra_mm=(0.0, 0.0, 40.6))
     picture = room.image(tip_in_vertebra_mm=(0.0, 0.0, 40.6))
@@ -213,7 +213,7 @@ def test_a_moved_camera_alarms_and_does_not_end_navigation(room: Room, snapshot_
     assert picture.sound is Sound.HIGH
 
 
-def test_a_theatre_without_sound_is_told_once_navigation_is_on(snapshot_of: SnapshotOf) -> None:
+def test_a_theatre_without_sound_is_reported_once_navigation_is_on(snapshot_of: SnapshotOf) -> None:
     room = Room(snapshot_of)
     room.service.close_screen("theatre-1")
     room.service.report_screen = lambda *_args, **_keys: room.service.picture  # type: ignore[method-assign]  # mute
@@ -261,7 +261,7 @@ def test_a_log_or_disk_that_fails_is_an_alarm_at_any_time(room: Room) -> None:
     assert set(conditions(room.service.picture)) == {Condition.RECORDING_STOPPED, Condition.DISK_NEARLY_FULL}
 
 
-def test_a_change_that_no_image_brought_is_told(room: Room) -> None:
+def test_a_change_that_no_image_brought_is_reported(room: Room) -> None:
     reported: list[int] = []
     room.service.on_change = lambda: reported.append(1)
     room.service.request_hold(by="Dr Sato")

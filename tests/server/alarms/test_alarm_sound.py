@@ -118,6 +118,6 @@ def test_pulses_are_equally_loud_and_none_is_clipped(priority: Priority) -> None
     assert 0.5 < np.abs(samples).max() < 0.9
 
 
-def test_priorities_are_told_apart_by_ear() -> None:
+def test_priorities_are_distinguished_by_ear() -> None:
     assert len({burst.fundamental_hz for burst in BURSTS.values()}) == 3
     assert len({len(burst.gaps_s) for burst in BURSTS.values()}) == 3

@@ -159,7 +159,7 @@ def test_an_alarm_that_is_not_there_is_acknowledged_without_effect(door: Door) -
 
 
 @pytest.mark.parametrize("priority", ["high", "medium", "low"])
-def test_each_sound_is_where_the_page_is_told(door: Door, priority: str) -> None:
+def test_each_sound_is_where_the_page_is_sent(door: Door, priority: str) -> None:
     sounds = {sound["priority"]: sound for sound in door.get("/api/dashboard")["sounds"]}
     answer = door.client.get(sounds[priority]["path"])
     assert (answer.status_code, answer.headers["content-type"]) == (200, "audio/wav")

@@ -33,7 +33,7 @@ def test_there_is_nothing_to_tell_before_the_first_instant(client: TestClient) -
     }
 
 
-def test_the_newest_instant_is_told(
+def test_the_newest_instant_is_reported(
     client: TestClient, hub: LiveHub, snapshot_of: SnapshotOf, instant_of: InstantOf
 ) -> None:
     hub.publish(instant_of(6))

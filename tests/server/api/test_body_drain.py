@@ -53,7 +53,7 @@ def test_a_client_that_sends_all_first_still_hears_that_the_disk_is_full(
     assert sent(serve(app)) == (507, "STORE_FULL")
 
 
-def test_a_body_without_an_announced_length_that_grows_too_large_is_told(
+def test_a_body_without_an_announced_length_that_grows_too_large_is_reported(
     app: FastAPI, serve: Callable[[FastAPI], int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("server.api.cases.MAX_ARCHIVE_BYTES", 2**20)

@@ -109,7 +109,7 @@ def test_a_body_that_is_no_text_is_refused_like_one_that_is_no_json(door: TestCl
         ("POST", "/verification"),
     ],
 )
-def test_what_is_not_there_is_told_so(door: TestClient, method: str, path: str) -> None:
+def test_what_is_not_there_is_reported(door: TestClient, method: str, path: str) -> None:
     for case_id in (UNKNOWN, "..%2f..%2fetc", "😀"):
         answer = door.request(method, f"/api/cases/{case_id}{path}")
         # A path with a step upwards is no case's: it is the page's, which can only be got.
@@ -161,7 +161,7 @@ def test_a_case_goes_out_and_comes_in(door: TestClient, store: CaseStore) -> Non
     assert door.post("/api/cases/archive", content=named).json()["name"] == "Beeblebrox"
 
 
-def test_damage_is_found_and_told(door: TestClient, store: CaseStore) -> None:
+def test_damage_is_found_and_reported(door: TestClient, store: CaseStore) -> None:
     case_id = made(door)
     file_id = with_file(store, case_id, b"content")
     path = f"/api/cases/{case_id}"

@@ -20,7 +20,7 @@ def jobs() -> Iterator[Jobs]:
     jobs.close()
 
 
-def test_jobs_are_told_whole(jobs: Jobs) -> None:
+def test_jobs_are_reported_whole(jobs: Jobs) -> None:
     app = create_app(AppParts(hub=LiveHub(), config=Config(), jobs=jobs))
     door = TestClient(app, base_url="http://127.0.0.1:8000")
     assert door.get("/api/jobs").json() == {"jobs": []}

@@ -34,7 +34,7 @@ from server.capture.address import SourceKind, source_from_text
         pytest.param("http://[bad:secret@h/x", SourceKind.STREAM, "http://***", id="not-understood"),
     ],
 )
-def test_the_kind_is_told_from_the_text_and_secrets_are_masked(
+def test_the_kind_is_distinguished_from_the_text_and_secrets_are_masked(
     text: str | int, kind: SourceKind, name: str
 ) -> None:
     address = source_from_text(text)

@@ -140,7 +140,7 @@ def test_a_camera_that_waits_for_its_trigger_says_so_until_the_pulse_comes(
     assert one.capture.status().problem is None
 
 
-def test_a_camera_that_is_pulled_out_is_told_and_taken_again_when_it_is_back(
+def test_a_camera_that_is_pulled_out_is_reported_and_taken_again_when_it_is_back(
     emulated: Callable[..., Emulated], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     one = emulated()
@@ -159,7 +159,7 @@ def test_a_camera_that_is_pulled_out_is_told_and_taken_again_when_it_is_back(
     assert one.capture.status().problem is None
 
 
-def test_a_camera_that_is_not_there_is_told(emulated: Callable[..., Emulated]) -> None:
+def test_a_camera_that_is_not_there_is_reported(emulated: Callable[..., Emulated]) -> None:
     assert emulated().source.name == "basler:0815-0000"
     with pytest.raises(OSError, match="No device"):
         BaslerCameras().open("4711")

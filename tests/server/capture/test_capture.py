@@ -90,7 +90,7 @@ def test_a_source_that_waits_for_its_taker_skips_nothing() -> None:
     assert capture.status().skipped_images == 0
 
 
-def test_a_fault_is_told_once_however_often_it_is_tried_and_it_comes_back() -> None:
+def test_a_fault_is_reported_once_however_often_it_is_tried_and_it_comes_back() -> None:
     source, stop = ToldSource(), threading.Event()
     capture = Capture(source, stop=stop)
     with capture_logs() as logs:

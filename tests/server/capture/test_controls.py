@@ -116,7 +116,7 @@ def test_a_camera_without_controls_has_none() -> None:
     assert keeper.values == {}
 
 
-def test_a_control_that_cannot_be_set_is_told_and_the_rest_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_control_that_cannot_be_set_is_reported_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     camera = FakeCamera()
 
     def rejected(*_requested: object) -> None:

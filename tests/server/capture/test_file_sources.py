@@ -83,7 +83,7 @@ def test_a_cut_video_gives_what_is_there_and_says_what_is_missing(
         pytest.param(None, "SOURCE_NOT_FOUND", "does not exist", id="missing"),
     ],
 )
-def test_what_is_no_video_is_told_with_a_remedy(
+def test_what_is_no_video_is_reported_with_a_remedy(
     tmp_path: Path, stop: threading.Event, content: bytes | None, code: str, words: str
 ) -> None:
     path = tmp_path / "film.mov"
@@ -111,7 +111,7 @@ def test_a_folder_is_read_in_the_order_a_person_sorts(tmp_path: Path, stop: thre
     assert [path.name for path in sorted(names, key=natural_order)] == ["9a", "10", "a9", "a10", "b"]
 
 
-def test_a_bad_image_is_left_out_and_told(tmp_path: Path, stop: threading.Event) -> None:
+def test_a_bad_image_is_left_out_and_reported(tmp_path: Path, stop: threading.Event) -> None:
     images = write_images(tmp_path / "f", {"1.png": 10, "3.png": 30})
     (images / "2.png").write_bytes(b"not a picture")
     source = folder(images, stop)
@@ -123,7 +123,7 @@ def test_a_bad_image_is_left_out_and_told(tmp_path: Path, stop: threading.Event)
     assert "2.png" in source.defect.message
 
 
-def test_all_bad_images_are_told_the_first_ones_by_name(tmp_path: Path, stop: threading.Event) -> None:
+def test_all_bad_images_are_reported_the_first_ones_by_name(tmp_path: Path, stop: threading.Event) -> None:
     images = write_images(tmp_path / "f", {"10.png": 10, "11.png": 30})
     whole = (images / "10.png").read_bytes()
     for name in ("1", "2", "3", "4"):
@@ -138,7 +138,7 @@ def test_all_bad_images_are_told_the_first_ones_by_name(tmp_path: Path, stop: th
     assert source.defect.message.endswith(" and 1 more")
 
 
-def test_a_bad_image_that_is_replaced_or_taken_away_is_told_no_more(
+def test_a_bad_image_that_is_replaced_or_taken_away_is_reported_no_more(
     tmp_path: Path, stop: threading.Event
 ) -> None:
     images = write_images(tmp_path / "f", {"3.png": 30})
@@ -191,7 +191,7 @@ def test_a_path_is_whatever_it_is_when_it_is_opened(tmp_path: Path, stop: thread
     assert [shot.number for shot in read_all(source)] == [5]
 
 
-def test_a_pipe_is_told_and_not_waited_for(tmp_path: Path, stop: threading.Event) -> None:
+def test_a_pipe_is_reported_and_not_waited_for(tmp_path: Path, stop: threading.Event) -> None:
     pipe = tmp_path / "pipe.avi"
     os.mkfifo(pipe)
     with pytest.raises(CaptureError) as caught:

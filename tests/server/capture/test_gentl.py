@@ -148,7 +148,7 @@ def test_of_the_images_that_wait_the_newest_is_taken_and_all_buffers_are_given_b
     assert fake_library.ended == ["stop", "destroy", "reset"]
 
 
-def test_a_camera_that_is_not_there_is_told_and_the_library_let_go(fake_library: FakeAcquirer) -> None:
+def test_a_camera_that_is_not_there_is_reported_and_the_library_let_go(fake_library: FakeAcquirer) -> None:
     with pytest.raises(OSError, match="not there"):
         GenTLCameras().open("other")
     assert fake_library.ended == ["reset"]

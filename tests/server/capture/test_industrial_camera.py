@@ -90,14 +90,14 @@ def test_a_smaller_image_is_cut_from_the_middle_of_the_sensor(camera: FakeIndust
     assert (camera.features["OffsetX"], camera.features["OffsetY"]) == (328, 248)
 
 
-def test_what_is_not_offered_is_told_and_the_nearest_taken(camera: FakeIndustrialCamera) -> None:
+def test_what_is_not_offered_is_reported_and_the_nearest_taken(camera: FakeIndustrialCamera) -> None:
     source = opened(source_of(camera, wanted=WantedMode(size_wh_px=(4000, 1003), rate_hz=500.0)))
     assert source.camera.requested == CameraMode(fourcc="BayerRG8", size_wh_px=(1936, 1000), rate_hz=160.0)
     assert source.defect is not None
     assert source.defect.code == "CAMERA_MODE_NOT_OFFERED"
 
 
-def test_a_rate_that_the_connection_does_not_carry_is_read_back_and_told(
+def test_a_rate_that_the_connection_does_not_carry_is_read_back_and_reported(
     camera: FakeIndustrialCamera,
 ) -> None:
     camera.max_rate_hz = 12.0
@@ -108,7 +108,7 @@ def test_a_rate_that_the_connection_does_not_carry_is_read_back_and_told(
     assert source.defect.code == "CAMERA_MODE_NOT_GRANTED"
 
 
-def test_a_rejected_pixel_format_is_told(camera: FakeIndustrialCamera) -> None:
+def test_a_rejected_pixel_format_is_reported(camera: FakeIndustrialCamera) -> None:
     camera.rejected = {"PixelFormat"}
     source = opened(source_of(camera))
     assert source.defect is not None
@@ -186,7 +186,7 @@ def test_a_trigger_that_somebody_left_on_is_switched_off(camera: FakeIndustrialC
     assert source.camera.trigger == ""
 
 
-def test_a_trigger_that_the_camera_does_not_have_is_told_with_those_it_has(
+def test_a_trigger_that_the_camera_does_not_have_is_reported_with_those_it_has(
     camera: FakeIndustrialCamera,
 ) -> None:
     with pytest.raises(CaptureError) as caught:
@@ -274,7 +274,7 @@ def test_images_that_the_library_threw_away_are_counted(camera: FakeIndustrialCa
     assert read(source, camera).number == first.number + 8
 
 
-def test_images_of_which_parts_are_missing_are_left_out_and_when_all_are_it_is_told(
+def test_images_of_which_parts_are_missing_are_left_out_and_when_all_are_it_is_reported(
     camera: FakeIndustrialCamera,
 ) -> None:
     source = opened(source_of(camera))
@@ -284,7 +284,7 @@ def test_images_of_which_parts_are_missing_are_left_out_and_when_all_are_it_is_t
     assert code_of(source) == "CAMERA_TORN"
 
 
-def test_a_camera_that_is_pulled_out_is_told_and_opened_again(camera: FakeIndustrialCamera) -> None:
+def test_a_camera_that_is_pulled_out_is_reported_and_opened_again(camera: FakeIndustrialCamera) -> None:
     source = opened(source_of(camera))
     camera.arriving.append(OSError("the camera was removed"))
     with pytest.raises(CaptureError) as caught:
@@ -315,7 +315,7 @@ def test_without_a_serial_number_there_must_be_one_camera(
     assert reason in caught.value.message
 
 
-def test_a_library_that_is_missing_is_told_with_how_to_get_it() -> None:
+def test_a_library_that_is_missing_is_reported_with_how_to_get_it() -> None:
     cameras = FakeIndustrialCameras()
     cameras.is_installed = False
     source = IndustrialCameraSource(source_from_text("basler:4711"), cameras=cameras, stop=threading.Event())

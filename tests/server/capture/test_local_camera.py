@@ -62,7 +62,7 @@ def test_the_size_of_the_calibration_comes_before_the_largest(video: FakeVideo) 
     assert video.requested.size_wh_px == HD
 
 
-def test_what_the_settings_ask_is_asked_and_what_is_not_offered_is_told(video: FakeVideo) -> None:
+def test_what_the_settings_ask_is_asked_and_what_is_not_offered_is_reported(video: FakeVideo) -> None:
     source_of(video, wanted=WantedMode(size_wh_px=HD, rate_hz=60)).open()
     assert (video.requested.size_wh_px, video.requested.rate_hz) == (HD, 60)
     source = source_of(video, wanted=WantedMode(size_wh_px=(1600, 1200)))
@@ -81,7 +81,7 @@ def test_what_the_driver_grants_is_read_back(video: FakeVideo) -> None:
     assert source.defect.code == "CAMERA_MODE_NOT_GRANTED"
 
 
-def test_a_camera_that_is_slower_than_granted_is_told(video: FakeVideo) -> None:
+def test_a_camera_that_is_slower_than_granted_is_reported(video: FakeVideo) -> None:
     source = source_of(video)
     source.open()
     for _ in range(150):
@@ -122,7 +122,7 @@ def test_without_v4l2_an_image_counts_from_its_arrival(video: FakeVideo) -> None
     assert source.camera.clock is ImageClock.ARRIVAL
 
 
-def test_a_driver_whose_clock_is_wrong_is_told_once_and_not_believed_any_more(video: FakeVideo) -> None:
+def test_a_driver_whose_clock_is_wrong_is_reported_once_and_not_believed_any_more(video: FakeVideo) -> None:
     video.stamp = lambda taken_s: 1.7e9 + taken_s
     source = source_of(video)
     source.open()
@@ -148,7 +148,7 @@ def test_numbers_go_on_when_the_camera_is_opened_again(video: FakeVideo) -> None
     assert read(source, video).number == 2
 
 
-def test_a_device_that_cannot_be_opened_is_told(video: FakeVideo) -> None:
+def test_a_device_that_cannot_be_opened_is_reported(video: FakeVideo) -> None:
     video.is_open = False
     with pytest.raises(CaptureError) as caught:
         source_of(video).open()

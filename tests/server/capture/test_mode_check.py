@@ -104,7 +104,7 @@ def test_nothing_is_measured_while_the_camera_settles() -> None:
         assert checked.problem is None
 
 
-def test_a_rate_that_comes_back_ends_it_and_one_that_wavers_is_not_told_anew() -> None:
+def test_a_rate_that_comes_back_ends_it_and_one_that_wavers_is_not_reported_anew() -> None:
     checked = check(mode(30), mode(30))
     at_s = film(checked, 15.0)
     reported = checked.problem
@@ -116,7 +116,7 @@ def test_a_rate_that_comes_back_ends_it_and_one_that_wavers_is_not_told_anew() -
     assert checked.problem is None
 
 
-def test_images_of_another_size_than_granted_are_told_at_once() -> None:
+def test_images_of_another_size_than_granted_are_reported_at_once() -> None:
     checked = check(mode(30), mode(30))
     checked.take(HD, 0.0)
     assert checked.problem is not None

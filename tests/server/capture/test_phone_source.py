@@ -92,7 +92,7 @@ def test_a_source_that_nobody_sends_to_says_how_to_begin() -> None:
         ),
     ],
 )
-def test_a_phone_that_gives_no_image_is_told(entries: list[PhoneUpdate | None], code: str) -> None:
+def test_a_phone_that_gives_no_image_is_reported(entries: list[PhoneUpdate | None], code: str) -> None:
     source = opened(Script(HERE, entries))
     with pytest.raises(CaptureError) as reported:
         source.read()
@@ -122,7 +122,7 @@ def test_a_source_that_shall_stop_waits_no_longer() -> None:
         (Focus.UNKNOWN, "PHONE_FOCUS_NOT_LOCKED"),
     ],
 )
-def test_a_focus_that_may_move_is_told(focus: Focus, code: str | None) -> None:
+def test_a_focus_that_may_move_is_reported(focus: Focus, code: str | None) -> None:
     camera = replace(CAMERA, focus=focus)
     source = opened(Script(HERE, [sent(1, camera=camera)]))
     assert source.defect is None

@@ -96,7 +96,7 @@ def test_an_image_that_was_held_back_for_a_moment_is_as_old_as_it_is(
 
 # FFmpeg takes a step back by more than a minute for a counter that began anew, and steps forward.
 @pytest.mark.parametrize("jump_s", [3600.0, -3600.0, -50.0])
-def test_a_clock_that_jumps_is_told_once_and_taken_up_anew(
+def test_a_clock_that_jumps_is_reported_once_and_taken_up_anew(
     serve: Callable[..., RtspServer], jump_s: float
 ) -> None:
     server = serve(images(60, lambda taken_s: taken_s + (jump_s if taken_s > 5001.0 else 0.0)))
@@ -166,7 +166,7 @@ def test_each_image_has_the_size_that_it_was_sent_with_in_rtsp_too(serve: Callab
 
 
 @pytest.mark.parametrize("hangs_up", [True, False], ids=["hangs-up", "falls-silent"])
-def test_a_camera_that_stops_is_told_and_taken_again_when_it_is_back(
+def test_a_camera_that_stops_is_reported_and_taken_again_when_it_is_back(
     serve: Callable[..., RtspServer], hangs_up: bool
 ) -> None:
     server = serve(images(20), hangs_up=hangs_up, period_s=0.02)
@@ -195,7 +195,7 @@ def _lose_and_find(capture: Capture) -> None:
         capture.take(1.0)
 
 
-def test_an_rtsp_address_where_nobody_listens_is_told(serve: Callable[..., RtspServer]) -> None:
+def test_an_rtsp_address_where_nobody_listens_is_reported(serve: Callable[..., RtspServer]) -> None:
     server = serve(images(1))
     server.end()
     with pytest.raises(CaptureError) as caught:

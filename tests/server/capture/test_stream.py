@@ -97,7 +97,7 @@ def test_a_stream_gives_images_and_reconnects_when_its_server_is_back(
         again.end()
 
 
-def test_nobody_there_is_told_at_once_with_host_and_port(stop: threading.Event) -> None:
+def test_nobody_there_is_reported_at_once_with_host_and_port(stop: threading.Event) -> None:
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))  # bound, not listening: refused
         port = taken.getsockname()[1]
@@ -117,7 +117,7 @@ def test_a_host_that_answers_without_video_is_given_up_by_itself(stop: threading
     assert caught.value.code == "STREAM_WITHOUT_VIDEO"
 
 
-def test_an_address_that_cannot_be_is_told(stop: threading.Event) -> None:
+def test_an_address_that_cannot_be_is_reported(stop: threading.Event) -> None:
     source = StreamSource(source_from_text("rtsp://me:secret/more@camera:554/x"), stop=stop)
     with pytest.raises(CaptureError) as caught:
         source.open()

@@ -139,7 +139,7 @@ def test_what_was_held_back_during_a_stall_is_not_shown(
     assert shots[19].captured_at_s == pytest.approx(100.0 + 19 * PERIOD_S + 1.015 + PERIOD_S)
 
 
-def test_a_stream_that_always_comes_in_bursts_is_told(
+def test_a_stream_that_always_comes_in_bursts_is_reported(
     serve: Callable[[Sequence[Sent]], LyingServer],
 ) -> None:
     sent = [Sent(grey=40 + number) for number in range(100 + AHEAD)]
@@ -154,7 +154,7 @@ def test_a_stream_that_always_comes_in_bursts_is_told(
     assert "2 s" in caught.value.message
 
 
-def test_images_that_are_cut_off_are_left_out_and_when_all_are_it_is_told(
+def test_images_that_are_cut_off_are_left_out_and_when_all_are_it_is_reported(
     serve: Callable[[Sequence[Sent]], LyingServer],
 ) -> None:
     sent = [

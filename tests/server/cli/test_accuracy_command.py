@@ -137,7 +137,7 @@ def test_a_table_that_cannot_be_is_refused_with_its_line(
     assert re.match(said, reported)
 
 
-def test_missing_files_are_told(tmp_path: Path) -> None:
+def test_missing_files_are_reported(tmp_path: Path) -> None:
     assert typed("ruler", tmp_path / "none.csv", *V_AND_H)[1].startswith("POINTS_UNREADABLE")
     (tmp_path / "b.csv").write_bytes(b"\xff\xfe\x00\x01")
     assert typed("ruler", tmp_path / "b.csv", *V_AND_H)[1].startswith("POINTS_UNREADABLE")
@@ -208,6 +208,6 @@ def test_a_board_half_described_is_asked_for(words: tuple[str, ...], missing: st
     assert missing in reported
 
 
-def test_nothing_to_check_with_is_told(camera: Path) -> None:
+def test_nothing_to_check_with_is_reported(camera: Path) -> None:
     for words in ((), ("--image", "x.png"), ("--image", "x.png", "--pattern", "dots")):
         assert typed("accuracy", "--camera", camera, *words)[1].startswith("ACCURACY_WITHOUT_POINTS")

@@ -90,7 +90,7 @@ def test_a_file_of_another_camera_is_refused(images: Path, tmp_path: Path) -> No
     assert "'side'" in result.exception.message
 
 
-def test_bad_input_is_told_and_nothing_is_written(images: Path, tmp_path: Path) -> None:
+def test_bad_input_is_reported_and_nothing_is_written(images: Path, tmp_path: Path) -> None:
     text_file = tmp_path / "notes.png"
     text_file.write_text("no image")
     small = tmp_path / "small.png"
@@ -125,7 +125,7 @@ def test_bad_input_is_told_and_nothing_is_written(images: Path, tmp_path: Path) 
     assert not output.exists()
 
 
-def test_a_bad_file_is_told_and_costs_nobody_else(images: Path, tmp_path: Path) -> None:
+def test_a_bad_file_is_reported_and_costs_nobody_else(images: Path, tmp_path: Path) -> None:
     folder = tmp_path / "images"
     shutil.copytree(images, folder)
     (folder / "a-text.png").write_text("no image")

@@ -27,7 +27,7 @@ def listed(
     return CliRunner().invoke(app, ["cameras", *words.split()])
 
 
-def test_each_camera_is_told_with_its_modes_and_the_one_that_is_taken(
+def test_each_camera_is_reported_with_its_modes_and_the_one_that_is_taken(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     result = listed(
@@ -112,7 +112,7 @@ class BusyCamera(FakeIndustrialCamera):
         raise OSError(f"{name} is controlled by another application")
 
 
-def test_industrial_cameras_are_told_with_what_they_offer(
+def test_industrial_cameras_are_reported_with_what_they_offer(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     cameras = FakeIndustrialCameras(sn4711=FakeIndustrialCamera(), sn4712=BusyCamera())

@@ -113,7 +113,7 @@ def test_a_file_can_be_played_once(monkeypatch: pytest.MonkeyPatch, once: str) -
     assert (result.exit_code, taken) == (0, [False]), result.output
 
 
-def test_a_taken_port_is_told(tmp_path: Path) -> None:
+def test_a_taken_port_is_reported(tmp_path: Path) -> None:
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
@@ -123,7 +123,7 @@ def test_a_taken_port_is_told(tmp_path: Path) -> None:
     assert "--port" in result.stderr
 
 
-def test_an_address_that_is_not_of_this_machine_is_told(tmp_path: Path) -> None:
+def test_an_address_that_is_not_of_this_machine_is_reported(tmp_path: Path) -> None:
     # 192.0.2.1 is kept for documentation: no machine has it.
     (tmp_path / "config.yaml").write_text("server:\n  host: 192.0.2.1\n", encoding="utf-8")
     result = coaxial("run", "--port", "0", folder=tmp_path)
@@ -192,7 +192,7 @@ def test_a_stopped_track_tells_how_far_it_came_and_leaves_a_part(
     assert not lines.exists()
 
 
-def test_a_cut_video_is_tracked_as_far_as_it_goes_and_told(
+def test_a_cut_video_is_tracked_as_far_as_it_goes_and_reported(
     typed: Callable[..., Ended], film: Path, marker: Path, tmp_path: Path
 ) -> None:
     write_film(film, images=40)
@@ -238,7 +238,7 @@ def test_a_cut_video_is_tracked_as_far_as_it_goes_and_told(
     ],
 )
 @pytest.mark.usefixtures("film", "marker")
-def test_what_cannot_be_tracked_is_told_in_one_sentence(
+def test_what_cannot_be_tracked_is_reported_in_one_sentence(
     typed: Callable[..., Ended], words: list[str], reported: str
 ) -> None:
     result = typed("track", *words)

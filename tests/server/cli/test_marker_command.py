@@ -99,7 +99,7 @@ def test_a_marker_that_is_there_is_replaced_only_where_that_is_said(tmp_path: Pa
     assert load_marker_image(tmp_path / "marker.png").ndim == 2
 
 
-def test_a_folder_that_cannot_be_written_is_told_before_the_work(
+def test_a_folder_that_cannot_be_written_is_reported_before_the_work(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "file").write_text("", encoding="utf-8")
@@ -143,7 +143,7 @@ def test_a_background_without_it_passes_the_check(design: Path, tmp_path: Path) 
         pytest.param(["check", "nowhere.png"], "MARKER_IMAGE_UNREADABLE", id="no-such-picture"),
     ],
 )
-def test_bad_input_is_told(
+def test_bad_input_is_reported(
     words: list[str], code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -151,7 +151,7 @@ def test_bad_input_is_told(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_background_that_cannot_be_read_is_told_with_the_option_that_names_it(tmp_path: Path) -> None:
+def test_a_background_that_cannot_be_read_is_reported_with_the_option_that_names_it(tmp_path: Path) -> None:
     result = CliRunner().invoke(app, ["marker", "design", "--background", str(tmp_path)])
     assert isinstance(result.exception, NavigationError)
     assert result.exception.code == "FOLDER_WITHOUT_IMAGES"

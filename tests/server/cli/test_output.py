@@ -105,7 +105,7 @@ class FullDisk(io.StringIO):
         raise OSError(28, "No space left on device")
 
 
-def test_a_full_disk_is_told_in_a_sentence() -> None:
+def test_a_full_disk_is_reported_in_a_sentence() -> None:
     with pytest.raises(InvalidInput) as reported:
         LineWriter(FullDisk(), name="o.jsonl.part", on_disk=False).write("a")
     assert reported.value.code == "OUTPUT_NOT_WRITTEN"

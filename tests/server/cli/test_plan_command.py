@@ -82,7 +82,7 @@ def test_and_in_words(ct: Path) -> None:
         pytest.param("0,0,0", "starboard", "SIDE_INVALID", id="no-side"),
     ],
 )
-def test_bad_input_is_told(ct: Path, seed: str, side: str, code: str) -> None:
+def test_bad_input_is_reported(ct: Path, seed: str, side: str, code: str) -> None:
     assert typed(ct, "--side", side, "--seed-lps-mm", seed) == (2, code)
 
 

@@ -153,7 +153,7 @@ def test_what_four_landmarks_do_not_exclude_is_noted_and_stated(tmp_path: Path) 
 
 
 @pytest.mark.parametrize("words", ["1,2", "1,2,x", "1,2,nan", "1,2,3,4", ""])
-def test_a_target_that_is_none_is_told(tmp_path: Path, words: str) -> None:
+def test_a_target_that_is_none_is_reported(tmp_path: Path, words: str) -> None:
     fixed = written(tmp_path / "f.csv", VERTEBRA)
     status, text = typed("points", "--fixed", fixed, "--moving", fixed, f"--target-mm={words}")
     assert (status, text.split(":")[0]) == (2, "TARGET_INVALID")
@@ -198,7 +198,7 @@ def test_points_are_read_in_any_usual_form(tmp_path: Path, text: str, labels: st
         pytest.param(b"\x89PNG\0\xff\xfe\0", "POINTS_UNREADABLE", id="a-picture"),
     ],
 )
-def test_what_is_no_list_of_points_is_told(tmp_path: Path, content: bytes, code: str) -> None:
+def test_what_is_no_list_of_points_is_reported(tmp_path: Path, content: bytes, code: str) -> None:
     path = tmp_path / "p.csv"
     path.write_bytes(content)
     with pytest.raises(InvalidInput) as caught:
@@ -206,5 +206,5 @@ def test_what_is_no_list_of_points_is_told(tmp_path: Path, content: bytes, code:
     assert caught.value.code == code
 
 
-def test_a_missing_file_is_told(tmp_path: Path) -> None:
+def test_a_missing_file_is_reported(tmp_path: Path) -> None:
     assert typed("points", "--fixed", tmp_path / "no.csv", "--moving", tmp_path / "no.csv")[0] == 2

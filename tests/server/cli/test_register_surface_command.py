@@ -104,7 +104,7 @@ def test_a_sweep_off_the_bone_ends_with_status_1(tmp_path: Path, mesh: Path, tru
         pytest.param(json.dumps(np.diag([1.0, 1.0, -1.0, 1.0]).tolist()), "ROTATION_INVALID", id="mirrored"),
     ],
 )
-def test_a_start_that_is_none_is_told(tmp_path: Path, mesh: Path, content: str, code: str) -> None:
+def test_a_start_that_is_none_is_reported(tmp_path: Path, mesh: Path, content: str, code: str) -> None:
     start = tmp_path / "start.json"
     start.write_text(content)
     points = written(tmp_path / "p.csv", VERTEBRA)

@@ -103,7 +103,7 @@ def test_translations_need_the_unit_of_each_file(camera: Path, second: Path) -> 
     assert rejected["gate"]["failures"][0]["code"] == "TIME_OFFSET_NO_MOTION"
 
 
-def test_what_does_not_determine_the_offset_is_told_with_status_1(tmp_path: Path, second: Path) -> None:
+def test_what_does_not_determine_the_offset_is_reported_with_status_1(tmp_path: Path, second: Path) -> None:
     still = tracked(tmp_path / "still.jsonl", CAMERA.record(at_rest))
     answer = json.loads(typed(still, second, "--json", status=1))
     assert answer["offset_s"] is None

@@ -79,7 +79,7 @@ def test_pivot_says_the_tip_with_all_that_was_promised(tmp_path: Path, pivot_pos
     assert words.splitlines()[-1] == "Passed."
 
 
-def test_a_pivot_over_the_gate_is_told_in_full_with_status_1_and_writes_no_file(tmp_path: Path) -> None:
+def test_a_pivot_over_the_gate_is_reported_in_full_with_status_1_and_writes_no_file(tmp_path: Path) -> None:
     poses = saved(tmp_path, pivoted(Hand(shift_sd_mm=0.8)).poses)
     words = ("pivot", poses, "--marker", "drill", "--side-mm", "25", "--output", tmp_path / "tool.yaml")
     answer = reported(*words, folder=tmp_path, status=1)
@@ -249,7 +249,9 @@ def test_the_tip_check_passes_the_tip_that_was_found_and_fails_another(
         pytest.param(["spin", "--output", "t.yaml"], "TOOL_FILE_NEEDED", id="axis-without-tip"),
     ],
 )
-def test_what_cannot_be_asked_is_told(tmp_path: Path, pivot_poses: Path, words: list[str], code: str) -> None:
+def test_an_invalid_option_is_reported(
+    tmp_path: Path, pivot_poses: Path, words: list[str], code: str
+) -> None:
     command, *rest = words
     config = str(empty_config(tmp_path))
     result = CliRunner().invoke(app, [command, str(pivot_poses), *rest, "--config", config])

@@ -53,7 +53,7 @@ def tracked(folder: Path, marker: Path, *words: str | Path) -> tuple[int, str]:
     return result.exit_code, result.stderr
 
 
-def test_an_image_of_another_size_is_told_with_its_number_and_its_file(tmp_path: Path, marker: Path) -> None:
+def test_an_image_of_another_size_is_reported_with_number_and_file(tmp_path: Path, marker: Path) -> None:
     (tmp_path / "camera.yaml").write_text(CAMERA, encoding="utf-8")
     images = folder_of(tmp_path / "images", a1=(64, 48), a2=(60, 48), a3=(64, 48))
     status, text = tracked(images, marker, "--camera", tmp_path / "camera.yaml")
@@ -63,7 +63,7 @@ def test_an_image_of_another_size_is_told_with_its_number_and_its_file(tmp_path:
     assert remedy.startswith("Omit the image ")
 
 
-def test_every_image_that_cannot_be_read_is_told_and_what_can_be_is_whole(
+def test_every_image_that_cannot_be_read_is_reported_and_what_can_be_is_whole(
     tmp_path: Path, marker: Path
 ) -> None:
     images = folder_of(tmp_path / "images", **dict.fromkeys(("1", "2", "3", "4"), (64, 48)))

@@ -108,7 +108,7 @@ def test_plots_are_written(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> N
         assert (tmp_path / "plots" / f"{name}.svg").read_text(encoding="utf-8").count("<polyline") == 4
 
 
-def test_a_folder_that_cannot_be_made_is_told_before_the_work(tmp_path: Path) -> None:
+def test_a_folder_that_cannot_be_made_is_reported_before_the_work(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("x", encoding="utf-8")
     result = RUNNER.invoke(app, ["verify", "--plots", str(tmp_path / "file" / "plots")])
     assert result.exit_code != 0

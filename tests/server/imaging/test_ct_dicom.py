@@ -77,7 +77,7 @@ def test_slices_lie_where_their_files_say(tmp_path: Path, stack: dict) -> None: 
     assert_whole(made, made.write(tmp_path))
 
 
-def test_a_tilted_gantry_is_told(tmp_path: Path) -> None:
+def test_a_tilted_gantry_is_reported(tmp_path: Path) -> None:
     ct = read_ct(made_ct(**STACKS["tilted-gantry"]).write(tmp_path))  # type: ignore[arg-type]  # keywords
     assert any("tilted by 20.0 deg" in said for said in ct.warnings)
 
@@ -163,7 +163,7 @@ def test_slices_that_are_there_twice_are_used_once(tmp_path: Path) -> None:
     assert any("1 slices were there twice" in said for said in read_ct(folder).warnings)
 
 
-def test_a_small_jitter_is_tolerated_and_told(tmp_path: Path) -> None:
+def test_a_small_jitter_is_tolerated_and_reported(tmp_path: Path) -> None:
     made = made_ct()
     made.slices[2].ImagePositionPatient = [-10, 20, 304.05]
     ct = read_ct(made.write(tmp_path))

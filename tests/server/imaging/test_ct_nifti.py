@@ -77,7 +77,7 @@ def test_a_fourth_axis_of_one_is_no_series(tmp_path: Path) -> None:
     assert np.array_equal(volume.hu, HU.transpose(2, 1, 0))
 
 
-def test_metres_become_millimetres_and_are_told(tmp_path: Path) -> None:
+def test_metres_become_millimetres_and_are_reported(tmp_path: Path) -> None:
     content = nifti_of(
         HU, np.diag([0.001, 0.001, 0.002, 1.0]), change=lambda one: one.set_xyzt_units("meter")
     )
@@ -86,7 +86,7 @@ def test_metres_become_millimetres_and_are_told(tmp_path: Path) -> None:
     assert any("metres" in said for said in ct.warnings)
 
 
-def test_what_is_no_number_is_air_and_told(tmp_path: Path) -> None:
+def test_what_is_no_number_is_air_and_reported(tmp_path: Path) -> None:
     numbers = HU.astype(np.float32)
     numbers[2, 3, 4:7] = np.nan
     numbers[0, 0, 0] = np.inf
@@ -97,7 +97,7 @@ def test_what_is_no_number_is_air_and_told(tmp_path: Path) -> None:
     assert any("1 voxels lay beyond" in said for said in ct.warnings)
 
 
-def test_two_affines_that_place_differently_are_told(tmp_path: Path) -> None:
+def test_two_affines_that_place_differently_are_reported(tmp_path: Path) -> None:
     moved = np.eye(4)
     moved[:3, 3] = [3.0, 4.0, 0.0]
     content = nifti_of(
@@ -115,7 +115,7 @@ def test_two_affines_that_place_differently_are_told(tmp_path: Path) -> None:
         pytest.param(np.full((4, 4, 4), 7, np.int16), "nothing in this CT", id="empty"),
     ],
 )
-def test_numbers_that_are_no_body_are_told(tmp_path: Path, hu: np.ndarray, said: str) -> None:
+def test_numbers_that_are_no_body_are_reported(tmp_path: Path, hu: np.ndarray, said: str) -> None:
     ct = read_ct(stored(tmp_path / "ct.nii", nifti_of(hu, np.eye(4))))
     assert any(said in one for one in ct.warnings)
 

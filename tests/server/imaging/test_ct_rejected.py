@@ -181,7 +181,7 @@ def test_a_series_that_is_not_there_is_refused(tmp_path: Path) -> None:
     assert all(series in caught.value.remedy for series in known)
 
 
-def test_a_missing_slice_is_told_in_numbers(tmp_path: Path) -> None:
+def test_a_missing_slice_is_reported_in_numbers(tmp_path: Path) -> None:
     with pytest.raises(
         InvalidInput, match=r"1 of 6 slices are missing: after slice 3 of 5.* 4\.000 mm.* 2\.000 mm"
     ):

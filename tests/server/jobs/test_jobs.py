@@ -38,7 +38,7 @@ def until_running(jobs: Jobs, job: Job, folder: Path) -> None:
         assert not jobs.get(job.id).state.is_finished
 
 
-def test_work_is_done_elsewhere_and_its_result_told(jobs: Jobs) -> None:
+def test_work_is_done_elsewhere_and_its_result_reported(jobs: Jobs) -> None:
     job = jobs.start("adding", job_functions.add, {"a": 2, "b": 3})
     assert (job.state, job.progress_ratio, job.result) == (JobState.WAITING, 0.0, None)
     done = jobs.wait_for(job.id)
@@ -98,7 +98,7 @@ def test_a_mistake_of_the_program_tells_a_stranger_nothing(jobs: Jobs, work: obj
     assert "Zaphod" not in str(failed)
 
 
-def test_a_violent_end_is_told_and_leaves_nothing_behind(jobs: Jobs, folder: Path) -> None:
+def test_a_violent_end_is_reported_and_leaves_nothing_behind(jobs: Jobs, folder: Path) -> None:
     killed = jobs.wait_for(jobs.start("dying", job_functions.die, {"folder": str(folder)}, folder=folder).id)
     assert killed.state is JobState.FAILED
     assert killed.problem is not None
@@ -143,13 +143,13 @@ def test_closing_ends_everything(folder: Path) -> None:
     assert jobs.wait_for(late.id).state is not JobState.DONE
 
 
-def test_an_unknown_job_is_told(jobs: Jobs) -> None:
+def test_an_unknown_job_is_reported(jobs: Jobs) -> None:
     for ask in (jobs.get, jobs.cancel):
         with pytest.raises(JobUnknown, match="there is no job nothing"):
             ask("nothing")
 
 
-def test_a_disk_that_becomes_full_is_told_with_what_is_free(jobs: Jobs, folder: Path) -> None:
+def test_a_disk_that_becomes_full_is_reported_with_what_is_free(jobs: Jobs, folder: Path) -> None:
     job = jobs.wait_for(
         jobs.start("filling", job_functions.fill_the_disk, {"folder": str(folder)}, folder=folder).id
     )

@@ -157,7 +157,7 @@ def test_a_slope_that_no_quartz_has_is_noise_of_the_line() -> None:
     assert clock.page_ms(6.0) == pytest.approx(6000.0, abs=clock.error_ms)
 
 
-def test_numbers_that_begin_again_are_told_apart() -> None:
+def test_numbers_that_begin_again_are_distinguished() -> None:
     long, short = Run(codes=160), Run(codes=160, cycle=60)
     assert short.report() == long.report()
 

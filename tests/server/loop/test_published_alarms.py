@@ -92,7 +92,7 @@ def test_a_dead_process_is_looked_at_as_dead() -> None:
     assert looks.states[-1] == (SourceState.OPENING, ProcessState.RESTARTING)
 
 
-def test_alarms_that_fail_are_told_and_the_picture_goes_on() -> None:
+def test_alarms_that_fail_are_reported_and_the_picture_goes_on() -> None:
     def look(*_: object) -> AlarmSnapshot:
         raise ZeroDivisionError("a bug")
 

@@ -134,7 +134,7 @@ def test_sequences_grow_by_one_over_images_deaths_and_signs_of_life() -> None:
     assert stage.hub.instants[-1].snapshot is not None
 
 
-def test_a_picture_that_cannot_be_drawn_is_told_and_the_figures_go_on() -> None:
+def test_a_picture_that_cannot_be_drawn_is_reported_and_the_figures_go_on() -> None:
     failed = Problem(code="OVERLAY_FAILED", message="m", remedy="r")
     stage = Stage(picture_problem=lambda: failed)
     stage.report_image(0)

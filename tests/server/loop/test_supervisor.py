@@ -87,7 +87,7 @@ def exists(pid: int) -> bool:
     return True
 
 
-def test_a_killed_process_is_told_at_once_and_replaced(
+def test_a_killed_process_is_reported_at_once_and_replaced(
     staged: Callable[[Target, WatchdogSettings], Stage],
 ) -> None:
     stage = staged(steady_worker, WatchdogSettings())

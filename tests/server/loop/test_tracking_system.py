@@ -97,7 +97,7 @@ def test_a_file_that_is_not_looped_ends_and_its_last_picture_goes(
     assert ended.snapshot is None
 
 
-def test_images_of_another_size_than_calibrated_are_shown_without_millimetres_and_told(
+def test_images_of_another_size_than_calibrated_are_shown_without_millimetres_and_reported(
     tmp_path: Path, running: list[Running]
 ) -> None:
     film(tmp_path / "v.avi")

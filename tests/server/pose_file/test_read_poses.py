@@ -254,7 +254,7 @@ MIRRORED = MATRICES[0] @ np.diag([1.0, 1.0, -1.0, 1.0])
         pytest.param("p.jsonl", '{"seen": false}\n', "do not show the marker", id="never-seen"),
     ],
 )
-def test_a_mistake_is_told_with_its_place(tmp_path: Path, name: str, content: str, words: str) -> None:
+def test_a_mistake_is_reported_with_its_place(tmp_path: Path, name: str, content: str, words: str) -> None:
     (tmp_path / name).write_text(content)
     error = rejected(tmp_path / name)
     assert any(word in f"{error.message} {error.remedy}" for word in words.split("|"))

@@ -43,7 +43,7 @@ def test_a_slow_look_skips_to_the_newest_instant(instant_of: InstantOf) -> None:
     assert listener.problem is None
 
 
-def test_what_a_look_raises_ends_it_and_is_told(instant_of: InstantOf) -> None:
+def test_what_a_look_raises_ends_it_and_is_reported(instant_of: InstantOf) -> None:
     for error, code in (
         (InvalidInput("ODD", "an image is odd", "Give another."), "ODD"),
         (ZeroDivisionError("a bug"), "STEP_FAILED"),

@@ -26,12 +26,12 @@ def test_a_procedure_that_stands_is_all_current_and_says_when_it_was_checked() -
 
 
 @pytest.mark.parametrize("step", ["camera", "tool"])
-def test_a_calibration_that_is_out_of_date_is_told(step: str) -> None:
+def test_a_calibration_that_is_out_of_date_is_reported(step: str) -> None:
     reported = facts(**{step: StepState.OUT_OF_DATE})
     assert (reported.calibration_current, reported.registration_current) == (False, True)
 
 
-def test_a_registration_that_is_out_of_date_is_told_and_one_that_was_never_made_is_not() -> None:
+def test_a_registration_that_is_out_of_date_is_reported_and_one_that_was_never_made_is_not() -> None:
     assert not facts(register=StepState.OUT_OF_DATE).registration_current
     assert facts(register=StepState.MISSING).registration_current
 

@@ -118,7 +118,7 @@ def test_another_bone_takes_the_place_of_the_first(theatre: Theatre) -> None:
     on_stage(theatre, play)
 
 
-def test_views_are_told_for_the_channel_and_the_camera(theatre: Theatre) -> None:
+def test_views_are_reported_for_the_channel_and_the_camera(theatre: Theatre) -> None:
     async def play(stage: Stage, viewer: Viewer) -> None:
         batch = await viewer.batches.get()
         channel = theatre.setup.channel

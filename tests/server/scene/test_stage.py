@@ -106,7 +106,7 @@ def test_a_drill_is_hidden_in_the_batch_that_says_so(
     on_stage(theatre, play)
 
 
-def test_each_image_is_told_however_high_its_number(theatre: Theatre) -> None:
+def test_each_image_is_reported_however_high_its_number(theatre: Theatre) -> None:
     async def play(stage: Stage, viewer: Viewer) -> None:
         for sequence, image in enumerate((999, 1000, 99_999, 100_000, 100_001, 5_000_000, 5_000_001)):
             stage.show(theatre.instant(sequence, image_number=image, seen=False))

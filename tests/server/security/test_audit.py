@@ -161,7 +161,7 @@ def test_an_exported_log_is_verified_by_itself_and_against_its_last_sum(
 
 
 @pytest.mark.parametrize("cut", [1, 10, 60])
-def test_a_line_that_a_crash_cut_is_taken_away_and_told(log: AuditLog, folder: Path, cut: int) -> None:
+def test_a_line_that_a_crash_cut_is_taken_away_and_reported(log: AuditLog, folder: Path, cut: int) -> None:
     whole = log.file.read_bytes()
     # The line after the last one was begun, and its head never kept.
     log.file.write_bytes(whole + whole.splitlines()[-1][:cut])

@@ -194,7 +194,7 @@ def test_what_ended_long_ago_is_forgotten(desk: PeopleService, tmp_path: Path, c
     assert (len(stored["sessions"]), len(stored["invitations"])) == (0, 1)
 
 
-def test_a_damaged_file_is_told(desk: PeopleService, tmp_path: Path, clock: Clock) -> None:
+def test_a_damaged_file_is_reported(desk: PeopleService, tmp_path: Path, clock: Clock) -> None:
     invited(desk)
     (tmp_path / "people.json").write_text('{"form": 1, "invitations": [{}]}')
     with pytest.raises(StoreError) as reported:

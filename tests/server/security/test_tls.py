@@ -167,7 +167,7 @@ def own(tmp_path: Path) -> dict[str, Path]:
         pytest.param("key", "key", "cannot be used with its key", id="a key for a certificate"),
     ],
 )
-def test_a_certificate_that_cannot_be_served_is_told(
+def test_a_certificate_that_cannot_be_served_is_reported(
     own: dict[str, Path], tmp_path: Path, certificate: str, key: str, said: str
 ) -> None:
     files = {"certificate": own[certificate], "key": own[key]}

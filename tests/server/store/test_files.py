@@ -49,7 +49,7 @@ def test_a_file_that_was_not_finished_is_nowhere(store: CaseStore, home: Home, c
     assert list((home.cases / case_id).iterdir()) == []
 
 
-def test_a_full_disk_while_a_file_is_written_is_told(store: CaseStore, case_id: str) -> None:
+def test_a_full_disk_while_a_file_is_written_is_reported(store: CaseStore, case_id: str) -> None:
     def write(code: int) -> None:
         with store.new_file(case_id, ".bin"):
             raise OSError(code, os.strerror(code))
@@ -94,7 +94,7 @@ def spoiled(change: Callable[[Path], object]) -> Callable[[Path], None]:
         pytest.param(spoiled(lambda path: path.write_bytes(b"Content")), "content", id="another-byte"),
     ],
 )
-def test_a_damaged_file_is_told_with_what_needs_it(
+def test_a_damaged_file_is_reported_with_what_needs_it(
     store: CaseStore, case_id: str, spoil: Callable[[Path], None], problem: str
 ) -> None:
     sound, file = put_file(store, case_id), put_file(store, case_id)

@@ -209,7 +209,7 @@ def test_a_damaged_database_stops_the_start_with_a_sentence(tmp_path: Path) -> N
         assert "backups" in strange.value.remedy
 
 
-def test_a_full_disk_is_told_and_costs_nothing_that_was_confirmed(store: CaseStore) -> None:
+def test_a_full_disk_is_reported_and_costs_nothing_that_was_confirmed(store: CaseStore) -> None:
     case = store.create("one")
     stored = store.put(case.id, DocumentKind.PLAN, "a", {}, made_by="ito")
     with store._database.write_session() as session:
@@ -225,7 +225,7 @@ def test_a_full_disk_is_told_and_costs_nothing_that_was_confirmed(store: CaseSto
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
-def test_a_folder_that_may_not_be_written_is_told(tmp_path: Path) -> None:
+def test_a_folder_that_may_not_be_written_is_reported(tmp_path: Path) -> None:
     tmp_path.chmod(0o500)
     with pytest.raises(StoreError) as rejected:
         Home(tmp_path)
@@ -233,7 +233,7 @@ def test_a_folder_that_may_not_be_written_is_told(tmp_path: Path) -> None:
     assert "COAXIAL_HOME" in rejected.value.remedy
 
 
-def test_a_database_that_may_not_be_written_is_told(store: CaseStore) -> None:
+def test_a_database_that_may_not_be_written_is_reported(store: CaseStore) -> None:
     pool = store._database._engine.raw_connection()
     pool.driver_connection.execute("PRAGMA query_only = ON")  # type: ignore[union-attr]  # SQLite's own
     pool.close()
@@ -242,7 +242,7 @@ def test_a_database_that_may_not_be_written_is_told(store: CaseStore) -> None:
     assert rejected.value.code == "STORE_READ_ONLY"
 
 
-def test_a_home_that_is_a_file_is_told(tmp_path: Path) -> None:
+def test_a_home_that_is_a_file_is_reported(tmp_path: Path) -> None:
     (tmp_path / "home").write_text("x")
     with pytest.raises(StoreError) as rejected:
         Home(tmp_path / "home")

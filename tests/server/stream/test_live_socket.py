@@ -23,7 +23,7 @@ def test_a_late_joiner_gets_the_newest_at_once(
     assert reported["snapshot"]["image_number"] == 1002
 
 
-def test_each_instant_is_told_with_or_without_an_image(
+def test_each_instant_is_reported_with_or_without_an_image(
     open_socket: OpenSocket, hub: LiveHub, live_instant: LiveInstant, instant_of: LiveInstant
 ) -> None:
     hub.publish(live_instant(0))

@@ -44,13 +44,13 @@ NOON = datetime(2026, 1, 1, 12, 0, 0).astimezone()
         ),
     ],
 )
-def test_the_reason_is_told(
+def test_the_reason_is_reported(
     instant_of: InstantOf, process: ProcessStatus, source: SourceStatus, reasons: tuple[str, ...]
 ) -> None:
     assert reasons_for_no_video(instant_of(1, process=process, source=source), now_s=5.0) == reasons
 
 
-def test_an_image_that_stands_still_is_told_with_its_age(
+def test_an_image_that_stands_still_is_reported_with_its_age(
     instant_of: InstantOf, snapshot_of: Callable[..., NavigationSnapshot]
 ) -> None:
     instant = instant_of(1, snapshot=snapshot_of(captured_at_s=5.0))

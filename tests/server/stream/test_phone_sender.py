@@ -86,7 +86,7 @@ def test_an_image_is_never_captured_after_it_came() -> None:
         pytest.param(jpeg_of(90)[:-2], id="cut-off"),
     ],
 )
-def test_what_is_no_jpeg_is_told_and_the_next_one_is_taken(jpeg: bytes) -> None:
+def test_what_is_no_jpeg_is_reported_and_the_next_one_is_taken(jpeg: bytes) -> None:
     sender = introduced()
     announce(sender, jpeg, captured_s=1.0)
     reported = sender.take_part(jpeg, 1.05)

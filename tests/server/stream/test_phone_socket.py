@@ -208,7 +208,7 @@ def test_a_page_of_which_nothing_comes_is_gone(
     assert newest(inbox) == PhoneUpdate(sender="")
 
 
-def test_a_page_that_misbehaves_is_told_and_its_slot_is_free(door: TestClient, inbox: PhoneInbox) -> None:
+def test_a_page_that_misbehaves_is_reported_and_its_slot_is_free(door: TestClient, inbox: PhoneInbox) -> None:
     with connected(door) as socket:
         phone = Phone(socket)
         phone.begin()

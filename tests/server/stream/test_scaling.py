@@ -85,7 +85,7 @@ def test_an_older_instant_does_not_throw_out_the_newest(drawn: Instant) -> None:
     assert pictures.encoded[PictureSize.HALF] == 2
 
 
-def test_an_image_is_drawn_once_for_all_sizes_and_its_stages_are_told(
+def test_an_image_is_drawn_once_for_all_sizes_and_its_stages_are_reported(
     imaged: Instant, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     drawings: list[int] = []
@@ -104,7 +104,7 @@ def test_an_image_is_drawn_once_for_all_sizes_and_its_stages_are_told(
     assert len(drawings) == 2, "an alarm between two images is drawn into the same image again"
 
 
-def test_a_failing_overlay_is_told_until_a_picture_can_be_drawn_again(
+def test_a_failing_overlay_is_reported_until_a_picture_can_be_drawn_again(
     imaged: Instant, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def draw(*_: object, **_named: object) -> Image:

@@ -123,7 +123,7 @@ def test_by_what_a_move_is_seen_without_a_reference(
     assert _sent(snapshot_of(motion=MotionState(scene=scene))).motion.motion_detected_by is by
 
 
-def test_when_a_marker_was_seen_is_told(snapshot_of: SnapshotOf) -> None:
+def test_when_a_marker_was_seen_is_reported(snapshot_of: SnapshotOf) -> None:
     motion = MotionState(unseen_s={"drill": 1.5})
     assert _sent(snapshot_of(seen=False, motion=motion)).markers[0].unseen_s == 1.5
     never = MotionState(unseen_s={"drill": NeverSeen()})

@@ -28,7 +28,7 @@ def test_a_camera_says_whose_clock_it_is_what_it_granted_and_how_it_is_set() -> 
     # The unit of the driver is a tenth of a millisecond. What automatic exposure sets it does not always say.
     [(1, ", exposure 7.0 ms"), (3, "")],
 )
-def test_lamps_that_flicker_are_told_as_a_note_with_the_exposure(automatic: int, exposure: str) -> None:
+def test_lamps_that_flicker_are_reported_as_a_note_with_the_exposure(automatic: int, exposure: str) -> None:
     camera = CameraStatus(
         clock=ImageClock.DRIVER,
         granted=GRANTED,

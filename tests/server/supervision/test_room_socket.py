@@ -81,7 +81,7 @@ def page(client: TestClient, image: dict[str, Any]) -> Iterator[Callable[..., Pa
         session.__exit__(None, None, None)
 
 
-def test_what_a_supervisor_marks_is_told_in_theatre(page: Callable[..., Page], image: dict[str, Any]) -> None:
+def test_a_supervisors_mark_is_shown_in_theatre(page: Callable[..., Page], image: dict[str, Any]) -> None:
     sato, theatre = page("s1"), page("v1", "theatre")
     assert sato.hear()["you"]["name"] == "Dr Sato"
     reported = theatre.until(lambda reported: reported["people"] and len(reported["people"]) == 2)
@@ -168,7 +168,7 @@ def test_a_view_that_is_not_there_is_rejected(page: Callable[..., Page]) -> None
     assert "theatre, operator, supervisor" in page("s1", "ceiling").reason()
 
 
-def test_the_room_is_told_once_over_http_too(client: TestClient, page: Callable[..., Page]) -> None:
+def test_the_room_is_reported_once_over_http_too(client: TestClient, page: Callable[..., Page]) -> None:
     sato = page("s1")
     sato.hear()
     reported = client.get("/api/supervision/room", headers={"x-person": "v1"}).json()

@@ -146,7 +146,7 @@ def test_a_channel_that_is_removed_in_a_breach_ends_it_without_saying_that_it_is
     assert theatre.alarm(Condition.BREACH).state is AlarmState.LATCHED
 
 
-def test_a_number_that_is_not_measured_any_more_is_not_told_as_of_now() -> None:
+def test_a_number_that_is_not_measured_any_more_is_not_reported_as_of_now() -> None:
     stream = Stream()
     stream.images(2.0, tip_sd_mm=2.4, max_tip_sd_mm=1.0)
     picture = stream.images(
@@ -182,7 +182,7 @@ def test_a_breach_alone_raises_no_second_alarm_beside_it() -> None:
     assert [one.condition for one in picture.alarms] == [Condition.BREACH]
 
 
-def test_the_risk_of_one_drill_is_not_told_of_another() -> None:
+def test_the_risk_of_one_drill_is_not_reported_of_another() -> None:
     theatre = Theatre("drill", "awl")
     theatre.images(2.0, {"drill": NEAR, "awl": RISKY})
     snapshot = theatre.snapshot

@@ -168,7 +168,7 @@ def test_a_marker_that_is_not_seen_is_named_with_its_reason(
     assert headline.detail["en"].startswith("drill: not seen, ")
 
 
-def test_without_an_image_only_the_alarms_are_told() -> None:
+def test_without_an_image_only_the_alarms_are_reported() -> None:
     headline = headline_of(None, alarms(breach(presence=Presence.UNKNOWN)))
     assert (headline.verdict, headline.title["en"]) == (None, "NO IMAGE")
     assert headline.event["en"] == "BREACH when last seen"

@@ -22,7 +22,7 @@ def part(board: Board, columns: int, rows: int) -> BoardView:
     return BoardView(ids=ids, object_points_mm=points, image_points_px=points[:, :2].copy())
 
 
-def test_squares_counted_in_place_of_inner_corners_are_told_with_the_likely_size() -> None:
+def test_squares_counted_in_place_of_inner_corners_are_reported_with_the_likely_size() -> None:
     found = [find_board(picture(SHOWN, pose), SQUARES) for pose in POSES[:3]]
     views = [one for one in found if isinstance(one, BoardView)]
     report = with_board_size_warning(calibrate(views, size_wh_px=(640, 480)), views, SQUARES)

@@ -38,7 +38,7 @@ def _judged(film: Sequence[tuple[float, Image]], change: Change) -> FlickerVerdi
 @pytest.mark.parametrize(("mains_hz", "rate_hz"), [(50.1, 30.0), (59.9, 25.0)])
 @pytest.mark.parametrize("readout_s", [0.0, 0.016])
 @pytest.mark.parametrize("depth_ratio", [0.015, 0.2])
-def test_flicker_is_told_with_its_mains_and_depth_while_the_scene_moves(
+def test_flicker_is_reported_with_its_mains_and_depth_while_the_scene_moves(
     mains_hz: float, rate_hz: float, readout_s: float, depth_ratio: float
 ) -> None:
     verdict = _judged(
@@ -110,7 +110,7 @@ def test_a_quiet_scene_under_even_light_is_said_to_be_steady() -> None:
     assert _judged(_film(Scene.OPERATION, 30.0), _unchanged).state is FlickerState.STEADY
 
 
-def test_bands_that_stand_still_are_not_told() -> None:
+def test_bands_that_stand_still_are_not_reported() -> None:
     for rate_hz, light_hz in ((30.0, 120.0), (25.0, 100.0)):
         verdict = _judged(
             _film(Scene.OPERATION, rate_hz),

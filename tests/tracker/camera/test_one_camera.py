@@ -22,7 +22,7 @@ def reported(report: CalibrationReport) -> list[str]:
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3, 5])
-def test_a_second_camera_of_one_make_is_told_with_its_images(seed: int) -> None:
+def test_a_second_camera_of_one_make_is_reported_with_its_images(seed: int) -> None:
     rng = np.random.default_rng(seed)
     one = known_camera(rng)
     matrix = one.model.matrix.copy()
@@ -38,7 +38,7 @@ def test_a_second_camera_of_one_make_is_told_with_its_images(seed: int) -> None:
     assert reported(calibrate(views_of(one, 13, rng), size_wh_px=size)) == []
 
 
-def test_two_cameras_of_a_real_pair_are_told_and_one_alone_is_not() -> None:
+def test_two_cameras_of_a_real_pair_are_reported_and_one_alone_is_not() -> None:
     folder = real_data_file("calibration", "checkerboard-stereo")
     board = CheckerBoard(columns=9, rows=6, square_mm=25.0)
     both = []

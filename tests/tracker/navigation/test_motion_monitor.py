@@ -73,7 +73,7 @@ class Play:
         return motion
 
 
-def test_a_camera_that_moved_is_told_within_a_third_of_a_second_until_it_is_registered_anew(
+def test_a_camera_that_moved_is_reported_within_a_third_of_a_second_until_it_is_registered_anew(
     setup: Setup, picture: npt.NDArray[np.uint8]
 ) -> None:
     play = Play(setup)
@@ -89,7 +89,7 @@ def test_a_camera_that_moved_is_told_within_a_third_of_a_second_until_it_is_regi
     assert not play.show(after).camera_moved
 
 
-def test_a_camera_that_moved_between_the_first_landmark_and_the_registration_is_told(
+def test_a_camera_that_moved_between_the_first_landmark_and_the_registration_is_reported(
     setup: Setup, picture: npt.NDArray[np.uint8]
 ) -> None:
     play = Play(setup)
@@ -131,7 +131,7 @@ def test_a_reference_that_another_camera_model_places_elsewhere_was_not_bumped(
     assert play.show(picture, bumped, images=30).reference_moved
 
 
-def test_a_pose_that_jumps_is_told_and_one_that_stays_away_is_believed_after_a_while(
+def test_a_pose_that_jumps_is_reported_and_one_that_stays_away_is_believed_after_a_while(
     setup: Setup, picture: npt.NDArray[np.uint8]
 ) -> None:
     play = Play(setup)

@@ -137,7 +137,7 @@ def test_a_look_alike_that_was_rejected_is_fitted_again_only_after_some_images(
     assert off_px(seen(sighting if isinstance(sighting, Seen) else following), there) < 0.5
 
 
-def test_no_score_of_an_image_before_is_told_as_this_ones() -> None:
+def test_no_score_of_an_image_before_is_reported_as_this_ones() -> None:
     tracker = _tracker()
     first = tracker.step(_two(None, seed=0), captured_at_s=0.0)["other"]
     assert isinstance(first, Unseen)

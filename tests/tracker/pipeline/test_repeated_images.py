@@ -54,7 +54,7 @@ def test_a_frozen_camera_makes_no_doubtful_pose_surer_and_a_live_one_does() -> N
     assert live_surer > 8
 
 
-def test_the_speed_of_a_marker_is_told_by_its_images_and_not_by_their_repetitions() -> None:
+def test_the_speed_of_a_marker_is_reported_by_its_images_and_not_by_their_repetitions() -> None:
     tracker, found_by = tracker_of(), []
     for k in range(14):
         # Nine pixels in each new image: over the reach, unless its speed is known.

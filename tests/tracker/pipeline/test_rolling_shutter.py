@@ -80,7 +80,7 @@ def _inside(judgements: list[Evaluation]) -> list[float]:
     return [float(share) for share in np.mean([one.covered for one in judgements], axis=0)]
 
 
-def test_a_marker_that_moves_is_told_as_if_the_shutter_were_global() -> None:
+def test_a_marker_that_moves_is_reported_as_if_the_shutter_were_global() -> None:
     after_first = [one for said in _followed(READOUT_S) for one in said[1:]]
     unaware = [one for said in _followed(0.0) for one in said[1:]]
     tip_mm, unaware_mm = (
@@ -107,7 +107,7 @@ def test_of_the_first_image_alone_it_is_said_how_unsure_a_moving_hand_makes_it()
         )
 
 
-def test_a_marker_at_rest_is_told_as_by_any_other_camera_and_hardly_less_surely() -> None:
+def test_a_marker_at_rest_is_reported_as_by_any_other_camera_and_hardly_less_surely() -> None:
     hand = Hand(RIG, "still", seed=1)
     rest = hand.pose_at(0.0)
     scenes = [_scene(rest, 1, number) for number in range(4)]

@@ -173,7 +173,7 @@ def test_the_negative_is_not_taken() -> None:
     assert isinstance(tracker_of().search(np.asarray(255 - image_of(pose_of()), np.uint8))["code"], Unseen)
 
 
-def test_several_markers_are_told_from_one_another_in_one_image() -> None:
+def test_several_markers_are_distinguished_from_one_another_in_one_image() -> None:
     drill = MarkerModel.from_image(drill_marker_image(), side_mm=25.0, name="drill")
     models = [MODEL, code_model(OTHER, name="other"), drill, code_model(NEIGHBOURS[4], name="absent")]
     places = {

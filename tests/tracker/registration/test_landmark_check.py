@@ -22,7 +22,7 @@ def checked(off_mm: list[float], name: str = "transverse", at: np.ndarray = VERT
     return check_landmark(REGISTRATION, name, at, tip, used_mm=USED, tip_covariance_mm2=0.05 * np.eye(3))
 
 
-def test_the_distance_is_told_on_the_patients_axes() -> None:
+def test_the_distance_is_reported_on_the_patients_axes() -> None:
     check = checked([0.6, -0.8, 0.0])
     assert check.distance_mm == pytest.approx(1.0)
     assert check.off_mm == pytest.approx([0.6, -0.8, 0.0])

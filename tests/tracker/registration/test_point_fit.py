@@ -129,7 +129,7 @@ def test_navigation_gets_the_inverse_with_its_own_covariance() -> None:
     assert not used.covariance.flags.writeable
 
 
-def test_a_marker_printed_at_another_size_is_told() -> None:
+def test_a_marker_printed_at_another_size_is_reported() -> None:
     truth = touched(VERTEBRA, np.random.default_rng(10), 0.1)
     small = truth.moving_mm * 0.96
     remarks = register_points(pairs(truth.fixed_mm, small)).remarks

@@ -51,7 +51,7 @@ def test_points_that_say_no_motion_are_refused(fixed: np.ndarray, moving: np.nda
     assert rejected(fixed, moving).code == code
 
 
-def test_a_line_is_told_with_its_numbers_and_the_unit_with_its_name() -> None:
+def test_a_line_is_reported_with_its_numbers_and_the_unit_with_its_name() -> None:
     error = rejected(line(5, 0.5), line(5, 0.5))
     assert "ambiguous" in error.message
     assert error.context["along_mm"] == pytest.approx(28.3, abs=1.0)
@@ -88,7 +88,7 @@ def test_thousands_of_points_are_fitted_too() -> None:
 
 
 @pytest.mark.parametrize("axis", [0, 1, 2])
-def test_mirrored_points_are_told(axis: int) -> None:
+def test_mirrored_points_are_reported(axis: int) -> None:
     rng = np.random.default_rng(axis)
     fixed = random_landmarks(rng, 6)
     mirrored = touched(fixed, rng, 0.3).moving_mm

@@ -138,7 +138,7 @@ def test_a_trough_along_the_spine_slides_along_the_spine() -> None:
     assert rejected(surface, truth).context["direction"] == "along the spine (to head or feet)"
 
 
-def test_landmarks_hold_what_slides_and_that_is_told() -> None:
+def test_landmarks_hold_what_slides_and_that_is_reported() -> None:
     surface = plate()
     corners = surface.vertices_mm[surface.faces]
     inner = corners[(np.abs(corners.mean(axis=1)) < 18.0).all(axis=1)]

@@ -313,7 +313,7 @@ def test_an_acknowledged_drill_may_stay_away_and_is_missed_again_the_next_time()
     assert stream.images(2.0, **UNSEEN, drill_unseen_s=2.0).sound is Sound.MEDIUM
 
 
-def test_a_camera_that_falls_silent_is_told_without_any_image() -> None:
+def test_a_camera_that_falls_silent_is_reported_without_any_image() -> None:
     stream = Stream()
     stream.images(1.0)
     picture = stream.silence(0.7)

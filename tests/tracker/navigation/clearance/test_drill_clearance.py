@@ -125,7 +125,7 @@ def test_soon_is_two_millimetres_further() -> None:
     assert clearance.past_planned_mm == pytest.approx(2.0)
 
 
-def test_the_channel_s_own_wall_is_told_too() -> None:
+def test_the_channel_s_own_wall_is_reported_too() -> None:
     clearance = _clearance(drill_at(ROD_CHANNEL, 30.0, medial_mm=2.5), ROD_CHANNEL, _field("rod"))
     assert _mm(clearance.channel) == pytest.approx(4.0 - 2.5 - 2.0)
     assert grade_of(clearance.channel) is GertzbeinRobbins.B
@@ -190,7 +190,7 @@ def test_the_bone_is_the_wall_where_it_is_known_and_agrees_with_the_plan() -> No
         ),
     ],
 )
-def test_without_a_surface_that_fits_the_plan_the_next_best_wall_is_taken_and_told(
+def test_without_a_surface_that_fits_the_plan_the_next_best_wall_is_taken_and_reported(
     surface: Surface | None, codes: list[str], *, measured: bool
 ) -> None:
     chosen = select_wall(ROD_CHANNEL, surface, _round_pedicle(4.5) if measured else None, radius_mm=2.0)

@@ -32,7 +32,7 @@ def _reference(x_mm: float = 0.0, rotation_deg: float = 0.0) -> Rigid[Camera, Ma
         pytest.param(6.0, 0.0, SceneState.NO_TEXTURE, ReferenceState.UNDETERMINED, id="nothing-to-hold-on"),
     ],
 )
-def test_a_reference_that_moved_is_told_from_a_camera_that_did(
+def test_a_reference_that_moved_is_distinguished_from_a_camera_that_did(
     x_mm: float, rotation_deg: float, scene: SceneState, state: ReferenceState
 ) -> None:
     watch = ReferenceMonitor(_reference(), settings=SETTINGS)
@@ -64,7 +64,7 @@ SEEN = Seen(
 UNSEEN = Unseen(reason=UnseenReason.NO_CANDIDATE)
 
 
-def test_the_time_since_the_last_sight_is_told_for_each_marker() -> None:
+def test_the_time_since_the_last_sight_is_reported_for_each_marker() -> None:
     sight = LastSeen()
     sight = sight.after({"drill": SEEN, "reference": UNSEEN}, at_s=10.0)
     sight = sight.after({"drill": UNSEEN, "reference": UNSEEN}, at_s=10.5)

@@ -83,7 +83,7 @@ def test_outliers_are_named_with_their_distance_and_move_the_tip_no_farther_than
     assert found.rms_3d_of_all_mm > 5.0 * found.rms_3d_mm
 
 
-def test_a_pose_told_twice_counts_once() -> None:
+def test_a_pose_reported_twice_counts_once() -> None:
     made = pivoted(Hand(count=30))
     again = np.concatenate([np.arange(30), np.full(200, 7)])
     found, once = pivot_calibration(made.poses.of(again)), pivot_calibration(made.poses)
@@ -234,7 +234,7 @@ def test_the_gate_says_what_fails_with_both_numbers(hand: Hand, code: str) -> No
     assert all("0.80" in failure.message and failure.remedy for failure in failures)
 
 
-def test_two_divots_are_told_from_one() -> None:
+def test_two_divots_are_distinguished_from_one() -> None:
     here, there = pivoted(Hand(count=33)), pivoted(Hand(count=27, pivot_mm=(50.0, -20.0, 500.0)), seed=1)
     both = Poses(
         rotations=np.concatenate([here.poses.rotations, there.poses.rotations]),

@@ -34,7 +34,7 @@ def standing_on(points: Array) -> list[DetectedNeedle]:
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
-def test_needles_are_told_apart_from_each_other_and_from_what_lies_about(seed: int) -> None:
+def test_needles_are_distinguished_from_each_other_and_from_what_lies_about(seed: int) -> None:
     random = np.random.default_rng(seed)
     clutter = [found(at, at + random.normal(0.0, 50.0, 2)) for at in random.uniform(100.0, 620.0, (6, 2))]
     candidates = [*clutter[:3], *standing_on(POINTS), *clutter[3:]]

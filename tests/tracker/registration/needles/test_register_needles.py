@@ -147,7 +147,7 @@ def test_needles_that_hold_no_vertebra_are_refused_with_numbers(given: Seen, cod
     assert rejected(given).code == code
 
 
-def test_two_poses_that_explain_the_needles_alike_are_told() -> None:
+def test_two_poses_that_explain_the_needles_alike_are_reported() -> None:
     """Three needles looked at from straight above, far away, and a ruler that says nothing of the tilt."""
     flat = np.array([[-20.0, 30.0, 15.0], [0.0, 30.0, -20.0], [20.0, 30.0, 12.0]])
     codes = set()
