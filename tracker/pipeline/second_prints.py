@@ -1,10 +1,10 @@
 """Second prints: two squares of one shape in view, of which nothing tells which one is the marker.
 
-While a marker is tracked, only the surroundings of its predicted pose are examined. So one image in eight is
+While a marker is tracked, only the surroundings of its predicted pose are examined. So one image in 32 is
 searched at half size for dark regions with four sides, which find a free-standing second print. One in 256 is
 searched thoroughly, from single corners and at full size too, which finds a partly occluded or a small one
-and costs as much as several steps. So is the image in which a marker comes into view. In processor time the
-median step costs 3 to 4 % more, the 99th percentile 2 to 4 ms more.
+and costs as much as several steps. So is the image in which a marker comes into view: there one print may be
+taken for another, while a marker that is followed stays the same one.
 
 While two are in view, and until one was alone for a second, the marker has no pose. Meanwhile the second one
 is tracked, and more images are searched.
@@ -24,7 +24,7 @@ from tracker.pose import ImageContext, Prior, Seen, Sighting, Unseen, UnseenReas
 
 # Every how many images one is searched, and thoroughly: while the marker is alone, and while it is not or was
 # not for long.
-PERIOD_IMAGES, THOROUGH_PERIOD_IMAGES, TWICE_PERIOD_IMAGES = 8, 256, 8
+PERIOD_IMAGES, THOROUGH_PERIOD_IMAGES, TWICE_PERIOD_IMAGES = 32, 256, 8
 # A marker has a pose again after it was alone for so long, and in so many images: two thorough searches.
 MIN_ALONE_S, MIN_ALONE_IMAGES = 1.0, 16
 # A rejected candidate at the same place is fitted again after so many images.

@@ -126,8 +126,8 @@ class Tracker:
         repeat, as from a frozen camera, is seen again, and its certainty does not grow.
 
         A marker of which a second print is in view is `Unseen` with `MARKER_TWICE`, until one of them was
-        alone in view for a second and 16 images. A free-standing second print that comes
-        into view is noticed within 8 images, a partly occluded or small one within 256 (`second_prints`).
+        alone in view for a second and 16 images. A free-standing second print that comes into view is
+        noticed within 32 images, a partly occluded or small one within 256 (`second_prints`).
 
         Args:
             image: grey (h, w) or BGR (h, w, 3), uint8, of the camera's size.
