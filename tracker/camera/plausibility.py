@@ -6,6 +6,7 @@ is outside is a wrong unit, a wrong line of a file, or a fit that ran away.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import cv2
 import numpy as np
@@ -69,6 +70,16 @@ def implausibility_of(matrix: Array, distortion: Array, size_wh_px: tuple[int, i
     A camera without implausibility maps directions one to one onto its image: the distortion has a positive
     Jacobian determinant in the connected set of directions around the axis that the image shows.
     """
+    coefficients = tuple(distortion.ravel().tolist())
+    return _implausibility_of(tuple(matrix.ravel().tolist()), coefficients, size_wh_px)
+
+
+# It takes some 10 ms, and a case's camera is read again with each question about the procedure.
+@lru_cache(maxsize=32)
+def _implausibility_of(
+    numbers: tuple[float, ...], coefficients: tuple[float, ...], size_wh_px: tuple[int, int]
+) -> Implausibility | None:
+    matrix, distortion = np.array(numbers).reshape(3, 3), np.array(coefficients)
     focal, middle = matrix[[0, 1], [0, 1]], matrix[:2, 2]
     size = np.array(size_wh_px, dtype=np.float64)
     width, height = size_wh_px
