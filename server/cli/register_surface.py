@@ -12,6 +12,7 @@ import typer
 from server.cli.landmark_rows import read_landmarks
 from server.cli.register import FAILED, pairs_of_files, target_from_text
 from server.cli.registration_form import registration_form
+from server.config import RegistrationConfig
 from server.config_file import load_config
 from server.imaging.meshes import read_mesh
 from server.point_limits import point_gate, point_settings
@@ -57,13 +58,12 @@ def register_sweep(options: SurfaceOptions, *, as_json: bool) -> int:
         NavigationError: a file cannot be used, or the sweep does not determine the registration.
     """
     targets = [target_from_text(text) for text in options.targets]
-    start, landmarks = _start(options)
+    limits = load_config(options.config).registration
+    start, landmarks = _start(options, limits)
     mesh = read_mesh(options.surface, unit=options.unit)
     settings = SurfaceSettings(tip_radius_mm=options.tip_radius_mm)
     # A target may lie anywhere, the server's are entry points: its error has no limit here.
-    gate = SurfaceGate(
-        max_rms_mm=load_config(options.config).registration.max_surface_rms_mm, max_tre_mm=np.inf
-    )
+    gate = SurfaceGate(max_rms_mm=limits.max_surface_rms_mm, max_tre_mm=np.inf)
     found = register_surface(
         ClosestPointQuery(mesh.surface),
         read_landmarks(options.points).points_mm,
@@ -85,7 +85,9 @@ def register_sweep(options: SurfaceOptions, *, as_json: bool) -> int:
     return FAILED if failures else 0
 
 
-def _start(options: SurfaceOptions) -> tuple[Rigid[Vertebra, Anchor], PointPairs | None]:
+def _start(
+    options: SurfaceOptions, limits: RegistrationConfig
+) -> tuple[Rigid[Vertebra, Anchor], PointPairs | None]:
     """Return the initial transform, and the landmarks that also enter the fit; none with --start.
 
     Raises:
@@ -102,7 +104,6 @@ def _start(options: SurfaceOptions) -> tuple[Rigid[Vertebra, Anchor], PointPairs
             START_REMEDY,
         )
     pairs = pairs_of_files(read_landmarks(options.fixed), read_landmarks(options.moving))
-    limits = load_config(options.config).registration
     found = register_points(pairs, settings=point_settings(limits))
     # Their error at the targets is not limited: the sweep is there to reduce it.
     for failure in found.failures(point_gate(limits), ()):

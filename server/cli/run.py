@@ -56,6 +56,7 @@ def _serve(
     new_operator_link: bool,
 ) -> None:
     # The tracking process is started between the imports, so that it loads in parallel with the web server.
+    from server.camera_remarks import warn_of_configured_camera  # noqa: PLC0415
     from server.cli.access_control import AccessControl  # noqa: PLC0415
     from server.cli.storage import Storage  # noqa: PLC0415
     from server.loop.tracking_system import TrackingSystem  # noqa: PLC0415
@@ -69,7 +70,7 @@ def _serve(
         access = AccessControl.of(config, storage.store, new_operator_link=new_operator_link)
         preparation = build_setup(config)
         _check_markers(preparation)
-        _warn_about_camera(config)
+        warn_of_configured_camera(config)
         from server.alarms import AlarmService, StoredAlarmLog  # noqa: PLC0415
         from server.app import AppParts, create_app, picture_problem_of  # noqa: PLC0415
         from server.cli.web import serve_until  # noqa: PLC0415
@@ -125,12 +126,6 @@ def _check_markers(preparation: "Preparation") -> None:
             code="NO_MARKER",
             remedy="Give its image with --marker and its side with --side-mm, or add it to the settings.",
         )
-
-
-def _warn_about_camera(config: Config) -> None:
-    from server.camera_remarks import warn_of_configured_camera  # noqa: PLC0415
-
-    warn_of_configured_camera(config)
 
 
 def _phone(config: Config, preparation: "Preparation", tracked: "TrackingSystem") -> "Receiver | None":
