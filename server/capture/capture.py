@@ -10,6 +10,7 @@ from server.capture.frozen_image import FrozenImageDetector
 from server.capture.shot import Shot, Source
 from server.errors import CaptureError
 from server.live import Problem, SourceState, SourceStatus
+from server.priority import lower_thread_priority
 
 # Half a second to connect and this to wait: a source that is back is found within a second.
 RETRY_AFTER_S = 0.3
@@ -25,12 +26,16 @@ class Capture:
     """The newest image of a source, which is reopened automatically when it fails.
 
     Nothing is queued: an image that was not taken before the next one is skipped, and counted. If a camera
-    repeats the same image, nothing is passed on after `FROZEN_AFTER_S`.
+    repeats the same image, nothing is passed on after `FROZEN_AFTER_S`. Simulated images are made at low
+    priority.
     """
 
-    def __init__(self, source: Source, *, stop: threading.Event, taken_before: int = 0) -> None:
+    def __init__(
+        self, source: Source, *, stop: threading.Event, taken_before: int = 0, is_simulated: bool = False
+    ) -> None:
         self._source = source
         self._stop = stop
+        self._is_simulated = is_simulated
         self._change = threading.Condition()
         self._newest: Shot | None = None
         self._state = SourceState.OPENING
@@ -117,6 +122,8 @@ class Capture:
         )
 
     def _run(self) -> None:
+        if self._is_simulated:
+            lower_thread_priority()
         try:
             while not self._stop.is_set():
                 try:

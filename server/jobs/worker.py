@@ -17,12 +17,11 @@ from server.disk import disk_full_error, is_full
 from server.live import Problem
 from server.logs import LogSettings, configure_logging
 from server.loop.parent import die_with_parent
+from server.priority import lower_process_priority
 from tracker.errors import NavigationError
 
 # Progress reports at shorter intervals are dropped.
 MIN_REPORT_INTERVAL_S = 0.1
-# Lower priority than the tracking process and the server.
-NICENESS = 10
 
 log = structlog.get_logger(__name__)
 
@@ -68,7 +67,7 @@ def run_work(
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     die_with_parent()
     configure_logging(settings, process="job")
-    os.nice(NICENESS)
+    lower_process_priority()
     cv2.setNumThreads(1)
     try:
         value = work(_reporter(messages), **arguments)

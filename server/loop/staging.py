@@ -14,6 +14,7 @@ import structlog
 
 from server.capture.rehearsal import PlayedScene, RehearsalSource
 from server.config import RehearsalConfig
+from server.priority import lower_thread_priority
 from server.theatre import theatre_from_config
 
 if TYPE_CHECKING:
@@ -81,6 +82,7 @@ class Staging:
         threading.Thread(target=self._work, name="staging", daemon=True).start()
 
     def _work(self) -> None:
+        lower_thread_priority()
         while True:
             with self._lock:
                 order, self._ordered = self._ordered, None

@@ -193,7 +193,13 @@ def work(
     clock: Callable[[], float] = time.monotonic,
 ) -> None:
     """Track the newest image of the source until `stop` is set."""
-    capture = Capture(source, stop=stop, taken_before=order.first_number - order.skipped_before)
+    # An image that is rendered late is taken late; one that is tracked late is old.
+    capture = Capture(
+        source,
+        stop=stop,
+        taken_before=order.first_number - order.skipped_before,
+        is_simulated=staging is not None,
+    )
     capture.start()
     link.send(Report(source=capture.status()))
     tracked = 0
