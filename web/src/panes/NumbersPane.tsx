@@ -13,6 +13,7 @@ export function NumbersPane(): ReactNode {
 
   usePainter(({ numbers }) => {
     setData(pane.current, "live", String(numbers.live));
+    setData(pane.current, "cause", numbers.live ? "" : numbers.cause);
     const reading = numbers.live ? numbers.reading : null;
     for (const name of FIGURES) paintFigure(pane.current, name, reading, texts);
   });
