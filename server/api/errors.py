@@ -15,7 +15,7 @@ from server.security import rejections as door
 from server.store import NotFound, OutOfDateError, StoreConflict, StoreError
 from server.stream.errors import CameraUnknown, TooManyViewers
 from server.stream.messages import ProblemMessage
-from server.stream.scaling.sizes import SizeUnknown
+from server.stream.scaling.sizes import ChoiceUnknown
 from tracker.errors import CalibrationError, InvalidInput, NavigationError, PlanError, RegistrationError
 
 _log = structlog.get_logger(__name__)
@@ -23,7 +23,7 @@ _log = structlog.get_logger(__name__)
 STATUS_OF: dict[type[NavigationError], int] = {
     CameraUnknown: 404,
     TooManyViewers: 503,
-    SizeUnknown: 422,
+    ChoiceUnknown: 422,
     SetupOrderError: 409,
     CaptureError: 503,
     InvalidInput: 422,

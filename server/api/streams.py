@@ -4,11 +4,12 @@ from fastapi import APIRouter, WebSocket
 from starlette.responses import Response
 
 from server.api.errors import rejections
+from server.overlay import OverlayContent
 from server.stream.errors import CameraUnknown
 from server.stream.live_socket import watch_live
 from server.stream.mjpeg import Video
 from server.stream.phone.socket import PhoneEndpoint, receive_phone
-from server.stream.scaling.sizes import SizeChoice, choice_from_text
+from server.stream.scaling.sizes import SizeChoice, choice_from_text, overlay_from_text
 from server.stream.socket import MAX_REASON_BYTES, REJECTED
 from server.stream.view_socket import ViewContext, watch_view
 from tracker.errors import NavigationError
@@ -17,14 +18,15 @@ SOCKETS_DESCRIPTION = """
 `WS /ws/live`: one `LiveMessage` as JSON text for each instant, starting with the newest. A slow client skips
 instants (gaps in `sequence`); a client that reads nothing for 2 s is disconnected. The client sends nothing.
 
-`WS /ws/view?camera=main&size=auto`: the client sends `{"next": true}` and receives one binary message: the
-length of the header (4 bytes, unsigned, little endian), the header (a `LiveMessage` as JSON), and the JPEG of
-the same instant, empty if there is no image. One image is in flight at a time. The size is full, half or
-quarter, or auto to match the bandwidth; `{"size": "half"}` changes it, and `shown_scale_ratio` in the header
-is the size of the image. A client may report its display time, `{"next": true, "showing_ms": 12}`, so that it
-is not counted as network delay, and its largest displayable size, `{"largest": "half"}`. With
-`{"interval_ms": 50}` (0 to 1000) images are at least that far apart on average; a state without image and an
-alarm that changes are sent at once.
+`WS /ws/view?camera=main&size=auto&overlay=full`: the client sends `{"next": true}` and receives one binary
+message: the length of the header (4 bytes, unsigned, little endian), the header (a `LiveMessage` as JSON),
+and the JPEG of the same instant, empty if there is no image. One image is in flight at a time. The size is
+full, half or quarter, or auto to match the bandwidth; `{"size": "half"}` changes it, and `shown_scale_ratio`
+in the header is the size of the image. With `overlay=geometry` only markers, drills and channel are drawn
+into it, for clients that display figures and alarms themselves. A client may report its display time,
+`{"next": true, "showing_ms": 12}`, so that it is not counted as network delay, and its largest displayable
+size, `{"largest": "half"}`. With `{"interval_ms": 50}` (0 to 1000) images are at least that far apart on
+average; a state without image and an alarm that changes are sent at once.
 
 `WS /ws/camera`: the page `/camera` sends the images of its device's camera, where `camera.source` is `phone`.
 Text messages are JSON with one key. The page sends `hello` with its key and receives `welcome`
@@ -36,7 +38,8 @@ counts as disconnected.
 
 The first two accept pages of this server and programs without an Origin header. Invalid messages close the
 connection with code 1008 or 1009 and a reason; too many viewers with 1013 (`video.max_viewers`, eight per
-person; an eighth is reserved for operators and screens). The 3-D scene at `/scene/` has the same limits.
+person; an eighth is reserved for operators and screens). `/ws/live` and the 3-D scene at `/scene/` each have
+the same limits beside those of the video.
 """
 
 
@@ -79,10 +82,11 @@ def streams_router(*, camera_name: str, video: Video, view: ViewContext, phone: 
             if requested != camera_name:
                 raise CameraUnknown(requested, [camera_name])
             choice = choice_from_text(websocket.query_params.get("size", SizeChoice.AUTO))
+            overlay = overlay_from_text(websocket.query_params.get("overlay", OverlayContent.FULL))
         except NavigationError as error:
             await _reject(websocket, error)
             return
-        await watch_view(websocket, view, choice=choice)
+        await watch_view(websocket, view, choice=choice, overlay=overlay)
 
     @router.websocket("/ws/camera")
     async def sent(websocket: WebSocket) -> None:

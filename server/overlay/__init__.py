@@ -10,7 +10,16 @@ card.py     the picture that says that there is no picture
 
 from server.overlay.bullseye import reach_of
 from server.overlay.card import draw_card
-from server.overlay.draw import draw_overlay, encode_jpeg
+from server.overlay.draw import OverlayContent, draw_overlay, encode_jpeg
 from server.overlay.panel_readings import Panel, Reading, panel_of
 
-__all__ = ["Panel", "Reading", "draw_card", "draw_overlay", "encode_jpeg", "panel_of", "reach_of"]
+__all__ = [
+    "OverlayContent",
+    "Panel",
+    "Reading",
+    "draw_card",
+    "draw_overlay",
+    "encode_jpeg",
+    "panel_of",
+    "reach_of",
+]

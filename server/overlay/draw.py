@@ -1,5 +1,7 @@
 """Image and snapshot in, a new image out: what the surgeon looks at."""
 
+from enum import StrEnum
+
 import cv2
 import numpy as np
 import numpy.typing as npt
@@ -28,12 +30,24 @@ PAST_TARGET_MM = 10.0
 FARTHEST_AHEAD_MM = 150.0
 
 
+class OverlayContent(StrEnum):
+    """What is drawn into the image.
+
+    GEOMETRY is for viewers that display figures and alarms beside the picture: they update those with each
+    image, and the picture more rarely.
+    """
+
+    FULL = "full"
+    GEOMETRY = "geometry"
+
+
 def draw_overlay(
     image: npt.NDArray[np.uint8],
     snapshot: NavigationSnapshot,
     alarms: AlarmSnapshot = QUIET,
     *,
     language: Language = "en",
+    content: OverlayContent = OverlayContent.FULL,
 ) -> Image:
     """The image with all that is known at its instant burned in; the image handed in is never written.
 
@@ -45,6 +59,7 @@ def draw_overlay(
         snapshot: what was concluded from it.
         alarms: of that moment.
         language: of all words.
+        content: everything, or only markers, drills and channel.
 
     Raises:
         InvalidInput: OVERLAY_SIZE, image and snapshot do not belong together.
@@ -64,6 +79,8 @@ def draw_overlay(
     for name, sighting in snapshot.sightings.items():
         if isinstance(sighting, Seen):
             draw_marker(drawn, name, sighting, scale=scale)
+    if content is OverlayContent.GEOMETRY:
+        return drawn
     panel = panel_of(snapshot, alarms, language)
     top_px = draw_panel(drawn, panel, scale=scale)
     beside = None

@@ -29,6 +29,7 @@ from typing import TypeGuard
 from starlette.websockets import WebSocket
 
 from server.live import Instant, LiveHub
+from server.overlay import OverlayContent
 from server.security import person_of
 from server.stream.connection import connection_of
 from server.stream.errors import TooManyViewers
@@ -150,16 +151,22 @@ def _is_number(value: object, maximum: float) -> TypeGuard[float]:
     return math.isfinite(value) and 0.0 <= value <= maximum
 
 
-async def view_message(view: ViewContext, instant: Instant, viewer: Viewer) -> bytes:
+async def view_message(
+    view: ViewContext, instant: Instant, viewer: Viewer, overlay: OverlayContent = OverlayContent.FULL
+) -> bytes:
     """Return header length, header and JPEG of one instant, in the viewer's present size."""
     size = viewer.adaptive_size.size
-    jpeg = await view.pictures.of(instant, size)
+    jpeg = await view.pictures.of(instant, size, overlay)
     header = view.texts.of(instant, size=size, now_s=time.monotonic()).encode()
     return b"".join((HEADER_LENGTH.pack(len(header)), header, jpeg))
 
 
 async def watch_view(
-    websocket: WebSocket, view: ViewContext, *, choice: SizeChoice = SizeChoice.AUTO
+    websocket: WebSocket,
+    view: ViewContext,
+    *,
+    choice: SizeChoice = SizeChoice.AUTO,
+    overlay: OverlayContent = OverlayContent.FULL,
 ) -> None:
     """Answer each request of the client with the newest instant that it has not had, until it disconnects.
 
@@ -169,12 +176,12 @@ async def watch_view(
     await websocket.accept()
     try:
         with view.viewers.register(ViewerKind.VIEW, choice, person=person_of(websocket.scope)) as viewer:
-            await _show(websocket, view, viewer)
+            await _show(websocket, view, viewer, overlay)
     except TooManyViewers as full:
         await reject_viewer(websocket, full)
 
 
-async def _show(websocket: WebSocket, view: ViewContext, viewer: Viewer) -> None:
+async def _show(websocket: WebSocket, view: ViewContext, viewer: Viewer, overlay: OverlayContent) -> None:
     connection, requests = connection_of(websocket.scope), ViewRequests(viewer)
 
     async def send() -> None:
@@ -193,7 +200,7 @@ async def _show(websocket: WebSocket, view: ViewContext, viewer: Viewer) -> None
                 instant = await view.hub.next_after(instant.sequence)
             requests.requested.clear()
             viewer.mark_taken(instant.sequence)
-            content = await view_message(view, instant, viewer)
+            content = await view_message(view, instant, viewer, overlay)
             began_s = time.monotonic()
             await view.viewers.send(websocket.send_bytes(content), connection)
             drained_at_s = time.monotonic()

@@ -32,8 +32,8 @@ class ViewerKind(StrEnum):
     SCENE = "scene"
 
 
-# Each of these kinds has its own limit: it carries no video. All others share one.
-SEPARATE_KINDS = frozenset({ViewerKind.ROOM, ViewerKind.SCENE})
+# Each of these kinds has its own limit: a page has one of each beside its video. All others share one.
+SEPARATE_KINDS = frozenset({ViewerKind.LIVE, ViewerKind.ROOM, ViewerKind.SCENE})
 
 
 @dataclass(slots=True, eq=False)

@@ -106,7 +106,7 @@ class Loading:
         self._open: set[str] = set()
         self.page.add_init_script(RECORDER)
         self.page.route("**/api/**", self._answer)
-        self.page.route_web_socket(re.compile(r"/ws/(view|room)"), self._line)
+        self.page.route_web_socket(re.compile(r"/ws/(view|live|room)"), self._line)
         self.page.clock.install(time=0)
 
     def go(self, path: str) -> None:

@@ -15,7 +15,8 @@ import numpy.typing as npt
 import structlog
 
 from server.live import Instant, Problem
-from server.overlay import draw_overlay, encode_jpeg
+from server.overlay import OverlayContent, draw_overlay, encode_jpeg
+from server.priority import lower_thread_priority
 from server.stream.scaling.sizes import PictureSize
 from server.texts import Language
 
@@ -27,32 +28,36 @@ _log = structlog.get_logger(__name__)
 
 
 class PictureCache:
-    """Draws and encodes in its own thread, beside the event loop. For one event loop."""
+    """Draws and encodes in its own thread, after what makes and sends the figures. For one event loop."""
 
     def __init__(self, *, quality: int, language: Language = "en") -> None:
         self._quality = quality
         self._language: Language = language
-        self._made: dict[PictureSize, tuple[int, asyncio.Future[bytes]]] = {}
-        self._thread = ThreadPoolExecutor(1, thread_name_prefix="pictures")
+        self._made: dict[tuple[PictureSize, OverlayContent], tuple[int, asyncio.Future[bytes]]] = {}
+        self._thread = ThreadPoolExecutor(1, thread_name_prefix="pictures", initializer=lower_thread_priority)
         self.encoded = dict.fromkeys(PictureSize, 0)
         """How many pictures were made, by size."""
         self.problem: Problem | None = None
         """Why the last picture could not be made; None when it was. Any thread may read it."""
         self.observe_stage: Callable[[str, float], None] = lambda _stage, _spent_s: None
         """Called with the seconds of each stage, "overlay" and "encode", from the thread of the pictures."""
-        self._drawn: tuple[int, npt.NDArray[np.uint8]] | None = None
+        self._drawn: dict[OverlayContent, tuple[int, npt.NDArray[np.uint8]]] = {}
 
-    async def of(self, instant: Instant, size: PictureSize) -> bytes:
+    async def of(
+        self, instant: Instant, size: PictureSize, content: OverlayContent = OverlayContent.FULL
+    ) -> bytes:
         """Return the JPEG of an instant in this size; empty without a picture."""
         if size is PictureSize.FULL and instant.jpeg:
             return instant.jpeg
         if not instant.has_picture:
             return b""
-        sequence, making = self._made.get(size, (-1, None))
+        sequence, making = self._made.get((size, content), (-1, None))
         if making is None or sequence != instant.sequence:
-            making = asyncio.get_running_loop().run_in_executor(self._thread, self._make, instant, size)
+            making = asyncio.get_running_loop().run_in_executor(
+                self._thread, self._make, instant, size, content
+            )
             if instant.sequence > sequence:
-                self._made[size] = (instant.sequence, making)
+                self._made[size, content] = (instant.sequence, making)
         # A disconnecting viewer must not cancel the picture of the others.
         return await asyncio.shield(making)
 
@@ -60,30 +65,33 @@ class PictureCache:
         """Stop encoding."""
         self._thread.shutdown(wait=False, cancel_futures=True)
 
-    def _make(self, instant: Instant, size: PictureSize) -> bytes:
+    def _make(self, instant: Instant, size: PictureSize, content: OverlayContent) -> bytes:
         try:
-            drawn = self._drawn_of(instant)
+            drawn = self._drawn_of(instant, content)
             started_s = time.monotonic()
-            content = self._encoded(drawn, size)
+            jpeg = self._encoded(drawn, size)
             self.observe_stage("encode", time.monotonic() - started_s)
         except Exception as error:  # noqa: BLE001  logged here, and the page says that there is no picture
             self._report(error, size)
             return b""
         self.problem = None
         self.encoded[size] += 1
-        return content
+        return jpeg
 
-    def _drawn_of(self, instant: Instant) -> npt.NDArray[np.uint8]:
+    def _drawn_of(self, instant: Instant, content: OverlayContent) -> npt.NDArray[np.uint8]:
         """Return the image with its overlay, which is drawn once for all sizes."""
-        if self._drawn is not None and self._drawn[0] == instant.sequence:
-            return self._drawn[1]
+        sequence, drawn = self._drawn.get(content, (-1, None))
+        if drawn is not None and sequence == instant.sequence:
+            return drawn
         if instant.image is not None and instant.snapshot is not None:
             started_s = time.monotonic()
-            drawn = draw_overlay(instant.image, instant.snapshot, instant.alarms, language=self._language)
+            drawn = draw_overlay(
+                instant.image, instant.snapshot, instant.alarms, language=self._language, content=content
+            )
             self.observe_stage("overlay", time.monotonic() - started_s)
         else:
             drawn = _decoded(instant.jpeg)
-        self._drawn = instant.sequence, drawn
+        self._drawn[content] = instant.sequence, drawn
         return drawn
 
     def _encoded(self, drawn: npt.NDArray[np.uint8], size: PictureSize) -> bytes:

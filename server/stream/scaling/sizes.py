@@ -1,8 +1,9 @@
-"""Picture sizes, and what a viewer may choose."""
+"""Picture sizes and overlay contents, and what a viewer may choose."""
 
 from collections.abc import Sequence
 from enum import StrEnum
 
+from server.overlay import OverlayContent
 from tracker.errors import NavigationError
 
 
@@ -47,29 +48,41 @@ class SizeChoice(StrEnum):
         return None if self is SizeChoice.AUTO else PictureSize(self.value)
 
 
-class SizeUnknown(NavigationError):
-    """There is no such picture size."""
+class ChoiceUnknown(NavigationError):
+    """There is no such picture size or overlay content."""
 
-    def __init__(self, requested: str, known: Sequence[str] = tuple(SizeChoice)) -> None:
+    def __init__(self, kind: str, requested: str, known: Sequence[str]) -> None:
         super().__init__(
-            "SIZE_UNKNOWN",
-            f"there is no size '{requested[:40]}', only {', '.join(known)}",
-            "Ask for one of these sizes.",
-            {"requested": requested[:40], "known": list(known)},
+            f"{kind.upper()}_UNKNOWN",
+            f"there is no {kind} '{requested[:40]}', only {', '.join(known)}",
+            "Ask for one of these.",
+            {"kind": kind, "requested": requested[:40], "known": list(known)},
         )
 
     def __reduce__(self) -> tuple[object, ...]:
         """Pickle by the constructor's arguments."""
-        return type(self), (self.context["requested"], self.context["known"])
+        return type(self), (self.context["kind"], self.context["requested"], self.context["known"])
 
 
 def choice_from_text(text: str) -> SizeChoice:
     """Return the choice of this name.
 
     Raises:
-        SizeUnknown: there is none.
+        ChoiceUnknown: there is none.
     """
     try:
         return SizeChoice(text)
     except ValueError:
-        raise SizeUnknown(text) from None
+        raise ChoiceUnknown("size", text, tuple(SizeChoice)) from None
+
+
+def overlay_from_text(text: str) -> OverlayContent:
+    """Return the overlay content of this name.
+
+    Raises:
+        ChoiceUnknown: there is none.
+    """
+    try:
+        return OverlayContent(text)
+    except ValueError:
+        raise ChoiceUnknown("overlay", text, tuple(OverlayContent)) from None

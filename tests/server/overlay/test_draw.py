@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from server.overlay import draw_overlay, encode_jpeg
+from server.overlay import OverlayContent, draw_overlay, encode_jpeg
 from server.overlay.primitives import DRILL_ORANGE, PLAN_BLUE
 from tracker.errors import InvalidInput
 from tracker.geometry import Camera, Rigid, Vertebra
@@ -103,6 +103,16 @@ def test_only_what_is_known_is_drawn(
     drawn = draw_overlay(grey(), snapshot_of(**theatre))
     assert inked(drawn, DRILL_ORANGE).any() == drill
     assert inked(drawn, PLAN_BLUE).any() == plan
+
+
+def test_geometry_alone_has_the_lines_of_the_whole_and_no_panel(snapshot_of: SnapshotOf) -> None:
+    geometry = draw_overlay(grey(), snapshot_of(), content=OverlayContent.GEOMETRY)
+    for colour in (DRILL_ORANGE, PLAN_BLUE):
+        assert inked(geometry, colour).any()
+    # Without tool and channel only the marker has lines: the panel with its reason is all that differs.
+    bare = snapshot_of(with_tool=False, planned=False, seen=False)
+    assert np.array_equal(draw_overlay(grey(), bare, content=OverlayContent.GEOMETRY), grey())
+    assert not np.array_equal(draw_overlay(grey(), bare), grey())
 
 
 def test_a_channel_behind_the_camera_is_not_drawn(snapshot_of: SnapshotOf) -> None:

@@ -5,7 +5,7 @@ import itertools
 import pytest
 
 from server.stream.scaling.adaptive_size import AdaptiveSize
-from server.stream.scaling.sizes import PictureSize, SizeChoice, SizeUnknown, choice_from_text
+from server.stream.scaling.sizes import ChoiceUnknown, PictureSize, SizeChoice, choice_from_text
 
 RATE_HZ = 30.0
 FULL_BYTES = 130_000.0
@@ -108,7 +108,7 @@ def test_what_was_chosen_stays_whatever_the_connection_does() -> None:
 
 
 def test_an_unknown_size_is_rejected_with_the_known_ones() -> None:
-    with pytest.raises(SizeUnknown, match="no size 'tiny', only auto, full, half, quarter"):
+    with pytest.raises(ChoiceUnknown, match="no size 'tiny', only auto, full, half, quarter"):
         choice_from_text("tiny")
 
 

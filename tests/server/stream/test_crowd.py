@@ -29,7 +29,12 @@ def test_the_third_of_two_is_rejected_with_a_remedy(
     client: TestClient, open_socket: OpenSocket, hub: LiveHub, live_instant: Callable[..., Instant]
 ) -> None:
     hub.publish(live_instant(1))
-    with open_socket("/ws/view") as view, open_socket("/ws/live") as live:
+    with (
+        open_socket("/ws/view") as view,
+        open_socket("/ws/view"),
+        open_socket("/ws/live") as live,
+        open_socket("/ws/live"),
+    ):
         view.send_text('{"next": true}')
         view.receive_bytes()
         live.receive_text()
@@ -61,7 +66,7 @@ def test_one_person_does_not_take_the_places_of_all(
             where = f"ws://127.0.0.1:8000{path}"
             return open_lines.enter_context(client.websocket_connect(where, headers={"x-person": who}))
 
-        for path in ("/ws/live", "/ws/view") * 4:
+        for path in ("/ws/live", "/ws/view") * 8:
             opened(path, "v1")
         seats = [opened("/ws/room?view=theatre", "v1") for _ in range(8)]
         for path in ("/ws/live", "/ws/view", "/ws/room?view=theatre"):

@@ -9,6 +9,7 @@ import pytest
 from starlette.websockets import WebSocket
 
 from server.live import Instant, LiveHub
+from server.overlay import OverlayContent
 from server.stream import live_socket, view_socket
 from server.stream.live_socket import watch_live
 from server.stream.scaling.message_cache import MessageCache
@@ -33,7 +34,9 @@ class MadePictures(PictureCache):
         super().__init__(quality=80)
         self.made: set[tuple[int, PictureSize]] = set()
 
-    async def of(self, instant: Instant, size: PictureSize) -> bytes:
+    async def of(
+        self, instant: Instant, size: PictureSize, _content: OverlayContent = OverlayContent.FULL
+    ) -> bytes:
         self.made.add((instant.sequence, size))
         return b"\xff" * BYTES[size]
 

@@ -12,7 +12,7 @@ import numpy.typing as npt
 import pytest
 
 from server.live import Instant
-from server.overlay import draw_overlay, encode_jpeg
+from server.overlay import OverlayContent, draw_overlay, encode_jpeg
 from server.stream.messages import live_message
 from server.stream.scaling.message_cache import MessageCache
 from server.stream.scaling.picture_cache import PictureCache
@@ -129,6 +129,22 @@ def test_a_viewer_gets_the_image_with_its_overlay(imaged: Instant) -> None:
     assert not np.array_equal(expected, image), "an overlay that draws nothing shows nothing here"
     assert full == encode_jpeg(expected, 80)
     assert np.array_equal(image, np.full_like(image, 77)), "the camera's image is never drawn into"
+
+
+def test_each_overlay_content_has_its_own_picture(imaged: Instant) -> None:
+    pictures = PictureCache(quality=80)
+
+    async def both() -> list[bytes]:
+        contents = (OverlayContent.FULL, OverlayContent.GEOMETRY, OverlayContent.FULL)
+        return [await pictures.of(imaged, PictureSize.FULL, content) for content in contents]
+
+    full, geometry, again = asyncio.run(both())
+    assert full == again != geometry
+    assert pictures.encoded[PictureSize.FULL] == 2
+    assert imaged.image is not None
+    assert imaged.snapshot is not None
+    lines = draw_overlay(imaged.image, imaged.snapshot, imaged.alarms, content=OverlayContent.GEOMETRY)
+    assert geometry == encode_jpeg(lines, 80)
 
 
 def test_an_instant_without_picture_has_none_in_any_size(instant_of: LiveInstant) -> None:

@@ -234,8 +234,32 @@ def test_an_unknown_camera_is_rejected_with_the_known_ones(open_socket: OpenSock
     assert reported.value.reason == "there is no camera 'side', only main"
 
 
-def test_an_unknown_size_is_rejected_with_the_known_ones(open_socket: OpenSocket) -> None:
-    with open_socket("/ws/view?size=tiny") as socket, pytest.raises(WebSocketDisconnect) as reported:
+@pytest.mark.parametrize(
+    ("query", "reason"),
+    [
+        ("size=tiny", "there is no size 'tiny', only auto, full, half, quarter"),
+        ("overlay=none", "there is no overlay 'none', only full, geometry"),
+    ],
+)
+def test_an_unknown_choice_is_rejected_with_the_known_ones(
+    open_socket: OpenSocket, query: str, reason: str
+) -> None:
+    with open_socket(f"/ws/view?{query}") as socket, pytest.raises(WebSocketDisconnect) as reported:
         socket.receive_bytes()
-    assert reported.value.code == 1008
-    assert reported.value.reason == "there is no size 'tiny', only auto, full, half, quarter"
+    assert (reported.value.code, reported.value.reason) == (1008, reason)
+
+
+def test_the_overlay_is_requested_in_the_query(
+    open_socket: OpenSocket, hub: LiveHub, live_instant: LiveInstant
+) -> None:
+    instant = live_instant(1)
+    assert instant.snapshot is not None
+    width, height = instant.snapshot.size_wh_px
+    instant = dataclasses.replace(instant, jpeg=b"", image=np.full((height, width, 3), 77, np.uint8))
+    hub.publish(instant)
+    received = {}
+    for query in ("", "?overlay=full", "?overlay=geometry"):
+        with open_socket(f"/ws/view{query}") as socket:
+            socket.send_text('{"next": true}')
+            received[query] = unpacked(socket.receive_bytes())[1]
+    assert received[""] == received["?overlay=full"] != received["?overlay=geometry"]

@@ -29,12 +29,16 @@ def person(number: int, role: Role = Role.VIEWER) -> Person:
 
 def test_the_place_is_taken_where_it_is_looked_for() -> None:
     viewers = Viewers(maximum=1)
-    with viewers.register(ViewerKind.LIVE):
+    with viewers.register(ViewerKind.MJPEG):
         with pytest.raises(TooManyViewers), viewers.register(ViewerKind.VIEW):
             pass
         assert viewers.count(ViewerKind.VIEW) == 0
-        # Who sits in the room takes no picture from anybody, and nobody who watches a seat; so the scene.
-        with viewers.register(ViewerKind.ROOM), viewers.register(ViewerKind.SCENE):
+        # A page has one of each of these beside its video.
+        with (
+            viewers.register(ViewerKind.LIVE),
+            viewers.register(ViewerKind.ROOM),
+            viewers.register(ViewerKind.SCENE),
+        ):
             pass
     with viewers.register(ViewerKind.VIEW):
         pass
@@ -71,7 +75,7 @@ def test_eight_of_all_places_are_reserved_for_operator_and_screen() -> None:
             with pytest.raises(
                 TooManyViewers, match="56 viewers are connected already, at most 56 are allowed"
             ):
-                here.enter_context(viewers.register(ViewerKind.LIVE, person=person(99, role)))
+                here.enter_context(viewers.register(ViewerKind.MJPEG, person=person(99, role)))
         for number in range(4):
             here.enter_context(viewers.register(ViewerKind.VIEW, person=person(100, Role.OPERATOR)))
             here.enter_context(viewers.register(ViewerKind.VIEW, person=person(200 + number, Role.SCREEN)))

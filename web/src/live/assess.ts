@@ -78,7 +78,8 @@ export type Cause =
   | "old";
 
 export type VideoVerdict =
-  { live: true; imageNumber: number; ageMs: number } | { live: false; cause: Cause; ageMs: number | null };
+  | { live: true; imageNumber: number; ageMs: number; snapshot: SnapshotMessage }
+  | { live: false; cause: Cause; ageMs: number | null };
 
 export type NumbersVerdict =
   | { live: true; reading: Reading; imageNumber: number; ageMs: number }
@@ -103,7 +104,8 @@ export function videoVerdict(situation: Situation, nowMs: number): VideoVerdict 
   // A picture that was taken away for its age stays too old until a new one stands.
   if (picture === null || !(ageMs <= limits.video_stale_after_ms))
     return { live: false, cause: "old", ageMs };
-  return { live: true, imageNumber: picture.snapshot.image_number, ageMs };
+  const { snapshot } = picture;
+  return { live: true, imageNumber: snapshot.image_number, ageMs, snapshot };
 }
 
 export function numbersVerdict(situation: Situation, nowMs: number): NumbersVerdict {

@@ -26,14 +26,25 @@ export function frameFromBytes(buffer: ArrayBuffer): ViewFrame {
 }
 
 function headerFromBytes(bytes: Uint8Array): LiveMessage {
-  let header: unknown;
+  let text: string;
   try {
-    header = JSON.parse(decoder.decode(bytes));
+    text = decoder.decode(bytes);
   } catch (error) {
-    throw new BadFrame("header is not JSON", { cause: error });
+    throw new BadFrame("header is not UTF-8", { cause: error });
   }
-  if (!isLiveMessage(header)) throw new BadFrame("header is not a live message");
-  return header;
+  return messageFromText(text);
+}
+
+/** A live message from its JSON, as in a header of /ws/view or alone on /ws/live. */
+export function messageFromText(text: string): LiveMessage {
+  let message: unknown;
+  try {
+    message = JSON.parse(text);
+  } catch (error) {
+    throw new BadFrame("message is not JSON", { cause: error });
+  }
+  if (!isLiveMessage(message)) throw new BadFrame("JSON is not a live message");
+  return message;
 }
 
 /** The server's schema is trusted for the fields; this only tells a live message from anything else. */

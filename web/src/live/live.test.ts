@@ -68,7 +68,7 @@ test("a picture that was taken away never comes back, only a new one does", asyn
   expect(live.update().video).toMatchObject({ live: true, imageNumber: 2 });
 });
 
-test("numbers wait for their picture, and both change together", async () => {
+test("numbers do not wait for their picture", async () => {
   await live.receive(frame(1));
   let done: (drawn: boolean) => void = () => undefined;
   live.setDraw(
@@ -78,13 +78,40 @@ test("numbers wait for their picture, and both change together", async () => {
       }),
   );
   const taking = live.receive(frame(2));
-  expect(live.update().numbers).toMatchObject({ imageNumber: 1 });
+  expect(live.update()).toMatchObject({ numbers: { imageNumber: 2 }, video: { imageNumber: 1 } });
   done(true);
   await taking;
   expect(live.update()).toMatchObject({ numbers: { imageNumber: 2 }, video: { imageNumber: 2 } });
 });
 
-test("a picture that cannot be drawn leaves its numbers, and the page can say that they differ", async () => {
+test("a message without a picture brings numbers and alarms, and a slower picture does not undo them", async () => {
+  await live.receive(frame(1));
+  const alarms = { ...frame(4).message.alarms, revision: 7 };
+  live.receiveMessage({ ...frame(4).message, alarms });
+  expect(live.update()).toMatchObject({
+    numbers: { imageNumber: 4 },
+    alarms: { revision: 7 },
+    video: { imageNumber: 1 },
+  });
+  await live.receive(frame(3));
+  live.receiveMessage(frame(2).message);
+  expect(live.update()).toMatchObject({ numbers: { imageNumber: 4 }, video: { imageNumber: 3 } });
+  live.receiveMessage({ ...frame(5).message, snapshot: null });
+  expect(live.update().numbers).toMatchObject({ live: false, cause: "no-image" });
+});
+
+test("messages alone show nothing before the first picture, and nothing on a lost connection", async () => {
+  live.receiveMessage(frame(1).message);
+  expect(live.update().numbers).toMatchObject({ live: false, cause: "connecting" });
+  await live.receive(frame(2));
+  expect(live.update().numbers.live).toBe(true);
+  live.setLink("lost");
+  live.receiveMessage(frame(3).message);
+  live.setLink("open");
+  expect(live.update().newest).toBeNull();
+});
+
+test("a picture that cannot be drawn leaves its numbers", async () => {
   await live.receive(frame(1));
   live.setDraw(() => Promise.resolve(false));
   await live.receive(frame(2));

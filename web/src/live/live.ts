@@ -1,7 +1,6 @@
-// The live state of the page: messages of one connection in, one verdict for each pane out. It is updated with
-// every screen refresh and by a timer, so that old content is removed even without a message.
+// The live state of the page: messages and frames in, one verdict for each pane out. It is updated with what comes and by
+// a timer, so that old content is removed even without a message.
 import {
-  isOfNow,
   numbersVerdict,
   situationAtLoad,
   videoVerdict,
@@ -67,7 +66,7 @@ export class Live {
       silentMs: this.situation.lastReceivedAtMs === null ? 0 : nowMs - this.situation.lastReceivedAtMs,
       firstMessage: firstMessageAt(this.situation, nowMs),
       newest: this.situation.newest,
-      alarms: (isOfNow(numbers) ? this.situation.numbers?.alarms : this.situation.newest?.alarms) ?? null,
+      alarms: this.situation.newest?.alarms ?? null,
       video,
       numbers,
       untrackedMs: numbers.live || this.trackedAtMs === null ? null : nowMs - this.trackedAtMs,
@@ -145,22 +144,26 @@ export class Live {
     this.update();
   }
 
+  /** Receives the message of an image without its picture: figures and alarms do not wait for a picture. */
+  receiveMessage(message: LiveMessage): void {
+    // What this page shows depends on the connection that has the pictures.
+    if (this.situation.link !== "open") return;
+    this.keepNewest(message, (this.situation.waitingSinceMs = this.markReceived()));
+  }
+
   /** Receives one frame; resolves when it is displayed and the next may be requested. */
   async receive({ message, jpeg }: ViewFrame): Promise<DisplayResult> {
     const generation = this.generation;
     const isCurrent = (): boolean => generation === this.generation;
     const receivedAtMs = (this.situation.waitingSinceMs = this.markReceived());
     const timer = this.load.begin(receivedAtMs);
-    this.situation.newest = message;
     const received = this.receivedImageFrom(message, receivedAtMs);
-    if (received) this.sceneAge.image(received.snapshot.image_number, received.capturedAtMs);
-    // Numbers and picture change together, when the picture is ready: both are of one image.
+    this.keepNewest(message, receivedAtMs);
     const onDecoded = timer.markDecoded;
     const drawn = received !== null && jpeg.byteLength > 0 && (await this.draw(jpeg, isCurrent, onDecoded));
     // Not before its picture stands: to say that there is none would be a false alarm.
     this.situation.everReceived = true;
     if (!isCurrent()) return { isDisplayed: false, showingMs: 0 };
-    this.situation.numbers = received;
     timer.markDisplayed();
     const sentAtMs = this.clock.pageMs(message.sent_at_s);
     if (drawn) {
@@ -181,8 +184,7 @@ export class Live {
     const answeredAtMs = (this.situation.waitingSinceMs = this.markReceived());
     if (message === null) return;
     this.clock.sample(requestedAtMs, answeredAtMs, message.sent_at_s);
-    if (this.situation.newest === null || message.sequence > this.situation.newest.sequence)
-      this.situation.newest = message;
+    this.keepNewest(message, answeredAtMs);
   }
 
   get hasMessage(): boolean {
@@ -198,6 +200,16 @@ export class Live {
     return this.situation.link !== "open" || this.situation.lastReceivedAtMs === null
       ? 0
       : this.now() - this.situation.lastReceivedAtMs;
+  }
+
+  /** Figures are those of the newest message; a picture that took longer on its way changes nothing of them. */
+  private keepNewest(message: LiveMessage, receivedAtMs: number): void {
+    const { newest } = this.situation;
+    if (newest !== null && message.sequence <= newest.sequence) return;
+    const received = this.receivedImageFrom(message, receivedAtMs);
+    this.situation.newest = message;
+    this.situation.numbers = received;
+    if (received) this.sceneAge.image(received.snapshot.image_number, received.capturedAtMs);
   }
 
   private markReceived(): number {

@@ -2,10 +2,12 @@
 import createClient from "openapi-fetch";
 import type { components, paths } from "../schema";
 import { storedPictureChoice, storePictureChoice } from "./storedPictureChoice";
+import { MessageConnection } from "./messageConnection";
 import { ViewConnection, type ViewSocket } from "./viewConnection";
 import type { Live } from "./live";
 import { UNLIMITED } from "./budget";
 import { UPDATE_EVERY_MS } from "./load";
+import type { WebSocketLike } from "./reconnectingSocket";
 import { isSceneNote } from "./sceneAge";
 
 export type Dashboard = components["schemas"]["DashboardMessage"];
@@ -14,6 +16,7 @@ const ASK_WHEN_QUIET_MS = 300;
 const ASK_TIMEOUT_MS = 450;
 const COMPARE_CLOCKS_EVERY_MS = 5000;
 const NEW_LINE_WHEN_QUIET_MS = 2500;
+const MEASURE_EVERY_PICTURES = 5;
 
 const LOOPBACK = /^(localhost|127(\.\d+){3}|\[::1\])$/;
 
@@ -86,17 +89,41 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
     connection.askSize(choice);
   });
   const leaveBudget = reportPictureBudget(live, connection);
+  const messages = messageConnection(live);
   connection.start();
+  messages.start();
   return () => {
     stop.abort();
     leaveBudget();
     leaveExpiry();
     clearInterval(timer);
     connection.stop();
+    messages.stop();
   };
 }
 
+/** Messages that came while the page was busy are painted once, the newest. */
+function messageConnection(live: Live): MessageConnection {
+  let isScheduled = false;
+  return new MessageConnection({
+    open: () => new WebSocket(socketAddress("/ws/live")) as WebSocketLike,
+    later: (action, waitMs) => {
+      setTimeout(action, waitMs);
+    },
+    onMessage: (message) => {
+      live.receiveMessage(message);
+      if (isScheduled) return;
+      isScheduled = true;
+      requestAnimationFrame(() => {
+        isScheduled = false;
+        live.update();
+      });
+    },
+  });
+}
+
 function viewConnection(live: Live, onOpen: () => void): ViewConnection {
+  let shown = 0;
   const connection = new ViewConnection({
     open: () => new WebSocket(viewAddress(live.pictureChoice)) as ViewSocket,
     later: (action, waitMs) => {
@@ -111,7 +138,8 @@ function viewConnection(live: Live, onOpen: () => void): ViewConnection {
     onFrame: (frame) => {
       void live.receive(frame).then(({ isDisplayed, showingMs }) => {
         if (!isDisplayed) return;
-        measureScreen(live);
+        shown += 1;
+        if (shown % MEASURE_EVERY_PICTURES === 0) measureScreen(live);
         connection.requestNext(showingMs);
       });
     },
@@ -119,8 +147,8 @@ function viewConnection(live: Live, onOpen: () => void): ViewConnection {
   return connection;
 }
 
-/** Measures how long the screen needs for the image that was just drawn. A loop over all images of the screen would tell
- * the same, and make the browser put the page together 60 times a second where 20 images come. */
+/** Measures how long the screen needs for the image that was just drawn. Each measurement makes the browser put the page
+ * together twice. */
 function measureScreen(live: Live): void {
   requestAnimationFrame((beganAtMs) => {
     requestAnimationFrame((endedAtMs) => {
@@ -165,8 +193,13 @@ function notifyScenes(): void {
   }
 }
 
+/** Figures and alarms stand beside the picture and are newer than it: none are drawn into it. */
 function viewAddress(size: string): string {
-  return `${location.protocol === "https:" ? "wss:" : "ws:"}//${location.host}/ws/view?size=${size}`;
+  return socketAddress(`/ws/view?size=${size}&overlay=geometry`);
+}
+
+function socketAddress(path: string): string {
+  return `${location.protocol === "https:" ? "wss:" : "ws:"}//${location.host}${path}`;
 }
 
 /** Asks the server who it is and which limits hold; limits have one home, its config. */

@@ -84,7 +84,6 @@ export function keyOf({
     scene.state,
     problems,
     newest?.source.state,
-    // Of the alarms that are shown: those of the newest message belong to a picture that is still being decoded.
     alarms?.revision,
     carried.choice,
   ].join("|");

@@ -1,5 +1,8 @@
 import { describe, expect, test } from "vitest";
+import { message, snapshot } from "../live/builders";
+import { Live } from "../live/live";
 import type { ClientMessage } from "../room/messages";
+import { DisplayedImage } from "./displayedImage";
 import { MarksInput } from "./marksInput";
 import { isOnImage, onImage, onStage, placed } from "./place";
 
@@ -165,4 +168,20 @@ describe("a hand", () => {
     made.settle(() => false, 3031);
     expect(made.own).toEqual([]);
   });
+});
+
+test("a mark belongs to the picture that is marked, not to the newer figures beside it", async () => {
+  const live = new Live(() => 1000);
+  live.setDraw(() => Promise.resolve(true));
+  live.setLink("open");
+  const of = (image: number) => snapshot({ image_number: image, captured_at_s: image / 10 });
+  await live.receive({ message: message({ sequence: 5, snapshot: of(5) }), jpeg: new Uint8Array([1]) });
+  live.receiveMessage(message({ sequence: 8, snapshot: of(8) }));
+  await live.receive({ message: message({ sequence: 7, snapshot: of(7) }), jpeg: new Uint8Array([1]) });
+  const displayed = new DisplayedImage();
+  displayed.update(live.update());
+  expect(displayed.moment).toEqual({ image_number: 7, captured_at_s: 0.7 });
+  live.setHidden(true);
+  displayed.update(live.update());
+  expect(displayed.moment).toBeNull();
 });

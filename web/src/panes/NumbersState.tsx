@@ -19,9 +19,8 @@ export function NumbersState(): ReactNode {
   const since = useRef<HTMLSpanElement>(null);
   const error = useRef<HTMLParagraphElement>(null);
   const risk = useRef<HTMLParagraphElement>(null);
-  const difference = useRef<HTMLParagraphElement>(null);
 
-  usePainter(({ numbers, video, untrackedMs }) => {
+  usePainter(({ numbers, untrackedMs }) => {
     const live = numbers.live ? numbers.reading.headline : null;
     paintHeadline(headline.current, live, texts);
     setText(detail.current, live === null ? reasonTexts(numbers, texts) : textOf(live.detail, texts));
@@ -29,13 +28,6 @@ export function NumbersState(): ReactNode {
     setText(risk.current, numbers.live ? riskText(numbers.reading.assessment, texts) : "");
     setText(since.current, untrackedMs === null ? "" : formatDuration(untrackedMs));
     setText(error.current, errorLine(numbers, texts));
-    const differ = numbers.live && video.live && numbers.imageNumber !== video.imageNumber;
-    setText(
-      difference.current,
-      differ
-        ? `${texts.numbers.numbersOf} ${numbers.imageNumber}, ${texts.numbers.pictureOf} ${video.imageNumber}`
-        : "",
-    );
   });
 
   return (
@@ -53,7 +45,6 @@ export function NumbersState(): ReactNode {
       <p className="state-event" data-testid="headline-event" ref={event} />
       <p className="state-ahead" data-testid="ahead" ref={risk} />
       <p className="state-ahead" data-testid="tip" ref={error} />
-      <p className="difference" ref={difference} />
     </div>
   );
 }

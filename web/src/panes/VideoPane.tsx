@@ -5,7 +5,7 @@ import { formatNumber } from "../live/rounding";
 import { MarksLayer } from "../marks/MarksLayer";
 import { useTexts } from "../texts/TextsContext";
 import { Announcer } from "./Announcer";
-import { clearPicture, drawCoarsely, drawPicture } from "./drawPicture";
+import { clearPicture, drawPicture } from "./drawPicture";
 import { Moves } from "./Moves";
 import { PaintRateLimiter } from "./paintRateLimiter";
 import { Pane } from "./Pane";
@@ -25,11 +25,9 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
   const texts = useTexts();
   const { live, view } = useLive();
   const canvas = useRef<HTMLCanvasElement>(null);
-  const coarse = useRef<HTMLCanvasElement>(null);
   const stage = useRef<HTMLDivElement>(null);
   const stamp = useRef<HTMLParagraphElement>(null);
   const painted = useRef(false);
-  const coarseOf = useRef<number | null>(null);
   const limiter = useRef(new PaintRateLimiter());
 
   // Before the painters' first look, which then knows that this canvas is new.
@@ -42,20 +40,11 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
     });
   }, [live]);
 
-  usePainter(({ nowMs, video, numbers }) => {
+  usePainter(({ nowMs, video }) => {
     setData(stage.current, "live", String(video.live));
-    // Numbers are burned into the picture: they go when the page's own numbers go for their age.
-    const late = video.live && !numbers.live && numbers.cause === "old";
-    const image = late ? video.imageNumber : null;
-    if (image !== null && image !== coarseOf.current && canvas.current && coarse.current) {
-      drawCoarsely(coarse.current, canvas.current);
-    }
-    coarseOf.current = image;
-    setData(stage.current, "late", String(late));
     // Also what was still being decoded when its time was over.
-    if (painted.current && !video.live && canvas.current && coarse.current) {
+    if (painted.current && !video.live && canvas.current) {
       clearPicture(canvas.current);
-      clearPicture(coarse.current);
       painted.current = false;
     }
     if (!limiter.current.isDue(nowMs, video.live ? `${video.imageNumber}` : "")) return;
@@ -87,12 +76,8 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
           role="img"
           aria-label={texts.video.alt}
         />
-        <canvas className="coarse" ref={coarse} width={32} height={18} aria-hidden="true" />
         <MarksLayer />
         {over}
-        <p className="when-late" data-testid="video-late">
-          <span aria-hidden="true">▲▲</span> {texts.video.late}
-        </p>
         <div className="when-stale" data-testid="video-cover">
           <VideoCover cause={cause} problem={problemsOf(view)[0]} />
         </div>

@@ -28,11 +28,6 @@ export async function drawPicture(
   }
 }
 
-/** The picture too coarsely to read a number or a line from; much cheaper than a blurring style on a slow machine. */
-export function drawCoarsely(coarse: HTMLCanvasElement, canvas: HTMLCanvasElement): void {
-  coarse.getContext("2d", { alpha: false })?.drawImage(canvas, 0, 0, coarse.width, coarse.height);
-}
-
 /** Leaves nothing of the last picture. */
 export function clearPicture(canvas: HTMLCanvasElement): void {
   canvas.getContext("2d", { alpha: false })?.clearRect(0, 0, canvas.width, canvas.height);

@@ -36,7 +36,7 @@ export interface Texts {
   product: string;
   notice: string;
   skip: string;
-  video: { title: string; none: string; late: string; image: string; age: string; alt: string };
+  video: { title: string; none: string; image: string; age: string; alt: string };
   numbers: {
     title: string;
     none: string;
@@ -46,8 +46,6 @@ export interface Texts {
     steadied: string;
     whileMoving: string;
     latencyUnknown: string;
-    numbersOf: string;
-    pictureOf: string;
   };
   reading: Record<
     "entry" | "angle" | "depth" | "toGo" | "wall",

@@ -33,7 +33,6 @@ export const de: Texts = {
   video: {
     title: "Video",
     none: "KEIN VIDEO",
-    late: "BILD KOMMT SPÄT",
     image: "Bild",
     age: "Alter",
     alt: "Live-Video mit geplantem Kanal und Bohrerlinie",
@@ -47,8 +46,6 @@ export const de: Texts = {
     steadied: "beruhigt, verzögert um",
     whileMoving: "in Bewegung",
     latencyUnknown: "in Bewegung, Latenz nicht gemessen",
-    numbersOf: "Zahlen sind von Bild",
-    pictureOf: "Bild ist Nummer",
   },
   reading: {
     entry: { name: "Eintritt", hint: "neben dem Eintrittspunkt", unit: "mm" },

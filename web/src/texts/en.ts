@@ -35,7 +35,6 @@ export const en: Texts = {
   video: {
     title: "Video",
     none: "NO VIDEO",
-    late: "PICTURE IS LATE",
     image: "image",
     age: "age",
     alt: "Live video with the planned channel and the drill's line drawn in",
@@ -49,8 +48,6 @@ export const en: Texts = {
     steadied: "steadied, behind by",
     whileMoving: "while moving",
     latencyUnknown: "moving, latency not measured",
-    numbersOf: "numbers are of image",
-    pictureOf: "picture of image",
   },
   reading: {
     entry: { name: "Entry", hint: "off the entry point", unit: "mm" },

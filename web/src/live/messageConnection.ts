@@ -1,0 +1,51 @@
+// The connection to /ws/live: the message of each image as soon as it is tracked, without a picture that it would have
+// to wait for; reconnects after a loss (`reconnectingSocket.ts`). Without it figures come with each picture.
+import { messageFromText } from "./frame";
+import type { LiveMessage } from "./messages";
+import { ReconnectingSocket, type WebSocketLike } from "./reconnectingSocket";
+
+export interface MessageConnectionOptions {
+  open(): WebSocketLike;
+  later(action: () => void, waitMs: number): void;
+  onMessage(message: LiveMessage): void;
+}
+
+export class MessageConnection {
+  private readonly socket: ReconnectingSocket<WebSocketLike>;
+
+  constructor(private readonly options: MessageConnectionOptions) {
+    this.socket = new ReconnectingSocket<WebSocketLike>({
+      open: () => options.open(),
+      later: (action, waitMs) => {
+        options.later(action, waitMs);
+      },
+      onOpen: () => undefined,
+      onData: (data) => {
+        this.receive(data);
+      },
+      onLost: () => undefined,
+    });
+  }
+
+  start(): void {
+    this.socket.start();
+  }
+
+  stop(): void {
+    this.socket.stop();
+  }
+
+  private receive(data: unknown): void {
+    let message: LiveMessage;
+    try {
+      if (typeof data !== "string") return;
+      message = messageFromText(data);
+    } catch {
+      // As with frames: an invalid message is not shown, and a new connection starts with a clean state.
+      this.socket.reconnect();
+      return;
+    }
+    this.socket.markReceived();
+    this.options.onMessage(message);
+  }
+}
