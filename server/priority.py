@@ -19,4 +19,6 @@ def lower_thread_priority() -> None:
     """Let every other thread and process go first, where the system knows priorities of threads (Linux)."""
     if sys.platform == "linux":
         with contextlib.suppress(OSError):
-            os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), NICENESS)
+            thread = threading.get_native_id()
+            # What is more than the largest niceness is set to it.
+            os.setpriority(os.PRIO_PROCESS, thread, os.getpriority(os.PRIO_PROCESS, thread) + NICENESS)

@@ -17,9 +17,11 @@ from server.config import CameraConfig, Config, MarkerConfig
 from server.live import SourceState
 from server.logs import LogSettings
 from server.loop.tracking_system import TrackingSystem
+from server.priority import NICENESS
 from server.setup import CaseSetup, nominal_camera
 from tests.server.loop.fake_workers import Seen
 
+MAX_NICENESS = 19
 REPOSITORY = Path(__file__).parents[3]
 
 
@@ -154,6 +156,25 @@ if __name__ == "__main__":
             print(tracked.pid, flush=True)
             sys.stdin.read()
 """
+
+
+def nicenesses(pid: int) -> list[int]:
+    stats = [(task / "stat").read_text() for task in Path(f"/proc/{pid}/task").iterdir()]
+    return sorted(int(stat.rpartition(")")[2].split()[16]) for stat in stats)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="threads have priorities on Linux only")
+def test_only_the_images_of_a_rehearsal_are_made_at_low_priority(
+    tmp_path: Path, running: list[Running]
+) -> None:
+    film(tmp_path / "v.avi")
+    for settings, low in ((config(tmp_path), 0), (Config(), 1)):
+        running.append(Running(settings))
+        running[-1].hub.until(lambda instant: instant.snapshot is not None)
+        pid = running[-1].tracked.pid
+        assert pid is not None
+        lowered = min(os.getpriority(os.PRIO_PROCESS, 0) + NICENESS, MAX_NICENESS)
+        assert nicenesses(pid).count(lowered) == low
 
 
 def parent_of(pid: int) -> int:
