@@ -9,7 +9,7 @@ from server.stream.errors import CameraUnknown
 from server.stream.live_socket import watch_live
 from server.stream.mjpeg import Video
 from server.stream.phone.socket import PhoneEndpoint, receive_phone
-from server.stream.scaling.sizes import SizeChoice, choice_from_text, overlay_from_text
+from server.stream.scaling.sizes import SizeChoice, choice_from_text
 from server.stream.socket import MAX_REASON_BYTES, REJECTED
 from server.stream.view_socket import ViewContext, watch_view
 from tracker.errors import NavigationError
@@ -81,8 +81,9 @@ def streams_router(*, camera_name: str, video: Video, view: ViewContext, phone: 
         try:
             if requested != camera_name:
                 raise CameraUnknown(requested, [camera_name])
-            choice = choice_from_text(websocket.query_params.get("size", SizeChoice.AUTO))
-            overlay = overlay_from_text(websocket.query_params.get("overlay", OverlayContent.FULL))
+            query = websocket.query_params
+            choice = choice_from_text("size", query.get("size", SizeChoice.AUTO), SizeChoice)
+            overlay = choice_from_text("overlay", query.get("overlay", OverlayContent.FULL), OverlayContent)
         except NavigationError as error:
             await _reject(websocket, error)
             return

@@ -193,7 +193,7 @@ def work(
     clock: Callable[[], float] = time.monotonic,
 ) -> None:
     """Track the newest image of the source until `stop` is set."""
-    # An image that is rendered late is taken late; one that is tracked late is old.
+    # A camera's exposure takes no processor time: rendering must not take that of tracking.
     capture = Capture(
         source,
         stop=stop,

@@ -151,9 +151,7 @@ def _is_number(value: object, maximum: float) -> TypeGuard[float]:
     return math.isfinite(value) and 0.0 <= value <= maximum
 
 
-async def view_message(
-    view: ViewContext, instant: Instant, viewer: Viewer, overlay: OverlayContent = OverlayContent.FULL
-) -> bytes:
+async def view_message(view: ViewContext, instant: Instant, viewer: Viewer, overlay: OverlayContent) -> bytes:
     """Return header length, header and JPEG of one instant, in the viewer's present size."""
     size = viewer.adaptive_size.size
     jpeg = await view.pictures.of(instant, size, overlay)

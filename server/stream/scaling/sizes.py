@@ -1,10 +1,12 @@
-"""Picture sizes and overlay contents, and what a viewer may choose."""
+"""Picture sizes, and what a viewer may choose."""
 
 from collections.abc import Sequence
 from enum import StrEnum
+from typing import TypeVar
 
-from server.overlay import OverlayContent
 from tracker.errors import NavigationError
+
+Choice = TypeVar("Choice", bound=StrEnum)
 
 
 class PictureSize(StrEnum):
@@ -49,7 +51,7 @@ class SizeChoice(StrEnum):
 
 
 class ChoiceUnknown(NavigationError):
-    """There is no such picture size or overlay content."""
+    """What a viewer asked for is none of the choices, as of sizes."""
 
     def __init__(self, kind: str, requested: str, known: Sequence[str]) -> None:
         super().__init__(
@@ -64,25 +66,13 @@ class ChoiceUnknown(NavigationError):
         return type(self), (self.context["kind"], self.context["requested"], self.context["known"])
 
 
-def choice_from_text(text: str) -> SizeChoice:
+def choice_from_text(kind: str, text: str, choices: type[Choice]) -> Choice:
     """Return the choice of this name.
 
     Raises:
         ChoiceUnknown: there is none.
     """
     try:
-        return SizeChoice(text)
+        return choices(text)
     except ValueError:
-        raise ChoiceUnknown("size", text, tuple(SizeChoice)) from None
-
-
-def overlay_from_text(text: str) -> OverlayContent:
-    """Return the overlay content of this name.
-
-    Raises:
-        ChoiceUnknown: there is none.
-    """
-    try:
-        return OverlayContent(text)
-    except ValueError:
-        raise ChoiceUnknown("overlay", text, tuple(OverlayContent)) from None
+        raise ChoiceUnknown(kind, text, tuple(choices)) from None

@@ -109,7 +109,7 @@ def test_what_was_chosen_stays_whatever_the_connection_does() -> None:
 
 def test_an_unknown_size_is_rejected_with_the_known_ones() -> None:
     with pytest.raises(ChoiceUnknown, match="no size 'tiny', only auto, full, half, quarter"):
-        choice_from_text("tiny")
+        choice_from_text("size", "tiny", SizeChoice)
 
 
 def test_a_viewer_that_cannot_show_more_gets_no_more_and_less_on_a_slow_connection() -> None:

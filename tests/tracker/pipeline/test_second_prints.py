@@ -87,7 +87,7 @@ def _images_until_noticed(first: list[Image8], then: list[Image8], *, maximum: i
     return maximum + 1
 
 
-def test_a_free_standing_print_that_comes_into_view_is_noticed_within_eight_images() -> None:
+def test_a_free_standing_print_that_comes_into_view_is_noticed_within_a_period() -> None:
     first, then = ([f(seed=k) for k in range(2)] for f in (_alone, _twice))
     assert _images_until_noticed(first, then, maximum=40) <= PERIOD_IMAGES == 32
 
