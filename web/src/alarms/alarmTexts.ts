@@ -11,10 +11,10 @@ export type AlarmTexts = Pick<AlarmMessage, "sentence" | "remedy" | "known">;
  * are the texts that state nothing about now.
  */
 export function textsBeside(
-  { alarms, numbers }: Pick<View, "alarms" | "numbers">,
+  { newest, numbers }: Pick<View, "newest" | "numbers">,
   alarm: AlarmMessage,
 ): AlarmTexts {
-  const ofImage = alarms?.alarms.find(({ number }) => number === alarm.number);
+  const ofImage = newest?.alarms.alarms.find(({ number }) => number === alarm.number);
   if (ofImage !== undefined && isOfNow(numbers)) return ofImage;
   const now = ofImage ?? alarm;
   return { sentence: now.sentence_without_figures, remedy: now.remedy_without_figures, known: now.known };

@@ -2,7 +2,7 @@
 import { firstMessageAt, type FirstMessageWait } from "./firstMessage";
 import type { Reading } from "./reading";
 import { readingOf, type Unread } from "./reading";
-import type { AlarmsMessage, HeadlineMessage, LiveMessage, SnapshotMessage } from "./messages";
+import type { HeadlineMessage, LiveMessage, SnapshotMessage } from "./messages";
 import type { LinkState } from "./viewConnection";
 
 export interface Limits {
@@ -15,8 +15,6 @@ export interface Limits {
 export interface ReceivedImage {
   snapshot: SnapshotMessage;
   headline: HeadlineMessage;
-  /** As they were with this image. */
-  alarms: AlarmsMessage;
   capturedAtMs: number;
   receivedAtMs: number;
 }

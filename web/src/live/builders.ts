@@ -149,7 +149,6 @@ export function receivedImage(capturedAtMs: number, changes: Partial<SnapshotMes
   return {
     snapshot: snapshot(changes),
     headline: headline(),
-    alarms: alarms(),
     capturedAtMs,
     receivedAtMs: capturedAtMs + 20,
   };

@@ -90,7 +90,7 @@ test("a message without a picture brings numbers and alarms, and a slower pictur
   live.receiveMessage({ ...frame(4).message, alarms });
   expect(live.update()).toMatchObject({
     numbers: { imageNumber: 4 },
-    alarms: { revision: 7 },
+    newest: { alarms: { revision: 7 } },
     video: { imageNumber: 1 },
   });
   await live.receive(frame(3));

@@ -66,7 +66,6 @@ export class Live {
       silentMs: this.situation.lastReceivedAtMs === null ? 0 : nowMs - this.situation.lastReceivedAtMs,
       firstMessage: firstMessageAt(this.situation, nowMs),
       newest: this.situation.newest,
-      alarms: this.situation.newest?.alarms ?? null,
       video,
       numbers,
       untrackedMs: numbers.live || this.trackedAtMs === null ? null : nowMs - this.trackedAtMs,
@@ -148,7 +147,8 @@ export class Live {
   receiveMessage(message: LiveMessage): void {
     // What this page shows depends on the connection that has the pictures.
     if (this.situation.link !== "open") return;
-    this.keepNewest(message, (this.situation.waitingSinceMs = this.markReceived()));
+    const receivedAtMs = (this.situation.waitingSinceMs = this.markReceived());
+    this.keepNewest(message, this.receivedImageFrom(message, receivedAtMs));
   }
 
   /** Receives one frame; resolves when it is displayed and the next may be requested. */
@@ -158,7 +158,7 @@ export class Live {
     const receivedAtMs = (this.situation.waitingSinceMs = this.markReceived());
     const timer = this.load.begin(receivedAtMs);
     const received = this.receivedImageFrom(message, receivedAtMs);
-    this.keepNewest(message, receivedAtMs);
+    this.keepNewest(message, received);
     const onDecoded = timer.markDecoded;
     const drawn = received !== null && jpeg.byteLength > 0 && (await this.draw(jpeg, isCurrent, onDecoded));
     // Not before its picture stands: to say that there is none would be a false alarm.
@@ -184,7 +184,7 @@ export class Live {
     const answeredAtMs = (this.situation.waitingSinceMs = this.markReceived());
     if (message === null) return;
     this.clock.sample(requestedAtMs, answeredAtMs, message.sent_at_s);
-    this.keepNewest(message, answeredAtMs);
+    this.keepNewest(message, this.receivedImageFrom(message, answeredAtMs));
   }
 
   get hasMessage(): boolean {
@@ -203,10 +203,9 @@ export class Live {
   }
 
   /** Figures are those of the newest message; a picture that took longer on its way changes nothing of them. */
-  private keepNewest(message: LiveMessage, receivedAtMs: number): void {
+  private keepNewest(message: LiveMessage, received: ReceivedImage | null): void {
     const { newest } = this.situation;
     if (newest !== null && message.sequence <= newest.sequence) return;
-    const received = this.receivedImageFrom(message, receivedAtMs);
     this.situation.newest = message;
     this.situation.numbers = received;
     if (received) this.sceneAge.image(received.snapshot.image_number, received.capturedAtMs);
@@ -226,10 +225,10 @@ export class Live {
   }
 
   private receivedImageFrom(message: LiveMessage, receivedAtMs: number): ReceivedImage | null {
-    const { snapshot, headline, alarms } = message;
+    const { snapshot, headline } = message;
     if (snapshot === null) return null;
     const capturedAtMs = this.clock.capturedAtMs(receivedAtMs, snapshot.age_ms, snapshot.captured_at_s);
-    return { snapshot, headline, alarms, capturedAtMs, receivedAtMs };
+    return { snapshot, headline, capturedAtMs, receivedAtMs };
   }
 
   private withRecoveryDelay(verdict: NumbersVerdict, nowMs: number): NumbersVerdict {

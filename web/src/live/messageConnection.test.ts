@@ -1,27 +1,14 @@
 import { beforeEach, expect, test } from "vitest";
 import { message } from "./builders";
+import { SilentSocket } from "./fakeSocket";
 import { MessageConnection } from "./messageConnection";
-import type { WebSocketLike } from "./reconnectingSocket";
 
-class FakeSocket implements WebSocketLike {
-  onopen: (() => void) | null = null;
-  onmessage: ((event: { data: unknown }) => void) | null = null;
-  onclose: (() => void) | null = null;
-  closed = false;
-  send(): void {
-    throw new Error("the server closes a connection on which a client sends");
-  }
-  close(): void {
-    this.closed = true;
-  }
-}
-
-let sockets: FakeSocket[];
+let sockets: SilentSocket[];
 let waits: (() => void)[];
 let received: number[];
 let connection: MessageConnection;
 
-const newest = (): FakeSocket => {
+const newest = (): SilentSocket => {
   const socket = sockets.at(-1);
   if (!socket) throw new Error("no socket was opened");
   return socket;
@@ -33,7 +20,7 @@ beforeEach(() => {
   received = [];
   connection = new MessageConnection({
     open: () => {
-      sockets.push(new FakeSocket());
+      sockets.push(new SilentSocket());
       return newest();
     },
     later: (action) => waits.push(action),

@@ -1,26 +1,14 @@
 import { beforeEach, expect, test } from "vitest";
 import { LONGEST_WAIT_MS, waitBeforeMs } from "./backoff";
-import { ANSWER_WITHIN_MS, ReconnectingSocket, type WebSocketLike } from "./reconnectingSocket";
+import { SilentSocket } from "./fakeSocket";
+import { ANSWER_WITHIN_MS, ReconnectingSocket } from "./reconnectingSocket";
 
-class FakeSocket implements WebSocketLike {
-  onopen: (() => void) | null = null;
-  onmessage: ((event: { data: unknown }) => void) | null = null;
-  onclose: (() => void) | null = null;
-  closed = false;
-  send(): void {
-    throw new Error("a kept line says nothing by itself");
-  }
-  close(): void {
-    this.closed = true;
-  }
-}
-
-let sockets: FakeSocket[];
+let sockets: SilentSocket[];
 let waits: { action: () => void; waitMs: number }[];
 let told: string[];
-let reconnecting: ReconnectingSocket<FakeSocket>;
+let reconnecting: ReconnectingSocket<SilentSocket>;
 
-const newest = (): FakeSocket => {
+const newest = (): SilentSocket => {
   const socket = sockets.at(-1);
   if (!socket) throw new Error("no socket was opened");
   return socket;
@@ -41,9 +29,9 @@ beforeEach(() => {
   sockets = [];
   waits = [];
   told = [];
-  reconnecting = new ReconnectingSocket<FakeSocket>({
+  reconnecting = new ReconnectingSocket<SilentSocket>({
     open: () => {
-      sockets.push(new FakeSocket());
+      sockets.push(new SilentSocket());
       return newest();
     },
     later: (action, waitMs) => waits.push({ action, waitMs }),

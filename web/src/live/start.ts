@@ -9,6 +9,7 @@ import { UNLIMITED } from "./budget";
 import { UPDATE_EVERY_MS } from "./load";
 import type { WebSocketLike } from "./reconnectingSocket";
 import { isSceneNote } from "./sceneAge";
+import { socketAddress } from "./socketAddress";
 
 export type Dashboard = components["schemas"]["DashboardMessage"];
 
@@ -196,10 +197,6 @@ function notifyScenes(): void {
 /** Figures and alarms stand beside the picture and are newer than it: none are drawn into it. */
 function viewAddress(size: string): string {
   return socketAddress(`/ws/view?size=${size}&overlay=geometry`);
-}
-
-function socketAddress(path: string): string {
-  return `${location.protocol === "https:" ? "wss:" : "ws:"}//${location.host}${path}`;
 }
 
 /** Asks the server who it is and which limits hold; limits have one home, its config. */

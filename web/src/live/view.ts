@@ -4,7 +4,7 @@ import type { DrawingBudget } from "./budget";
 import type { PictureDelivery } from "./pictureDelivery";
 import type { FirstMessage } from "./firstMessage";
 import type { LinkState } from "./viewConnection";
-import type { AlarmsMessage, LiveMessage } from "./messages";
+import type { LiveMessage } from "./messages";
 import type { SceneVerdict } from "./sceneAge";
 
 /** The true age of everything that stands on the page, in ms; null where nothing stands there. */
@@ -23,8 +23,6 @@ export interface View {
   /** Since the page was loaded; what it claims before that is nothing. */
   firstMessage: FirstMessage;
   newest: LiveMessage | null;
-  /** Of the same image as the figures, or as why there are none: no other number of the same thing. */
-  alarms: AlarmsMessage | null;
   video: VideoVerdict;
   numbers: NumbersVerdict;
   /** How long there have been no numbers; null while there are, or when there never were. */
@@ -67,7 +65,6 @@ export function keyOf({
   numbers,
   scene,
   newest,
-  alarms,
   pictureDelivery: carried,
 }: View): string {
   const videoKey = video.live ? "live" : video.cause;
@@ -84,7 +81,7 @@ export function keyOf({
     scene.state,
     problems,
     newest?.source.state,
-    alarms?.revision,
+    newest?.alarms.revision,
     carried.choice,
   ].join("|");
 }

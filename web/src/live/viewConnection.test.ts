@@ -1,29 +1,19 @@
 import { beforeEach, expect, test } from "vitest";
 import { bytes, message } from "./builders";
+import { FakeSocket } from "./fakeSocket";
 import { ViewConnection, type ViewSocket } from "./viewConnection";
 
-class FakeSocket implements ViewSocket {
+class FakeViewSocket extends FakeSocket implements ViewSocket {
   binaryType: BinaryType = "blob";
-  onopen: (() => void) | null = null;
-  onmessage: ((event: { data: unknown }) => void) | null = null;
-  onclose: (() => void) | null = null;
-  sent: string[] = [];
-  closed = false;
-  send(text: string): void {
-    this.sent.push(text);
-  }
-  close(): void {
-    this.closed = true;
-  }
 }
 
-let sockets: FakeSocket[];
+let sockets: FakeViewSocket[];
 let waits: { action: () => void; waitMs: number }[];
 let states: string[];
 let images: number[];
 let connection: ViewConnection;
 
-const newest = (): FakeSocket => {
+const newest = (): FakeViewSocket => {
   const socket = sockets.at(-1);
   if (!socket) throw new Error("no socket was opened");
   return socket;
@@ -42,7 +32,7 @@ beforeEach(() => {
   images = [];
   connection = new ViewConnection({
     open: () => {
-      sockets.push(new FakeSocket());
+      sockets.push(new FakeViewSocket());
       return newest();
     },
     later: (action, waitMs) => waits.push({ action, waitMs }),

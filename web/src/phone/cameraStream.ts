@@ -1,4 +1,5 @@
 // Joins the pure parts to the browser: camera, video frames, canvas, WebSocket, and the screen that stays on.
+import { socketAddress } from "../live/socketAddress";
 import { factsOf, requestedConstraints, withLockedFocus, type Capabilities } from "./camera";
 import { frameTime, type FrameTimes } from "./frameTime";
 import type { CameraFacts, FrameTime, Note, Problem, Welcome } from "./messages";
@@ -32,7 +33,7 @@ export function startCameraStream(video: HTMLVideoElement, listener: Listener): 
   const { signal } = stop;
   let track: MediaStreamTrack | null = null;
   const connection = new PhoneConnection(pageKey(), {
-    open: () => new WebSocket(address()) as PhoneSocket,
+    open: () => new WebSocket(socketAddress("/ws/camera")) as PhoneSocket,
     later: (action, waitMs) => {
       setTimeout(action, waitMs);
     },
@@ -176,8 +177,4 @@ function pageKey(): string {
     .join("");
   sessionStorage.setItem(KEY_NAME, key);
   return key;
-}
-
-function address(): string {
-  return `${location.protocol === "https:" ? "wss:" : "ws:"}//${location.host}/ws/camera`;
 }

@@ -1,6 +1,7 @@
 // The room as this page lives in it: one line, one state; marks are painted past React, words go through it.
 import type { ViewName } from "../app/views";
 import { firstMessageAt, type FirstMessage, type FirstMessageWait } from "../live/firstMessage";
+import { socketAddress } from "../live/socketAddress";
 import type { Hold, Person, RoomMessage, ClientMessage, Signable, You } from "./messages";
 import { RoomConnection, type RoomSocket } from "./roomConnection";
 import { afterMessage, stateAt, NOBODY, type RoomState } from "./roomState";
@@ -29,7 +30,7 @@ export class Room {
 
   constructor(view: ViewName) {
     this.connection = new RoomConnection({
-      open: () => new WebSocket(addressOf(view)) as RoomSocket,
+      open: () => new WebSocket(socketAddress(`/ws/room?view=${view}`)) as RoomSocket,
       later: (action, waitMs) => {
         setTimeout(action, waitMs);
       },
@@ -107,8 +108,4 @@ function snapshotOf({
   signable,
 }: RoomState): Omit<RoomSnapshot, "isConnected" | "firstMessage"> {
   return { you, people, hold, fadesAfterS, signable };
-}
-
-function addressOf(view: ViewName): string {
-  return `${location.protocol === "https:" ? "wss:" : "ws:"}//${location.host}/ws/room?view=${view}`;
 }

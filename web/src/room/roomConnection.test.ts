@@ -1,19 +1,9 @@
 import { expect, test } from "vitest";
+import { FakeSocket } from "../live/fakeSocket";
 import { RoomConnection, SILENT_AFTER_MS, type RoomSocket } from "./roomConnection";
 
-class Fake implements RoomSocket {
-  onopen: (() => void) | null = null;
-  onmessage: ((event: { data: unknown }) => void) | null = null;
-  onclose: (() => void) | null = null;
+class Fake extends FakeSocket implements RoomSocket {
   bufferedAmount = 0;
-  readonly sent: string[] = [];
-  closed = false;
-  send(text: string): void {
-    this.sent.push(text);
-  }
-  close(): void {
-    this.closed = true;
-  }
 }
 
 function theatre() {

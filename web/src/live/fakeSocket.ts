@@ -1,0 +1,23 @@
+// Stands in for a WebSocket in tests.
+import type { WebSocketLike } from "./reconnectingSocket";
+
+export class FakeSocket implements WebSocketLike {
+  onopen: (() => void) | null = null;
+  onmessage: ((event: { data: unknown }) => void) | null = null;
+  onclose: (() => void) | null = null;
+  readonly sent: string[] = [];
+  closed = false;
+  send(text: string): void {
+    this.sent.push(text);
+  }
+  close(): void {
+    this.closed = true;
+  }
+}
+
+/** Of a connection on which the page sends nothing. */
+export class SilentSocket extends FakeSocket {
+  override send(): void {
+    throw new Error("nothing is sent on this connection");
+  }
+}
