@@ -1,5 +1,6 @@
 """The command line: commands, their options, and the report of an error."""
 
+import gc
 import sys
 from enum import StrEnum
 from importlib.metadata import PackageNotFoundError, version
@@ -152,21 +153,26 @@ def run(
 
     # The tracker loads in its own process meanwhile.
     forking_context()
-    from server.cli.options import SettingOptions  # noqa: PLC0415
-    from server.cli.run import run_dashboard  # noqa: PLC0415
+    # What is imported stays: collecting garbage takes a sixth of a start. `run_dashboard` enables it again.
+    gc.disable()
+    try:
+        from server.cli.options import SettingOptions  # noqa: PLC0415
+        from server.cli.run import run_dashboard  # noqa: PLC0415
 
-    given = SettingOptions(
-        config=config,
-        source=source,
-        markers=tuple(marker or ()),
-        sides_mm=tuple(side_mm or ()),
-        names=tuple(name or ()),
-        camera=camera,
-        port=port,
-        loop=loop,
-        rate=None if rate is None else rate.value,
-    )
-    run_dashboard(given, log_json=log_json, debug=debug, new_operator_link=new_operator_link)
+        given = SettingOptions(
+            config=config,
+            source=source,
+            markers=tuple(marker or ()),
+            sides_mm=tuple(side_mm or ()),
+            names=tuple(name or ()),
+            camera=camera,
+            port=port,
+            loop=loop,
+            rate=None if rate is None else rate.value,
+        )
+        run_dashboard(given, log_json=log_json, debug=debug, new_operator_link=new_operator_link)
+    finally:
+        gc.enable()
 
 
 @app.command(help=TRACK_HELP)

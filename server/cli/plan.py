@@ -8,7 +8,7 @@ from typing import Any
 import typer
 
 from server.cli.options import SettingOptions, config_from_options
-from server.imaging import read_ct
+from server.imaging.ct_reader import read_ct
 from tracker.errors import InvalidInput, PlanError
 from tracker.plan import (
     Channel,

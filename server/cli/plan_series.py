@@ -6,7 +6,8 @@ from pathlib import Path
 
 import typer
 
-from server.imaging import SeriesDescription, list_series
+from server.imaging import SeriesDescription
+from server.imaging.ct_reader import list_series
 
 
 def print_series(ct: Path, *, as_json: bool) -> None:

@@ -1,6 +1,7 @@
 """`coaxial run`: start the server, serve until a stop signal, and shut down."""
 
 import errno
+import gc
 import socket
 import sys
 from collections.abc import Callable
@@ -111,7 +112,7 @@ def _serve(
             app,
             listener,
             stopping,
-            on_ready=lambda: _print_addresses(listener, access.startup_lines),
+            on_ready=lambda: _ready(listener, access.startup_lines),
             tls=access.tls,
         )
 
@@ -161,8 +162,11 @@ def _rehearsed(
     return RehearsalControl(config.rehearsal, play=tracked.play, played_scene=lambda: tracked.played_scene)
 
 
-def _print_addresses(listener: socket.socket, lines_for: Callable[[str], list[str]]) -> None:
-    """Print the addresses of the server and how to sign in."""
+def _ready(listener: socket.socket, lines_for: Callable[[str], list[str]]) -> None:
+    """Print the addresses of the server and how to sign in, and enable garbage collection."""
+    # A full collection would look at all modules again: a tenth of a second in which no figure is sent.
+    gc.freeze()
+    gc.enable()
     typer.echo(f"Coaxial {coaxial_version()} · research software, not a medical device")
     host, port = listener.getsockname()[:2]
     for line in lines_for(f"{link_name(host)}:{port}"):

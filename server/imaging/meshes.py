@@ -1,21 +1,24 @@
 """Reading and writing of surfaces as STL, OBJ and PLY.
 
 trimesh parses bytes only and gets no resolver, so that references to materials, textures or other files are
-not followed.
+not followed. It is imported by the functions that need it: it takes half a second of a server's start.
 """
 
 import io
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import trimesh
 
 from server.imaging.mesh_headers import checked_content
 from tracker.errors import InvalidInput, NavigationError
 from tracker.plan import Surface
 from tracker.plan.mesh import MeshSurface, surface_from_mesh
 from tracker.plan.mesh.intake import Space
+
+if TYPE_CHECKING:
+    import trimesh
 
 FORMATS = ("stl", "obj", "ply")
 # A parser of text takes up to twenty times the length of its file.
@@ -96,6 +99,8 @@ def ply_from_surface(surface: Surface) -> bytes:
 
 def stl_from_surface(surface: Surface) -> bytes:
     """The surface as a binary STL file, in mm of LPS, to seven digits, as STL has no more."""
+    import trimesh  # noqa: PLC0415  see above
+
     mesh = trimesh.Trimesh(surface.vertices_mm, surface.faces, process=False)
     content = bytes(trimesh.exchange.stl.export_stl(mesh))
     return b"Coaxial SPACE=LPS UNIT=mm".ljust(80, b"\0") + content[80:]
@@ -111,8 +116,10 @@ def _reject_large(size: int) -> None:
         )
 
 
-def _parsed(content: bytes, file_format: str) -> trimesh.Trimesh:
+def _parsed(content: bytes, file_format: str) -> "trimesh.Trimesh":
     """Parse the bytes with trimesh; any of its exceptions becomes MESH_UNREADABLE."""
+    import trimesh  # noqa: PLC0415  see above
+
     try:
         # Coordinates that are no numbers are refused by name, not warned of in passing.
         with np.errstate(all="ignore"):

@@ -9,7 +9,7 @@ import signal
 from multiprocessing import forkserver, resource_tracker
 from multiprocessing.context import ForkServerContext
 
-PRELOAD = ["server.loop.preload", "server.planning.ct"]
+PRELOAD = ["server.loop.preload"]
 
 
 def forking_context() -> ForkServerContext:

@@ -14,6 +14,10 @@ signal.signal(signal.SIGINT, signal.SIG_IGN)
 die_with_parent()
 
 import contextlib  # noqa: E402  the lines above come before everything that takes time
+import gc  # noqa: E402
+
+# What is imported stays: to look for garbage in it takes a sixth of the loading, and delays images later.
+gc.disable()
 
 import cv2  # noqa: E402
 
@@ -27,3 +31,5 @@ cv2.setNumThreads(1)
 with contextlib.suppress(Exception):
     compile_tracker()
 cv2.setNumThreads(threads)
+gc.freeze()
+gc.enable()

@@ -1,24 +1,21 @@
-"""The SQLite database: durable commits, integrity check, and migration to the current schema."""
+"""The SQLite database: durable commits, and an integrity check when it is opened."""
 
 import sqlite3
 from collections.abc import Callable, Iterator
-from contextlib import closing, contextmanager
+from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
 
-from alembic import command
-from alembic.config import Config
-from alembic.runtime.migration import MigrationContext
-from alembic.script import ScriptDirectory
-from alembic.util.exc import CommandError
-from sqlalchemy import Connection, Engine, create_engine, event
+from sqlalchemy import Connection, Engine, create_engine, event, inspect, text
 from sqlalchemy.engine.interfaces import DBAPIConnection
 from sqlalchemy.pool import ConnectionPoolEntry
 
-from server.store.errors import StoreError, damaged_database, translate_errors
+from server.store.errors import damaged_database, translate_errors
 from server.store.home import Home, sync_folder
 
 MIGRATIONS = Path(__file__).parent / "migrations"
+# Of the newest file in `MIGRATIONS`.
+CURRENT_REVISION = "2"
 BUSY_TIMEOUT_MS = 10_000
 # secure_delete overwrites deleted patient data.
 PRAGMAS = (
@@ -44,7 +41,11 @@ def open_database(home: Home, *, now: Callable[[], datetime], migrations: Path =
     with translate_errors(home.folder):
         try:
             _check(engine, home)
-            _migrate(engine, home, now=now, migrations=migrations)
+            if migrations != MIGRATIONS or _revision(engine) != CURRENT_REVISION:
+                # Alembic takes half a second of a start, and most starts need no migration.
+                from server.store.migration import migrate  # noqa: PLC0415
+
+                migrate(engine, home, now=now, migrations=migrations)
             sync_folder(home.folder)
         except BaseException:
             engine.dispose()
@@ -59,7 +60,7 @@ def with_immediate_transactions(engine: Engine) -> Engine:
 
 def truncate_journal(engine: Engine) -> None:
     """Checkpoint and truncate the write-ahead log, so that no deleted data remains in it."""
-    with _raw_connection(engine) as connection:
+    with raw_connection(engine) as connection:
         connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
 
 
@@ -78,7 +79,7 @@ def _begin(connection: Connection) -> None:
 
 
 @contextmanager
-def _raw_connection(engine: Engine) -> Iterator[sqlite3.Connection]:
+def raw_connection(engine: Engine) -> Iterator[sqlite3.Connection]:
     """Context manager for a connection without a transaction."""
     proxied = engine.raw_connection()
     try:
@@ -91,47 +92,15 @@ def _raw_connection(engine: Engine) -> Iterator[sqlite3.Connection]:
 
 
 def _check(engine: Engine, home: Home) -> None:
-    with _raw_connection(engine) as connection:
+    with raw_connection(engine) as connection:
         found = connection.execute("PRAGMA quick_check(1)").fetchone()[0]
     if found != "ok":
         raise damaged_database(home.folder, str(found))
 
 
-def _migrate(engine: Engine, home: Home, *, now: Callable[[], datetime], migrations: Path) -> None:
-    config = Config()
-    config.set_main_option("script_location", str(migrations).replace("%", "%%"))
-    config.set_main_option("path_separator", "os")
-    wanted = ScriptDirectory.from_config(config).get_current_head()
+def _revision(engine: Engine) -> str | None:
+    """Return the revision of the schema; None for an empty database."""
     with engine.connect() as connection:
-        revision = MigrationContext.configure(connection).get_current_revision()
-    if revision == wanted:
-        return
-    if revision is not None:
-        _reject_newer(ScriptDirectory.from_config(config), revision, home)
-        _back_up(engine, home, name=f"coaxial-{revision}-{now():%Y%m%dT%H%M%SZ}.sqlite3")
-    with with_immediate_transactions(engine).begin() as connection:
-        config.attributes["connection"] = connection
-        command.upgrade(config, "head")
-
-
-def _reject_newer(scripts: ScriptDirectory, revision: str, home: Home) -> None:
-    try:
-        scripts.get_revision(revision)
-    except CommandError as error:
-        raise StoreError(
-            "STORE_NEWER",
-            f"the database in {home.folder} was made by a newer Coaxial (its schema is {revision}, this "
-            f"program supports schemas up to {scripts.get_current_head()})",
-            "Start the newer program again, or name another folder with COAXIAL_HOME.",
-            {"found": revision, "known": scripts.get_current_head()},
-        ) from error
-
-
-def _back_up(engine: Engine, home: Home, *, name: str) -> None:
-    """Make a durable backup of the database before the migration."""
-    part = home.backups / f"{name}.part"
-    with _raw_connection(engine) as source, closing(sqlite3.connect(part)) as target:
-        target.execute("PRAGMA synchronous = FULL")
-        source.backup(target)
-    part.replace(home.backups / name)
-    sync_folder(home.backups)
+        if not inspect(connection).has_table("alembic_version"):
+            return None
+        return connection.execute(text("SELECT version_num FROM alembic_version")).scalar()

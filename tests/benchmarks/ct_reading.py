@@ -17,7 +17,7 @@ import numpy as np
 from pydicom import uid
 from scipy import ndimage
 
-from server.imaging import read_ct
+from server.imaging.ct_reader import read_ct
 from tests.benchmarks.tables import Table
 from tests.server.imaging.made_ct import compressed, file_of, made_ct
 from tracker.plan.slices import Slice, patient_slice

@@ -9,7 +9,7 @@ from fastapi.testclient import TestClient
 from server.app import AppParts, create_app
 from server.capture.rehearsal import PlayedScene
 from server.config import CameraConfig, Config, RehearsalConfig
-from server.imaging import read_ct
+from server.imaging.ct_reader import read_ct
 from server.live import LiveHub
 from server.loop.rehearsal_control import RehearsalControl
 from server.loop.staging import SceneOrder

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from pydicom import uid
 
-from server.imaging import list_series, read_ct
+from server.imaging.ct_reader import list_series, read_ct
 from tests.server.imaging.made_ct import Made, enhanced_of, file_of, made_ct
 from tracker.plan.slices import Slice
 

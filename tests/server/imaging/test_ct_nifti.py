@@ -9,7 +9,7 @@ import nibabel as nib
 import numpy as np
 import pytest
 
-from server.imaging import read_ct
+from server.imaging.ct_reader import read_ct
 from tests.server.imaging.made_ct import nifti_of
 from tracker.geometry import rotation_from_vector
 

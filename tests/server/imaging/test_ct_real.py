@@ -4,7 +4,7 @@ import nibabel as nib
 import numpy as np
 import pydicom
 
-from server.imaging import list_series, read_ct
+from server.imaging.ct_reader import list_series, read_ct
 from tests.real_data import real_data_file
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from pydicom import uid
 
-from server.imaging import list_series, read_ct
+from server.imaging.ct_reader import list_series, read_ct
 from tests.server.imaging.made_ct import BORN, NAME, NUMBER, enhanced_of, file_of, made_ct, nifti_of
 from tests.server.imaging.spoilt_ct import (
     HU,

@@ -12,13 +12,15 @@ from pathlib import Path
 import alembic.autogenerate
 import filelock
 import pytest
+from alembic.config import Config
 from alembic.runtime.migration import MigrationContext
+from alembic.script import ScriptDirectory
 from sqlalchemy import create_engine
 
 from server.clock import utc_now
 from server.home_folder import home_folder
 from server.store import CaseStore, DocumentKind, Home, ImportRecord, StoreError
-from server.store.database import MIGRATIONS, open_database
+from server.store.database import CURRENT_REVISION, MIGRATIONS, open_database
 from server.store.tables import Table
 
 REPOSITORY = Path(__file__).parents[3]
@@ -247,3 +249,10 @@ def test_a_home_that_is_a_file_is_reported(tmp_path: Path) -> None:
     with pytest.raises(StoreError) as rejected:
         Home(tmp_path / "home")
     assert rejected.value.code == "STORE_FAILED"
+
+
+def test_the_current_revision_is_that_of_the_newest_migration() -> None:
+    config = Config()
+    config.set_main_option("script_location", str(MIGRATIONS))
+    config.set_main_option("path_separator", "os")
+    assert ScriptDirectory.from_config(config).get_current_head() == CURRENT_REVISION

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from server.imaging import read_ct
+from server.imaging.ct_reader import read_ct
 from tests.real_data import real_data_file
 from tracker.errors import PlanError
 from tracker.plan import PedicleMeasure, Volume, measure_pedicle

@@ -1,0 +1,19 @@
+"""What a start of the server must not wait for."""
+
+import subprocess
+import sys
+
+# Each takes between a tenth and three quarters of a second, and only jobs, uploads or a migration need it.
+NOT_AT_START = {"alembic", "mako", "networkx", "pydicom", "trimesh"}
+IMPORT = """
+import sys
+import server.app, server.cli.run, server.cli.storage, server.cli.web, server.procedure
+print(*sorted({name.split(".")[0] for name in sys.modules}))
+"""
+
+
+def test_a_start_imports_no_library_that_only_a_job_needs() -> None:
+    done = subprocess.run([sys.executable, "-c", IMPORT], capture_output=True, text=True, check=True)
+    loaded = set(done.stdout.split())
+    assert "fastapi" in loaded
+    assert loaded & NOT_AT_START == set()
