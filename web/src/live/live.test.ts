@@ -49,13 +49,17 @@ test("the time without numbers is counted from the last image that had them", as
   expect(live.update().untrackedMs).toBe(1200);
 });
 
-test("numbers that were too old come back only when young for a while", async () => {
+test("numbers that were too old twice within a second come back only when young for a while", async () => {
   await live.receive(frame(1, 200));
   nowMs = 1100;
   await live.receive(frame(2));
+  expect(live.update().numbers.live).toBe(true);
+  nowMs = 1300;
   expect(live.update().numbers).toMatchObject({ live: false, cause: "old" });
-  nowMs = 1251;
   await live.receive(frame(3));
+  expect(live.update().numbers).toMatchObject({ live: false, cause: "old" });
+  nowMs = 1551;
+  await live.receive(frame(4));
   expect(live.update().numbers.live).toBe(true);
 });
 

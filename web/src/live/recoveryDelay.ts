@@ -1,14 +1,19 @@
-// Numbers that were removed for their age are shown again only after a delay: an age close to its limit must
-// not make them blink.
+// Figures whose age passes its limit once and again must not blink: after the second time within a second they are
+// shown again only when they have been young for a while. A single late image costs no more than its own time.
 
+const STEADY_AFTER_MS = 1000;
 const YOUNG_FOR_MS = 250;
 
 export class RecoveryDelay {
+  private wasOld = false;
   private oldAtMs = -Infinity;
+  private isRepeated = false;
 
-  /** Whether fresh numbers must still be suppressed at `nowMs`. */
+  /** Whether fresh figures must still be suppressed at `nowMs`. */
   isActive(old: boolean, nowMs: number): boolean {
+    if (old && !this.wasOld) this.isRepeated = nowMs - this.oldAtMs < STEADY_AFTER_MS;
     if (old) this.oldAtMs = nowMs;
-    return nowMs - this.oldAtMs < YOUNG_FOR_MS;
+    this.wasOld = old;
+    return this.isRepeated && nowMs - this.oldAtMs < YOUNG_FOR_MS;
   }
 }
