@@ -9,9 +9,14 @@ import { Stall, TimingWindow, type ImageTimes } from "./timings";
 /** The page looks around at least this often, where nothing holds it up. */
 export const UPDATE_EVERY_MS = 50;
 
+/** A picture is made smaller for lack of space only down to this width: whoever enlarges the page must recognise things. */
+const MIN_HALF_WIDTH_PX = 640;
+
 export class Load {
   readonly deliveryMonitor = new PictureDeliveryMonitor();
   readonly sceneSwitch = new SceneSwitch();
+  /** Width and height that the picture may take on the page, in pixels of the screen; null while they are not known. */
+  spacePx: readonly [number, number] | null = null;
   /** Whether the server runs on this very machine: then both share its processor, and no network lies between. */
   sharesMachine = false;
   private readonly window = new TimingWindow();
@@ -19,6 +24,7 @@ export class Load {
   private readonly control = new BudgetControl();
   private steps: DrawingBudget[] = budgetSteps(0);
   private staleAfterMs = 0;
+  private cameraPx: readonly [number, number] | null = null;
   private current = 0;
 
   constructor(private readonly now: () => number) {}
@@ -32,7 +38,19 @@ export class Load {
   }
 
   get budget(): DrawingBudget {
+    return this.isHalfEnough ? { ...this.step, largestPicture: "half" } : this.step;
+  }
+
+  private get step(): DrawingBudget {
     return this.steps[this.current] ?? UNLIMITED;
+  }
+
+  /** Whether a picture of half the size has a pixel for each one of the screen. */
+  private get isHalfEnough(): boolean {
+    if (this.spacePx === null || this.cameraPx === null) return false;
+    const [width, height] = this.cameraPx;
+    const scale = Math.min(this.spacePx[0] / width, this.spacePx[1] / height);
+    return scale <= 0.5 && width / 2 >= MIN_HALF_WIDTH_PX;
   }
 
   tick(nowMs: number): void {
@@ -54,6 +72,7 @@ export class Load {
   }
 
   shown(times: ImageTimes, of: { width_px: number; height_px: number }, scaleRatio: number): void {
+    this.cameraPx = [of.width_px, of.height_px];
     this.window.image(times);
     this.deliveryMonitor.recordPicture(times.atMs, [of.width_px, of.height_px], scaleRatio);
   }
@@ -71,11 +90,11 @@ export class Load {
     const timings = this.window.means(nowMs, this.control.sinceMs);
     const ageLimitMs = this.sharesMachine ? limits.pose_stale_after_ms : null;
     this.sceneSwitch.update(nowMs, this.window, this.control.isSceneDrawnByProcessor ? ageLimitMs : null);
-    const strain = strainIn(this.budget, timings, ageLimitMs);
+    const strain = strainIn(this.step, timings, ageLimitMs);
     this.current = this.control.update(nowMs, this.steps, timings, strain);
-    const { largestPicture } = this.budget;
     return this.deliveryMonitor.update(nowMs, cameraHz, this.window.means(nowMs), {
-      largestPicture,
+      largestPicture: this.step.largestPicture,
+      neededRatio: this.isHalfEnough ? 0.5 : 1,
       sharesMachine: this.sharesMachine,
     });
   }

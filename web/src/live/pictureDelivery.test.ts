@@ -12,7 +12,7 @@ const QUICK: Timings = {
   ageMs: 60,
   screenIntervalMs: 17,
 };
-const ELSEWHERE = { largestPicture: "full", sharesMachine: false } as const;
+const ELSEWHERE = { largestPicture: "full", neededRatio: 1, sharesMachine: false } as const;
 
 /** So many images a second for so long; the moment of the last one. */
 function bring(perS: number, seconds: number, scaleRatio = 1, fromMs = 0): number {
@@ -57,6 +57,8 @@ test.each<[string, number, number, Partial<Timings>, object, PictureDelivery["li
   ],
   ["a size that the server chose", 28, 0.5, {}, {}, "thin"],
   ["a size that the device asked for", 28, 0.5, { decodingMs: 30 }, { largestPicture: "half" }, "decoding"],
+  ["as large as its space needs", 28, 0.5, {}, { neededRatio: 0.5 }, null],
+  ["smaller than its space needs", 28, 0.25, {}, { neededRatio: 0.5 }, "thin"],
   ["a smaller one than that", 28, 0.25, { decodingMs: 30 }, { largestPicture: "half" }, "thin"],
 ])("%s", (_, perS, scaleRatio, timings, device, little) => {
   expect(look(bring(perS, 4, scaleRatio), timings, device).limitedBy).toBe(little);

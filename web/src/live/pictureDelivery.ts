@@ -22,6 +22,8 @@ export type SlowPart = "thin" | "server" | "decoding" | "drawing";
 /** What this device allows, and where it stands. */
 export interface Device {
   largestPicture: "full" | "half";
+  /** Scale that is enough for the space in which the picture stands. */
+  neededRatio: number;
   sharesMachine: boolean;
 }
 
@@ -70,7 +72,7 @@ export class PictureDeliveryMonitor {
   }
 
   private limitation(imagesPerS: number, timings: Timings, device: Device): PictureDelivery["limitedBy"] {
-    const isSmall = this.scaleRatio < 1;
+    const isSmall = this.scaleRatio < device.neededRatio;
     // The server makes it smaller for its line alone; what this page has asked for is this device's doing.
     const isOwn = isSmall && device.largestPicture === "half" && this.scaleRatio >= 0.5;
     if (this.choice === "auto" && isSmall) return isOwn ? slowerOf(timings) : "thin";

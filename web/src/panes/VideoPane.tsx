@@ -1,4 +1,4 @@
-import { useLayoutEffect, useRef, type ReactNode } from "react";
+import { useEffect, useLayoutEffect, useRef, type ReactNode } from "react";
 import { ConnectionNote } from "../live/ConnectionNote";
 import { useLive, usePainter } from "../live/LiveContext";
 import { formatNumber } from "../live/rounding";
@@ -38,6 +38,21 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
       if (drawn) painted.current = true;
       return drawn;
     });
+  }, [live]);
+
+  useEffect(() => {
+    const element = canvas.current;
+    if (element === null) return;
+    const observer = new ResizeObserver(([entry]) => {
+      if (entry === undefined) return;
+      const { width, height } = entry.contentRect;
+      live.load.spacePx = [width * devicePixelRatio, height * devicePixelRatio];
+    });
+    observer.observe(element);
+    return () => {
+      observer.disconnect();
+      live.load.spacePx = null;
+    };
   }, [live]);
 
   usePainter(({ nowMs, video }) => {
