@@ -26,6 +26,7 @@ from server.api.latency import latency_router
 from server.api.live import live_router
 from server.api.markers import markers_router
 from server.api.metrics import Metrics, metrics_router
+from server.api.navigation_ct import navigation_ct_router
 from server.api.needles import needles_router
 from server.api.page import mount_page, page_addresses, page_folder
 from server.api.people import people_router
@@ -238,6 +239,7 @@ def _add_procedure(app: FastAPI, parts: AppParts) -> None:
         app.include_router(markers_router(parts.steps.markers, parts.store.home))
         app.include_router(tools_router(parts.steps.tool))
         app.include_router(ct_router(parts.steps.ct, parts.steps.ct_provider, parts.store.home))
+        app.include_router(navigation_ct_router(parts.steps.navigation_ct))
         app.include_router(
             plan_router(
                 parts.steps.plan,

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 
 # An ordinary lens with a field of view of about 45 degrees. Used to detect markers, never for distances.
 NOMINAL_FOCAL_BY_WIDTH = 1.2
+# Of the simulated CT of the rehearsal's vertebra, which is no document of a case.
+REHEARSAL_CT_ID = "rehearsal"
 
 
 class ConfirmationReason(StrEnum):
@@ -74,6 +76,7 @@ class CaseSetup:
         guide: Wall and screw of this pedicle, besides its channel.
         withheld: Why numbers are withheld although everything is known.
         confirmed_from_s: see `confirmation_reason`.
+        ct_id: of the CT on which the channel was planned; empty if unknown.
     """
 
     camera: CameraModel | None = None
@@ -88,6 +91,7 @@ class CaseSetup:
     drill_reference: DrillReference | None = None
     withheld: AbsentReason | None = None
     confirmed_from_s: float | None = None
+    ct_id: str = ""
 
     def tracked_from(self, tracked_from_s: float) -> "CaseSetup":
         """Return the setup for a tracking process that monitors motion since this time only."""
@@ -117,6 +121,7 @@ class Preparation:
         guide: Wall and screw of the pedicle besides its channel; None uses the channel only.
         camera_controls: see `CaseSetup`; of the camera file, where the camera is that of the settings.
         same_sensor_area: Images of all sizes show the same area of the sensor (setting).
+        ct_id: of the CT on which the channel was planned; empty if there is none.
     """
 
     camera: CameraModel | None
@@ -137,6 +142,7 @@ class Preparation:
     limits: DrillLimits = field(default_factory=DrillLimits)
     camera_controls: Mapping[CameraControl, int] = field(default_factory=dict)
     same_sensor_area: bool = False
+    ct_id: str = ""
 
     def drill_reference_for(self, channel: Channel) -> DrillReference:
         """Return the drill reference of a channel: bone of the case, of the rehearsal, or the channel."""
@@ -208,6 +214,7 @@ class Preparation:
             withheld=case.withheld,
             registered_from_s=case.registered_from_s,
             drill_reference=case.drill_reference,
+            ct_id=case.ct_id,
         )
 
     def _readout_s(self, readout_ms: float | None) -> float:
@@ -237,6 +244,7 @@ class Preparation:
             withheld=self.withheld,
             max_tip_sd_mm=self.max_tip_sd_mm,
             limits=self.limits,
+            ct_id=self.ct_id,
         )
 
 
@@ -290,6 +298,7 @@ def _with_theatre_setup(base: Preparation, theatre: "Theatre") -> Preparation:
         base,
         camera=theatre.camera,
         tools={theatre.tool.name: theatre.tool, **base.tools},
+        ct_id=REHEARSAL_CT_ID,
         channel=replace(theatre.channels[0], name=f"rehearsal's {theatre.channels[0].name}"),
         registration=Registration.known_to_reference(theatre.reference_from_vertebra)
         if theatre.reference is not None and base.reference == theatre.reference.name

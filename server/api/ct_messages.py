@@ -43,6 +43,13 @@ class WindowMessage(Message):
     level_hu: float
 
 
+def preset_messages() -> dict[str, WindowMessage]:
+    """Return the display windows by name."""
+    return {
+        name: WindowMessage(window_hu=one.width_hu, level_hu=one.centre_hu) for name, one in WINDOWS.items()
+    }
+
+
 class CtMessage(Message):
     """The CT of the open case."""
 
@@ -115,10 +122,7 @@ def ct_message(heading: HeadingMessage, content: Mapping[str, object], volume: V
         spacing_mm=volume.spacing_mm.tolist(),
         lps_from_ijk=volume.lps_from_ijk.tolist(),
         planes={plane: reach_message(volume, plane) for plane in VIEWS},
-        presets={
-            name: WindowMessage(window_hu=one.width_hu, level_hu=one.centre_hu)
-            for name, one in WINDOWS.items()
-        },
+        presets=preset_messages(),
         description=mapping_of(content.get("description")),
         warnings=[str(one) for one in list_of(content.get("warnings"))],
         left_out=[mapping_of(one) for one in list_of(content.get("left_out"))],

@@ -20,7 +20,7 @@ from server.procedure.confirmation import confirmation_name
 from server.procedure.drill_reference import DrillReferenceBuilder
 from server.procedure.facts import facts_of
 from server.procedure.markers import MarkerStep
-from server.procedure.plan import ACTIVE_CHANNEL, active_channel_from_document
+from server.procedure.plan import ACTIVE_CHANNEL, active_channel_from_document, planned_ct_id
 from server.procedure.registration_record import (
     CheckRecord,
     RegistrationRecord,
@@ -128,6 +128,7 @@ class SetupPublisher:
         cameras: dict[str, CameraFile] = {}
         tools: dict[str, ToolModel] = {}
         channel: Channel | None = None
+        ct_id = ""
         registered: RegistrationRecord | None = None
         check: CheckRecord | None = None
         for document in documents:
@@ -143,6 +144,7 @@ class SetupPublisher:
                     continue
                 elif document.kind is DocumentKind.PLAN:
                     channel = active_channel_from_document(document).channel
+                    ct_id = planned_ct_id(self._store, document)
                 elif document.kind is DocumentKind.REGISTRATION:
                     registered = registration_from_document(document, reference=self._defaults.reference)
                 elif document.kind is DocumentKind.CHECK:
@@ -159,6 +161,7 @@ class SetupPublisher:
             models=self._markers.of_case,
             tools=tools,
             channel=channel,
+            ct_id=ct_id,
             registration=None if registered is None else registered.registration,
             registered_from_s=None if registered is None else self._from_s(registered, check),
             withheld=None if registered is None else self._withheld(),

@@ -18,6 +18,7 @@ from server.procedure.ct import CtProvider, CtStep
 from server.procedure.drill_reference import DrillReferenceBuilder
 from server.procedure.latency import LatencyStep
 from server.procedure.markers import MarkerStep
+from server.procedure.navigation_ct import NavigationCtProvider
 from server.procedure.plan import PlanStep
 from server.procedure.readout import ReadoutStep
 from server.procedure.registration import RegistrationSteps
@@ -49,6 +50,7 @@ class Steps:
         tool: calibrates tools.
         ct: imports a CT.
         ct_provider: the CT of the open case.
+        navigation_ct: its part around the navigated vertebra, for viewers.
         plan: measures pedicles, plans channels, chooses screws.
         surface: computes the surface of the bone.
         procedure: state of the procedure and order of its steps.
@@ -63,6 +65,7 @@ class Steps:
     tool: ToolStep
     ct: CtStep
     ct_provider: CtProvider
+    navigation_ct: NavigationCtProvider
     plan: PlanStep
     surface: SurfaceStep
     procedure: Procedure
@@ -126,6 +129,9 @@ class Steps:
             tool=_tool_step(hub, store, config, marker_step),
             ct=CtStep(store=store, jobs=jobs),
             ct_provider=ct_provider,
+            navigation_ct=NavigationCtProvider(
+                store=store, ct_provider=ct_provider, jobs=jobs, is_rehearsal=_knows_itself(config)
+            ),
             plan=plan,
             surface=surface,
             procedure=procedure,
@@ -219,7 +225,7 @@ def defaults_from_config(config: Config) -> SetupDefaults:
     """Return the part of the setup that the settings provide, independent of the case."""
     source = source_from_text(config.camera.source)
     is_rehearsal = source.kind is SourceKind.REHEARSAL
-    knows_itself = is_rehearsal and config.rehearsal.provides_setup
+    knows_itself = _knows_itself(config)
     rehearsed = REHEARSED_REFERENCE if is_rehearsal and config.rehearsal.reference else ""
     return SetupDefaults(
         source=source.name,
@@ -228,6 +234,12 @@ def defaults_from_config(config: Config) -> SetupDefaults:
         has_camera=config.camera.calibration is not None or knows_itself,
         tools=frozenset(config.tools) | (frozenset({REHEARSED_TOOL}) if knows_itself else frozenset()),
     )
+
+
+def _knows_itself(config: Config) -> bool:
+    """Return whether the source is a rehearsal that provides its own setup."""
+    source = source_from_text(config.camera.source)
+    return source.kind is SourceKind.REHEARSAL and config.rehearsal.provides_setup
 
 
 def new_run() -> str:

@@ -37,6 +37,7 @@ GET     /api/live
 GET     /api/alarms
 GET     /api/alarms/sound/{priority}.wav
 GET     /api/procedure
+GET     /api/navigation/ct
 GET     /api/latency
 GET     /video/{camera}.mjpg
 GET     /api/supervision/room

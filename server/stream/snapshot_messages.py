@@ -28,6 +28,7 @@ from tracker.navigation import (
     MotionDetection,
     MotionState,
     NavigationSnapshot,
+    Setup,
     motion_detected_by,
 )
 from tracker.navigation.monitoring import NeverSeen, SceneState
@@ -45,6 +46,26 @@ class ToolStateMessage(Message):
     assessment: Annotated[AssessmentMessage | AbsentMessage, Field(discriminator="kind")]
     along: BullseyeMessage | None
     """View of the drill along the channel; null without a deviation."""
+
+
+class ScrewMessage(Message):
+    """A screw planned on the axis of the channel, starting at its entry."""
+
+    diameter_mm: float
+    length_mm: float
+
+
+class ChannelMessage(Message):
+    """The planned channel with which the drill is compared, in the vertebra frame (LPS of its CT, in mm)."""
+
+    entry_in_vertebra_mm: list[float]
+    target_in_vertebra_mm: list[float]
+    """The planned end of the drilling."""
+    radius_mm: float
+    screw: ScrewMessage | None
+    """Null where none is planned."""
+    ct_id: str | None
+    """Of the CT on which it was planned, as `GET /api/navigation/ct` states it; null without one."""
 
 
 class MotionMonitorMessage(Message):
@@ -78,6 +99,8 @@ class SnapshotMessage(Message):
     reference: str | None
     """The reference marker on the patient; null without one."""
     channel_name: str | None
+    channel: ChannelMessage | None
+    """Null without a plan."""
     withheld: AbsentReason | None
     """Why no number is given although all is known, as NOT_CONFIRMED after a restart; null otherwise."""
     vertebra: Annotated[VertebraMessage | AbsentMessage, Field(discriminator="kind")]
@@ -105,6 +128,7 @@ def snapshot_message(snapshot: NavigationSnapshot, *, now_s: float) -> SnapshotM
         anchored_to=None if isinstance(registration, Absent) else registration.anchored_to,
         reference=setup.reference or None,
         channel_name=None if isinstance(setup.channel, Absent) else setup.channel.name,
+        channel=_channel(setup),
         withheld=setup.withheld,
         vertebra=vertebra_message(snapshot.vertebra),
         motion=_watched(snapshot),
@@ -121,6 +145,21 @@ def snapshot_message(snapshot: NavigationSnapshot, *, now_s: float) -> SnapshotM
         displayed_tool=snapshot.displayed_tool or None,
         stage_ms=dict(snapshot.stage_ms),
         skipped_images=snapshot.skipped_images,
+    )
+
+
+def _channel(setup: Setup) -> ChannelMessage | None:
+    channel, screw = setup.channel, setup.screw
+    if isinstance(channel, Absent):
+        return None
+    return ChannelMessage(
+        entry_in_vertebra_mm=channel.entry_in_vertebra_mm.tolist(),
+        target_in_vertebra_mm=channel.target_in_vertebra_mm.tolist(),
+        radius_mm=channel.radius_mm,
+        screw=None
+        if screw is None
+        else ScrewMessage(diameter_mm=2.0 * screw.radius_mm, length_mm=screw.length_mm),
+        ct_id=setup.ct_id or None,
     )
 
 

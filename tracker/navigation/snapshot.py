@@ -89,6 +89,7 @@ class Setup:
             is rejected.
         limits: of a drill, beside those of its pedicle.
         side: of the patient, as planned; None if not stated.
+        ct_id: of the CT on which the channel was planned; empty if there is none.
     """
 
     camera: CameraModel
@@ -102,6 +103,7 @@ class Setup:
     max_tip_sd_mm: float = 3.0
     limits: DrillLimits = field(default_factory=DrillLimits)
     side: Side | None = None
+    ct_id: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,6 +1,11 @@
 """The step in which channels and screws are planned on the CT of the open case."""
 
-from server.procedure.plan.active_channel import ACTIVE_CHANNEL, ActiveChannel, active_channel_from_document
+from server.procedure.plan.active_channel import (
+    ACTIVE_CHANNEL,
+    ActiveChannel,
+    active_channel_from_document,
+    planned_ct_id,
+)
 from server.procedure.plan.exchange import export_plan, import_plan
 from server.procedure.plan.picture import reference_picture, reference_slice
 from server.procedure.plan.repository import PlanRepository, StoredPlan
@@ -17,6 +22,7 @@ __all__ = [
     "active_channel_from_document",
     "export_plan",
     "import_plan",
+    "planned_ct_id",
     "reference_picture",
     "reference_slice",
 ]

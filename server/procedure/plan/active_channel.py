@@ -7,7 +7,7 @@ A change of the plan that leaves the channel as it is renews the choice in the s
 from dataclasses import dataclass
 from typing import cast
 
-from server.store import Document
+from server.store import CaseStore, Document
 from tracker.plan import Channel
 from tracker.plan.document import channel_from_mapping
 from tracker.plan.pedicle import Side, checked_side
@@ -44,3 +44,9 @@ def active_channel_from_document(document: Document) -> ActiveChannel:
         side=checked_side(cast("str", content.get("side"))),
         channel=channel_from_mapping(content.get("channel")),
     )
+
+
+def planned_ct_id(store: CaseStore, active: Document) -> str:
+    """Return the id of the CT on which the active channel was planned; empty if its plan has none."""
+    plan = store.document(active.case_id, active.depends_on[0])
+    return plan.depends_on[0] if plan.depends_on else ""

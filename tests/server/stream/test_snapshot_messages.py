@@ -13,10 +13,19 @@ from server.stream.judgement_messages import JudgementMessage, NearestWallMessag
 from server.stream.messages import live_message
 from server.stream.pose_messages import AbsentMessage, VertebraMessage
 from server.stream.snapshot_messages import SnapshotMessage, snapshot_message
-from tracker.navigation import AbsentReason, Assessment, MotionDetection, MotionState, NavigationSnapshot
+from tracker.navigation import (
+    Absent,
+    AbsentReason,
+    Assessment,
+    MotionDetection,
+    MotionState,
+    NavigationSnapshot,
+    ScrewSize,
+)
 from tracker.navigation.clearance import NearestWall
 from tracker.navigation.monitoring import NeverSeen, SceneState
 from tracker.navigation.uncertainty import DrillAnalysis
+from tracker.plan import Channel
 
 SnapshotOf = Callable[..., NavigationSnapshot]
 
@@ -139,3 +148,28 @@ def test_a_marker_on_the_patient_sees_moves_only_if_the_registration_is_fixed_to
         sent = _sent(dataclasses.replace(snapshot, setup=setup))
         assert sent.reference == "patient"
         assert sent.motion.motion_detected_by is by
+
+
+def test_the_channel_is_sent_with_the_screw_and_the_ct_on_which_it_was_planned(
+    snapshot_of: SnapshotOf,
+) -> None:
+    snapshot = snapshot_of()
+    channel = snapshot.setup.channel
+    assert isinstance(channel, Channel)
+    bare = _sent(snapshot).channel
+    assert bare is not None
+    assert (bare.screw, bare.ct_id) == (None, None)
+    setup = dataclasses.replace(
+        snapshot.setup, screw=ScrewSize(radius_mm=3.25, length_mm=45.0), ct_id="ct-of-case"
+    )
+    sent = _sent(dataclasses.replace(snapshot, setup=setup)).channel
+    assert sent is not None
+    assert sent.model_dump() == {
+        "entry_in_vertebra_mm": channel.entry_in_vertebra_mm.tolist(),
+        "target_in_vertebra_mm": channel.target_in_vertebra_mm.tolist(),
+        "radius_mm": channel.radius_mm,
+        "screw": {"diameter_mm": 6.5, "length_mm": 45.0},
+        "ct_id": "ct-of-case",
+    }
+    unplanned = dataclasses.replace(snapshot.setup, channel=Absent(reason=AbsentReason.NO_PLAN))
+    assert _sent(dataclasses.replace(snapshot, setup=unplanned)).channel is None

@@ -2,7 +2,13 @@
 import type { Situation, ReceivedImage } from "./assess";
 import { alarms } from "./alarmBuilders";
 import { assessment, headline } from "./figureBuilders";
-import type { BullseyeMessage, JudgementMessage, LiveMessage, SnapshotMessage } from "./messages";
+import type {
+  BullseyeMessage,
+  ChannelMessage,
+  JudgementMessage,
+  LiveMessage,
+  SnapshotMessage,
+} from "./messages";
 
 export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessage {
   return {
@@ -16,6 +22,7 @@ export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessag
     anchored_to: "camera",
     reference: null,
     channel_name: "L3 left",
+    channel: channel(),
     withheld: null,
     vertebra: { kind: "absent", reason: "NOT_REGISTERED" },
     motion: {
@@ -58,6 +65,18 @@ export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessag
     displayed_tool: "drill",
     stage_ms: {},
     skipped_images: 0,
+    ...changes,
+  };
+}
+
+/** Straight forwards in the patient, 40 mm long, with a screw. */
+export function channel(changes: Partial<ChannelMessage> = {}): ChannelMessage {
+  return {
+    entry_in_vertebra_mm: [14, 12, 0],
+    target_in_vertebra_mm: [14, -28, 0],
+    radius_mm: 4,
+    screw: { diameter_mm: 6.5, length_mm: 45 },
+    ct_id: "ct-1",
     ...changes,
   };
 }

@@ -15,6 +15,7 @@ export type HeadlineMessage = Schemas["HeadlineMessage"];
 export type TextMessage = Schemas["TextMessage"];
 export type Status = Schemas["Status"];
 export type Tone = Schemas["Tone"];
+export type ChannelMessage = Schemas["ChannelMessage"];
 export type BullseyeMessage = Schemas["BullseyeMessage"];
 export type Verdict = Schemas["Verdict"];
 export type Wall = Schemas["Wall"];

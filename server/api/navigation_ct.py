@@ -1,0 +1,81 @@
+"""The CT around the navigated vertebra, from which the theatre's page cuts the planes of the drill."""
+
+from fastapi import APIRouter, Request, Response
+
+from server.api.ct_messages import WindowMessage, preset_messages
+from server.api.errors import rejections
+from server.api.slice_images import CACHE_CONTROL
+from server.procedure.navigation_ct import BeingScanned, NavigationCt, NavigationCtProvider
+from server.stream.messages import Message
+
+VOXELS = "application/octet-stream"
+VOLUME_PLACE = "Volume-Place"
+
+
+class VolumeMessage(Message):
+    """Geometry of the voxels of a response, and the display windows by name."""
+
+    ct_id: str
+    """As the channel in the live message states it: voxels of another CT do not belong to its pose."""
+    size_ijk: list[int]
+    lps_from_ijk: list[list[float]]
+    """4x4 matrix, from the index of a voxel to mm in LPS of the CT, which is the vertebra frame."""
+    presets: dict[str, WindowMessage]
+
+
+def navigation_ct_router(provider: NavigationCtProvider) -> APIRouter:
+    """Return the router of `/api/navigation`. Its route is synchronous because it reads from the disk."""
+    router = APIRouter(prefix="/api/navigation", tags=["ct"])
+
+    @router.get(
+        "/ct",
+        response_class=Response,
+        responses={
+            200: {
+                "content": {VOXELS: {}},
+                "headers": {
+                    VOLUME_PLACE: {
+                        "description": "As JSON: ct_id; size_ijk; lps_from_ijk, a 4x4 matrix in mm; presets, "
+                        "display windows in HU by name.",
+                        "required": True,
+                        "schema": {"type": "string"},
+                    }
+                },
+            },
+            204: {"description": "The rehearsal's CT is being simulated; ask again in some seconds."},
+            **rejections(409, 422, 503),
+        },
+    )
+    def voxels(request: Request) -> Response:
+        """Return the CT around the channels of the navigated vertebra, about 100 mm a side.
+
+        Voxels are Hounsfield units as int16, little-endian, i fastest, at most 16 MB uncompressed.
+        """
+        found = provider.current()
+        if isinstance(found, BeingScanned):
+            # Nothing went wrong: a page that asks early must not look as if it did.
+            return Response(status_code=204)
+        return _answer(request, found)
+
+    return router
+
+
+def _answer(request: Request, found: NavigationCt) -> Response:
+    packed = "gzip" in request.headers.get("accept-encoding", "")
+    headers = {
+        "ETag": f'"{found.digest}{"-gzip" if packed else ""}"',
+        "Cache-Control": CACHE_CONTROL,
+        "Vary": "Accept-Encoding",
+    }
+    if headers["ETag"] in request.headers.get("if-none-match", ""):
+        return Response(status_code=304, headers=headers)
+    place = VolumeMessage(
+        ct_id=found.ct_id,
+        size_ijk=list(found.volume.shape_ijk),
+        lps_from_ijk=found.volume.lps_from_ijk.tolist(),
+        presets=preset_messages(),
+    )
+    headers[VOLUME_PLACE] = place.model_dump_json()
+    if packed:
+        return Response(found.gzipped, media_type=VOXELS, headers={**headers, "Content-Encoding": "gzip"})
+    return Response(found.volume.hu.astype("<i2", copy=False).tobytes(), media_type=VOXELS, headers=headers)
