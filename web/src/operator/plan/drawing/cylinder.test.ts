@@ -60,4 +60,18 @@ describe("a cylinder of 3 mm radius cut by a slice", () => {
     expect(high - low).toBeLessThanOrEqual(12);
     expect(Math.max(...cut.map((one) => (one[0] / 3) ** 2 + (one[1] / 6) ** 2))).toBeCloseTo(1, 6);
   });
+
+  test("nearly square to its axis shows its whole ellipse", () => {
+    // 3 degrees off: the slice crosses the cylinder within a third of a millimetre of its length.
+    const tilt = (3 * Math.PI) / 180;
+    const upwards: [Vec3, Vec3] = [
+      [5, 0, -20],
+      [5 + 40 * Math.tan(tilt), 0, 20],
+    ];
+    const cut = cylinderOnSlice(AXIAL, ...upwards, 3);
+    const [left, right] = reach(cut, 0);
+    expect(right - left).toBeCloseTo(6 / Math.cos(tilt), 3);
+    const [top, bottom] = reach(cut, 1);
+    expect(bottom - top).toBeCloseTo(6, 1);
+  });
 });

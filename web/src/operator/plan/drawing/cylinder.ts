@@ -1,5 +1,5 @@
 // A cylinder cut by a slice: exactly the outline that the channel or the screw has there.
-import { beyondMm, downOf, normalOf, rightOf, type Place } from "../slices/place";
+import { beyondMm, downOf, normalOf, rightOf, type PixelGrid } from "../slices/place";
 import { cross, dot, lengthOf, minus, plus, times, unit, type Vec3 } from "../slices/vectors";
 
 const STATIONS = 60;
@@ -8,7 +8,7 @@ const CORNERS = 48;
 const SQUARE = 1e-3;
 
 /** The corners of the cut, around; none where the slice misses the cylinder. */
-export function cylinderOnSlice(place: Place, entry: Vec3, target: Vec3, radiusMm: number): Vec3[] {
+export function cylinderOnSlice(place: PixelGrid, entry: Vec3, target: Vec3, radiusMm: number): Vec3[] {
   const way = minus(target, entry);
   const axis = unit(way);
   const normal = normalOf(place);
@@ -18,22 +18,34 @@ export function cylinderOnSlice(place: Place, entry: Vec3, target: Vec3, radiusM
   if (sine < SQUARE) return sectionOf(place, entry, axis, lengthOf(way), radiusMm);
   const inward = times(toSlice, 1 / sine);
   const aside = unit(cross(axis, normal));
+  // The distance of the slice from the axis grows evenly along it; the outline lies where it is below the radius.
+  const [atEntry, atTarget] = [beyondMm(place, entry) / sine, beyondMm(place, target) / sine];
+  const [from, to] = ratiosWithin(atEntry, atTarget, radiusMm);
+  if (from > to) return [];
   const left: Vec3[] = [];
   const right: Vec3[] = [];
   for (let i = 0; i <= STATIONS; i += 1) {
-    const centre = plus(entry, times(way, i / STATIONS));
-    const away = beyondMm(place, centre) / sine;
-    if (Math.abs(away) > radiusMm) continue;
-    const foot = minus(centre, times(inward, away));
-    const half = Math.sqrt(radiusMm * radiusMm - away * away);
+    // Closest together towards the ends, where the outline is round.
+    const ratio = from + ((to - from) * (1 - Math.cos((Math.PI * i) / STATIONS))) / 2;
+    const away = atEntry + (atTarget - atEntry) * ratio;
+    const foot = minus(plus(entry, times(way, ratio)), times(inward, away));
+    const half = Math.sqrt(Math.max(radiusMm * radiusMm - away * away, 0));
     left.push(plus(foot, times(aside, half)));
     right.unshift(minus(foot, times(aside, half)));
   }
   return [...left, ...right];
 }
 
+/** From which part of the way to which one a value that grows evenly from `first` to `last` is within the limit. */
+function ratiosWithin(first: number, last: number, limit: number): readonly [number, number] {
+  const step = last - first;
+  if (Math.abs(step) < 1e-9) return Math.abs(first) <= limit ? [0, 1] : [1, 0];
+  const ends = [(-limit - first) / step, (limit - first) / step];
+  return [Math.max(0, Math.min(...ends)), Math.min(1, Math.max(...ends))];
+}
+
 /** The circle that a slice square to the axis shows, where it lies between the ends. */
-function sectionOf(place: Place, entry: Vec3, axis: Vec3, lengthMm: number, radiusMm: number): Vec3[] {
+function sectionOf(place: PixelGrid, entry: Vec3, axis: Vec3, lengthMm: number, radiusMm: number): Vec3[] {
   const along = -beyondMm(place, entry) * Math.sign(dot(axis, normalOf(place)));
   if (along < 0 || along > lengthMm) return [];
   const centre = plus(entry, times(axis, along));

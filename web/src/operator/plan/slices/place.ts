@@ -6,19 +6,21 @@ import type { components } from "../../../schema";
 import { cross, dot, lengthOf, minus, plus, times, unit, type Vec3 } from "./vectors";
 
 export type Place = components["schemas"]["SliceMessage"];
+/** What places the pixels of a picture: all that drawing on it needs. */
+export type PixelGrid = Pick<Place, "lps_from_px" | "pixel_mm" | "width_px" | "height_px">;
 export type Vec2 = readonly [number, number];
 
-function column(place: Place, index: number): Vec3 {
+function column(place: PixelGrid, index: number): Vec3 {
   const [x, y, z] = place.lps_from_px.map((row) => row[index] ?? 0);
   return [x ?? 0, y ?? 0, z ?? 0];
 }
 
-export function lpsFromPx(place: Place, [u, v]: Vec2): Vec3 {
+export function lpsFromPx(place: PixelGrid, [u, v]: Vec2): Vec3 {
   return plus(column(place, 2), plus(times(column(place, 0), u), times(column(place, 1), v)));
 }
 
 /** The pixel of the foot of the perpendicular from a point onto the slice. */
-export function pxFromLps(place: Place, point: Vec3): Vec2 {
+export function pxFromLps(place: PixelGrid, point: Vec3): Vec2 {
   const [right, down] = [column(place, 0), column(place, 1)];
   const away = minus(point, column(place, 2));
   // The columns need not stand at right angles where the scanner's frame was tilted.
@@ -28,39 +30,39 @@ export function pxFromLps(place: Place, point: Vec3): Vec2 {
   return [(dd * r - rd * d) / determinant, (rr * d - rd * r) / determinant];
 }
 
-const pitch = (place: Place): Vec2 => [place.pixel_mm[0] ?? 1, place.pixel_mm[1] ?? 1];
+const pitch = (place: PixelGrid): Vec2 => [place.pixel_mm[0] ?? 1, place.pixel_mm[1] ?? 1];
 
-export function planeFromLps(place: Place, point: Vec3): Vec2 {
+export function planeFromLps(place: PixelGrid, point: Vec3): Vec2 {
   const [u, v] = pxFromLps(place, point);
   const [across, along] = pitch(place);
   return [u * across, v * along];
 }
 
-export function lpsFromPlane(place: Place, [x, y]: Vec2): Vec3 {
+export function lpsFromPlane(place: PixelGrid, [x, y]: Vec2): Vec3 {
   const [across, along] = pitch(place);
   return lpsFromPx(place, [x / across, y / along]);
 }
 
 /** How far a point lies behind the slice, as one looks; negative in front of it. */
-export function beyondMm(place: Place, point: Vec3): number {
+export function beyondMm(place: PixelGrid, point: Vec3): number {
   return dot(minus(point, column(place, 2)), normalOf(place));
 }
 
-export function normalOf(place: Place): Vec3 {
+export function normalOf(place: PixelGrid): Vec3 {
   return unit(cross(column(place, 0), column(place, 1)));
 }
 
 /** Unit directions to the right and down in the picture. */
-export function rightOf(place: Place): Vec3 {
+export function rightOf(place: PixelGrid): Vec3 {
   return unit(column(place, 0));
 }
 
-export function downOf(place: Place): Vec3 {
+export function downOf(place: PixelGrid): Vec3 {
   return unit(column(place, 1));
 }
 
 /** Left, top, width and height of the picture on its plane, from the outer edges of its pixels. */
-export function frameOf(place: Place): { x: number; y: number; width: number; height: number } {
+export function frameOf(place: PixelGrid): { x: number; y: number; width: number; height: number } {
   const [across, along] = pitch(place);
   return {
     x: -across / 2,
@@ -71,7 +73,12 @@ export function frameOf(place: Place): { x: number; y: number; width: number; he
 }
 
 /** The part of a segment that lies within this distance of the slice; null where none does. */
-export function nearPart(place: Place, from: Vec3, to: Vec3, withinMm: number): readonly [Vec3, Vec3] | null {
+export function nearPart(
+  place: PixelGrid,
+  from: Vec3,
+  to: Vec3,
+  withinMm: number,
+): readonly [Vec3, Vec3] | null {
   const [a, b] = [beyondMm(place, from), beyondMm(place, to)];
   const step = b - a;
   if (Math.abs(step) < 1e-9) return Math.abs(a) <= withinMm ? [from, to] : null;
