@@ -17,7 +17,7 @@ import pytest
 from playwright.sync_api import Page, ViewportSize, expect
 
 from tests.browser.test_dashboard import DIGEST, is_live
-from tests.browser.theatre import CHECKOUT, SCREENSHOTS, WatchedPage
+from tests.browser.theatre import CHECKOUT, SCREENSHOTS, WatchedPage, show_scene
 
 pytestmark = pytest.mark.browser
 
@@ -32,10 +32,31 @@ THREE_DEPTHS = """() => {
     if (/^\u2212?\\d+\\.\\d$/.test(text)) window.depths.add(text);
     return window.depths.size >= 3;
 }"""
+CUTS = ("axial", "sagittal", "probe")
+SCAN_MS = 120_000
+LETTERS = """stage => ["left", "right", "top", "bottom"]
+    .map(edge => stage.querySelector(`[data-edge=${edge}]`).textContent).join("")"""
+# Every cut shows bone and soft tissue around the drill, and its image number has changed meanwhile.
+CUT_AND_MOVING = """() => {
+    window.cutImages ??= new Map();
+    return ["axial", "sagittal", "probe"].every((name) => {
+        const stage = document.querySelector(`[data-testid="cut-${name}"]`);
+        if (stage?.dataset.shows !== "live") return false;
+        const canvas = stage.querySelector("canvas");
+        const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+        const greys = data.filter((_, index) => index % 4 === 0 && data[index + 3] === 255);
+        const drill = stage.querySelector(name === "probe" ? "[data-part=ring]" : "[data-part=shaft]");
+        const images = window.cutImages.get(name) ?? new Set();
+        const stamp = stage.querySelector(".cut-stamp").textContent;
+        window.cutImages.set(name, images.add(stamp.match(/\\d+/)?.[0]));
+        const hasBone = greys.some((grey) => grey > 150) && greys.some((grey) => grey < 110);
+        return hasBone && drill.getAttribute("d") !== "" && images.size > 2;
+    });
+}"""
 DRILLING = """() => {
     const pane = (name) => document.querySelector(`[data-testid="${name}"]`);
     const depth = Number(pane("reading-depth").textContent);
-    const live = ["video", "numbers", "scene"].every((name) => pane(name).dataset.live === "true");
+    const live = [...document.querySelectorAll("[data-live]")].every((one) => one.dataset.live === "true");
     return live && depth > 6 && depth < 24;
 }"""
 
@@ -109,6 +130,8 @@ def test_rehearsal_is_tracked_and_seen_in_picture_numbers_and_scene(
     rehearsal: Rehearsal, watch: Callable[..., WatchedPage]
 ) -> None:
     page = watch(rehearsal, 1920, 1080).open()
+    cuts_follow_the_drill(page)
+    show_scene(page)
     expect(page.get_by_test_id("scene")).to_have_attribute("data-live", "true", timeout=ONE_CYCLE_MS)
     first_picture = page.locator("canvas.sharp").evaluate(DIGEST)
     page.wait_for_function(
@@ -118,7 +141,20 @@ def test_rehearsal_is_tracked_and_seen_in_picture_numbers_and_scene(
     SCREENSHOTS.mkdir(exist_ok=True)
     picture_while_drilling(page, SCREENSHOTS / "theatre-running.png")
     page.set_viewport_size(PICTURE)
+    page.get_by_test_id("tile-sagittal").click()
     picture_while_drilling(page, SCREENSHOTS / "dashboard.png")
+
+
+def cuts_follow_the_drill(page: Page) -> None:
+    """Three cuts of the rehearsal's CT follow the drill, each in its own plane."""
+    for name in CUTS:
+        # The rehearsal's CT is scanned after the first request, at the lowest priority.
+        expect(page.get_by_test_id(f"cut-{name}")).to_have_attribute("data-shows", "live", timeout=SCAN_MS)
+    page.wait_for_function(CUT_AND_MOVING, timeout=ONE_CYCLE_MS)
+    # From behind a prone patient: left on the left, head on top; in line with the drill, the front on top.
+    assert [page.get_by_test_id(f"cut-{name}").evaluate(LETTERS) for name in CUTS] == ["RLAP", "FHAP", "LRHF"]
+    page.get_by_test_id("ahead-10").click()
+    page.wait_for_function(CUT_AND_MOVING, timeout=ONE_CYCLE_MS)
 
 
 def picture_while_drilling(page: Page, path: Path) -> None:

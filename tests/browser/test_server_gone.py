@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.theatre import PATIENCE_MS, Theatre, WatchedPage
+from tests.browser.theatre import PATIENCE_MS, Theatre, WatchedPage, show_scene
 
 pytestmark = pytest.mark.browser
 
@@ -137,6 +137,7 @@ def recorded(watched: WatchedPage) -> Iterator[Page]:
     reported["limits"] |= {"pose_stale_after_ms": 700, "video_stale_after_ms": 700}
     watched.page.route("**/api/dashboard", lambda route: route.fulfill(json=reported))
     page = watched.open()
+    show_scene(page)
     all_live(page, live=True)
     page.evaluate("window.neverReloaded = true")
     yield page

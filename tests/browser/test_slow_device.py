@@ -13,7 +13,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.test_dashboard import is_live
-from tests.browser.theatre import Theatre, WatchedPage
+from tests.browser.theatre import Theatre, WatchedPage, show_scene
 
 pytestmark = pytest.mark.browser
 
@@ -72,6 +72,7 @@ def slowed(watched: WatchedPage, part: str, *, query: str = "") -> Page:
     """The page, once everything that can has given way."""
     watched.page.add_init_script(f"(() => {{ {RECORDER} {SLOW[part]} }})()")
     page = watched.open(f"theatre{query}")
+    show_scene(page)
     page.wait_for_function("() => given.some(([what]) => what === 'largest')")
     return page
 
@@ -123,6 +124,7 @@ def test_a_scene_that_makes_the_figures_late_is_switched_off_until_somebody_asks
     dashboard["limits"]["pose_stale_after_ms"] = 1
     watched.page.route("**/api/dashboard", lambda route: route.fulfill(json=dashboard))
     page = watched.open("theatre")
+    show_scene(page)
     is_live(page, "scene")
     expect(page.get_by_test_id("scene-cover")).to_contain_text("3-D OFF")
     expect(page.locator(".scene-stage iframe")).to_have_count(0)

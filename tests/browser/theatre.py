@@ -113,6 +113,11 @@ class WatchedPage:
         return self.page
 
 
+def show_scene(page: Page) -> None:
+    """The 3-D scene in the place of a cut, which a screen shows at first."""
+    page.get_by_test_id("tile-scene").click()
+
+
 def arm(page: Page) -> None:
     """Touch the sound until it is armed, as its words ask for: a busy machine may have none at first."""
     sound = page.get_by_test_id("sound")

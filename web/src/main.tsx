@@ -29,6 +29,7 @@ import "@mantine/core/styles/Radio.css";
 import "@mantine/core/styles/Tabs.css";
 import "./theme/page.css";
 import "./theme/panes.css";
+import "./theme/cuts.css";
 import "./theme/alarms.css";
 import "./theme/shell.css";
 import "./theme/signin.css";

@@ -17,7 +17,7 @@ const RELOAD_AFTER_MS = 15_000;
 const TRIES_WITHOUT_AN_IMAGE = 2;
 
 /** The 3-D scene in its frame, covered whenever what it has drawn is not live. */
-export function ScenePane(): ReactNode {
+export function ScenePane({ tabs }: { tabs?: ReactNode }): ReactNode {
   const texts = useTexts();
   const { live, view } = useLive();
   const stage = useRef<HTMLDivElement>(null);
@@ -71,7 +71,12 @@ export function ScenePane(): ReactNode {
     <Pane
       id="scene"
       title={texts.scene.title}
-      aside={<p className="stamp" data-testid="scene-stamp" ref={stamp} />}
+      aside={
+        <>
+          <p className="stamp" data-testid="scene-stamp" ref={stamp} />
+          {tabs}
+        </>
+      }
     >
       <div className="scene-stage" data-testid="scene" data-live="false" ref={stage}>
         {wanted && !isOff && hasWebGl() && (

@@ -51,6 +51,17 @@ interface Answer<Data> {
  * @throws Rejection
  */
 export async function answered<Data>(request: Promise<Answer<Data>>): Promise<Data> {
+  return (await answeredWithResponse(request)).data;
+}
+
+/**
+ * The same, with the response for its status and headers.
+ *
+ * @throws Rejection
+ */
+export async function answeredWithResponse<Data>(
+  request: Promise<Answer<Data>>,
+): Promise<{ data: Data; response: Response }> {
   let answer: Answer<Data>;
   try {
     answer = await request;
@@ -59,7 +70,7 @@ export async function answered<Data>(request: Promise<Answer<Data>>): Promise<Da
     throw new Rejection(NO_ANSWER);
   }
   if (!answer.response.ok) throw new Rejection(problemOf(answer.error, answer.response));
-  return answer.data as Data;
+  return { data: answer.data as Data, response: answer.response };
 }
 
 function problemOf(error: unknown, response: Response): Problem {

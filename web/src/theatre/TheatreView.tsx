@@ -3,15 +3,14 @@ import { AlarmBand } from "../alarms/AlarmBand";
 import { AlarmsAfterFirstMessage } from "../alarms/UnheardAlarms";
 import { useSession, type Role } from "../app/session";
 import { ConfirmRestart } from "../app/ConfirmRestart";
+import { CutsProvider } from "../cuts/CutsContext";
 import { AfterFirstMessage } from "../live/AfterFirstMessage";
 import { AlertBand } from "../panes/AlertBand";
-import { BullseyePane } from "../panes/BullseyePane";
 import { LoadingNumbers } from "../panes/LoadingNumbers";
-import { LoadingPane } from "../panes/LoadingPane";
 import { NumbersPane } from "../panes/NumbersPane";
-import { ScenePane } from "../panes/ScenePane";
 import { VideoPane } from "../panes/VideoPane";
 import { useTexts } from "../texts/TextsContext";
+import { Tiles } from "./Tiles";
 import { TheatreTop } from "./TheatreTop";
 
 const ANSWERING: ReadonlySet<Role> = new Set<Role>(["operator", "screen"]);
@@ -36,10 +35,9 @@ export function TheatreView(): ReactNode {
         <AfterFirstMessage loading={<LoadingNumbers />}>
           <NumbersPane />
         </AfterFirstMessage>
-        <AfterFirstMessage loading={<LoadingPane id="bullseye" title={texts.theatre.along} />}>
-          <BullseyePane />
-        </AfterFirstMessage>
-        <ScenePane />
+        <CutsProvider>
+          <Tiles />
+        </CutsProvider>
       </main>
     </div>
   );

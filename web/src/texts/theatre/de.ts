@@ -8,10 +8,33 @@ export const theatreDe: TheatreTexts = {
   near: "NAHE, Warnung unter",
   through: "DURCH",
   of: "von",
-  along: "Entlang des Kanals",
-  alongAlt:
-    "Der Bohrer, von hinten entlang des Kanals gesehen: der Kanal als Kreis, der Bohrer als Ring an seiner Spitze, eine Linie vom Eintritt bis dahin, wo er enden würde",
-  alongNone: "Kein Bohrer zu zeigen",
+  cuts: {
+    title: { axial: "Axial am Bohrer", sagittal: "Sagittal am Bohrer", probe: "Quer zum Bohrer" },
+    short: { axial: "Axial", sagittal: "Sagittal", probe: "Quer" },
+    alt: {
+      axial:
+        "CT in der Ebene des Bohrers und der Links-rechts-Richtung des Patienten, Bohrrichtung nach oben, mit Bohrer, Kanal und Schraube im Maßstab",
+      sagittal:
+        "CT in der Ebene des Bohrers zu Kopf und Füßen, Bohrrichtung nach oben, mit Bohrer, Kanal und Schraube im Maßstab",
+      probe:
+        "CT quer zum Bohrer, von hinten an ihm entlang gesehen: Ringe von 1, 2 und 5 mm um die geplante Achse, der Bohrer als Ring",
+    },
+    tabs: "Ansicht",
+    ahead: "Tiefe vor der Spitze in mm",
+    tip: "Spitze",
+    window: "Fenster",
+    plan: "PLAN · kein Bohrer",
+    late: "SCHNITT SPÄT",
+    lateHint: "Das CT unter dem Bohrer wird gezeichnet.",
+    unreadHint: "Kein Schnitt ohne Bohrer. Gleich wird der Plan gezeigt.",
+    noCt: "KEIN CT",
+    noVolume: {
+      none: "Der Kanal wurde ohne CT geplant.",
+      loading: "Es wird geladen.",
+      scanning: "Der Wirbel der Probe wird gescannt; das dauert einige Sekunden.",
+      unsupported: "Dieser Browser kann es nicht schneiden: Er hat keinen Worker.",
+    },
+  },
   split: { entry: "Eintritt", angle: "Richtung" },
   side: { lateral: "lateral", medial: "medial", cranial: "kranial", caudal: "kaudal" },
   facts: "Was navigiert wird",

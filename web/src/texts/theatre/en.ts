@@ -6,10 +6,33 @@ export const theatreEn = {
   near: "NEAR, warning below",
   through: "THROUGH",
   of: "of",
-  along: "Along the channel",
-  alongAlt:
-    "The drill seen along the channel from behind the patient: the channel as a circle, the drill as a ring at its tip, a line from where it came in to where it would end",
-  alongNone: "No drill to show",
+  cuts: {
+    title: { axial: "In-line axial", sagittal: "In-line sagittal", probe: "Probe's eye" },
+    short: { axial: "Axial", sagittal: "Sagittal", probe: "Probe" },
+    alt: {
+      axial:
+        "CT in the plane of the drill and the patient's left and right, the drilling direction up, with drill, channel and screw drawn to scale",
+      sagittal:
+        "CT in the plane of the drill towards head and feet, the drilling direction up, with drill, channel and screw drawn to scale",
+      probe:
+        "CT across the drill, seen along it from behind the patient: rings of 1, 2 and 5 mm around the planned axis, the drill as a ring",
+    },
+    tabs: "View",
+    ahead: "Depth ahead of the tip in mm",
+    tip: "Tip",
+    window: "Window",
+    plan: "PLAN · no drill",
+    late: "CUT LATE",
+    lateHint: "The CT under the drill is being drawn.",
+    unreadHint: "No cut without a drill. The plan is shown after a moment.",
+    noCt: "NO CT",
+    noVolume: {
+      none: "The channel was planned without one.",
+      loading: "It is being loaded.",
+      scanning: "The rehearsal's vertebra is being scanned; this takes some seconds.",
+      unsupported: "This browser cannot cut it: it has no worker.",
+    },
+  },
   split: { entry: "Entry", angle: "Direction" },
   side: { lateral: "lateral", medial: "medial", cranial: "cranial", caudal: "caudal" },
   facts: "What is navigated",

@@ -1,0 +1,38 @@
+import type { ReactNode } from "react";
+import { useLive } from "../live/LiveContext";
+import { Cover } from "../panes/Cover";
+import { textOf } from "../texts/text";
+import { useTexts } from "../texts/TextsContext";
+import type { CutVerdict, NoVolume } from "./cutVerdict";
+
+/** Over a cut that must not be looked at: why, as over figures and video. */
+export function CutCover({ verdict }: { verdict: CutVerdict }): ReactNode {
+  const texts = useTexts();
+  const { view } = useLive();
+  if (verdict.state !== "covered") return null;
+  const t = texts.theatre.cuts;
+  if (verdict.why === "late") return <Cover urgency="none" title={t.late} sentence={t.lateHint} />;
+  if (verdict.why === "unread") {
+    const unread = view.numbers.live ? null : view.numbers.unread;
+    const title = unread === null ? texts.numbers.none : textOf(unread.headline.title, texts);
+    return <Cover urgency="medium" title={title} sentence={t.unreadHint} />;
+  }
+  const { state, sentence } = texts.cause[verdict.why];
+  return (
+    <Cover urgency={verdict.why === "connecting" ? "none" : "medium"} title={state} sentence={sentence} />
+  );
+}
+
+/** Why the drill is shown without the CT around it. */
+export function NoVolumeNote({ volume }: { volume: NoVolume }): ReactNode {
+  const t = useTexts().theatre.cuts;
+  const sentence =
+    volume.state === "rejected"
+      ? `${volume.problem.message}. ${volume.problem.remedy}`
+      : t.noVolume[volume.state];
+  return (
+    <p className="cut-note" data-testid="cut-note">
+      <b>{t.noCt}</b> {sentence}
+    </p>
+  );
+}

@@ -1,0 +1,251 @@
+import { useEffectEvent, useLayoutEffect, useRef, useState, type ReactNode } from "react";
+import { useLive, usePainter } from "../live/LiveContext";
+import type { View } from "../live/view";
+import { formatNumber } from "../live/rounding";
+import { frameOf } from "../operator/plan/slices/place";
+import { rulerMm } from "../operator/plan/slices/zoom";
+import { figureOf } from "../panes/limits";
+import { Pane } from "../panes/Pane";
+import { PaintRateLimiter } from "../panes/paintRateLimiter";
+import { setData, setText } from "../panes/setText";
+import { paintSplit, Split } from "../panes/Split";
+import { useTexts } from "../texts/TextsContext";
+import { CutCover, NoVolumeNote } from "./CutCover";
+import { useCuts } from "./CutsContext";
+import type { Cut, Wanted } from "./cutter";
+import { cutVerdict, type CutVerdict } from "./cutVerdict";
+import { overlayOf, PARTS } from "./overlay";
+import { clearPixels, drawPixels, paintOverlay } from "./paintCut";
+import { cutGrid, fieldOf, type CutName, type Pose } from "./planes";
+
+const AHEAD_MM = [0, 5, 10, 20];
+const MAX_LABELS = 5;
+const EDGES = ["left", "right", "top", "bottom"] as const;
+const MAX_RULER_PX = 120;
+/** A pane that is just being laid out shows nothing. */
+const MIN_STAGE_PX = 40;
+
+interface CutPaneProps {
+  name: CutName;
+  /** Beside the title: what else can be shown in this place. */
+  tabs?: ReactNode;
+}
+
+/** A cut through the CT that moves with the drill, with drill and plan drawn in it to scale. */
+export function CutPane({ name, tabs }: CutPaneProps): ReactNode {
+  const texts = useTexts();
+  const { dashboard } = useLive();
+  const { cutter, volume, aheadMm } = useCuts();
+  const stage = useRef<HTMLDivElement>(null);
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const svg = useRef<SVGSVGElement>(null);
+  const stamp = useRef<HTMLParagraphElement>(null);
+  const ruler = useRef<HTMLParagraphElement>(null);
+  const split = useRef<HTMLDListElement>(null);
+  const shown = useRef<Cut | null>(null);
+  const size = useRef({ width: 0, height: 0 });
+  const limiter = useRef(new PaintRateLimiter());
+  const ahead = name === "probe" ? aheadMm : 0;
+  const limitMs = dashboard?.limits.scene_stale_after_ms ?? 500;
+  const verdictOf = (now: View): CutVerdict =>
+    cutVerdict(shown.current?.subject ?? null, {
+      ...now,
+      volume,
+      limitMs,
+      channel: now.newest?.snapshot?.channel ?? null,
+    });
+  const [verdict, setVerdict] = useState<CutVerdict>({ state: "covered", why: "connecting" });
+
+  const gridFor = (pose: Pose): Wanted | null => {
+    const { width, height } = size.current;
+    if (width < MIN_STAGE_PX || height < MIN_STAGE_PX) return null;
+    return { grid: cutGrid(name, pose, fieldOf(name, width, height), ahead), aheadMm: ahead };
+  };
+
+  /** The plane that is drawn on: that of the cut, or of the drill itself where there is no CT to cut. */
+  const drawnOn = (next: CutVerdict, { numbers }: View): (Wanted & { imageNumber: number }) | null => {
+    if (next.state === "bare" && numbers.live && numbers.reading.drill !== null) {
+      const wanted = gridFor(numbers.reading.drill.pose);
+      return wanted === null ? null : { ...wanted, imageNumber: numbers.imageNumber };
+    }
+    const cut = next.state === "covered" || next.state === "bare" ? null : shown.current;
+    return cut === null
+      ? null
+      : { grid: cut.grid, aheadMm: cut.aheadMm, imageNumber: cut.subject.imageNumber };
+  };
+
+  useLayoutEffect(() => {
+    const element = stage.current;
+    if (element === null) return;
+    const observer = new ResizeObserver(() => {
+      size.current = { width: element.clientWidth, height: element.clientHeight };
+    });
+    observer.observe(element);
+    return () => {
+      observer.disconnect();
+    };
+  }, []);
+
+  const onGrid = useEffectEvent(gridFor);
+  useLayoutEffect(
+    () =>
+      cutter.add({
+        name,
+        gridFor: (pose) => onGrid(pose),
+        show: (cut) => {
+          if (canvas.current === null) return;
+          drawPixels(canvas.current, cut);
+          shown.current = cut;
+        },
+      }),
+    [cutter, name],
+  );
+
+  usePainter((now) => {
+    const next = verdictOf(now);
+    if (wordsOf(next) !== wordsOf(verdict)) setVerdict(next);
+    setData(stage.current, "live", String(next.state === "live" || next.state === "bare"));
+    setData(stage.current, "shows", next.state);
+    if (
+      (next.state === "covered" || next.state === "bare") &&
+      shown.current !== null &&
+      canvas.current !== null
+    ) {
+      clearPixels(canvas.current);
+      shown.current = null;
+    }
+    if (svg.current === null) return;
+    const drawn = drawnOn(next, now);
+    const reading = drawn !== null && next.state !== "plan" && now.numbers.live ? now.numbers.reading : null;
+    if (name === "probe") paintSplit(split.current, reading, texts);
+    if (drawn === null) {
+      paintOverlay(svg.current, null);
+      setText(stamp.current, "");
+      return;
+    }
+    const { grid } = drawn;
+    const overlay = overlayOf(name, grid, {
+      channel: now.newest?.snapshot?.channel ?? null,
+      drill: reading?.drill ?? null,
+      aheadMm: drawn.aheadMm,
+      maxOffsetMm: reading === null ? null : figureOf(reading, "entry").limit,
+    });
+    const { width } = size.current;
+    paintOverlay(svg.current, { overlay, grid, widthPx: width });
+    for (const edge of EDGES) setText(edgeOf(stage.current, edge), overlay.edges[edge]);
+    paintRuler(ruler.current, width / frameOf(grid).width);
+    if (!limiter.current.isDue(now.nowMs, `${next.state} ${drawn.imageNumber}`)) return;
+    const age = "ageMs" in next ? `${texts.video.age} ${formatNumber(next.ageMs, 0)} ms` : "";
+    setText(stamp.current, age === "" ? "" : `${texts.video.image} ${drawn.imageNumber} · ${age}`);
+  });
+
+  const t = texts.theatre.cuts;
+  return (
+    <Pane id={`cut-${name}`} title={t.title[name]} aside={tabs}>
+      <div
+        className="cut-stage"
+        data-testid={`cut-${name}`}
+        data-live="false"
+        data-shows="covered"
+        ref={stage}
+      >
+        <canvas ref={canvas} width={1} height={1} role="img" aria-label={t.alt[name]} />
+        <svg ref={svg} viewBox="0 0 1 1" preserveAspectRatio="none" aria-hidden="true">
+          {PARTS.map((part) => (
+            <path key={part} className={`cut-${part}`} data-part={part} />
+          ))}
+          {Array.from({ length: MAX_LABELS }, (_, index) => (
+            <text key={index} />
+          ))}
+        </svg>
+        {EDGES.map((edge) => (
+          <span key={edge} className={`cut-edge cut-edge-${edge}`} data-edge={edge} />
+        ))}
+        <p className="cut-ruler" ref={ruler}>
+          <span />
+          <b />
+        </p>
+        <p className="cut-stamp" data-testid={`cut-${name}-stamp`} ref={stamp} />
+        <p className="cut-plan">{t.plan}</p>
+        {name === "probe" && <DepthButtons />}
+        {name === "axial" && <WindowButton />}
+        {verdict.state === "bare" && <NoVolumeNote volume={verdict.volume} />}
+        <div className="when-stale" data-testid={`cut-${name}-cover`}>
+          <CutCover verdict={verdict} />
+        </div>
+      </div>
+      {name === "probe" && <Split ref={split} />}
+    </Pane>
+  );
+}
+
+/** How far ahead of the tip the probe's eye looks. */
+function DepthButtons(): ReactNode {
+  const t = useTexts().theatre.cuts;
+  const { aheadMm, setAheadMm } = useCuts();
+  return (
+    <div className="cut-buttons" role="group" aria-label={t.ahead}>
+      {AHEAD_MM.map((one) => (
+        <button
+          key={one}
+          type="button"
+          aria-pressed={one === aheadMm}
+          data-testid={`ahead-${one}`}
+          onClick={() => {
+            setAheadMm(one);
+          }}
+        >
+          {one === 0 ? t.tip : `+${one}`}
+        </button>
+      ))}
+    </div>
+  );
+}
+
+/** The next window by one touch. */
+function WindowButton(): ReactNode {
+  const texts = useTexts();
+  const { windows, window, setWindow } = useCuts();
+  const names = texts.plan.slices.preset;
+  if (windows.length === 0) return null;
+  return (
+    <div className="cut-buttons">
+      <button
+        type="button"
+        data-testid="cut-window"
+        aria-label={`${texts.theatre.cuts.window}: ${window}`}
+        onClick={() => {
+          setWindow(windows[(windows.indexOf(window) + 1) % windows.length] ?? window);
+        }}
+      >
+        {window in names ? names[window as keyof typeof names] : window}
+      </button>
+    </div>
+  );
+}
+
+/** What the words over a cut depend on. */
+function wordsOf(verdict: CutVerdict): string {
+  switch (verdict.state) {
+    case "covered":
+      return verdict.why;
+    case "bare":
+      return `bare ${verdict.volume.state}`;
+    case "live":
+    case "plan":
+      return verdict.state;
+  }
+}
+
+function edgeOf(stage: HTMLElement | null, edge: string): Element | null {
+  return stage?.querySelector(`[data-edge=${edge}]`) ?? null;
+}
+
+function paintRuler(line: HTMLElement | null, pxPerMm: number): void {
+  const bar = line?.querySelector("span");
+  if (!bar) return;
+  const lengthMm = rulerMm(pxPerMm, MAX_RULER_PX);
+  const width = `${(lengthMm * pxPerMm).toFixed(1)}px`;
+  if (bar.style.width !== width) bar.style.width = width;
+  setText(line?.querySelector("b") ?? null, `${lengthMm} mm`);
+}

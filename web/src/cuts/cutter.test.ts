@@ -1,0 +1,82 @@
+import { expect, test } from "vitest";
+import { channel } from "../live/builders";
+import { Cutter, type Cut, type CutSubject, type ToCutWorker } from "./cutter";
+import { cutGrid } from "./planes";
+
+const GREY = { window_hu: 1800, level_hu: 400 };
+
+function subject(imageNumber: number, kind: CutSubject["kind"] = "live"): CutSubject {
+  return {
+    kind,
+    imageNumber,
+    capturedAtMs: 0,
+    pose: { tip: [0, 0, 0], axis: [0, -1, 0] },
+    channel: channel(),
+  };
+}
+
+function started(): {
+  cutter: Cutter;
+  posted: ToCutWorker[];
+  shown: number[];
+  reply: (tookMs: number) => void;
+} {
+  const posted: ToCutWorker[] = [];
+  const shown: number[] = [];
+  const cutter = new Cutter();
+  cutter.connect((message) => posted.push(message));
+  cutter.add({
+    name: "axial",
+    gridFor: (pose) => ({ grid: cutGrid("axial", pose, { widthMm: 2, heightMm: 2 }, 0), aheadMm: 0 }),
+    show: (cut: Cut) => shown.push(cut.subject.imageNumber),
+  });
+  const reply = (tookMs: number): void => {
+    const last = posted.at(-1);
+    if (last?.kind !== "cut") throw new Error("nothing was ordered");
+    cutter.receive({ job: last.job, tookMs, cuts: [{ name: "axial", buffer: new ArrayBuffer(256) }] });
+  };
+  return { cutter, posted, shown, reply };
+}
+
+test("one cut at a time, of the newest pose, at most ten times a second", () => {
+  const { cutter, posted, shown, reply } = started();
+  cutter.update(0, subject(1), GREY);
+  cutter.update(30, subject(2), GREY);
+  reply(4);
+  cutter.update(60, subject(3), GREY);
+  expect(posted).toHaveLength(1);
+  cutter.update(100, subject(4), GREY);
+  reply(4);
+  expect(shown).toEqual([1, 4]);
+});
+
+test("cuts that take long are made less often: 15 % of the worker's time", () => {
+  const { cutter, posted, reply } = started();
+  cutter.update(0, subject(1), GREY);
+  reply(60);
+  cutter.update(390, subject(2), GREY);
+  expect(posted).toHaveLength(1);
+  cutter.update(400, subject(3), GREY);
+  expect(posted).toHaveLength(2);
+});
+
+test("a buffer that was shown is given back, and nothing is cut without a subject", () => {
+  const { cutter, posted, reply } = started();
+  cutter.update(0, subject(1), GREY);
+  reply(1);
+  cutter.update(150, null, GREY);
+  expect(posted).toHaveLength(1);
+  cutter.update(200, subject(2), GREY);
+  const last = posted.at(-1);
+  expect(last?.kind === "cut" ? last.spare.map((one) => one.byteLength) : null).toEqual([256]);
+});
+
+test("a cut of the volume before is never shown", () => {
+  const { cutter, shown, posted } = started();
+  cutter.update(0, subject(1), GREY);
+  const first = posted.at(-1);
+  cutter.setVolume({ hu: new Int16Array(8), size: [2, 2, 2], indexFromLps: [] });
+  if (first?.kind !== "cut") throw new Error("nothing was ordered");
+  cutter.receive({ job: first.job, tookMs: 1, cuts: [{ name: "axial", buffer: new ArrayBuffer(256) }] });
+  expect(shown).toEqual([]);
+});

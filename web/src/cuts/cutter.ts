@@ -1,0 +1,123 @@
+// Orders cuts of the newest pose from the worker: one at a time, without a queue, at most ten times a second, and
+// less often where they take long. Pure but for the port that it is given; times go in as numbers.
+import type { ChannelMessage } from "../live/messages";
+import type { PixelGrid } from "../operator/plan/slices/place";
+import type { GreyWindow, Voxels } from "./cut";
+import type { CutName, Pose } from "./planes";
+
+export type ToCutWorker =
+  | { kind: "volume"; voxels: Voxels }
+  | {
+      kind: "cut";
+      job: number;
+      grey: GreyWindow;
+      cuts: { name: CutName; grid: PixelGrid }[];
+      /** Buffers of earlier cuts, given back to be written again. */
+      spare: ArrayBuffer[];
+    };
+
+export interface CutReply {
+  job: number;
+  tookMs: number;
+  cuts: { name: CutName; buffer: ArrayBuffer }[];
+}
+
+/** What the cuts are made for: the drill of one image, or the plan while there is none. */
+export interface CutSubject {
+  kind: "live" | "plan";
+  imageNumber: number;
+  /** On the page's clock. */
+  capturedAtMs: number;
+  pose: Pose;
+  channel: ChannelMessage;
+}
+
+/** The pixels that a pane wants, and how far ahead of the tip they lie. */
+export interface Wanted {
+  grid: PixelGrid;
+  aheadMm: number;
+}
+
+/** A finished cut: its pixels, where they lie, and what it was made for. */
+export interface Cut extends Wanted {
+  subject: CutSubject;
+  buffer: ArrayBuffer;
+}
+
+/** A pane that shows a cut. */
+export interface CutViewer {
+  name: CutName;
+  /** The pixels to cut for this pose, or null while the pane has no size. */
+  gridFor: (pose: Pose) => Wanted | null;
+  show: (cut: Cut) => void;
+}
+
+type Post = (message: ToCutWorker, transfer: ArrayBuffer[]) => void;
+
+/** A plan does not move. */
+const MIN_INTERVAL_MS = { live: 100, plan: 500 };
+/** The share of one core that cuts may take. */
+const MAX_SHARE = 0.15;
+const MAX_SPARE = 8;
+
+export class Cutter {
+  private readonly viewers = new Set<CutViewer>();
+  private job = 0;
+  private dueAtMs = -Infinity;
+  private ordered: {
+    subject: CutSubject;
+    atMs: number;
+    of: Map<CutViewer, Wanted>;
+  } | null = null;
+  private spare: ArrayBuffer[] = [];
+
+  private post: Post | null = null;
+
+  /** From now on the worker is reached by this; null while there is none. */
+  connect(post: Post | null): void {
+    this.post = post;
+    this.ordered = null;
+  }
+
+  setVolume(voxels: Voxels): void {
+    this.post?.({ kind: "volume", voxels }, [voxels.hu.buffer as ArrayBuffer]);
+    // What is still on its way was cut from another volume.
+    this.job += 1;
+    this.ordered = null;
+  }
+
+  add(viewer: CutViewer): () => void {
+    this.viewers.add(viewer);
+    return () => this.viewers.delete(viewer);
+  }
+
+  /** Orders cuts of this subject if the worker is idle and it is time; a later call has a newer one. */
+  update(nowMs: number, subject: CutSubject | null, grey: GreyWindow): void {
+    if (this.post === null || subject === null || this.ordered !== null || nowMs < this.dueAtMs) return;
+    const of = new Map<CutViewer, Wanted>();
+    for (const viewer of this.viewers) {
+      const wanted = viewer.gridFor(subject.pose);
+      if (wanted !== null) of.set(viewer, wanted);
+    }
+    if (of.size === 0) return;
+    this.ordered = { subject, atMs: nowMs, of };
+    this.job += 1;
+    const cuts = [...of].map(([{ name }, { grid }]) => ({ name, grid }));
+    this.post({ kind: "cut", job: this.job, grey, cuts, spare: this.spare }, this.spare);
+    this.spare = [];
+  }
+
+  /** Takes the worker's reply. */
+  receive({ job, tookMs, cuts }: CutReply): void {
+    if (job !== this.job || this.ordered === null) return;
+    const { subject, atMs, of } = this.ordered;
+    this.ordered = null;
+    this.dueAtMs = atMs + Math.max(MIN_INTERVAL_MS[subject.kind], tookMs / MAX_SHARE);
+    for (const { name, buffer } of cuts) {
+      const [viewer, wanted] = [...of].find(([one]) => one.name === name) ?? [];
+      if (viewer === undefined || wanted === undefined) continue;
+      if (this.viewers.has(viewer)) viewer.show({ subject, ...wanted, buffer });
+      if (this.spare.length < MAX_SPARE) this.spare.push(buffer);
+    }
+  }
+}

@@ -1,0 +1,54 @@
+// Puts a cut and what is drawn over it onto the page, past React's state.
+import { setText } from "../panes/setText";
+import { frameOf, type PixelGrid } from "../operator/plan/slices/place";
+import type { Cut } from "./cutter";
+import { PARTS, type Overlay } from "./overlay";
+
+/** Size of the numbers at ticks and rings, in pixels of the page. */
+const LABEL_PX = 14;
+
+/** Writes the pixels of a cut. */
+export function drawPixels(canvas: HTMLCanvasElement, { grid, buffer }: Cut): void {
+  const context = canvas.getContext("2d");
+  if (context === null) return;
+  if (canvas.width !== grid.width_px || canvas.height !== grid.height_px) {
+    canvas.width = grid.width_px;
+    canvas.height = grid.height_px;
+  }
+  const pixels = new Uint8ClampedArray(buffer);
+  context.putImageData(new ImageData(pixels, grid.width_px, grid.height_px), 0, 0);
+}
+
+/** Leaves nothing of the last cut. */
+export function clearPixels(canvas: HTMLCanvasElement): void {
+  canvas.getContext("2d")?.clearRect(0, 0, canvas.width, canvas.height);
+}
+
+/** Draws the overlay over a cut of these pixels, which fill `widthPx` of the page; with null nothing is left. */
+export function paintOverlay(
+  svg: SVGSVGElement,
+  drawn: { overlay: Overlay; grid: PixelGrid; widthPx: number } | null,
+): void {
+  for (const part of PARTS)
+    set(svg.querySelector(`[data-part=${part}]`), "d", drawn?.overlay.paths[part] ?? "");
+  const labels = [...svg.querySelectorAll("text")];
+  if (drawn === null) {
+    for (const label of labels) setText(label, "");
+    return;
+  }
+  const { x, y, width, height } = frameOf(drawn.grid);
+  set(svg, "viewBox", `${x} ${y} ${width} ${height}`);
+  const size = ((LABEL_PX * width) / drawn.widthPx).toFixed(2);
+  for (const [index, label] of labels.entries()) {
+    const wanted = drawn.overlay.labels[index];
+    setText(label, wanted?.text ?? "");
+    if (wanted === undefined) continue;
+    set(label, "x", wanted.at[0].toFixed(2));
+    set(label, "y", wanted.at[1].toFixed(2));
+    set(label, "font-size", size);
+  }
+}
+
+function set(element: Element | null, attribute: string, value: string): void {
+  if (element && element.getAttribute(attribute) !== value) element.setAttribute(attribute, value);
+}

@@ -1,0 +1,81 @@
+// The planes of the drill: where the pixels of each cut lie in the patient (LPS, mm). As on the plan page
+// (tracker/plan/slices/oblique.py), the drilling direction points up in the two in-line cuts, and the probe's eye looks
+// along the drill with the feet down.
+import type { PixelGrid } from "../operator/plan/slices/place";
+import { cross, dot, lengthOf, minus, plus, times, unit, type Vec3 } from "../operator/plan/slices/vectors";
+
+export const CUT_NAMES = ["axial", "sagittal", "probe"] as const;
+export type CutName = (typeof CUT_NAMES)[number];
+
+/** A drill, or the plan in its place: its tip and its unit drilling direction in the vertebra frame. */
+export interface Pose {
+  tip: Vec3;
+  axis: Vec3;
+}
+
+/** What a stage shows, in mm. */
+export interface Field {
+  widthMm: number;
+  heightMm: number;
+}
+
+export const PIXEL_MM = 0.25;
+/** The shorter side of what is shown, and the longest that the longer one gets. */
+const SHORT_SIDE_MM: Record<CutName, number> = { axial: 64, sagittal: 64, probe: 44 };
+const MAX_SIDE_MM = 110;
+/** The tip stands this share of the height below the middle of an in-line cut: more is seen ahead of it. */
+const TIP_BELOW = 0.12;
+/** A direction nearer than this to the axis cannot define what is up. */
+const MIN_ACROSS = 0.1;
+
+const LEFT: Vec3 = [1, 0, 0];
+const BACK: Vec3 = [0, 1, 0];
+const HEAD: Vec3 = [0, 0, 1];
+const FEET: Vec3 = [0, 0, -1];
+
+/** The field that a stage of this many pixels of the page shows, without distortion. */
+export function fieldOf(name: CutName, widthPx: number, heightPx: number): Field {
+  const short = SHORT_SIDE_MM[name];
+  const perPx = Math.min(short / Math.min(widthPx, heightPx), MAX_SIDE_MM / Math.max(widthPx, heightPx));
+  return { widthMm: widthPx * perPx, heightMm: heightPx * perPx };
+}
+
+/** The cut of this name through a pose; the probe's eye this far ahead of the tip. */
+export function cutGrid(name: CutName, { tip, axis }: Pose, field: Field, aheadMm: number): PixelGrid {
+  if (name === "probe") {
+    const down = across(axis, FEET, BACK);
+    return grid(plus(tip, times(axis, aheadMm)), cross(down, axis), down, field);
+  }
+  const leftwards = across(axis, LEFT, HEAD);
+  // Turned about the drilling direction by the right hand, as the plan page turns its slice along the channel.
+  const right = name === "axial" ? leftwards : cross(axis, leftwards);
+  return grid(plus(tip, times(axis, TIP_BELOW * field.heightMm)), right, times(axis, -1), field);
+}
+
+function grid(centre: Vec3, right: Vec3, down: Vec3, { widthMm, heightMm }: Field): PixelGrid {
+  const [width_px, height_px] = [Math.round(widthMm / PIXEL_MM), Math.round(heightMm / PIXEL_MM)];
+  const toCorner = plus(
+    times(right, (-(width_px - 1) / 2) * PIXEL_MM),
+    times(down, (-(height_px - 1) / 2) * PIXEL_MM),
+  );
+  const [u, v, start] = [times(right, PIXEL_MM), times(down, PIXEL_MM), plus(centre, toCorner)];
+  const lps_from_px = [0, 1, 2].map((axis) => [u[axis] ?? 0, v[axis] ?? 0, start[axis] ?? 0]);
+  return { lps_from_px, pixel_mm: [PIXEL_MM, PIXEL_MM], width_px, height_px };
+}
+
+/** The unit direction across the axis that is nearest to the wanted one. */
+function across(axis: Vec3, wanted: Vec3, otherwise: Vec3): Vec3 {
+  const part = (direction: Vec3): Vec3 => minus(direction, times(axis, dot(direction, axis)));
+  const first = part(wanted);
+  return unit(lengthOf(first) > MIN_ACROSS ? first : part(otherwise));
+}
+
+/** Towards what the three axes of LPS point, and away from it. */
+const LETTERS = ["LR", "PA", "HF"] as const;
+const WITHIN = Math.cos(Math.PI / 4);
+
+/** The patient's direction within 45 degrees of this one; empty where none is. */
+export function directionLetter(direction: Vec3): string {
+  const index = direction.findIndex((part) => Math.abs(part) >= WITHIN);
+  return LETTERS[index]?.[(direction[index] ?? 0) > 0 ? 0 : 1] ?? "";
+}

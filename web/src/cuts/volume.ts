@@ -1,0 +1,42 @@
+// The CT around the navigated vertebra, as the server sends it once: voxels, their place, and the windows by name.
+import { answeredWithResponse, server } from "../rest/client";
+import { inverseAffine, type GreyWindow, type Voxels } from "./cut";
+
+export interface Volume {
+  ctId: string;
+  voxels: Voxels;
+  presets: Record<string, GreyWindow>;
+}
+
+/**
+ * The newest volume; null while the rehearsal's one is being scanned.
+ *
+ * @throws Rejection
+ */
+export async function loadVolume(signal: AbortSignal): Promise<Volume | null> {
+  // Asked again each time, and answered from the browser's store where nothing has changed.
+  const request = server.GET("/api/navigation/ct", { parseAs: "arrayBuffer", cache: "no-cache", signal });
+  const { data, response } = await answeredWithResponse(request);
+  if (response.status === 204) return null;
+  return volumeFrom(response.headers.get("volume-place") ?? "", data);
+}
+
+/** The volume of an answer; raises an error where header and voxels do not fit. */
+export function volumeFrom(header: string, content: ArrayBuffer): Volume {
+  const { ct_id, size_ijk, lps_from_ijk, presets } = JSON.parse(header) as {
+    ct_id: string;
+    size_ijk: [number, number, number];
+    lps_from_ijk: number[][];
+    presets: Record<string, GreyWindow>;
+  };
+  const hu = new Int16Array(content);
+  const [columns, rows, slices] = size_ijk;
+  if (hu.length !== columns * rows * slices) {
+    throw new Error(`a volume of ${columns} x ${rows} x ${slices} voxels came with ${hu.length}`);
+  }
+  return {
+    ctId: ct_id,
+    voxels: { hu, size: size_ijk, indexFromLps: inverseAffine(lps_from_ijk) },
+    presets,
+  };
+}
