@@ -37,7 +37,6 @@ export function CutsProvider({ children }: { children: ReactNode }): ReactNode {
   const channel = view.newest?.snapshot?.channel ?? null;
   const { state, presets } = useVolume(channel, cutter, hasWorker);
   const grey = presets[window] ?? USUAL_GREY;
-  const isReady = state.state === "ready" ? state.ctId : null;
 
   useEffect(() => {
     if (!hasWorker) return;
@@ -59,7 +58,7 @@ export function CutsProvider({ children }: { children: ReactNode }): ReactNode {
   }, [hasWorker, cutter, live]);
 
   usePainter((now) => {
-    cutter.update(now.nowMs, isReady === null ? null : subjectOf(now, isReady), grey);
+    cutter.update(now.nowMs, subjectOf(now), grey);
   });
 
   const value = useMemo(
@@ -84,9 +83,9 @@ export function useCuts(): CutsValue {
 }
 
 /** What to cut for this view: the drill whose figures stand there, else the plan, else nothing. */
-function subjectOf({ numbers, newest, nowMs, untrackedMs }: View, ctId: string): CutSubject | null {
+function subjectOf({ numbers, newest, nowMs, untrackedMs }: View): CutSubject | null {
   const channel = newest?.snapshot?.channel ?? null;
-  if (channel?.ct_id !== ctId) return null;
+  if (channel === null) return null;
   if (numbers.live) {
     const { drill } = numbers.reading;
     const capturedAtMs = nowMs - numbers.ageMs;
@@ -121,7 +120,7 @@ function useVolume(channel: ChannelMessage | null, cutter: Cutter, isSupported: 
       timer = setTimeout(() => void load(), ms);
     };
     const take = (volume: Volume): void => {
-      cutter.setVolume(volume.voxels);
+      cutter.setVolume(volume);
       setLoaded({ state: { state: "ready", ctId: volume.ctId }, presets: volume.presets });
     };
     const load = async (): Promise<void> => {

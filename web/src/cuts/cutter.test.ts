@@ -3,6 +3,10 @@ import { channel } from "../live/builders";
 import { Cutter, type Cut, type CutSubject, type ToCutWorker } from "./cutter";
 import { cutGrid } from "./planes";
 
+const VOLUME = {
+  ctId: "ct-1",
+  voxels: { hu: new Int16Array(8), size: [2, 2, 2] as const, indexFromLps: [] },
+};
 const GREY = { window_hu: 1800, level_hu: 400 };
 
 function subject(imageNumber: number, kind: CutSubject["kind"] = "live"): CutSubject {
@@ -24,7 +28,10 @@ function started(): {
   const posted: ToCutWorker[] = [];
   const shown: number[] = [];
   const cutter = new Cutter();
-  cutter.connect((message) => posted.push(message));
+  cutter.connect((message) => {
+    if (message.kind === "cut") posted.push(message);
+  });
+  cutter.setVolume(VOLUME);
   cutter.add({
     name: "axial",
     gridFor: (pose) => ({ grid: cutGrid("axial", pose, { widthMm: 2, heightMm: 2 }, 0), aheadMm: 0 }),
@@ -75,8 +82,17 @@ test("a cut of the volume before is never shown", () => {
   const { cutter, shown, posted } = started();
   cutter.update(0, subject(1), GREY);
   const first = posted.at(-1);
-  cutter.setVolume({ hu: new Int16Array(8), size: [2, 2, 2], indexFromLps: [] });
+  cutter.setVolume(VOLUME);
   if (first?.kind !== "cut") throw new Error("nothing was ordered");
   cutter.receive({ job: first.job, tookMs: 1, cuts: [{ name: "axial", buffer: new ArrayBuffer(256) }] });
   expect(shown).toEqual([]);
+});
+
+test("a pose in one CT is never cut from the voxels of another", () => {
+  const { cutter, posted } = started();
+  cutter.update(0, { ...subject(1), channel: channel({ ct_id: "ct-2" }) }, GREY);
+  expect(posted).toHaveLength(0);
+  cutter.setVolume({ ...VOLUME, ctId: "ct-2" });
+  cutter.update(10, { ...subject(1), channel: channel({ ct_id: "ct-2" }) }, GREY);
+  expect(posted).toHaveLength(1);
 });

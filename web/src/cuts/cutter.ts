@@ -70,16 +70,19 @@ export class Cutter {
     of: Map<CutViewer, Wanted>;
   } | null = null;
   private spare: ArrayBuffer[] = [];
-
   private post: Post | null = null;
+  /** Of the volume that the worker has; a pose of another CT is never cut from it. */
+  private ctId: string | null = null;
 
   /** From now on the worker is reached by this; null while there is none. */
   connect(post: Post | null): void {
     this.post = post;
     this.ordered = null;
+    this.ctId = null;
   }
 
-  setVolume(voxels: Voxels): void {
+  setVolume({ ctId, voxels }: { ctId: string; voxels: Voxels }): void {
+    this.ctId = ctId;
     this.post?.({ kind: "volume", voxels }, [voxels.hu.buffer as ArrayBuffer]);
     // What is still on its way was cut from another volume.
     this.job += 1;
@@ -94,6 +97,7 @@ export class Cutter {
   /** Orders cuts of this subject if the worker is idle and it is time; a later call has a newer one. */
   update(nowMs: number, subject: CutSubject | null, grey: GreyWindow): void {
     if (this.post === null || subject === null || this.ordered !== null || nowMs < this.dueAtMs) return;
+    if (this.ctId === null || subject.channel.ct_id !== this.ctId) return;
     const of = new Map<CutViewer, Wanted>();
     for (const viewer of this.viewers) {
       const wanted = viewer.gridFor(subject.pose);
