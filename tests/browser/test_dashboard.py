@@ -13,6 +13,7 @@ pytestmark = pytest.mark.browser
 
 Watch = Callable[..., WatchedPage]
 PANES = ("video", "numbers", "scene")
+CUTS = ("cut-axial", "cut-probe")
 
 expect.set_options(timeout=PATIENCE_MS)
 
@@ -37,6 +38,9 @@ COVERED = """pane => {
     const { backgroundColor, opacity } = getComputedStyle(cover);
     return fills && cover.contains(middle) && /^rgb\\(/.test(backgroundColor) && opacity === "1";
 }"""
+
+HAS_DRILL = """stage => [...stage.querySelectorAll("[data-part=shaft], [data-part=ring], [data-part=ahead]")]
+    .some(path => path.getAttribute("d") !== "")"""
 
 # Words in the top and beside the video's title that lie over each other, two by two, and facts that are cut.
 ILLEGIBLE = """page => {
@@ -190,8 +194,16 @@ def test_camera_without_calibration_claims_no_millimetres(page: Page, shared_the
 def test_failure_looks_like_failure(page: Page, shared_theatre: Theatre) -> None:
     page.set_viewport_size({"width": 1920, "height": 1080})
     is_live(page, "scene")
+    for cut in CUTS:
+        # This theatre has no CT: drill and plan alone are drawn, and it says so.
+        is_live(page, cut)
+        expect(page.get_by_test_id(cut).get_by_test_id("cut-note")).to_contain_text("NO CT")
+        assert page.get_by_test_id(cut).evaluate(HAS_DRILL)
     shared_theatre.tell("unseen")
     marker_is_out_of_view(page)
+    for cut in CUTS:
+        is_live(page, cut, live=False)
+        assert not page.get_by_test_id(cut).evaluate(HAS_DRILL), "a drill is drawn that is not seen"
     shared_theatre.tell("lost")
     is_live(page, "video", live=False)
     is_live(page, "scene", live=False)
@@ -200,6 +212,8 @@ def test_failure_looks_like_failure(page: Page, shared_theatre: Theatre) -> None
         expect(cover).to_contain_text(words)
         expect(cover).to_be_visible()
         assert page.get_by_test_id(pane).evaluate(COVERED), f"something shines through the words over {pane}"
+    for cut in CUTS:
+        assert page.get_by_test_id(cut).evaluate(COVERED), f"something shines through the words over {cut}"
     assert page.locator("canvas.sharp").evaluate(BLACK), "an old picture is still on the canvas"
     expect(page.get_by_test_id("no-tracking")).to_be_visible()
     figures_are_gone(page)
