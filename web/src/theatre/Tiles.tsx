@@ -25,7 +25,10 @@ function useIsWide(): boolean {
   );
 }
 
-/** The cuts through the CT and the 3-D scene: three at once on a theatre's screen, one by a touch on a smaller one. */
+/**
+ * The cuts through the CT and the 3-D scene: three cuts on a theatre's screen, where the scene takes the place of both
+ * in-line cuts by a touch, and one of the four on a smaller screen.
+ */
 export function Tiles(): ReactNode {
   const isWide = useIsWide();
   const [chosen, setChosen] = useState<TileName>("probe");
@@ -36,12 +39,12 @@ export function Tiles(): ReactNode {
       </div>
     );
   }
-  const second = chosen === "scene" ? "scene" : "sagittal";
+  const isScene = chosen === "scene";
   return (
     <>
       <div className="tiles">
-        <Tile name="axial" />
-        <Tile name={second} choices={["sagittal", "scene"]} onChoose={setChosen} />
+        {!isScene && <Tile name="axial" />}
+        <Tile name={isScene ? "scene" : "sagittal"} choices={["sagittal", "scene"]} onChoose={setChosen} />
       </div>
       <div className="tiles tiles-eye">
         <Tile name="probe" />
