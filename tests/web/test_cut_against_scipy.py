@@ -15,7 +15,9 @@ from server.procedure.navigation_ct import NavigationCt, NavigationCtProvider
 from tracker.geometry import rotation_from_vector
 from tracker.plan import Volume
 
-WEB = Path(__file__).resolve().parents[2] / "web"
+CHECKOUT = Path(__file__).resolve().parents[2]
+# The machine's Node, or the one that came with the packages.
+NODE = ["sh", ".make/with-node", "web", "node"]
 BONE = {"window_hu": 1800.0, "level_hu": 400.0}
 # Node runs what TypeScript leaves of the module when its types are taken away; it has no imports.
 PROGRAM = """
@@ -74,7 +76,8 @@ def test_the_cut_is_that_of_scipy_to_half_a_grey_level(tmp_path: Path, turn: tup
         "grey": BONE,
         "folder": str(tmp_path),
     }
-    subprocess.run(["node", "-e", PROGRAM, str(WEB)], input=json.dumps(asked), text=True, check=True)
+    command = [*NODE, "-e", PROGRAM, str(CHECKOUT / "web")]
+    subprocess.run(command, cwd=CHECKOUT, input=json.dumps(asked), text=True, check=True)
     pixels = np.fromfile(tmp_path / "pixels", np.uint8).reshape(height, width, 4)
 
     u, v = np.meshgrid(np.arange(width), np.arange(height))
