@@ -50,8 +50,10 @@ RECORDER = """(() => {
     window.WebSocket = class extends Own {
         constructor(...given) {
             super(...given);
-            if (!String(given[0]).includes("/ws/view")) return;
-            kept.tries.push(performance.now());
+            const address = String(given[0]);
+            if (address.includes("/ws/view")) kept.tries.push(performance.now());
+            // Figures come with a message of their own, often before the first picture.
+            else if (!address.includes("/ws/live")) return;
             this.addEventListener("message", () => {
                 kept.heardAt = performance.now();
                 kept.firstHeardAt ??= kept.heardAt;
