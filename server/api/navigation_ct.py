@@ -1,10 +1,12 @@
 """The CT around the navigated vertebra, from which the theatre's page cuts the planes of the drill."""
 
+from collections.abc import Mapping
+
 from fastapi import APIRouter, Request, Response
 
 from server.api.ct_messages import WindowMessage, preset_messages
 from server.api.errors import rejections
-from server.api.slice_images import CACHE_CONTROL
+from server.api.revalidation import unless_known
 from server.procedure.navigation_ct import BeingScanned, NavigationCt, NavigationCtProvider
 from server.stream.messages import Message
 
@@ -62,20 +64,19 @@ def navigation_ct_router(provider: NavigationCtProvider) -> APIRouter:
 
 def _answer(request: Request, found: NavigationCt) -> Response:
     packed = "gzip" in request.headers.get("accept-encoding", "")
-    headers = {
-        "ETag": f'"{found.digest}{"-gzip" if packed else ""}"',
-        "Cache-Control": CACHE_CONTROL,
-        "Vary": "Accept-Encoding",
-    }
-    if headers["ETag"] in request.headers.get("if-none-match", ""):
-        return Response(status_code=304, headers=headers)
-    place = VolumeMessage(
-        ct_id=found.ct_id,
-        size_ijk=list(found.volume.shape_ijk),
-        lps_from_ijk=found.volume.lps_from_ijk.tolist(),
-        presets=preset_messages(),
-    )
-    headers[VOLUME_PLACE] = place.model_dump_json()
-    if packed:
-        return Response(found.gzipped, media_type=VOXELS, headers={**headers, "Content-Encoding": "gzip"})
-    return Response(found.volume.hu.astype("<i2", copy=False).tobytes(), media_type=VOXELS, headers=headers)
+
+    def respond(headers: Mapping[str, str]) -> Response:
+        place = VolumeMessage(
+            ct_id=found.ct_id,
+            size_ijk=list(found.volume.shape_ijk),
+            lps_from_ijk=found.volume.lps_from_ijk.tolist(),
+            presets=preset_messages(),
+        )
+        headers = {**headers, VOLUME_PLACE: place.model_dump_json()}
+        if packed:
+            return Response(found.gzipped, media_type=VOXELS, headers={**headers, "Content-Encoding": "gzip"})
+        voxels = found.volume.hu.astype("<i2", copy=False).tobytes()
+        return Response(voxels, media_type=VOXELS, headers=headers)
+
+    tag = f"{found.digest}-gzip" if packed else found.digest
+    return unless_known(request, tag, respond, headers={"Vary": "Accept-Encoding"})

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from fastapi import Query, Request, Response
 
+from server.api.revalidation import unless_known
 from tracker.errors import InvalidInput
 from tracker.geometry import Array
 from tracker.plan.slices import WINDOWS, Window
@@ -39,7 +40,6 @@ SLICE_ANSWER: dict[int | str, dict[str, object]] = {
     }
 }
 # Revalidated each time, because the address does not change when the CT is replaced.
-CACHE_CONTROL = "private, no-cache"
 HU: TypeAlias = Annotated[float, Query(ge=-40_000.0, le=40_000.0, allow_inf_nan=False)]
 WindowHu: TypeAlias = Annotated[float, Query(gt=0.0, le=80_000.0, allow_inf_nan=False)]
 SlabMm: TypeAlias = Annotated[float, Query(ge=0.0, le=100.0, allow_inf_nan=False)]
@@ -107,11 +107,12 @@ def image_with_headers(
 ) -> Response:
     """As `picture`, with additional headers that the browser caches with the image."""
     known_by = hashlib.sha256(f"{made_from} {request.url.path}?{request.url.query}".encode()).hexdigest()
-    headers = {"ETag": f'"{known_by[:32]}"', "Cache-Control": CACHE_CONTROL}
-    if headers["ETag"] in request.headers.get("if-none-match", ""):
-        return Response(status_code=304, headers=headers)
-    pixels, reported = draw()
-    encoded, content = cv2.imencode(".png", pixels)
-    if not encoded:
-        raise RuntimeError("a picture could not be encoded")
-    return Response(content.tobytes(), media_type=PNG, headers={**headers, **reported})
+
+    def respond(headers: Mapping[str, str]) -> Response:
+        pixels, reported = draw()
+        encoded, content = cv2.imencode(".png", pixels)
+        if not encoded:
+            raise RuntimeError("a picture could not be encoded")
+        return Response(content.tobytes(), media_type=PNG, headers={**headers, **reported})
+
+    return unless_known(request, known_by[:32], respond)

@@ -12,7 +12,7 @@ from server.api.ct_messages import PointLps
 from server.api.errors import rejections
 from server.api.jobs import JobMessage, job_message
 from server.api.requester import MadeBy, MadeByQuery
-from server.api.slice_images import CACHE_CONTROL
+from server.api.revalidation import unless_known
 from server.api.uploads import received
 from server.planning.surface import MeshRequest
 from server.procedure.surface import BoneSurfaceRequest, SurfaceStep
@@ -64,10 +64,11 @@ def surface_router(step: SurfaceStep, store: CaseStore, home: Home) -> APIRouter
     def triangles(request: Request) -> Response:
         """Return its triangles as binary PLY in mm (LPS)."""
         _, file = step.latest()
-        headers = {"ETag": f'"{file.sha256[:32]}"', "Cache-Control": CACHE_CONTROL}
-        if headers["ETag"] in request.headers.get("if-none-match", ""):
-            return Response(status_code=304, headers=headers)
-        return FileResponse(file.path, media_type=PLY, filename="surface.ply", headers=headers)
+        return unless_known(
+            request,
+            file.sha256[:32],
+            lambda headers: FileResponse(file.path, media_type=PLY, filename="surface.ply", headers=headers),
+        )
 
     return router
 
