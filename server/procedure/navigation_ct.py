@@ -16,9 +16,9 @@ from server.jobs import Jobs
 from server.planning.rehearsal_ct import scan_rehearsal
 from server.procedure.ct import CtProvider
 from server.procedure.open_case import require_open_case
-from server.procedure.plan import ACTIVE_CHANNEL, active_channel_from_document, planned_ct_id
+from server.procedure.plan import active_channel_document, active_channel_from_document, planned_ct_id
 from server.setup import REHEARSAL_CT_ID
-from server.store import CaseStore, Current, Document, DocumentKind
+from server.store import CaseStore, Document
 from tracker.geometry import Array
 from tracker.plan import Volume, plan_from_mapping
 from tracker.plan.crop import cropped_around
@@ -108,10 +108,7 @@ class NavigationCtProvider:
 
     def _active(self) -> Document | None:
         case = self._store.get_open_case()
-        if case is None:
-            return None
-        active = self._store.latest(case.id, DocumentKind.PLAN, ACTIVE_CHANNEL)
-        return active if active is not None and isinstance(self._store.validity(active), Current) else None
+        return None if case is None else active_channel_document(self._store, case.id)
 
     def _of_case(self, active: Document) -> NavigationCt:
         key = (active.id, *active.depends_on)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import structlog
 
 from server.imaging.meshes import mesh_from_bytes
-from server.procedure.plan import ACTIVE_CHANNEL
+from server.procedure.plan import active_channel_document
 from server.procedure.surface import MAIN_SURFACE
 from server.store import CaseStore, Current, Document, DocumentKind
 from tracker.errors import NavigationError
@@ -57,7 +57,7 @@ class SceneBone:
         case = self._store.get_open_case()
         if case is None:
             return None, None
-        planned = self._current(self._store.latest(case.id, DocumentKind.PLAN, ACTIVE_CHANNEL))
+        planned = active_channel_document(self._store, case.id)
         surface = self._current(self._store.latest(case.id, DocumentKind.SURFACE, MAIN_SURFACE))
         return planned, surface if planned is not None and surface is not None and surface.files else None
 

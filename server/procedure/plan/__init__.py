@@ -3,6 +3,7 @@
 from server.procedure.plan.active_channel import (
     ACTIVE_CHANNEL,
     ActiveChannel,
+    active_channel_document,
     active_channel_from_document,
     planned_ct_id,
 )
@@ -19,6 +20,7 @@ __all__ = [
     "PlanStep",
     "Proposal",
     "StoredPlan",
+    "active_channel_document",
     "active_channel_from_document",
     "export_plan",
     "import_plan",

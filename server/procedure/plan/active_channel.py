@@ -7,7 +7,7 @@ A change of the plan that leaves the channel as it is renews the choice in the s
 from dataclasses import dataclass
 from typing import cast
 
-from server.store import CaseStore, Document
+from server.store import CaseStore, Current, Document, DocumentKind
 from tracker.plan import Channel
 from tracker.plan.document import channel_from_mapping
 from tracker.plan.pedicle import Side, checked_side
@@ -29,6 +29,12 @@ class ActiveChannel:
     vertebra: str
     side: Side
     channel: Channel
+
+
+def active_channel_document(store: CaseStore, case_id: str) -> Document | None:
+    """Return the document of the active channel; None without one, or if it is out of date."""
+    document = store.latest(case_id, DocumentKind.PLAN, ACTIVE_CHANNEL)
+    return document if document is not None and isinstance(store.validity(document), Current) else None
 
 
 def active_channel_from_document(document: Document) -> ActiveChannel:

@@ -9,7 +9,12 @@ import structlog
 from server.errors import SetupOrderError
 from server.procedure.ct import CtProvider, MappedCt
 from server.procedure.open_case import require_open_case
-from server.procedure.plan.active_channel import ACTIVE_CHANNEL, ActiveChannel, active_channel_from_document
+from server.procedure.plan.active_channel import (
+    ACTIVE_CHANNEL,
+    ActiveChannel,
+    active_channel_document,
+    active_channel_from_document,
+)
 from server.store import CaseStore, Current, Document, DocumentKind, NewDocument, OutOfDateError, Validity
 from tracker.errors import NavigationError, PlanError
 from tracker.plan import Channel, PlanDocument, plan_from_mapping, plan_to_mapping
@@ -185,8 +190,8 @@ class PlanRepository:
         return self.latest()
 
     def _active(self, case_id: str) -> ActiveChannel | None:
-        document = self._store.latest(case_id, DocumentKind.PLAN, ACTIVE_CHANNEL)
-        if document is None or not isinstance(self._store.validity(document), Current):
+        document = active_channel_document(self._store, case_id)
+        if document is None:
             return None
         try:
             return active_channel_from_document(document)

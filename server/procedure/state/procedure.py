@@ -15,7 +15,7 @@ from server.procedure.confirmation import (
     confirmation_prompt,
     confirmed_from_s,
 )
-from server.procedure.plan import ACTIVE_CHANNEL, active_channel_from_document
+from server.procedure.plan import active_channel_document, active_channel_from_document
 from server.procedure.plan.repository import MAIN_PLAN
 from server.procedure.registration_record import (
     RegistrationRecord,
@@ -152,8 +152,8 @@ class Procedure:
 
     def active_vertebra(self, case_id: str) -> str | None:
         """Return the vertebra of the active channel."""
-        document = self._store.latest(case_id, DocumentKind.PLAN, ACTIVE_CHANNEL)
-        if document is None or not isinstance(self._store.validity(document), Current):
+        document = active_channel_document(self._store, case_id)
+        if document is None:
             return None
         try:
             return active_channel_from_document(document).vertebra
