@@ -45,6 +45,8 @@ export function CutPane({ name, tabs }: CutPaneProps): ReactNode {
   const shown = useRef<Cut | null>(null);
   const size = useRef({ width: 0, height: 0 });
   const limiter = useRef(new PaintRateLimiter());
+  /** What the lines that stand there were drawn from; empty where none stand. */
+  const drawnFrom = useRef<readonly unknown[]>([]);
   const ahead = name === "probe" ? aheadMm : 0;
   const limitMs = dashboard?.limits.scene_stale_after_ms ?? 500;
   const verdictOf = (now: View): CutVerdict =>
@@ -120,20 +122,26 @@ export function CutPane({ name, tabs }: CutPaneProps): ReactNode {
     if (name === "probe") paintSplit(split.current, reading, texts);
     if (drawn === null) {
       paintOverlay(svg.current, null);
+      drawnFrom.current = [];
       setText(stamp.current, "");
       return;
     }
-    const { grid } = drawn;
-    const overlay = overlayOf(name, grid, {
-      channel: now.newest?.snapshot?.channel ?? null,
-      drill: reading?.drill ?? null,
-      aheadMm: drawn.aheadMm,
-      maxOffsetMm: reading === null ? null : figureOf(reading, "entry").limit,
-    });
-    const { width } = size.current;
-    paintOverlay(svg.current, { overlay, grid, widthPx: width });
-    for (const edge of EDGES) setText(edgeOf(stage.current, edge), overlay.edges[edge]);
-    paintRuler(ruler.current, width / frameOf(grid).width);
+    // The page looks more often than an image comes.
+    const from = [next.state, shown.current, now.newest, size.current, ahead];
+    if (from.some((one, index) => one !== drawnFrom.current[index])) {
+      drawnFrom.current = from;
+      const { grid } = drawn;
+      const overlay = overlayOf(name, grid, {
+        channel: now.newest?.snapshot?.channel ?? null,
+        drill: reading?.drill ?? null,
+        aheadMm: drawn.aheadMm,
+        maxOffsetMm: reading === null ? null : figureOf(reading, "entry").limit,
+      });
+      const { width } = size.current;
+      paintOverlay(svg.current, { overlay, grid, widthPx: width });
+      for (const edge of EDGES) setText(edgeOf(stage.current, edge), overlay.edges[edge]);
+      paintRuler(ruler.current, width / frameOf(grid).width);
+    }
     if (!limiter.current.isDue(now.nowMs, `${next.state} ${drawn.imageNumber}`)) return;
     const age = "ageMs" in next ? `${texts.video.age} ${formatNumber(next.ageMs, 0)} ms` : "";
     setText(stamp.current, age === "" ? "" : `${texts.video.image} ${drawn.imageNumber} · ${age}`);
