@@ -47,6 +47,7 @@ export function CutPane({ name, tabs }: CutPaneProps): ReactNode {
   const limiter = useRef(new PaintRateLimiter());
   /** What the lines that stand there were drawn from; empty where none stand. */
   const drawnFrom = useRef<readonly unknown[]>([]);
+  const drawnAtMs = useRef(-Infinity);
   const ahead = name === "probe" ? aheadMm : 0;
   const limitMs = dashboard?.limits.scene_stale_after_ms ?? 500;
   const verdictOf = (now: View): CutVerdict =>
@@ -126,10 +127,12 @@ export function CutPane({ name, tabs }: CutPaneProps): ReactNode {
       setText(stamp.current, "");
       return;
     }
-    // The page looks more often than an image comes.
-    const from = [next.state, shown.current, now.newest, size.current, ahead];
-    if (from.some((one, index) => one !== drawnFrom.current[index])) {
+    // Each change of the lines costs an image of the screen: they are drawn with their cut, and not with each message.
+    const from = [next.state, shown.current, size.current, ahead];
+    const isMovingAlone = next.state === "bare" && now.nowMs - drawnAtMs.current >= now.budget.cutIntervalMs;
+    if (isMovingAlone || from.some((one, index) => one !== drawnFrom.current[index])) {
       drawnFrom.current = from;
+      drawnAtMs.current = now.nowMs;
       const { grid } = drawn;
       const overlay = overlayOf(name, grid, {
         channel: now.newest?.snapshot?.channel ?? null,

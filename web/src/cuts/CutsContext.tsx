@@ -58,7 +58,7 @@ export function CutsProvider({ children }: { children: ReactNode }): ReactNode {
   }, [hasWorker, cutter, live]);
 
   usePainter((now) => {
-    cutter.update(now.nowMs, subjectOf(now), grey);
+    cutter.update(now.nowMs, subjectOf(now), grey, now.budget.cutIntervalMs);
   });
 
   const value = useMemo(

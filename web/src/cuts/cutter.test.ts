@@ -47,40 +47,50 @@ function started(): {
 
 test("one cut at a time, of the newest pose, at most ten times a second", () => {
   const { cutter, posted, shown, reply } = started();
-  cutter.update(0, subject(1), GREY);
-  cutter.update(30, subject(2), GREY);
+  cutter.update(0, subject(1), GREY, 100);
+  cutter.update(30, subject(2), GREY, 100);
   reply(4);
-  cutter.update(60, subject(3), GREY);
+  cutter.update(60, subject(3), GREY, 100);
   expect(posted).toHaveLength(1);
-  cutter.update(100, subject(4), GREY);
+  cutter.update(100, subject(4), GREY, 100);
   reply(4);
   expect(shown).toEqual([1, 4]);
 });
 
+test("cuts are as far apart as the page's budget says", () => {
+  const { cutter, posted, reply } = started();
+  cutter.update(0, subject(1), GREY, 200);
+  reply(4);
+  cutter.update(199, subject(2), GREY, 200);
+  expect(posted).toHaveLength(1);
+  cutter.update(200, subject(3), GREY, 200);
+  expect(posted).toHaveLength(2);
+});
+
 test("cuts that take long are made less often: 15 % of the worker's time", () => {
   const { cutter, posted, reply } = started();
-  cutter.update(0, subject(1), GREY);
+  cutter.update(0, subject(1), GREY, 100);
   reply(60);
-  cutter.update(390, subject(2), GREY);
+  cutter.update(390, subject(2), GREY, 100);
   expect(posted).toHaveLength(1);
-  cutter.update(400, subject(3), GREY);
+  cutter.update(400, subject(3), GREY, 100);
   expect(posted).toHaveLength(2);
 });
 
 test("a buffer that was shown is given back, and nothing is cut without a subject", () => {
   const { cutter, posted, reply } = started();
-  cutter.update(0, subject(1), GREY);
+  cutter.update(0, subject(1), GREY, 100);
   reply(1);
-  cutter.update(150, null, GREY);
+  cutter.update(150, null, GREY, 100);
   expect(posted).toHaveLength(1);
-  cutter.update(200, subject(2), GREY);
+  cutter.update(200, subject(2), GREY, 100);
   const last = posted.at(-1);
   expect(last?.kind === "cut" ? last.spare.map((one) => one.byteLength) : null).toEqual([256]);
 });
 
 test("a cut of the volume before is never shown", () => {
   const { cutter, shown, posted } = started();
-  cutter.update(0, subject(1), GREY);
+  cutter.update(0, subject(1), GREY, 100);
   const first = posted.at(-1);
   cutter.setVolume(VOLUME);
   if (first?.kind !== "cut") throw new Error("nothing was ordered");
@@ -90,9 +100,9 @@ test("a cut of the volume before is never shown", () => {
 
 test("a pose in one CT is never cut from the voxels of another", () => {
   const { cutter, posted } = started();
-  cutter.update(0, { ...subject(1), channel: channel({ ct_id: "ct-2" }) }, GREY);
+  cutter.update(0, { ...subject(1), channel: channel({ ct_id: "ct-2" }) }, GREY, 100);
   expect(posted).toHaveLength(0);
   cutter.setVolume({ ...VOLUME, ctId: "ct-2" });
-  cutter.update(10, { ...subject(1), channel: channel({ ct_id: "ct-2" }) }, GREY);
+  cutter.update(10, { ...subject(1), channel: channel({ ct_id: "ct-2" }) }, GREY, 100);
   expect(posted).toHaveLength(1);
 });

@@ -1,5 +1,5 @@
-// Orders cuts of the newest pose from the worker: one at a time, without a queue, at most ten times a second, and
-// less often where they take long. Pure but for the port that it is given; times go in as numbers.
+// Orders cuts of the newest pose from the worker: one at a time, without a queue, as often as the page's budget allows,
+// and less often where they take long. Pure but for the port that it is given; times go in as numbers.
 import type { ChannelMessage } from "../live/messages";
 import type { PixelGrid } from "../operator/plan/slices/place";
 import type { GreyWindow, Voxels } from "./cut";
@@ -55,7 +55,7 @@ export interface CutViewer {
 type Post = (message: ToCutWorker, transfer: ArrayBuffer[]) => void;
 
 /** A plan does not move. */
-const MIN_INTERVAL_MS = { live: 100, plan: 500 };
+const PLAN_INTERVAL_MS = 500;
 /** The share of one core that cuts may take. */
 const MAX_SHARE = 0.15;
 const MAX_SPARE = 8;
@@ -63,10 +63,11 @@ const MAX_SPARE = 8;
 export class Cutter {
   private readonly viewers = new Set<CutViewer>();
   private job = 0;
-  private dueAtMs = -Infinity;
+  private orderedAtMs = -Infinity;
+  /** From one order to the next, for the worker not to take more than its share. */
+  private restMs = 0;
   private ordered: {
     subject: CutSubject;
-    atMs: number;
     of: Map<CutViewer, Wanted>;
   } | null = null;
   private spare: ArrayBuffer[] = [];
@@ -94,9 +95,14 @@ export class Cutter {
     return () => this.viewers.delete(viewer);
   }
 
-  /** Orders cuts of this subject if the worker is idle and it is time; a later call has a newer one. */
-  update(nowMs: number, subject: CutSubject | null, grey: GreyWindow): void {
-    if (this.post === null || subject === null || this.ordered !== null || nowMs < this.dueAtMs) return;
+  /**
+   * Orders cuts of this subject if the worker is idle and it is time; a later call has a newer one. `intervalMs` is the
+   * least time from one order to the next while the drill moves.
+   */
+  update(nowMs: number, subject: CutSubject | null, grey: GreyWindow, intervalMs: number): void {
+    if (this.post === null || subject === null || this.ordered !== null) return;
+    const wantedMs = subject.kind === "live" ? intervalMs : PLAN_INTERVAL_MS;
+    if (nowMs < this.orderedAtMs + Math.max(wantedMs, this.restMs)) return;
     if (this.ctId === null || subject.channel.ct_id !== this.ctId) return;
     const of = new Map<CutViewer, Wanted>();
     for (const viewer of this.viewers) {
@@ -104,7 +110,8 @@ export class Cutter {
       if (wanted !== null) of.set(viewer, wanted);
     }
     if (of.size === 0) return;
-    this.ordered = { subject, atMs: nowMs, of };
+    this.ordered = { subject, of };
+    this.orderedAtMs = nowMs;
     this.job += 1;
     const cuts = [...of].map(([{ name }, { grid }]) => ({ name, grid }));
     this.post({ kind: "cut", job: this.job, grey, cuts, spare: this.spare }, this.spare);
@@ -114,9 +121,9 @@ export class Cutter {
   /** Takes the worker's reply. */
   receive({ job, tookMs, cuts }: CutReply): void {
     if (job !== this.job || this.ordered === null) return;
-    const { subject, atMs, of } = this.ordered;
+    const { subject, of } = this.ordered;
     this.ordered = null;
-    this.dueAtMs = atMs + Math.max(MIN_INTERVAL_MS[subject.kind], tookMs / MAX_SHARE);
+    this.restMs = tookMs / MAX_SHARE;
     for (const { name, buffer } of cuts) {
       const [viewer, wanted] = [...of].find(([one]) => one.name === name) ?? [];
       if (viewer === undefined || wanted === undefined) continue;

@@ -1,8 +1,8 @@
 import { beforeEach, expect, test } from "vitest";
-import { BudgetControl, budgetSteps, strainIn, strainOf, UNLIMITED } from "./budget";
+import { BudgetControl, budgetSteps, strainIn, strainOf, UNLIMITED, type DrawingBudget } from "./budget";
 import type { Timings } from "./timings";
 
-const STEPS = budgetSteps(500);
+const STEPS = budgetSteps(500, true);
 const IDLE: Timings = {
   images: 30,
   networkMs: 2,
@@ -15,48 +15,89 @@ const SLOW: Timings = { ...IDLE, decodingMs: 60, drawingMs: 60 };
 
 let control: BudgetControl;
 let nowMs: number;
+let steps: DrawingBudget[];
 let step: number;
 
 /** So many seconds of this. */
 function pass(seconds: number, timings: Timings, ageLimitMs: number | null = null): void {
   for (const until = nowMs + 1000 * seconds; nowMs < until; nowMs += 50) {
-    const current = STEPS[step];
+    const current = steps[step];
     if (current === undefined) throw new Error("no such step");
-    step = control.update(nowMs, STEPS, timings, strainIn(current, timings, ageLimitMs));
+    step = control.update(nowMs, steps, timings, strainIn(current, timings, ageLimitMs));
   }
 }
 
 beforeEach(() => {
   control = new BudgetControl();
   nowMs = 10_000;
+  steps = STEPS;
   step = 0;
 });
 
-test("gives way in this order: the scene's rate, its size, the picture's rate, the picture's size", () => {
-  const seen = [];
+function stepsTaken(): (DrawingBudget | undefined)[] {
+  const seen: (DrawingBudget | undefined)[] = [];
   for (let second = 0; second < 30; second += 1) {
     pass(1, SLOW);
-    if (STEPS[step] !== seen.at(-1)) seen.push(STEPS[step]);
+    if (steps[step] !== seen.at(-1)) seen.push(steps[step]);
   }
+  return seen;
+}
+
+test("gives way in this order: the scene's rate, its size, the cuts, the picture's rate, the picture's size", () => {
+  const seen = stepsTaken();
   const smallScene = { ...UNLIMITED, sceneIntervalMs: 200, sceneScale: 0.5 };
+  const fewCuts = { ...smallScene, cutIntervalMs: 200 };
   expect(seen).toEqual([
     { ...UNLIMITED, sceneIntervalMs: 80 },
     { ...UNLIMITED, sceneIntervalMs: 125 },
     { ...UNLIMITED, sceneIntervalMs: 200 },
     { ...UNLIMITED, sceneIntervalMs: 200, sceneScale: 0.7 },
     smallScene,
-    { ...smallScene, pictureIntervalMs: 50 },
-    { ...smallScene, pictureIntervalMs: 62 },
-    { ...smallScene, pictureIntervalMs: 62, largestPicture: "half" },
+    fewCuts,
+    { ...fewCuts, pictureIntervalMs: 50 },
+    { ...fewCuts, pictureIntervalMs: 62 },
+    { ...fewCuts, pictureIntervalMs: 62, largestPicture: "half" },
   ]);
+});
+
+test("where no scene is shown the cuts give way first", () => {
+  steps = budgetSteps(500, false);
+  const fewCuts = { ...UNLIMITED, cutIntervalMs: 200 };
+  expect(stepsTaken()).toEqual([
+    fewCuts,
+    { ...fewCuts, pictureIntervalMs: 50 },
+    { ...fewCuts, pictureIntervalMs: 62 },
+    { ...fewCuts, pictureIntervalMs: 62, largestPicture: "half" },
+  ]);
+  pass(80, IDLE);
+  expect(steps[step]).toEqual(UNLIMITED);
+});
+
+test("a scene that is opened leaves cuts and pictures as they are, and begins at its best", () => {
+  const without = (steps = budgetSteps(500, false));
+  pass(2, SLOW);
+  expect(steps[step]).toEqual({ ...UNLIMITED, cutIntervalMs: 200, pictureIntervalMs: 50 });
+  control.setSteps(without, STEPS, nowMs);
+  steps = STEPS;
+  pass(1, IDLE);
+  expect(STEPS[step]).toMatchObject({ cutIntervalMs: 200, pictureIntervalMs: 50 });
+});
+
+test("a scene drawn by the processor begins at its slowest rate each time it is opened", () => {
+  const without = budgetSteps(500, false);
+  control.sceneDrawnByProcessor(STEPS, nowMs);
+  control.setSteps(STEPS, without, nowMs);
+  control.setSteps(without, STEPS, nowMs);
+  pass(1, IDLE);
+  expect(STEPS[step]).toMatchObject({ sceneIntervalMs: 200, sceneScale: 1 });
 });
 
 test.each([500, 300, 100, 40])(
   "no rate lets the scene go stale between two images, limit %d ms",
   (limitMs) => {
-    const steps = budgetSteps(limitMs);
-    expect(Math.max(...steps.map((one) => one.sceneIntervalMs))).toBeLessThanOrEqual(0.4 * limitMs);
-    expect(steps.at(-1)?.largestPicture).toBe("half");
+    const ofLimit = budgetSteps(limitMs, true);
+    expect(Math.max(...ofLimit.map((one) => one.sceneIntervalMs))).toBeLessThanOrEqual(0.4 * limitMs);
+    expect(ofLimit.at(-1)?.largestPicture).toBe("half");
   },
 );
 

@@ -1,5 +1,5 @@
-// What gives way when this device is too slow for everything: the 3-D scene's rate, then its size, then the picture's
-// rate, and only then the picture's size. Never the numbers.
+// What gives way when this device is too slow for everything: the 3-D scene's rate, then its size, the rate of the cuts
+// through the CT, the picture's rate, and only then the picture's size. Never the numbers.
 // Pure: times go in as numbers.
 import type { Timings } from "./timings";
 
@@ -8,6 +8,8 @@ export interface DrawingBudget {
   sceneIntervalMs: number;
   /** Width and height in which the 3-D scene is drawn, of those in which it is shown. */
   sceneScale: number;
+  /** Least time between two cuts of the CT for a drill that moves. */
+  cutIntervalMs: number;
   /** Least time from one picture to the next, on average; 0 for the next image as soon as one stands. */
   pictureIntervalMs: number;
   /** The largest picture that this device can show. */
@@ -17,6 +19,7 @@ export interface DrawingBudget {
 export const UNLIMITED: DrawingBudget = {
   sceneIntervalMs: 0,
   sceneScale: 1,
+  cutIntervalMs: 100,
   pictureIntervalMs: 0,
   largestPicture: "full",
 };
@@ -26,9 +29,11 @@ export type Strain = "strained" | "normal" | "idle";
 const SCENE_INTERVALS_MS = [0, 80, 125, 200];
 /** Letters in the scene keep their pixels: in fewer of them than half they would cover it. */
 const SCENE_SCALES = [0.7, 0.5];
+/** Five a second: the slowest that still shows a drill's movement as one. */
+const FEW_CUTS_INTERVAL_MS = 200;
 /** Twenty pictures a second and sixteen: what these take less, a machine that the server shares has for tracking. */
 const PICTURE_INTERVALS_MS = [50, 62];
-/** A scene that is drawn more seldom than this share of its limit would be stale in between. */
+/** A scene or a cut that is drawn more seldom than this share of their limit would be stale in between. */
 const MAX_INTERVAL_RATIO = 0.4;
 
 /** A change needs so long to be felt. */
@@ -47,18 +52,22 @@ const IDLE = { showingMs: 25, screenIntervalMs: 28, ageRatio: 0.5 };
 /** Below this rate the picture is made smaller, when nothing else is left. */
 const MIN_IMAGES_PER_S = 12;
 
-/** The steps, the best first. */
-export function budgetSteps(sceneStaleAfterMs: number): DrawingBudget[] {
-  const slowestMs = MAX_INTERVAL_RATIO * sceneStaleAfterMs;
+/** The steps, the best first. A scene that is not shown has nothing to give. */
+export function budgetSteps(staleAfterMs: number, isSceneShown: boolean): DrawingBudget[] {
+  const slowestMs = MAX_INTERVAL_RATIO * staleAfterMs;
+  const scene = isSceneShown ? sceneSteps(slowestMs) : [UNLIMITED];
+  const cutIntervalMs = Math.max(UNLIMITED.cutIntervalMs, Math.min(FEW_CUTS_INTERVAL_MS, slowestMs));
+  const fewCuts = { ...(scene.at(-1) ?? UNLIMITED), cutIntervalMs };
+  const fewPictures = PICTURE_INTERVALS_MS.map((pictureIntervalMs) => ({ ...fewCuts, pictureIntervalMs }));
+  return [...scene, fewCuts, ...fewPictures, { ...(fewPictures.at(-1) ?? fewCuts), largestPicture: "half" }];
+}
+
+function sceneSteps(slowestMs: number): DrawingBudget[] {
   const intervals = SCENE_INTERVALS_MS.filter((ms) => ms <= slowestMs);
-  const lastMs = intervals.at(-1) ?? 0;
-  const smallest = { ...UNLIMITED, sceneIntervalMs: lastMs, sceneScale: SCENE_SCALES.at(-1) ?? 1 };
-  const seldom = PICTURE_INTERVALS_MS.map((pictureIntervalMs) => ({ ...smallest, pictureIntervalMs }));
+  const sceneIntervalMs = intervals.at(-1) ?? 0;
   return [
-    ...intervals.map((sceneIntervalMs) => ({ ...UNLIMITED, sceneIntervalMs })),
-    ...SCENE_SCALES.map((sceneScale) => ({ ...UNLIMITED, sceneIntervalMs: lastMs, sceneScale })),
-    ...seldom,
-    { ...(seldom.at(-1) ?? smallest), largestPicture: "half" },
+    ...intervals.map((one) => ({ ...UNLIMITED, sceneIntervalMs: one })),
+    ...SCENE_SCALES.map((sceneScale) => ({ ...UNLIMITED, sceneIntervalMs, sceneScale })),
   ];
 }
 
@@ -95,7 +104,24 @@ export class BudgetControl {
   sceneDrawnByProcessor(steps: readonly DrawingBudget[], nowMs: number): void {
     if (this.isSceneDrawnByProcessor) return;
     this.isSceneDrawnByProcessor = true;
-    const slowest = steps.findLastIndex((one) => one.sceneScale === 1);
+    this.slowScene(steps, nowMs);
+  }
+
+  /** The scene is shown now, or no more: what else gives way stays as it is. */
+  setSteps(from: readonly DrawingBudget[], steps: readonly DrawingBudget[], nowMs: number): void {
+    const before = from[this.step] ?? UNLIMITED;
+    const same = steps.findIndex(
+      (one) =>
+        one.cutIntervalMs === before.cutIntervalMs &&
+        one.pictureIntervalMs === before.pictureIntervalMs &&
+        one.largestPicture === before.largestPicture,
+    );
+    this.change(Math.max(same, 0), nowMs);
+    if (this.isSceneDrawnByProcessor) this.slowScene(steps, nowMs);
+  }
+
+  private slowScene(steps: readonly DrawingBudget[], nowMs: number): void {
+    const slowest = steps.findLastIndex((one) => one.sceneIntervalMs > 0 && one.sceneScale === 1);
     if (slowest > this.step) this.change(slowest, nowMs);
   }
 
@@ -109,7 +135,7 @@ export class BudgetControl {
     if (strain !== "idle") this.idleSinceMs = null;
     if (timings.images < MIN_IMAGES || nowMs - this.changedAtMs < LOOK_AFTER_MS) return this.step;
     if (strain === "strained" && this.mayFall(steps, timings, nowMs)) this.fall(nowMs);
-    else if (strain === "idle") this.rise(nowMs);
+    else if (strain === "idle") this.rise(steps, nowMs);
     return this.step;
   }
 
@@ -129,10 +155,11 @@ export class BudgetControl {
     this.change(this.step + 1, nowMs);
   }
 
-  private rise(nowMs: number): void {
+  private rise(steps: readonly DrawingBudget[], nowMs: number): void {
     this.idleSinceMs ??= nowMs;
     // As often as the processor draws it at best; without a card every image of the screen is out of reach.
-    const best = this.isSceneDrawnByProcessor ? 1 : 0;
+    const isEveryImage = steps[1] !== undefined && steps[1].sceneIntervalMs > 0;
+    const best = this.isSceneDrawnByProcessor && isEveryImage ? 1 : 0;
     if (this.step <= best || nowMs - this.idleSinceMs < this.waitMs) return;
     if (this.raisedAtMs !== null) this.waitMs = WAIT_MS;
     this.raisedAtMs = nowMs;

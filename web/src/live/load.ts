@@ -22,8 +22,9 @@ export class Load {
   private readonly window = new TimingWindow();
   private readonly stall = new Stall(UPDATE_EVERY_MS);
   private readonly control = new BudgetControl();
-  private steps: DrawingBudget[] = budgetSteps(0);
-  private staleAfterMs = 0;
+  private isSceneShown = false;
+  private steps: DrawingBudget[] = budgetSteps(0, false);
+  private stepsFor = { staleAfterMs: 0, isSceneDrawn: false };
   private cameraPx: readonly [number, number] | null = null;
   private current = 0;
 
@@ -67,6 +68,14 @@ export class Load {
     return new ImageTimer(this.now, this.stall, receivedAtMs);
   }
 
+  /** A pane with the 3-D scene stands on the page until the answer is called. */
+  showScene(): () => void {
+    this.isSceneShown = true;
+    return () => {
+      this.isSceneShown = false;
+    };
+  }
+
   sceneDrawn(byProcessor: boolean, nowMs: number): void {
     if (byProcessor) this.control.sceneDrawnByProcessor(this.steps, nowMs);
   }
@@ -83,10 +92,7 @@ export class Load {
   }
 
   update(nowMs: number, limits: Limits, cameraHz: number): PictureDelivery {
-    if (limits.scene_stale_after_ms !== this.staleAfterMs) {
-      this.staleAfterMs = limits.scene_stale_after_ms;
-      this.steps = budgetSteps(this.staleAfterMs);
-    }
+    this.chooseSteps(nowMs, limits.scene_stale_after_ms);
     const timings = this.window.means(nowMs, this.control.sinceMs);
     const ageLimitMs = this.sharesMachine ? limits.pose_stale_after_ms : null;
     this.sceneSwitch.update(nowMs, this.window, this.control.isSceneDrawnByProcessor ? ageLimitMs : null);
@@ -97,5 +103,15 @@ export class Load {
       neededRatio: this.isHalfEnough ? 0.5 : 1,
       sharesMachine: this.sharesMachine,
     });
+  }
+
+  private chooseSteps(nowMs: number, staleAfterMs: number): void {
+    const isSceneDrawn = this.isSceneShown && this.sceneSwitch.isOn;
+    const { stepsFor } = this;
+    if (stepsFor.staleAfterMs === staleAfterMs && stepsFor.isSceneDrawn === isSceneDrawn) return;
+    const steps = budgetSteps(staleAfterMs, isSceneDrawn);
+    this.control.setSteps(this.steps, steps, nowMs);
+    this.steps = steps;
+    this.stepsFor = { staleAfterMs, isSceneDrawn };
   }
 }

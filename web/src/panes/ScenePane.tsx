@@ -33,6 +33,8 @@ export function ScenePane({ tabs }: { tabs?: ReactNode }): ReactNode {
   const [wanted, setWanted] = useState(known);
   if (known && !wanted) setWanted(true);
 
+  useEffect(() => live.load.showScene(), [live]);
+
   usePainter(({ nowMs, scene, budget }) => {
     if (budget !== sentView.current) {
       sentView.current = budget;
