@@ -90,6 +90,7 @@ class CameraStatus:
         controls: Last values in the units of the driver; empty if unknown.
         trigger: Trigger input; empty in free run.
         flicker: Detected lamp flicker; None if there is none or it is unknown.
+        is_predicted: Whether its codec predicts images from earlier ones.
     """
 
     clock: ImageClock
@@ -98,6 +99,7 @@ class CameraStatus:
     controls: Mapping[CameraControl, int] = field(default_factory=dict)
     trigger: str = ""
     flicker: LampFlicker | None = None
+    is_predicted: bool = False
 
     @property
     def exposure_ms(self) -> float | None:

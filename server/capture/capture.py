@@ -229,6 +229,13 @@ class Capture:
             away_s = round(time.monotonic() - self._failed_at_s, 1)
             log.info("source is back", source=self._source.name, size_px=size, away_s=away_s)
         self._failed_at_s = None
+        if shot.is_predicted:
+            log.warning(
+                "the video predicts its images from earlier ones: the stated errors are larger",
+                code="VIDEO_PREDICTED",
+                source=self._source.name,
+                remedy="Set the camera to MJPEG, or to uncompressed images.",
+            )
 
     def _log_problem(self, error: CaptureError) -> None:
         """Log an error once, not at every attempt."""

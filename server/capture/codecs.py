@@ -10,6 +10,22 @@ import cv2
 OPTIONS_VARIABLE = "OPENCV_FFMPEG_CAPTURE_OPTIONS"
 OPEN_TIMEOUT_MS = 3000
 READ_TIMEOUT_MS = 2000
+# Codecs that code each image by itself, as OpenCV names them, in capitals; uncompressed video has no name.
+INTRA_CODECS = {"", "MJPG", "LJPG", "MJP2", "MPNG", "FFV1", "FFVH", "HFYU", "MAGY", "V210", "AVDN", "DVSD"}
+INTRA_CODECS |= {
+    "APCH",
+    "APCN",
+    "APCO",
+    "APCS",
+    "AP4H",
+    "AP4X",
+    "ULH0",
+    "ULRA",
+    "ULRG",
+    "ULY0",
+    "ULY2",
+    "ULY4",
+}
 # TCP, because a lost UDP packet corrupts half an image; no buffer and short probing, because an old image is
 # worse than none; one decoding thread, because each further one delays by an image. No audio, because with it
 # FFmpeg shifts all timestamps by the sender reports, and they jump at the first of these.
@@ -45,6 +61,16 @@ def open_stream(address: str) -> cv2.VideoCapture:
     ]
     with _stream_options():
         return cv2.VideoCapture(address, cv2.CAP_FFMPEG, limits)
+
+
+def is_predicted(video: cv2.VideoCapture) -> bool:
+    """Return whether an open file or stream predicts its images from earlier ones, as H.264 does.
+
+    An unknown codec counts as one that does: the stated error is then rather too large than too small.
+    """
+    fourcc = int(video.get(cv2.CAP_PROP_FOURCC))
+    name = "".join(chr((fourcc >> shift) & 0xFF) for shift in (0, 8, 16, 24))
+    return name.strip("\0 ").upper() not in INTRA_CODECS
 
 
 @contextlib.contextmanager

@@ -21,6 +21,7 @@ class Shot:
         source_time_s: the source's own time: a file's timestamp, the theatre's clock; for a live source
             the same as captured_at_s.
         file: name of the image's own file; None where it has none.
+        is_predicted: whether it was decoded from video whose images are predicted from earlier ones.
     """
 
     image: npt.NDArray[np.uint8]
@@ -28,6 +29,7 @@ class Shot:
     captured_at_s: float
     source_time_s: float
     file: str | None = None
+    is_predicted: bool = False
 
 
 class Source(Protocol):

@@ -24,7 +24,7 @@ import structlog
 
 from server.capture.address import SourceAddress
 from server.capture.backlog import Backlog
-from server.capture.codecs import OPEN_TIMEOUT_MS, READ_TIMEOUT_MS, open_stream
+from server.capture.codecs import OPEN_TIMEOUT_MS, READ_TIMEOUT_MS, is_predicted, open_stream
 from server.capture.device_clock import DeviceClock
 from server.capture.driver_clock import DriverClock
 from server.capture.pacer import Pacer
@@ -78,6 +78,7 @@ class StreamSource:
         self._timestamps = DriverClock()
         self._is_file = False
         self._is_jpeg = False
+        self._is_predicted = False
         self._stream: cv2.VideoCapture | None = None
         self._torn = 0
 
@@ -87,7 +88,8 @@ class StreamSource:
         if self._is_file:
             return None
         is_used = self._is_timed and self._timestamps.clock is ImageClock.DRIVER
-        return CameraStatus(clock=ImageClock.SENDER if is_used else ImageClock.ARRIVAL)
+        clock = ImageClock.SENDER if is_used else ImageClock.ARRIVAL
+        return CameraStatus(clock=clock, is_predicted=self._is_predicted)
 
     def open(self) -> None:
         """Connect; takes at most about 4 s, and half a second without a server."""
@@ -108,6 +110,7 @@ class StreamSource:
         # return the packets.
         is_jpeg = int(stream.get(cv2.CAP_PROP_FOURCC)) == cv2.VideoWriter.fourcc(*"MJPG")
         self._is_jpeg = is_jpeg and not self._is_file and bool(stream.set(cv2.CAP_PROP_FORMAT, -1))
+        self._is_predicted = is_predicted(stream)
         self._pacer.restart()
         self._backlog.restart()
         self._sender_clock.restart()
@@ -130,6 +133,7 @@ class StreamSource:
             number=self._number,
             captured_at_s=captured_at_s,
             source_time_s=source_time_s,
+            is_predicted=self._is_predicted,
         )
         self._number += 1
         return shot

@@ -7,7 +7,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from server.capture.codecs import open_file
+from server.capture.codecs import is_predicted, open_file
 from server.capture.pacer import Pacer
 from server.capture.shot import Shot
 from server.errors import CaptureError
@@ -43,6 +43,7 @@ class VideoFileSource:
         self._number = first_number
         self._pacer = None if fast else Pacer(stop=stop)
         self._video: cv2.VideoCapture | None = None
+        self._is_predicted = False
         self._claimed = 0
         self._read_in_pass = 0
         self._offset_s = 0.0
@@ -76,6 +77,7 @@ class VideoFileSource:
             number=self._number,
             captured_at_s=time.monotonic(),
             source_time_s=self._offset_s + time_s,
+            is_predicted=self._is_predicted,
         )
         self._number += 1
         return shot
@@ -110,6 +112,7 @@ class VideoFileSource:
             video.release()
             raise self._no_video("it cannot be decoded as video")
         self._video = video
+        self._is_predicted = is_predicted(video)
         self._claimed = max(0, int(video.get(cv2.CAP_PROP_FRAME_COUNT)))
         self._read_in_pass = 0
         self._last_s = 0.0

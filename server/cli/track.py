@@ -156,7 +156,9 @@ class _Summary:
         if self._tracker is None or self._setup is None or self._setup.camera.size_wh_px != (width, height):
             self._setup = preparation.setup_for((width, height), image=_named(shot))
             self._tracker = preparation.tracker_for(self._setup)
-        sightings = self._tracker.step(shot.image, captured_at_s=shot.source_time_s, full_search=True)
+        sightings = self._tracker.step(
+            shot.image, captured_at_s=shot.source_time_s, full_search=True, is_predicted=shot.is_predicted
+        )
         stage_ms = {"reading": read_ms, **self._tracker.stage_ms}
         self._images += 1
         self._total_ms.append(sum(stage_ms.values()))

@@ -83,7 +83,7 @@ class Tracking:
         setup, tracker = self._setup, self._tracker
         if setup is None or tracker is None:
             raise RuntimeError("no setup was made")
-        sightings = tracker.step(shot.image, captured_at_s=shot.captured_at_s)
+        sightings = tracker.step(shot.image, captured_at_s=shot.captured_at_s, is_predicted=shot.is_predicted)
         tracked_s = clock()
         motion = self._watching.take(setup, shot.image, sightings, at_s=shot.captured_at_s)
         self._note_controls(setup, controls or {})

@@ -20,7 +20,7 @@ from server.stream.alarm_messages import AlarmsMessage, alarms_message
 from server.stream.assessment_messages import HeadlineMessage, TextMessage, headline_message, text_message
 from server.stream.message import Message as Message  # noqa: PLC0414  the doors take it from here
 from server.stream.snapshot_messages import SnapshotMessage, snapshot_message
-from server.texts import flicker_note, headline_of
+from server.texts import PREDICTED_VIDEO, flicker_note, headline_of
 
 
 class ProblemMessage(Message):
@@ -62,7 +62,7 @@ class CameraStatusMessage(Message):
     controls: dict[str, int]
     """Control values, in the driver's units; only controls that the camera has."""
     note: CameraNoteMessage | None
-    """Lamps that flicker in its images; null without flicker."""
+    """Lamps that flicker in its images, or a codec that makes poses less certain; null without either."""
 
 
 class SourceMessage(Message):
@@ -146,10 +146,13 @@ def _camera_message(camera: CameraStatus | None) -> CameraStatusMessage | None:
 
 
 def _note_message(camera: CameraStatus) -> CameraNoteMessage | None:
-    if camera.flicker is None:
+    if camera.flicker is not None:
+        rate_hz = 0.0 if camera.granted is None else camera.granted.rate_hz
+        note = flicker_note(camera.flicker, exposure_ms=camera.exposure_ms, rate_hz=rate_hz)
+    elif camera.is_predicted:
+        note = PREDICTED_VIDEO
+    else:
         return None
-    rate_hz = 0.0 if camera.granted is None else camera.granted.rate_hz
-    note = flicker_note(camera.flicker, exposure_ms=camera.exposure_ms, rate_hz=rate_hz)
     return CameraNoteMessage(
         code=note.code, message=text_message(note.message), remedy=text_message(note.remedy)
     )

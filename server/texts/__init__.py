@@ -4,6 +4,7 @@ language.py     the languages, and a text in all of them
 alarms.py       texts of an alarm: present, past, or not observed
 phrases.py      templates of each alarm condition
 headline.py     verdict of an image, or why there are no figures, with unacknowledged alarms
+camera_note.py  what is worth mending about the camera: video that predicts its images
 flicker.py      lamp flicker and the exposures that avoid it
 states.py       why there are no figures
 places.py       walls and directions
@@ -13,12 +14,14 @@ they contain numbers and names; the page marks them with `lang="en"` for screen 
 """
 
 from server.texts.alarms import AlarmText, alarm_text, alarm_title, with_unknown_presence
-from server.texts.flicker import CameraNote, flicker_note
+from server.texts.camera_note import PREDICTED_VIDEO, CameraNote
+from server.texts.flicker import flicker_note
 from server.texts.headline import Headline, Tone, headline_of
 from server.texts.language import LANGUAGES, Language, Text
 
 __all__ = [
     "LANGUAGES",
+    "PREDICTED_VIDEO",
     "AlarmText",
     "CameraNote",
     "Headline",

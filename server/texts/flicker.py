@@ -1,29 +1,13 @@
 """Text about lamp flicker, with exposure times that avoid it."""
 
-from dataclasses import dataclass
-
 from server.number_format import format_number
-from server.texts.language import Language, Text, text_of
+from server.texts.camera_note import CameraNote
+from server.texts.language import Language, text_of
 from tracker.camera import LampFlicker
 
 CODE = "LAMP_FLICKER"
 DEFAULT_RATE_HZ = 30.0
 OR = {"en": " or ", "de": " oder "}
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CameraNote:
-    """A note about the camera that does not prevent navigation.
-
-    Attributes:
-        code: Identifier of the note.
-        message: The finding, with numbers.
-        remedy: What to do.
-    """
-
-    code: str
-    message: Text
-    remedy: Text
 
 
 def flicker_note(flicker: LampFlicker, *, exposure_ms: float | None, rate_hz: float) -> CameraNote:

@@ -35,6 +35,7 @@ from tracker.pose import (
     side_px_of,
     suppress_overlaps,
     window_around,
+    with_prediction_error,
 )
 from tracker.stage_timer import StageTimer
 
@@ -116,7 +117,12 @@ class Tracker:
             pass
 
     def step(
-        self, image: npt.NDArray[np.uint8], *, captured_at_s: float, full_search: bool = False
+        self,
+        image: npt.NDArray[np.uint8],
+        *,
+        captured_at_s: float,
+        full_search: bool = False,
+        is_predicted: bool = False,
     ) -> dict[str, Sighting]:
         """Return a sighting of each marker in this image, using the state from the images before.
 
@@ -134,6 +140,8 @@ class Tracker:
             captured_at_s: capture time; an image older than the last one clears the state.
             full_search: search the whole image for each marker that is not seen, at any cost: for
                 recordings, in which no image may be missed.
+            is_predicted: the image comes from video whose images are predicted from earlier ones (H.264 and
+                its like); the covariance then includes what prediction leaves out (`predicted_video`).
 
         Raises:
             InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
@@ -165,7 +173,12 @@ class Tracker:
             pixels, self.models, seen, captured_at_s, full_search=full_search
         )
         self.stage_ms = self._stages.elapsed_ms
-        return {model.name: seen[model.name] for model in self.models}
+        return {model.name: self._stated(seen[model.name], is_predicted) for model in self.models}
+
+    def _stated(self, sighting: Sighting, is_predicted: bool) -> Sighting:
+        if is_predicted and isinstance(sighting, Seen):
+            return with_prediction_error(sighting, self.camera)
+        return sighting
 
     def _found_again(
         self,

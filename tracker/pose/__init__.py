@@ -10,6 +10,7 @@ from tracker.pose.occurrence import (
 )
 from tracker.pose.photometric_refinement import ImageContext
 from tracker.pose.planar import flipped_pose, pose_from_corners
+from tracker.pose.predicted_video import with_prediction_error
 from tracker.pose.prior import Prior
 from tracker.pose.refinement import EdgeFit, fit_pose_to_edges
 from tracker.pose.rolling_shutter import RollingShutter
@@ -49,5 +50,6 @@ __all__ = [
     "suppress_overlaps",
     "verify_occurrence",
     "window_around",
+    "with_prediction_error",
     "with_target_coverage",
 ]

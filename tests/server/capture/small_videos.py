@@ -12,8 +12,10 @@ def grey_image(level: int, size_wh_px: tuple[int, int] = (64, 48)) -> np.ndarray
     return np.full((size_wh_px[1], size_wh_px[0], 3), level, dtype=np.uint8)
 
 
-def write_video(path: Path, *, images: int = 8, size_wh_px: tuple[int, int] = (64, 48)) -> Path:
-    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), RATE_HZ, size_wh_px)
+def write_video(
+    path: Path, *, images: int = 8, size_wh_px: tuple[int, int] = (64, 48), codec: str = "MJPG"
+) -> Path:
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*codec), RATE_HZ, size_wh_px)
     for number in range(images):
         writer.write(grey_image(10 * number, size_wh_px))
     writer.release()

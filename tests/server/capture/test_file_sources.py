@@ -57,6 +57,25 @@ def test_a_looped_video_goes_on_counting_and_its_time_goes_on(tmp_path: Path, st
     assert [shot.source_time_s for shot in shots] == pytest.approx([n / 25 for n in range(20)])
 
 
+@pytest.mark.parametrize(
+    ("name", "codec", "is_predicted"),
+    [
+        ("v.avi", "MJPG", False),
+        ("v.mkv", "FFV1", False),
+        ("v.avi", "HFYU", False),
+        ("v.mp4", "mp4v", True),
+        ("v.avi", "XVID", True),
+        ("v.webm", "VP90", True),
+    ],
+)
+def test_images_of_a_codec_that_predicts_are_marked(
+    tmp_path: Path, stop: threading.Event, name: str, codec: str, is_predicted: bool
+) -> None:
+    shots = read_all(video(write_video(tmp_path / name, codec=codec), stop))
+    assert len(shots) == 8
+    assert {shot.is_predicted for shot in shots} == {is_predicted}
+
+
 def test_a_video_at_its_own_rate_is_never_early(tmp_path: Path, stop: threading.Event) -> None:
     shots = read_all(video(write_video(tmp_path / "v.avi"), stop, fast=False))
     began_s = shots[0].captured_at_s

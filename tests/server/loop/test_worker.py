@@ -67,11 +67,18 @@ class Failing(Tracker):
         self.level, self.error = level, error
 
     def step(
-        self, image: np.ndarray, *, captured_at_s: float, full_search: bool = False
+        self,
+        image: np.ndarray,
+        *,
+        captured_at_s: float,
+        full_search: bool = False,
+        is_predicted: bool = False,
     ) -> dict[str, Sighting]:
         if int(image[0, 0, 0]) == self.level:
             raise self.error
-        return super().step(image, captured_at_s=captured_at_s, full_search=full_search)
+        return super().step(
+            image, captured_at_s=captured_at_s, full_search=full_search, is_predicted=is_predicted
+        )
 
 
 class Prepared(Preparation):

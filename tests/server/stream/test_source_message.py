@@ -43,6 +43,17 @@ def test_lamps_that_flicker_are_reported_as_a_note_with_the_exposure(automatic: 
     assert "10.0 or 20.0 ms" in message.camera.note.remedy.en
 
 
+def test_a_stream_that_predicts_its_images_is_noted_with_what_that_costs() -> None:
+    camera = CameraStatus(clock=ImageClock.SENDER, is_predicted=True)
+    message = source_message(SourceStatus(name="rtsp://x", state=SourceState.RUNNING, camera=camera))
+    assert message.problem is None
+    assert message.camera is not None
+    assert message.camera.note is not None
+    assert message.camera.note.code == "VIDEO_PREDICTED"
+    assert "1.7 times" in message.camera.note.message.en
+    assert "1,7-mal" in message.camera.note.message.de or "1.7-mal" in message.camera.note.message.de
+
+
 def test_a_file_has_no_camera() -> None:
     message = source_message(SourceStatus(name="film.mp4", state=SourceState.RUNNING))
     assert message.camera is None

@@ -203,9 +203,16 @@ def test_warming_up_runs_the_loops_of_a_search_and_of_a_track(monkeypatch: pytes
 
     class MonitoredTracker(Tracker):
         def step(
-            self, image: Image8, *, captured_at_s: float, full_search: bool = False
+            self,
+            image: Image8,
+            *,
+            captured_at_s: float,
+            full_search: bool = False,
+            is_predicted: bool = False,
         ) -> dict[str, Seen | Unseen]:
-            sightings = super().step(image, captured_at_s=captured_at_s, full_search=full_search)
+            sightings = super().step(
+                image, captured_at_s=captured_at_s, full_search=full_search, is_predicted=is_predicted
+            )
             found.append(seen(sightings["warm-up"]).found_by)
             return sightings
 
