@@ -13,6 +13,7 @@ import { useTexts } from "../texts/TextsContext";
 import { CutCover, NoVolumeNote } from "./CutCover";
 import { useCuts } from "./CutsContext";
 import type { Cut, Wanted } from "./cutter";
+import { displayedDrill } from "./drill";
 import { cutVerdict, type CutVerdict } from "./cutVerdict";
 import { overlayOf, PARTS } from "./overlay";
 import { clearPixels, drawPixels, paintOverlay } from "./paintCut";
@@ -66,8 +67,9 @@ export function CutPane({ name, tabs }: CutPaneProps): ReactNode {
 
   /** The plane that is drawn on: that of the cut, or of the drill itself where there is no CT to cut. */
   const drawnOn = (next: CutVerdict, { numbers }: View): (Wanted & { imageNumber: number }) | null => {
-    if (next.state === "bare" && numbers.live && numbers.reading.drill !== null) {
-      const wanted = gridFor(numbers.reading.drill.pose);
+    const drill = displayedDrill(numbers);
+    if (next.state === "bare" && numbers.live && drill !== null) {
+      const wanted = gridFor(drill.pose);
       return wanted === null ? null : { ...wanted, imageNumber: numbers.imageNumber };
     }
     const cut = next.state === "covered" || next.state === "bare" ? null : shown.current;
@@ -133,7 +135,7 @@ export function CutPane({ name, tabs }: CutPaneProps): ReactNode {
       const { grid } = drawn;
       const overlay = overlayOf(name, grid, {
         channel: now.newest?.snapshot?.channel ?? null,
-        drill: reading?.drill ?? null,
+        drill: reading === null ? null : displayedDrill(now.numbers),
         aheadMm: drawn.aheadMm,
         maxOffsetMm: reading === null ? null : figureOf(reading, "entry").limit,
       });

@@ -6,6 +6,7 @@ import type { View } from "../live/view";
 import { Rejection } from "../rest/client";
 import type { GreyWindow } from "./cut";
 import { Cutter, type CutReply, type CutSubject } from "./cutter";
+import { displayedDrill } from "./drill";
 import { isSamePlan, wantsPlan, type VolumeState } from "./cutVerdict";
 import { planPose } from "./overlay";
 import { loadVolume, type Volume } from "./volume";
@@ -87,7 +88,7 @@ function subjectOf({ numbers, newest, nowMs, untrackedMs }: View): CutSubject | 
   const channel = newest?.snapshot?.channel ?? null;
   if (channel === null) return null;
   if (numbers.live) {
-    const { drill } = numbers.reading;
+    const drill = displayedDrill(numbers);
     const capturedAtMs = nowMs - numbers.ageMs;
     return drill === null
       ? null
