@@ -70,8 +70,8 @@ export const de: Texts = {
   moves: {
     reference: "Der Marker am Patienten zeigt, wenn Patient oder Kamera sich bewegen.",
     "fixed-scene":
-      "Kein Marker am Patienten: bewegt er sich, wird es nicht gesehen, bei der Kamera nur an der festen Szene.",
-    "not-at-all": "Kein Marker am Patienten: bewegt sich Patient oder Kamera, wird es nicht gesehen.",
+      "Kein Patientenmarker: Patientenbewegung wird nicht gesehen, Kamerabewegung nur an der festen Szene.",
+    "not-at-all": "Kein Patientenmarker: Bewegung von Patient oder Kamera wird nicht gesehen.",
   },
   depthTexts: {
     before: "vor Eintritt",
