@@ -30,10 +30,12 @@ interface CutPaneProps {
   name: CutName;
   /** Beside the title: what else can be shown in this place. */
   tabs?: ReactNode;
+  /** Over the picture: in which planes it lies. */
+  tools?: ReactNode;
 }
 
 /** A cut through the CT that moves with the drill, with drill and plan drawn in it to scale. */
-export function CutPane({ name, tabs }: CutPaneProps): ReactNode {
+export function CutPane({ name, tabs, tools }: CutPaneProps): ReactNode {
   const texts = useTexts();
   const { dashboard } = useLive();
   const { cutter, volume, aheadMm } = useCuts();
@@ -177,8 +179,14 @@ export function CutPane({ name, tabs }: CutPaneProps): ReactNode {
         </p>
         <p className="cut-stamp" data-testid={`cut-${name}-stamp`} ref={stamp} />
         <p className="cut-plan">{t.plan}</p>
-        {name === "probe" && <DepthButtons />}
-        {name === "axial" && <WindowButton />}
+        {name === "probe" ? (
+          <DepthButtons />
+        ) : (
+          <div className="cut-buttons">
+            {(name === "axial" || name === "anatomical-axial") && <WindowButton />}
+            {tools}
+          </div>
+        )}
         {verdict.state === "bare" && <NoVolumeNote volume={verdict.volume} />}
         <div className="when-stale" data-testid={`cut-${name}-cover`}>
           <CutCover verdict={verdict} />
@@ -219,18 +227,16 @@ function WindowButton(): ReactNode {
   const names = texts.plan.slices.preset;
   if (windows.length === 0) return null;
   return (
-    <div className="cut-buttons">
-      <button
-        type="button"
-        data-testid="cut-window"
-        aria-label={`${texts.theatre.cuts.window}: ${window}`}
-        onClick={() => {
-          setWindow(windows[(windows.indexOf(window) + 1) % windows.length] ?? window);
-        }}
-      >
-        {window in names ? names[window as keyof typeof names] : window}
-      </button>
-    </div>
+    <button
+      type="button"
+      data-testid="cut-window"
+      aria-label={`${texts.theatre.cuts.window}: ${window}`}
+      onClick={() => {
+        setWindow(windows[(windows.indexOf(window) + 1) % windows.length] ?? window);
+      }}
+    >
+      {window in names ? names[window as keyof typeof names] : window}
+    </button>
   );
 }
 

@@ -4,21 +4,19 @@ import { LoadingPane } from "../panes/LoadingPane";
 import { ScenePane } from "../panes/ScenePane";
 import { useTexts } from "../texts/TextsContext";
 import { CutPane } from "./CutPane";
-import type { CutName } from "./planes";
-
-/** What a tile shows: a cut, or the 3-D scene in its place. */
-export type TileName = CutName | "scene";
-
-export const TILES: readonly TileName[] = ["probe", "axial", "sagittal", "scene"];
+import { choicesOf, FIRST_CHOICE, hasPlane, switched, type TileChoice, type TileName } from "./tileChoice";
 
 interface CutTileProps {
   name: TileName;
   choices?: readonly TileName[];
-  onChoose?: (name: TileName) => void;
+  choice: TileChoice;
+  onChoose: (choice: TileChoice) => void;
+  /** Whether the kind of planes is chosen here. */
+  hasKind?: boolean;
 }
 
 /** One cut or the 3-D scene, with what else can be shown in its place. */
-export function CutTile({ name, choices = [], onChoose }: CutTileProps): ReactNode {
+export function CutTile({ name, choices = [], choice, onChoose, hasKind = false }: CutTileProps): ReactNode {
   const texts = useTexts();
   const t = texts.theatre.cuts;
   const tabs = choices.length > 0 && (
@@ -29,27 +27,57 @@ export function CutTile({ name, choices = [], onChoose }: CutTileProps): ReactNo
           type="button"
           aria-pressed={one === name}
           data-testid={`tile-${one}`}
-          onClick={() => onChoose?.(one)}
+          onClick={() => {
+            onChoose({ ...choice, name: one });
+          }}
         >
           {one === "scene" ? texts.scene.title : t.short[one]}
         </button>
       ))}
     </div>
   );
+  const kind = hasKind && (
+    <button
+      type="button"
+      aria-pressed={choice.isAnatomical}
+      data-testid="tile-anatomical"
+      onClick={() => {
+        onChoose(switched(choice));
+      }}
+    >
+      {t.anatomical}
+    </button>
+  );
   if (name === "scene") return <ScenePane tabs={tabs} />;
   return (
     <AfterFirstMessage loading={<LoadingPane id={`cut-${name}`} title={t.title[name]} />}>
-      <CutPane key={name} name={name} tabs={tabs} />
+      <CutPane key={name} name={name} tabs={tabs} tools={kind} />
     </AfterFirstMessage>
   );
 }
 
-/** The only tile of a page that has no room for more: the probe's eye, until something else is chosen. */
-export function OnlyTile(): ReactNode {
-  const [chosen, setChosen] = useState<TileName>("probe");
+interface OnlyTileProps {
+  choice: TileChoice;
+  onChoose: (choice: TileChoice) => void;
+}
+
+/** The tile of a page that has no room for more: one of all views. */
+export function OnlyTile({ choice, onChoose }: OnlyTileProps): ReactNode {
   return (
     <div className="tiles tiles-one">
-      <CutTile name={chosen} choices={TILES} onChoose={setChosen} />
+      <CutTile
+        name={choice.name}
+        choices={choicesOf(choice)}
+        choice={choice}
+        onChoose={onChoose}
+        hasKind={hasPlane(choice)}
+      />
     </div>
   );
+}
+
+/** The same for a page that shows no other tile: the probe's eye, until something else is chosen. */
+export function ChosenTile(): ReactNode {
+  const [choice, setChoice] = useState(FIRST_CHOICE);
+  return <OnlyTile choice={choice} onChoose={setChoice} />;
 }

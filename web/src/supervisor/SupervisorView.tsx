@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { AlarmsAfterFirstMessage } from "../alarms/UnheardAlarms";
 import { SignedIn } from "../app/SignedIn";
 import { ViewSwitch } from "../app/ViewSwitch";
-import { OnlyTile } from "../cuts/CutTile";
+import { ChosenTile } from "../cuts/CutTile";
 import { CutsProvider } from "../cuts/CutsContext";
 import { AfterFirstMessage } from "../live/AfterFirstMessage";
 import { PictureSize } from "../live/PictureSize";
@@ -60,7 +60,7 @@ export function SupervisorView(): ReactNode {
           </MarkingProvider>
           <HoldPanel />
           <CutsProvider ctOnRequest={!isLoopback(location.hostname)}>
-            <OnlyTile />
+            <ChosenTile />
           </CutsProvider>
           <AgesStrip />
         </main>

@@ -1,5 +1,6 @@
 import { useState, useSyncExternalStore, type ReactNode } from "react";
-import { CutTile, TILES, type TileName } from "../cuts/CutTile";
+import { CutTile, OnlyTile } from "../cuts/CutTile";
+import { FIRST_CHOICE, pairOf } from "../cuts/tileChoice";
 
 /** Room for three cuts beside the video. */
 const WIDE = "(min-width: 1400px) and (min-aspect-ratio: 11/10)";
@@ -18,28 +19,22 @@ function useIsWide(): boolean {
 }
 
 /**
- * The cuts through the CT and the 3-D scene: three cuts on a theatre's screen, where the scene takes the place of both
- * in-line cuts by a touch, and one of the four on a smaller screen.
+ * The cuts through the CT and the 3-D scene: on a theatre's screen axial, sagittal and the probe's eye, where another cut takes
+ * the place of the sagittal one, and the scene that of both, by a touch; one of all on a smaller screen.
  */
 export function Tiles(): ReactNode {
   const isWide = useIsWide();
-  const [chosen, setChosen] = useState<TileName>("probe");
-  if (!isWide) {
-    return (
-      <div className="tiles tiles-one">
-        <CutTile name={chosen} choices={TILES} onChoose={setChosen} />
-      </div>
-    );
-  }
-  const isScene = chosen === "scene";
+  const [choice, setChoice] = useState(FIRST_CHOICE);
+  if (!isWide) return <OnlyTile choice={choice} onChoose={setChoice} />;
+  const { upper, lower, choices } = pairOf(choice);
   return (
     <>
       <div className="tiles">
-        {!isScene && <CutTile name="axial" />}
-        <CutTile name={isScene ? "scene" : "sagittal"} choices={["sagittal", "scene"]} onChoose={setChosen} />
+        {lower !== "scene" && <CutTile name={upper} choice={choice} onChoose={setChoice} hasKind />}
+        <CutTile name={lower} choices={choices} choice={choice} onChoose={setChoice} />
       </div>
       <div className="tiles tiles-eye">
-        <CutTile name="probe" />
+        <CutTile name="probe" choice={choice} onChoose={setChoice} />
       </div>
     </>
   );

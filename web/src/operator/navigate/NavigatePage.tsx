@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { CutsProvider } from "../../cuts/CutsContext";
-import { OnlyTile } from "../../cuts/CutTile";
+import { ChosenTile } from "../../cuts/CutTile";
 import { AfterFirstMessage } from "../../live/AfterFirstMessage";
 import { LoadingNumbers } from "../../panes/LoadingNumbers";
 import { NumbersPane } from "../../panes/NumbersPane";
@@ -25,7 +25,7 @@ export function NavigatePage(): ReactNode {
         </AfterFirstMessage>
         <VideoPane />
         <CutsProvider>
-          <OnlyTile />
+          <ChosenTile />
         </CutsProvider>
       </div>
       <div className="work">
