@@ -1,4 +1,4 @@
-"""Figures, video and the CT under the drill on one screen: the supervisor's page and the operator's Navigate."""
+"""Figures, video and the CT under the drill on one screen: the supervisor's page and the operator's."""
 
 from collections.abc import Callable
 
@@ -12,6 +12,13 @@ expect.set_options(timeout=PATIENCE_MS)
 
 FIGURES = ("reading-entry", "reading-angle", "reading-depth", "reading-wall")
 PAGES = {"supervisor": ("hold-ask", "cut-probe"), "operator/navigate": ("cut-probe",)}
+
+
+# How many figures have a curve.
+CURVES = """() => [...document.querySelectorAll("canvas[data-trend]")].filter((canvas) => {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    return canvas.checkVisibility({ visibilityProperty: true }) && data.some(value => value > 0);
+}).length"""
 
 
 @pytest.fixture(scope="module", params=PAGES)
@@ -52,6 +59,16 @@ def test_a_laptop_shows_all_that_counts_without_scrolling(board: Page) -> None:
     stage = board.get_by_test_id("cut-probe").bounding_box()
     assert stage is not None
     assert min(stage["width"], stage["height"]) >= 200
+
+
+def test_curves_go_with_the_figures_when_messages_stop(board: Page, shared_theatre: Theatre) -> None:
+    board.wait_for_function(f"() => ({CURVES})() === 4")
+    shared_theatre.tell("stop")
+    expect(board.get_by_test_id("numbers")).to_have_attribute("data-live", "false")
+    expect(board.get_by_test_id("numbers")).to_have_attribute("data-trend", "false")
+    assert board.evaluate(CURVES) == 0
+    shared_theatre.tell("path")
+    board.wait_for_function(f"() => ({CURVES})() === 4")
 
 
 def test_a_phone_has_nothing_beside_its_screen_and_the_hold_under_the_thumb(board: Page) -> None:

@@ -46,6 +46,7 @@ export const de: Texts = {
     steadied: "beruhigt, verzögert um",
     whileMoving: "in Bewegung",
     latencyUnknown: "in Bewegung, Latenz nicht gemessen",
+    trend: "{figure} der letzten 30 s, mit Grenze",
   },
   reading: {
     entry: { name: "Eintritt", hint: "neben dem Eintrittspunkt", unit: "mm" },

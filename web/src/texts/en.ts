@@ -48,6 +48,7 @@ export const en: Texts = {
     steadied: "steadied, behind by",
     whileMoving: "while moving",
     latencyUnknown: "moving, latency not measured",
+    trend: "{figure} in the last 30 s, with its limit",
   },
   reading: {
     entry: { name: "Entry", hint: "off the entry point", unit: "mm" },
