@@ -49,8 +49,8 @@ export function curveOf(
   const curve: Curve = { strokes: [], limit: [], wallY: name === "wall" ? y(0) : null, range };
   let before: Joint | null = null;
   for (const { atMs, figures } of samples) {
-    const figure = figures?.[name] ?? null;
-    if (figure === null || figure.value === null) {
+    const figure = figures?.[name];
+    if (figure?.value == null) {
       before = null;
       continue;
     }
