@@ -17,7 +17,7 @@ PAGES = {"supervisor": ("hold-ask", "cut-probe"), "operator/navigate": ("cut-pro
 # How many figures have a curve.
 CURVES = """() => [...document.querySelectorAll("canvas[data-trend]")].filter((canvas) => {
     const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-    return canvas.checkVisibility({ visibilityProperty: true }) && data.some(value => value > 0);
+    return data.some(value => value > 0);
 }).length"""
 
 
@@ -66,6 +66,8 @@ def test_curves_go_with_the_figures_when_messages_stop(board: Page, shared_theat
     shared_theatre.tell("stop")
     expect(board.get_by_test_id("numbers")).to_have_attribute("data-live", "false")
     expect(board.get_by_test_id("numbers")).to_have_attribute("data-trend", "false")
+    # Erased, and not only hidden.
+    expect(board.locator("canvas[data-trend=entry]")).to_be_hidden()
     assert board.evaluate(CURVES) == 0
     shared_theatre.tell("path")
     board.wait_for_function(f"() => ({CURVES})() === 4")
