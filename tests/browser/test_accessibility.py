@@ -16,7 +16,7 @@ pytestmark = pytest.mark.browser
 WEB = CHECKOUT / "web"
 AXE = WEB / "node_modules" / "axe-core" / "axe.min.js"
 STEPS = re.findall(r'\{ name: "(\w+)",', (WEB / "src" / "operator" / "pages.ts").read_text(encoding="utf-8"))
-THEATRE, LYING, UPRIGHT = (1920, 1080), (1280, 800), (800, 1280)
+THEATRE, LYING, UPRIGHT, PHONE = (1920, 1080), (1280, 800), (800, 1280), (390, 844)
 # The scene's frame holds viser's own page, which is not ours to mend.
 RUN = """options => axe
     .run(document, { iframes: false, resultTypes: ["violations"], ...options })
@@ -66,11 +66,21 @@ def faults(page: Page, **options: Any) -> list[dict[str, Any]]:  # noqa: ANN401 
     return [fault for fault in found if fault["impact"] in ("serious", "critical")]
 
 
-@pytest.mark.parametrize("size", [THEATRE, LYING, UPRIGHT], ids=["theatre", "lying", "upright"])
+@pytest.mark.parametrize(
+    "size", [THEATRE, LYING, UPRIGHT, PHONE], ids=["theatre", "lying", "upright", "phone"]
+)
 def test_the_theatre_s_view(opened: Callable[..., Page], size: tuple[int, int]) -> None:
     page = opened("/theatre", size)
     expect(page.get_by_test_id("video")).to_have_attribute("data-live", "true", timeout=PATIENCE_MS)
     assert faults(page) == []
+
+
+def test_the_cuts_in_the_patient_s_planes(opened: Callable[..., Page]) -> None:
+    page = opened("/theatre", THEATRE)
+    page.get_by_test_id("tile-anatomical").click()
+    expect(page.get_by_test_id("cut-anatomical-sagittal")).to_be_visible(timeout=PATIENCE_MS)
+    assert faults(page) == []
+    page.get_by_test_id("tile-anatomical").click()
 
 
 def test_numbers_stand_out_more_than_words_have_to(
@@ -120,6 +130,14 @@ def test_every_other_view(opened: Callable[..., Page], path: str) -> None:
     page.wait_for_function("() => document.body.innerText.length > 20")
     assert faults(page) == []
     assert page.evaluate("document.documentElement.scrollWidth") <= page.viewport_size["width"]  # type: ignore[index]  # it has one
+
+
+def test_the_supervisor_s_view_while_it_is_live(opened: Callable[..., Page]) -> None:
+    page = opened("/supervisor", PHONE)
+    for size in (PHONE, LYING):
+        page.set_viewport_size({"width": size[0], "height": size[1]})
+        expect(page.get_by_test_id("cut-probe")).to_have_attribute("data-shows", "bare", timeout=PATIENCE_MS)
+        assert faults(page) == []
 
 
 def small_targets(page: Page) -> list[str]:

@@ -33,6 +33,8 @@ THREE_DEPTHS = """() => {
     return window.depths.size >= 3;
 }"""
 CUTS = ("axial", "sagittal", "probe")
+# Left, right, top and bottom as a radiologist sees them.
+ANATOMICAL_CUTS = {"anatomical-axial": "RLAP", "anatomical-coronal": "RLHF"}
 SCAN_MS = 120_000
 LETTERS = """stage => ["left", "right", "top", "bottom"]
     .map(edge => stage.querySelector(`[data-edge=${edge}]`).textContent).join("")"""
@@ -155,6 +157,13 @@ def cuts_follow_the_drill(page: Page) -> None:
     assert [page.get_by_test_id(f"cut-{name}").evaluate(LETTERS) for name in CUTS] == ["RLAP", "FHAP", "LRHF"]
     page.get_by_test_id("ahead-10").click()
     page.wait_for_function(CUT_AND_MOVING, timeout=ONE_CYCLE_MS)
+    page.get_by_test_id("tile-anatomical").click()
+    page.get_by_test_id("tile-anatomical-coronal").click()
+    for name, letters in ANATOMICAL_CUTS.items():
+        cut = page.get_by_test_id(f"cut-{name}")
+        expect(cut).to_have_attribute("data-shows", "live", timeout=ONE_CYCLE_MS)
+        assert cut.evaluate(LETTERS) == letters
+    page.get_by_test_id("tile-anatomical").click()
 
 
 def picture_while_drilling(page: Page, path: Path) -> None:

@@ -5,6 +5,7 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
@@ -19,21 +20,33 @@ CHECKOUT = Path(__file__).resolve().parents[2]
 # The machine's Node, or the one that came with the packages.
 NODE = ["sh", ".make/with-node", "web", "node"]
 BONE = {"window_hu": 1800.0, "level_hu": 400.0}
-# Node runs what TypeScript leaves of the module when its types are taken away; it has no imports.
+# Node runs what TypeScript leaves of the modules without their types. The plane is given, or the page's.
+MODULES = ["cuts/cut", "cuts/planes", "operator/plan/slices/vectors"]
 PROGRAM = """
 const fs = require("node:fs");
-const ts = require(process.argv[1] + "/node_modules/typescript");
-const source = fs.readFileSync(process.argv[1] + "/src/cuts/cut.ts", "utf8");
-const { outputText } = ts.transpileModule(source, { compilerOptions: { target: "es2023", module: "esnext" } });
-const { affine, size, plane, grey, folder } = JSON.parse(fs.readFileSync(0, "utf8"));
-import("data:text/javascript," + encodeURIComponent(outputText)).then(({ drawCut, inverseAffine }) => {
-    const bytes = fs.readFileSync(folder + "/voxels");
-    const hu = new Int16Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
-    const pixels = new Uint8ClampedArray(plane.width_px * plane.height_px * 4);
-    drawCut({ hu, size, indexFromLps: inverseAffine(affine) }, plane, grey, pixels);
-    fs.writeFileSync(folder + "/pixels", pixels);
-});
+const path = require("node:path");
+const web = process.argv[1];
+const ts = require(web + "/node_modules/typescript");
+const { affine, size, plane, cut, grey, folder, modules } = JSON.parse(fs.readFileSync(0, "utf8"));
+for (const name of modules) {
+    const source = fs.readFileSync(`${web}/src/${name}.ts`, "utf8");
+    const compilerOptions = { target: "es2023", module: "commonjs" };
+    const { outputText } = ts.transpileModule(source, { compilerOptions });
+    const file = `${folder}/js/${name}.js`;
+    fs.mkdirSync(path.dirname(file), { recursive: true });
+    fs.writeFileSync(file, outputText);
+}
+const { drawCut, inverseAffine } = require(`${folder}/js/cuts/cut.js`);
+const { cutGrid } = require(`${folder}/js/cuts/planes.js`);
+const grid = plane ?? cutGrid(cut.name, cut.pose, cut.field, 0);
+const bytes = fs.readFileSync(folder + "/voxels");
+const hu = new Int16Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
+const pixels = new Uint8ClampedArray(grid.width_px * grid.height_px * 4);
+drawCut({ hu, size, indexFromLps: inverseAffine(affine) }, grid, grey, pixels);
+fs.writeFileSync(folder + "/pixels", pixels);
 """
+WIDTH_PX, HEIGHT_PX, PIXEL_MM = 220, 170, 0.25
+LEFT, BACK, FEET = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, -1.0])
 
 
 def oblique_volume() -> Volume:
@@ -55,41 +68,77 @@ class Fixed(NavigationCtProvider):
         return self._found
 
 
-@pytest.mark.parametrize("turn", [(0.0, 0.0, 0.0), (0.3, 0.7, -0.4)], ids=["axial", "oblique"])
-def test_the_cut_is_that_of_scipy_to_half_a_grey_level(tmp_path: Path, turn: tuple[float, ...]) -> None:
-    sent = NavigationCt("ct", oblique_volume())
+def drawn(folder: Path, sent: NavigationCt, wanted: dict[str, object]) -> npt.NDArray[np.uint8]:
+    """The page's cut, RGBA, out of the bytes that the server sends."""
     app = FastAPI()
     app.include_router(navigation_ct_router(Fixed(sent)))
     answer = TestClient(app).get("/api/navigation/ct")
     place = json.loads(answer.headers["volume-place"])
-    (tmp_path / "voxels").write_bytes(answer.content)
-    centre = sent.volume.lps_from_index((np.array(sent.volume.shape_ijk) - 1.0) / 2.0)
-    axes = rotation_from_vector(turn)
-    width, height = 220, 170
-    lps_from_px = np.column_stack(
-        [axes[:, 0] * 0.25, axes[:, 1] * 0.25, centre - axes @ [width / 8.0, height / 8.0, 0.0]]
-    )
+    (folder / "voxels").write_bytes(answer.content)
     asked = {
         "affine": place["lps_from_ijk"],
         "size": place["size_ijk"],
-        "plane": {"lps_from_px": lps_from_px.tolist(), "width_px": width, "height_px": height},
         "grey": BONE,
-        "folder": str(tmp_path),
+        "folder": str(folder),
+        "modules": MODULES,
+        **wanted,
     }
     command = [*NODE, "-e", PROGRAM, str(CHECKOUT / "web")]
     subprocess.run(command, cwd=CHECKOUT, input=json.dumps(asked), text=True, check=True)
-    pixels = np.fromfile(tmp_path / "pixels", np.uint8).reshape(height, width, 4)
+    return np.fromfile(folder / "pixels", np.uint8).reshape(HEIGHT_PX, WIDTH_PX, 4)
 
-    u, v = np.meshgrid(np.arange(width), np.arange(height))
-    index = sent.volume.index_from_lps(np.stack([u, v, np.ones_like(u)], axis=-1) @ lps_from_px.T)
+
+def hold_against_scipy(
+    pixels: npt.NDArray[np.uint8], volume: Volume, lps_from_px: npt.NDArray[np.float64]
+) -> None:
+    """Each pixel is SciPy's to half a grey level; what lies outside of the CT is transparent."""
+    u, v = np.meshgrid(np.arange(WIDTH_PX), np.arange(HEIGHT_PX))
+    index = volume.index_from_lps(np.stack([u, v, np.ones_like(u)], axis=-1) @ lps_from_px.T)
     hu = ndimage.map_coordinates(
-        sent.volume.hu.astype(np.float64), index[..., ::-1].reshape(-1, 3).T, order=1, mode="nearest"
-    ).reshape(height, width)
+        volume.hu.astype(np.float64), index[..., ::-1].reshape(-1, 3).T, order=1, mode="nearest"
+    ).reshape(HEIGHT_PX, WIDTH_PX)
     grey = np.clip((hu - BONE["level_hu"]) / BONE["window_hu"] + 0.5, 0.0, 1.0) * 255.0
-    beyond = np.maximum(-index, index - (np.array(sent.volume.shape_ijk) - 1.0)).max(axis=-1)
+    beyond = np.maximum(-index, index - (np.array(volume.shape_ijk) - 1.0)).max(axis=-1)
     inside, outside = beyond < -1e-3, beyond > 1e-3
     assert inside.mean() > 0.2
     assert outside.mean() > 0.05
     assert np.abs(pixels[inside, 0] - grey[inside]).max() <= 0.5 + 1e-6
     assert (pixels[inside, 3] == 255).all()
     assert (pixels[outside, 3] == 0).all()
+
+
+@pytest.mark.parametrize("turn", [(0.0, 0.0, 0.0), (0.3, 0.7, -0.4)], ids=["axial", "oblique"])
+def test_the_cut_is_that_of_scipy_to_half_a_grey_level(tmp_path: Path, turn: tuple[float, ...]) -> None:
+    sent = NavigationCt("ct", oblique_volume())
+    centre = sent.volume.lps_from_index((np.array(sent.volume.shape_ijk) - 1.0) / 2.0)
+    axes = rotation_from_vector(turn)
+    corner = centre - axes @ [WIDTH_PX / 8.0, HEIGHT_PX / 8.0, 0.0]
+    lps_from_px = np.column_stack([axes[:, 0] * PIXEL_MM, axes[:, 1] * PIXEL_MM, corner])
+    plane = {"lps_from_px": lps_from_px.tolist(), "width_px": WIDTH_PX, "height_px": HEIGHT_PX}
+    hold_against_scipy(drawn(tmp_path, sent, {"plane": plane}), sent.volume, lps_from_px)
+
+
+@pytest.mark.parametrize(
+    ("name", "right", "down"),
+    [
+        ("anatomical-axial", LEFT, BACK),
+        ("anatomical-sagittal", BACK, FEET),
+        ("anatomical-coronal", LEFT, FEET),
+    ],
+)
+def test_an_anatomical_cut_is_that_of_scipy_through_the_tip(
+    tmp_path: Path, name: str, right: npt.NDArray[np.float64], down: npt.NDArray[np.float64]
+) -> None:
+    sent = NavigationCt("ct", oblique_volume())
+    # Beside the middle of the volume, between voxels.
+    middle = (np.array(sent.volume.shape_ijk) - 1.0) / 2.0
+    tip = sent.volume.lps_from_index(middle + np.array([1.3, -0.7, 0.4]))
+    cut = {
+        "name": name,
+        "pose": {"tip": tip.tolist(), "axis": [-0.6, -0.8, 0.0]},
+        "field": {"widthMm": WIDTH_PX * PIXEL_MM, "heightMm": HEIGHT_PX * PIXEL_MM},
+    }
+    # The tip lies in the middle of the picture.
+    corner = tip - PIXEL_MM * ((WIDTH_PX - 1) / 2.0 * right + (HEIGHT_PX - 1) / 2.0 * down)
+    lps_from_px = np.column_stack([right * PIXEL_MM, down * PIXEL_MM, corner])
+    hold_against_scipy(drawn(tmp_path, sent, {"cut": cut}), sent.volume, lps_from_px)

@@ -41,6 +41,7 @@ import "./theme/calibration.css";
 import "./theme/planning.css";
 import "./theme/registration.css";
 import "./theme/supervisor.css";
+import "./theme/board.css";
 import "./theme/people.css";
 import "./theme/connection.css";
 import "./theme/latency.css";

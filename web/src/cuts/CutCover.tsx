@@ -1,8 +1,10 @@
 import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import { Cover } from "../panes/Cover";
+import type { TheatreTexts } from "../texts/theatre/en";
 import { textOf } from "../texts/text";
 import { useTexts } from "../texts/TextsContext";
+import { useCuts } from "./CutsContext";
 import type { CutVerdict, NoVolume } from "./cutVerdict";
 
 /** Over a cut that must not be looked at: why, as over figures and video. */
@@ -26,13 +28,22 @@ export function CutCover({ verdict }: { verdict: CutVerdict }): ReactNode {
 /** Why the drill is shown without the CT around it. */
 export function NoVolumeNote({ volume }: { volume: NoVolume }): ReactNode {
   const t = useTexts().theatre.cuts;
-  const sentence =
-    volume.state === "rejected"
-      ? `${volume.problem.message}. ${volume.problem.remedy}`
-      : t.noVolume[volume.state];
+  const { requestCt } = useCuts();
   return (
     <p className="cut-note" data-testid="cut-note">
-      <b>{t.noCt}</b> {sentence}
+      <b>{t.noCt}</b> {noVolumeText(volume, t)}
+      {volume.state === "on_request" && (
+        <button type="button" data-testid="request-ct" onClick={requestCt}>
+          {t.requestCt}
+        </button>
+      )}
     </p>
   );
+}
+
+function noVolumeText(volume: NoVolume, t: TheatreTexts["cuts"]): string {
+  if (volume.state === "rejected") return `${volume.problem.message}. ${volume.problem.remedy}`;
+  if (volume.state !== "failed") return t.noVolume[volume.state];
+  const why = volume.message === "" ? t.noAnswer : `${t.unreadable}: ${volume.message}.`;
+  return `${why} ${t.askedAgain}`;
 }

@@ -13,6 +13,7 @@ import { useTexts } from "../texts/TextsContext";
 import { CutCover, NoVolumeNote } from "./CutCover";
 import { useCuts } from "./CutsContext";
 import type { Cut, Wanted } from "./cutter";
+import { displayedDrill } from "./drill";
 import { cutVerdict, type CutVerdict } from "./cutVerdict";
 import { overlayOf, PARTS } from "./overlay";
 import { clearPixels, drawPixels, paintOverlay } from "./paintCut";
@@ -29,10 +30,12 @@ interface CutPaneProps {
   name: CutName;
   /** Beside the title: what else can be shown in this place. */
   tabs?: ReactNode;
+  /** Over the picture: in which planes it lies. */
+  tools?: ReactNode;
 }
 
 /** A cut through the CT that moves with the drill, with drill and plan drawn in it to scale. */
-export function CutPane({ name, tabs }: CutPaneProps): ReactNode {
+export function CutPane({ name, tabs, tools }: CutPaneProps): ReactNode {
   const texts = useTexts();
   const { dashboard } = useLive();
   const { cutter, volume, aheadMm } = useCuts();
@@ -67,8 +70,9 @@ export function CutPane({ name, tabs }: CutPaneProps): ReactNode {
 
   /** The plane that is drawn on: that of the cut, or of the drill itself where there is no CT to cut. */
   const drawnOn = (next: CutVerdict, { numbers }: View): (Wanted & { imageNumber: number }) | null => {
-    if (next.state === "bare" && numbers.live && numbers.reading.drill !== null) {
-      const wanted = gridFor(numbers.reading.drill.pose);
+    const drill = displayedDrill(numbers);
+    if (next.state === "bare" && numbers.live && drill !== null) {
+      const wanted = gridFor(drill.pose);
       return wanted === null ? null : { ...wanted, imageNumber: numbers.imageNumber };
     }
     const cut = next.state === "covered" || next.state === "bare" ? null : shown.current;
@@ -136,7 +140,7 @@ export function CutPane({ name, tabs }: CutPaneProps): ReactNode {
       const { grid } = drawn;
       const overlay = overlayOf(name, grid, {
         channel: now.newest?.snapshot?.channel ?? null,
-        drill: reading?.drill ?? null,
+        drill: reading === null ? null : displayedDrill(now.numbers),
         aheadMm: drawn.aheadMm,
         maxOffsetMm: reading === null ? null : figureOf(reading, "entry").limit,
       });
@@ -178,8 +182,14 @@ export function CutPane({ name, tabs }: CutPaneProps): ReactNode {
         </p>
         <p className="cut-stamp" data-testid={`cut-${name}-stamp`} ref={stamp} />
         <p className="cut-plan">{t.plan}</p>
-        {name === "probe" && <DepthButtons />}
-        {name === "axial" && <WindowButton />}
+        {name === "probe" ? (
+          <DepthButtons />
+        ) : (
+          <div className="cut-buttons">
+            {(name === "axial" || name === "anatomical-axial") && <WindowButton />}
+            {tools}
+          </div>
+        )}
         {verdict.state === "bare" && <NoVolumeNote volume={verdict.volume} />}
         <div className="when-stale" data-testid={`cut-${name}-cover`}>
           <CutCover verdict={verdict} />
@@ -220,18 +230,16 @@ function WindowButton(): ReactNode {
   const names = texts.plan.slices.preset;
   if (windows.length === 0) return null;
   return (
-    <div className="cut-buttons">
-      <button
-        type="button"
-        data-testid="cut-window"
-        aria-label={`${texts.theatre.cuts.window}: ${window}`}
-        onClick={() => {
-          setWindow(windows[(windows.indexOf(window) + 1) % windows.length] ?? window);
-        }}
-      >
-        {window in names ? names[window as keyof typeof names] : window}
-      </button>
-    </div>
+    <button
+      type="button"
+      data-testid="cut-window"
+      aria-label={`${texts.theatre.cuts.window}: ${window}`}
+      onClick={() => {
+        setWindow(windows[(windows.indexOf(window) + 1) % windows.length] ?? window);
+      }}
+    >
+      {window in names ? names[window as keyof typeof names] : window}
+    </button>
   );
 }
 

@@ -1,14 +1,13 @@
-// The cuts of the theatre's page: one volume, one worker, and the panes that show what it cuts.
+// The cuts of a page: one volume, one worker, and the panes that show what it cuts.
 import { createContext, use, useEffect, useMemo, useState, type ReactNode } from "react";
 import { useLive, usePainter } from "../live/LiveContext";
-import type { ChannelMessage } from "../live/messages";
 import type { View } from "../live/view";
-import { Rejection } from "../rest/client";
 import type { GreyWindow } from "./cut";
 import { Cutter, type CutReply, type CutSubject } from "./cutter";
-import { isSamePlan, wantsPlan, type VolumeState } from "./cutVerdict";
+import { displayedDrill } from "./drill";
+import { wantsPlan, type VolumeState } from "./cutVerdict";
 import { planPose } from "./overlay";
-import { loadVolume, type Volume } from "./volume";
+import { useVolume } from "./useVolume";
 
 interface CutsValue {
   cutter: Cutter;
@@ -20,22 +19,30 @@ interface CutsValue {
   /** How far ahead of the tip the probe's eye looks. */
   aheadMm: number;
   setAheadMm: (aheadMm: number) => void;
+  /** Load the CT, where that waits for a request. */
+  requestCt: () => void;
 }
 
 const CutsContext = createContext<CutsValue | null>(null);
 
 const USUAL_WINDOW = "bone";
 const USUAL_GREY: GreyWindow = { window_hu: 1800, level_hu: 400 };
-const ASK_AGAIN_MS = { scanning: 2000, rejected: 10_000, other: 2000 };
 
-export function CutsProvider({ children }: { children: ReactNode }): ReactNode {
+interface CutsProviderProps {
+  /** Load the CT only when somebody asks for it: whose line may be thin needs it for the figures. */
+  ctOnRequest?: boolean;
+  children: ReactNode;
+}
+
+export function CutsProvider({ ctOnRequest = false, children }: CutsProviderProps): ReactNode {
   const [hasWorker, setHasWorker] = useState(typeof Worker !== "undefined");
   const [cutter] = useState(() => new Cutter());
   const [window, setWindow] = useState(USUAL_WINDOW);
   const [aheadMm, setAheadMm] = useState(0);
   const { live, view } = useLive();
   const channel = view.newest?.snapshot?.channel ?? null;
-  const { state, presets } = useVolume(channel, cutter, hasWorker);
+  const [isRequested, setRequested] = useState(!ctOnRequest);
+  const { state, presets } = useVolume(channel, cutter, { isSupported: hasWorker, isRequested });
   const grey = presets[window] ?? USUAL_GREY;
 
   useEffect(() => {
@@ -70,6 +77,9 @@ export function CutsProvider({ children }: { children: ReactNode }): ReactNode {
       setWindow,
       aheadMm,
       setAheadMm,
+      requestCt: () => {
+        setRequested(true);
+      },
     }),
     [cutter, state, presets, window, aheadMm],
   );
@@ -87,7 +97,7 @@ function subjectOf({ numbers, newest, nowMs, untrackedMs }: View): CutSubject | 
   const channel = newest?.snapshot?.channel ?? null;
   if (channel === null) return null;
   if (numbers.live) {
-    const { drill } = numbers.reading;
+    const drill = displayedDrill(numbers);
     const capturedAtMs = nowMs - numbers.ageMs;
     return drill === null
       ? null
@@ -95,61 +105,4 @@ function subjectOf({ numbers, newest, nowMs, untrackedMs }: View): CutSubject | 
   }
   const pose = wantsPlan(numbers, untrackedMs) ? planPose(channel) : null;
   return pose === null ? null : { kind: "plan", imageNumber: 0, capturedAtMs: nowMs, pose, channel };
-}
-
-interface LoadedVolume {
-  state: VolumeState;
-  presets: Record<string, GreyWindow>;
-}
-
-/** The volume of this channel's CT, loaded when another channel or CT is navigated. */
-function useVolume(channel: ChannelMessage | null, cutter: Cutter, isSupported: boolean): LoadedVolume {
-  const [loaded, setLoaded] = useState<LoadedVolume>({ state: { state: "loading" }, presets: {} });
-  // Each message has a channel of its own: the same as before is kept, so that nothing is asked again.
-  const [wanted, setWanted] = useState(channel);
-  if (channel !== wanted && !(channel !== null && wanted !== null && isSamePlan(channel, wanted))) {
-    setWanted(channel);
-  }
-  const ctId = wanted?.ct_id ?? null;
-
-  useEffect(() => {
-    if (ctId === null || !isSupported) return;
-    const stop = new AbortController();
-    let timer: ReturnType<typeof setTimeout> | undefined;
-    const again = (ms: number): void => {
-      timer = setTimeout(() => void load(), ms);
-    };
-    const take = (volume: Volume): void => {
-      cutter.setVolume(volume);
-      setLoaded({ state: { state: "ready", ctId: volume.ctId }, presets: volume.presets });
-    };
-    const load = async (): Promise<void> => {
-      try {
-        const volume = await loadVolume(stop.signal);
-        if (stop.signal.aborted) return;
-        if (volume === null) {
-          setLoaded(({ presets }) => ({ state: { state: "scanning" }, presets }));
-          again(ASK_AGAIN_MS.scanning);
-        } else if (volume.ctId !== ctId) {
-          // The server has changed over and its tracking not yet, or the other way round.
-          again(ASK_AGAIN_MS.other);
-        } else take(volume);
-      } catch (error) {
-        if (stop.signal.aborted) return;
-        if (!(error instanceof Rejection)) throw error;
-        const { problem } = error;
-        setLoaded(({ presets }) => ({ state: { state: "rejected", problem }, presets }));
-        again(ASK_AGAIN_MS.rejected);
-      }
-    };
-    void load();
-    return () => {
-      stop.abort();
-      clearTimeout(timer);
-    };
-  }, [wanted, ctId, cutter, isSupported]);
-
-  if (!isSupported) return { state: { state: "unsupported" }, presets: loaded.presets };
-  if (wanted !== null && ctId === null) return { state: { state: "none" }, presets: loaded.presets };
-  return loaded;
 }

@@ -3,7 +3,10 @@ import { numbersVerdict, type NumbersVerdict } from "../live/assess";
 import { channel, situation } from "../live/builders";
 import { headline } from "../live/figureBuilders";
 import type { CutSubject } from "./cutter";
-import { cutVerdict, type CutVerdict } from "./cutVerdict";
+import { Rejection } from "../rest/client";
+import { cutVerdict, volumeAfter, type CutVerdict } from "./cutVerdict";
+
+const PROBLEM = { code: "PLAN_MISSING", message: "no plan", remedy: "Plan.", context: {} };
 
 const LIVE = numbersVerdict(situation(), 1000);
 const UNREAD: NumbersVerdict = {
@@ -81,4 +84,12 @@ test("without a CT drill and plan are shown alone, and the reason is said", () =
   const volume = { state: "none" } as const;
   expect(verdict(null, { volume })).toEqual({ state: "bare", ageMs: 40, volume });
   expect(verdict(null, { volume, numbers: UNREAD })).toEqual({ state: "covered", why: "unread" });
+});
+
+test.each([
+  ["a refusal of the server", new Rejection(PROBLEM), { state: "rejected", problem: PROBLEM }],
+  ["no answer", new Rejection({ ...PROBLEM, message: "" }), { state: "failed", message: "" }],
+  ["an answer that is no volume", new Error("8 voxels"), { state: "failed", message: "8 voxels" }],
+])("loading that ends with %s is said, and is not loading any more", (_, error, state) => {
+  expect(volumeAfter(error)).toEqual(state);
 });

@@ -1,7 +1,7 @@
 // Whether a cut may be shown, and as what. Pure: it is covered for the same reasons and at the same moment as figures.
 import type { Cause, NumbersVerdict } from "../live/assess";
 import type { ChannelMessage } from "../live/messages";
-import type { Problem } from "../rest/client";
+import { Rejection, type Problem } from "../rest/client";
 import type { CutSubject } from "./cutter";
 
 /** What this page has of the CT around the vertebra. */
@@ -9,7 +9,11 @@ export type VolumeState =
   | { state: "none" }
   | { state: "loading" }
   | { state: "scanning" }
+  /** It is loaded when somebody asks for it. */
+  | { state: "on_request" }
   | { state: "rejected"; problem: Problem }
+  /** What came could not be read; without the message where nothing came. */
+  | { state: "failed"; message: string }
   | { state: "unsupported" }
   | { state: "ready"; ctId: string };
 
@@ -23,6 +27,15 @@ export type CutVerdict =
   /** The planned channel alone, without a drill. */
   | { state: "plan" }
   | { state: "covered"; why: "late" | "unread" | Cause };
+
+/** What there is of a CT after loading it has failed. */
+export function volumeAfter(error: unknown): VolumeState {
+  if (error instanceof Rejection) {
+    const { problem } = error;
+    return problem.message === "" ? { state: "failed", message: "" } : { state: "rejected", problem };
+  }
+  return { state: "failed", message: error instanceof Error ? error.message : String(error) };
+}
 
 /** Numbers that go for a moment are no reason to show something else. */
 export const PLAN_AFTER_MS = 1000;

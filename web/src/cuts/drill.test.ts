@@ -1,7 +1,9 @@
 import { expect, test } from "vitest";
-import { judgement, snapshot } from "../live/builders";
+import { numbersVerdict, type NumbersVerdict } from "../live/assess";
+import { judgement, receivedImage, situation, snapshot } from "../live/builders";
+import { assessment } from "../live/figureBuilders";
 import type { SnapshotMessage } from "../live/messages";
-import { drillOf } from "./drill";
+import { displayedDrill, drillOf } from "./drill";
 
 /** A camera that looks from behind (LPS +y) at a prone patient: its x points to the patient's right, its y to the feet. */
 const CAMERA_FROM_VERTEBRA = {
@@ -61,4 +63,22 @@ test("a message without a pose of tool or vertebra, or without figures, places n
   expect(drillOf({ ...whole, tools: [{ ...tool, pose: absent }] }, "drill")).toBeNull();
   expect(drillOf({ ...whole, tools: [{ ...tool, along: null }] }, "drill")).toBeNull();
   expect(drillOf(whole, "awl")).toBeNull();
+});
+
+test("the displayed drill is that of the image whose figures stand, and none without figures", () => {
+  const first = seen();
+  const tools = first.tools.map((one) => ({ ...one, assessment: assessment() }));
+  const numbers = (drilled: SnapshotMessage): NumbersVerdict =>
+    numbersVerdict(situation({ numbers: receivedImage(960, drilled) }), 1000);
+  expect(displayedDrill(numbers({ ...first, tools }))?.pose.tip.map((one) => one + 0)).toEqual([19, 20, -13]);
+  const moved = {
+    ...first,
+    tools,
+    vertebra: {
+      ...first.vertebra,
+      camera_from_vertebra: { ...CAMERA_FROM_VERTEBRA, translation_mm: [6, -10, 400] },
+    },
+  } as SnapshotMessage;
+  expect(displayedDrill(numbers(moved))?.pose.tip.map((one) => one + 0)).toEqual([20, 20, -13]);
+  expect(displayedDrill(numbers({ ...first, tools, displayed_tool: null }))).toBeNull();
 });

@@ -1,4 +1,5 @@
 // The drill in the vertebra frame, out of one image's message: exactly that from which the server computed the figures.
+import type { NumbersVerdict } from "../live/assess";
 import type { SnapshotMessage } from "../live/messages";
 import { dot, minus, vec3, type Vec3 } from "../operator/plan/slices/vectors";
 import type { Pose } from "./planes";
@@ -10,6 +11,20 @@ export interface Drill {
   spread: { ellipsoidMm: Vec3[]; coneDeg: number } | null;
   /** The point of the drill that is nearest to a wall; null outside of the bone. */
   nearest: Vec3 | null;
+}
+
+/** Of each image that a cut has asked about: every cut asks several times an image. */
+const drills = new WeakMap<SnapshotMessage, Drill | null>();
+
+/** The drill whose figures stand on the page; null where none do, or where its place is not known. */
+export function displayedDrill(numbers: NumbersVerdict): Drill | null {
+  if (!numbers.live) return null;
+  const { snapshot, reading } = numbers;
+  const known = drills.get(snapshot);
+  if (known !== undefined) return known;
+  const drill = drillOf(snapshot, reading.tool);
+  drills.set(snapshot, drill);
+  return drill;
 }
 
 /** The drill of this name; null where the message places it not in the vertebra. */

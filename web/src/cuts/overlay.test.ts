@@ -134,3 +134,39 @@ test("an ellipse has the half axes of its covariance", () => {
   const lengths = halfAxes95([2.5, 1.5, 2.5]).map((half) => Math.hypot(...half));
   near(lengths, [2 * 2.4477, 2.4477]);
 });
+
+describe("in an anatomical cut through the tip", () => {
+  /** 30 degrees towards the midline, in the axial plane. */
+  const TILTED: Drill = {
+    ...ON_AXIS,
+    pose: { tip: [14, -8, 0], axis: unit([-Math.tan(Math.PI / 6), -1, 0]) },
+  };
+
+  test("a drill in its plane has its true size, and each tick its true distance", () => {
+    const { paths, labels } = drawn("anatomical-axial", TILTED);
+    const tip = planeFromLps(cutGrid("anatomical-axial", TILTED.pose, FIELD, 0), TILTED.pose.tip);
+    // At its end it is 4 mm across, at 30 degrees to the picture's edges: 2 mm times cosine and sine to each side.
+    const [left, , top] = reach(paths.shaft, tip);
+    near([left ?? NaN, top ?? NaN], [-2 * Math.cos(Math.PI / 6), -2 * Math.sin(Math.PI / 6)]);
+    near([reach(paths.ahead, tip)[0] ?? NaN], [-25 - 1.6 * Math.cos(Math.PI / 6)]);
+    expect(labels.map((one) => one.text)).toEqual(["10", "20", "30", "40", "50"]);
+  });
+
+  test("a drill out of its plane is outlined only where the plane meets it", () => {
+    const { paths } = drawn("anatomical-sagittal", TILTED);
+    const tip = planeFromLps(cutGrid("anatomical-sagittal", TILTED.pose, FIELD, 0), TILTED.pose.tip);
+    // Within its radius of 2 mm over the sine of 30 degrees, behind the tip; half of its end lies before it.
+    const [left, right, top, bottom] = reach(paths.shaft, tip);
+    near([right ?? NaN, top ?? NaN, bottom ?? NaN], [2 / Math.sin(Math.PI / 6), -2, 2]);
+    expect(left).toBeGreaterThan(-0.1);
+  });
+
+  test("a path that points out of the picture has no ticks that lie on each other", () => {
+    const { paths, labels } = drawn("anatomical-coronal", TILTED);
+    expect(labels.length).toBe(5);
+    const straight = drawn("anatomical-coronal", ON_AXIS);
+    expect(straight.labels).toEqual([]);
+    expect(paths.ring).not.toBe("");
+    expect(straight.paths.ring).not.toBe("");
+  });
+});

@@ -13,7 +13,7 @@ import {
 } from "../operator/plan/slices/place";
 import { dot, minus, plus, times, unit, vec3, type Vec3 } from "../operator/plan/slices/vectors";
 import type { Drill } from "./drill";
-import { directionLetter, type CutName, type Pose } from "./planes";
+import { directionLetter, isAnatomical, type CutName, type Pose } from "./planes";
 
 /** Paths by what they show, as SVG; empty where there is nothing to show. */
 export const PARTS = [
@@ -55,6 +55,8 @@ const SD_95_OF_2 = 2.4477;
 const SD_95_OF_3 = 2.7955;
 /** A drill across the planned axis (over 84 degrees) meets it nowhere that matters. */
 const MIN_ALONG = 0.1;
+/** A path ahead that is shortened to less than this has no ticks: 10 mm take less than 4 mm of the cut. */
+const MIN_TICKED = 0.4;
 
 interface Planned {
   entry: Vec3;
@@ -96,7 +98,8 @@ export function overlayOf(
     if (planned !== null) drawTarget(overlay, grid, planned, drill, maxOffsetMm);
     if (drill !== null) drawAcross(overlay, grid, drill, aheadMm);
   } else if (drill !== null) {
-    drawAlong(overlay, grid, drill);
+    if (isAnatomical(name)) drawThrough(overlay, grid, drill);
+    else drawAlong(overlay, grid, drill);
   }
   return overlay;
 }
@@ -132,10 +135,21 @@ function drawPlan({ paths }: Overlay, grid: PixelGrid, channel: ChannelMessage, 
   paths.target = cross(to, CROSS_MM);
 }
 
+/** In a cut through the tip that need not contain the drill: its outline where the cut meets it, and its path laid onto it. */
+function drawThrough(overlay: Overlay, grid: PixelGrid, drill: Drill): void {
+  const { tip, axis } = drill.pose;
+  drawAlong(overlay, grid, drill);
+  const outline = cylinderOnSlice(grid, plus(tip, times(axis, -SHAFT_MM)), tip, drill.radiusMm);
+  overlay.paths.shaft = closed(outline.map((one) => planeFromLps(grid, one)));
+  overlay.paths.ring = cross(planeFromLps(grid, tip), CROSS_MM);
+}
+
 /** In a cut that contains the drill: its shaft, its path ahead with a tick each 10 mm, and where both may be. */
 function drawAlong(overlay: Overlay, grid: PixelGrid, drill: Drill): void {
   const { paths, labels } = overlay;
   const tip = planeFromLps(grid, drill.pose.tip);
+  const covariance = drill.spread === null ? null : covarianceOn(grid, drill.spread.ellipsoidMm);
+  if (covariance !== null) paths.ellipse = closed(ellipse(tip, halfAxes95(covariance)));
   const step = flat(grid, drill.pose.axis);
   const length = Math.hypot(...step);
   if (length < MIN_ALONG) return;
@@ -148,14 +162,14 @@ function drawAlong(overlay: Overlay, grid: PixelGrid, drill: Drill): void {
   const r = drill.radiusMm;
   paths.shaft = closed([at(-SHAFT_MM, r), at(0, r), at(0, -r), at(-SHAFT_MM, -r)]);
   const last = TICKS_MM.at(-1) ?? 0;
+  // Seen nearly along it, ticks and their numbers would lie on each other.
+  const ticks = length < MIN_TICKED ? [] : TICKS_MM;
   paths.ahead = [
     line([tip, at(last, 0)]),
-    ...TICKS_MM.map((ahead) => line([at(ahead, -TICK_HALF_MM), at(ahead, TICK_HALF_MM)])),
+    ...ticks.map((ahead) => line([at(ahead, -TICK_HALF_MM), at(ahead, TICK_HALF_MM)])),
   ].join("");
-  for (const ahead of TICKS_MM) labels.push({ text: `${ahead}`, at: at(ahead, TICK_HALF_MM + 2.2) });
-  if (drill.spread === null) return;
-  const covariance = covarianceOn(grid, drill.spread.ellipsoidMm);
-  paths.ellipse = closed(ellipse(tip, halfAxes95(covariance)));
+  for (const ahead of ticks) labels.push({ text: `${ahead}`, at: at(ahead, TICK_HALF_MM + 2.2) });
+  if (drill.spread === null || covariance === null) return;
   const beside = SD_95_OF_2 * Math.sqrt(Math.max(quadratic(covariance, aside), 0));
   const widening = Math.tan((drill.spread.coneDeg * Math.PI) / 180);
   paths.cone = [1, -1]

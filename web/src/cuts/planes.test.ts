@@ -1,5 +1,12 @@
 import { describe, expect, test } from "vitest";
-import { downOf, normalOf, planeFromLps, rightOf, type PixelGrid } from "../operator/plan/slices/place";
+import {
+  beyondMm,
+  downOf,
+  normalOf,
+  planeFromLps,
+  rightOf,
+  type PixelGrid,
+} from "../operator/plan/slices/place";
 import { unit, type Vec3 } from "../operator/plan/slices/vectors";
 import { cutGrid, directionLetter, fieldOf, type CutName, type Pose } from "./planes";
 
@@ -61,6 +68,21 @@ describe.each([
     expect(seen("probe", pose, ahead, 10).map((one) => Math.abs(one) < 1e-9)).toEqual([true, true]);
   });
 });
+
+test.each([
+  ["anatomical-axial", "RLAP"],
+  ["anatomical-sagittal", "APHF"],
+  ["anatomical-coronal", "RLHF"],
+] as const)(
+  "the %s cut goes through the tip in the patient's directions, as a radiologist sees it",
+  (name, edges) => {
+    for (const pose of [LEFT, RIGHT]) {
+      expect(letters(cutGrid(name, pose, FIELD, 0))).toBe(edges);
+      expect(seen(name, pose, pose.tip).map((one) => Math.abs(one) < 1e-9)).toEqual([true, true]);
+      expect(beyondMm(cutGrid(name, pose, FIELD, 0), pose.tip)).toBeCloseTo(0, 9);
+    }
+  },
+);
 
 test("a drill along the patient's left keeps a plane: what is up is then the head", () => {
   const grid = cutGrid("axial", { tip: [0, 0, 0], axis: [1, 0, 0] }, FIELD, 0);

@@ -1,11 +1,14 @@
-// The planes of the drill: where the pixels of each cut lie in the patient (LPS, mm). As on the plan page
-// (tracker/plan/slices/oblique.py), the drilling direction points up in the two in-line cuts, and the probe's eye looks
-// along the drill with the feet down.
+// The planes of the cuts: where the pixels of each lie in the patient (LPS, mm). As on the plan page
+// (tracker/plan/slices), the drilling direction points up in the two in-line cuts, the probe's eye looks along the drill
+// with the feet down, and the anatomical cuts through its tip have the radiological convention.
 import type { PixelGrid } from "../operator/plan/slices/place";
 import { cross, dot, lengthOf, minus, plus, times, unit, type Vec3 } from "../operator/plan/slices/vectors";
 
-export const CUT_NAMES = ["axial", "sagittal", "probe"] as const;
-export type CutName = (typeof CUT_NAMES)[number];
+export const IN_LINE = ["axial", "sagittal"] as const;
+export const ANATOMICAL = ["anatomical-axial", "anatomical-sagittal", "anatomical-coronal"] as const;
+type InLine = (typeof IN_LINE)[number];
+export type Anatomical = (typeof ANATOMICAL)[number];
+export type CutName = InLine | Anatomical | "probe";
 
 /** A drill, or the plan in its place: its tip and its unit drilling direction in the vertebra frame. */
 export interface Pose {
@@ -21,7 +24,7 @@ export interface Field {
 
 export const PIXEL_MM = 0.25;
 /** The shorter side of what is shown, and the longest that the longer one gets. */
-const SHORT_SIDE_MM: Record<CutName, number> = { axial: 64, sagittal: 64, probe: 44 };
+const SHORT_SIDE_MM = { plane: 64, probe: 44 };
 const MAX_SIDE_MM = 110;
 /** The tip stands this share of the height below the middle of an in-line cut: more is seen ahead of it. */
 const TIP_BELOW = 0.12;
@@ -33,9 +36,20 @@ const BACK: Vec3 = [0, 1, 0];
 const HEAD: Vec3 = [0, 0, 1];
 const FEET: Vec3 = [0, 0, -1];
 
+/** Axial seen from the feet, sagittal from the patient's left, coronal from the front. */
+const VIEWS: Record<Anatomical, { right: Vec3; down: Vec3 }> = {
+  "anatomical-axial": { right: LEFT, down: BACK },
+  "anatomical-sagittal": { right: BACK, down: FEET },
+  "anatomical-coronal": { right: LEFT, down: FEET },
+};
+
+export function isAnatomical(name: CutName): name is Anatomical {
+  return name in VIEWS;
+}
+
 /** The field that a stage of this many pixels of the page shows, without distortion. */
 export function fieldOf(name: CutName, widthPx: number, heightPx: number): Field {
-  const short = SHORT_SIDE_MM[name];
+  const short = SHORT_SIDE_MM[name === "probe" ? "probe" : "plane"];
   const perPx = Math.min(short / Math.min(widthPx, heightPx), MAX_SIDE_MM / Math.max(widthPx, heightPx));
   return { widthMm: widthPx * perPx, heightMm: heightPx * perPx };
 }
@@ -45,6 +59,10 @@ export function cutGrid(name: CutName, { tip, axis }: Pose, field: Field, aheadM
   if (name === "probe") {
     const down = across(axis, FEET, BACK);
     return grid(plus(tip, times(axis, aheadMm)), cross(down, axis), down, field);
+  }
+  if (isAnatomical(name)) {
+    const { right, down } = VIEWS[name];
+    return grid(tip, right, down, field);
   }
   const leftwards = across(axis, LEFT, HEAD);
   // Turned about the drilling direction by the right hand, as the plan page turns its slice along the channel.

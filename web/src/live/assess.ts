@@ -80,7 +80,7 @@ export type VideoVerdict =
   | { live: false; cause: Cause; ageMs: number | null };
 
 export type NumbersVerdict =
-  | { live: true; reading: Reading; imageNumber: number; ageMs: number }
+  | { live: true; reading: Reading; imageNumber: number; ageMs: number; snapshot: SnapshotMessage }
   | { live: false; cause: Cause | "unread"; unread: Unread | null; ageMs: number | null };
 
 /** Nothing heard for this long, though the line is said to stand: the server is gone. */
@@ -120,7 +120,8 @@ export function numbersVerdict(situation: Situation, nowMs: number): NumbersVerd
   const limitMs = reading.known ? limits.pose_stale_after_ms : limits.video_stale_after_ms;
   if (!(ageMs <= limitMs)) return { live: false, cause: "old", unread: null, ageMs };
   if (!reading.known) return { live: false, cause: "unread", unread: reading, ageMs };
-  return { live: true, reading, imageNumber: numbers.snapshot.image_number, ageMs };
+  const { snapshot } = numbers;
+  return { live: true, reading, imageNumber: snapshot.image_number, ageMs, snapshot };
 }
 
 /** Whether the newest image is young enough: it has figures, or says why it has none. */

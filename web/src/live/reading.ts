@@ -1,6 +1,5 @@
 // The surgeon's figures out of one image's message, or why there are none. Which tool's they are, what they are
 // compared with and what is said of them was decided by the server: the video says the same.
-import { drillOf, type Drill } from "../cuts/drill";
 import type {
   BullseyeMessage,
   AssessmentMessage,
@@ -15,8 +14,6 @@ export interface Reading {
   deviation: DeviationMessage;
   assessment: AssessmentMessage;
   along: BullseyeMessage | null;
-  /** Its place in the vertebra; null where that is not known. */
-  drill: Drill | null;
   lagMs: number;
   headline: HeadlineMessage;
 }
@@ -37,7 +34,6 @@ export function readingOf(snapshot: SnapshotMessage, headline: HeadlineMessage):
     deviation: tool.deviation,
     assessment: tool.assessment,
     along: tool.along,
-    drill: drillOf(snapshot, tool.name),
     lagMs: tool.pose.kind === "tool" ? tool.pose.lag_ms : 0,
     headline,
   };

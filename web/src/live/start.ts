@@ -5,6 +5,7 @@ import { storedPictureChoice, storePictureChoice } from "./storedPictureChoice";
 import { MessageConnection } from "./messageConnection";
 import { ViewConnection, type ViewSocket } from "./viewConnection";
 import type { Live } from "./live";
+import { isLoopback } from "./loopback";
 import { UNLIMITED } from "./budget";
 import { UPDATE_EVERY_MS } from "./load";
 import type { WebSocketLike } from "./reconnectingSocket";
@@ -18,8 +19,6 @@ const ASK_TIMEOUT_MS = 450;
 const COMPARE_CLOCKS_EVERY_MS = 5000;
 const NEW_LINE_WHEN_QUIET_MS = 2500;
 const MEASURE_EVERY_PICTURES = 5;
-
-const LOOPBACK = /^(localhost|127(\.\d+){3}|\[::1\])$/;
 
 const server = createClient<paths>({ baseUrl: location.origin });
 
@@ -83,7 +82,7 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
     { signal },
   );
   onVisibility();
-  live.load.sharesMachine = LOOPBACK.test(location.hostname);
+  live.load.sharesMachine = isLoopback(location.hostname);
   live.choosePicture(storedPictureChoice());
   live.setOnChoice((choice) => {
     storePictureChoice(choice);

@@ -21,6 +21,8 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
   const head = useArrival();
   const step = data?.steps.find((one) => one.step === page.step) ?? null;
   const note = step === null ? "" : stepNote(step, gates?.registration.min_points ?? null, texts);
+  // Where navigation is open, its page says below that all steps hold, and by what.
+  const isSaidByGates = step?.step === "navigate" && step.state === "done";
   return (
     <header className="step-head" ref={head}>
       <div className="step-title">
@@ -28,13 +30,13 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
         <NextStep page={page} />
       </div>
       <RejectionNote rejection={rejection} />
-      {step !== null && (
+      {step !== null && !isSaidByGates && (
         <p className="step-said" data-state={step.state} data-testid="step-said">
           <strong>
             <span aria-hidden="true">{MARK_OF_STATE[step.state]}</span> {stateText(step, texts)}
           </strong>{" "}
           {/* The server speaks English. */}
-          <span lang="en">{sentence(step.message)}</span>
+          <span lang="en">{sentence(step.message)}</span>{" "}
           {note !== "" && (
             <span className="step-remedy" data-testid="step-note">
               ▲ {note}

@@ -3,6 +3,7 @@ import type { FigureMessage, Status } from "../live/messages";
 import type { Reading } from "../live/reading";
 import { formatFigure, formatNumber } from "../live/rounding";
 import type { Texts } from "../texts/en";
+import { interpolate } from "../texts/interpolate";
 import { useTexts } from "../texts/TextsContext";
 import { figureOf, type FigureName } from "./limits";
 import { setData, setText } from "./setText";
@@ -30,6 +31,14 @@ export function FigureTile({ name }: { name: FigureName }): ReactNode {
         <output data-part="value" data-testid={`reading-${name}`} aria-live="off">
           {REMOVED}
         </output>
+        <canvas
+          className="trend"
+          data-trend={name}
+          width={1}
+          height={1}
+          role="img"
+          aria-label={interpolate(texts.numbers.trend, { figure: texts.reading[name].name })}
+        />
       </p>
       <p className="reading-limit" data-testid={`limit-${name}`}>
         {name === "depth" && (

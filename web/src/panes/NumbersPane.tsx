@@ -1,5 +1,6 @@
 import { useRef, type ReactNode } from "react";
 import { usePainter } from "../live/LiveContext";
+import { useTrend } from "../trend/useTrend";
 import { useTexts } from "../texts/TextsContext";
 import { FigureTile, paintFigure } from "./FigureTile";
 import { FIGURES } from "./limits";
@@ -11,12 +12,15 @@ export function NumbersPane(): ReactNode {
   const texts = useTexts();
   const pane = useRef<HTMLDivElement>(null);
 
+  // Painted first: the curves follow the figures.
   usePainter(({ numbers }) => {
     setData(pane.current, "live", String(numbers.live));
     setData(pane.current, "cause", numbers.live ? "" : numbers.cause);
     const reading = numbers.live ? numbers.reading : null;
     for (const name of FIGURES) paintFigure(pane.current, name, reading, texts);
   });
+
+  useTrend(pane);
 
   return (
     <section className="pane pane-numbers" aria-labelledby="numbers-title">

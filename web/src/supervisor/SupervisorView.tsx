@@ -2,6 +2,8 @@ import type { ReactNode } from "react";
 import { AlarmsAfterFirstMessage } from "../alarms/UnheardAlarms";
 import { SignedIn } from "../app/SignedIn";
 import { ViewSwitch } from "../app/ViewSwitch";
+import { ChosenTile } from "../cuts/CutTile";
+import { CutsProvider } from "../cuts/CutsContext";
 import { AfterFirstMessage } from "../live/AfterFirstMessage";
 import { PictureSize } from "../live/PictureSize";
 import { MarkingProvider } from "../marks/MarkingContext";
@@ -10,12 +12,12 @@ import { AuditLog } from "../operator/people/AuditLog";
 import { AlertBand } from "../panes/AlertBand";
 import { LoadingNumbers } from "../panes/LoadingNumbers";
 import { NumbersPane } from "../panes/NumbersPane";
-import { ScenePane } from "../panes/ScenePane";
 import { VideoPane } from "../panes/VideoPane";
 import type { Signable } from "../room/messages";
 import { useRoomSnapshot } from "../room/RoomContext";
 import { Viewers } from "../room/Viewers";
 import { useTexts } from "../texts/TextsContext";
+import { isLoopback } from "../live/loopback";
 import { AgesStrip } from "./Ages";
 import { Fold } from "./Fold";
 import { HoldPanel } from "./HoldPanel";
@@ -33,52 +35,48 @@ export function SupervisorView(): ReactNode {
       <a className="skip" href="#video">
         {own.skip}
       </a>
-      <header className="supervisor-top">
-        <div>
+      <div className="first-screen">
+        <header className="supervisor-top">
           <h1>
             {texts.product} <small>{own.title}</small>
           </h1>
           <p className="notice">
             {texts.notice}. {own.nothingMoves}
           </p>
-        </div>
-        <ViewSwitch />
-        <Viewers />
-        <PictureSize />
-        <SignedIn />
-      </header>
-      <AlarmsAfterFirstMessage />
-      <AlertBand />
-      <main className="supervisor-body">
-        <div className="supervisor-picture">
-          <MarkingProvider>
-            <VideoPane />
-            <MarksTools />
-          </MarkingProvider>
-          <AgesStrip />
-        </div>
-        <div className="supervisor-side">
-          <HoldPanel />
+          <ViewSwitch />
+          <Viewers />
+          <PictureSize />
+          <SignedIn />
+        </header>
+        <AlarmsAfterFirstMessage />
+        <AlertBand />
+        <main className="board">
           <AfterFirstMessage loading={<LoadingNumbers />}>
             <NumbersPane />
           </AfterFirstMessage>
-        </div>
-        <div className="supervisor-folds">
-          <Fold id="steps" title={own.steps.title} open>
-            <StepsShown />
-          </Fold>
-          <Signables />
-          <Fold id="log" title={own.log.title}>
-            <LogPanel />
-          </Fold>
-          <Fold id="audit" title={own.audit}>
-            <AuditLog />
-          </Fold>
-          <Fold id="scene" title={own.scene.title} aside={<span className="soft">{own.scene.hint}</span>}>
-            <ScenePane />
-          </Fold>
-        </div>
-      </main>
+          <MarkingProvider>
+            <MarksTools />
+            <VideoPane />
+          </MarkingProvider>
+          <HoldPanel />
+          <CutsProvider ctOnRequest={!isLoopback(location.hostname)}>
+            <ChosenTile />
+          </CutsProvider>
+          <AgesStrip />
+        </main>
+      </div>
+      <section className="supervisor-folds" aria-label={texts.theatre.more}>
+        <Fold id="steps" title={own.steps.title} open>
+          <StepsShown />
+        </Fold>
+        <Signables />
+        <Fold id="log" title={own.log.title}>
+          <LogPanel />
+        </Fold>
+        <Fold id="audit" title={own.audit}>
+          <AuditLog />
+        </Fold>
+      </section>
     </div>
   );
 }

@@ -46,6 +46,7 @@ export interface Texts {
     steadied: string;
     whileMoving: string;
     latencyUnknown: string;
+    trend: string;
   };
   reading: Record<
     "entry" | "angle" | "depth" | "toGo" | "wall",

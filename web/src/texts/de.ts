@@ -46,6 +46,7 @@ export const de: Texts = {
     steadied: "beruhigt, verzögert um",
     whileMoving: "in Bewegung",
     latencyUnknown: "in Bewegung, Latenz nicht gemessen",
+    trend: "{figure} der letzten 30 s, mit Grenze",
   },
   reading: {
     entry: { name: "Eintritt", hint: "neben dem Eintrittspunkt", unit: "mm" },
@@ -70,8 +71,8 @@ export const de: Texts = {
   moves: {
     reference: "Der Marker am Patienten zeigt, wenn Patient oder Kamera sich bewegen.",
     "fixed-scene":
-      "Kein Marker am Patienten: bewegt er sich, wird es nicht gesehen, bei der Kamera nur an der festen Szene.",
-    "not-at-all": "Kein Marker am Patienten: bewegt sich Patient oder Kamera, wird es nicht gesehen.",
+      "Kein Patientenmarker: Patientenbewegung wird nicht gesehen, Kamerabewegung nur an der festen Szene.",
+    "not-at-all": "Kein Patientenmarker: Bewegung von Patient oder Kamera wird nicht gesehen.",
   },
   depthTexts: {
     before: "vor Eintritt",

@@ -48,6 +48,7 @@ export const en: Texts = {
     steadied: "steadied, behind by",
     whileMoving: "while moving",
     latencyUnknown: "moving, latency not measured",
+    trend: "{figure} in the last 30 s, with its limit",
   },
   reading: {
     entry: { name: "Entry", hint: "off the entry point", unit: "mm" },
@@ -72,8 +73,8 @@ export const en: Texts = {
   moves: {
     reference: "The marker on the patient shows a move of patient or camera.",
     "fixed-scene":
-      "No marker on the patient: a move of the patient is not seen, one of the camera only by the fixed scene.",
-    "not-at-all": "No marker on the patient: a move of patient or camera is not seen.",
+      "No patient marker: patient movement is not seen, camera movement only by the fixed scene.",
+    "not-at-all": "No patient marker: movement of patient or camera is not seen.",
   },
   depthTexts: {
     before: "before entry",

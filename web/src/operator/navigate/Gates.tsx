@@ -13,6 +13,8 @@ export function Gates(): ReactNode {
   const procedure = useProcedure();
   const { data } = procedure;
   if (data === null) return <QueryStatus query={procedure} />;
+  // The head of the page says so, and what to do.
+  if (data.case_id === null) return null;
   const open = data.steps.filter((one) => one.step !== "navigate" && one.state !== "done");
   const check = data.steps.find((one) => one.step === "check");
   if (open.length === 0)
@@ -28,20 +30,36 @@ export function Gates(): ReactNode {
     <section className="card gates" data-testid="gates-shut">
       <h3>▲ {data.may_navigate ? texts.navigate.dueTitle : texts.navigate.shutTitle}</h3>
       <ul>
-        {open.map((one) => (
-          <li key={one.step}>
-            <strong>
-              {texts.operator.page[one.step]} · {stateText(one, texts.operator)}
-            </strong>{" "}
-            {one.message}.{" "}
-            <Link className="big-link" href={`/operator/${one.step}`}>
-              {texts.navigate.goTo} {texts.operator.page[one.step]}
-            </Link>
+        {alike(open).map((steps) => (
+          <li key={steps.map((one) => one.step).join(" ")}>
+            <span>
+              <strong>
+                {steps.map((one) => texts.operator.page[one.step]).join(", ")} ·{" "}
+                {stateText(steps[0], texts.operator)}
+              </strong>{" "}
+              {steps[0].message}.
+            </span>
+            {steps.map((one) => (
+              <Link key={one.step} className="big-link" href={`/operator/${one.step}`}>
+                {texts.navigate.goTo} {texts.operator.page[one.step]}
+              </Link>
+            ))}
           </li>
         ))}
       </ul>
     </section>
   );
+}
+
+/** Neighbours that are in one state for one reason, together: it is said once. */
+function alike(steps: readonly Step[]): [Step, ...Step[]][] {
+  const groups: [Step, ...Step[]][] = [];
+  for (const step of steps) {
+    const last = groups.at(-1);
+    if (last?.[0].message === step.message && last[0].state === step.state) last.push(step);
+    else groups.push([step]);
+  }
+  return groups;
 }
 
 /** On what it was checked and how far off it was; nothing where no check says so. */

@@ -1,4 +1,6 @@
 import type { ReactNode } from "react";
+import { CutsProvider } from "../../cuts/CutsContext";
+import { ChosenTile } from "../../cuts/CutTile";
 import { AfterFirstMessage } from "../../live/AfterFirstMessage";
 import { LoadingNumbers } from "../../panes/LoadingNumbers";
 import { NumbersPane } from "../../panes/NumbersPane";
@@ -10,26 +12,27 @@ import { Gates } from "./Gates";
 import { MovementWarning } from "./MovementWarning";
 import { Steadiness } from "./Steadiness";
 
-/** What the operator watches while the surgeon drills: picture, numbers, gates, and the channel in work. */
+/** What the operator watches while the surgeon drills: gates, numbers, picture, the CT under the drill, and the channel in work. */
 export function NavigatePage(): ReactNode {
   const { data } = useProcedure();
   return (
     <div className="registration" data-testid="navigate" data-may={data?.may_navigate}>
-      <RehearsalStrip scenes={["operation"]} />
       <MovementWarning />
       <Gates />
-      <div className="work navigate">
-        <div className="work-main">
-          <VideoPane />
-          <Steadiness />
-        </div>
-        <div className="work-side">
-          <AfterFirstMessage loading={<LoadingNumbers />}>
-            <NumbersPane />
-          </AfterFirstMessage>
-          <ChannelSwitch />
-        </div>
+      <div className="board">
+        <AfterFirstMessage loading={<LoadingNumbers />}>
+          <NumbersPane />
+        </AfterFirstMessage>
+        <VideoPane />
+        <CutsProvider>
+          <ChosenTile />
+        </CutsProvider>
       </div>
+      <div className="work">
+        <Steadiness />
+        <ChannelSwitch />
+      </div>
+      <RehearsalStrip scenes={["operation"]} />
     </div>
   );
 }

@@ -112,5 +112,4 @@ export const supervisorDe: SupervisorTexts = {
     by: "durch",
   },
   notKnown: "Zurzeit nicht bekannt: der Server antwortet nicht.",
-  scene: { title: "3-D", hint: "Braucht eine gute Leitung" },
 };

@@ -115,7 +115,6 @@ export const supervisorEn = {
     by: "by",
   },
   notKnown: "Not known now: the server is not heard.",
-  scene: { title: "3-D", hint: "Needs a good line" },
 };
 
 export type SupervisorTexts = typeof supervisorEn;

@@ -9,8 +9,23 @@ export const theatreDe: TheatreTexts = {
   through: "DURCH",
   of: "von",
   cuts: {
-    title: { axial: "Axial am Bohrer", sagittal: "Sagittal am Bohrer", probe: "Quer zum Bohrer" },
-    short: { axial: "Axial", sagittal: "Sagittal", probe: "Quer" },
+    title: {
+      axial: "Axial am Bohrer",
+      sagittal: "Sagittal am Bohrer",
+      probe: "Quer zum Bohrer",
+      "anatomical-axial": "Axial",
+      "anatomical-sagittal": "Sagittal",
+      "anatomical-coronal": "Koronar",
+    },
+    short: {
+      axial: "Axial",
+      sagittal: "Sagittal",
+      probe: "Quer",
+      "anatomical-axial": "Axial",
+      "anatomical-sagittal": "Sagittal",
+      "anatomical-coronal": "Koronar",
+    },
+    anatomical: "Anatomisch",
     alt: {
       axial:
         "CT in der Ebene des Bohrers und der Links-rechts-Richtung des Patienten, Bohrrichtung nach oben, mit Bohrer, Kanal und Schraube im Maßstab",
@@ -18,6 +33,12 @@ export const theatreDe: TheatreTexts = {
         "CT in der Ebene des Bohrers zu Kopf und Füßen, Bohrrichtung nach oben, mit Bohrer, Kanal und Schraube im Maßstab",
       probe:
         "CT quer zum Bohrer, von hinten an ihm entlang gesehen: Ringe von 1, 2 und 5 mm um die geplante Achse, der Bohrer als Ring",
+      "anatomical-axial":
+        "CT in der axialen Ebene des Patienten durch die Spitze, von den Füßen gesehen, mit Bohrer, Kanal und Schraube im Maßstab",
+      "anatomical-sagittal":
+        "CT in der sagittalen Ebene des Patienten durch die Spitze, von links gesehen, mit Bohrer, Kanal und Schraube im Maßstab",
+      "anatomical-coronal":
+        "CT in der koronaren Ebene des Patienten durch die Spitze, von vorn gesehen, mit Bohrer, Kanal und Schraube im Maßstab",
     },
     tabs: "Ansicht",
     ahead: "Tiefe vor der Spitze in mm",
@@ -28,9 +49,14 @@ export const theatreDe: TheatreTexts = {
     lateHint: "Das CT unter dem Bohrer wird gezeichnet.",
     unreadHint: "Kein Schnitt ohne Bohrer. Gleich wird der Plan gezeigt.",
     noCt: "KEIN CT",
+    requestCt: "CT laden",
+    noAnswer: "Der Server hat es nicht geschickt.",
+    unreadable: "Was der Server geschickt hat, ist nicht lesbar",
+    askedAgain: "Alle 10 s wird wieder danach gefragt; bleibt es so, die Seite neu laden.",
     noVolume: {
       none: "Der Kanal wurde ohne CT geplant.",
       loading: "Es wird geladen.",
+      on_request: "Auf Wunsch wird es einmal geladen, bis zu 16 MB.",
       scanning: "Der Wirbel der Probe wird gescannt; das dauert einige Sekunden.",
       unsupported: "Dieser Browser kann es nicht schneiden: Er hat keinen Worker.",
     },

@@ -7,8 +7,23 @@ export const theatreEn = {
   through: "THROUGH",
   of: "of",
   cuts: {
-    title: { axial: "In-line axial", sagittal: "In-line sagittal", probe: "Probe's eye" },
-    short: { axial: "Axial", sagittal: "Sagittal", probe: "Probe" },
+    title: {
+      axial: "In-line axial",
+      sagittal: "In-line sagittal",
+      probe: "Probe's eye",
+      "anatomical-axial": "Axial",
+      "anatomical-sagittal": "Sagittal",
+      "anatomical-coronal": "Coronal",
+    },
+    short: {
+      axial: "Axial",
+      sagittal: "Sagittal",
+      probe: "Probe",
+      "anatomical-axial": "Axial",
+      "anatomical-sagittal": "Sagittal",
+      "anatomical-coronal": "Coronal",
+    },
+    anatomical: "Anatomical",
     alt: {
       axial:
         "CT in the plane of the drill and the patient's left and right, the drilling direction up, with drill, channel and screw drawn to scale",
@@ -16,6 +31,12 @@ export const theatreEn = {
         "CT in the plane of the drill towards head and feet, the drilling direction up, with drill, channel and screw drawn to scale",
       probe:
         "CT across the drill, seen along it from behind the patient: rings of 1, 2 and 5 mm around the planned axis, the drill as a ring",
+      "anatomical-axial":
+        "CT in the patient's axial plane through the tip, seen from the feet, with drill, channel and screw drawn to scale",
+      "anatomical-sagittal":
+        "CT in the patient's sagittal plane through the tip, seen from the left, with drill, channel and screw drawn to scale",
+      "anatomical-coronal":
+        "CT in the patient's coronal plane through the tip, seen from the front, with drill, channel and screw drawn to scale",
     },
     tabs: "View",
     ahead: "Depth ahead of the tip in mm",
@@ -26,9 +47,14 @@ export const theatreEn = {
     lateHint: "The CT under the drill is being drawn.",
     unreadHint: "No cut without a drill. The plan is shown after a moment.",
     noCt: "NO CT",
+    requestCt: "Load the CT",
+    noAnswer: "The server did not send it.",
+    unreadable: "What the server sent cannot be read",
+    askedAgain: "It is asked for again every 10 s; reload the page if this stays.",
     noVolume: {
       none: "The channel was planned without one.",
       loading: "It is being loaded.",
+      on_request: "It is loaded once, up to 16 MB, when you ask for it.",
       scanning: "The rehearsal's vertebra is being scanned; this takes some seconds.",
       unsupported: "This browser cannot cut it: it has no worker.",
     },

@@ -1,0 +1,91 @@
+// A figure's curve in the pixels of its chart. Pure.
+import type { FigureName } from "../panes/limits";
+import type { Status } from "../live/messages";
+import { MAX_STEP_MS, SPAN_MS, type Sample, type TrendFigure } from "./history";
+
+type Point = readonly [number, number];
+
+export interface Stroke {
+  status: Status;
+  points: Point[];
+}
+
+/** An image to which the next one is joined. */
+interface Joint {
+  atMs: number;
+  figure: TrendFigure;
+  at: Point;
+}
+
+export interface Curve {
+  /** Parts of one status each; between gaps they do not meet. */
+  strokes: Stroke[];
+  /** The limit as it was with each image. */
+  limit: Point[][];
+  /** Height at which the bone's wall lies, for its clearance; null for other figures. */
+  wallY: number | null;
+  /** The values at the lower and the upper edge. */
+  range: readonly [number, number];
+}
+
+/** The range, in limits below and above zero: at least, and at most. Values beyond it lie on the edge. */
+const RANGES: Record<FigureName, { below: [number, number]; above: [number, number] }> = {
+  entry: { below: [0, 0], above: [2, 4] },
+  angle: { below: [0, 0], above: [2, 4] },
+  depth: { below: [0, 0.5], above: [1.1, 1.4] },
+  wall: { below: [1, 3], above: [3, 8] },
+};
+
+export function curveOf(
+  samples: readonly Sample[],
+  name: FigureName,
+  { nowMs, width, height }: { nowMs: number; width: number; height: number },
+): Curve {
+  const range = rangeOf(samples, name);
+  const [bottom, top] = range;
+  const x = (atMs: number): number => width * (1 - (nowMs - atMs) / SPAN_MS);
+  const y = (value: number): number =>
+    height * (1 - (Math.min(Math.max(value, bottom), top) - bottom) / (top - bottom));
+  const curve: Curve = { strokes: [], limit: [], wallY: name === "wall" ? y(0) : null, range };
+  let before: Joint | null = null;
+  for (const { atMs, figures } of samples) {
+    const figure = figures?.[name];
+    if (figure?.value == null) {
+      before = null;
+      continue;
+    }
+    const at: Point = [x(atMs), y(figure.value)];
+    const joined = atMs - (before?.atMs ?? -Infinity) <= MAX_STEP_MS ? before : null;
+    const last = curve.strokes.at(-1);
+    if (joined === null) curve.strokes.push({ status: figure.status, points: [at] });
+    else if (last?.status === figure.status) last.points.push(at);
+    // The step to another status has the colour of what it leads to.
+    else curve.strokes.push({ status: figure.status, points: [joined.at, at] });
+    if (figure.limit !== null) {
+      const limit: Point = [at[0], y(figure.limit)];
+      const line = curve.limit.at(-1);
+      if (line !== undefined && joined?.figure.limit != null) line.push(limit);
+      else curve.limit.push([limit]);
+    }
+    before = { atMs, figure, at };
+  }
+  return curve;
+}
+
+/** Around the limit, and wider where the values are, but not without end: a drill that is far away has no trend. */
+function rangeOf(samples: readonly Sample[], name: FigureName): readonly [number, number] {
+  let [lowest, highest, limit] = [0, 0, 0];
+  for (const { figures } of samples) {
+    const figure = figures?.[name];
+    if (figure?.value == null) continue;
+    lowest = Math.min(lowest, figure.value);
+    highest = Math.max(highest, figure.value);
+    if (figure.limit !== null) limit = Math.max(limit, Math.abs(figure.limit));
+  }
+  if (limit === 0) return [lowest, Math.max(highest, lowest + 1)];
+  const { below, above } = RANGES[name];
+  return [
+    -Math.min(Math.max(-lowest, below[0] * limit), below[1] * limit),
+    Math.min(Math.max(highest, above[0] * limit), above[1] * limit),
+  ];
+}

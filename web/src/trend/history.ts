@@ -1,0 +1,84 @@
+// What the figures were in the last 30 s, for their curves. Pure; times go in as numbers.
+import { isOfNow, type NumbersVerdict } from "../live/assess";
+import type { FigureMessage, SnapshotMessage } from "../live/messages";
+import { FIGURES, figureOf, type FigureName } from "../panes/limits";
+
+export const SPAN_MS = 30_000;
+/** Images that are nearer than this share a sample: the worst of them, so that no peak is lost. */
+export const BUCKET_MS = 100;
+/** Samples further apart are not joined: nobody knows what was between them. */
+export const MAX_STEP_MS = 700;
+
+export type TrendFigure = Pick<FigureMessage, "value" | "limit" | "status">;
+
+export interface Sample {
+  atMs: number;
+  /** Null where figures were withheld. */
+  figures: Record<FigureName, TrendFigure> | null;
+}
+
+export class TrendHistory {
+  private readonly kept: Sample[] = [];
+  private newest: SnapshotMessage | null = null;
+  private of = "";
+
+  /** From the oldest on; at most one for each bucket of the span. */
+  get samples(): readonly Sample[] {
+    return this.kept;
+  }
+
+  /** Takes what the page shows now; the same image counts once. */
+  add(nowMs: number, numbers: NumbersVerdict): void {
+    this.drop(nowMs);
+    if (!numbers.live) {
+      this.addGap(nowMs);
+      return;
+    }
+    if (numbers.snapshot === this.newest) return;
+    this.newest = numbers.snapshot;
+    // Figures of another plan or tool are not comparable with these.
+    const of = `${numbers.reading.tool} ${JSON.stringify(numbers.snapshot.channel)}`;
+    if (of !== this.of) this.kept.length = 0;
+    this.of = of;
+    const figures: Record<FigureName, TrendFigure> = {
+      entry: figureOf(numbers.reading, "entry"),
+      angle: figureOf(numbers.reading, "angle"),
+      depth: figureOf(numbers.reading, "depth"),
+      wall: figureOf(numbers.reading, "wall"),
+    };
+    const atMs = nowMs - numbers.ageMs;
+    const last = this.kept.at(-1);
+    if (last?.figures != null && atMs - last.atMs < BUCKET_MS) {
+      const before = last.figures;
+      for (const name of FIGURES) figures[name] = worseOf(name, before[name], figures[name]);
+      this.kept[this.kept.length - 1] = { atMs: last.atMs, figures };
+    } else {
+      this.kept.push({ atMs: Math.max(atMs, last?.atMs ?? -Infinity), figures });
+    }
+  }
+
+  private addGap(nowMs: number): void {
+    const last = this.kept.at(-1);
+    if (last !== undefined && last.figures !== null) this.kept.push({ atMs: nowMs, figures: null });
+  }
+
+  private drop(nowMs: number): void {
+    let count = 0;
+    // The one before the span is kept: its line comes in from the edge.
+    while ((this.kept[count + 1]?.atMs ?? Infinity) < nowMs - SPAN_MS) count += 1;
+    if (count > 0) this.kept.splice(0, count);
+  }
+}
+
+/** Whether curves may be looked at: the newest image is young enough, with figures or with the reason why there are none. */
+export function isTrendShown(numbers: NumbersVerdict): boolean {
+  return isOfNow(numbers);
+}
+
+/** Of two figures the one that is nearer to harm; of depths the newer one. */
+function worseOf(name: FigureName, before: TrendFigure, after: TrendFigure): TrendFigure {
+  if (name === "depth" || before.value === null) return after;
+  if (after.value === null) return before;
+  const isWorse = name === "wall" ? before.value < after.value : before.value > after.value;
+  return isWorse ? before : after;
+}

@@ -1,0 +1,88 @@
+// Puts a figure's curve onto its canvas, past React's state.
+import type { Status } from "../live/messages";
+import type { FigureName } from "../panes/limits";
+import { curveOf } from "./curve";
+import { SPAN_MS, type Sample } from "./history";
+
+/** Colours of the theme, by what the server says of the figure. */
+const INK: Record<Status, string> = {
+  within: "--ink",
+  over: "--medium",
+  through: "--high",
+  unlimited: "--ink-soft",
+  outside: "--ink-soft",
+};
+const LINE_PX = 2;
+const LIMIT_PX = 1.5;
+const DASH_PX = [5, 4];
+/** A smaller one is not laid out yet. */
+const MIN_SIDE_PX = 12;
+const MIN_LABELLED_PX = 120;
+const LABEL_PX = 13;
+
+export function paintTrend(
+  canvas: HTMLCanvasElement,
+  name: FigureName,
+  samples: readonly Sample[],
+  nowMs: number,
+): void {
+  const { clientWidth, clientHeight } = canvas;
+  const context = canvas.getContext("2d");
+  if (context === null || clientWidth < MIN_SIDE_PX || clientHeight < MIN_SIDE_PX) return;
+  const ratio = devicePixelRatio;
+  const [width, height] = [Math.round(clientWidth * ratio), Math.round(clientHeight * ratio)];
+  if (canvas.width !== width || canvas.height !== height) {
+    canvas.width = width;
+    canvas.height = height;
+  }
+  const style = getComputedStyle(canvas);
+  const inkOf = (variable: string): string => style.getPropertyValue(variable);
+  const inset = LINE_PX;
+  const curve = curveOf(samples, name, {
+    nowMs,
+    width: clientWidth - 2 * inset,
+    height: clientHeight - 2 * inset,
+  });
+  context.setTransform(ratio, 0, 0, ratio, inset * ratio, inset * ratio);
+  context.clearRect(-inset, -inset, clientWidth, clientHeight);
+  context.lineJoin = "round";
+  context.lineWidth = 1;
+  const draw = (points: readonly (readonly [number, number])[], ink: string): void => {
+    context.strokeStyle = ink;
+    context.beginPath();
+    for (const [index, [x, y]] of points.entries()) {
+      if (index === 0) context.moveTo(x, y);
+      else context.lineTo(x, y);
+    }
+    // A single image between two gaps is a dot.
+    if (points.length === 1 && points[0] !== undefined) context.lineTo(points[0][0] + LINE_PX, points[0][1]);
+    context.stroke();
+  };
+  if (curve.wallY !== null) {
+    draw(
+      [
+        [0, curve.wallY],
+        [clientWidth - 2 * inset, curve.wallY],
+      ],
+      inkOf("--high"),
+    );
+  }
+  context.lineWidth = LIMIT_PX;
+  context.setLineDash(DASH_PX);
+  for (const limit of curve.limit) draw(limit, inkOf("--low"));
+  context.setLineDash([]);
+  context.lineWidth = LINE_PX;
+  for (const { status, points } of curve.strokes) draw(points, inkOf(INK[status]));
+  if (clientWidth < MIN_LABELLED_PX) return;
+  context.font = `${LABEL_PX}px ${style.fontFamily}`;
+  context.fillStyle = inkOf("--ink-soft");
+  context.fillText(`\u2212${SPAN_MS / 1000} s`, 0, clientHeight - 2 * inset - 3);
+}
+
+/** Leaves nothing of the curve. */
+export function clearTrend(canvas: HTMLCanvasElement): void {
+  const context = canvas.getContext("2d");
+  if (context === null) return;
+  context.setTransform(1, 0, 0, 1, 0, 0);
+  context.clearRect(0, 0, canvas.width, canvas.height);
+}
