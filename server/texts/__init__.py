@@ -16,9 +16,11 @@ from server.texts.alarms import AlarmText, alarm_text, alarm_title, with_unknown
 from server.texts.flicker import CameraNote, flicker_note
 from server.texts.headline import Headline, Tone, headline_of
 from server.texts.language import LANGUAGES, Language, Text
+from server.texts.states import STATES
 
 __all__ = [
     "LANGUAGES",
+    "STATES",
     "AlarmText",
     "CameraNote",
     "Headline",
