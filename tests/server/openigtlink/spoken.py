@@ -22,9 +22,7 @@ _READ: dict[str, Callable[[bytes], object]] = {
 
 def said(messages: Sequence[Message]) -> Said:
     """What each message says, by type and device; of a status its name."""
-    return {
-        (one.type, one.device): _READ.get(one.type, lambda content: content)(one.content) for one in messages
-    }
+    return {(one.type, one.device): _READ.get(one.type, bytes)(one.content) for one in messages}
 
 
 def contents(snapshot: NavigationSnapshot | None, **more: Any) -> InstantContents:  # noqa: ANN401  fields

@@ -2,6 +2,7 @@
 
 import asyncio
 import socket
+import time
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
 
@@ -93,8 +94,9 @@ async def until(reader: asyncio.StreamReader, last: tuple[str, str]) -> Said:
 
 
 def depth_mm(found: Said) -> float:
-    (tip,) = found[TIP]  # type: ignore[misc]
-    return float(tip.position_mm[2])
+    points = found[TIP]
+    assert isinstance(points, tuple)
+    return float(points[0].position_mm[2])
 
 
 @pytest.mark.parametrize("version", [1, 2])
@@ -116,6 +118,10 @@ def test_when_images_stop_the_client_is_told_without_another_instant() -> None:
         world.publish(3)
         reader = await world.client()
         await until(reader, HEADLINE)
+        # Past the time at which the rate allows the next image: now the server waits for one alone.
+        world.now_s += 0.05
+        while not world.hub._waiting:
+            await asyncio.sleep(0)
         world.now_s += 1.0
         told = await until(reader, HEADLINE)
         assert told["STATUS", "drillTip"] == "TOO_OLD"
@@ -224,7 +230,7 @@ def test_pyigtl_is_served_by_the_whole_application() -> None:
     with served(create_app(AppParts(hub=hub, config=config, openigtlink=listener))):
         client = pyigtl.OpenIGTLinkClient("127.0.0.1", listener.getsockname()[1])
         try:
-            hub.publish(instant(7, link_server.time.monotonic()))
+            hub.publish(instant(7, time.monotonic()))
             transform = client.wait_for_message("drillToVertebra", timeout=20.0)
             assert transform.matrix[:3, 3] == pytest.approx([-1.5, 1.0, 7.0], abs=1e-4)
             assert client.wait_for_message("Headline", timeout=20.0).string
