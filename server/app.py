@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import socket
 from collections.abc import AsyncIterator, Callable
 from dataclasses import dataclass
 
@@ -47,6 +48,7 @@ from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub, Problem
 from server.loop.rehearsal_control import RehearsalControl
+from server.openigtlink import OpenIgtLinkServer
 from server.overlay.panel_readings import RESEARCH_SOFTWARE
 from server.procedure import Steps
 from server.procedure.scene_bone import SceneBone
@@ -85,6 +87,7 @@ class AppParts:
         rehearsed: The rehearsal; None for other sources.
         phone: Receiver of phone images; None for other sources.
         people: Sessions and invitations; None without access control, as in tests.
+        openigtlink: Listening socket of OpenIGTLink; None if it is off.
     """
 
     hub: LiveHub
@@ -98,6 +101,7 @@ class AppParts:
     rehearsed: RehearsalControl | None = None
     phone: Receiver | None = None
     people: PeopleService | None = None
+    openigtlink: socket.socket | None = None
 
 
 def create_app(parts: AppParts) -> FastAPI:
@@ -109,15 +113,20 @@ def create_app(parts: AppParts) -> FastAPI:
     video = Video(hub=hub, viewers=viewers, pictures=pictures, stale_after_ms=limits.video_stale_after_ms)
     view = ViewContext(hub=hub, viewers=viewers, pictures=pictures, texts=MessageCache())
 
+    link = OpenIgtLinkServer(hub, config)
+
     @contextlib.asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         counting = asyncio.create_task(metrics.follow(), name="metrics")
         await app.state.scene.start()
+        if parts.openigtlink is not None:
+            await link.start(parts.openigtlink)
         try:
             yield
         finally:
             if parts.steps is not None:
                 await asyncio.to_thread(parts.steps.close)
+            await link.stop()
             await app.state.scene.stop()
             counting.cancel()
             await asyncio.wait([counting])

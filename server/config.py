@@ -291,6 +291,31 @@ class VideoConfig(Section):
     """Simultaneous viewers of the video; the 3-D scene has the same number in addition."""
 
 
+DeviceName: TypeAlias = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,9}$")]
+FrameName: TypeAlias = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,7}$")]
+
+
+class OpenIgtLinkConfig(Section):
+    """Poses for other programs by OpenIGTLink, which knows neither encryption nor sign-in."""
+
+    port: Annotated[int, Field(ge=0, le=65535)] | None = None
+    """18944 is usual, 0 selects a free port; default: off."""
+    host: Annotated[str, StringConstraints(min_length=1)] = "127.0.0.1"
+    unencrypted: Literal["anybody who reaches this port reads the poses"] | None = None
+    """Exactly this text allows a host that is not loopback."""
+    coordinates: Literal["RAS", "LPS"] = "RAS"
+    """Axes of the vertebra's frame; 3D Slicer takes poses for RAS."""
+    header_version: Literal[1, 2] = 1
+    """1 is read by every client; 2 adds metadata."""
+    max_rate_hz: Annotated[float, Field(ge=1.0, le=240.0)] = 60
+    """Images a second for each client; of more the newest are sent."""
+    max_clients: Annotated[int, Field(ge=1, le=32)] = 4
+    camera_frame: FrameName = "Camera"
+    vertebra_frame: FrameName = "Vertebra"
+    tool_names: dict[Name, DeviceName] = {}
+    """Names of tools in the names of messages, at most 10 characters; default: the tool's own."""
+
+
 class CosignConfig(Section):
     """What a second person signs. required: nobody navigates before; offered: it may be done.
 
@@ -342,3 +367,4 @@ class Config(Section):
     supervision: SupervisionConfig = SupervisionConfig()
     plan: PlanConfig = PlanConfig()
     video: VideoConfig = VideoConfig()
+    openigtlink: OpenIgtLinkConfig = OpenIgtLinkConfig()

@@ -1,18 +1,19 @@
 """The plan: vertebrae, pedicles, channels and screws; each change creates a version; export and import."""
 
 import json
-from typing import Annotated, TypeAlias
 
 from anyio import to_thread
-from fastapi import APIRouter, Query, Request, Response
+from fastapi import APIRouter, Request, Response
 
 from server.api.errors import rejections
 from server.api.jobs import JobMessage, job_message
+from server.api.plan_files import add_markups
 from server.api.plan_messages import (
     ActiveChannelRequest,
     CatalogueMessage,
     ChannelRequest,
     CorrectionsRequest,
+    ExpectedVersion,
     LandmarksRequest,
     PlanMessage,
     PlanRequest,
@@ -21,7 +22,6 @@ from server.api.plan_messages import (
     ScrewRequest,
     SeedRequest,
     SliceProposalMessage,
-    Version,
     VertebraRequest,
     plan_message,
     proposal_message,
@@ -40,7 +40,6 @@ from tracker.plan.pedicle import Side
 MAX_PLAN_BYTES = 8 * 2**20
 JSON = "application/json"
 CHANGE_ERRORS = rejections(404, 409, 422, 503, 507)
-ExpectedVersion: TypeAlias = Annotated[Version | None, Query(alias="expected_version")]
 
 
 def plan_router(step: PlanStep, opened: CtProvider, home: Home, *, min_landmarks: int) -> APIRouter:
@@ -48,6 +47,7 @@ def plan_router(step: PlanStep, opened: CtProvider, home: Home, *, min_landmarks
     router = APIRouter(prefix="/api/plan", tags=["plan"])
     _add_whole(router, step, min_landmarks)
     _add_files(router, step, opened, home)
+    add_markups(router, step, home)
     _add_vertebrae(router, step)
     _add_pedicles(router, step)
     _add_channels(router, step)

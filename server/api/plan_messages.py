@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Annotated, TypeAlias
 
 import numpy as np
+from fastapi import Query
 from pydantic import Field, StringConstraints
 
 from server.api.case_messages import HeadingMessage, heading_message
@@ -20,6 +21,7 @@ VertebraName: TypeAlias = Annotated[
     StringConstraints(strip_whitespace=True, min_length=1, max_length=40, pattern=r"^[^/\x00-\x1f\x7f]+$"),
 ]
 Version: TypeAlias = Annotated[int, Field(ge=0, le=10**9)]
+ExpectedVersion: TypeAlias = Annotated[Version | None, Query(alias="expected_version")]
 Finite: TypeAlias = Annotated[float, Field(allow_inf_nan=False)]
 PositiveMm: TypeAlias = Annotated[float, Field(gt=0.0, le=200.0, allow_inf_nan=False)]
 

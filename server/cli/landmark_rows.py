@@ -1,8 +1,9 @@
-"""Read points from a text file with one point per line, with or without header, names and comments.
+"""Read points from a text file with one point per line, or from a file of markups of 3D Slicer.
 
-The first three numbers of a line are x, y and z in mm, unless a header names the columns. A further word or
-a column of consecutive numbers is the name. Separators are commas, semicolons, tabs or blanks; if the
-separator is not a comma, a comma inside a number is the decimal point.
+A text file may have a header, names and comments. The first three numbers of a line are x, y and z in mm,
+unless a header names the columns. A further word or a column of consecutive numbers is the name. Separators
+are commas, semicolons, tabs or blanks; if the separator is not a comma, a comma inside a number is the
+decimal point.
 """
 
 import math
@@ -12,12 +13,16 @@ from pathlib import Path
 
 import numpy as np
 
+from server.slicer_file import MarkupKind, is_markups_name, markups_from_bytes
 from tracker.errors import InvalidInput
 from tracker.geometry import Array
 
 MAX_BYTES = 20 * 2**20
 COMMENT = ("#", "%", "//")
-REMEDY = "Give a text file with one point per line, as x,y,z in mm, or with a header that names x, y and z."
+REMEDY = (
+    "Give a text file with one point per line, as x,y,z in mm, or with a header that names x, y and z; or "
+    "markups of 3D Slicer (.mrk.json)."
+)
 AXES = ("x", "y", "z")
 NAMED = ("label", "name", "id", "landmark", "point", "no", "nr", "index")
 # "x_mm", "X (mm)", "x [mm]", "pos_x" and "l" of LPS are all x.
@@ -26,7 +31,10 @@ HEADING = re.compile(r"^(?:pos_?|p_?|coord_?)?([xyz])(?:[_ ]?[(\[]?mm[)\]]?)?$")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LandmarkRows:
-    """Points (n, 3) of a file in mm, and their names; no names if not every point has one."""
+    """Points (n, 3) of a file in mm, and their names; no names if not every point has one.
+
+    Points of markups are LPS, whatever their file states.
+    """
 
     path: Path
     points_mm: Array
@@ -44,7 +52,10 @@ def read_landmarks(path: Path) -> LandmarkRows:
 
     Raises:
         InvalidInput: POINTS_UNREADABLE, POINTS_INCOMPLETE or POINTS_INVALID; the line is named.
+            MARKUPS_UNREADABLE or MARKUPS_INVALID.
     """
+    if is_markups_name(path.name):
+        return _rows_of_markups(path)
     lines = _lines(_text(path))
     columns = _columns_of_header(lines[0].words) if lines else None
     # A header without x, y and z is skipped.
@@ -60,6 +71,25 @@ def read_landmarks(path: Path) -> LandmarkRows:
         labels.append(line.words[name_place] if has_name and name_place is not None else "")
     if not points:
         raise InvalidInput("POINTS_INCOMPLETE", f"{path} has no points", REMEDY, {"file": str(path)})
+    return _rows(path, np.array(points, dtype=np.float64), labels)
+
+
+def _rows_of_markups(path: Path) -> LandmarkRows:
+    """Return the points of the only markup of a file; those of a curve have no names."""
+    markups = markups_from_bytes(_content(path), name=str(path))
+    if len(markups) != 1:
+        raise InvalidInput(
+            "POINTS_INCOMPLETE",
+            f"{path} has {len(markups)} point lists, lines and curves with points, needed 1",
+            "Save the one point list or curve alone as Markups JSON (.mrk.json).",
+            {"file": str(path), "markups": len(markups)},
+        )
+    markup = markups[0]
+    labels = markup.labels if markup.kind is MarkupKind.POINTS else [""]
+    return _rows(path, markup.points_lps_mm, [label.strip() for label in labels])
+
+
+def _rows(path: Path, points_mm: Array, labels: list[str]) -> LandmarkRows:
     named = all(labels)
     if named and len(set(labels)) != len(labels):
         twice = next(label for label in labels if labels.count(label) > 1)
@@ -69,20 +99,22 @@ def read_landmarks(path: Path) -> LandmarkRows:
             "Give each landmark a different name, or no names at all.",
             {"file": str(path), "name": twice},
         )
-    return LandmarkRows(
-        path=path, points_mm=np.array(points, dtype=np.float64), labels=tuple(labels) if named else ()
-    )
+    return LandmarkRows(path=path, points_mm=points_mm, labels=tuple(labels) if named else ())
 
 
-def _text(path: Path) -> str:
+def _content(path: Path) -> bytes:
     try:
         if path.stat().st_size > MAX_BYTES:
             message = f"{path} has more than {MAX_BYTES / 2**20:.0f} MB, too large for a list of points"
             raise InvalidInput("POINTS_UNREADABLE", message, REMEDY, {"file": str(path)})
-        content = path.read_bytes()
+        return path.read_bytes()
     except OSError as error:
         message = f"the points file {path} cannot be read: {(error.strerror or str(error)).lower()}"
         raise InvalidInput("POINTS_UNREADABLE", message, REMEDY, {"file": str(path)}) from error
+
+
+def _text(path: Path) -> str:
+    content = _content(path)
     encoding = "utf-16" if content[:2] in {b"\xff\xfe", b"\xfe\xff"} else "utf-8-sig"
     try:
         text = content.decode(encoding)

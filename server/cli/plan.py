@@ -7,8 +7,10 @@ from typing import Any
 
 import typer
 
+from server.cli.markups_output import write_markups
 from server.cli.options import SettingOptions, config_from_options
 from server.imaging.ct_reader import read_ct
+from server.slicer_file import channel_markup, screw_markup
 from tracker.errors import InvalidInput, PlanError
 from tracker.plan import (
     Channel,
@@ -36,14 +38,15 @@ class MeasureOptions:
     seed_lps_mm: str
     series: str | None = None
     config: Path | None = None
+    markups: Path | None = None
 
 
 def measure_in_file(options: MeasureOptions, *, as_json: bool) -> None:
-    """Measure one pedicle and write its numbers to standard output.
+    """Measure one pedicle and write its numbers to standard output, and its channel to a file of markups.
 
     Raises:
         InvalidInput: SEED_INVALID, SIDE_INVALID, or a code beginning with CT_.
-        PlanError: no pedicle can be measured at this point.
+        PlanError: no pedicle can be measured at this point; or, with a file of markups, it has no channel.
     """
     seed = seed_from_text(options.seed_lps_mm)
     settings = config_from_options(SettingOptions(config=options.config)).plan
@@ -60,8 +63,15 @@ def measure_in_file(options: MeasureOptions, *, as_json: bool) -> None:
             ct.volume, channel, measure, catalogue, settings.wall_margin_mm, settings.front_margin_mm
         )
     except PlanError as error:
+        if channel is None and options.markups is not None:
+            raise
         # The measurement is valid although no screw fits.
         warnings.append(error.message)
+    if channel is not None and options.markups is not None:
+        lines = [channel_markup(channel)]
+        if screw is not None:
+            lines.append(screw_markup(channel, diameter_mm=screw.diameter_mm, length_mm=screw.length_mm))
+        write_markups(options.markups, lines)
     if as_json:
         typer.echo(json.dumps(_mapping(measure, channel, screw, warnings)))
     else:

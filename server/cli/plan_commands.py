@@ -1,4 +1,4 @@
-"""The commands `coaxial plan measure` and `coaxial plan series`."""
+"""The commands `coaxial plan measure`, `coaxial plan markups` and `coaxial plan series`."""
 
 from pathlib import Path
 from typing import Annotated
@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 plan_app = typer.Typer(
-    help="Plan on a CT: list its series, measure a pedicle.",
+    help="Plan on a CT: list its series, measure a pedicle, write a plan for 3D Slicer.",
     no_args_is_help=True,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
@@ -14,7 +14,7 @@ plan_app = typer.Typer(
 
 @plan_app.callback()
 def plan() -> None:
-    """Plan on a CT: list its series, measure a pedicle."""
+    """Plan on a CT: list its series, measure a pedicle, write a plan for 3D Slicer."""
 
 
 @plan_app.command()
@@ -36,6 +36,12 @@ def measure(
         Path | None,
         typer.Option(help="Settings file; default: ./config.yaml if it exists.", metavar="FILE"),
     ] = None,
+    markups: Annotated[
+        Path | None,
+        typer.Option(
+            help="Also write channel and screw as lines for 3D Slicer (.mrk.json).", metavar="MRK.JSON"
+        ),
+    ] = None,
     json: Annotated[
         bool, typer.Option("--json", help="Write the figures as JSON.", show_default=False)
     ] = False,
@@ -47,8 +53,23 @@ def measure(
     """
     from server.cli.plan import MeasureOptions, measure_in_file  # noqa: PLC0415  loaded when needed
 
-    options = MeasureOptions(ct=ct, side=side, seed_lps_mm=seed_lps_mm, series=series, config=config)
+    options = MeasureOptions(
+        ct=ct, side=side, seed_lps_mm=seed_lps_mm, series=series, config=config, markups=markups
+    )
     measure_in_file(options, as_json=json)
+
+
+@plan_app.command()
+def markups(
+    plan: Annotated[Path, typer.Argument(help="A plan that the page has written.", metavar="PLAN.JSON")],
+    output: Annotated[
+        Path, typer.Option(help="File for 3D Slicer, ending in .mrk.json.", metavar="MRK.JSON")
+    ],
+) -> None:
+    """Write landmarks, channels and screws of a plan for 3D Slicer, in the coordinates of its CT (LPS)."""
+    from server.cli.plan_markups import write_plan_markups  # noqa: PLC0415  loaded when needed
+
+    write_plan_markups(plan, output)
 
 
 @plan_app.command()

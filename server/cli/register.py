@@ -11,6 +11,7 @@ import typer
 
 from server.cli.landmark_rows import LandmarkRows, read_landmarks
 from server.cli.registration_form import finite, registration_form
+from server.cli.registration_transform import write_transform
 from server.config_file import load_config
 from server.point_limits import point_gate, point_settings
 from tracker.errors import InvalidInput, RegistrationError
@@ -38,6 +39,7 @@ class PointsOptions:
     max_left_out_mm: float | None
     max_tre_mm: float | None
     config: Path | None
+    transform: Path | None = None
 
 
 def register_from_files(options: PointsOptions, *, as_json: bool) -> int:
@@ -70,6 +72,7 @@ def register_from_files(options: PointsOptions, *, as_json: bool) -> int:
             typer.echo(f"Note: {remark.message}.\n{remark.remedy}", err=True)
     for failure in failures:
         typer.echo(f"Failed: {failure.message}.\n{failure.remedy}", err=True)
+    write_transform(options.transform, found.fixed_from_moving, passed=not failures)
     return FAILED if failures else 0
 
 

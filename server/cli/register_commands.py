@@ -12,14 +12,19 @@ register_app = typer.Typer(
 )
 
 FixedOption = Annotated[
-    Path, typer.Option("--fixed", help="Landmarks on the CT, one per line: x,y,z in mm.", metavar="CSV")
+    Path,
+    typer.Option(
+        "--fixed",
+        help="Landmarks on the CT, one per line: x,y,z in mm; or markups of 3D Slicer (.mrk.json).",
+        metavar="FILE",
+    ),
 ]
 MovingOption = Annotated[
     Path,
     typer.Option(
         "--moving",
         help="The tip on the same landmarks, in the same order or with the same names.",
-        metavar="CSV",
+        metavar="FILE",
     ),
 ]
 ConfigOption = Annotated[
@@ -49,6 +54,14 @@ MinFleOption = Annotated[
         metavar="MM",
         min=0.01,
         max=20.0,
+    ),
+]
+TransformOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--transform",
+        help="Also write the registration as a transform of ITK (.tfm) for 3D Slicer, if its limits are met.",
+        metavar="TFM",
     ),
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Write the figures as JSON.", show_default=False)]
@@ -94,6 +107,7 @@ def points(
         ),
     ] = None,
     config: ConfigOption = None,
+    transform: TransformOption = None,
     json: JsonOption = False,
 ) -> None:
     """Register by landmarks: print the transform, the residual of each point, and the error at targets.
@@ -114,6 +128,7 @@ def points(
         max_left_out_mm=max_left_out_mm,
         max_tre_mm=max_tre_mm,
         config=config,
+        transform=transform,
     )
     raise typer.Exit(register_from_files(options, as_json=json))
 
@@ -129,7 +144,10 @@ def surface(
     points: Annotated[
         Path,
         typer.Option(
-            "--points", help="Positions of the swept tip, one per line: x,y,z in mm.", metavar="CSV"
+            "--points",
+            help="Positions of the swept tip, one per line: x,y,z in mm; or a point list or curve of 3D "
+            "Slicer (.mrk.json).",
+            metavar="FILE",
         ),
     ],
     fixed: Annotated[
@@ -143,8 +161,9 @@ def surface(
         Path | None,
         typer.Option(
             "--start",
-            help="Initial transform instead of landmarks: JSON with a 4x4 fixed_from_moving.",
-            metavar="JSON",
+            help="Initial transform instead of landmarks: JSON with a 4x4 fixed_from_moving, or a "
+            "transform of ITK (.tfm).",
+            metavar="FILE",
         ),
     ] = None,
     unit: Annotated[
@@ -158,6 +177,7 @@ def surface(
         ),
     ] = 0.0,
     config: ConfigOption = None,
+    transform: TransformOption = None,
     json: JsonOption = False,
 ) -> None:
     """Register points swept over the bone to its mesh, starting from a registration by landmarks.
@@ -177,5 +197,6 @@ def surface(
         targets=tuple(target_mm or ()),
         tip_radius_mm=tip_radius_mm,
         config=config,
+        transform=transform,
     )
     raise typer.Exit(register_sweep(options, as_json=json))

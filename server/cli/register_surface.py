@@ -12,10 +12,12 @@ import typer
 from server.cli.landmark_rows import read_landmarks
 from server.cli.register import FAILED, pairs_of_files, target_from_text
 from server.cli.registration_form import registration_form
+from server.cli.registration_transform import write_transform
 from server.config import RegistrationConfig
 from server.config_file import load_config
 from server.imaging.meshes import read_mesh
 from server.point_limits import point_gate, point_settings
+from server.slicer_file import fixed_from_moving_in_itk, is_itk_name
 from tracker.errors import InvalidInput, RegistrationError
 from tracker.geometry import Anchor, Array, Rigid, Vertebra
 from tracker.plan.remark import Remark
@@ -29,8 +31,8 @@ from tracker.registration.surface import (
 )
 
 START_REMEDY = (
-    "Give landmarks with --fixed and --moving, or a JSON file with a 4x4 matrix with --start, such as the "
-    "output of 'coaxial register points --json'."
+    "Give landmarks with --fixed and --moving, or with --start a transform of ITK (.tfm) or a JSON file "
+    "with a 4x4 matrix, such as the output of 'coaxial register points --json'."
 )
 
 
@@ -47,6 +49,7 @@ class SurfaceOptions:
     targets: Sequence[str]
     tip_radius_mm: float
     config: Path | None
+    transform: Path | None = None
 
 
 def register_sweep(options: SurfaceOptions, *, as_json: bool) -> int:
@@ -82,6 +85,7 @@ def register_sweep(options: SurfaceOptions, *, as_json: bool) -> int:
             typer.echo(f"Note: {remark.message}.\n{remark.remedy}", err=True)
     for failure in failures:
         typer.echo(f"Failed: {failure.message}.\n{failure.remedy}", err=True)
+    write_transform(options.transform, found.fixed_from_moving, passed=not failures)
     return FAILED if failures else 0
 
 
@@ -112,6 +116,8 @@ def _start(
 
 
 def _matrix(path: Path) -> Rigid[Vertebra, Anchor]:
+    if is_itk_name(path.name):
+        return fixed_from_moving_in_itk(_bytes(path), name=str(path))
     try:
         given = json.loads(path.read_text(encoding="utf-8-sig"))
         matrix = np.array(given["fixed_from_moving"] if isinstance(given, dict) else given, dtype=np.float64)
@@ -130,6 +136,18 @@ def _matrix(path: Path) -> Rigid[Vertebra, Anchor]:
             {"file": str(path)},
         )
     return Rigid.from_matrix(matrix)
+
+
+def _bytes(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise InvalidInput(
+            "REGISTRATION_START_INVALID",
+            f"{path} cannot be read: {(error.strerror or str(error)).lower()}",
+            START_REMEDY,
+            {"file": str(path)},
+        ) from error
 
 
 def _mapping(

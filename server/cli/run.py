@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 BACKLOG = 128
 PORT_REMEDY = "Stop the program that uses this port, or choose another port with --port or COAXIAL_PORT."
 HOST_REMEDY = "Set server.host to an address of this computer, for example 127.0.0.1."
+LINK_PORT_REMEDY = "Stop the program that uses this port, or set openigtlink.port to another port."
+LINK_HOST_REMEDY = "Set openigtlink.host to an address of this computer, for example 127.0.0.1."
 log = structlog.get_logger(__name__)
 
 
@@ -45,13 +47,16 @@ def run_dashboard(
         settings = LogSettings.for_terminal(as_json=True if log_json else None, debug=debug)
         configure_logging(settings)
         reject_unsafe(config)
-        _serve(config, settings, _listener(config), stopping, new_operator_link=new_operator_link)
+        listener = _listener(config.server.host, config.server.port)
+        link = _link_listener(config)
+        _serve(config, settings, listener, link, stopping, new_operator_link=new_operator_link)
 
 
 def _serve(
     config: Config,
     settings: LogSettings,
     listener: socket.socket,
+    link: socket.socket | None,
     stopping: StopSignal,
     *,
     new_operator_link: bool,
@@ -105,6 +110,7 @@ def _serve(
                 people=access.people,
                 phone=phone,
                 rehearsed=_rehearsed(config, preparation, tracked),
+                openigtlink=link,
             )
         )
         tracked.publish(check_alarms=alarms.observe, picture_problem=picture_problem_of(app))
@@ -112,7 +118,7 @@ def _serve(
             app,
             listener,
             stopping,
-            on_ready=lambda: _ready(listener, access.startup_lines),
+            on_ready=lambda: _ready(listener, link, access.startup_lines),
             tls=access.tls,
         )
 
@@ -162,7 +168,9 @@ def _rehearsed(
     return RehearsalControl(config.rehearsal, play=tracked.play, played_scene=lambda: tracked.played_scene)
 
 
-def _ready(listener: socket.socket, lines_for: Callable[[str], list[str]]) -> None:
+def _ready(
+    listener: socket.socket, link: socket.socket | None, lines_for: Callable[[str], list[str]]
+) -> None:
     """Print the addresses of the server and how to sign in, and enable garbage collection."""
     # A full collection would look at all modules again: a tenth of a second in which no figure is sent.
     gc.freeze()
@@ -171,13 +179,25 @@ def _ready(listener: socket.socket, lines_for: Callable[[str], list[str]]) -> No
     host, port = listener.getsockname()[:2]
     for line in lines_for(f"{link_name(host)}:{port}"):
         typer.echo(line)
+    if link is not None:
+        host, port = link.getsockname()[:2]
+        typer.echo(f"OpenIGTLink: {link_name(host)}:{port}, without sign-in and encryption")
     typer.echo("Press Ctrl+C to stop")
     sys.stdout.flush()
 
 
-def _listener(config: Config) -> socket.socket:
+def _link_listener(config: Config) -> socket.socket | None:
+    """Return the listening socket of OpenIGTLink; None if it is off."""
+    link = config.openigtlink
+    if link.port is None:
+        return None
+    return _listener(link.host, link.port, port_remedy=LINK_PORT_REMEDY, host_remedy=LINK_HOST_REMEDY)
+
+
+def _listener(
+    host: str, port: int, *, port_remedy: str = PORT_REMEDY, host_remedy: str = HOST_REMEDY
+) -> socket.socket:
     """Return the listening socket. It is bound first, so that a port in use is reported at once."""
-    host, port = config.server.host, config.server.port
     try:
         family, kind, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
         listener = socket.socket(family, kind)
@@ -193,7 +213,7 @@ def _listener(config: Config) -> socket.socket:
         raise ConfigError(
             "HOST_NOT_AVAILABLE" if of_the_host else "PORT_NOT_AVAILABLE",
             f"the server cannot listen on {host}:{port}: {(error.strerror or str(error)).lower()}",
-            HOST_REMEDY if of_the_host else PORT_REMEDY,
+            host_remedy if of_the_host else port_remedy,
             {"host": host, "port": port},
         ) from error
     return listener

@@ -91,6 +91,7 @@ GET     /api/ct/oblique
 GET     /api/plan
 GET     /api/plan/catalogue
 GET     /api/plan/export
+GET     /api/plan/markups
 GET     /api/plan/proposals/screw
 GET     /api/plan/proposals/slice
 GET     /api/plan/vertebrae/{name}/reference.png
@@ -159,6 +160,8 @@ POST    /api/ct/uploads/{upload_id}/series/{series}
 POST    /api/ct/probe
 PUT     /api/plan
 POST    /api/plan/import
+POST    /api/plan/vertebrae/{name}/landmarks/import
+POST    /api/plan/vertebrae/{name}/channels/{side}/import
 POST    /api/plan/vertebrae
 DELETE  /api/plan/vertebrae/{name}
 POST    /api/plan/vertebrae/{name}/pedicles/{side}

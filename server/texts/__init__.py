@@ -18,10 +18,12 @@ from server.texts.camera_note import PREDICTED_VIDEO, CameraNote
 from server.texts.flicker import flicker_note
 from server.texts.headline import Headline, Tone, headline_of
 from server.texts.language import LANGUAGES, Language, Text
+from server.texts.states import STATES
 
 __all__ = [
     "LANGUAGES",
     "PREDICTED_VIDEO",
+    "STATES",
     "AlarmText",
     "CameraNote",
     "Headline",

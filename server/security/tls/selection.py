@@ -38,7 +38,7 @@ def reject_unsafe(config: Config) -> None:
     """Reject unsafe settings; call it before anything is started.
 
     Raises:
-        ConfigError: SIGN_IN_NEEDED, TLS_HALF.
+        ConfigError: SIGN_IN_NEEDED, TLS_HALF, OPENIGTLINK_UNENCRYPTED.
     """
     host, tls = config.server.host, config.server.tls
     if config.security.sign_in == "off" and not is_loopback(_bracketed(host)):
@@ -56,6 +56,16 @@ def reject_unsafe(config: Config) -> None:
             "then everybody who reaches it could move the plan",
             "Set security.sign_in to required, or server.behind_proxy to null.",
             {"behind_proxy": config.server.behind_proxy},
+        )
+    link = config.openigtlink
+    if link.port is not None and link.unencrypted is None and not is_loopback(_bracketed(link.host)):
+        raise ConfigError(
+            "OPENIGTLINK_UNENCRYPTED",
+            f"openigtlink.host is {link.host}, which others reach, and OpenIGTLink has neither encryption "
+            "nor sign-in",
+            "Set openigtlink.host to 127.0.0.1, or openigtlink.unencrypted to exactly 'anybody who reaches "
+            "this port reads the poses'.",
+            {"host": link.host},
         )
     cosign = config.supervision.cosign
     if config.security.sign_in == "off" and "required" in (cosign.plan, cosign.registration):

@@ -70,6 +70,18 @@ def test_without_sign_in_no_other_address_is_served() -> None:
     reject_unsafe(config_of(host="192.0.2.1"))
 
 
+def test_poses_leave_this_computer_unencrypted_only_where_the_settings_say_so_in_words() -> None:
+    shared = {"port": 18944, "host": "192.0.2.1"}
+    with pytest.raises(ConfigError) as reported:
+        reject_unsafe(Config.model_validate({"openigtlink": shared}))
+    assert reported.value.code == "OPENIGTLINK_UNENCRYPTED"
+    said = {**shared, "unencrypted": "anybody who reaches this port reads the poses"}
+    for allowed in (said, {**shared, "port": None}, {"port": 18944}, {"port": 18944, "host": "::1"}):
+        reject_unsafe(Config.model_validate({"openigtlink": allowed}))
+    with pytest.raises(ValueError, match="unencrypted"):
+        Config.model_validate({"openigtlink": {**shared, "unencrypted": "yes"}})
+
+
 @pytest.mark.parametrize("what", ["plan", "registration"])
 def test_nobody_is_a_second_person_where_nobody_signs_in(what: str) -> None:
     required = {"supervision": {"cosign": {what: "required"}}}

@@ -49,6 +49,8 @@ export const auditDe: AuditTexts = {
     "POST /api/ct/probe": "Hat einen Grauwert im CT gelesen",
     "PUT /api/plan": "Hat die Planung ersetzt",
     "POST /api/plan/import": "Hat eine Planung aus einer Datei gelesen",
+    "POST /api/plan/vertebrae/{name}/landmarks/import": "Hat die Landmarken aus einer Datei gelesen",
+    "POST /api/plan/vertebrae/{name}/channels/{side}/import": "Hat einen Kanal aus einer Datei gelesen",
     "POST /api/plan/vertebrae": "Hat einen Wirbel benannt",
     "DELETE /api/plan/vertebrae/{name}": "Hat einen Wirbel aus der Planung genommen",
     "POST /api/plan/vertebrae/{name}/pedicles/{side}": "Hat einen Pedikel vermessen",

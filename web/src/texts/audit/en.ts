@@ -48,6 +48,8 @@ export const auditEn = {
     "POST /api/ct/probe": "Read a grey value of the CT",
     "PUT /api/plan": "Replaced the plan",
     "POST /api/plan/import": "Read a plan from a file",
+    "POST /api/plan/vertebrae/{name}/landmarks/import": "Read the landmarks from a file",
+    "POST /api/plan/vertebrae/{name}/channels/{side}/import": "Read a channel from a file",
     "POST /api/plan/vertebrae": "Named a vertebra",
     "DELETE /api/plan/vertebrae/{name}": "Took a vertebra out of the plan",
     "POST /api/plan/vertebrae/{name}/pedicles/{side}": "Measured a pedicle",

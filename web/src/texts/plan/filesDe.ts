@@ -34,6 +34,7 @@ export const filesDe: FilesTexts = {
     hint: "Die Datei sagt, wer die Planung wann und auf welchem CT gemacht hat. Nichts darin nennt den Patienten.",
     none: "Es gibt noch keine Planung, die sich schreiben ließe.",
     out: "Planung in eine Datei schreiben",
+    outForSlicer: "Für 3D Slicer schreiben",
     in: "Planung einlesen …",
     replaces: "Eine eingelesene Planung ersetzt die gezeigte; Zurück holt sie wieder.",
     otherCt: "Diese Planung entstand auf einem anderen CT",

@@ -32,6 +32,7 @@ export const filesEn = {
     hint: "The file says who made the plan, when, and on which CT. Nothing in it names the patient.",
     none: "There is no plan yet that could be written out.",
     out: "Write the plan to a file",
+    outForSlicer: "Write it for 3D Slicer",
     in: "Take a plan in …",
     replaces: "A plan that is taken in replaces the one that is shown; Undo brings it back.",
     otherCt: "This plan was made on another CT",

@@ -8,8 +8,9 @@ import { usePlanning } from "../state/PlanContext";
 /** The plan out to a file, and in from one. */
 export function FilePart(): ReactNode {
   const texts = useTexts().plan.file;
-  const { plan, change, busy, forget, rejection } = usePlanning();
+  const { plan, vertebrae, change, busy, forget, rejection } = usePlanning();
   const [content, setContent] = useState<{ name: string; text: string } | null>(null);
+  const hasMarkups = vertebrae.some(({ channels, landmarks }) => channels.length + landmarks.length > 0);
   const isOfOtherCt = rejection?.problem.code === "PLAN_OF_ANOTHER_CT";
   const read = (text: string, forOtherCt: boolean): void => {
     void change((by) => {
@@ -33,6 +34,19 @@ export function FilePart(): ReactNode {
       ) : (
         <Button size="xl" fullWidth component="a" href="/api/plan/export" download data-testid="export">
           {texts.out}
+        </Button>
+      )}
+      {plan !== null && plan.heading.current && hasMarkups && (
+        <Button
+          size="xl"
+          fullWidth
+          variant="default"
+          component="a"
+          href="/api/plan/markups"
+          download
+          data-testid="export-markups"
+        >
+          {texts.outForSlicer}
         </Button>
       )}
       <FileButtons

@@ -1,0 +1,31 @@
+"""Messages of OpenIGTLink taken apart, and contents of instants for a feed."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+from server.config import OpenIgtLinkConfig
+from server.openigtlink import wire
+from server.openigtlink.contents import InstantContents, contents_of
+from server.openigtlink.wire import Message
+from tests.server.conftest import make_instant
+from tracker.navigation import NavigationSnapshot
+
+Said = dict[tuple[str, str], object]
+_READ: dict[str, Callable[[bytes], object]] = {
+    "TRANSFORM": wire.transform_of,
+    "POINT": wire.points_of,
+    "STRING": wire.string_of,
+    "STATUS": lambda content: wire.status_of(content).name,
+}
+
+
+def said(messages: Sequence[Message]) -> Said:
+    """What each message says, by type and device; of a status its name."""
+    return {(one.type, one.device): _READ.get(one.type, bytes)(one.content) for one in messages}
+
+
+def contents(snapshot: NavigationSnapshot | None, **more: Any) -> InstantContents:  # noqa: ANN401  fields
+    """The contents of an instant with this snapshot, and with other fields of it."""
+    instant = replace(make_instant(0, snapshot=snapshot), **more)
+    return contents_of(instant, OpenIgtLinkConfig(), language="en")
