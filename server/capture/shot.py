@@ -21,6 +21,7 @@ class Shot:
         source_time_s: the source's own time: a file's timestamp, the theatre's clock; for a live source
             the same as captured_at_s.
         file: name of the image's own file; None where it has none.
+        jpeg: the source's own JPEG, which `decoded` turns into the same image; empty where it has none.
     """
 
     image: npt.NDArray[np.uint8]
@@ -28,6 +29,7 @@ class Shot:
     captured_at_s: float
     source_time_s: float
     file: str | None = None
+    jpeg: bytes = b""
 
 
 class Source(Protocol):
