@@ -33,6 +33,7 @@ from server.api.people import people_router
 from server.api.plan import plan_router
 from server.api.procedure import procedure_router
 from server.api.readout import readout_router
+from server.api.recordings import recordings_router
 from server.api.registration import registration_router
 from server.api.rehearsal import rehearsal_router
 from server.api.requester import set_requester
@@ -50,6 +51,7 @@ from server.loop.rehearsal_control import RehearsalControl
 from server.overlay.panel_readings import RESEARCH_SOFTWARE
 from server.procedure import Steps
 from server.procedure.scene_bone import SceneBone
+from server.recording.service import RecordingService
 from server.scene import mount_scene
 from server.security import HostGuard, KnownHosts, PeopleService, SecurityHeaders, SessionGuard
 from server.store import CaseStore
@@ -85,6 +87,7 @@ class AppParts:
         rehearsed: The rehearsal; None for other sources.
         phone: Receiver of phone images; None for other sources.
         people: Sessions and invitations; None without access control, as in tests.
+        recordings: Recordings of the open case; None without them.
     """
 
     hub: LiveHub
@@ -98,6 +101,7 @@ class AppParts:
     rehearsed: RehearsalControl | None = None
     phone: Receiver | None = None
     people: PeopleService | None = None
+    recordings: RecordingService | None = None
 
 
 def create_app(parts: AppParts) -> FastAPI:
@@ -224,6 +228,9 @@ def _add_supervision(app: FastAPI, parts: AppParts, viewers: Viewers) -> None:
     )
     app.include_router(alarms_router(service, holds))
     app.include_router(room_router(room_hub, viewers))
+    if parts.recordings is not None:
+        room_hub.on_mark = parts.recordings.put_mark
+        app.include_router(recordings_router(parts.recordings))
 
 
 def _add_procedure(app: FastAPI, parts: AppParts) -> None:

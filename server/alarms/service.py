@@ -130,6 +130,13 @@ class AlarmService:
             self._recorder = recorder
             begin(self._evaluation.state, self._clock())
 
+    @property
+    def is_navigating(self) -> bool:
+        """Whether navigation is on."""
+        with self._lock:
+            said = self._facts.navigating
+            return self._evaluation.is_navigating if said is None else said
+
     def set_recording_runs(self, *, runs: bool) -> None:
         """Set whether a recording that should be written is being written."""
         with self._lock:

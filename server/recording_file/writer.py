@@ -159,6 +159,7 @@ class RecordingWriter:
         Raises:
             RecordingError: RECORDING_NOT_WRITTEN; what was written before is readable.
         """
+        self._pending = 0
         try:
             self._guarded(self._writer.finish)
         finally:

@@ -106,6 +106,10 @@ class RecordedTheatre:
         self.now_s += 0.02
         self.alarms.observe(None, SOURCE, RUNNING)
 
+    def answer_state(self) -> None:
+        """Send the state with the next image."""
+        self._needs_state = True
+
     def read(self) -> None:
         """Let the recording read all that is in the ring."""
         if self.recording is not None:
