@@ -34,6 +34,7 @@ from server.api.people import people_router
 from server.api.plan import plan_router
 from server.api.procedure import procedure_router
 from server.api.readout import readout_router
+from server.api.recordings import recordings_router
 from server.api.registration import registration_router
 from server.api.rehearsal import rehearsal_router
 from server.api.requester import set_requester
@@ -52,6 +53,7 @@ from server.openigtlink import OpenIgtLinkServer
 from server.overlay.panel_readings import RESEARCH_SOFTWARE
 from server.procedure import Steps
 from server.procedure.scene_bone import SceneBone
+from server.recording.service import RecordingService
 from server.scene import mount_scene
 from server.security import HostGuard, KnownHosts, PeopleService, SecurityHeaders, SessionGuard
 from server.store import CaseStore
@@ -88,6 +90,7 @@ class AppParts:
         phone: Receiver of phone images; None for other sources.
         people: Sessions and invitations; None without access control, as in tests.
         openigtlink: Listening socket of OpenIGTLink; None if it is off.
+        recordings: Recordings of the open case; None without them.
     """
 
     hub: LiveHub
@@ -102,6 +105,7 @@ class AppParts:
     phone: Receiver | None = None
     people: PeopleService | None = None
     openigtlink: socket.socket | None = None
+    recordings: RecordingService | None = None
 
 
 def create_app(parts: AppParts) -> FastAPI:
@@ -233,6 +237,9 @@ def _add_supervision(app: FastAPI, parts: AppParts, viewers: Viewers) -> None:
     )
     app.include_router(alarms_router(service, holds))
     app.include_router(room_router(room_hub, viewers))
+    if parts.recordings is not None:
+        room_hub.on_mark = parts.recordings.put_mark
+        app.include_router(recordings_router(parts.recordings))
 
 
 def _add_procedure(app: FastAPI, parts: AppParts) -> None:

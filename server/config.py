@@ -347,6 +347,18 @@ class PlanConfig(Section):
     front_margin_mm: Annotated[float, Field(ge=0.0, le=50.0)] = 5.0
 
 
+class RecordingConfig(Section):
+    """Recordings of images, results and alarms in the folder of the case."""
+
+    when: Literal["navigating", "manual", "never"] = "manual"
+    """navigating: from the first figures until navigation ends or the case is closed; manual: when somebody
+    starts it."""
+    max_total_gb: Annotated[float, Field(gt=0.0, le=100_000.0)] = 200
+    """Of all recordings of all cases; a recording that would exceed it is stopped, and nothing is deleted."""
+    min_free_gb: Annotated[float, Field(ge=0.0, le=100_000.0)] = 2
+    """Free space on the disk at which a recording is stopped."""
+
+
 class Config(Section):
     """All settings. Paths are absolute, or relative to the working directory."""
 
@@ -368,3 +380,4 @@ class Config(Section):
     plan: PlanConfig = PlanConfig()
     video: VideoConfig = VideoConfig()
     openigtlink: OpenIgtLinkConfig = OpenIgtLinkConfig()
+    recording: RecordingConfig = RecordingConfig()

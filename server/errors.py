@@ -3,6 +3,7 @@
 tracker.errors.NavigationError
 ├── ConfigError       a setting is invalid                            the server does not start
 ├── CaptureError      the image source delivers no images             HTTP 503, retried automatically
+├── RecordingError    a recording cannot be written or read          it stops; navigation goes on
 └── SetupOrderError   a step is requested before its prerequisite     HTTP 409
 """
 
@@ -19,3 +20,7 @@ class CaptureError(NavigationError):
 
 class SetupOrderError(NavigationError):
     """A step was requested before its prerequisite."""
+
+
+class RecordingError(NavigationError):
+    """A recording cannot be started, written or read."""

@@ -6,28 +6,20 @@ from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from datetime import datetime
 from math import inf
+from typing import TypeAlias
 
 from server.alarms.entries import entry_of
+from server.alarms.evaluation import AlarmCall, AlarmEvaluation, AlarmState, AlarmStep, Circumstances
 from server.alarms.log import AlarmLog, NoLog
 from server.alarms.screens import Screens
 from server.clock import utc_now, utc_text
 from server.config import Config
 from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
 from tracker.navigation import NavigationSnapshot
-from tracker.navigation.alarms import (
-    NOT_KNOWN,
-    QUIET,
-    AlarmEngine,
-    AlarmEvent,
-    AlarmInputHistory,
-    AlarmInputs,
-    AlarmLimits,
-    AlarmSnapshot,
-    Condition,
-    alarm_inputs,
-    update_history,
-)
+from tracker.navigation.alarms import QUIET, AlarmEvent, AlarmLimits, AlarmSnapshot, Condition
 from tracker.navigation.figures import rounded_down, rounded_up
+
+StepRecorder: TypeAlias = Callable[[AlarmStep, AlarmSnapshot], None]
 
 # A clock synchronised by NTP drifts less than this between two updates.
 MAX_CLOCK_DRIFT_S = 0.5
@@ -87,21 +79,21 @@ class AlarmService:
         clock: Callable[[], float] = time.monotonic,
         wall_clock: Callable[[], datetime] = utc_now,
     ) -> None:
-        self._limits = alarm_limits(config)
-        self._put_away_after_s = config.alarms.put_away_after_s
+        self._evaluation = AlarmEvaluation(
+            alarm_limits(config), put_away_after_s=config.alarms.put_away_after_s
+        )
         self._log: AlarmLog = log or NoLog()
         self._clock = clock
         self._wall_clock = wall_clock
         self._lock = threading.Lock()
-        self._engine = AlarmEngine(self._limits)
         self._screens = Screens(lost_after_s=config.alarms.screen_lost_after_s)
-        self._memory = AlarmInputHistory()
-        self._snapshot: NavigationSnapshot | None = None
         self._camera_works = True
         self._tracker_works = True
         self._facts = ProcedureFacts()
         self._hold_requested_by = ""
         self._unix_offset_s = inf
+        self._recorder: StepRecorder | None = None
+        self._records = True
         # Called after a change without an image, so that it is published at once.
         self.on_change: Callable[[], None] = lambda: None
 
@@ -122,20 +114,40 @@ class AlarmService:
         """Update the alarms with a new image, or with None if there is none."""
         with self._lock:
             at_s = self._clock()
-            if snapshot is not None:
-                self._snapshot = snapshot
-                fresh_s = self._limits.camera_silent_after_s
-                self._memory = update_history(self._memory, snapshot, now_s=at_s, fresh_s=fresh_s)
             self._tracker_works = process.state is ProcessState.RUNNING
             # Without the capture process the state of the camera is unknown.
             self._camera_works = source.state is SourceState.RUNNING or not self._tracker_works
-            return self._step(at_s)
+            return self._step(at_s, snapshot)
+
+    def record_steps(
+        self, recorder: StepRecorder | None, begin: Callable[[AlarmState, float], None] = lambda *_: None
+    ) -> None:
+        """Call `begin` with the state and the time, then `recorder` with each step in its order.
+
+        Both are called while the alarms are locked, and must return at once.
+        """
+        with self._lock:
+            self._recorder = recorder
+            begin(self._evaluation.state, self._clock())
+
+    @property
+    def is_navigating(self) -> bool:
+        """Whether navigation is on."""
+        with self._lock:
+            said = self._facts.navigating
+            return self._evaluation.is_navigating if said is None else said
+
+    def set_recording_runs(self, *, runs: bool) -> None:
+        """Set whether a recording that should be written is being written."""
+        with self._lock:
+            self._records = runs
+        self.on_change()
 
     def set_facts(self, facts: ProcedureFacts) -> None:
         """Set the state of the procedure."""
         with self._lock:
             is_current = facts.registration_current and facts.calibration_current
-            if self._memory.navigating and not is_current:
+            if self._evaluation.is_navigating and not is_current:
                 # A document that becomes out of date removes the numbers but does not end navigation.
                 facts = replace(facts, navigating=True)
             self._facts = facts
@@ -151,8 +163,8 @@ class AlarmService:
         """Acknowledge alarms; on the disk only after `log.flush()`."""
         with self._lock:
             at_s = self._clock()
-            named = [alarm.condition for alarm in self._engine.picture.alarms if alarm.number in numbers]
-            picture = self._recorded(self._engine.acknowledge(numbers, by=by, at_s=at_s))
+            named = [alarm.condition for alarm in self._evaluation.picture.alarms if alarm.number in numbers]
+            picture = self._apply(AlarmCall.ACKNOWLEDGE, at_s, numbers=tuple(numbers), by=by)
             if Condition.VIEWER_LOST in named:
                 self._screens.forget_lost()
         self.on_change()
@@ -165,14 +177,14 @@ class AlarmService:
             InvalidInput: ALARM_PAUSE_TOO_LONG.
         """
         with self._lock:
-            picture = self._recorded(self._engine.pause(seconds, by=by, at_s=self._clock()))
+            picture = self._apply(AlarmCall.PAUSE, self._clock(), pause_s=seconds, by=by)
         self.on_change()
         return picture
 
     def resume(self, *, by: str) -> AlarmSnapshot:
         """End the audio pause."""
         with self._lock:
-            picture = self._recorded(self._engine.resume(by=by, at_s=self._clock()))
+            picture = self._apply(AlarmCall.RESUME, self._clock(), by=by)
         self.on_change()
         return picture
 
@@ -199,40 +211,54 @@ class AlarmService:
     def _set_hold(self, requested_by: str, *, by: str) -> AlarmSnapshot:
         with self._lock:
             self._hold_requested_by, at_s = requested_by, self._clock()
-            picture = self._recorded(self._engine.step(self._observed(at_s), at_s), by=by)
+            picture = self._apply(AlarmCall.STEP, at_s, by=by)
         self.on_change()
         return picture
 
-    def _step(self, at_s: float) -> AlarmSnapshot:
-        return self._recorded(self._engine.step(self._observed(at_s), at_s))
+    def _step(self, at_s: float, snapshot: NavigationSnapshot | None = None) -> AlarmSnapshot:
+        return self._apply(AlarmCall.STEP, at_s, snapshot=snapshot)
 
-    def _observed(self, at_s: float) -> AlarmInputs:
-        facts, free_mb = self._facts, self._log.free_mb
-        works = self._camera_works and self._tracker_works
-        seen = alarm_inputs(
-            self._snapshot,
-            self._memory,
-            now_s=at_s,
-            # With a failed camera or tracker no result is current.
-            fresh_s=self._limits.camera_silent_after_s if works else -inf,
-            put_away_after_s=self._put_away_after_s,
-            navigating=facts.navigating,
+    def _apply(
+        self,
+        call: AlarmCall,
+        at_s: float,
+        *,
+        snapshot: NavigationSnapshot | None = None,
+        numbers: tuple[int, ...] = (),
+        pause_s: float = 0.0,
+        by: str = "",
+    ) -> AlarmSnapshot:
+        step = AlarmStep(
+            call=call,
+            at_s=at_s,
+            image_number=None if snapshot is None else snapshot.image_number,
+            circumstances=self._circumstances(at_s),
+            numbers=numbers,
+            pause_s=pause_s,
+            by=by,
         )
-        return replace(
-            seen,
+        picture = self._logged(self._evaluation.apply(step, snapshot), by=by)
+        if self._recorder is not None:
+            self._recorder(step, picture)
+        return picture
+
+    def _circumstances(self, at_s: float) -> Circumstances:
+        facts = self._facts
+        return Circumstances(
             camera_works=self._camera_works,
             tracker_works=self._tracker_works,
+            navigating=facts.navigating,
             registration_current=facts.registration_current,
             calibration_current=facts.calibration_current,
-            check_age_s=NOT_KNOWN if facts.checked_at_s is None else at_s - facts.checked_at_s,
+            checked_at_s=facts.checked_at_s,
             armed_screens=self._screens.armed(at_s),
             lost_screens=self._screens.lost(at_s),
-            free_disk_mb=NOT_KNOWN if free_mb is None else free_mb,
-            recording_runs=facts.recording_runs and self._log.is_well,
+            free_disk_mb=self._log.free_mb,
+            recording_runs=facts.recording_runs and self._records and self._log.is_well,
             hold_requested_by=self._hold_requested_by,
         )
 
-    def _recorded(self, picture: AlarmSnapshot, *, by: str = "") -> AlarmSnapshot:
+    def _logged(self, picture: AlarmSnapshot, *, by: str = "") -> AlarmSnapshot:
         now = self._wall_clock()
         offset_s = now.timestamp() - self._clock()
         # Constant, so that the displayed time of an event does not jump between messages; updated after the
@@ -242,9 +268,9 @@ class AlarmService:
         picture = replace(picture, unix_offset_s=self._unix_offset_s)
         if picture.events:
             events = [replace(one, by=one.by or _doer(one, by)) for one in picture.events]
+            at, newest = utc_text(now), self._evaluation.snapshot
             entries = [
-                entry_of(event, at=utc_text(now), unix_offset_s=self._unix_offset_s, snapshot=self._snapshot)
-                for event in events
+                entry_of(event, at=at, unix_offset_s=self._unix_offset_s, snapshot=newest) for event in events
             ]
             self._log.append(entries)
         return picture

@@ -9,7 +9,7 @@ from fastapi.responses import JSONResponse
 from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from server.errors import CaptureError, SetupOrderError
+from server.errors import CaptureError, RecordingError, SetupOrderError
 from server.jobs import JobUnknown
 from server.security import rejections as door
 from server.store import NotFound, OutOfDateError, StoreConflict, StoreError
@@ -26,6 +26,7 @@ STATUS_OF: dict[type[NavigationError], int] = {
     ChoiceUnknown: 422,
     SetupOrderError: 409,
     CaptureError: 503,
+    RecordingError: 409,
     InvalidInput: 422,
     CalibrationError: 409,
     PlanError: 409,
@@ -38,7 +39,14 @@ STATUS_OF: dict[type[NavigationError], int] = {
     **door.STATUS_OF,
 }
 # Codes with a specific HTTP status.
-STATUS_OF_CODE = {"STORE_FULL": 507, "UPLOAD_TOO_LARGE": 413, "BODY_TOO_LARGE": 413, "BODY_TOO_SLOW": 408}
+STATUS_OF_CODE = {
+    "RECORDING_BUDGET_EXCEEDED": 507,
+    "RECORDING_DISK_FULL": 507,
+    "STORE_FULL": 507,
+    "UPLOAD_TOO_LARGE": 413,
+    "BODY_TOO_LARGE": 413,
+    "BODY_TOO_SLOW": 408,
+}
 
 # After a timeout the connection is closed.
 TIMEOUT = 408

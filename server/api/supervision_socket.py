@@ -9,6 +9,7 @@ Supervisors and the operator may also send `point`, `lift`, `draw`, `extend`, `u
 """
 
 import asyncio
+import json
 
 import structlog
 from pydantic import ValidationError
@@ -76,6 +77,7 @@ async def _talk(websocket: WebSocket, room_hub: RoomHub, viewers: Viewers, here:
         except RoomPolicyViolation as unfair:
             _log.warning("room_misused", by=here.session.person.name, why=str(unfair))
             raise ProtocolViolation(REJECTED, str(unfair)) from unfair
+        room_hub.on_mark(_mark_json(said, here))
         room_hub.notify()
 
     await run_duplex(websocket, viewers, send=send, receive_text=receive_text)
@@ -94,6 +96,13 @@ def _said(text: str) -> ClientMessage:
         return ClientMessage.model_validate_json(text, strict=True)
     except ValidationError as error:
         raise ProtocolViolation(REJECTED, f"not understood: {error.errors()[0]['msg']}"[:120]) from None
+
+
+def _mark_json(said: ClientMessage, here: RoomSubscription) -> str:
+    """Return what was done, and who did it."""
+    person = here.session.person
+    done = said.model_dump(mode="json", exclude_unset=True)
+    return json.dumps({"by": person.name, "role": person.role.value, **done}, ensure_ascii=False)
 
 
 def _do(said: ClientMessage, room_hub: RoomHub, here: RoomSubscription) -> None:

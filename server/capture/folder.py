@@ -20,6 +20,7 @@ from server.live import CameraStatus
 IMAGE_SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp", ".pgm", ".ppm")
 DEFAULT_RATE_HZ = 30.0
 MAX_NAMED = 3
+JPEG_START = b"\xff\xd8\xff"
 
 
 class FolderSource:
@@ -73,7 +74,7 @@ class FolderSource:
                 self._list()
             file = self._files[self._next]
             self._next += 1
-            image = self._decode(file)
+            image, jpeg = self._decode(file)
             if image is not None:
                 break
             # A skipped image keeps its number and time slot.
@@ -88,6 +89,7 @@ class FolderSource:
             captured_at_s=time.monotonic(),
             source_time_s=source_time_s,
             file=file.name,
+            jpeg=jpeg,
         )
         self._number += 1
         self._given += 1
@@ -119,10 +121,10 @@ class FolderSource:
         self._next = 0
         self._given_in_pass = 0
 
-    def _decode(self, file: Path) -> npt.NDArray[np.uint8] | None:
-        """Return the image of a file; None for an unusable one, whose reason is stored."""
+    def _decode(self, file: Path) -> tuple[npt.NDArray[np.uint8] | None, bytes]:
+        """Return the image of a file, and its JPEG if it is one; None for an unusable one."""
         silence_codecs()
-        image = None
+        image, content = None, b""
         try:
             content = file.read_bytes()
             image = decoded(content)
@@ -134,7 +136,7 @@ class FolderSource:
         else:
             # The file may have been replaced since.
             self._reason_from_unusable.pop(file, None)
-        return image
+        return image, content if content.startswith(JPEG_START) else b""
 
     def _empty(self) -> CaptureError:
         return CaptureError(

@@ -200,6 +200,7 @@ class PhoneSource:
             number=self._number,
             captured_at_s=received.captured_at_s,
             source_time_s=received.captured_at_s,
+            jpeg=received.jpeg,
         )
         self._number += 1
         return shot

@@ -22,6 +22,7 @@ class Shot:
             the same as captured_at_s.
         file: name of the image's own file; None where it has none.
         is_predicted: whether it was decoded from video whose images are predicted from earlier ones.
+        jpeg: the source's own JPEG, which `decoded` turns into the same image; empty where it has none.
     """
 
     image: npt.NDArray[np.uint8]
@@ -30,6 +31,7 @@ class Shot:
     source_time_s: float
     file: str | None = None
     is_predicted: bool = False
+    jpeg: bytes = b""
 
 
 class Source(Protocol):

@@ -10,6 +10,7 @@ from server.capture.industrial import BaslerCameras, GenTLCameras, IndustrialCam
 from server.capture.local_camera import CalibratedCamera, LocalCameraSource
 from server.capture.modes import WantedMode
 from server.capture.phone import Inbox, PhoneSource
+from server.capture.recording import RecordingSource
 from server.capture.rehearsal import CameraOutage, PlayedScene, RehearsalSource, Renderer
 from server.capture.shot import Shot, Source
 from server.capture.stream import StreamSource
@@ -17,6 +18,7 @@ from server.capture.video_file import VideoFileSource
 from server.config import CameraConfig, Config
 from server.errors import CaptureError
 from server.live import CameraStatus
+from server.recording_file.topics import SUFFIX as RECORDING_SUFFIX
 
 
 def source_from_config(
@@ -117,7 +119,7 @@ def wanted_mode(camera: CameraConfig) -> WantedMode:
 
 
 class PathSource:
-    """A video file or folder; which one is decided each time it is opened, because it may not exist yet."""
+    """A video file, recording or folder; decided each time it is opened, because it may not exist yet."""
 
     def __init__(
         self, address: SourceAddress, *, config: Config, stop: threading.Event, first_number: int
@@ -130,7 +132,7 @@ class PathSource:
         self._camera = config.camera
         self._stop = stop
         self._number = first_number
-        self._source: VideoFileSource | FolderSource | None = None
+        self._source: VideoFileSource | FolderSource | RecordingSource | None = None
         self._defect: CaptureError | None = None
 
     @property
@@ -141,6 +143,17 @@ class PathSource:
     def open(self) -> None:
         """Open the file or folder."""
         self.close()
+        if self._path.suffix.lower() == RECORDING_SUFFIX and not self._path.is_dir():
+            recording = RecordingSource(
+                self._path,
+                loop=self._camera.loop,
+                fast=self.waits_for_consumer,
+                stop=self._stop,
+                first_number=self._number,
+            )
+            recording.open()
+            self._source = recording
+            return
         kind = FolderSource if self._path.is_dir() else VideoFileSource
         source = kind(
             self._path,

@@ -18,6 +18,7 @@ from server.cli.latency_commands import latency_app
 from server.cli.marker_commands import marker_app
 from server.cli.plan_commands import plan_app
 from server.cli.register_commands import register_app
+from server.cli.replay_commands import replay
 from server.cli.time_offset_commands import time_offset
 from server.cli.tool_commands import pivot, spin, tip_check
 from server.cli.track_help import TRACK_HELP
@@ -49,6 +50,7 @@ app.add_typer(audit_app, name="audit")
 app.add_typer(latency_app, name="latency")
 app.add_typer(register_app, name="register")
 app.command()(verify)
+app.command()(replay)
 
 
 class Rate(StrEnum):
@@ -114,7 +116,8 @@ def run(
     source: Annotated[
         str | None,
         typer.Option(
-            help="rehearsal, a camera number or path, a video file, a stream URL, or a folder of images.",
+            help="rehearsal, a camera number or path, a video file, a recording, a stream URL, or a folder "
+            "of images.",
             metavar="SOURCE",
         ),
     ] = None,

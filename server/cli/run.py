@@ -81,6 +81,7 @@ def _serve(
         from server.app import AppParts, create_app, picture_problem_of  # noqa: PLC0415
         from server.cli.web import serve_until  # noqa: PLC0415
         from server.procedure import Steps  # noqa: PLC0415
+        from server.recording.service import RecordingService  # noqa: PLC0415
 
         phone = _phone(config, preparation, tracked)
         alarm_log = StoredAlarmLog(storage.store)
@@ -97,6 +98,15 @@ def _serve(
             publish_facts=alarms.set_facts,
             tracked_from_s=lambda: tracked.tracks_from_s,
         )
+        recordings = RecordingService(
+            tracked=tracked,
+            alarms=alarms,
+            store=storage.store,
+            config=config,
+            log_settings=settings,
+            product_version=coaxial_version(),
+        )
+        ending.callback(recordings.close)
         app = create_app(
             AppParts(
                 hub=tracked.hub,
@@ -108,11 +118,13 @@ def _serve(
                 surface=preparation.surface,
                 alarms=alarms,
                 people=access.people,
+                recordings=recordings,
                 phone=phone,
                 rehearsed=_rehearsed(config, preparation, tracked),
                 openigtlink=link,
             )
         )
+        recordings.follow()
         tracked.publish(check_alarms=alarms.observe, picture_problem=picture_problem_of(app))
         serve_until(
             app,

@@ -27,6 +27,9 @@ class Report:
         problem: why it cannot track although it runs; None otherwise.
         tracked_images: number of images that this process has reported.
         played_scene: scene of the rehearsal; None for every other source.
+        state: number of the state of tracking before this image, in the ring; 0 where none was stored, -1
+            where it could not be.
+        is_predicted: whether the image comes from video that predicts its images.
     """
 
     source: SourceStatus
@@ -34,6 +37,8 @@ class Report:
     problem: Problem | None = None
     tracked_images: int = 0
     played_scene: PlayedScene | None = None
+    state: int = 0
+    is_predicted: bool = False
 
 
 class ReportPacker:

@@ -3,6 +3,9 @@
 A few slots, one writer, readers that take the newest. The writer never waits for a reader, and increments a
 slot's counter before and after a write (a seqlock), so that a reader detects an overwritten slot and takes a
 newer one instead of a torn image. The memory is anonymous: it is freed with the last process that uses it.
+
+A recorder reads every entry in order (`next_after`); it misses those that are overwritten before it comes to
+them. With more slots it may be late for longer; the memory of a slot is taken at its first use.
 """
 
 import contextlib
@@ -20,16 +23,22 @@ import numpy.typing as npt
 from server.errors import CaptureError
 
 SLOTS = 4
+# Half a second of 30 images, for a reader of low priority that needs all of them.
+RECORDED_SLOTS = 16
 PAYLOAD_BYTES = 256 * 1024
 # 8K. Pages are allocated at the first write, so a small image costs little.
 IMAGE_BYTES = 7680 * 4320 * 3
+# The image as the source sent it: a JPEG. A larger one is left out, and read as pixels only.
+ENCODED_BYTES = 8 * 2**20
+# Once in a ring, and rarely written: the state of tracking before an image.
+STATE_BYTES = 64 * 2**20
 PAGE_BYTES = mmap.ALLOCATIONGRANULARITY
 READ_ATTEMPTS = 8
 
 # Fields of a slot's header, in 8-byte words.
-LOCK, SEQUENCE, HEIGHT, WIDTH, PAYLOAD_LENGTH = range(5)
+LOCK, SEQUENCE, HEIGHT, WIDTH, PAYLOAD_LENGTH, ENCODED_LENGTH = range(6)
 # Fields of the ring's header.
-WRITTEN_AT_US, IMAGES = range(2)
+WRITTEN_AT_US, IMAGES, STATE_LOCK, STATE_LENGTH = range(4)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,29 +49,46 @@ class Entry:
         sequence: number of the entry, from 1.
         payload: bytes written with the image.
         image: (h, w, 3), a copy; None without an image.
+        encoded: the JPEG from which the image was decoded; empty where there is none, or where it was not
+            asked for.
     """
 
     sequence: int
     payload: bytes
     image: npt.NDArray[np.uint8] | None
+    encoded: bytes = b""
 
 
 class ImageRing:
     """Newest wins, never torn. One writer; passed to a child process as an argument."""
 
     def __init__(
-        self, *, slots: int = SLOTS, image_bytes: int = IMAGE_BYTES, payload_bytes: int = PAYLOAD_BYTES
+        self,
+        *,
+        slots: int = SLOTS,
+        image_bytes: int = IMAGE_BYTES,
+        payload_bytes: int = PAYLOAD_BYTES,
+        state_bytes: int = STATE_BYTES,
     ) -> None:
         self._slots = slots
         self._image_bytes = image_bytes
         self._payload_bytes = payload_bytes
+        self._state_bytes = state_bytes
+        # No JPEG is larger than its pixels.
+        self._encoded_bytes = min(ENCODED_BYTES, image_bytes)
         # Payloads and images of a slot each start on a page.
-        self._slot_bytes = _whole_pages(PAGE_BYTES + payload_bytes + image_bytes)
-        self._fd: int = _anonymous_memory(PAGE_BYTES + slots * self._slot_bytes)
+        self._slot_bytes = _whole_pages(PAGE_BYTES + payload_bytes + image_bytes + self._encoded_bytes)
+        self._fd: int = _anonymous_memory(self._total_bytes)
         self._map_memory()
 
-    def write(self, payload: bytes, image: npt.NDArray[np.uint8] | None = None) -> None:
-        """Write a payload, and an image (h, w, 3) if any, over the oldest slot.
+    @property
+    def _total_bytes(self) -> int:
+        return PAGE_BYTES + self._slots * self._slot_bytes + _whole_pages(self._state_bytes)
+
+    def write(
+        self, payload: bytes, image: npt.NDArray[np.uint8] | None = None, *, encoded: bytes = b""
+    ) -> None:
+        """Write a payload, and an image (h, w, 3) if any with its JPEG, over the oldest slot.
 
         Raises:
             CaptureError: IMAGE_TOO_LARGE.
@@ -86,6 +112,10 @@ class ImageRing:
         head[PAYLOAD_LENGTH] = len(payload)
         self._payloads[slot][: len(payload)] = np.frombuffer(payload, dtype=np.uint8)
         head[HEIGHT], head[WIDTH] = (0, 0) if image is None else image.shape[:2]
+        fits = len(encoded) <= self._encoded_bytes
+        head[ENCODED_LENGTH] = len(encoded) if fits else 0
+        if encoded and fits:
+            self._encoded[slot][: len(encoded)] = np.frombuffer(encoded, dtype=np.uint8)
         if image is not None:
             pixels = self._images[slot][: image.nbytes].reshape(image.shape)
             np.copyto(pixels, image)
@@ -106,6 +136,43 @@ class ImageRing:
             if entry is not None and int(self._heads[slot][LOCK]) == lock:
                 return entry
         return None
+
+    def next_after(self, after: int) -> Entry | None:
+        """Return the oldest entry with a sequence above `after` that is still there; None without one.
+
+        It has the JPEG, where there is one. A gap in the sequence is what was overwritten.
+        """
+        for _ in range(READ_ATTEMPTS):
+            found = [
+                whole for whole in map(self._stable_slot, range(self._slots)) if whole and whole[0] > after
+            ]
+            if not found:
+                return None
+            sequence, slot, lock = min(found)
+            entry = self._copied(slot, sequence, with_encoded=True)
+            if entry is not None and int(self._heads[slot][LOCK]) == lock:
+                return entry
+        return None
+
+    def write_state(self, content: bytes) -> int:
+        """Store the state of tracking in place of the one before; return its number, 0 if it is too large.
+
+        A report with this number is written after it.
+        """
+        if len(content) > self._state_bytes:
+            return 0
+        self._head[STATE_LOCK] += 1
+        self._head[STATE_LENGTH] = len(content)
+        self._state[: len(content)] = np.frombuffer(content, dtype=np.uint8)
+        self._head[STATE_LOCK] += 1
+        return int(self._head[STATE_LOCK])
+
+    def state(self, number: int) -> bytes | None:
+        """Return the state with this number; None if it was replaced."""
+        if int(self._head[STATE_LOCK]) != number:
+            return None
+        content = self._state[: int(self._head[STATE_LENGTH])].tobytes()
+        return content if int(self._head[STATE_LOCK]) == number else None
 
     @property
     def written_at_s(self) -> float:
@@ -134,28 +201,32 @@ class ImageRing:
         lock = int(head[LOCK])
         return None if lock % 2 else (int(head[SEQUENCE]), slot, lock)
 
-    def _copied(self, slot: int, sequence: int) -> Entry | None:
+    def _copied(self, slot: int, sequence: int, *, with_encoded: bool = False) -> Entry | None:
         """Return a copy of a slot; None if its header is invalid because it is being written."""
         head = self._heads[slot]
         height, width, length = int(head[HEIGHT]), int(head[WIDTH]), int(head[PAYLOAD_LENGTH])
-        size = height * width * 3
-        if length > self._payload_bytes or size > self._image_bytes:
+        size, encoded_length = height * width * 3, int(head[ENCODED_LENGTH]) if with_encoded else 0
+        if length > self._payload_bytes or size > self._image_bytes or encoded_length > self._encoded_bytes:
             return None
         payload = self._payloads[slot][:length].tobytes()
         image = self._images[slot][:size].reshape(height, width, 3).copy() if size else None
-        return Entry(sequence=sequence, payload=payload, image=image)
+        encoded = self._encoded[slot][:encoded_length].tobytes()
+        return Entry(sequence=sequence, payload=payload, image=image, encoded=encoded)
 
     def _map_memory(self) -> None:
-        memory = mmap.mmap(self._fd, PAGE_BYTES + self._slots * self._slot_bytes)
+        memory = mmap.mmap(self._fd, self._total_bytes)
         words = np.frombuffer(memory, dtype=np.int64)
         pixels = np.frombuffer(memory, dtype=np.uint8)
-        self._head = words[:2]
+        self._head = words[:4]
         starts = [PAGE_BYTES + slot * self._slot_bytes for slot in range(self._slots)]
-        self._heads = [words[start // 8 : start // 8 + 5] for start in starts]
+        self._heads = [words[start // 8 : start // 8 + 6] for start in starts]
         self._payloads = [pixels[start + PAGE_BYTES :][: self._payload_bytes] for start in starts]
         self._images = [
             pixels[start + PAGE_BYTES + self._payload_bytes :][: self._image_bytes] for start in starts
         ]
+        behind = PAGE_BYTES + self._payload_bytes + self._image_bytes
+        self._encoded = [pixels[start + behind :][: self._encoded_bytes] for start in starts]
+        self._state = pixels[PAGE_BYTES + self._slots * self._slot_bytes :][: self._state_bytes]
         self._sequence = max(int(head[SEQUENCE]) for head in self._heads)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -165,6 +236,8 @@ class ImageRing:
             "slots": self._slots,
             "image_bytes": self._image_bytes,
             "payload_bytes": self._payload_bytes,
+            "state_bytes": self._state_bytes,
+            "encoded_bytes": self._encoded_bytes,
             "slot_bytes": self._slot_bytes,
         }
 
@@ -172,7 +245,8 @@ class ImageRing:
         self._fd = state["fd"].detach()
         self._slots, self._image_bytes = state["slots"], state["image_bytes"]
         self._payload_bytes = state["payload_bytes"]
-        self._slot_bytes = state["slot_bytes"]
+        self._slot_bytes, self._encoded_bytes = state["slot_bytes"], state["encoded_bytes"]
+        self._state_bytes = state["state_bytes"]
         self._map_memory()
 
 

@@ -22,9 +22,10 @@ import structlog
 from server.live import Problem, ProcessState, ProcessStatus
 from server.loop.compiling import Progress, progress
 from server.loop.forks import exit_text, forking_context
-from server.loop.ring import ImageRing
+from server.loop.ring import SLOTS, ImageRing
 from server.loop.shared_status import SharedStatus
 from server.loop.staging import SceneOrder
+from server.loop.tracking_state import StateRequest
 from server.loop.worker import WorkerLink, WorkerOrder, run_worker
 from server.setup import CaseSetup
 
@@ -67,7 +68,9 @@ class Supervisor:
         target: Target = run_worker,
         clock: Callable[[], float] = time.monotonic,
         compiled: Callable[[], Progress] = progress,
+        slots: int = SLOTS,
     ) -> None:
+        self._slots = slots
         self._compiled = compiled
         self._order = order
         self._status = status
@@ -113,7 +116,13 @@ class Supervisor:
             self._order = replace(self._order, scene=scene)
             self._send(scene)
 
-    def _send(self, order: CaseSetup | SceneOrder) -> None:
+    def record(self, *, is_recording: bool) -> None:
+        """Request the state before the next image, and after each change and restart. From any thread."""
+        with self._orders_lock:
+            self._order = replace(self._order, is_recording=is_recording)
+            self._send(StateRequest(is_recording=is_recording))
+
+    def _send(self, order: CaseSetup | SceneOrder | StateRequest) -> None:
         if self._orders is not None:
             # A process that is ending is followed by one that gets it with its order.
             with contextlib.suppress(OSError):
@@ -156,7 +165,7 @@ class Supervisor:
 
     def _run_once(self) -> Problem:
         """Start a process, monitor it to its end, and return how it ended."""
-        ring = ImageRing()
+        ring = ImageRing(slots=self._slots)
         order_reader, orders = self._context.Pipe(duplex=False)
         link = WorkerLink(ring=ring, notice=self._status.notice, orders=order_reader)
         with self._orders_lock:

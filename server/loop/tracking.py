@@ -51,6 +51,16 @@ class Tracking:
         return self._size_problem or (_changed_problem(self._changes[0]) if self._changes else None)
 
     @property
+    def preparation(self) -> Preparation:
+        """The setup in use."""
+        return self._preparation
+
+    @property
+    def setup(self) -> Setup | None:
+        """What navigation is configured with; None before the first image of a case."""
+        return self._setup
+
+    @property
     def calibrated_camera(self) -> CalibratedCamera | None:
         """Camera settings for which the calibration in use is valid; None without a calibration."""
         return self._preparation.calibrated_camera
@@ -79,7 +89,7 @@ class Tracking:
         height, width = shot.image.shape[:2]
         started_s = clock()
         if self._setup is None or self._setup.camera.size_wh_px != (width, height):
-            self._prepare((width, height), shot.captured_at_s)
+            self.prepare((width, height), shot.captured_at_s)
         setup, tracker = self._setup, self._tracker
         if setup is None or tracker is None:
             raise RuntimeError("no setup was made")
@@ -110,7 +120,8 @@ class Tracking:
         }
         return dataclasses.replace(snapshot, stage_ms=stage_ms)
 
-    def _prepare(self, size_wh_px: tuple[int, int], at_s: float) -> None:
+    def prepare(self, size_wh_px: tuple[int, int], at_s: float) -> None:
+        """Set up for images of this size, the first of which is captured at `at_s`."""
         self._size_problem = None
         try:
             setup = self._preparation.setup_for(size_wh_px)

@@ -10,7 +10,8 @@ from server.live import LiveHub, Problem
 from server.logs import LogSettings
 from server.loop.phone_inbox import PhoneInbox
 from server.loop.publisher import AlarmCheck, Publisher
-from server.loop.shared_status import SharedStatus
+from server.loop.ring import RECORDED_SLOTS, SLOTS
+from server.loop.shared_status import ProcessView, SharedStatus
 from server.loop.staging import SceneOrder
 from server.loop.supervisor import Supervisor, WatchdogSettings
 from server.loop.worker import WorkerOrder
@@ -31,7 +32,8 @@ class TrackingSystem:
         self.inbox = PhoneInbox() if source.kind is SourceKind.PHONE else None
         self._status = SharedStatus(source.name)
         order = WorkerOrder(config=config, log=log, inbox=self.inbox)
-        self._supervisor = Supervisor(order=order, status=self._status, watchdog=watchdog)
+        slots = SLOTS if config.recording.when == "never" else RECORDED_SLOTS
+        self._supervisor = Supervisor(order=order, status=self._status, watchdog=watchdog, slots=slots)
         self._publisher: Publisher | None = None
 
     @property
@@ -62,6 +64,15 @@ class TrackingSystem:
     def adopt(self, case: CaseSetup) -> None:
         """Use the data of this case, from the next image on and after restarts. From any thread."""
         self._supervisor.adopt(case)
+
+    def record(self, *, is_recording: bool) -> None:
+        """Let the tracking process send its state, as a recording needs it. From any thread."""
+        self._supervisor.record(is_recording=is_recording)
+
+    @property
+    def current(self) -> ProcessView:
+        """The tracking process with its ring."""
+        return self._status.current
 
     @property
     def tracks_from_s(self) -> float:

@@ -34,6 +34,7 @@ from server.loop.ring import ImageRing
 from server.loop.staging import SceneOrder, Staging
 from server.loop.still_files import StillFiles
 from server.loop.tracking import Tracking
+from server.loop.tracking_state import StateRequest, tracking_state_bytes
 from server.setup import CaseSetup, Preparation, build_setup
 from tracker.errors import NavigationError
 
@@ -60,6 +61,7 @@ class WorkerOrder:
         skipped_before: number of images skipped before.
         scene: scene of the rehearsal in place of the settings'; None if no other was ordered.
         inbox: images of a phone; None for every other source.
+        is_recording: whether a recording runs, which needs the state before the first image.
     """
 
     config: Config
@@ -69,6 +71,7 @@ class WorkerOrder:
     skipped_before: int = 0
     scene: SceneOrder | None = None
     inbox: PhoneInbox | None = None
+    is_recording: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,8 +81,8 @@ class WorkerLink:
     Attributes:
         ring: reports and images to the server.
         notice: one byte per report wakes the server; never blocks.
-        orders: from the server: a `CaseSetup` when the open case changes, a `SceneOrder` for another scene;
-            closed to end the process.
+        orders: from the server: a `CaseSetup` when the open case changes, a `SceneOrder` for another scene, a
+            `StateRequest` of a recording; closed to end the process.
     """
 
     ring: ImageRing
@@ -89,7 +92,11 @@ class WorkerLink:
 
     def send(self, report: Report, shot: Shot | None = None) -> None:
         """Write a report, and wake the server."""
-        self.ring.write(self._packer.pack(report), None if shot is None else shot.image)
+        content = self._packer.pack(report)
+        if shot is None:
+            self.ring.write(content)
+        else:
+            self.ring.write(content, shot.image, encoded=shot.jpeg)
         # A full pipe wakes the server anyway.
         with contextlib.suppress(BlockingIOError):
             os.write(self.notice.fileno(), b".")
@@ -116,6 +123,37 @@ class LatestValue(Generic[Value]):
 
 LatestCase: TypeAlias = LatestValue[CaseSetup]
 LatestScene: TypeAlias = LatestValue[SceneOrder]
+LatestRequest: TypeAlias = LatestValue[StateRequest]
+
+
+class StateSender:
+    """Stores the state of tracking in the ring where a recording needs it.
+
+    Args:
+        ring: of the reports.
+        requests: of the recording.
+        is_recording: whether one runs from the beginning.
+    """
+
+    def __init__(self, ring: ImageRing, requests: LatestRequest, *, is_recording: bool) -> None:
+        self._ring = ring
+        self._requests = requests
+        self._is_recording = self._is_due = is_recording
+
+    def note_changed_case(self) -> None:
+        """The state does not follow from the one before."""
+        self._is_due = self._is_recording
+
+    def store(self, tracking: Tracking) -> int:
+        """Store the state before the next image if it is due; return `Report.state`."""
+        request = self._requests.take()
+        if request is not None:
+            self._is_recording = self._is_due = request.is_recording
+        if not self._is_due:
+            return 0
+        self._is_due = False
+        content = tracking_state_bytes(tracking)
+        return (self._ring.write_state(content) if content else 0) or -1
 
 
 def run_worker(order: WorkerOrder, link: WorkerLink) -> None:
@@ -126,15 +164,26 @@ def run_worker(order: WorkerOrder, link: WorkerLink) -> None:
     os.set_blocking(link.notice.fileno(), False)
     cv2.setNumThreads(OPENCV_THREADS)
     stop = threading.Event()
-    newest, scenes = LatestCase(), LatestScene()
-    listening = (link.orders, newest, scenes, stop)
+    newest, scenes, requests = LatestCase(), LatestScene(), LatestRequest()
+    listening = (link.orders, newest, scenes, requests, stop)
     threading.Thread(target=_listen, args=listening, name="orders", daemon=True).start()
     try:
         preparation = build_setup(_config_of(order))
         source, staging = _staged(order, preparation, stop)
         tracking = Tracking(preparation)
         tracking.adopt(order.case)
-        work(order, link, stop, source, tracking, newest=newest, scenes=scenes, staging=staging)
+        states = StateSender(link.ring, requests, is_recording=order.is_recording)
+        work(
+            order,
+            link,
+            stop,
+            source,
+            tracking,
+            newest=newest,
+            scenes=scenes,
+            staging=staging,
+            states=states,
+        )
     except BrokenPipeError:
         # The server is gone.
         os._exit(0)
@@ -190,6 +239,7 @@ def work(
     newest: LatestCase,
     scenes: LatestScene | None = None,
     staging: Staging | None = None,
+    states: StateSender | None = None,
     clock: Callable[[], float] = time.monotonic,
 ) -> None:
     """Track the newest image of the source until `stop` is set."""
@@ -209,6 +259,8 @@ def work(
         case = newest.take()
         if case is not None:
             tracking.adopt(case)
+            if states is not None:
+                states.note_changed_case()
             if isinstance(source, LocalCameraSource | IndustrialCameraSource):
                 source.adopt(tracking.calibrated_camera)
         scene = None if scenes is None else scenes.take()
@@ -220,6 +272,9 @@ def work(
         if shot is None:
             link.send(replace(report, problem=problem, tracked_images=tracked))
             continue
+        if states is not None:
+            report = replace(report, state=states.store(tracking))
+        report = replace(report, is_predicted=shot.is_predicted)
         try:
             camera = report.source.camera
             snapshot = tracking.process(
@@ -239,13 +294,21 @@ def work(
     capture.close(STOP_GRACE_S)
 
 
-def _listen(orders: Connection, newest: LatestCase, scenes: LatestScene, stop: threading.Event) -> None:
+def _listen(
+    orders: Connection,
+    newest: LatestCase,
+    scenes: LatestScene,
+    requests: LatestRequest,
+    stop: threading.Event,
+) -> None:
     """Pass on the server's messages; end this process when the server closes its end of the pipe."""
     with contextlib.suppress(EOFError, OSError):
         while True:
             message = orders.recv()
             if isinstance(message, SceneOrder):
                 scenes.put(message)
+            elif isinstance(message, StateRequest):
+                requests.put(message)
             else:
                 newest.put(message)
     stop.set()

@@ -62,6 +62,9 @@ GET     /api/audit/export
 GET     /api/alarms/log
 GET     /api/rehearsal
 GET     /api/rehearsal/ct
+GET     /api/recordings
+GET     /api/recordings/state
+GET     /api/recordings/{name}/file
 GET     /api/cases
 GET     /api/cases/{case_id}
 GET     /api/cases/{case_id}/documents
@@ -128,6 +131,10 @@ DELETE  /api/people/invitations/{invitation_id}
 DELETE  /api/people/sessions/{session_id}
 PUT     /api/rehearsal
 POST    /api/procedure/confirmation
+POST    /api/recordings/start
+POST    /api/recordings/stop
+PUT     /api/recordings/{name}/protection
+DELETE  /api/recordings/{name}
 POST    /api/cases
 POST    /api/cases/archive
 PATCH   /api/cases/{case_id}
@@ -208,6 +215,7 @@ NOT_AUDITED = "POST    /api/alarms/screens"
 AUDITED = """
 GET     /api/cases/{case_id}/archive
 GET     /api/audit/export
+GET     /api/recordings/{name}/file
 """
 # Executed even if the audit log cannot be written: alarms, and what frees space on a full disk.
 URGENT = """
@@ -222,6 +230,8 @@ POST    /api/alarms/screens
 POST    /api/alarms/hold
 POST    /api/alarms/release
 POST    /api/cases/{case_id}/deletion
+POST    /api/recordings/stop
+DELETE  /api/recordings/{name}
 DELETE  /api/registration/points
 DELETE  /api/registration/check
 """

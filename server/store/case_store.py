@@ -132,6 +132,10 @@ class CaseStore:
             self._database.reject_in_use(case_id)
             cases.mark_deleting(session, case_id)
 
+    def in_use(self, case_id: str) -> AbstractContextManager[None]:
+        """Return a context manager that prevents the deletion of a case."""
+        return self._database.in_use(case_id)
+
     # ------------------------------------------------------------ documents
 
     def put(

@@ -8,6 +8,7 @@ from sqlalchemy import select
 from server.store.case_database import CaseDatabase
 from server.store.errors import StoreError, translate_errors
 from server.store.files import UNFINISHED, discard
+from server.store.home import RECORDINGS
 from server.store.tables import PRESENT, WRITING, CaseRow, FileRow
 
 log = structlog.get_logger(__name__)
@@ -69,7 +70,7 @@ def _log_strays(database: CaseDatabase) -> None:
             strays += [
                 f"{folder.name}/{file.name}"
                 for file in folder.iterdir()
-                if (folder.name, file.name.removeprefix(UNFINISHED)) not in known
+                if file.name != RECORDINGS and (folder.name, file.name.removeprefix(UNFINISHED)) not in known
             ]
     if strays:
         log.warning(

@@ -16,6 +16,8 @@ from server.store.errors import StoreError, translate_errors
 
 # Patient data is accessible to the user who runs the server only.
 PRIVATE = 0o700
+# In the folder of a case, beside its files; see `server.recording`.
+RECORDINGS = "recordings"
 RESERVE_BYTES = 2**20
 # Errors of file systems without locks, such as some network disks and container volumes.
 WITHOUT_LOCKS = frozenset({errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP})
@@ -89,6 +91,11 @@ class Home:
         """
         with translate_errors(self.folder):
             reject_without_space(self.folder, needed_bytes)
+
+    def free_bytes(self) -> int:
+        """Return the free space on the disk."""
+        with translate_errors(self.folder):
+            return shutil.disk_usage(self.folder).free
 
     def close(self) -> None:
         """Unlock the folder."""

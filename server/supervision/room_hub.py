@@ -49,6 +49,8 @@ class RoomHub:
         fades_after_s: float,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
+        # Called with each accepted mark as JSON; must return at once.
+        self.on_mark: Callable[[str], None] = lambda _: None
         self.room = Room(fades_after_s=fades_after_s)
         self._hub = hub
         self._holds = holds

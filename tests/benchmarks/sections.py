@@ -19,6 +19,7 @@ from tests.benchmarks.offline import OfflineRun, measure_offline, times_s
 from tests.benchmarks.options import BenchmarkOptions
 from tests.benchmarks.overlay import measure_overlay
 from tests.benchmarks.pedicles import measure_pedicles
+from tests.benchmarks.recording import measure_recording
 from tests.benchmarks.running_server import running_server
 from tests.benchmarks.scenes.rigs import RIGS
 from tests.benchmarks.section_result import SectionResult
@@ -158,4 +159,5 @@ SECTIONS: dict[str, Callable[[BenchmarkOptions], SectionResult]] = {
     "ct": measure_ct,
     "calibration": measure_calibration,
     "pedicles": measure_phantoms,
+    "recording": measure_recording,
 }

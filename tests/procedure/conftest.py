@@ -22,6 +22,7 @@ from server.logs import LogSettings
 from server.procedure import Steps
 from server.setup import CaseSetup, Preparation, build_setup
 from server.store import CaseStore, Home
+from tests.server.recording.no_recorder import recordings_without_process
 from tracker.geometry import Rigid, rotation_from_vector
 from tracker.navigation import Absent, AbsentReason, NavigationSnapshot, navigate
 from tracker.pose import Seen, Unseen, UnseenReason
@@ -128,7 +129,10 @@ def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> 
             publish_setup=adopted.append,
             tracked_from_s=lambda: tracked_from_s[-1],
         )
-        app = create_app(AppParts(hub=hub, config=config, store=store, jobs=jobs, steps=steps))
+        recordings = recordings_without_process(store, config)
+        app = create_app(
+            AppParts(hub=hub, config=config, store=store, jobs=jobs, steps=steps, recordings=recordings)
+        )
         with TestClient(app, base_url="http://127.0.0.1:8000", raise_server_exceptions=False) as door:
             yield Server(
                 door=door,

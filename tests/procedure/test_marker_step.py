@@ -72,7 +72,7 @@ def test_tracking_looks_for_it_from_the_next_image_on(server: Server) -> None:
     send(server)
     tracking = Tracking(server.preparation)
     tracking.adopt(server.adopted[-1])
-    tracking._prepare((320, 240), 0.0)
+    tracking.prepare((320, 240), 0.0)
     assert tracking._tracker is not None
     sightings = tracking._tracker.step(np.zeros((240, 320), dtype=np.uint8), captured_at_s=0.0)
     assert set(sightings) == {"drill", "awl"}

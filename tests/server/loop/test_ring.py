@@ -153,3 +153,35 @@ def test_a_write_that_begins_between_two_looks_at_the_head_is_noticed(
 
     monkeypatch.setattr(ring, "_stable_slot", looked_at_then_written)
     assert ring.newest() is None
+
+
+def test_a_reader_in_order_misses_only_what_was_overwritten(ring: ImageRing) -> None:
+    assert ring.next_after(0) is None
+    for number in range(1, 7):
+        ring.write(b"n%d" % number, image(number), encoded=b"j%d" % number)
+    read: list[tuple[int, bytes]] = []
+    while (entry := ring.next_after(read[-1][0] if read else 0)) is not None:
+        assert entry.image is not None
+        assert np.array_equal(entry.image, image(entry.sequence))
+        read.append((entry.sequence, entry.encoded))
+    # Four slots: the first two are gone.
+    assert read == [(3, b"j3"), (4, b"j4"), (5, b"j5"), (6, b"j6")]
+    newest = ring.newest()
+    assert newest is not None
+    assert newest.encoded == b""
+
+
+def test_a_jpeg_that_does_not_fit_is_left_out(ring: ImageRing) -> None:
+    ring.write(b"n", image(1), encoded=b"x" * (600 * 600 * 3 + 1))
+    entry = ring.next_after(0)
+    assert entry is not None
+    assert entry.encoded == b""
+    assert entry.image is not None
+
+
+def test_a_state_is_read_until_another_replaces_it(ring: ImageRing) -> None:
+    first = ring.write_state(b"one")
+    assert ring.state(first) == b"one"
+    second = ring.write_state(b"two, longer")
+    assert ring.state(first) is None
+    assert ring.state(second) == b"two, longer"

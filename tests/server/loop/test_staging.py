@@ -14,7 +14,7 @@ from server.loop.rehearsal_control import RehearsalControl
 from server.loop.shared_status import SharedStatus
 from server.loop.staging import SceneOrder, Staging
 from server.loop.supervisor import Supervisor
-from server.loop.worker import LatestCase, LatestScene, WorkerOrder, _listen
+from server.loop.worker import LatestCase, LatestRequest, LatestScene, WorkerOrder, _listen
 from server.setup import CaseSetup, build_setup
 from server.theatre import theatre_from_config
 from tests.server.loop.fake_workers import steady_worker
@@ -84,7 +84,7 @@ def test_scenes_and_cases_arrive_where_they_belong(monkeypatch: pytest.MonkeyPat
     reported.send(CaseSetup())
     reported.send(SceneOrder(number=5, rehearsal=SMALL))
     reported.close()
-    _listen(heard, cases, scenes, stop)
+    _listen(heard, cases, scenes, LatestRequest(), stop)
     scene = scenes.take()
     assert cases.take() == CaseSetup()
     assert scene is not None

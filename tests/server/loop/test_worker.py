@@ -114,8 +114,8 @@ class KeptRing(ImageRing):
         self._unpacker = ReportUnpacker()
         self.ended = threading.Event()
 
-    def write(self, note: bytes, image: np.ndarray | None = None) -> None:
-        super().write(note, image)
+    def write(self, note: bytes, image: np.ndarray | None = None, *, encoded: bytes = b"") -> None:
+        super().write(note, image, encoded=encoded)
         report = self._unpacker.unpack(note)
         self.reports.append(report)
         if report.source.state is SourceState.ENDED:

@@ -20,6 +20,7 @@ from server.procedure import Steps
 from server.security import AuditLog, PeopleService, Role
 from server.security.people.service import NewInvitation
 from server.store import CaseStore, Home
+from tests.server.recording.no_recorder import recordings_without_process
 
 HOST = "127.0.0.1:8000"
 
@@ -87,7 +88,15 @@ def guarded(
             steps = Steps.of(
                 hub=hub, store=store, jobs=jobs, config=config, markers=(), publish_setup=lambda _: None
             )
-            parts = AppParts(hub=hub, config=config, store=store, jobs=jobs, steps=steps, people=people)
+            parts = AppParts(
+                hub=hub,
+                config=config,
+                store=store,
+                jobs=jobs,
+                steps=steps,
+                people=people,
+                recordings=recordings_without_process(store, config),
+            )
             app = create_app(parts)
             with TestClient(app, base_url=f"http://{HOST}", raise_server_exceptions=False) as door:
                 yield Guarded(app=app, door=door, people=people, store=store, clock=clock)

@@ -1,0 +1,116 @@
+"""Recordings of the open case: start, stop, list, download, protect and delete."""
+
+from fastapi import APIRouter, Response
+from fastapi.responses import FileResponse
+
+from server.api.errors import rejections
+from server.recording.service import RecordingService, RecordingState, StoredRecording
+from server.stream.message import Message
+from server.stream.messages import ProblemMessage, problem_message
+
+MCAP = "application/octet-stream"
+
+
+class RecordingStateMessage(Message):
+    """What is being recorded."""
+
+    is_recording: bool
+    name: str | None
+    """Of the running recording; null without one."""
+    duration_s: float
+    size_bytes: int
+    images: int
+    missing_images: int
+    """Tracked images that are not in the file; a replay is not exact until some seconds after them."""
+    remaining_s: float | None
+    """How long disk and budget last at the present rate; null where unknown."""
+    problem: ProblemMessage | None
+    """Why the last recording ended by itself; null if it did not."""
+
+
+class RecordingMessage(Message):
+    """One recording."""
+
+    name: str
+    size_bytes: int
+    is_protected: bool
+    is_running: bool
+
+
+class RecordingsMessage(Message):
+    """The recordings of the open case, the oldest first."""
+
+    recordings: list[RecordingMessage]
+
+
+class ProtectionMessage(Message):
+    """Whether a recording is protected from deletion."""
+
+    is_protected: bool
+
+
+def recordings_router(service: RecordingService) -> APIRouter:
+    """Return the router of `/api/recordings`. Its routes are synchronous because they wait for the disk."""
+    router = APIRouter(prefix="/api/recordings", tags=["recordings"])
+
+    @router.get("", responses=rejections(409, 503))
+    def recordings() -> RecordingsMessage:
+        """Return the recordings of the open case."""
+        return RecordingsMessage(recordings=[_recording(one) for one in service.list()])
+
+    @router.get("/state", responses=rejections(503))
+    def state() -> RecordingStateMessage:
+        """Return what is being recorded, in any case."""
+        return _state(service.state)
+
+    @router.post("/start", responses=rejections(409, 503, 507))
+    def start() -> RecordingStateMessage:
+        """Start a recording of the open case; a running one goes on.
+
+        It has every tracked image with the state before it, so that `coaxial replay --check` gives the same
+        results again. Where the disk or the budget ends, the recording stops with an alarm, and navigation
+        goes on.
+        """
+        return _state(service.start())
+
+    @router.post("/stop", responses=rejections(503))
+    def stop() -> RecordingStateMessage:
+        """Stop the recording; the answer comes when its file is closed."""
+        return _state(service.stop())
+
+    @router.get("/{name}/file", response_class=FileResponse, responses=rejections(404, 409, 503))
+    def download(name: str) -> FileResponse:
+        """Return the file of a recording (MCAP). It has images of the operation and names of staff."""
+        return FileResponse(service.path(name), media_type=MCAP, filename=name)
+
+    @router.put("/{name}/protection", responses=rejections(404, 409, 503))
+    def protect(name: str, requested: ProtectionMessage) -> ProtectionMessage:
+        """Protect a recording from deletion, or end that. It is deleted with its case all the same."""
+        service.protect(name, is_protected=requested.is_protected)
+        return requested
+
+    @router.delete("/{name}", status_code=204, responses=rejections(404, 409, 503))
+    def delete(name: str) -> Response:
+        """Delete a recording that is neither protected nor running."""
+        service.delete(name)
+        return Response(status_code=204)
+
+    return router
+
+
+def _recording(recording: StoredRecording) -> RecordingMessage:
+    return RecordingMessage.model_validate(recording, from_attributes=True)
+
+
+def _state(state: RecordingState) -> RecordingStateMessage:
+    status = state.status
+    return RecordingStateMessage(
+        is_recording=bool(state.name),
+        name=state.name or None,
+        duration_s=state.duration_s,
+        size_bytes=0 if status is None else status.written_bytes,
+        images=0 if status is None else status.images,
+        missing_images=0 if status is None else status.missing_images,
+        remaining_s=state.remaining_s,
+        problem=problem_message(state.problem),
+    )

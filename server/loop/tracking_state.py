@@ -1,0 +1,225 @@
+"""The state of `Tracking` between two images: a recording that begins in the middle of a stream is exact.
+
+What follows from the setup (templates, models, kernels' workspaces: 40 MB) is left out and built again. What
+the images before have left is captured attribute by attribute: predicted poses, motion monitors, searches in
+progress, smoothing. `STATE` and `DERIVED` name every attribute of the classes that hold both; objects of any
+other class are captured as a whole. To capture it takes about 2 ms, once in a recording and after each change
+of the case, where the tracker is built anew anyway.
+"""
+
+import copyreg
+import pickle
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import Any, TypeAlias
+
+import structlog
+
+from server.loop.tracking import Tracking
+from server.setup import Preparation
+from tracker.navigation import LagEstimator, MotionMonitor, ToolSmoothing
+from tracker.navigation.lag import TipSpeedEstimator
+from tracker.navigation.monitoring import PoseJumpDetector, ReferenceMonitor, SceneMonitor
+from tracker.pipeline import Tracker
+from tracker.pipeline.idle_search import IdleSearch
+from tracker.pipeline.image import RepeatedPatch
+from tracker.pipeline.second_prints import SecondPrints
+from tracker.plan import Channel
+from tracker.pose import PoseSmoother
+
+STATE: dict[type, frozenset[str]] = {
+    Tracking: frozenset(
+        {"_tracker", "_steadying", "_watching", "_lagging", "_watched_registration", "_changes"}
+    ),
+    Tracker: frozenset({"_priors", "_patches", "_idle_search", "_second_prints", "_stepped_at_s"}),
+    IdleSearch: frozenset({"_image_number", "_costly_rounds", "_rejections"}),
+    SecondPrints: frozenset({"_image_number", "_twice", "_rejections", "_seen"}),
+    ToolSmoothing: frozenset({"_tools"}),
+}
+DERIVED: dict[type, frozenset[str]] = {
+    Tracking: frozenset({"_base_preparation", "_preparation", "_setup", "_size_problem", "_guide"}),
+    Tracker: frozenset(
+        {
+            "readout_s",
+            "_readout",
+            "camera",
+            "models",
+            "settings",
+            "stage_ms",
+            "_templates",
+            "_textures",
+            "_stages",
+            "_fitter",
+        }
+    ),
+    IdleSearch: frozenset({"_fitter", "_templates_of"}),
+    SecondPrints: frozenset({"_fitter", "_templates_of"}),
+    ToolSmoothing: frozenset({"_settings"}),
+}
+# Made while images arrive, and restored without their constructors.
+CAPTURED_ENTIRELY: tuple[type, ...] = (
+    LagEstimator,
+    MotionMonitor,
+    PoseJumpDetector,
+    PoseSmoother,
+    ReferenceMonitor,
+    RepeatedPatch,
+    SceneMonitor,
+    TipSpeedEstimator,
+)
+RESTORABLE: dict[str, type] = {kind.__name__: kind for kind in (*STATE, *CAPTURED_ENTIRELY)}
+
+Value: TypeAlias = Any
+
+log = structlog.get_logger(__name__)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ObjectState:
+    """Attributes of one object.
+
+    Attributes:
+        name: of its class, a key of `RESTORABLE`.
+        attributes: by name.
+    """
+
+    name: str
+    attributes: dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrackingState:
+    """State of tracking before an image.
+
+    Attributes:
+        preparation: the setup in use, with the documents of the case; without the rehearsal's theatre.
+        size_wh_px: size of the images that it is prepared for; None if the next image prepares it.
+        tracking: what the images before have left.
+    """
+
+    preparation: Preparation
+    size_wh_px: tuple[int, int] | None
+    tracking: ObjectState
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StateRequest:
+    """Request for the state before the next image, and before the first one after each change of the case.
+
+    Attributes:
+        is_recording: False ends it.
+    """
+
+    is_recording: bool
+
+
+class StateError(ValueError):
+    """A state cannot be restored: it is of another version of the program."""
+
+
+def tracking_state_bytes(tracking: Tracking) -> bytes:
+    """Return the present state for another process of this machine; empty if it could not be captured."""
+    try:
+        return pickle.dumps(capture_state(tracking), protocol=5)
+    except Exception:
+        # Only the recording suffers.
+        log.exception("the state of tracking could not be captured")
+        return b""
+
+
+def capture_state(tracking: Tracking) -> TrackingState:
+    """Return the state; it shares its arrays with tracking, which replaces but never changes them."""
+    preparation, setup = tracking.preparation, tracking.setup
+    channel = preparation.channel
+    if preparation.theatre is not None:
+        # The theatre is a renderer with its scene; tracking needs the bone in it only.
+        bone = preparation.drill_reference_for(channel) if isinstance(channel, Channel) else None
+        preparation = replace(preparation, theatre=None, drill_reference=bone)
+    return TrackingState(
+        preparation=preparation,
+        size_wh_px=None if setup is None else setup.camera.size_wh_px,
+        tracking=_captured(tracking),
+    )
+
+
+def restore_state(state: TrackingState, *, at_s: float) -> Tracking:
+    """Return tracking as it was before the image that is captured at `at_s`.
+
+    Raises:
+        StateError: the state is of another version.
+    """
+    tracking = Tracking(state.preparation)
+    if state.size_wh_px is not None:
+        tracking.prepare(state.size_wh_px, at_s)
+    _overlay(tracking, state.tracking)
+    return tracking
+
+
+def _captured(value: Value) -> Value:
+    kind = type(value)
+    if kind in STATE:
+        own_names = sorted(STATE[kind])
+        return ObjectState(
+            name=kind.__name__, attributes={one: _captured(getattr(value, one)) for one in own_names}
+        )
+    if kind in CAPTURED_ENTIRELY:
+        return ObjectState(
+            name=kind.__name__, attributes={one: _captured(own) for one, own in vars(value).items()}
+        )
+    if isinstance(value, dict):
+        return {key: _captured(own) for key, own in value.items()}
+    if kind in (list, tuple):
+        return kind(_captured(own) for own in value)
+    return value
+
+
+def _overlay(target: Value, state: ObjectState) -> None:
+    """Set the captured attributes of an object; what is derived stays as its constructor made it."""
+    kind = type(target)
+    if kind.__name__ != state.name:
+        raise StateError(f"the state of a {state.name} was recorded, this version has a {kind.__name__}")
+    if kind in STATE and STATE[kind] != set(state.attributes):
+        other = sorted(STATE[kind] ^ set(state.attributes))
+        raise StateError(f"the state of a {state.name} differs in {', '.join(other)}")
+    for name, value in state.attributes.items():
+        own = getattr(target, name, None)
+        if isinstance(value, ObjectState) and type(own) in STATE:
+            _overlay(own, value)
+        elif isinstance(own, dict) and isinstance(value, dict):
+            # In place: some of them make their missing entries.
+            own.clear()
+            own.update({key: _restored(one) for key, one in value.items()})
+        else:
+            setattr(target, name, _restored(value))
+
+
+def _restored(value: Value) -> Value:
+    if isinstance(value, ObjectState):
+        kind = RESTORABLE.get(value.name)
+        if kind is None or kind in STATE:
+            raise StateError(f"this version has no {value.name}")
+        made: Value = object.__new__(kind)
+        for name, own in value.attributes.items():
+            setattr(made, name, _restored(own))
+        return made
+    if isinstance(value, dict):
+        return {key: _restored(own) for key, own in value.items()}
+    if type(value) in (list, tuple):
+        return type(value)(_restored(own) for own in value)
+    return value
+
+
+def unpickled_state(content: bytes) -> TrackingState | None:
+    """Return the state that the tracking process of this server has sent; None without one."""
+    if not content:
+        return None
+    state: TrackingState = pickle.loads(content)  # noqa: S301  own child
+    return state
+
+
+def _proxy_of(values: dict[str, float]) -> MappingProxyType[str, float]:
+    return MappingProxyType(values)
+
+
+# `LastSeen` has one, which pickle does not know.
+copyreg.pickle(MappingProxyType, lambda proxy: (_proxy_of, (dict(proxy),)))

@@ -1,0 +1,8 @@
+"""Recordings: what is written while images arrive, and their exact replay.
+
+messages.py  what is in a file beside images and live messages
+process.py   reads the ring in a process of its own and writes the file
+recorder.py  one recording, as the web process sees it
+service.py   starts and stops recordings of the open case, and lists them
+replay.py    tracks a recording again, and compares
+"""

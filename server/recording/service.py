@@ -1,0 +1,450 @@
+"""`RecordingService`: starts and stops recordings of the open case, and lists, protects and deletes them.
+
+A recording is a file in the folder of its case, and not one of the store's files: those are complete or
+removed at the next start, while a recording has to be readable after any crash. It is no part of an exported
+archive, and is deleted with its case.
+"""
+
+import hashlib
+import json
+import re
+import secrets
+import threading
+import time
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack, suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+import structlog
+
+from server.alarms import AlarmService
+from server.clock import utc_now, utc_text
+from server.config import Config
+from server.errors import RecordingError, SetupOrderError
+from server.live import Problem
+from server.logs import LogSettings
+from server.procedure.open_case import require_open_case
+from server.recording.messages import DocumentMessage, DocumentsMessage, session_message
+from server.recording.process import RecordingOrder, RecordingStatus
+from server.recording.recorder import Recorder, TrackedImages
+from server.recording_file import Topic, WriterLimits
+from server.recording_file.topics import SUFFIX
+from server.store import Case, CaseStore, Current, DocumentKind, NotFound, StoreError
+from server.store.home import PRIVATE, RECORDINGS, sync_folder
+
+NAME = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{4}\.mcap")
+PROTECTED = ".protected"
+POLL_S = 0.25
+# After a failure nobody is served by a new attempt four times a second.
+RETRY_AFTER_S = 30.0
+# What tracking and alarms are configured with; everything else of a case is not needed for a replay.
+RECORDED_KINDS = (
+    DocumentKind.CAMERA,
+    DocumentKind.MARKER,
+    DocumentKind.TOOL,
+    DocumentKind.PLAN,
+    DocumentKind.REGISTRATION,
+    DocumentKind.CHECK,
+    DocumentKind.CONFIRMATION,
+    DocumentKind.SIGNATURE,
+)
+
+log = structlog.get_logger(__name__)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StoredRecording:
+    """A recording of a case.
+
+    Attributes:
+        name: of its file.
+        size_bytes: of its file.
+        is_protected: whether it cannot be deleted.
+        is_running: whether it is being written.
+    """
+
+    name: str
+    size_bytes: int
+    is_protected: bool
+    is_running: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecordingState:
+    """What is being recorded.
+
+    Attributes:
+        name: of the running recording; empty without one.
+        duration_s: since its begin.
+        status: of the running one, or of the last one.
+        problem: why the last one ended by itself; None if it did not.
+        remaining_s: how long disk and budget last at the present rate; None if unknown.
+    """
+
+    name: str = ""
+    duration_s: float = 0.0
+    status: RecordingStatus | None = None
+    problem: Problem | None = None
+    remaining_s: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Running:
+    recorder: Recorder
+    case: Case
+    name: str
+    began_at_s: float
+    max_bytes: float
+    in_use: ExitStack
+
+
+class RecordingService:
+    """Recordings of one server. Thread-safe.
+
+    Args:
+        tracked: the tracking system.
+        alarms: the alarms.
+        store: the cases.
+        config: the settings.
+        log_settings: of the recording process.
+        product_version: of this program.
+        make_recorder: makes a recorder; for tests.
+    """
+
+    def __init__(
+        self,
+        *,
+        tracked: TrackedImages,
+        alarms: AlarmService,
+        store: CaseStore,
+        config: Config,
+        log_settings: LogSettings,
+        product_version: str,
+        make_recorder: Callable[..., Recorder] = Recorder,
+    ) -> None:
+        self._tracked = tracked
+        self._alarms = alarms
+        self._store = store
+        self._config = config
+        self._log_settings = log_settings
+        self._product_version = product_version
+        self._make_recorder = make_recorder
+        self._lock = threading.RLock()
+        self._running: _Running | None = None
+        self._last: RecordingStatus | None = None
+        self._problem: Problem | None = None
+        self._documents: tuple[str, ...] = ()
+        self._failed_at_s = -RETRY_AFTER_S
+        self._is_held_off = False
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._follow, name="recordings", daemon=True)
+
+    def follow(self) -> None:
+        """Start and stop recordings by themselves, as the settings say, from now on."""
+        self._thread.start()
+
+    def close(self) -> None:
+        """Stop the running recording and this service."""
+        self._stop.set()
+        if self._thread.is_alive():
+            self._thread.join(5.0)
+        self._end("the server was stopped")
+
+    @property
+    def state(self) -> RecordingState:
+        """What is being recorded."""
+        with self._lock:
+            running, problem, last = self._running, self._problem, self._last
+        if running is None:
+            return RecordingState(status=last, problem=problem)
+        status = running.recorder.status
+        return RecordingState(
+            name=running.name,
+            duration_s=time.monotonic() - running.began_at_s,
+            status=status,
+            problem=problem,
+            remaining_s=self._remaining_s(running, status),
+        )
+
+    def start(self) -> RecordingState:
+        """Start a recording of the open case; return the state if one runs already.
+
+        Raises:
+            RecordingError: RECORDING_SWITCHED_OFF, RECORDING_BUDGET_EXCEEDED, RECORDING_DISK_FULL.
+            SetupOrderError: NO_CASE_OPEN.
+            StoreError: the folder of the case cannot be used.
+        """
+        with self._lock:
+            if self._running is None:
+                self._begin()
+            self._is_held_off = False
+        return self.state
+
+    def stop(self) -> RecordingState:
+        """Stop the recording, wait until its file is closed, and return the state."""
+        with self._lock:
+            # Until navigation ends it is not started again by itself.
+            self._is_held_off = True
+            self._problem = None
+        self._alarms.set_recording_runs(runs=True)
+        self._end("somebody stopped it")
+        return self.state
+
+    def list(self) -> Sequence[StoredRecording]:
+        """Return the recordings of the open case, the oldest first.
+
+        Raises:
+            SetupOrderError: NO_CASE_OPEN.
+        """
+        folder, running = self._folder(require_open_case(self._store)), self.state.name
+        found = []
+        for path in sorted(folder.glob(f"*{SUFFIX}")) if folder.is_dir() else []:
+            # It may be deleted meanwhile.
+            with suppress(FileNotFoundError):
+                found.append(
+                    StoredRecording(
+                        name=path.name,
+                        size_bytes=path.stat().st_size,
+                        is_protected=_protection(path).exists(),
+                        is_running=path.name == running,
+                    )
+                )
+        return found
+
+    def path(self, name: str) -> Path:
+        """Return the file of a recording of the open case.
+
+        Raises:
+            NotFound: RECORDING_UNKNOWN.
+            SetupOrderError: NO_CASE_OPEN.
+        """
+        path = self._folder(require_open_case(self._store)) / name
+        if not NAME.fullmatch(name) or not path.is_file():
+            raise NotFound(
+                "RECORDING_UNKNOWN",
+                f"the open case has no recording {name!r}",
+                "Load the list of recordings again.",
+                {"name": name},
+            )
+        return path
+
+    def protect(self, name: str, *, is_protected: bool) -> None:
+        """Protect a recording from deletion, or end that. Raises the same errors as `path`."""
+        mark = _protection(self.path(name))
+        if is_protected:
+            mark.touch(mode=0o600)
+        else:
+            mark.unlink(missing_ok=True)
+        sync_folder(mark.parent)
+
+    def delete(self, name: str) -> None:
+        """Delete a recording.
+
+        Raises:
+            RecordingError: RECORDING_RUNS, RECORDING_PROTECTED.
+            NotFound: RECORDING_UNKNOWN.
+        """
+        with self._lock:
+            path = self.path(name)
+            if self._running is not None and self._running.name == name:
+                raise RecordingError(
+                    "RECORDING_RUNS", f"{name} is being written", "Stop the recording first.", {"name": name}
+                )
+            if _protection(path).exists():
+                raise RecordingError(
+                    "RECORDING_PROTECTED",
+                    f"{name} is protected",
+                    "End its protection first, if nobody needs it any more.",
+                    {"name": name},
+                )
+            path.unlink()
+            sync_folder(path.parent)
+
+    def put_mark(self, text: str) -> None:
+        """Record what a supervisor marked, as JSON. Returns at once."""
+        running = self._running
+        if running is not None:
+            running.recorder.put_text(Topic.MARKS, text)
+
+    def _begin(self) -> None:
+        settings = self._config.recording
+        if settings.when == "never":
+            raise RecordingError(
+                "RECORDING_SWITCHED_OFF",
+                "recording.when is never",
+                "Set recording.when to manual or navigating, and start the program again.",
+            )
+        case = require_open_case(self._store)
+        folder = self._folder(case)
+        left_bytes = settings.max_total_gb * 1e9 - self._total_bytes()
+        if left_bytes <= 0.0:
+            raise RecordingError(
+                "RECORDING_BUDGET_EXCEEDED",
+                f"all recordings together have reached recording.max_total_gb, {settings.max_total_gb:g} GB",
+                "Delete recordings that are not needed, or raise recording.max_total_gb.",
+                {"max_total_gb": settings.max_total_gb},
+            )
+        min_free_bytes = settings.min_free_gb * 1e9
+        free_bytes = self._store.home.free_bytes()
+        if free_bytes < min_free_bytes:
+            raise RecordingError(
+                "RECORDING_DISK_FULL",
+                f"{free_bytes / 1e9:.2f} GB are free on the disk of the cases, and "
+                f"{settings.min_free_gb:g} GB must stay free (recording.min_free_gb)",
+                "Free disk space first.",
+                {"free_bytes": free_bytes},
+            )
+        now = utc_now()
+        name = f"{now:%Y%m%dT%H%M%SZ}-{secrets.token_hex(2)}{SUFFIX}"
+        with ExitStack() as stack:
+            # A case is not deleted under a recording.
+            stack.enter_context(self._store.in_use(case.id))
+            folder.mkdir(mode=PRIVATE, parents=True, exist_ok=True)
+            sync_folder(folder.parent)
+            order = RecordingOrder(
+                path=folder / name,
+                limits=WriterLimits(max_bytes=left_bytes, min_free_bytes=min_free_bytes),
+                session=session_message(
+                    self._config,
+                    case_id=case.id,
+                    started_at=utc_text(now),
+                    unix_offset_s=now.timestamp() - time.monotonic(),
+                    product_version=self._product_version,
+                ),
+                log=self._log_settings,
+            )
+            recorder = self._make_recorder(
+                order, tracked=self._tracked, alarms=self._alarms, on_end=self._note_end
+            )
+            self._running = _Running(
+                recorder=recorder,
+                case=case,
+                name=name,
+                began_at_s=time.monotonic(),
+                max_bytes=left_bytes,
+                in_use=stack.pop_all(),
+            )
+        self._problem, self._documents = None, ()
+        self._alarms.set_recording_runs(runs=True)
+        self._put_documents()
+        log.info("a recording began", file=name, case=case.id)
+
+    def _end(self, reason: str) -> None:
+        with self._lock:
+            running, self._running = self._running, None
+        if running is None:
+            return
+        self._last = running.recorder.stop(reason)
+        running.in_use.close()
+        log.info("a recording ended", file=running.name, images=self._last.images, why=reason)
+
+    def _note_end(self, problem: Problem | None) -> None:
+        """Raise the alarm for a recording that ended by itself; from the recorder's thread."""
+        if problem is None:
+            return
+        log.error(problem.message, code=problem.code, remedy=problem.remedy)
+        with self._lock:
+            self._problem = problem
+            self._failed_at_s = time.monotonic()
+        self._alarms.set_recording_runs(runs=False)
+
+    def _follow(self) -> None:
+        while not self._stop.wait(POLL_S):
+            try:
+                self.poll()
+            except StoreError as error:
+                log.warning(error.message, code=error.code, remedy=error.remedy)
+            except Exception:
+                log.exception("recordings cannot be followed")
+
+    def poll(self) -> None:
+        """Do what is due: end a recording whose case was closed, start one, record changed documents."""
+        case = self._store.get_open_case()
+        with self._lock:
+            running = self._running
+        if running is not None and running.recorder.status.is_ended:
+            self._end("it cannot go on")
+        elif running is not None and (case is None or case.id != running.case.id):
+            self._end("its case was closed")
+        elif running is not None:
+            self._put_documents()
+        if self._config.recording.when == "navigating":
+            self._follow_navigation(case)
+
+    def _follow_navigation(self, case: Case | None) -> None:
+        navigates = self._alarms.is_navigating
+        with self._lock:
+            is_running = self._running is not None
+            waits = time.monotonic() - self._failed_at_s < RETRY_AFTER_S
+            if not navigates:
+                self._is_held_off = False
+            is_due = navigates and case is not None and not (is_running or waits or self._is_held_off)
+        if is_running and not navigates:
+            self._end("navigation ended")
+        elif is_due:
+            try:
+                self.start()
+            except (RecordingError, SetupOrderError, StoreError) as error:
+                self._note_end(Problem.from_error(error))
+
+    def _put_documents(self) -> None:
+        """Record the documents that are in use, if they have changed."""
+        with self._lock:
+            running = self._running
+        if running is None:
+            return
+        documents = [
+            document
+            for kind in RECORDED_KINDS
+            for document in self._store.all(running.case.id, kind)
+            if isinstance(self._store.validity(document), Current)
+        ]
+        ids = tuple(document.id for document in documents)
+        if ids == self._documents:
+            return
+        self._documents = ids
+        message = DocumentsMessage(
+            documents=[
+                DocumentMessage(
+                    id=document.id,
+                    kind=document.kind.value,
+                    name=document.name,
+                    made_at=document.made_at,
+                    made_by=document.made_by,
+                    sha256=_sha256(dict(document.content)),
+                    content=dict(document.content),
+                )
+                for document in documents
+            ]
+        )
+        running.recorder.put_text(Topic.DOCUMENTS, message.model_dump_json())
+
+    def _remaining_s(self, running: _Running, status: RecordingStatus) -> float | None:
+        duration_s = time.monotonic() - running.began_at_s
+        if status.written_bytes <= 0 or duration_s < 1.0:
+            return None
+        left_bytes = min(
+            running.max_bytes - status.written_bytes,
+            self._store.home.free_bytes() - self._config.recording.min_free_gb * 1e9,
+        )
+        return max(0.0, left_bytes) * duration_s / status.written_bytes
+
+    def _total_bytes(self) -> int:
+        total = 0
+        for path in self._store.home.cases.glob(f"*/{RECORDINGS}/*{SUFFIX}"):
+            with suppress(FileNotFoundError):
+                total += path.stat().st_size
+        return total
+
+    def _folder(self, case: Case) -> Path:
+        return self._store.home.cases / case.id / RECORDINGS
+
+
+def _protection(path: Path) -> Path:
+    return path.with_name(path.name + PROTECTED)
+
+
+def _sha256(content: dict[str, object]) -> str:
+    text = json.dumps(content, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
+    return hashlib.sha256(text.encode()).hexdigest()

@@ -1,0 +1,149 @@
+"""Reads a recording, also one that was cut: up to the last whole chunk."""
+
+import json
+import struct
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO
+
+import zstandard
+from mcap.exceptions import McapError
+from mcap.records import Channel, Footer, Header, Message
+from mcap.stream_reader import CRCValidationError, StreamReader
+
+from server.errors import RecordingError
+from server.recording_file.codec import Json
+from server.recording_file.packing import Image, PackedImage, Packing, unpacked
+from server.recording_file.topics import PROFILE, ZSTD_JSON, Topic
+
+NANOSECONDS = 1e9
+MAX_RECORD_BYTES = 256 * 2**20
+MAX_VALUE_BYTES = 512 * 2**20
+TOPICS = {one.value: one for one in Topic}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecordedMessage:
+    """One message.
+
+    Attributes:
+        topic: what it is.
+        unix_s: when, Unix time.
+        sequence: number of the image, where it is about one.
+        content: its bytes.
+        packed: the image; None for every other message.
+        is_compressed: whether the content is compressed JSON.
+    """
+
+    topic: Topic
+    unix_s: float
+    sequence: int
+    content: bytes
+    packed: PackedImage | None = None
+    is_compressed: bool = False
+
+    @property
+    def image(self) -> Image | None:
+        """The image, decoded; None if it cannot be."""
+        return None if self.packed is None else unpacked(self.packed)
+
+    def json(self) -> Json:
+        """Return the message.
+
+        Raises:
+            ValueError: it is no JSON.
+        """
+        content = self.content
+        if self.is_compressed:
+            try:
+                with zstandard.ZstdDecompressor().stream_reader(content) as stream:
+                    content = stream.read(MAX_VALUE_BYTES)
+            except zstandard.ZstdError as error:
+                raise ValueError(str(error)) from error
+        return json.loads(content)
+
+
+class RecordingReader:
+    """The messages of a recording, in the order in which they were written.
+
+    Attributes:
+        is_whole: whether the file was read to its proper end; known after `messages`.
+        why_cut: why not; empty if it was.
+
+    Raises:
+        RecordingError: RECORDING_NOT_READABLE: there is no such file, or it is no recording of Coaxial.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.is_whole, self.why_cut = False, ""
+        self._path = path
+        self._channels: dict[int, Channel] = {}
+        try:
+            self._file: IO[bytes] = path.open("rb")
+        except OSError as error:
+            raise _not_readable(path, (error.strerror or str(error)).lower()) from error
+        self._records = StreamReader(
+            self._file, validate_crcs=True, record_size_limit=MAX_RECORD_BYTES
+        ).records
+        try:
+            header = next(self._records, None)
+        except (McapError, ValueError, EOFError, struct.error) as error:
+            self._file.close()
+            raise _not_readable(path, "it does not begin like an MCAP file") from error
+        if not isinstance(header, Header) or header.profile != PROFILE:
+            self._file.close()
+            raise _not_readable(path, "it is no recording of Coaxial")
+
+    def messages(self) -> Iterator[RecordedMessage]:
+        """Yield the messages up to the end, or to where the file was cut or is damaged."""
+        try:
+            for record in self._records:
+                if isinstance(record, Channel):
+                    self._channels[record.id] = record
+                elif isinstance(record, Message):
+                    message = self._message(record)
+                    if message is not None:
+                        yield message
+                elif isinstance(record, Footer):
+                    self.is_whole = True
+        except CRCValidationError:
+            self.why_cut = "a checksum is wrong"
+        except (McapError, ValueError, EOFError, struct.error, KeyError, IndexError):
+            self.why_cut = "it ends in the middle of a chunk"
+        else:
+            self.why_cut = "" if self.is_whole else "it has no end"
+        finally:
+            self._file.close()
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    def _message(self, record: Message) -> RecordedMessage | None:
+        channel = self._channels[record.channel_id]
+        topic = TOPICS.get(channel.topic)
+        if topic is None:
+            return None
+        packed = None
+        if topic is Topic.IMAGE:
+            size = int(channel.metadata["width_px"]), int(channel.metadata["height_px"])
+            packing = Packing(channel.message_encoding)
+            packed = PackedImage(packing=packing, size_wh_px=size, content=record.data)
+        return RecordedMessage(
+            topic=topic,
+            unix_s=record.log_time / NANOSECONDS,
+            sequence=record.sequence,
+            content=record.data,
+            packed=packed,
+            is_compressed=channel.message_encoding == ZSTD_JSON,
+        )
+
+
+def _not_readable(path: Path, why: str) -> RecordingError:
+    return RecordingError(
+        "RECORDING_NOT_READABLE",
+        f"{path} cannot be read as a recording: {why}",
+        "Name a file that Coaxial recorded; recordings end in .mcap.",
+        {"file": str(path)},
+    )

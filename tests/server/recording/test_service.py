@@ -1,0 +1,186 @@
+"""Recordings of the open case: when they begin and end, and what may be done with them."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from server.alarms import AlarmService, ProcedureFacts
+from server.config import Config, RecordingConfig
+from server.errors import RecordingError, SetupOrderError
+from server.live import Problem
+from server.logs import LogSettings
+from server.recording.recorder import Recorder
+from server.recording.service import RecordingService
+from server.recording_file import Topic
+from server.store import CaseStore, DocumentKind, NotFound, StoreConflict
+from server.store.home import Home
+from tests.server.recording.no_recorder import NoImages, NoRecorder
+from tracker.navigation.alarms import Condition, Presence
+
+FULL = Problem(code="RECORDING_DISK_FULL", message="the disk is full", remedy="Free it.")
+
+
+class Theatre:
+    """A store with a case, alarms and recordings."""
+
+    def __init__(self, store: CaseStore, settings: RecordingConfig) -> None:
+        self.store = store
+        config = Config(recording=settings)
+        self.alarms = AlarmService(config)
+        self.recorders: list[NoRecorder] = []
+        self.service = RecordingService(
+            tracked=NoImages(),
+            alarms=self.alarms,
+            store=store,
+            config=config,
+            log_settings=LogSettings(as_json=True),
+            product_version="0",
+            make_recorder=self._make,
+        )
+
+    def _make(self, *given: object, **named: object) -> Recorder:
+        self.recorders.append(NoRecorder(*given, **named))  # type: ignore[arg-type]
+        return self.recorders[-1]
+
+    def open_a_case(self) -> str:
+        case = self.store.create("L4")
+        self.store.open(case.id)
+        return case.id
+
+    def navigate(self, *, on: bool) -> None:
+        self.alarms.set_facts(ProcedureFacts(navigating=on))
+        self.service.poll()
+
+    @property
+    def conditions(self) -> set[Condition]:
+        """What is present; an alarm that is over stays in sight until it is acknowledged."""
+        alarms = self.alarms.picture.alarms
+        return {one.condition for one in alarms if one.presence is Presence.YES}
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Iterator[CaseStore]:
+    with Home(tmp_path / "home") as home, CaseStore(home) as store:
+        yield store
+
+
+def made(store: CaseStore, **settings: object) -> Theatre:
+    return Theatre(store, RecordingConfig.model_validate({"min_free_gb": 0.0, **settings}))
+
+
+def test_a_recording_is_a_file_of_the_open_case_until_it_is_stopped(store: CaseStore) -> None:
+    theatre = made(store)
+    with pytest.raises(SetupOrderError, match="no case is open"):
+        theatre.service.start()
+    case_id = theatre.open_a_case()
+    state = theatre.service.start()
+    assert theatre.recorders[0].path.parent == store.home.cases / case_id / "recordings"
+    assert theatre.service.start().name == state.name
+    (running,) = theatre.service.list()
+    assert (running.name, running.is_running, running.size_bytes) == (state.name, True, 8)
+    with pytest.raises(StoreConflict):
+        store.delete(case_id, confirm="L4")
+    stopped = theatre.service.stop()
+    assert stopped.name == ""
+    assert stopped.status is not None
+    assert stopped.status.is_ended
+    assert not theatre.service.list()[0].is_running
+    assert len(theatre.recorders) == 1
+
+
+def test_only_an_unprotected_recording_that_has_ended_is_deleted(store: CaseStore) -> None:
+    theatre = made(store)
+    theatre.open_a_case()
+    name = theatre.service.start().name
+    with pytest.raises(RecordingError, match="is being written"):
+        theatre.service.delete(name)
+    theatre.service.stop()
+    theatre.service.protect(name, is_protected=True)
+    assert theatre.service.list()[0].is_protected
+    with pytest.raises(RecordingError, match="is protected"):
+        theatre.service.delete(name)
+    theatre.service.protect(name, is_protected=False)
+    theatre.service.delete(name)
+    assert theatre.service.list() == []
+    for other in (name, "../../coaxial.sqlite3", "..", ""):
+        with pytest.raises(NotFound):
+            theatre.service.path(other)
+
+
+def test_a_recording_that_cannot_go_on_raises_an_alarm_until_it_is_stopped(store: CaseStore) -> None:
+    theatre = made(store)
+    theatre.open_a_case()
+    theatre.service.start()
+    theatre.navigate(on=True)
+    assert Condition.RECORDING_STOPPED not in theatre.conditions
+    theatre.recorders[0].fail(FULL)
+    theatre.service.poll()
+    assert Condition.RECORDING_STOPPED in theatre.conditions
+    state = theatre.service.state
+    assert (state.name, state.problem) == ("", FULL)
+    theatre.service.start()
+    assert Condition.RECORDING_STOPPED not in theatre.conditions
+    assert theatre.service.state.problem is None
+
+
+def test_a_recording_follows_navigation_where_the_settings_say_so(store: CaseStore) -> None:
+    theatre = made(store, when="navigating")
+    theatre.open_a_case()
+    theatre.navigate(on=False)
+    assert theatre.recorders == []
+    theatre.navigate(on=True)
+    theatre.service.poll()
+    assert len(theatre.recorders) == 1
+    theatre.navigate(on=False)
+    assert theatre.recorders[0].reason == "navigation ended"
+    theatre.navigate(on=True)
+    theatre.service.stop()
+    theatre.service.poll()
+    # Somebody stopped it: not before the next navigation.
+    assert len(theatre.recorders) == 2
+    assert theatre.service.state.name == ""
+
+
+def test_a_recording_ends_with_its_case(store: CaseStore) -> None:
+    theatre = made(store)
+    theatre.open_a_case()
+    theatre.service.start()
+    store.close()
+    theatre.service.poll()
+    assert theatre.recorders[0].reason == "its case was closed"
+
+
+@pytest.mark.parametrize(
+    ("settings", "code"),
+    [
+        ({"when": "never"}, "RECORDING_SWITCHED_OFF"),
+        ({"max_total_gb": 1e-9}, "RECORDING_BUDGET_EXCEEDED"),
+        ({"min_free_gb": 100_000.0}, "RECORDING_DISK_FULL"),
+    ],
+)
+def test_what_forbids_a_recording_is_said(store: CaseStore, settings: dict[str, object], code: str) -> None:
+    theatre = made(store, **settings)
+    case_id = theatre.open_a_case()
+    folder = store.home.cases / case_id / "recordings"
+    folder.mkdir(parents=True)
+    (folder / "20260101T000000Z-0000.mcap").write_bytes(b"an older one")
+    with pytest.raises(RecordingError) as rejected:
+        theatre.service.start()
+    assert rejected.value.code == code
+
+
+def test_documents_in_use_are_recorded_with_their_hash_and_again_when_they_change(store: CaseStore) -> None:
+    theatre = made(store)
+    case_id = theatre.open_a_case()
+    store.put(case_id, DocumentKind.TOOL, "drill", {"tip": 1}, made_by="Anna")
+    store.put(case_id, DocumentKind.PATIENT, "patient", {"name": "Erika Muster"}, made_by="Anna")
+    theatre.service.start()
+    theatre.service.poll()
+    store.put(case_id, DocumentKind.TOOL, "drill", {"tip": 2}, made_by="Anna")
+    theatre.service.poll()
+    theatre.service.put_mark('{"by": "Ben"}')
+    texts = theatre.recorders[0].texts
+    assert [topic for topic, _ in texts] == [Topic.DOCUMENTS, Topic.DOCUMENTS, Topic.MARKS]
+    assert '"tip":2' in texts[1][1]
+    assert not any("Muster" in text for _, text in texts)

@@ -1,0 +1,71 @@
+"""Reading a recording, also where it was cut or damaged."""
+
+import random
+from pathlib import Path
+
+import pytest
+
+from server.errors import RecordingError
+from server.recording_file import RecordedMessage, RecordingReader, Topic
+from tests.server.recording_file.written import OFFSET_S, write_recording
+
+
+def read(path: Path) -> tuple[list[RecordedMessage], RecordingReader]:
+    reader = RecordingReader(path)
+    return list(reader.messages()), reader
+
+
+def test_messages_come_in_their_order_with_time_number_and_pixels(tmp_path: Path) -> None:
+    messages, reader = read(write_recording(tmp_path / "a.mcap"))
+    assert reader.is_whole
+    assert reader.why_cut == ""
+    assert [message.topic for message in messages] == [Topic.NOTE, Topic.IMAGE] * 20
+    images = [message for message in messages if message.topic is Topic.IMAGE]
+    assert [image.sequence for image in images] == list(range(20))
+    assert images[3].unix_s == pytest.approx(OFFSET_S + 0.3, abs=1e-6)
+    pixels = images[3].image
+    assert pixels is not None
+    assert pixels[5, 5].tolist() == [3, 3, 3]
+    assert messages[6].json()["message"] == "3"
+
+
+def test_a_file_cut_anywhere_is_readable_up_to_the_cut(tmp_path: Path) -> None:
+    content = write_recording(tmp_path / "a.mcap").read_bytes()
+    every, _ = read(tmp_path / "a.mcap")
+    cut = tmp_path / "cut.mcap"
+    draw = random.Random(5)
+    counts = []
+    for length in sorted(draw.sample(range(60, len(content) - 1), 40)):
+        cut.write_bytes(content[:length])
+        messages, reader = read(cut)
+        assert not reader.is_whole
+        assert reader.why_cut
+        assert [one.content for one in messages] == [one.content for one in every[: len(messages)]]
+        counts.append(len(messages))
+    assert counts == sorted(counts)
+    # A cut behind the data loses none of them: the index is not needed.
+    assert counts[0] == 0
+    assert counts[-1] == len(every)
+
+
+def test_a_changed_bit_ends_the_reading_before_its_chunk(tmp_path: Path) -> None:
+    path = write_recording(tmp_path / "a.mcap")
+    content = bytearray(path.read_bytes())
+    at = content.index(b'"message": "9"') + 12
+    content[at] ^= 1
+    path.write_bytes(content)
+    messages, reader = read(path)
+    assert not reader.is_whole
+    assert reader.why_cut == "a checksum is wrong"
+    assert 0 < len(messages) <= 18
+
+
+@pytest.mark.parametrize("content", [b"", b"no recording at all", b"\x89MCAP0\r\n" + b"\x00" * 40])
+def test_another_file_is_rejected(content: bytes, tmp_path: Path) -> None:
+    other = tmp_path / "other.mcap"
+    other.write_bytes(content)
+    with pytest.raises(RecordingError) as rejected:
+        RecordingReader(other)
+    assert rejected.value.code == "RECORDING_NOT_READABLE"
+    with pytest.raises(RecordingError, match="no such file"):
+        RecordingReader(tmp_path / "missing.mcap")
