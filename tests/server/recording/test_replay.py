@@ -1,5 +1,6 @@
 """A recording gives the same poses and alarms again, and what differs is named with its image."""
 
+import threading
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -8,6 +9,7 @@ import cv2
 import pytest
 
 from server.alarms import alarm_limits
+from server.capture.recording import RecordingSource
 from server.errors import RecordingError
 from server.image_file import decoded
 from server.loop.tracking import Tracking
@@ -153,6 +155,21 @@ def test_a_newer_format_is_rejected(recorded: Path, monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr("server.recording.replay.FORMAT_VERSION", 0)
     with pytest.raises(RecordingError, match="format 1, this version reads up to 0"):
         check_recording(recorded)
+
+
+def test_images_of_video_that_predicts_them_are_replayed_and_played_as_such(made: Make) -> None:
+    theatre = made()
+    theatre.begin()
+    for number in range(4):
+        theatre.track(number, is_predicted=True)
+    theatre.end()
+    report = check_recording(theatre.path)
+    assert report.is_equal, report.poses.first
+    assert report.images == 4
+    source = RecordingSource(theatre.path, loop=False, fast=True, stop=threading.Event())
+    source.open()
+    assert [shot.is_predicted for shot in iter(source.read, None) if shot] == [True] * 4
+    source.close()
 
 
 def test_no_password_of_the_source_is_in_the_file(made: Make) -> None:
