@@ -175,11 +175,11 @@ def test_a_stopped_track_tells_how_far_it_came_and_leaves_a_part(
     step = Tracker.step
 
     def step_with_ctrl_c(
-        tracker: Tracker, image: npt.NDArray[np.uint8], *, captured_at_s: float, full_search: bool
+        tracker: Tracker, image: npt.NDArray[np.uint8], *, captured_at_s: float, **options: bool
     ) -> dict[str, Sighting]:
         signal.raise_signal(signal.SIGINT)
         assert signal.getsignal(signal.SIGINT) == signal.SIG_DFL  # a second one ends it at once
-        return step(tracker, image, captured_at_s=captured_at_s, full_search=full_search)
+        return step(tracker, image, captured_at_s=captured_at_s, **options)
 
     monkeypatch.setattr(Tracker, "step", step_with_ctrl_c)
     lines = tmp_path / "o.jsonl"
