@@ -13,7 +13,7 @@ from typing import Any
 from tests.procedure.conftest import serving
 
 # A file to keep: its form is told by the version that it names.
-FREE_FORM = {"/api/plan/export"}
+FREE_FORM = {"/api/plan/export", "/api/plan/markups"}
 OPENAPI_FILE = Path(__file__).resolve().parents[2] / "web" / "openapi.json"
 
 

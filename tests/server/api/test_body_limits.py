@@ -53,6 +53,13 @@ def test_as_much_as_is_taken_is_read(house: Guarded) -> None:
         assert answer.json()["code"] != "BODY_TOO_LARGE"
 
 
+# Markups of a few points: files, and no larger than any other body.
+OF_GENERAL_LIMIT = {
+    "/api/plan/vertebrae/{name}/landmarks/import",
+    "/api/plan/vertebrae/{name}/channels/{side}/import",
+}
+
+
 def test_what_has_a_limit_of_its_own_is_every_address_that_takes_a_file(house: Guarded) -> None:
     files = {
         path
@@ -61,7 +68,7 @@ def test_what_has_a_limit_of_its_own_is_every_address_that_takes_a_file(house: G
         for content in [operation.get("requestBody", {}).get("content", {})]
         if content and not any("schema" in kind for kind in content.values())
     }
-    assert files == UPLOADS
+    assert files == UPLOADS | OF_GENERAL_LIMIT
 
 
 def sent(path: str, pieces: list[tuple[float, int]], *, works_s: float = 0.0) -> tuple[str, float]:
