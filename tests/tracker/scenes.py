@@ -211,7 +211,7 @@ def in_clutter(
     return image, corners_px_of(camera, pose)
 
 
-def smeared(image: Image8, way_px: float, from_deg: float) -> Image8:
+def motion_blurred(image: Image8, way_px: float, from_deg: float) -> Image8:
     """The image, moved by so many pixels while the shutter was open."""
     height, width = image.shape
     reach = 0.5 * way_px * np.array([np.cos(np.radians(from_deg)), np.sin(np.radians(from_deg))])
@@ -228,7 +228,7 @@ def poorly_lit(
     ways = random.uniform(0.0, 360.0, 3)
     v, u = np.mgrid[0:height, 0:width].astype(np.float64) - np.array(middle_px)[::-1, None, None]
     across = u * np.cos(ways[0]) + v * np.sin(ways[0]) - random.uniform(-0.2, 0.2) * side_px
-    lit = smeared(plain, 3.0, ways[2]) * (1.0 - 0.6 / (1.0 + np.exp(-across / (0.12 * side_px))))
+    lit = motion_blurred(plain, 3.0, ways[2]) * (1.0 - 0.6 / (1.0 + np.exp(-across / (0.12 * side_px))))
     x, y = u - 0.3 * side_px * np.cos(ways[1]), v - 0.3 * side_px * np.sin(ways[1])
     lit = lit + 160.0 * np.exp(-0.5 * (x * x + y * y) / (0.25 * side_px) ** 2)
     noisy = 0.4 * lit + random.normal(0.0, 5.0, lit.shape)

@@ -42,7 +42,7 @@ def _face(rng: np.random.Generator) -> Image8:
     return picture
 
 
-def look_alike(seed: int) -> Image8:
+def distractor(seed: int) -> Image8:
     """A grey image (h, w) with one such square in its middle."""
     rng = np.random.default_rng(seed)
     picture = _face(rng)
@@ -88,7 +88,7 @@ def tracker() -> Tracker:
 
 @pytest.mark.parametrize("seed", [*ONCE_TAKEN, *OTHERS])
 def test_a_square_with_something_in_it_is_not_taken_for_the_marker(seed: int, tracker: Tracker) -> None:
-    claimed = [name for name, one in tracker.search(look_alike(seed)).items() if isinstance(one, Seen)]
+    claimed = [name for name, one in tracker.search(distractor(seed)).items() if isinstance(one, Seen)]
     assert claimed == []
 
 

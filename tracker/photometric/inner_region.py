@@ -100,11 +100,11 @@ def fit_inner_region(
 
 def _contradicts(inside: Samples, whole: FitResult, alone: FitResult) -> bool:
     """Return whether the inner pixels are better explained `alone`, and reject the pose by all pixels."""
-    explains_more = (
+    fits_better = (
         alone.residual_sd_grey < MAX_RESIDUAL_RATIO * whole.residual_sd_grey
         or alone.inlier_ratio > whole.inlier_ratio + MIN_INLIER_GAIN_RATIO
     )
-    if not explains_more:
+    if not fits_better:
         return False
     costs = [robust_chi2_of(inside, one, alone.residual_sd_grey) for one in (whole, alone)]
     return costs[0] - costs[1] > CONTRADICTION_CHI2

@@ -131,7 +131,7 @@ def _min_plain(corners_px: Array) -> float:
 
 def _plain_correlation(scene: OccurrenceContext, found: Occurrence) -> tuple[float, float]:
     """Return the correlation of the inside in even illumination (-1 on a shape mismatch), and regardless."""
-    alike, maximum = -1.0, -1.0
+    correlation, maximum = -1.0, -1.0
     # Bent paper deviates from its flat pose. Another shape mismatches at either set of corners.
     for corners in (found.corners_px, found.seen_corners_px):
         look = shape_mismatch_of(
@@ -139,10 +139,10 @@ def _plain_correlation(scene: OccurrenceContext, found: Occurrence) -> tuple[flo
         )
         maximum = max(maximum, look.correlation)
         if not look.is_other_shape:
-            alike = max(alike, look.correlation)
-        if alike >= _min_plain(corners):
+            correlation = max(correlation, look.correlation)
+        if correlation >= _min_plain(corners):
             break
-    return alike, maximum
+    return correlation, maximum
 
 
 def _photometrically_verified(
@@ -152,29 +152,33 @@ def _photometrically_verified(
 
     Also return the occlusion of the marker where it is known. None where the sighting is rejected.
     """
-    explanation = photometric_fit_of(
+    fit = photometric_fit_of(
         scene.window,
         scene.model.square,
         found.corners_px - scene.corner_px,
         side_px=side_px_of(found.corners_px),
     )
-    if (explanation is None or not explanation.is_accepted) and _is_saturated_track(scene, found):
+    if (fit is None or not fit.is_accepted) and _is_saturated_track(scene, found):
         return seen, None
-    if explanation is None or explanation.is_rotation_ambiguous:
+    if fit is None or fit.is_rotation_ambiguous:
         return None
-    if explanation.is_accepted or (explanation.is_accepted_when_tracked and _is_where_expected(scene, found)):
-        moved = _moved(scene, found, seen, explanation.corners_px + scene.corner_px)
-        moved = replace(moved, is_noise_corrected=explanation.noise_corrected is not None)
-        return moved, explanation.occludes if explanation.is_occluded else None
+    if fit.is_accepted or (fit.is_accepted_when_tracked and _is_where_expected(scene, found)):
+        moved = _moved(scene, found, seen, fit.corners_px + scene.corner_px)
+        moved = replace(moved, is_noise_corrected=fit.noise_corrected is not None)
+        return moved, fit.occludes if fit.is_occluded else None
     if plain <= 0.0:
         return None
-    alike, inner = explanation.correlation, explanation.inner_correlation
+    correlation, inner = fit.correlation, fit.inner_correlation
     if scene.expected is not None:
-        return (seen, None) if min(alike, inner) >= KNOWN_CORRELATION else None
+        return (seen, None) if min(correlation, inner) >= KNOWN_CORRELATION else None
     wide = side_px_of(seen.corners_px) > WIDE_PX and seen.model_coverage_ratio > FULL_COVERAGE_RATIO
     # Bent paper needs no highlights, and a model with highlights can mask another shape.
-    is_bent = wide and not explanation.has_highlights
-    return (seen, None) if is_bent and alike >= NEAR_CORRELATION and inner >= NEAR_INNER_CORRELATION else None
+    is_bent = wide and not fit.has_highlights
+    return (
+        (seen, None)
+        if is_bent and correlation >= NEAR_CORRELATION and inner >= NEAR_INNER_CORRELATION
+        else None
+    )
 
 
 def _is_saturated_track(scene: OccurrenceContext, found: Occurrence) -> bool:

@@ -69,19 +69,19 @@ def test_the_same_seed_gives_the_same_files(design: Path, tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize(
-    ("seed", "alike"),
+    ("seed", "is_same"),
     [
         pytest.param([], False, id="from-the-name"),
         pytest.param(["--seed", "1"], True, id="typed"),
     ],
 )
 def test_another_name_has_another_shape_unless_a_seed_is_typed(
-    tmp_path: Path, seed: list[str], alike: bool
+    tmp_path: Path, seed: list[str], is_same: bool
 ) -> None:
     for name in ("drill", "awl"):
         typed("design", "--proposals", "4", "--output", tmp_path, "--name", name, *seed)
     drill, awl = (load_marker_image(tmp_path / f"{name}.png") for name in ("drill", "awl"))
-    assert (drill.shape == awl.shape and bool((drill == awl).all())) is alike
+    assert (drill.shape == awl.shape and bool((drill == awl).all())) is is_same
 
 
 def test_a_name_has_the_same_shape_on_every_machine(tmp_path: Path) -> None:

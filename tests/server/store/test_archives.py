@@ -74,12 +74,12 @@ def test_a_case_comes_back_as_it_was(store: CaseStore, case: Case) -> None:
     assert again.id != case.id
     assert (again.name, again.created_at, again.copied_from) == (PATIENT, case.created_at, case.id)
 
-    def alike(entries: tuple[Entry, ...]) -> str:
+    def comparable(entries: tuple[Entry, ...]) -> str:
         """But for the case that they are in, and that they came in."""
         reported = repr([(replace(one.heading, imported=None), one.validity) for one in entries])
         return reported.replace(case.id, "").replace(again.id, "").replace(SAYS_ARCHIVE, "")
 
-    assert alike(store.outline(again.id)) == alike(store.outline(case.id))
+    assert comparable(store.outline(again.id)) == comparable(store.outline(case.id))
     assert store.latest(again.id, DocumentKind.CT, "main").content == {"mm": 0.1 + 0.2}  # type: ignore[union-attr]  # there
     assert store.verify(again.id) == ()
     before, after = store.files(case.id)[0], store.files(again.id)[0]

@@ -81,7 +81,7 @@ def _jittering(image: Image, at_s: float) -> Image:
     return np.asarray(np.clip(image * gain, 0, 255), dtype=np.uint8)
 
 
-def _shaded(image: Image, at_s: float) -> Image:
+def _unevenly_lit(image: Image, at_s: float) -> Image:
     """A gradient of the light that stands still: from half to full over the rows, with bands in it."""
     del at_s
     rows = np.arange(len(image)) / len(image)
@@ -100,7 +100,7 @@ def _trembling(image: Image, at_s: float) -> Image:
 
 @pytest.mark.parametrize("scene", [Scene.OPERATION, Scene.BOARD])
 @pytest.mark.parametrize(
-    "change", [_unchanged, _stepped, _hunting, _clouded, _jittering, _shaded, _trembling]
+    "change", [_unchanged, _stepped, _hunting, _clouded, _jittering, _unevenly_lit, _trembling]
 )
 def test_nothing_else_that_changes_an_image_is_taken_for_a_lamp(scene: Scene, change: Change) -> None:
     assert _judged(_film(scene, 30.0), change).flicker is None

@@ -9,7 +9,7 @@ from tracker.marker.photometric_fit.highlight import highlight_in
 from tracker.marker.photometric_fit.illumination import grid, smooth_light
 
 
-def _bell(middle: tuple[float, float], sds: tuple[float, float], rotation_deg: float) -> Array:
+def _gaussian(middle: tuple[float, float], sds: tuple[float, float], rotation_deg: float) -> Array:
     u, v = grid()
     along, across = np.cos(np.radians(rotation_deg)), np.sin(np.radians(rotation_deg))
     x, y = u - middle[0], v - middle[1]
@@ -29,19 +29,19 @@ def _left(of: Array, light: Array) -> float:
 def test_a_highlight_between_the_initial_shapes_is_found(
     middle: tuple[float, float], sds: tuple[float, float], rotation_deg: float
 ) -> None:
-    seen = 60.0 * _bell(middle, sds, rotation_deg)
+    seen = 60.0 * _gaussian(middle, sds, rotation_deg)
     found = highlight_in(seen, smooth_light(2), np.ones((GRID_CELLS, GRID_CELLS)))
     assert found is not None
     assert _left(seen, np.column_stack([smooth_light(2), found])) < 0.01
 
 
 def test_a_spot_as_narrow_as_a_part_of_the_shape_is_no_highlight() -> None:
-    seen = 60.0 * _bell((0.2, -0.2), (0.15, 0.15), 0.0)
+    seen = 60.0 * _gaussian((0.2, -0.2), (0.15, 0.15), 0.0)
     found = highlight_in(seen, smooth_light(2), np.ones((GRID_CELLS, GRID_CELLS)))
     assert found is None or _left(seen, np.column_stack([smooth_light(2), found])) > 0.4
 
 
 def test_a_dark_spot_is_no_highlight() -> None:
-    dark = -60.0 * _bell((0.0, 0.0), (0.5, 0.5), 0.0)
+    dark = -60.0 * _gaussian((0.0, 0.0), (0.5, 0.5), 0.0)
     found = highlight_in(dark, np.ones((GRID_CELLS * GRID_CELLS, 1)), np.ones((GRID_CELLS, GRID_CELLS)))
     assert found is None or _left(dark, np.column_stack([np.ones(GRID_CELLS * GRID_CELLS), found])) > 0.5

@@ -10,7 +10,7 @@ from tracker.marker.photometric_fit.acceptance import NoiseCorrectedFit
 NOTHING_HIDDEN = np.zeros((30, 30), np.bool_)
 
 
-def _explanation(
+def _fit(
     *, side_px: float, blur_ratio: tuple[float, float], correlation: float = 0.9, beside: float = 0.96
 ) -> PhotometricFit:
     return PhotometricFit(
@@ -30,7 +30,7 @@ def _explanation(
 
 
 @pytest.mark.parametrize(
-    ("side_px", "blur_ratio", "explains"),
+    ("side_px", "blur_ratio", "accepted"),
     [
         (27.0, (0.05, 0.055), True),
         (27.0, (0.056, 0.075), False),
@@ -38,27 +38,25 @@ def _explanation(
         (27.0, (0.03, 0.10), True),
         (27.0, (0.03, 0.11), False),
     ],
-    ids=["sharp", "soft", "small", "smeared", "too smeared"],
+    ids=["sharp", "soft", "small", "motion blur", "too much motion blur"],
 )
 def test_sharper_and_wider_squares_may_have_more_noise(
-    side_px: float, blur_ratio: tuple[float, float], explains: bool
+    side_px: float, blur_ratio: tuple[float, float], accepted: bool
 ) -> None:
-    assert _explanation(side_px=side_px, blur_ratio=blur_ratio).is_accepted is explains
+    assert _fit(side_px=side_px, blur_ratio=blur_ratio).is_accepted is accepted
 
 
 def test_acceptance_is_monotonic_in_sharpness() -> None:
     for side_px in (18.0, 20.0, 22.0, 25.0, 30.0, 60.0):
         for both in np.arange(1.80, 2.0, 0.01):
             taken = [
-                _explanation(
-                    side_px=side_px, blur_ratio=(one, one), correlation=both - 0.97, beside=0.97
-                ).is_accepted
+                _fit(side_px=side_px, blur_ratio=(one, one), correlation=both - 0.97, beside=0.97).is_accepted
                 for one in (0.02, 0.05, 0.054, 0.057, 0.0595, 0.061)
             ]
             assert taken == sorted(taken, reverse=True), (side_px, both, taken)
 
 
 def test_defocus_with_motion_blur_is_rejected() -> None:
-    for blur_ratio, explains in (((0.06, 0.08), True), ((0.06, 0.095), False)):
-        one = _explanation(side_px=27.0, blur_ratio=blur_ratio, correlation=0.97, beside=0.99)
-        assert one.is_accepted is explains
+    for blur_ratio, accepted in (((0.06, 0.08), True), ((0.06, 0.095), False)):
+        one = _fit(side_px=27.0, blur_ratio=blur_ratio, correlation=0.97, beside=0.99)
+        assert one.is_accepted is accepted

@@ -15,8 +15,8 @@ from tests.tracker.scenes import (
     code_image,
     code_model,
     corners_px_of,
+    motion_blurred,
     rendered,
-    smeared,
 )
 from tests.tracker.scenes import facing_at_px as placed
 from tracker.geometry import Array, Camera, Marker, Rigid
@@ -43,9 +43,9 @@ def _out_of_focus(image: Image8, side_px: float, _: float) -> Image8:
     return np.asarray(cv2.GaussianBlur(image, (0, 0), 0.06 * side_px), dtype=np.uint8)
 
 
-def _smeared(image: Image8, side_px: float, from_deg: float) -> Image8:
+def _motion_blurred(image: Image8, side_px: float, from_deg: float) -> Image8:
     """Blur by motion over a fifth of its side."""
-    return smeared(image, 0.2 * side_px, from_deg)
+    return motion_blurred(image, 0.2 * side_px, from_deg)
 
 
 def _under_glare(image: Image8, side_px: float, from_deg: float) -> Image8:
@@ -67,7 +67,7 @@ def _covered(
     return out
 
 
-DEGRADED = [_in_shadow, _out_of_focus, _smeared, _under_glare]
+DEGRADED = [_in_shadow, _out_of_focus, _motion_blurred, _under_glare]
 
 
 def _explained(image: Image8, pose: Rigid[Camera, Marker], side_px: float) -> PhotometricFit | None:

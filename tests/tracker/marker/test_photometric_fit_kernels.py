@@ -88,8 +88,10 @@ def test_defocus_is_a_gaussian_at_any_tilt() -> None:
     lens_blur(tilted, 1.3, blur)
     render_model(pictures.layers, pictures.blurs_cells, blur, tilted, shown)
     own = tuple(float(v) for v in blur)
-    bell, box = (_at_fields(_blurred((own[0], own[1], own[2]), smears=smears)) for smears in (False, True))
-    np.testing.assert_allclose(shown[0], bell, atol=0.02)
+    gaussian, box = (
+        _at_fields(_blurred((own[0], own[1], own[2]), smears=smears)) for smears in (False, True)
+    )
+    np.testing.assert_allclose(shown[0], gaussian, atol=0.02)
     assert float(np.abs(shown[0] - box).max()) > 0.04
 
 

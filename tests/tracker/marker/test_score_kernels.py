@@ -55,8 +55,8 @@ def test_matched_edgels_equal_the_brute_force_count(radius: float) -> None:
     side = (along[:, 0] * beyond[..., 1] - along[:, 1] * beyond[..., 0]) / np.linalg.norm(along, axis=1)
     taken = index[(side >= -REACH_PX).all(axis=1) & (edgels.strength[index] >= 60.0)]
     x, y = edgels.x[taken, None] - points[:, 0], edgels.y[taken, None] - points[:, 1]
-    alike = edgels.nx[taken, None] * normals[:, 0] + edgels.ny[taken, None] * normals[:, 1] > 0.5
-    near = ((x * x + y * y <= radius * radius) & alike).any(axis=1)
+    is_same_direction = edgels.nx[taken, None] * normals[:, 0] + edgels.ny[taken, None] * normals[:, 1] > 0.5
+    near = ((x * x + y * y <= radius * radius) & is_same_direction).any(axis=1)
     assert 0 < near.sum() < len(taken)
     counted = count_matched_edgels(
         edgels.at,

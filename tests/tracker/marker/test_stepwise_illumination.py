@@ -89,7 +89,7 @@ def test_a_differing_field_shows_half_of_its_contrast(seed: int) -> None:
 def test_local_ncc_separates_the_marker_from_its_rotations_in_any_illumination(seed: int) -> None:
     image, corners = _in_poor_light(code_image(OWN), seed, SIDE_PX)
     pictures = scale_space_of(code_model().square)
-    alike = [
+    ncc = [
         local_ncc_at(image, pictures, np.roll(corners, turn, axis=0), side_px=SIDE_PX) for turn in range(4)
     ]
-    assert alike[0] > max(0.75, max(alike[1:]) + 0.1)
+    assert ncc[0] > max(0.75, max(ncc[1:]) + 0.1)

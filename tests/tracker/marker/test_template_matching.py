@@ -4,7 +4,15 @@ import cv2
 import numpy as np
 import pytest
 
-from tests.tracker.scenes import OTHER, Image8, camera_of, code_model, facing_at_px, in_clutter, smeared
+from tests.tracker.scenes import (
+    OTHER,
+    Image8,
+    camera_of,
+    code_model,
+    facing_at_px,
+    in_clutter,
+    motion_blurred,
+)
 from tracker.geometry import Array
 from tracker.marker import templates_of
 from tracker.marker.template_matching import Templates, refine_quads, template_match
@@ -31,7 +39,7 @@ def _covered(image: Image8, corners: Array) -> Image8:
     return np.asarray(out, dtype=np.uint8)
 
 
-def _shaded(image: Image8, corners: Array) -> Image8:
+def _half_in_shadow(image: Image8, corners: Array) -> Image8:
     """Add a shadow edge through its middle."""
     ramp = 1.0 - 0.7 / (1.0 + np.exp(-(np.arange(image.shape[1]) - corners[:, 0].mean()) / 3.0))
     return np.asarray(image * ramp, np.uint8)
@@ -40,9 +48,9 @@ def _shaded(image: Image8, corners: Array) -> Image8:
 CASES = [
     pytest.param(lambda image, _: image, 1.0, id="sharp"),
     pytest.param(lambda image, _: cv2.GaussianBlur(image, (0, 0), 2.0), 1.8, id="out of focus"),
-    pytest.param(lambda image, _: smeared(image, 8, 30), 1.8, id="in motion"),
+    pytest.param(lambda image, _: motion_blurred(image, 8, 30), 1.8, id="in motion"),
     pytest.param(_covered, 2.5, id="partly covered"),
-    pytest.param(_shaded, 1.2, id="half in the shadow"),
+    pytest.param(_half_in_shadow, 1.2, id="half in the shadow"),
 ]
 
 
@@ -64,7 +72,7 @@ def test_a_quad_off_by_a_tenth_of_its_side_is_refined(
 def test_a_skewed_quad_becomes_a_possible_view_of_a_square(templates: Templates) -> None:
     """Motion blur leaves corners free; a square of this size appears as a parallelogram, within a pixel."""
     image, corners = _scene()
-    picture = smeared(image, 8, 30)
+    picture = motion_blurred(image, 8, 30)
     off = np.random.default_rng(7).normal(0.0, 0.07 * SIDE_PX, (12, 4, 2))
     found, _ = refine_quads(picture, (corners + off).astype(np.float32), templates.each[0])
     apart = np.abs(found[:, 0] - found[:, 1] + found[:, 2] - found[:, 3]).max(axis=1)
@@ -107,10 +115,10 @@ def test_occlusion_lowers_the_template_match_but_little_the_refined_correlation(
 def test_of_duplicate_quads_the_best_is_kept() -> None:
     square = np.array([[0, 0], [20, 0], [20, 20], [0, 20]], np.float32)
     quads = np.array([square, square + 0.5, square + 60, np.roll(square, 1, axis=0), square + 90], np.float32)
-    alike = np.array([0.90, 0.95, 0.8, 0.85, 0.5], np.float32)
-    order = np.argsort(-alike)
+    ncc = np.array([0.90, 0.95, 0.8, 0.85, 0.5], np.float32)
+    order = np.argsort(-ncc)
     nothing = np.empty((0, 4, 2), np.float32)
     # The same corners in another turn are another outline; what is not like it is none.
-    assert distinct(quads, alike, order, nothing, 4, 0.7, 0.06).tolist() == [1, 3, 2]
-    assert distinct(quads, alike, order, nothing, 2, 0.7, 0.06).tolist() == [1, 3]
-    assert distinct(quads, alike, order, quads[2:3], 4, 0.7, 0.06).tolist() == [1, 3]
+    assert distinct(quads, ncc, order, nothing, 4, 0.7, 0.06).tolist() == [1, 3, 2]
+    assert distinct(quads, ncc, order, nothing, 2, 0.7, 0.06).tolist() == [1, 3]
+    assert distinct(quads, ncc, order, quads[2:3], 4, 0.7, 0.06).tolist() == [1, 3]

@@ -13,8 +13,8 @@ from tests.tracker.scenes import (
     code_model,
     corners_px_of,
     facing_at_px,
+    motion_blurred,
     rendered,
-    smeared,
 )
 from tracker import Seen, Sighting
 from tracker.edges import edgels_of, gradient_of
@@ -58,7 +58,7 @@ def _accepted(image: Image8, pose: Rigid[Camera, Marker]) -> Sighting:
 @pytest.mark.parametrize("from_deg", [10, 55, 100, 145])
 def test_a_marker_smeared_over_a_quarter_of_its_side_is_seen_and_where_it_is(from_deg: float) -> None:
     pose = facing_at_px(CAMERA, (100.3, 80.7), 30.0, tilt_deg=20, about_deg=40, roll_deg=15)
-    image = smeared(rendered(CAMERA, [Print(picture=code_image(), pose=pose)]), 8.0, from_deg)
+    image = motion_blurred(rendered(CAMERA, [Print(picture=code_image(), pose=pose)]), 8.0, from_deg)
     sighting = _accepted(image, pose)
     assert isinstance(sighting, Seen), sighting
     # Its edges are found up to three pixels off.
@@ -70,7 +70,7 @@ def test_a_marker_smeared_over_a_quarter_of_its_side_is_seen_and_where_it_is(fro
 @pytest.mark.parametrize("field", range(9))
 def test_a_smeared_look_alike_is_not_seen(field: int) -> None:
     pose = facing_at_px(CAMERA, (100.3, 80.7), 30.0, tilt_deg=20, about_deg=40, roll_deg=15)
-    image = smeared(
+    image = motion_blurred(
         rendered(CAMERA, [Print(picture=code_image(NEIGHBOURS[field]), pose=pose)]), 8.0, 40.0 * field
     )
     assert not isinstance(_accepted(image, pose), Seen)

@@ -115,9 +115,9 @@ def test_illumination_normalisation_removes_a_shadow() -> None:
     tile = np.kron(np.indices((12, 16)).sum(axis=0) % 2 * 160 + 40, np.ones((10, 10)))
     tile[:, 80:] *= 0.5
     even = normalise_illumination(tile.astype(np.uint8), window_px=41, noise_grey=0.0).astype(float)
-    lit, shaded = even[30:90, 20:50], even[30:90, 110:140]
+    lit, in_shadow = even[30:90, 20:50], even[30:90, 110:140]
     for share in (10, 90):
-        assert np.percentile(lit, share) == pytest.approx(np.percentile(shaded, share), rel=0.15)
+        assert np.percentile(lit, share) == pytest.approx(np.percentile(in_shadow, share), rel=0.15)
 
 
 @pytest.mark.parametrize("period_px", [1, 2, 3, 8])

@@ -47,11 +47,11 @@ def likely_size(views: Sequence[BoardView], board: Board) -> tuple[int, int] | N
         row, column = np.divmod(view.ids, board.columns)
         spans.append((int(np.ptp(column)) + 1, int(np.ptp(row)) + 1))
     maximum = max(wide for wide, _ in spans), max(high for _, high in spans)
-    alike = sum(
+    equal_views = sum(
         span == maximum and view.ids.size == maximum[0] * maximum[1]
         for span, view in zip(spans, views, strict=True)
     )
-    if maximum == (board.columns, board.rows) or alike < max(
+    if maximum == (board.columns, board.rows) or equal_views < max(
         MIN_EQUAL_VIEWS, MIN_EQUAL_VIEWS_RATIO * len(views)
     ):
         return None

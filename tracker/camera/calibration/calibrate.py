@@ -82,8 +82,8 @@ def calibrate(
     out |= {sound[index]: reason for index, reason in retained.out.items()}
     _reject_disagreement(retained, len(usable))
     blocks = blocks_of(retained.fit, retained.views)
-    alike = noise_is_correlated(retained.views, retained.fit.residuals_px, blocks)
-    sure = uncertainty(blocks, is_noise_correlated=alike)
+    is_correlated = noise_is_correlated(retained.views, retained.fit.residuals_px, blocks)
+    sure = uncertainty(blocks, is_noise_correlated=is_correlated)
     parameters = _parameters(retained.fit, sure)
     camera = CameraModel(
         matrix=retained.fit.matrix, distortion=retained.fit.distortion, size_wh_px=size_wh_px, is_fit=True
@@ -95,7 +95,7 @@ def calibrate(
         camera=camera,
         rms_px=rms(np.concatenate(retained.fit.residuals_px)),
         noise_px=sure.noise_px,
-        is_noise_correlated=alike,
+        is_noise_correlated=is_correlated,
         parameters=parameters,
         covariance=_read_only(sure.covariance),
         views=reports,

@@ -74,9 +74,11 @@ def place_on_board(
         return None
     fewest = min(one[0] for one in found)
     # A single dot that glare made larger must not decide.
-    rivals = [one for one in found if one[0] <= fewest + max(1, len(cells) // 100) * (fewest > 0)]
-    best = min(rivals, key=lambda one: (one[0], round(one[1], 1), one[2], one[1]))
-    return BoardPlacement(ids=best[3], ambiguity=_ambiguity_of([one[4] for one in rivals]), misfits=fewest)
+    candidates = [one for one in found if one[0] <= fewest + max(1, len(cells) // 100) * (fewest > 0)]
+    best = min(candidates, key=lambda one: (one[0], round(one[1], 1), one[2], one[1]))
+    return BoardPlacement(
+        ids=best[3], ambiguity=_ambiguity_of([one[4] for one in candidates]), misfits=fewest
+    )
 
 
 def trim_to_board(cells: Cells, columns: int, rows: int) -> tuple[Cells, npt.NDArray[np.bool_]]:

@@ -206,8 +206,8 @@ def _report(
     flat_views = [view for shot in views for view in shot.values()]
     flat = [residual for shot in by_shot for residual in shot.values()]
     blocks = rig_blocks(bundle, views)
-    alike = noise_is_correlated(flat_views, flat, blocks)
-    sure = uncertainty(blocks, is_noise_correlated=alike)
+    is_correlated = noise_is_correlated(flat_views, flat, blocks)
+    sure = uncertainty(blocks, is_noise_correlated=is_correlated)
     places = places_of(bundle)
     cameras = []
     for name, model in bundle.models.items():
@@ -225,7 +225,7 @@ def _report(
         cameras=tuple(cameras),
         rms_px=rms(np.concatenate(flat)),
         shared_shots=sum(len(shot) > 1 for shot in views),
-        is_noise_correlated=alike,
+        is_noise_correlated=is_correlated,
         shots=tuple(
             ShotReport(
                 name=name,

@@ -112,9 +112,9 @@ class SceneMonitor:
             far, far_in_sight = self._found(picture, self._points + np.array(shift, dtype=np.float32))
             if far_in_sight.sum() > visible.sum():
                 found, visible = far, far_in_sight
-        moved_px, alike = self._motion(found[visible], self._points[visible])
+        moved_px, inlier_ratio = self._motion(found[visible], self._points[visible])
         needed = max(MIN_PATCHES, self._settings.min_visible_ratio * count)
-        if visible.sum() < needed or alike < 0.5:
+        if visible.sum() < needed or inlier_ratio < 0.5:
             return self._result(SceneState.UNSURE, moved_px, int(visible.sum()))
         state = SceneState.MOVED if moved_px > self._settings.max_px else SceneState.STILL
         return self._result(state, moved_px, int(visible.sum()))
@@ -159,9 +159,9 @@ class SceneMonitor:
         if fitted is None or not np.isfinite(fitted).all():
             return 0.0, 0.0
         expected = retained @ fitted[:, :2].T + fitted[:, 2]
-        alike = np.linalg.norm(expected - found, axis=1) < within_px
-        moved = np.linalg.norm(expected - retained, axis=1)[alike]
-        return (float(np.median(moved)) / self._scale if alike.any() else 0.0), float(alike.mean())
+        is_inlier = np.linalg.norm(expected - found, axis=1) < within_px
+        moved = np.linalg.norm(expected - retained, axis=1)[is_inlier]
+        return (float(np.median(moved)) / self._scale if is_inlier.any() else 0.0), float(is_inlier.mean())
 
 
 def _normalised(image: Picture, scale: float) -> Picture:

@@ -47,8 +47,8 @@ def best_alternative_order(fixed_mm: Array, moving_mm: Array) -> AlternativeOrde
     fres = _fres_mm(fixed_mm, moving_mm, orders)
     # Among orders that fit equally well, the one with the fewest changes.
     moved = (orders != np.arange(len(fixed_mm))).sum(axis=1)
-    alike = np.flatnonzero(fres <= fres.min() * 1.05 + 1e-9)
-    best = alike[np.argmin(moved[alike])]
+    equal_fits = np.flatnonzero(fres <= fres.min() * 1.05 + 1e-9)
+    best = equal_fits[np.argmin(moved[equal_fits])]
     return AlternativeOrder(fre_mm=float(fres[best]), order=tuple(int(one) for one in orders[best]))
 
 
@@ -70,18 +70,22 @@ def reject_swapped_or_mirrored(
         RegistrationError: POINTS_SWAPPED or POINTS_MIRRORED, another correspondence fits clearly better;
             POINTS_AMBIGUOUS, the given order fits badly and another one better, but not well either.
     """
-    rival = best_alternative_order(pairs.fixed_mm, pairs.moving_mm)
+    alternative = best_alternative_order(pairs.fixed_mm, pairs.moving_mm)
     mirrored = mirrored_fre_mm(pairs.fixed_mm, pairs.moving_mm)
     fits = fre_mm <= settings.max_accepted_fre_mm
-    numbers = {"fre_mm": fre_mm, "other_order_fre_mm": rival.fre_mm, "mirrored_fre_mm": mirrored}
-    swapped = _swap_text(rival.order, pairs.labels)
-    if not fits and settings.min_improvement_ratio * rival.fre_mm < fre_mm and rival.fre_mm <= 1.5 * mirrored:
+    numbers = {"fre_mm": fre_mm, "other_order_fre_mm": alternative.fre_mm, "mirrored_fre_mm": mirrored}
+    swapped = _swap_text(alternative.order, pairs.labels)
+    if (
+        not fits
+        and settings.min_improvement_ratio * alternative.fre_mm < fre_mm
+        and alternative.fre_mm <= 1.5 * mirrored
+    ):
         raise RegistrationError(
             "POINTS_SWAPPED",
             f"{swapped} seem to be swapped: as given the points fit to {fre_mm:.2f} mm RMS, "
-            f"the other way to {rival.fre_mm:.2f} mm",
+            f"the other way to {alternative.fre_mm:.2f} mm",
             "Touch these landmarks again, each when its name is shown, or put the rows in order.",
-            {**numbers, "order": [pairs.labels[one] for one in rival.order]},
+            {**numbers, "order": [pairs.labels[one] for one in alternative.order]},
         )
     if not fits and settings.min_improvement_ratio * mirrored < fre_mm:
         raise RegistrationError(
@@ -92,24 +96,24 @@ def reject_swapped_or_mirrored(
             "(LPS and RAS differ in two signs, not in one).",
             numbers,
         )
-    if not fits and rival.fre_mm < fre_mm:
+    if not fits and alternative.fre_mm < fre_mm:
         raise RegistrationError(
             "POINTS_AMBIGUOUS",
-            f"the points fit to {fre_mm:.2f} mm RMS as given, and better ({rival.fre_mm:.2f} mm) "
+            f"the points fit to {fre_mm:.2f} mm RMS as given, and better ({alternative.fre_mm:.2f} mm) "
             f"with {swapped} swapped, so that their order is ambiguous",
             "Touch the landmarks again, and choose ones whose distances from each other differ.",
-            {**numbers, "order": [pairs.labels[one] for one in rival.order]},
+            {**numbers, "order": [pairs.labels[one] for one in alternative.order]},
         )
-    if rival.fre_mm > max(settings.max_accepted_fre_mm, settings.min_improvement_ratio * fre_mm):
+    if alternative.fre_mm > max(settings.max_accepted_fre_mm, settings.min_improvement_ratio * fre_mm):
         return ()
     return (
         Remark(
             code="POINTS_SWAP_UNDETECTABLE",
             message=f"had {swapped} been swapped, it would not be detected: the points fit to "
-            f"{fre_mm:.2f} mm RMS as given and to {rival.fre_mm:.2f} mm that way",
+            f"{fre_mm:.2f} mm RMS as given and to {alternative.fre_mm:.2f} mm that way",
             remedy="Check on a landmark that was not used, on one side; or add one that makes the sides "
             "differ.",
-            context={**numbers, "order": [pairs.labels[one] for one in rival.order]},
+            context={**numbers, "order": [pairs.labels[one] for one in alternative.order]},
         ),
     )
 

@@ -67,14 +67,18 @@ def reject_ambiguous(
     """
     minimum = cost(sweep, best, best.sd_mm)
     moving = best.fixed_from_moving.inverse.move_points(targets_mm)
-    for rival in alternatives:
-        shifts = rival.fixed_from_moving.move_points(moving) - targets_mm
+    for alternative in alternatives:
+        shifts = alternative.fixed_from_moving.move_points(moving) - targets_mm
         apart = np.linalg.norm(shifts, axis=1)
         if apart.max() <= settings.max_apart_mm:
             continue
-        if cost(sweep, rival, best.sd_mm) - minimum < max(MIN_DELTA_CHI2, MIN_DELTA_CHI2_RATIO * minimum):
+        if cost(sweep, alternative, best.sd_mm) - minimum < max(
+            MIN_DELTA_CHI2, MIN_DELTA_CHI2_RATIO * minimum
+        ):
             way = np.concatenate([shifts[int(np.argmax(apart))], np.zeros(3)])
-            raise_ambiguous(float(apart.max()), description(way), (_rms(sweep, best), _rms(sweep, rival)))
+            raise_ambiguous(
+                float(apart.max()), description(way), (_rms(sweep, best), _rms(sweep, alternative))
+            )
 
 
 def _rms(sweep: Sweep, laid: SweepFit) -> float:

@@ -83,6 +83,6 @@ def test_the_clearance_of_a_drill_is_that_to_the_solid_and_not_more(name: str, m
     assert -0.3 < now.clearance_mm - truth_mm < 0.1
     assert abs(now.clearance_mm - truth_mm) < 2.0 * sd_mm
     tool = UncertainPose(pose=pose, covariance=np.zeros((6, 6)))
-    chance = probability_of_breach(rings.now, wall, tool, wall_sd_mm=sd_mm)
-    assert chance.sd_mm == pytest.approx(sd_mm, rel=0.05)
-    assert chance.through_ratio == pytest.approx(float(ndtr(-now.clearance_mm / sd_mm)), abs=0.02)
+    probability = probability_of_breach(rings.now, wall, tool, wall_sd_mm=sd_mm)
+    assert probability.sd_mm == pytest.approx(sd_mm, rel=0.05)
+    assert probability.through_ratio == pytest.approx(float(ndtr(-now.clearance_mm / sd_mm)), abs=0.02)

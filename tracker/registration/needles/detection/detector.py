@@ -217,8 +217,8 @@ def _of_one_shade(sections: CrossSections) -> CrossSections:
     own = np.median(sections.inside[sections.is_bar], axis=0)
     off = np.linalg.norm(sections.inside - own, axis=1) / np.sqrt(3.0)
     colour = np.ptp(sections.inside, axis=1) / np.maximum(sections.inside.max(axis=1), 40.0)
-    alike = (off < MAX_SHADE_CHANGE) & (colour < 1.5 * MAX_COLOUR_RATIO)
-    return dataclasses.replace(sections, is_bar=sections.is_bar & alike)
+    is_same_colour = (off < MAX_SHADE_CHANGE) & (colour < 1.5 * MAX_COLOUR_RATIO)
+    return dataclasses.replace(sections, is_bar=sections.is_bar & is_same_colour)
 
 
 def _run(sections: CrossSections) -> slice:

@@ -30,7 +30,7 @@ export function Gates(): ReactNode {
     <section className="card gates" data-testid="gates-shut">
       <h3>▲ {data.may_navigate ? texts.navigate.dueTitle : texts.navigate.shutTitle}</h3>
       <ul>
-        {alike(open).map((steps) => (
+        {groupSteps(open).map((steps) => (
           <li key={steps.map((one) => one.step).join(" ")}>
             <span>
               <strong>
@@ -52,7 +52,7 @@ export function Gates(): ReactNode {
 }
 
 /** Neighbours that are in one state for one reason, together: it is said once. */
-function alike(steps: readonly Step[]): [Step, ...Step[]][] {
+function groupSteps(steps: readonly Step[]): [Step, ...Step[]][] {
   const groups: [Step, ...Step[]][] = [];
   for (const step of steps) {
     const last = groups.at(-1);
