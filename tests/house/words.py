@@ -49,7 +49,9 @@ STANDARD_TERMS = {
 }
 # Names of other libraries, and terms in which the word is standard.
 STANDARD_NAMES = re.compile(
-    r"least_squares|most_common|at_(most|least)|left_most|held_out|leastSquares", re.IGNORECASE
+    r"least_squares|least_trimmed_squares|most_common|left_most|held_out|leastSquares"
+    r"|(?<![a-z])at_(most|least)|(?-i:\bat(Most|Least)|At(Most|Least))",
+    re.IGNORECASE,
 )
 WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 TYPESCRIPT_NOISE = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:[^\"\\\n]|\\.)*\"|`[^`]*`", re.DOTALL)
