@@ -82,7 +82,7 @@ def sweep_router(step: SweepStep) -> APIRouter:
         found, failures, _ = step.fit()
         return SweepFitMessage(
             numbers=step.numbers(step.session.status, found),
-            weakest=found.least_observable.description,
+            weakest=found.weakest_mode.description,
             remarks=[remark_message(remark) for remark in found.remarks],
             missing=[
                 message

@@ -181,8 +181,8 @@ def _mapping(
         "moved_mm": found.moved_mm,
         "moved_deg": found.moved_deg,
         "weakest": {
-            "direction": found.least_observable.description,
-            "sd_mm": min(found.least_observable.sd_mm, 1000.0),
+            "direction": found.weakest_mode.description,
+            "sd_mm": min(found.weakest_mode.sd_mm, 1000.0),
         },
     }
 
@@ -192,7 +192,7 @@ def _lines(found: SurfaceRegistration, targets: Sequence[Array]) -> list[str]:
         f"{found.used_ratio:.0%} of {len(found.used)} swept points lie on the bone, "
         f"to {found.rms_mm:.2f} mm RMS",
         f"Moved by {found.moved_mm:.1f} mm and {found.moved_deg:.1f} deg from the initial transform",
-        f"Least certain direction: {found.least_observable.description}",
+        f"Least certain direction: {found.weakest_mode.description}",
     ]
     for target in targets:
         at = ", ".join(f"{number:g}" for number in target)

@@ -13,7 +13,7 @@ from tracker.verification.tool_errors import ErrorSample
 
 WIDE, HIGH, LEFT, TOP, GAP, LINE = 260, 190, 46, 40, 40, 15
 COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#000000", "#999933", "#882255")
-FEWEST, MOST = 0.01, 100.0
+MIN_ERROR, MAX_ERROR = 0.01, 100.0
 
 
 def plots_of(theatres: Sequence[TheatreRows], figures: Figures) -> dict[str, str]:
@@ -47,15 +47,15 @@ def _errors_of(theatres: Sequence[TheatreRows], variant: Variant) -> Mapping[str
 def _errors_panel(
     name: str, variants: Sequence[Variant], tool_errors: Mapping[Variant, Mapping[str, list[ErrorSample]]]
 ) -> list[str]:
-    span = np.log10(MOST / FEWEST)
+    span = np.log10(MAX_ERROR / MIN_ERROR)
     lines = _frame(f"{name}, {QUANTITIES[name]}")
     for power in (-2, -1, 0, 1, 2):
-        x = WIDE * (power - np.log10(FEWEST)) / span
+        x = WIDE * (power - np.log10(MIN_ERROR)) / span
         lines += _tick_across(x, f"{10.0**power:g}")
     for number, variant in enumerate(variants):
         errors = np.sort([one.error for one in tool_errors[variant][name]])
         if len(errors):
-            across = WIDE * np.clip(np.log10(np.maximum(errors, FEWEST) / FEWEST) / span, 0.0, 1.0)
+            across = WIDE * np.clip(np.log10(np.maximum(errors, MIN_ERROR) / MIN_ERROR) / span, 0.0, 1.0)
             lines.append(_curve(across, np.arange(1, len(errors) + 1) / len(errors), number))
     return lines
 

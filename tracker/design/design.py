@@ -52,7 +52,7 @@ def best_design(
     """
     scored = [
         _scored(shape, background, settings, side_mm=side_mm, name=name)
-        for shape in _least_correlated(shapes, background)
+        for shape in _with_lowest_correlation(shapes, background)
     ]
     unique = [one for one in scored if one.assessment.unique] or scored
     precise = sorted(unique, key=lambda one: one.assessment.precision.tilt_sd_deg)[: -(-len(unique) // 2)]
@@ -66,7 +66,7 @@ def best_design(
     return min(finalists, key=_merit)
 
 
-def _least_correlated(shapes: Sequence[Shape], background: Background | None) -> list[Shape]:
+def _with_lowest_correlation(shapes: Sequence[Shape], background: Background | None) -> list[Shape]:
     """Return the shapes with the lowest correlation to their rotations, mirror image and background."""
     squares = [rendered_face(shape, COARSE_PX) for shape in shapes]
     places = concatenated([]) if background is None else background.places

@@ -219,8 +219,10 @@ def _rounds(
         for m, template in enumerate(templates.each):
             # A quad that correlates better with another model may still be this one: a coarse match is
             # unreliable.
-            most = len(quads) if is_coarse else MAX_REFINED_FOUR_SIDED
-            rotated = _top(level.image_from_level(quads), correlation[:, m], most, is_certain=not is_coarse)
+            max_count = len(quads) if is_coarse else MAX_REFINED_FOUR_SIDED
+            rotated = _top(
+                level.image_from_level(quads), correlation[:, m], max_count, is_certain=not is_coarse
+            )
             if is_coarse:
                 rotated = _best_after_first_steps(levels, rotated, template, effort.refined)
             refined, ncc = _refined(levels, rotated, template)
@@ -404,12 +406,14 @@ def _edge_segments(image: GreyImage, min_px: float) -> npt.NDArray[np.float32]:
 
 
 def _from_corners(
-    level: PyramidLevel, segments: npt.NDArray[np.float32], templates: Templates, most: int
+    level: PyramidLevel, segments: npt.NDArray[np.float32], templates: Templates, max_count: int
 ) -> MatchedQuads:
     """Match quads of which one corner is visible."""
     step = max(MIN_STEP_SDS * level.noise_grey, MIN_STEP_GREY)
     corners = corner_quads_of(level.image, segments, min_step_grey=step)
-    return MatchedQuads(level, *coarse_match(level.soft, corners, templates, maximum=most), is_coarse=True)
+    return MatchedQuads(
+        level, *coarse_match(level.soft, corners, templates, maximum=max_count), is_coarse=True
+    )
 
 
 def _between_parallel_sides(
@@ -424,13 +428,13 @@ def _between_parallel_sides(
     )
 
 
-def _top(quads: Quads, correlation: npt.NDArray[np.float32], most: int, *, is_certain: bool) -> Quads:
+def _top(quads: Quads, correlation: npt.NDArray[np.float32], max_count: int, *, is_certain: bool) -> Quads:
     """Return the best quads and rotations (q, 4), each with the model's first corner first.
 
     `is_certain`: whether the correlation is reliable enough to drop those far below the best.
     """
     flat = correlation.ravel()
-    best = np.argpartition(-flat, most)[:most] if len(flat) > most else np.arange(len(flat))
+    best = np.argpartition(-flat, max_count)[:max_count] if len(flat) > max_count else np.arange(len(flat))
     if is_certain and len(best) and flat[best].max() > CERTAIN_CORRELATION:
         best = best[flat[best] > flat[best].max() - MAX_CORRELATION_GAP]
     q, rotation = np.divmod(best, 4)
@@ -438,10 +442,10 @@ def _top(quads: Quads, correlation: npt.NDArray[np.float32], most: int, *, is_ce
     return np.ascontiguousarray(quads[q[:, None], corner])
 
 
-def _best_after_first_steps(levels: ImagePyramid, quads: Quads, template: Template, most: int) -> Quads:
+def _best_after_first_steps(levels: ImagePyramid, quads: Quads, template: Template, max_count: int) -> Quads:
     """Return the quads with the highest correlation after the first steps, moved by them."""
     moved, ncc = _refined(levels, quads, template, steps=FIRST_STEPS)
-    return moved[np.argsort(-ncc, kind="stable")[:most]]
+    return moved[np.argsort(-ncc, kind="stable")[:max_count]]
 
 
 def _refined(

@@ -90,8 +90,8 @@ class Volume:
     def contains(self, points_lps_mm: npt.ArrayLike) -> npt.NDArray[np.bool_]:
         """Return which points (..., 3) in LPS mm lie between the outermost voxel centres: (...) bool."""
         index = self.index_from_lps(points_lps_mm)
-        most = np.array(self.shape_ijk) - 1.0
-        return np.asarray(((index >= -1e-9) & (index <= most + 1e-9)).all(axis=-1))
+        last_index = np.array(self.shape_ijk) - 1.0
+        return np.asarray(((index >= -1e-9) & (index <= last_index + 1e-9)).all(axis=-1))
 
     def sample_hu(self, points_lps_mm: npt.ArrayLike) -> Array:
         """Return HU (...) at points (..., 3) in LPS mm, trilinear; -1024 outside the scanned block.

@@ -212,14 +212,14 @@ def captured(
 def _reject_unseen(samples: Sequence[TipSample | UnseenSample], rate: CaptureRate | None) -> None:
     reasons = [sample.reason for sample in samples if isinstance(sample, UnseenSample)]
     if reasons:
-        most = max(sorted(set(reasons)), key=reasons.count)
+        reason = max(sorted(set(reasons)), key=reasons.count)
         seen = len(samples) - len(reasons)
         raise RegistrationError(
             "CAPTURE_UNSEEN",
             f"the tip was known in {seen} of {len(samples)} images{_at(rate)} and not in {len(reasons)} "
-            f"({most}), needed in all",
+            f"({reason}), needed in all",
             "Turn the markers to the camera, keep hands off them, and touch the landmark again.",
-            {"seen": seen, "images": len(samples), "reason": most, "rate_hz": _hz(rate)},
+            {"seen": seen, "images": len(samples), "reason": reason, "rate_hz": _hz(rate)},
         )
 
 

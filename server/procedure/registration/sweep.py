@@ -233,7 +233,7 @@ class SweepStep:
                 "tool": status.context.tool,
                 "start_version": status.start.document.version,
                 "points": status.start.record.made_from.get("points", []),
-                "weakest": found.least_observable.description,
+                "weakest": found.weakest_mode.description,
                 "remarks": [remark.message for remark in found.remarks],
                 "sweep_in_anchor_mm": np.round(self.session.points_mm, 3).tolist(),
             },
@@ -258,9 +258,7 @@ class SweepStep:
             "max_tre_mm": self._gate.max_tre_mm,
             "moved_mm": found.moved_mm,
             "moved_deg": found.moved_deg,
-            "weakest_sd_mm": found.least_observable.sd_mm
-            if np.isfinite(found.least_observable.sd_mm)
-            else None,
+            "weakest_sd_mm": found.weakest_mode.sd_mm if np.isfinite(found.weakest_mode.sd_mm) else None,
         }
 
     def _bone(self) -> tuple[str, ClosestPointQuery]:

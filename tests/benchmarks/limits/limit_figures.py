@@ -90,9 +90,9 @@ def _of_paces(run: LimitsRun) -> Iterator[Named]:
 def _of_returns(run: LimitsRun) -> Iterator[Named]:
     for one in run.returns:
         name = f"{one.rig} {one.condition} that comes back"
-        for most in RETURNED_WITHIN:
-            count = sum(images <= most for images in one.images)
-            yield f"{name}, found within {most} images", Share(count=count, of=len(one.images))
+        for max_images in RETURNED_WITHIN:
+            count = sum(images <= max_images for images in one.images)
+            yield f"{name}, found within {max_images} images", Share(count=count, of=len(one.images))
         yield (
             f"{name}, wrong",
             Share(count=wrong(one.claims), of=len(one.claims), is_good=False, is_strict=True)

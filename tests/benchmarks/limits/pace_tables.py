@@ -139,7 +139,10 @@ def _hand_table(run: LimitsRun) -> Table:
 def _return_table(run: LimitsRun) -> Table:
     rows = []
     for one in run.returns:
-        within = (sum(images <= most for images in one.images) / len(one.images) for most in RETURNED_WITHIN)
+        within = (
+            sum(images <= max_images for images in one.images) / len(one.images)
+            for max_images in RETURNED_WITHIN
+        )
         goal = goals.IMAGES_TO_RETURN.get(one.condition)
         rows.append(
             [
@@ -152,7 +155,13 @@ def _return_table(run: LimitsRun) -> Table:
         )
     return Table(
         title="A marker that comes back into view: share found by step, by the number of images",
-        columns=["camera, condition", "n", *(f"within {most}" for most in RETURNED_WITHIN), "goal", "wrong"],
+        columns=[
+            "camera, condition",
+            "n",
+            *(f"within {max_images}" for max_images in RETURNED_WITHIN),
+            "goal",
+            "wrong",
+        ],
         rows=rows,
     )
 

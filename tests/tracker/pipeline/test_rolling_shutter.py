@@ -43,8 +43,8 @@ def _image(pose_at: Callable[[float], Pose], scene: Scene, at_s: float) -> Image
     centre_row = float(RIG.px_of(scene.pose, [[0.0, 0.0, 0.0]])[0, 1])
     beyond_px = 0.4 * scene.side_px
     left, first = np.maximum(scene.corners_px.min(axis=0) - beyond_px, 0.0).astype(int).tolist()
-    most = [width, height - ROWS_AT_ONCE]
-    right, last = np.minimum(scene.corners_px.max(axis=0) + beyond_px, most).astype(int).tolist()
+    max_start = [width, height - ROWS_AT_ONCE]
+    right, last = np.minimum(scene.corners_px.max(axis=0) + beyond_px, max_start).astype(int).tolist()
     mean = mean_of(scene)
     for row in range(first, last, ROWS_AT_ONCE):
         delay_s = (row + 0.5 * (ROWS_AT_ONCE - 1) - centre_row) / height * READOUT_S

@@ -79,8 +79,8 @@ def test_an_outlier_that_all_gates_accept_is_covered_only_because_it_is_consider
 
 def test_the_likeliest_outlier_is_the_one_without_which_the_others_fit() -> None:
     found, _ = registered(FOUR, wrong=0, off_mm=np.array([6.0, 0.0, 0.0]))
-    strays_most = max(found.leave_one_out_mm, key=lambda index: found.leave_one_out_mm[index])
-    assert strays_most != 0
+    worst = max(found.leave_one_out_mm, key=lambda index: found.leave_one_out_mm[index])
+    assert worst != 0
     assert found.outliers(GATE) == (0,)
     assert "without point 1 to 0." in found.failures(GATE, [])[0].message
     assert found.failures(GATE, [])[0].context["landmark"] == "1"

@@ -164,7 +164,7 @@ def _costs(step: Array, informations: Array, gradients: Array) -> Array:
 
 def _further_gain_px2(blocks: Sequence[Block], split: _Split) -> float:
     """The most that one more split, of either group, explains: as much as noise and a bent board do."""
-    most = 0.0
+    max_gain_px2 = 0.0
     for members, step in ((split.second, split.second_step), (~split.second, split.first_step)):
         group = [
             replace(block, gradient=block.gradient - block.information @ step)
@@ -172,5 +172,5 @@ def _further_gain_px2(blocks: Sequence[Block], split: _Split) -> float:
             if is_member
         ]
         further = _best_split(group) if len(group) >= 2 * MIN_MEMBERS else None
-        most = max(most, 0.0 if further is None else further.gain_px2)
-    return most
+        max_gain_px2 = max(max_gain_px2, 0.0 if further is None else further.gain_px2)
+    return max_gain_px2

@@ -42,11 +42,11 @@ def dark_blobs(grey: GreyImage, *, window_ratio: float) -> Blobs:
     binary = cv2.adaptiveThreshold(smooth, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, window, 5)
     count, labels, stats, _ = cv2.connectedComponentsWithStats(binary, connectivity=4)
     centres, areas, fourths = [], [], []
-    most = MAX_AREA_RATIO * grey.size
+    max_area_px = MAX_AREA_RATIO * grey.size
     for label in range(1, count):
         left, top, width, height, area = (int(v) for v in stats[label])
         touches = left <= 0 or top <= 0 or left + width >= grey.shape[1] or top + height >= grey.shape[0]
-        if touches or not MIN_AREA_PX <= area <= most or not 0.2 < width / height < 5.0:
+        if touches or not MIN_AREA_PX <= area <= max_area_px or not 0.2 < width / height < 5.0:
             continue
         patch = labels[top : top + height, left : left + width] == label
         ellipse = _ellipse_of(patch)

@@ -47,7 +47,7 @@ def _in_part(grey: GreyImage, board: CheckerBoard) -> BoardView | BoardNotFound:
     max_seen = 0
     for smoothing_px in SADDLE_SMOOTHING_PX:
         points = saddles(grey, smoothing_px=smoothing_px)
-        for lattice in lattices(points, most=MAX_GRIDS):
+        for lattice in lattices(points, max_count=MAX_GRIDS):
             max_seen = max(max_seen, len(lattice.members))
             if len(lattice.members) < min(MIN_CORNERS, board.columns * board.rows):
                 break

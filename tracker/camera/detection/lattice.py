@@ -43,10 +43,10 @@ class Lattice:
     cells: Cells
 
 
-def lattices(points_px: Array, *, most: int) -> Iterator[Lattice]:
+def lattices(points_px: Array, *, max_count: int) -> Iterator[Lattice]:
     """Regular grids among points (n, 2), each of what the ones before it left."""
     left = np.arange(len(points_px))
-    for _ in range(most):
+    for _ in range(max_count):
         found = largest_lattice(points_px[left])
         if len(found.members) < MIN_MEMBERS:
             return

@@ -186,7 +186,13 @@ def _usual_blur_mm(near: Neighbourhood) -> float:
 
 
 def _samples(
-    near: Neighbourhood, bar: Bar, parameters: Array, origin: Array, frame: Array, half: float, most: int
+    near: Neighbourhood,
+    bar: Bar,
+    parameters: Array,
+    origin: Array,
+    frame: Array,
+    half: float,
+    max_samples: int,
 ) -> tube_model.Samples:
     """Return the voxels of the window in the bar, or in a thin band around it without other bone."""
     points, hu = _voxels(near, origin, half)
@@ -203,17 +209,17 @@ def _samples(
     band = OUTSIDE_BAND_MM + 2.2 * np.sqrt(box + np.exp(2.0 * parameters[tube_model.BLUR]))
     used = (np.abs(along) <= 1.0) & (distance < band) & ~_open(bar, points)
     rows = np.flatnonzero(used)
-    if len(rows) > most:
-        rows = np.random.default_rng(1).choice(rows, most, replace=False)
+    if len(rows) > max_samples:
+        rows = np.random.default_rng(1).choice(rows, max_samples, replace=False)
     return tube_model.Samples(along=along[rows], across_mm=local[rows, 1:], hu=hu[rows], box_mm2=box[rows])
 
 
 def _voxels(near: Neighbourhood, origin: Array, half: float) -> tuple[Array, Array]:
     reach = np.linalg.norm(np.linalg.inv(near.lps_from_index[:3, :3]), axis=1) * (half + 16.0)
     middle = near.index_of(origin)
-    most = np.array(near.block.shape[::-1]) - 1
-    low = np.clip(np.floor(middle - reach), 0, most).astype(int)
-    high = np.clip(np.ceil(middle + reach), 0, most).astype(int)
+    last_index = np.array(near.block.shape[::-1]) - 1
+    low = np.clip(np.floor(middle - reach), 0, last_index).astype(int)
+    high = np.clip(np.ceil(middle + reach), 0, last_index).astype(int)
     k, j, i = np.mgrid[low[2] : high[2] + 1, low[1] : high[1] + 1, low[0] : high[0] + 1]
     index = np.stack([i.ravel(), j.ravel(), k.ravel()], axis=1)
     points = index @ near.lps_from_index[:3, :3].T + near.lps_from_index[:3, 3]

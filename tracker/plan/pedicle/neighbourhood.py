@@ -67,8 +67,8 @@ class Neighbourhood:
     def contains(self, points_lps_mm: Array) -> npt.NDArray[np.bool_]:
         """Return which points (..., 3) lie in the block."""
         index = self.index_of(points_lps_mm)
-        most = np.array(self.block.shape[::-1]) - 1.0
-        return np.asarray(((index >= 0.0) & (index <= most)).all(axis=-1))
+        last_index = np.array(self.block.shape[::-1]) - 1.0
+        return np.asarray(((index >= 0.0) & (index <= last_index)).all(axis=-1))
 
     def smooth_hu(self, points_lps_mm: Array) -> Array:
         """Return the smoothed HU (...) at points (..., 3); the border is replicated."""

@@ -46,18 +46,18 @@ def tolerance_of(channel: Channel, measure: PedicleMeasure, *, diameter_mm: floa
     room = np.maximum(gaps.min(axis=1) - 0.5 * diameter_mm, 0.0)
     to_isthmus = float((measure.isthmus_lps_mm - channel.entry_in_vertebra_mm) @ channel.axis_in_vertebra)
     lever = np.maximum(to_isthmus + places, HALF_LENGTH_MM)
-    most = float(room.min())
-    offset = np.linspace(0.0, most, STEPS)
+    max_offset_mm = float(room.min())
+    offset = np.linspace(0.0, max_offset_mm, STEPS)
     # Which place leaves least depends on the offset: far ahead the same angle moves the screw more.
     angle = np.degrees(np.arctan(((room - offset[:, None]) / lever).min(axis=1)))
-    both = float(np.degrees(np.arctan(((room - 0.5 * most) / lever).min())))
+    both = float(np.degrees(np.arctan(((room - 0.5 * max_offset_mm) / lever).min())))
     for array in (offset, angle):
         array.setflags(write=False)
     return Tolerance(
         offset_mm=offset,
         deg_at_offset=angle,
-        max_offset_mm=most,
+        max_offset_mm=max_offset_mm,
         max_angle_deg=float(angle[0]),
-        both_mm=0.5 * most,
+        both_mm=0.5 * max_offset_mm,
         both_deg=both,
     )

@@ -16,7 +16,7 @@ from tracker.pose.tool.gate import ToolGate
 from tracker.pose.tool.motion_range import ToolMotionRange, motion_range_of
 from tracker.pose.tool.pivot import PivotCalibration, pivot_calibration, provisional_tip_mm
 from tracker.pose.tool.poses import Poses
-from tracker.pose.tool.spin import SpinCalibration, least_moved_direction, spin_calibration
+from tracker.pose.tool.spin import SpinCalibration, min_variance_direction, spin_calibration
 from tracker.pose.tool.tip_check import TipCheck, check_tip
 
 # The image rate is the median over so many images; it is unknown with fewer than three intervals.
@@ -244,7 +244,7 @@ class PoseCollector:
             )
         if self._purpose is Purpose.SPIN:
             # Only the direction matters; the length is arbitrary.
-            return motion_range_of(poses, 100.0 * least_moved_direction(poses))
+            return motion_range_of(poses, 100.0 * min_variance_direction(poses))
         return motion_range_of(poses, provisional_tip_mm(poses) if self._tip is None else self._tip)
 
     def _missing(

@@ -69,14 +69,14 @@ def least_trimmed_squares(equations: Equations) -> Array:
     tried = np.linalg.solve(normal[drawn].sum(axis=1) + ridge, right[drawn].sum(axis=1)[:, :, None])[:, :, 0]
     squares = ((np.einsum("nij,mj->mni", design, tried) + offset) ** 2).sum(axis=2)
     half = min((count + unknowns + 1) // 2, count)
-    best, least = np.asarray(tried[0]), np.inf
+    best, min_cost = np.asarray(tried[0]), np.inf
     for x in tried[np.argsort(np.median(squares, axis=1))[:FINALISTS]]:
         for _ in range(CONCENTRATIONS):
             best_poses = np.argsort((equations.residuals(x) ** 2).sum(axis=1))[:half]
             x = equations.of(best_poses).solved()  # noqa: PLW2901  concentrated step by step
         total = float(np.sort((equations.residuals(x) ** 2).sum(axis=1))[:half].sum())
-        if total < least:
-            best, least = x, total
+        if total < min_cost:
+            best, min_cost = x, total
     return best
 
 

@@ -107,31 +107,31 @@ def spin_calibration(
     )
 
 
-def least_moved_direction(poses: Poses) -> Array:
+def min_variance_direction(poses: Poses) -> Array:
     """Return the unit direction (3,) of the marker that moved least over the poses."""
-    return _least_moved(poses, np.ones(len(poses)))
+    return _direction_of_min_variance(poses, np.ones(len(poses)))
 
 
 def _fitted(poses: Poses) -> tuple[Array, Mask]:
     """Return the direction (3,) of the marker that moved least, and the inlier mask."""
-    axis = _least_moved(poses, np.ones(len(poses)))
+    axis = _direction_of_min_variance(poses, np.ones(len(poses)))
     for _ in range(REWEIGHTINGS):
         # Weights by the inverse distance: a geometric median, robust to outliers.
         off = np.linalg.norm(poses.rotations @ axis - _middle(poses.rotations @ axis), axis=1)
-        axis = _least_moved(poses, 1.0 / np.maximum(off, 1e-4))
+        axis = _direction_of_min_variance(poses, 1.0 / np.maximum(off, 1e-4))
     residuals = poses.rotations @ axis - _middle(poses.rotations @ axis)
     agree = best_half(residuals)
     for _ in range(MAX_ROUNDS):
         residuals = poses.rotations @ axis - (poses.rotations[agree] @ axis).mean(axis=0)
         now = np.linalg.norm(residuals, axis=1) <= max_allowed(residuals, agree)
-        axis = _least_moved(poses.of(now), np.ones(int(now.sum())))
+        axis = _direction_of_min_variance(poses.of(now), np.ones(int(now.sum())))
         if (now == agree).all():
             break
         agree = now
     return axis, agree
 
 
-def _least_moved(poses: Poses, weights: Array) -> Array:
+def _direction_of_min_variance(poses: Poses, weights: Array) -> Array:
     """Return the unit direction (3,) of the marker with the smallest weighted variance."""
     share = weights / weights.sum()
     off = poses.rotations - np.tensordot(share, poses.rotations, 1)

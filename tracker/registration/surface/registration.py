@@ -50,7 +50,7 @@ class SurfaceRegistration:
         used_ratio: their share.
         rms_mm: RMS distance of the inliers.
         moved_mm, moved_deg: distance of the fit from its start, at the centroid of the sweep.
-        least_observable: the motion mode that the sweep alone constrains least.
+        weakest_mode: the motion mode that the sweep alone constrains least.
         remarks: for the user.
     """
 
@@ -63,7 +63,7 @@ class SurfaceRegistration:
     rms_mm: float
     moved_mm: float
     moved_deg: float
-    least_observable: MotionMode
+    weakest_mode: MotionMode
     remarks: tuple[Remark, ...]
 
     def target_covariance_mm2(self, target_mm: npt.ArrayLike) -> Array:
@@ -230,7 +230,7 @@ def _result(
         rms_mm=float(np.sqrt((say * off**2).sum() / say.sum())),
         moved_mm=float(np.linalg.norm(moved)),
         moved_deg=float(np.degrees(np.linalg.norm(turned))),
-        least_observable=alone,
+        weakest_mode=alone,
         remarks=tuple(remarks),
     )
 

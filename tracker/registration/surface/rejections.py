@@ -68,22 +68,20 @@ def reject_disagreement(laid: SweepFit, sweep: Sweep, settings: SurfaceSettings)
         )
 
 
-def reject_sliding(least_observable: MotionMode, settings: SurfaceSettings) -> None:
+def reject_sliding(weakest_mode: MotionMode, settings: SurfaceSettings) -> None:
     """Raise SURFACE_SLIDES if a motion mode is unobservable."""
-    if least_observable.sd_mm <= settings.max_slide_sd_mm:
+    if weakest_mode.sd_mm <= settings.max_slide_sd_mm:
         return
-    known = (
-        "not known at all" if least_observable.sd_mm > 100.0 else f"known to {least_observable.sd_mm:.1f} mm"
-    )
+    known = "not known at all" if weakest_mode.sd_mm > 100.0 else f"known to {weakest_mode.sd_mm:.1f} mm"
     raise RegistrationError(
         "SURFACE_SLIDES",
-        f"the sweep slides on the bone {least_observable.description}: there it is {known} at the target, "
+        f"the sweep slides on the bone {weakest_mode.description}: there it is {known} at the target, "
         f"allowed {settings.max_slide_sd_mm:g} mm",
         "Sweep surfaces that face other ways too: the flanks of the spinous process, the rims of the facets, "
         "the transverse processes.",
         {
-            "direction": least_observable.description,
-            "sd_mm": min(least_observable.sd_mm, 1000.0),
+            "direction": weakest_mode.description,
+            "sd_mm": min(weakest_mode.sd_mm, 1000.0),
             "allowed_mm": settings.max_slide_sd_mm,
         },
     )

@@ -43,6 +43,6 @@ export function isOnImage([x, y]: Point, { scale, left, top, image }: Placement)
   return x >= left && y >= top && x <= left + scale * image.width && y <= top + scale * image.height;
 }
 
-function within(value: number, most: number): number {
-  return Math.round(Math.min(Math.max(value, 0), most) * 10) / 10;
+function within(value: number, max: number): number {
+  return Math.round(Math.min(Math.max(value, 0), max) * 10) / 10;
 }

@@ -18,8 +18,8 @@ test.each([
   ["plan", "done", 0, null, false],
   ["plan", "missing", 0, 3, false],
   ["register", "done", 0, 3, false],
-] as const)("%s, %s, with %s of %s landmarks", (step, state, landmarks, least, isTold) => {
-  const note = stepNote({ step, state, numbers: { landmarks } }, least, operatorEn);
+] as const)("%s, %s, with %s of %s landmarks", (step, state, landmarks, minLandmarks, isTold) => {
+  const note = stepNote({ step, state, numbers: { landmarks } }, minLandmarks, operatorEn);
   expect(note !== "").toBe(isTold);
   if (isTold) expect(note).toContain(`${String(landmarks)} landmarks`);
 });

@@ -20,5 +20,5 @@ export function stepNote(
     typeof there === "number" &&
     minLandmarks !== null &&
     there < minLandmarks;
-  return isFew ? interpolate(texts.fewLandmarks, { there, least: minLandmarks }) : "";
+  return isFew ? interpolate(texts.fewLandmarks, { there, min: minLandmarks }) : "";
 }

@@ -51,8 +51,8 @@ export function StreamFacts({ sending }: { sending: CameraStream }): ReactNode {
       {note?.delay_ms != null && note.clock_error_ms !== null && (
         <Fact name={texts.delay}>
           {interpolate(texts.delayValue, {
-            least: Math.max(0, Math.floor(note.delay_ms - note.clock_error_ms)),
-            most: Math.ceil(note.delay_ms),
+            min: Math.max(0, Math.floor(note.delay_ms - note.clock_error_ms)),
+            max: Math.ceil(note.delay_ms),
           })}
         </Fact>
       )}

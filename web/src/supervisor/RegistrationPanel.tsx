@@ -35,7 +35,7 @@ export function RegistrationPanel({ signable }: { signable: Signable }): ReactNo
                 {formatNumber(row.value, row.unit === "" ? 0 : 2)} {row.unit}
               </td>
               <td className="soft">
-                {row.most !== null && `${own.allowed} ${formatNumber(row.most, 2)} ${row.unit}`}
+                {row.limit !== null && `${own.allowed} ${formatNumber(row.limit, 2)} ${row.unit}`}
               </td>
             </tr>
           ))}

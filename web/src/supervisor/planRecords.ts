@@ -61,16 +61,16 @@ function screwOf(screw: Json): ScrewShown | null {
   const lengthMm = number(screw["length_mm"]);
   if (diameterMm === null || lengthMm === null) return null;
   const clearance = record(screw["clearance"]);
-  let least: { wall: Wall; mm: number } | null = null;
+  let nearest: { wall: Wall; mm: number } | null = null;
   for (const wall of WALLS) {
     const mm = number(clearance[`${wall}_mm`]);
-    if (mm !== null && (least === null || mm < least.mm)) least = { wall, mm };
+    if (mm !== null && (nearest === null || mm < nearest.mm)) nearest = { wall, mm };
   }
   return {
     diameterMm,
     lengthMm,
-    minMm: least?.mm ?? null,
-    minWall: least?.wall ?? null,
+    minMm: nearest?.mm ?? null,
+    minWall: nearest?.wall ?? null,
     grade: text(clearance["grade"]),
     meanHu: number(record(screw["bone"])["mean_hu"]),
   };

@@ -7,7 +7,7 @@ export interface Row {
   name: NumberName;
   value: number;
   unit: "mm" | "°" | "";
-  most: number | null;
+  limit: number | null;
   past: boolean;
 }
 
@@ -38,9 +38,9 @@ export function rowsOf(numbers: Record<string, unknown>): Row[] {
   return NAMES.flatMap((name) => {
     const value = numbers[name];
     if (typeof value !== "number") return [];
-    const limit = LIMIT_OF[name] === undefined ? null : numbers[LIMIT_OF[name]];
-    const most = typeof limit === "number" ? limit : null;
+    const stated = LIMIT_OF[name] === undefined ? null : numbers[LIMIT_OF[name]];
+    const limit = typeof stated === "number" ? stated : null;
     const unit = name.endsWith("_mm") ? "mm" : name.endsWith("_deg") ? "°" : "";
-    return [{ name, value, unit, most, past: most !== null && value > most }];
+    return [{ name, value, unit, limit, past: limit !== null && value > limit }];
   });
 }

@@ -38,7 +38,7 @@ export function Accuracy({ board, check, gate, onChecked }: AccuracyProps): Reac
         onChecked();
       });
   };
-  const limit = { kind: "most", value: gate.max_error_mm } as const;
+  const limit = { kind: "max", value: gate.max_error_mm } as const;
   return (
     <Card
       title={texts.accuracyTitle}
@@ -54,7 +54,7 @@ export function Accuracy({ board, check, gate, onChecked }: AccuracyProps): Reac
           </p>
           <dl className="measures">
             <Measure
-              name={texts.accuracyMost}
+              name={texts.accuracyMax}
               value={number(check.content["maximum_error_mm"])}
               unit="mm"
               limit={limit}

@@ -38,7 +38,7 @@ export function CalibrationReport({ caseId, kept, gate, fresh }: CalibrationRepo
           name={texts.rms}
           value={report.rmsPx}
           unit="px"
-          limit={{ kind: "most", value: gate.max_rms_px }}
+          limit={{ kind: "max", value: gate.max_rms_px }}
           testId="calibration-rms"
         />
         <Measure name={texts.noise} value={report.noisePx} unit="px" />

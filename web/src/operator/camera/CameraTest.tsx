@@ -30,7 +30,7 @@ export function CameraTest(): ReactNode {
       video.live ? `${formatNumber(video.ageMs, 0)} ms` : noAge,
       dashboard === null
         ? undefined
-        : `${texts.case.measure.most} ${formatNumber(dashboard.limits.video_stale_after_ms, 0)} ms`,
+        : `${texts.case.measure.max} ${formatNumber(dashboard.limits.video_stale_after_ms, 0)} ms`,
     ],
     [texts.camera.searchTime, searchMs === null ? "—" : `${formatNumber(searchMs)} ms`],
     [texts.details.skipped, newest === null ? "—" : String(newest.source.skipped_images)],

@@ -72,7 +72,7 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
           value={data.views.length}
           unit=""
           decimals={0}
-          limit={{ kind: "least", value: collecting.min_views }}
+          limit={{ kind: "min", value: collecting.min_views }}
           bar
           testId="views"
         />
@@ -81,7 +81,7 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
           value={100 * data.coverage_ratio}
           unit="%"
           decimals={0}
-          limit={{ kind: "least", value: 100 * collecting.min_coverage_ratio }}
+          limit={{ kind: "min", value: 100 * collecting.min_coverage_ratio }}
           bar
         />
       </dl>

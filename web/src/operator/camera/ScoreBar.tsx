@@ -24,7 +24,7 @@ export function ScoreBar({ name, ratio, acceptRatio }: ScoreBarProps): ReactNode
         {ratio === null ? "—" : `${accepted ? "✓" : "✕"} ${formatPercent(ratio)}`}
         <span className="soft">
           {" "}
-          {texts.least} {formatPercent(acceptRatio)}
+          {texts.min} {formatPercent(acceptRatio)}
         </span>
       </span>
     </div>

@@ -42,7 +42,7 @@ export function CheckChoice({ vertebra, used, maxMm, onBegun }: CheckChoiceProps
       </div>
       <section className="card work-side">
         <h3>{texts.choose}</h3>
-        <p>{interpolate(texts.why, { most: maxMm })}</p>
+        <p>{interpolate(texts.why, { max: maxMm })}</p>
         {free.length === 0 && <p className="warning">▲ {texts.noneFree}</p>}
         <ul className="landmarks">
           {landmarks.map((one) => {

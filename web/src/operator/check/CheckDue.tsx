@@ -20,7 +20,7 @@ export function CheckDue({ rule, fresh }: CheckDueProps): ReactNode {
   const left = minutesLeft(step?.numbers["age_min"], rule.again_after_min);
   const every = interpolate(texts.every, {
     minutes: rule.again_after_min,
-    most: formatNumber(rule.max_mm, 1),
+    max: formatNumber(rule.max_mm, 1),
   });
   const text = useIntoView<HTMLParagraphElement>(fresh);
   if (step?.state === "due")

@@ -66,5 +66,5 @@ function groupSteps(steps: readonly Step[]): [Step, ...Step[]][] {
 function checkSaid(texts: string, { landmark, distance_mm, max_mm }: Step["numbers"]): string {
   if (typeof landmark !== "string" || typeof distance_mm !== "number" || typeof max_mm !== "number")
     return "";
-  return interpolate(texts, { landmark, mm: formatNumber(distance_mm, 1), most: formatNumber(max_mm, 1) });
+  return interpolate(texts, { landmark, mm: formatNumber(distance_mm, 1), max: formatNumber(max_mm, 1) });
 }

@@ -3,7 +3,7 @@ import { NOT_KNOWN, formatFigure } from "../../live/rounding";
 import { useTexts } from "../../texts/TextsContext";
 
 export interface Limit {
-  kind: "most" | "least";
+  kind: "max" | "min";
   value: number;
 }
 
@@ -22,7 +22,7 @@ interface MeasureProps {
 /** Whether a value is within its limit; null where there is none to hold it against. */
 export function isWithin(value: number | null, limit: Limit | undefined): boolean | null {
   if (value === null || limit === undefined || !Number.isFinite(value)) return null;
-  return limit.kind === "most" ? value <= limit.value : value >= limit.value;
+  return limit.kind === "max" ? value <= limit.value : value >= limit.value;
 }
 
 /** A number with its unit and its limit, and in a sign and a word whether it holds. */
@@ -46,7 +46,7 @@ export function Measure({ name, value, unit, decimals = 2, limit, bar, testId }:
                 {within ? "✓" : "✕"}
               </span>
             )}
-            {limit.kind === "most" ? texts.most : texts.least} {formatFigure(limit.value, decimals)} {unit}
+            {limit.kind === "max" ? texts.max : texts.min} {formatFigure(limit.value, decimals)} {unit}
           </span>
         )}
         {bar === true && (

@@ -33,7 +33,7 @@ export function CaptureProgress({ capture, maxSpreadMm }: CaptureProgressProps):
         {interpolate(texts.taken, {
           images: capture.images,
           spread: formatNumber(worst, 2),
-          most: formatNumber(maxSpreadMm, 2),
+          max: formatNumber(maxSpreadMm, 2),
         })}
       </p>
     );

@@ -7,16 +7,16 @@ interface MeasureProps {
   value: number | null;
   unit: string;
   /** What is allowed; left out where nothing is. */
-  most?: number | null | undefined;
+  max?: number | null | undefined;
   digits?: number;
   hint?: string;
 }
 
 /** One number with its unit, and its limit where it has one: kept or not in a word, a mark and a colour. */
-export function Measure({ name, value, unit, most, digits = 2, hint }: MeasureProps): ReactNode {
+export function Measure({ name, value, unit, max, digits = 2, hint }: MeasureProps): ReactNode {
   const texts = useTexts().registration.measure;
-  const limited = most !== undefined && most !== null;
-  const isWithinLimit = value === null || !limited ? null : value <= most;
+  const limited = max !== undefined && max !== null;
+  const isWithinLimit = value === null || !limited ? null : value <= max;
   return (
     <div className="limit" data-kept={isWithinLimit ?? undefined}>
       <dt>
@@ -35,7 +35,7 @@ export function Measure({ name, value, unit, most, digits = 2, hint }: MeasurePr
                 {isWithinLimit ? texts.kept : texts.over} ·{" "}
               </b>
             )}
-            {texts.allowed} {formatNumber(most, digits)} {unit}
+            {texts.allowed} {formatNumber(max, digits)} {unit}
           </small>
         )}
       </dd>

@@ -25,7 +25,7 @@ export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProp
       hint={texts.atEntryHint}
       value={of("tre_at_entry_mm")}
       unit="mm"
-      most={of("max_tre_mm")}
+      max={of("max_tre_mm")}
     />
   );
   if (method === "needles")
@@ -58,14 +58,14 @@ export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProp
           hint={texts.freHint}
           value={of("fre_rms_mm")}
           unit="mm"
-          most={of("max_fre_mm")}
+          max={of("max_fre_mm")}
         />
         <Measure
           name={texts.leftOut}
           hint={texts.leftOutHint}
           value={of("leave_one_out_mm")}
           unit="mm"
-          most={of("max_left_out_mm")}
+          max={of("max_left_out_mm")}
         />
       </dl>
     );
@@ -78,7 +78,7 @@ export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProp
           hint={texts.rmsHint}
           value={of("rms_mm")}
           unit="mm"
-          most={of("max_rms_mm")}
+          max={of("max_rms_mm")}
         />
         <Measure name={texts.movedMm} value={of("moved_mm")} unit="mm" />
         <Measure name={texts.movedDeg} value={of("moved_deg")} unit="°" />

@@ -96,16 +96,16 @@ function EntryRow({ entry, content }: { entry: Entry; content: Record<string, un
 function FactLine({ fact }: { fact: Fact }): ReactNode {
   const texts = useTexts();
   const sideName = useSides();
-  const { name, value, unit, most } = fact;
+  const { name, value, unit, limit } = fact;
   const methods = texts.registration.method as Partial<Record<string, string>>;
   const shown = typeof value === "string" ? (methods[value] ?? sideName(value)) : formatFigure(value, 2);
   return (
     <p>
       {texts.report.facts[name]}: {shown} {unit}
-      {most !== null && (
+      {limit !== null && (
         <span className="soft">
           {" "}
-          ({texts.report.allowed} {formatFigure(most, 2)} {unit})
+          ({texts.report.allowed} {formatFigure(limit, 2)} {unit})
         </span>
       )}
     </p>

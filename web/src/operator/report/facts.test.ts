@@ -4,23 +4,23 @@ import { factsOf } from "./facts";
 test("a check says on what, how far off, and what was allowed", () => {
   const content = { landmark: "left process", distance_mm: 0.8, max_mm: 2, passed: true, run: "7f" };
   expect(factsOf("check", content)).toEqual([
-    { name: "landmark", value: "left process", unit: "", most: null },
-    { name: "distance", value: 0.8, unit: "mm", most: 2 },
+    { name: "landmark", value: "left process", unit: "", limit: null },
+    { name: "distance", value: 0.8, unit: "mm", limit: 2 },
   ]);
 });
 
 test("a registration says how, and its numbers with their limits, and nothing of the settings", () => {
   const numbers = { fre_rms_mm: 0.4, max_fre_mm: 1, tre_at_entry_mm: 0.9, max_tre_mm: 2, points: 4 };
   expect(factsOf("registration", { method: "points", numbers })).toEqual([
-    { name: "method", value: "points", unit: "", most: null },
-    { name: "atEntry", value: 0.9, unit: "mm", most: 2 },
-    { name: "points", value: 0.4, unit: "mm", most: 1 },
+    { name: "method", value: "points", unit: "", limit: null },
+    { name: "atEntry", value: 0.9, unit: "mm", limit: 2 },
+    { name: "points", value: 0.4, unit: "mm", limit: 1 },
   ]);
 });
 
 test("a camera says its fit in pixels", () => {
   expect(factsOf("camera", { report: { rms_px: 0.2 } })).toEqual([
-    { name: "fit", value: 0.2, unit: "px", most: null },
+    { name: "fit", value: 0.2, unit: "px", limit: null },
   ]);
 });
 

@@ -9,7 +9,7 @@ export interface Fact {
   value: number | string;
   unit: "mm" | "px" | "";
   /** What was allowed when it was made; null where nothing was. */
-  most: number | null;
+  limit: number | null;
 }
 
 /** Kinds whose documents are worth opening for the report. */
@@ -48,12 +48,12 @@ function registrationFacts(content: Content): Fact[] {
   );
 }
 
-function mm(name: FactName, value: unknown, most: unknown = null, unit: Fact["unit"] = "mm"): Fact | null {
-  return number(value) === null ? null : { name, value: number(value) ?? 0, unit, most: number(most) };
+function mm(name: FactName, value: unknown, limit: unknown = null, unit: Fact["unit"] = "mm"): Fact | null {
+  return number(value) === null ? null : { name, value: number(value) ?? 0, unit, limit: number(limit) };
 }
 
 function textFact(name: FactName, value: unknown): Fact | null {
-  return typeof value === "string" && value !== "" ? { name, value, unit: "", most: null } : null;
+  return typeof value === "string" && value !== "" ? { name, value, unit: "", limit: null } : null;
 }
 
 const some = (...facts: (Fact | null)[]): Fact[] => facts.filter((one) => one !== null);

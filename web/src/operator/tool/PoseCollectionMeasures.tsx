@@ -16,8 +16,8 @@ export function PoseCollectionMeasures({
 }): ReactNode {
   const texts = useTexts().tool;
   const { outcome, purpose } = collection;
-  const tilt = { kind: "least", value: gate.min_tilt_deg } as const;
-  const rms = { kind: "most", value: gate.max_rms_3d_mm } as const;
+  const tilt = { kind: "min", value: gate.min_tilt_deg } as const;
+  const rms = { kind: "max", value: gate.max_rms_3d_mm } as const;
   const passedOver = KINDS.filter((kind) => (collection.rejected_images[kind] ?? 0) > 0);
   return (
     <>
@@ -27,7 +27,7 @@ export function PoseCollectionMeasures({
           value={collection.taken}
           unit=""
           decimals={0}
-          limit={{ kind: "least", value: gate.min_poses }}
+          limit={{ kind: "min", value: gate.min_poses }}
           bar
           testId="poses"
         />
@@ -37,7 +37,7 @@ export function PoseCollectionMeasures({
             value={collection.spin_range_deg}
             unit="°"
             decimals={0}
-            limit={{ kind: "least", value: gate.min_spin_deg }}
+            limit={{ kind: "min", value: gate.min_spin_deg }}
             bar
           />
         ) : (
@@ -66,13 +66,13 @@ export function PoseCollectionMeasures({
               name={texts.axisSd}
               value={outcome?.axis_sd_deg ?? null}
               unit="°"
-              limit={{ kind: "most", value: gate.max_axis_sd_deg }}
+              limit={{ kind: "max", value: gate.max_axis_sd_deg }}
             />
             <Measure
               name={texts.wobble}
               value={outcome?.wobble_deg ?? null}
               unit="°"
-              limit={{ kind: "most", value: gate.max_wobble_deg }}
+              limit={{ kind: "max", value: gate.max_wobble_deg }}
             />
           </>
         ) : (
@@ -89,11 +89,11 @@ export function PoseCollectionMeasures({
             name={texts.tipSd}
             value={outcome?.tip_sd_mm ?? null}
             unit="mm"
-            limit={{ kind: "most", value: gate.max_tip_sd_mm }}
+            limit={{ kind: "max", value: gate.max_tip_sd_mm }}
           />
         )}
         {purpose === "tip_check" && (
-          <Measure name={texts.checkMost} value={outcome?.max_mm ?? null} unit="mm" />
+          <Measure name={texts.checkMax} value={outcome?.max_mm ?? null} unit="mm" />
         )}
       </dl>
       {collection.outcome_problem !== null && collection.taken > 0 && (

@@ -55,26 +55,26 @@ export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCa
               name={texts.tipRms}
               value={stored.tipRmsMm}
               unit="mm"
-              limit={{ kind: "most", value: gate.max_rms_3d_mm }}
+              limit={{ kind: "max", value: gate.max_rms_3d_mm }}
             />
             <Measure
               name={texts.tilt}
               value={stored.tiltDeg}
               unit="°"
               decimals={0}
-              limit={{ kind: "least", value: gate.min_tilt_deg }}
+              limit={{ kind: "min", value: gate.min_tilt_deg }}
             />
             <Measure
               name={texts.axisSd}
               value={stored.axisSdDeg}
               unit="°"
-              limit={{ kind: "most", value: gate.max_axis_sd_deg }}
+              limit={{ kind: "max", value: gate.max_axis_sd_deg }}
             />
             <Measure
               name={texts.wobble}
               value={stored.wobbleDeg}
               unit="°"
-              limit={{ kind: "most", value: gate.max_wobble_deg }}
+              limit={{ kind: "max", value: gate.max_wobble_deg }}
             />
           </>
         )}
@@ -86,14 +86,14 @@ export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCa
         />
         <Measure name={texts.length} value={stored?.lengthMm ?? tool.length_mm} unit="mm" decimals={0} />
         {tool.check?.heading.current === true && (
-          <Measure name={texts.checkMost} value={number(tool.check.content["max_mm"])} unit="mm" />
+          <Measure name={texts.checkMax} value={number(tool.check.content["max_mm"])} unit="mm" />
         )}
         {tool.check?.heading.current === true && (
           <Measure
             name={texts.checkRms}
             value={number(tool.check.content["rms_3d_mm"])}
             unit="mm"
-            limit={{ kind: "most", value: gate.max_rms_3d_mm }}
+            limit={{ kind: "max", value: gate.max_rms_3d_mm }}
           />
         )}
       </dl>

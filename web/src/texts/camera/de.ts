@@ -91,7 +91,7 @@ export const cameraDe: CameraTexts = {
     "Dieselbe Tafel noch einmal zeigen und ruhig halten: bekannte Abstände darauf werden mit dieser Kalibrierung gemessen.",
   accuracy: "Jetzt messen",
   accuracyAgain: "Erneut messen",
-  accuracyMost: "Größter Fehler",
+  accuracyMax: "Größter Fehler",
   accuracyRms: "RMS-Fehler",
   accuracyDistance: "Abstand der Tafel",
 };

@@ -91,7 +91,7 @@ export const cameraEn = {
     "Show the same board once more and hold it still: known distances on it are measured with this calibration.",
   accuracy: "Measure now",
   accuracyAgain: "Measure again",
-  accuracyMost: "Largest error",
+  accuracyMax: "Largest error",
   accuracyRms: "RMS error",
   accuracyDistance: "Distance of the board",
 };

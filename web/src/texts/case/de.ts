@@ -5,8 +5,8 @@ export const caseDe: CaseTexts = {
   thisTablet: "dieses Tablet",
   serverWorks: "angekommen, der Server liest …",
   measure: {
-    most: "höchstens",
-    least: "mindestens",
+    max: "höchstens",
+    min: "mindestens",
     holds: "Grenze eingehalten",
     fails: "Grenze nicht eingehalten",
   },

@@ -2,7 +2,7 @@ export const caseEn = {
   title: "Cases",
   thisTablet: "this tablet",
   serverWorks: "arrived, the server is reading it …",
-  measure: { most: "at most", least: "at least", holds: "within the limit", fails: "past the limit" },
+  measure: { max: "at most", min: "at least", holds: "within the limit", fails: "past the limit" },
   firstTitle: "Begin with a case",
   firstLead:
     "No case is kept here yet. A case holds all that is made for one operation: calibration, plan, registration, checks and alarms.",

@@ -5,7 +5,7 @@ export const checkDe: CheckTexts = {
   needsRegistration: "Es gibt nichts zu prüfen: Keine Registrierung ist gültig.",
   toRegister: "Zur Registrierung",
   choose: "Punkt wählen",
-  why: "Die Spitze auf einen Punkt halten, der nicht zur Registrierung diente. Er darf höchstens {most} mm von seinem geplanten Ort liegen.",
+  why: "Die Spitze auf einen Punkt halten, der nicht zur Registrierung diente. Er darf höchstens {max} mm von seinem geplanten Ort liegen.",
   wasUsed: "für die Registrierung verwendet",
   noneFree:
     "Alle Punkte wurden verwendet. Einen auslassen und neu registrieren, oder in der Planung einen weiteren setzen.",
@@ -29,7 +29,7 @@ export const checkDe: CheckTexts = {
   sure: "Auf ±{sd} mm bekannt, aus {images} Bildern.",
   failedRemedy:
     "Neu tasten, falls die Spitze abgerutscht ist. Sonst neu registrieren; hiernach navigiert niemand.",
-  every: "Verlangt alle {minutes} min, höchstens {most} mm.",
+  every: "Verlangt alle {minutes} min, höchstens {max} mm.",
   dueIn: "Die nächste Prüfung ist in {minutes} min fällig.",
   lastFailed: "Die letzte Prüfung ist nicht bestanden: Navigiert wird erst nach einer bestandenen.",
   dueNow: "Die Prüfung ist wieder fällig. Die Navigation läuft inzwischen weiter.",

@@ -3,7 +3,7 @@ import type { NavigateTexts } from "./en";
 export const navigateDe: NavigateTexts = {
   title: "Navigation im Kanal",
   open: "Alle Schritte sind gültig.",
-  checked: "Die Prüfung an {landmark} ist bestanden: {mm} mm, erlaubt {most} mm.",
+  checked: "Die Prüfung an {landmark} ist bestanden: {mm} mm, erlaubt {max} mm.",
   recheck: "Erneut prüfen",
   shutTitle: "Noch keine Navigation",
   dueTitle: "Wieder fällig; die Navigation läuft weiter",

@@ -1,7 +1,7 @@
 export const navigateEn = {
   title: "Navigation",
   open: "All steps hold.",
-  checked: "The check on {landmark} passed: {mm} mm, allowed {most} mm.",
+  checked: "The check on {landmark} passed: {mm} mm, allowed {max} mm.",
   recheck: "Check again",
   shutTitle: "No navigation yet",
   dueTitle: "Due again; navigation goes on",

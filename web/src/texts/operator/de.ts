@@ -19,7 +19,7 @@ export const operatorDe: OperatorTexts = {
   },
   ready: "bereit",
   fewLandmarks:
-    "Sie hat {there} Landmarken; zum Registrieren mit Punkten braucht es mindestens {least}, mit drei Nadeln keine.",
+    "Sie hat {there} Landmarken; zum Registrieren mit Punkten braucht es mindestens {min}, mit drei Nadeln keine.",
   state: {
     missing: "offen",
     out_of_date: "veraltet",

@@ -17,7 +17,7 @@ export const operatorEn = {
   },
   ready: "ready",
   fewLandmarks:
-    "It has {there} landmarks; registering by points needs at least {least}. Three needles need none.",
+    "It has {there} landmarks; registering by points needs at least {min}. Three needles need none.",
   state: { missing: "to do", out_of_date: "out of date", failed: "failed", due: "due again", done: "done" },
 };
 

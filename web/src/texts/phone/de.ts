@@ -34,7 +34,7 @@ export const phoneDe: PhoneTexts = {
   server: "Server",
   serverValue: "Kamera {state} · {rate} Bilder/s",
   delay: "Kommt an nach",
-  delayValue: "{least} bis {most} ms",
+  delayValue: "{min} bis {max} ms",
   screenOff: "Dieser Browser hält den Bildschirm nicht an: Schalten Sie die automatische Sperre aus.",
   noCamera: {
     insecure: {

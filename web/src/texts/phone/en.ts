@@ -28,7 +28,7 @@ export const phoneEn = {
   server: "Server",
   serverValue: "camera {state} · {rate} images/s",
   delay: "Arrives after",
-  delayValue: "{least} to {most} ms",
+  delayValue: "{min} to {max} ms",
   screenOff: "This browser does not keep the screen on: switch off its automatic lock in the settings.",
   noCamera: {
     insecure: {

@@ -27,7 +27,7 @@ export const filesDe: FilesTexts = {
     sayUnit:
       "Messen Sie den Knochen nach, wählen Sie unten die Einheit und senden Sie die Datei noch einmal. Ungefragt wird nichts skaliert.",
     send: "STL, OBJ oder PLY senden …",
-    most: "höchstens",
+    max: "höchstens",
   },
   file: {
     title: "Planung als Datei",

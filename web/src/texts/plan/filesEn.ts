@@ -25,7 +25,7 @@ export const filesEn = {
     proposedUnit: "Its size would fit in the unit",
     sayUnit: "Measure the bone, choose its unit below, and send the file again. Nothing is scaled unasked.",
     send: "Send STL, OBJ or PLY …",
-    most: "at most",
+    max: "at most",
   },
   file: {
     title: "Plan as a file",

@@ -92,7 +92,7 @@ export const registrationDe: RegistrationTexts = {
     looking: "{images} von {wanted} Bildern. Ruhig halten.",
     lookingAtRate: "{images} von {wanted} Bildern. Noch {left} s ruhig halten, bei {rate} Bildern/s.",
     images: "Bilder mit sichtbarer Spitze",
-    taken: "aus {images} Bildern aufgenommen, Streuung {spread} mm (erlaubt {most} mm).",
+    taken: "aus {images} Bildern aufgenommen, Streuung {spread} mm (erlaubt {max} mm).",
     rejected: "nicht aufgenommen.",
   },
   points: {
@@ -103,7 +103,7 @@ export const registrationDe: RegistrationTexts = {
       "Einen Punkt auslassen: Er wird für die Prüfung gebraucht.",
     ],
     begin: "Beginnen",
-    count: "{touched} von {all} Punkten angetastet, mindestens {least} nötig",
+    count: "{touched} von {all} Punkten angetastet, mindestens {min} nötig",
     enough: "Genug angetastet. Der letzte Punkt bleibt für die Prüfung.",
     capture: "Punkt aufnehmen",
     captureAgain: "Neu aufnehmen",

@@ -91,7 +91,7 @@ export const registrationEn = {
     looking: "{images} of {wanted} images. Hold still.",
     lookingAtRate: "{images} of {wanted} images. Hold still for another {left} s, at {rate} images/s.",
     images: "Images in which the tip was seen",
-    taken: "taken from {images} images, spread {spread} mm (allowed {most} mm).",
+    taken: "taken from {images} images, spread {spread} mm (allowed {max} mm).",
     rejected: "not taken.",
   },
   points: {
@@ -102,7 +102,7 @@ export const registrationEn = {
       "Leave one landmark untouched: the check needs it.",
     ],
     begin: "Begin",
-    count: "{touched} of {all} landmarks touched, at least {least} needed",
+    count: "{touched} of {all} landmarks touched, at least {min} needed",
     enough: "Enough is touched. The last landmark is kept for the check.",
     capture: "Take this point",
     captureAgain: "Take it again",

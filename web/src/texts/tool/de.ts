@@ -56,7 +56,7 @@ export const toolDe: ToolTexts = {
   tipSd: "Standardabweichung der Spitze",
   axisSd: "Standardabweichung der Achse",
   wobble: "Taumeln der Achse (RMS)",
-  checkMost: "Prüfung: größter Abstand",
+  checkMax: "Prüfung: größter Abstand",
   checkRms: "Prüfung (3-D-RMS)",
   diameter: "Durchmesser",
   diameterHint: "Des Bohrers oder der Ahle an der Spitze, gemessen oder laut Zeichnung",

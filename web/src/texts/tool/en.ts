@@ -52,7 +52,7 @@ export const toolEn = {
   tipSd: "Tip’s standard deviation",
   axisSd: "Axis’s standard deviation",
   wobble: "Wobble of the axis (RMS)",
-  checkMost: "Tip check: farthest",
+  checkMax: "Tip check: farthest",
   checkRms: "Tip check (3-D RMS)",
   diameter: "Diameter",
   diameterHint: "Of the drill or awl at its tip, measured or from its drawing",

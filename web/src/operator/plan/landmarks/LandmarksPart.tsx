@@ -32,15 +32,18 @@ export function LandmarksPart(): ReactNode {
       ),
     );
   };
-  const least = catalogue?.min_landmarks ?? null;
-  const isEnough = least !== null && landmarks.length >= least;
+  const minLandmarks = catalogue?.min_landmarks ?? null;
+  const isEnough = minLandmarks !== null && landmarks.length >= minLandmarks;
   return (
     <>
       <VertebraChooser />
       <p>{texts.hint}</p>
-      <p className={least === null ? "soft" : isEnough ? "enough" : "warning"} data-testid="landmark-count">
+      <p
+        className={minLandmarks === null ? "soft" : isEnough ? "enough" : "warning"}
+        data-testid="landmark-count"
+      >
         {landmarks.length} {texts.set}
-        {least !== null && ` · ${texts.needed} ${least}`} · {texts.better}
+        {minLandmarks !== null && ` · ${texts.needed} ${minLandmarks}`} · {texts.better}
       </p>
       <CursorPad />
       <Button

@@ -48,8 +48,8 @@ export function stageFromPlane(zoom: Zoom, stage: Stage, [x, y]: Vec2): Vec2 {
 /** Closer or farther, with the point under the fingers staying where it is. */
 export function zoomedAt(zoom: Zoom, stage: Stage, frame: Box, at: Vec2, factor: number): Zoom {
   const fixed = planeFromStage(zoom, stage, at);
-  const least = whole(frame, stage).pxPerMm * FARTHEST_RATIO;
-  const pxPerMm = Math.min(CLOSEST_PX_PER_MM, Math.max(least, zoom.pxPerMm * factor));
+  const minPxPerMm = whole(frame, stage).pxPerMm * FARTHEST_RATIO;
+  const pxPerMm = Math.min(CLOSEST_PX_PER_MM, Math.max(minPxPerMm, zoom.pxPerMm * factor));
   return clampZoom(
     {
       centre: [
@@ -92,7 +92,7 @@ export function showing(zoom: Zoom, stage: Stage, [x, y]: Vec2, marginRatio = 0.
 
 /** The length of a ruler that is easily read: 1, 2 or 5 times a power of ten, at most so many pixels long. */
 export function rulerMm(pxPerMm: number, maxPx: number): number {
-  const most = maxPx / pxPerMm;
-  const ten = 10 ** Math.floor(Math.log10(most));
-  return ([5, 2].find((digit) => digit * ten <= most) ?? 1) * ten;
+  const maxMm = maxPx / pxPerMm;
+  const ten = 10 ** Math.floor(Math.log10(maxMm));
+  return ([5, 2].find((digit) => digit * ten <= maxMm) ?? 1) * ten;
 }

@@ -10,10 +10,10 @@ export interface Step {
   madeVersion: number;
 }
 
-const MOST = 30;
+const MAX_STEPS = 30;
 
 export function withChange(steps: readonly Step[], documentId: string | null, madeVersion: number): Step[] {
-  return [...steps, { documentId, madeVersion }].slice(-MOST);
+  return [...steps, { documentId, madeVersion }].slice(-MAX_STEPS);
 }
 
 /** What can be taken back while this version is the newest; null where nothing can. */

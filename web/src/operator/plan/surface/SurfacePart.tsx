@@ -95,7 +95,7 @@ export function SurfacePart(): ReactNode {
         }}
       />
       <p className="soft">
-        {formatNumber(100, 0)} MB {texts.most}
+        {formatNumber(100, 0)} MB {texts.max}
       </p>
     </>
   );

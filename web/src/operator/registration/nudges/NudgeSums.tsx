@@ -8,27 +8,23 @@ import { useTexts } from "../../../texts/TextsContext";
 export function NudgeSums({ nudges }: { nudges: components["schemas"]["NudgesMessage"] }): ReactNode {
   const texts = useTexts().registration.nudges;
   const sums = [
-    { name: texts.sumMm, value: nudges.shift_mm, most: nudges.max_mm, unit: "mm" },
-    { name: texts.sumDeg, value: nudges.rotation_deg, most: nudges.max_deg, unit: "°" },
+    { name: texts.sumMm, value: nudges.shift_mm, max: nudges.max_mm, unit: "mm" },
+    { name: texts.sumDeg, value: nudges.rotation_deg, max: nudges.max_deg, unit: "°" },
   ];
   return (
     <dl className="limits" data-testid="nudge-sums">
-      {sums.map(({ name, value, most, unit }) => (
+      {sums.map(({ name, value, max, unit }) => (
         <div className="limit" key={unit}>
           <dt>
             {name}
-            <Progress
-              size="lg"
-              value={most > 0 ? Math.min(100, (100 * value) / most) : 0}
-              aria-label={name}
-            />
+            <Progress size="lg" value={max > 0 ? Math.min(100, (100 * value) / max) : 0} aria-label={name} />
           </dt>
           <dd>
             <strong>
               {formatNumber(value, 1)} <span className="unit">{unit}</span>
             </strong>
             <small>
-              {texts.allowed} {formatNumber(most, 1)} {unit}
+              {texts.allowed} {formatNumber(max, 1)} {unit}
             </small>
           </dd>
         </div>

@@ -37,7 +37,7 @@ export function CapturePanel({
         {interpolate(texts.points.count, {
           touched,
           all: points.landmarks.length,
-          least: limits.min_points,
+          min: limits.min_points,
         })}
       </p>
       <h3 data-testid="wanted">{wanted ?? texts.points.enough}</h3>

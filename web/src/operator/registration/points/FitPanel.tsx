@@ -21,7 +21,7 @@ export function FitPanel({ points }: { points: Points }): ReactNode {
           hint={texts.numbers.freHint}
           value={points.fre_rms_mm}
           unit="mm"
-          most={limits.max_fre_mm}
+          max={limits.max_fre_mm}
         />
         {sides.map((side) => (
           <Measure
@@ -30,7 +30,7 @@ export function FitPanel({ points }: { points: Points }): ReactNode {
             hint={texts.numbers.atEntryHint}
             value={targets.find((one) => one.side === side && one.depth_mm === 0)?.stated_mm ?? null}
             unit="mm"
-            most={limits.max_tre_mm}
+            max={limits.max_tre_mm}
           />
         ))}
         {strays.length > 0 && (
@@ -39,7 +39,7 @@ export function FitPanel({ points }: { points: Points }): ReactNode {
             hint={texts.numbers.leftOutHint}
             value={Math.max(...strays)}
             unit="mm"
-            most={limits.max_left_out_mm}
+            max={limits.max_left_out_mm}
           />
         )}
       </dl>
