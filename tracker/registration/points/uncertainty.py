@@ -5,7 +5,7 @@ contains the truth in 0.92 to 0.98 of simulated cases, which the plain formula d
 """
 
 import numpy as np
-from scipy import special
+import scipy
 
 from tracker.geometry import Anchor, Array, Rigid, Vertebra
 from tracker.registration.points.fit import jacobians, weights_on_ct
@@ -97,4 +97,4 @@ def common_tip_jacobian(
 
 def small_sample_factor(freedom: float) -> float:
     """Return the inflation of a variance estimated with so many degrees of freedom."""
-    return float(3.0 * special.fdtri(3, freedom, 0.95) / special.chdtri(3, 0.05))
+    return float(3.0 * scipy.special.fdtri(3, freedom, 0.95) / scipy.special.chdtri(3, 0.05))
