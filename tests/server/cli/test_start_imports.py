@@ -3,8 +3,8 @@
 import subprocess
 import sys
 
-# Each takes between a tenth and three quarters of a second, and only jobs, uploads, registration, a migration or a
-# viewer of the 3-D scene need it.
+# Each takes between a tenth and three quarters of a second, and only jobs, uploads, registration, a migration
+# or a viewer of the 3-D scene need it.
 NOT_AT_START = {
     *("alembic", "mako", "networkx", "pydicom", "trimesh", "viser"),
     *(
