@@ -72,6 +72,6 @@ export function paintTrend(
     if (clientWidth < MIN_LABELLED_PX) return;
     context.font = `${LABEL_PX}px ${style.fontFamily}`;
     context.fillStyle = inkOf("--ink-soft");
-    context.fillText(`\u2212${SPAN_MS / 1000} s`, 0, clientHeight - 2 * inset - 3);
+    context.fillText(`\u2212${SPAN_MS / 1000} s`, 0, LABEL_PX);
   });
 }
