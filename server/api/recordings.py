@@ -1,10 +1,12 @@
 """Recordings of the open case: start, stop, list, download, protect and delete."""
 
+from typing import Literal
+
 from fastapi import APIRouter, Response
 from fastapi.responses import FileResponse
 
 from server.api.errors import rejections
-from server.recording.service import RecordingService, RecordingState, StoredRecording
+from server.recording.service import RecordingService, StoredRecording
 from server.stream.message import Message
 from server.stream.messages import ProblemMessage, problem_message
 
@@ -14,6 +16,8 @@ MCAP = "application/octet-stream"
 class RecordingStateMessage(Message):
     """What is being recorded."""
 
+    when: Literal["navigating", "manual", "never"]
+    """When recordings start: by themselves, when somebody starts one, or never."""
     is_recording: bool
     name: str | None
     """Of the running recording; null without one."""
@@ -61,7 +65,7 @@ def recordings_router(service: RecordingService) -> APIRouter:
     @router.get("/state", responses=rejections(503))
     def state() -> RecordingStateMessage:
         """Return what is being recorded, in any case."""
-        return _state(service.state)
+        return recording_state_message(service)
 
     @router.post("/start", responses=rejections(409, 503, 507))
     def start() -> RecordingStateMessage:
@@ -71,12 +75,14 @@ def recordings_router(service: RecordingService) -> APIRouter:
         results again. Where the disk or the budget ends, the recording stops with an alarm, and navigation
         goes on.
         """
-        return _state(service.start())
+        service.start()
+        return recording_state_message(service)
 
     @router.post("/stop", responses=rejections(503))
     def stop() -> RecordingStateMessage:
         """Stop the recording; the answer comes when its file is closed."""
-        return _state(service.stop())
+        service.stop()
+        return recording_state_message(service)
 
     @router.get("/{name}/file", response_class=FileResponse, responses=rejections(404, 409, 503))
     def download(name: str) -> FileResponse:
@@ -102,9 +108,12 @@ def _recording(recording: StoredRecording) -> RecordingMessage:
     return RecordingMessage.model_validate(recording, from_attributes=True)
 
 
-def _state(state: RecordingState) -> RecordingStateMessage:
+def recording_state_message(service: RecordingService) -> RecordingStateMessage:
+    """Return the message of what is being recorded."""
+    state = service.state
     status = state.status
     return RecordingStateMessage(
+        when=service.when,
         is_recording=bool(state.name),
         name=state.name or None,
         duration_s=state.duration_s,

@@ -15,6 +15,7 @@ from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import structlog
 
@@ -150,6 +151,11 @@ class RecordingService:
         if self._thread.is_alive():
             self._thread.join(5.0)
         self._end("the server was stopped")
+
+    @property
+    def when(self) -> Literal["navigating", "manual", "never"]:
+        """When recordings start, as set."""
+        return self._config.recording.when
 
     @property
     def state(self) -> RecordingState:

@@ -14,6 +14,7 @@ from server.store import CaseStore, Home
 from tests.server.recording.no_recorder import recordings_without_process
 
 NOTHING = {
+    "when": "manual",
     "is_recording": False,
     "name": None,
     "duration_s": 0.0,

@@ -13,6 +13,7 @@ import { AlertBand } from "../panes/AlertBand";
 import { LoadingNumbers } from "../panes/LoadingNumbers";
 import { NumbersPane } from "../panes/NumbersPane";
 import { VideoPane } from "../panes/VideoPane";
+import { RecordingState } from "../recording/RecordingState";
 import type { Signable } from "../room/messages";
 import { useRoomSnapshot } from "../room/RoomContext";
 import { Viewers } from "../room/Viewers";
@@ -43,6 +44,7 @@ export function SupervisorView(): ReactNode {
           <p className="notice">
             {texts.notice}. {own.nothingMoves}
           </p>
+          <RecordingState />
           <ViewSwitch />
           <Viewers />
           <PictureSize />
