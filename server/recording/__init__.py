@@ -1,5 +1,6 @@
 """Recordings: what is written while images arrive, and their exact replay.
 
+consent.py   whether the patient consented
 messages.py  what is in a file beside images and live messages
 process.py   reads the ring in a process of its own and writes the file
 recorder.py  one recording, as the web process sees it

@@ -26,6 +26,8 @@ from server.errors import RecordingError, SetupOrderError
 from server.live import Problem
 from server.logs import LogSettings
 from server.procedure.open_case import require_open_case
+from server.recording.consent import NAME as CONSENT_NAME
+from server.recording.consent import Consent, ConsentRecord, ConsentState, stored_consent
 from server.recording.messages import DocumentMessage, DocumentsMessage, session_message
 from server.recording.process import RecordingOrder, RecordingStatus
 from server.recording.recorder import Recorder, TrackedImages
@@ -158,6 +160,42 @@ class RecordingService:
         return self._config.recording.when
 
     @property
+    def consent(self) -> Consent:
+        """Whether the patient of the open case consented to recordings."""
+        case = self._store.get_open_case()
+        if self._config.recording.consent == "not_required":
+            return Consent(state=ConsentState.NOT_REQUIRED)
+        return Consent(state=ConsentState.NOT_ASKED) if case is None else stored_consent(self._store, case.id)
+
+    def answer_consent(self, case_id: str, *, is_given: bool, made_by: str) -> Consent:
+        """Store whether the patient consented to recordings of the open case; end the running one if not.
+
+        Args:
+            case_id: the case that was open where the question was asked.
+            is_given: the answer.
+            made_by: name of the person who answers.
+
+        Raises:
+            SetupOrderError: NO_CASE_OPEN, CASE_NOT_OPEN.
+            StoreError: it cannot be stored.
+        """
+        case = require_open_case(self._store)
+        if case.id != case_id:
+            raise SetupOrderError(
+                "CASE_NOT_OPEN",
+                "another case was opened since the question was asked",
+                "Answer the question for the case that is open now.",
+                {"case_id": case.id},
+            )
+        record = ConsentRecord(is_given=is_given)
+        self._store.put(
+            case.id, DocumentKind.CONSENT, CONSENT_NAME, record.model_dump(mode="json"), made_by=made_by
+        )
+        if not is_given:
+            self._end("the patient does not consent to it")
+        return self.consent
+
+    @property
     def state(self) -> RecordingState:
         """What is being recorded."""
         with self._lock:
@@ -178,7 +216,7 @@ class RecordingService:
 
         Raises:
             RecordingError: RECORDING_SWITCHED_OFF, RECORDING_BUDGET_EXCEEDED, RECORDING_DISK_FULL.
-            SetupOrderError: NO_CASE_OPEN.
+            SetupOrderError: NO_CASE_OPEN, RECORDING_CONSENT_MISSING.
             StoreError: the folder of the case cannot be used.
         """
         with self._lock:
@@ -282,6 +320,12 @@ class RecordingService:
                 "Set recording.when to manual or navigating, and start the program again.",
             )
         case = require_open_case(self._store)
+        if not self.consent.state.permits_recording:
+            raise SetupOrderError(
+                "RECORDING_CONSENT_MISSING",
+                "nobody has stated that the patient consented to a recording",
+                "Ask, and answer the question on the operator's page or with POST /api/recordings/consent.",
+            )
         folder = self._folder(case)
         left_bytes = settings.max_total_gb * 1e9 - self._total_bytes()
         if left_bytes <= 0.0:
@@ -373,6 +417,8 @@ class RecordingService:
             self._end("it cannot go on")
         elif running is not None and (case is None or case.id != running.case.id):
             self._end("its case was closed")
+        elif running is not None and not self.consent.state.permits_recording:
+            self._end("the consent to it was withdrawn")
         elif running is not None:
             self._put_documents()
         if self._config.recording.when == "navigating":
@@ -386,6 +432,8 @@ class RecordingService:
             if not navigates:
                 self._is_held_off = False
             is_due = navigates and case is not None and not (is_running or waits or self._is_held_off)
+        # Without consent it does not start, which is no problem of the recording.
+        is_due = is_due and self.consent.state.permits_recording
         if is_running and not navigates:
             self._end("navigation ended")
         elif is_due:

@@ -131,6 +131,7 @@ DELETE  /api/people/invitations/{invitation_id}
 DELETE  /api/people/sessions/{session_id}
 PUT     /api/rehearsal
 POST    /api/procedure/confirmation
+POST    /api/recordings/consent
 POST    /api/recordings/start
 POST    /api/recordings/stop
 PUT     /api/recordings/{name}/protection

@@ -40,6 +40,14 @@ def test_what_the_operator_records_is_said_on_every_view(supervised: Supervised,
     assert box is not None
     assert box["height"] >= 48
     button.click()
+    # Before the first recording of a case somebody answers for the patient.
+    expect(operator.get_by_role("dialog")).to_contain_text("Has the patient consented to recording?")
+    picture(operator, "consent")
+    operator.get_by_test_id("consent-no").click()
+    expect(operator.get_by_role("dialog")).to_be_hidden()
+    expect(operator.get_by_test_id("recording-state")).to_have_attribute("data-state", "off")
+    button.click()
+    operator.get_by_test_id("consent-yes").click()
     for name, page in pages.items():
         state = page.get_by_test_id("recording-state")
         expect(state).to_have_attribute("data-state", "on")
@@ -52,3 +60,8 @@ def test_what_the_operator_records_is_said_on_every_view(supervised: Supervised,
     button.click()
     for page in pages.values():
         expect(page.get_by_test_id("recording-state")).to_have_attribute("data-state", "off")
+    # Once answered, it is not asked again.
+    button.click()
+    expect(operator.get_by_test_id("recording-state")).to_have_attribute("data-state", "on")
+    button.click()
+    expect(operator.get_by_test_id("recording-state")).to_have_attribute("data-state", "off")

@@ -15,6 +15,7 @@ from tests.server.recording.no_recorder import recordings_without_process
 
 NOTHING = {
     "when": "manual",
+    "consent": {"state": "not_required", "answered_at": None, "answered_by": None},
     "is_recording": False,
     "name": None,
     "duration_s": 0.0,
@@ -42,9 +43,10 @@ class Door:
 
 
 @pytest.fixture
-def door(tmp_path: Path) -> Iterator[Door]:
+def door(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Door]:
+    consent = getattr(request, "param", "not_required")
     with Home(tmp_path / "home") as home, CaseStore(home) as store:
-        config = Config.model_validate({"recording": {"min_free_gb": 0.0}})
+        config = Config.model_validate({"recording": {"min_free_gb": 0.0, "consent": consent}})
         recordings = recordings_without_process(store, config)
         app = create_app(AppParts(hub=LiveHub(), config=config, store=store, recordings=recordings))
         with TestClient(app, base_url="http://127.0.0.1:8000") as client:
@@ -89,3 +91,21 @@ def test_a_disk_that_is_too_full_answers_with_507(door: Door, monkeypatch: pytes
     door.open_a_case()
     monkeypatch.setattr(Home, "free_bytes", lambda _: -1)
     assert door.ask("POST", "/start", 507)["code"] == "RECORDING_DISK_FULL"
+
+
+@pytest.mark.parametrize("door", ["required"], indirect=True)
+def test_consent_is_answered_before_the_first_recording_of_a_case(door: Door) -> None:
+    door.open_a_case()
+    rejected = door.ask("POST", "/start", 409)
+    assert rejected["code"] == "RECORDING_CONSENT_MISSING"
+    assert rejected["remedy"]
+    case = door.store.get_open_case()
+    assert case is not None
+    answer = {"case_id": case.id, "is_given": True}
+    stored = door.ask("POST", "/consent", 200, answer)
+    assert stored == {"state": "given", "answered_at": stored["answered_at"], "answered_by": "this computer"}
+    assert door.ask("POST", "/start", 200)["consent"] == stored
+    refused = door.ask("POST", "/consent", 200, {**answer, "is_given": False})
+    assert refused["state"] == "not_given"
+    assert not door.ask("GET", "/state", 200)["is_recording"]
+    assert door.ask("POST", "/consent", 409, {**answer, "case_id": "0" * 16})["code"] == "CASE_NOT_OPEN"

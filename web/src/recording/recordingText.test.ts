@@ -1,21 +1,7 @@
 import { expect, test } from "vitest";
 import { recordingEn } from "../texts/recording/en";
+import { recording } from "./recordingBuilder";
 import { clockDuration, recordingText, roughDuration, type Recording } from "./recordingText";
-
-function recording(changes: Partial<Recording> = {}): Recording {
-  return {
-    when: "manual",
-    is_recording: true,
-    name: "20260101T000000Z-0000.mcap",
-    duration_s: 754.6,
-    size_bytes: 1.24e9,
-    images: 20_000,
-    missing_images: 0,
-    remaining_s: 11_000,
-    problem: null,
-    ...changes,
-  };
-}
 
 const textOf = (changes: Partial<Recording>): ReturnType<typeof recordingText> =>
   recordingText(recording(changes), recordingEn);

@@ -16,6 +16,7 @@ export const auditDe: AuditTexts = {
     "POST /api/alarms/release": "Hat die Bitte um Halt zurückgenommen",
     "PUT /api/rehearsal": "Hat den Probebetrieb umgestellt",
     "POST /api/procedure/confirmation": "Hat nach einem Neustart bestätigt",
+    "POST /api/recordings/consent": "Einwilligung in Aufnahmen beantwortet",
     "POST /api/recordings/start": "Hat eine Aufzeichnung gestartet",
     "POST /api/recordings/stop": "Hat die Aufzeichnung beendet",
     "PUT /api/recordings/{name}/protection": "Hat den Schutz einer Aufzeichnung geändert",

@@ -15,6 +15,7 @@ export const auditEn = {
     "POST /api/alarms/release": "Took the request to hold back",
     "PUT /api/rehearsal": "Changed what is rehearsed",
     "POST /api/procedure/confirmation": "Confirmed after a restart",
+    "POST /api/recordings/consent": "Stated whether the patient consented to recordings",
     "POST /api/recordings/start": "Started a recording",
     "POST /api/recordings/stop": "Stopped the recording",
     "PUT /api/recordings/{name}/protection": "Changed the protection of a recording",

@@ -7,6 +7,14 @@ export const recordingEn = {
   missing: "{count} images missing",
   start: "Record",
   stop: "Stop recording",
+  consent: {
+    title: "Has the patient consented to recording?",
+    sentence:
+      "A recording has images of the operation, figures and alarms, and names of staff. Your name and the time are stored with the answer.",
+    navigating: "Recording begins with navigation. Without consent nothing is recorded.",
+    yes: "Patient has consented",
+    no: "Not now",
+  },
   /** By the code of the server's problem. */
   reasons: {
     RECORDING_DISK_FULL: "the disk is full",
