@@ -59,6 +59,10 @@ class RecordingMessage(Message):
     """One recording."""
 
     name: str
+    began_at: str
+    """UTC, ISO 8601."""
+    duration_s: float | None
+    """Null while it runs, and for a file that was cut by a crash and is readable up to there."""
     size_bytes: int
     is_protected: bool
     is_running: bool

@@ -14,6 +14,7 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Literal
 
@@ -31,12 +32,15 @@ from server.recording.consent import Consent, ConsentRecord, ConsentState, store
 from server.recording.messages import DocumentMessage, DocumentsMessage, session_message
 from server.recording.process import RecordingOrder, RecordingStatus
 from server.recording.recorder import Recorder, TrackedImages
+from server.recording.timeline import index_path
 from server.recording_file import Topic, WriterLimits
+from server.recording_file.locations import read_duration_s
 from server.recording_file.topics import SUFFIX
 from server.store import Case, CaseStore, Current, DocumentKind, NotFound, StoreError
 from server.store.home import PRIVATE, RECORDINGS, sync_folder
 
 NAME = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{4}\.mcap")
+TIME_FORMAT = "%Y%m%dT%H%M%SZ"
 PROTECTED = ".protected"
 POLL_S = 0.25
 # After a failure nobody is served by a new attempt four times a second.
@@ -62,12 +66,16 @@ class StoredRecording:
 
     Attributes:
         name: of its file.
+        began_at: UTC, ISO 8601.
+        duration_s: from its first to its last message; None while it runs, and if it was cut.
         size_bytes: of its file.
         is_protected: whether it cannot be deleted.
         is_running: whether it is being written.
     """
 
     name: str
+    began_at: str
+    duration_s: float | None
     size_bytes: int
     is_protected: bool
     is_running: bool
@@ -244,11 +252,15 @@ class RecordingService:
         folder, running = self._folder(require_open_case(self._store)), self.state.name
         found = []
         for path in sorted(folder.glob(f"*{SUFFIX}")) if folder.is_dir() else []:
+            if not NAME.fullmatch(path.name):
+                continue
             # It may be deleted meanwhile.
             with suppress(FileNotFoundError):
                 found.append(
                     StoredRecording(
                         name=path.name,
+                        began_at=_began_at(path.name),
+                        duration_s=None if path.name == running else read_duration_s(path),
                         size_bytes=path.stat().st_size,
                         is_protected=_protection(path).exists(),
                         is_running=path.name == running,
@@ -303,6 +315,7 @@ class RecordingService:
                     {"name": name},
                 )
             path.unlink()
+            index_path(path).unlink(missing_ok=True)
             sync_folder(path.parent)
 
     def put_mark(self, text: str) -> None:
@@ -346,7 +359,7 @@ class RecordingService:
                 {"free_bytes": free_bytes},
             )
         now = utc_now()
-        name = f"{now:%Y%m%dT%H%M%SZ}-{secrets.token_hex(2)}{SUFFIX}"
+        name = f"{now:{TIME_FORMAT}}-{secrets.token_hex(2)}{SUFFIX}"
         with ExitStack() as stack:
             # A case is not deleted under a recording.
             stack.enter_context(self._store.in_use(case.id))
@@ -493,6 +506,10 @@ class RecordingService:
 
     def _folder(self, case: Case) -> Path:
         return self._store.home.cases / case.id / RECORDINGS
+
+
+def _began_at(name: str) -> str:
+    return utc_text(datetime.strptime(name.partition("-")[0], TIME_FORMAT).replace(tzinfo=UTC))
 
 
 def _protection(path: Path) -> Path:

@@ -65,6 +65,9 @@ GET     /api/rehearsal/ct
 GET     /api/recordings
 GET     /api/recordings/state
 GET     /api/recordings/{name}/file
+GET     /api/recordings/{name}/timeline
+GET     /api/recordings/{name}/images/{number}.jpg
+GET     /api/recordings/{name}/instants/{number}
 GET     /api/cases
 GET     /api/cases/{case_id}
 GET     /api/cases/{case_id}/documents

@@ -27,6 +27,7 @@ from server.store import CaseStore, DocumentKind, Home
 from tests.browser.fake_server import Feeder, setup
 from tests.procedure.patient import CAMERA_FROM_VERTEBRA, plan_content
 from tests.server.recording.no_recorder import recordings_without_process
+from tests.server.recording.reviewed import write_drilling
 from tests.server.supervision.signed_in_people import sign_people_in
 from tracker.plan import plan_from_mapping
 from tracker.plan.document import plain
@@ -98,6 +99,15 @@ def fill(store: CaseStore, run: str) -> None:
     )
 
 
+def put_recording(store: CaseStore) -> None:
+    """Put a recording of an earlier day into the open case."""
+    case = store.get_open_case()
+    assert case is not None
+    folder = store.home.cases / case.id / "recordings"
+    folder.mkdir(parents=True)
+    write_drilling(folder / "20260101T000000Z-0000.mcap")
+
+
 def main() -> None:
     """Serve until standard input ends."""
     hub = LiveHub()
@@ -119,6 +129,7 @@ def main() -> None:
             publish_setup=lambda _: None,
         )
         fill(store, steps.procedure.run)
+        put_recording(store)
         app = create_app(
             AppParts(
                 hub=hub,

@@ -13,6 +13,7 @@ import { AlertBand } from "../panes/AlertBand";
 import { LoadingNumbers } from "../panes/LoadingNumbers";
 import { NumbersPane } from "../panes/NumbersPane";
 import { VideoPane } from "../panes/VideoPane";
+import { Recordings } from "../recording/Recordings";
 import { RecordingState } from "../recording/RecordingState";
 import type { Signable } from "../room/messages";
 import { useRoomSnapshot } from "../room/RoomContext";
@@ -72,6 +73,9 @@ export function SupervisorView(): ReactNode {
           <StepsShown />
         </Fold>
         <Signables />
+        <Fold id="recordings" title={texts.operator.page.recordings}>
+          <Recordings mayChange={false} />
+        </Fold>
         <Fold id="log" title={own.log.title}>
           <LogPanel />
         </Fold>
