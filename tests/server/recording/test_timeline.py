@@ -59,6 +59,24 @@ def test_the_figures_are_those_of_the_snapshots_and_gaps_where_they_are_withheld
     assert wall is Status.THROUGH
 
 
+def test_the_alarms_of_an_image_are_those_that_were_evaluated_with_it(drilling: Path) -> None:
+    index = make_index(drilling)
+    steps = [one.json() for one in RecordingReader(drilling).messages() if one.topic is Topic.ALARM_STEP]
+    raised = [
+        step["image_number"] - 1000
+        for step in steps
+        for event in step["events"]
+        if (event["change"], event["condition"]) == ("raised", "BREACH")
+    ]
+    with drilling.open("rb") as file:
+        before, then = (
+            read_content(file, *map(int, index.alarms[number])).decode()
+            for number in (raised[0] - 1, raised[0])
+        )
+    assert '"BREACH"' not in before
+    assert '"BREACH"' in then
+
+
 def test_what_happened_has_its_begin_end_and_person(drilling: Path) -> None:
     events = make_index(drilling).events
     (navigation,) = [one for one in events if one.kind == "navigation"]
@@ -85,7 +103,8 @@ def test_images_that_share_a_sample_give_the_worst_of_each_figure(drilling: Path
     np.testing.assert_array_equal(every.values, index.values)
     few = sampled(index, 0.0, 4.0, 4)
     assert len(few.numbers) <= 6
-    wall, depth = FIGURES.index("wall"), FIGURES.index("depth")
+    entry, wall, depth = (FIGURES.index(name) for name in ("entry", "wall", "depth"))
+    assert np.nanmax(few.values[:, entry]) == np.nanmax(index.values[:, entry])
     assert np.nanmin(few.values[:, wall]) == np.nanmin(index.values[:, wall])
     assert few.values[-1, depth] == index.values[-1, depth]
     part = sampled(index, 2.0, 3.0, 1000)
