@@ -1,13 +1,15 @@
 """Recordings of the open case: start, stop, list, download, protect and delete."""
 
+from pathlib import Path
 from typing import Annotated, Literal
 
 from fastapi import APIRouter, Request, Response
-from fastapi.responses import FileResponse
+from fastapi.responses import FileResponse, StreamingResponse
 from pydantic import Field
 
 from server.api.errors import rejections
 from server.recording.consent import Consent, ConsentState
+from server.recording.export import Table, csv_lines
 from server.recording.service import RecordingService, StoredRecording
 from server.security.audit import note
 from server.security.person import person_of
@@ -15,6 +17,7 @@ from server.stream.message import Message
 from server.stream.messages import ProblemMessage, problem_message
 
 MCAP = "application/octet-stream"
+CSV = "text/csv"
 
 
 class ConsentMessage(Message):
@@ -128,6 +131,16 @@ def recordings_router(service: RecordingService) -> APIRouter:
     def download(name: str) -> FileResponse:
         """Return the file of a recording (MCAP). It has images of the operation and names of staff."""
         return FileResponse(service.path(name), media_type=MCAP, filename=name)
+
+    @router.get(
+        "/{name}/export/{table}.csv",
+        response_class=StreamingResponse,
+        responses=rejections(404, 409, 422, 503),
+    )
+    def export(name: str, table: Table) -> StreamingResponse:
+        """Return poses, deviations or alarms of a recording as CSV; the guide describes the columns."""
+        headers = {"Content-Disposition": f'attachment; filename="{Path(name).stem}-{table}.csv"'}
+        return StreamingResponse(csv_lines(service.path(name), table), media_type=CSV, headers=headers)
 
     @router.put("/{name}/protection", responses=rejections(404, 409, 503))
     def protect(name: str, requested: ProtectionMessage) -> ProtectionMessage:

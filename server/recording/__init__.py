@@ -1,6 +1,7 @@
 """Recordings: what is written while images arrive, and their exact replay.
 
 consent.py   whether the patient consented
+export.py    as CSV
 messages.py  what is in a file beside images and live messages
 process.py   reads the ring in a process of its own and writes the file
 recorder.py  one recording, as the web process sees it

@@ -65,6 +65,7 @@ GET     /api/rehearsal/ct
 GET     /api/recordings
 GET     /api/recordings/state
 GET     /api/recordings/{name}/file
+GET     /api/recordings/{name}/export/{table}.csv
 GET     /api/recordings/{name}/timeline
 GET     /api/recordings/{name}/images/{number}.jpg
 GET     /api/recordings/{name}/instants/{number}
@@ -220,6 +221,7 @@ AUDITED = """
 GET     /api/cases/{case_id}/archive
 GET     /api/audit/export
 GET     /api/recordings/{name}/file
+GET     /api/recordings/{name}/export/{table}.csv
 """
 # Executed even if the audit log cannot be written: alarms, and what frees space on a full disk.
 URGENT = """

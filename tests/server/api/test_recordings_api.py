@@ -1,5 +1,6 @@
 """`/api/recordings`: the whole answers."""
 
+import csv
 from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
@@ -192,3 +193,13 @@ def test_a_recording_that_runs_is_not_reviewed(door: Door) -> None:
     door.open_a_case()
     name = door.ask("POST", "/start", 200)["name"]
     assert door.ask("GET", f"/{name}/timeline", 409)["code"] == "RECORDING_RUNS"
+
+
+def test_a_recording_is_exported_as_csv(door: Door) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    answer = door.client.get(f"/api/recordings/{name}/export/deviations.csv")
+    assert answer.headers["content-type"].startswith("text/csv")
+    rows = list(csv.DictReader(answer.text.splitlines()))
+    assert [row["reason"] == "" for row in rows] == [mode != "hidden" for mode in DRILLED]
+    assert door.ask("GET", f"/{name}/export/images.csv", 422)["code"] == "REQUEST_INVALID"

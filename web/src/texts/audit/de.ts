@@ -19,6 +19,8 @@ export const auditDe: AuditTexts = {
     "POST /api/recordings/consent": "Einwilligung in Aufnahmen beantwortet",
     "POST /api/recordings/start": "Hat eine Aufzeichnung gestartet",
     "POST /api/recordings/stop": "Hat die Aufzeichnung beendet",
+    "GET /api/recordings/{name}/export/{table}.csv": "Aufnahme als CSV exportiert",
+    "GET /api/recordings/{name}/file": "Aufnahme heruntergeladen",
     "PUT /api/recordings/{name}/protection": "Hat den Schutz einer Aufzeichnung geändert",
     "DELETE /api/recordings/{name}": "Hat eine Aufzeichnung gelöscht",
     "POST /api/cases": "Hat einen Fall angelegt",

@@ -18,6 +18,8 @@ export const auditEn = {
     "POST /api/recordings/consent": "Stated whether the patient consented to recordings",
     "POST /api/recordings/start": "Started a recording",
     "POST /api/recordings/stop": "Stopped the recording",
+    "GET /api/recordings/{name}/export/{table}.csv": "Exported a recording as CSV",
+    "GET /api/recordings/{name}/file": "Downloaded a recording",
     "PUT /api/recordings/{name}/protection": "Changed the protection of a recording",
     "DELETE /api/recordings/{name}": "Deleted a recording",
     "POST /api/cases": "Made a case",
