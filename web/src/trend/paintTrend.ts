@@ -1,5 +1,6 @@
 // Puts a figure's curve onto its canvas, past React's state.
 import type { Status } from "../live/messages";
+import { formatFigure } from "../live/rounding";
 import { paintBitmap } from "../panes/bitmapCanvas";
 import type { FigureName } from "../panes/limits";
 import { curveOf } from "./curve";
@@ -21,11 +22,20 @@ const MIN_SIDE_PX = 12;
 const MIN_LABELLED_PX = 120;
 const LABEL_PX = 13;
 
+export interface TrendFrame {
+  /** At the right edge. */
+  nowMs: number;
+  spanMs?: number;
+  maxStepMs?: number;
+  /** Labelled with the values at its edges, not with its duration. */
+  hasRange?: boolean;
+}
+
 export function paintTrend(
   canvas: HTMLCanvasElement,
   name: FigureName,
   samples: readonly Sample[],
-  nowMs: number,
+  { nowMs, spanMs = SPAN_MS, maxStepMs, hasRange = false }: TrendFrame,
 ): void {
   const { clientWidth, clientHeight } = canvas;
   if (clientWidth < MIN_SIDE_PX || clientHeight < MIN_SIDE_PX) return;
@@ -35,6 +45,8 @@ export function paintTrend(
   const inset = LINE_PX;
   const curve = curveOf(samples, name, {
     nowMs,
+    spanMs,
+    ...(maxStepMs === undefined ? {} : { maxStepMs }),
     width: clientWidth - 2 * inset,
     height: clientHeight - 2 * inset,
   });
@@ -72,6 +84,11 @@ export function paintTrend(
     if (clientWidth < MIN_LABELLED_PX) return;
     context.font = `${LABEL_PX}px ${style.fontFamily}`;
     context.fillStyle = inkOf("--ink-soft");
-    context.fillText(`\u2212${SPAN_MS / 1000} s`, 0, LABEL_PX);
+    if (!hasRange) {
+      context.fillText(`\u2212${spanMs / 1000} s`, 0, LABEL_PX);
+      return;
+    }
+    context.fillText(formatFigure(curve.range[1]), 0, LABEL_PX);
+    context.fillText(formatFigure(curve.range[0]), 0, clientHeight - 2 * inset - 3);
   });
 }

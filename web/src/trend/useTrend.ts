@@ -39,7 +39,7 @@ export function useTrend(pane: RefObject<HTMLElement | null>): void {
     paintedAtMs.current = nowMs;
     // After the figures of this image are painted.
     timer.current = setTimeout(() => {
-      for (const { name, canvas } of canvases()) paintTrend(canvas, name, history.current.samples, nowMs);
+      for (const { name, canvas } of canvases()) paintTrend(canvas, name, history.current.samples, { nowMs });
     });
   });
 }
