@@ -51,16 +51,17 @@ class ChannelCheck:
         ]
         if now.suffices:
             return found
+        # Marker and tool add to each figure: none of them promises enough.
         found.append("This screw cannot be navigated with this registration: every image is UNCERTAIN.")
         found += [
             f"  {more} more landmarks, spread as these and none mistaken: {check.error_95_mm:.2f} mm, "
-            f"{'enough' if check.suffices else 'not enough'}"
+            f"{'enough at best' if check.suffices else 'not enough'}"
             for more, check in self.with_more.items()
         ]
         if now.diameter_excess_mm is None:
             found.append("  a thinner screw: the planned one leaves nothing, plan it again first")
         else:
-            found.append(f"  a screw thinner by {now.diameter_excess_mm:.1f} mm on the same axis: enough")
+            found.append(f"  a screw on the same axis, thinner by at least {now.diameter_excess_mm:.1f} mm")
         return found
 
 
