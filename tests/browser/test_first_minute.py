@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser
 
+from tests.benchmarks.first_page.processes import OTHER_WORK
 from tests.benchmarks.first_page.report import MIN_WIDTH_PX, PageMeasurement
 from tests.benchmarks.first_page.screen import measured_screen
 from tests.benchmarks.options import BenchmarkOptions
@@ -15,9 +16,10 @@ from tests.benchmarks.running_server import RunningServer, running_server
 
 pytestmark = pytest.mark.browser
 
-# The aim is 99 % and 15 images/s where nothing else runs; other tests run beside this one. What once made the
-# page late left 30 to 60 %.
+# The aim is 99 % and 15 images/s; a slow machine reaches less. What once made the page late left 30 to 60 %.
 MIN_LIVE_RATIO, MIN_IMAGES_PER_S = 0.75, 8.0
+# Of a core: with more of it nothing can be said. `make test` runs this test alone.
+MAX_OTHER_WORK = 0.3
 WINDOW_S, SETTLING_S, WINDOWS = 8.0, 6.0, 3
 
 
@@ -39,7 +41,11 @@ def test_figures_are_live_and_the_picture_moves_on_two_cores(
         one = measured_screen(browser, rehearsal, size_px, seconds=WINDOW_S, settling_s=SETTLING_S)
         assert one.min_width_px >= MIN_WIDTH_PX
         seen.append(one)
-    assert any(_is_good(one) for one in seen), [(one.live_ratio, one.images_per_s, one.load) for one in seen]
+    other_work = [one.processor_use[OTHER_WORK] for one in seen]
+    is_good = any(_is_good(one) for one in seen)
+    if not is_good and min(other_work) > MAX_OTHER_WORK:
+        pytest.skip(f"other programs took at least {min(other_work):.0%} of a core")
+    assert is_good, [(one.live_ratio, one.images_per_s, one.load) for one in seen]
 
 
 def _is_good(one: PageMeasurement) -> bool:
