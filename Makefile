@@ -62,6 +62,25 @@ test: $(STAMPS)/project ## everything: format, lint, types, contracts, Python, w
 	checked=$$?; wait $$warm && exit $$checked
 	@$(MAKE) test-python
 
+# The core, for every commit. `make test` holds what is not in it: servers, whole scenes, CTs, calibrations, the browser,
+# the form of the page and eslint, which alone needs more than a minute; and of these folders, the slowest files.
+FAST_TESTS := $(addprefix tests/tracker/,geometry edges regions quads marker navigation/alarms) \
+	$(addprefix tests/server/,alarms texts)
+FAST_LEAVES_OUT := $(addprefix --ignore-glob=*/,test_candidates.py test_photometric_fit*.py test_stepwise_illumination.py \
+	test_alarm_laws.py test_good_drilling.py test_no_contradiction.py)
+
+.PHONY: test-fast fast-checks fast-tests
+test-fast: $(STAMPS)/warm ## the core, for every commit: unit tests, lint of Python, types, web tests
+	@$(MAKE) --jobs=2 $(STAMPS)/dev $(STAMPS)/page-packages
+	@$(MAKE) --jobs=2 fast-tests fast-checks
+fast-checks:
+	@$(MAKE) lint-python
+	@$(MAKE) types-python
+	@$(MAKE) types-page
+	@$(MAKE) test-web
+fast-tests:
+	@$(PYTHON_IN_VENV) -m pytest -q -m "not browser" $(FAST_TESTS) $(FAST_LEAVES_OUT)
+
 .PHONY: check
 check: ## what is checked without running the program: lint and types
 	@$(MAKE) lint

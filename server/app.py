@@ -34,6 +34,7 @@ from server.api.people import people_router
 from server.api.plan import plan_router
 from server.api.procedure import procedure_router
 from server.api.readout import readout_router
+from server.api.recording_review import recording_review_router
 from server.api.recordings import recordings_router
 from server.api.registration import registration_router
 from server.api.rehearsal import rehearsal_router
@@ -53,6 +54,7 @@ from server.openigtlink import OpenIgtLinkServer
 from server.overlay.panel_readings import RESEARCH_SOFTWARE
 from server.procedure import Steps
 from server.procedure.scene_bone import SceneBone
+from server.recording.review import RecordingReview
 from server.recording.service import RecordingService
 from server.scene import mount_scene
 from server.security import HostGuard, KnownHosts, PeopleService, SecurityHeaders, SessionGuard
@@ -240,6 +242,8 @@ def _add_supervision(app: FastAPI, parts: AppParts, viewers: Viewers) -> None:
     if parts.recordings is not None:
         room_hub.on_mark = parts.recordings.put_mark
         app.include_router(recordings_router(parts.recordings))
+        if parts.jobs is not None:
+            app.include_router(recording_review_router(RecordingReview(parts.recordings, parts.jobs)))
 
 
 def _add_procedure(app: FastAPI, parts: AppParts) -> None:
@@ -264,7 +268,7 @@ def _add_procedure(app: FastAPI, parts: AppParts) -> None:
                 min_landmarks=parts.config.registration.min_points,
             )
         )
-        app.include_router(procedure_router(parts.steps.procedure, parts.steps.confirm))
+        app.include_router(procedure_router(parts.steps.procedure, parts.steps.confirm, parts.recordings))
         app.include_router(registration_router(parts.steps.registration))
         app.include_router(sweep_router(parts.steps.registration.sweep))
         app.include_router(needles_router(parts.steps.registration, parts.steps.ct_provider))

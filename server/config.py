@@ -357,6 +357,8 @@ class RecordingConfig(Section):
     """Of all recordings of all cases; a recording that would exceed it is stopped, and nothing is deleted."""
     min_free_gb: Annotated[float, Field(ge=0.0, le=100_000.0)] = 2
     """Free space on the disk at which a recording is stopped."""
+    consent: Literal["required", "not_required"] = "required"
+    """required: nothing is recorded until somebody has stated in the case that the patient consented."""
 
 
 class Config(Section):

@@ -6,9 +6,11 @@ from fastapi import APIRouter, Request
 from pydantic import Field
 
 from server.api.errors import rejections
+from server.api.recordings import RecordingStateMessage, recording_state_message
 from server.procedure.confirmation import ConfirmationPrompt
 from server.procedure.confirmation_step import ConfirmStep
 from server.procedure.state import Procedure, ProcedureState, StepName, StepState
+from server.recording.service import RecordingService
 from server.security.person import person_of
 from server.setup import ConfirmationReason
 from server.stream.messages import Message
@@ -80,16 +82,25 @@ class ProcedureMessage(Message):
     may_navigate: bool
     confirmation: ConfirmationMessage | None
     """The required confirmation; null if none is."""
+    recording: RecordingStateMessage | None
+    """What is being recorded; null without recordings."""
 
 
-def procedure_router(procedure: Procedure, confirm: ConfirmStep) -> APIRouter:
+def procedure_router(
+    procedure: Procedure, confirm: ConfirmStep, recordings: RecordingService | None = None
+) -> APIRouter:
     """Return the router of `/api/procedure`."""
     router = APIRouter(prefix="/api/procedure", tags=["procedure"])
+
+    def message() -> ProcedureMessage:
+        # Each page asks for this already, so that none asks for the state of recordings apart.
+        recording = None if recordings is None else recording_state_message(recordings)
+        return procedure_message(procedure.state(), recording)
 
     @router.get("", responses=rejections(503))
     def state() -> ProcedureMessage:
         """Return the state of each step of the open case."""
-        return procedure_message(procedure.state())
+        return message()
 
     @router.post("/confirmation", responses=rejections(409, 422, 503, 507))
     def confirmation(requested: ConfirmationRequest, request: Request) -> ProcedureMessage:
@@ -98,12 +109,12 @@ def procedure_router(procedure: Procedure, confirm: ConfirmStep) -> APIRouter:
         The confirmation is stored in the case with its author, unless it is no longer required.
         """
         confirm.confirm(requested.registration_id, made_by=person_of(request.scope).name)
-        return procedure_message(procedure.state())
+        return message()
 
     return router
 
 
-def procedure_message(state: ProcedureState) -> ProcedureMessage:
+def procedure_message(state: ProcedureState, recording: RecordingStateMessage | None) -> ProcedureMessage:
     """Return the message of the procedure."""
     return ProcedureMessage(
         case_id=state.case_id or None,
@@ -128,6 +139,7 @@ def procedure_message(state: ProcedureState) -> ProcedureMessage:
         next_step=state.next_step,
         may_navigate=state.status(StepName.NAVIGATE).finding.state is StepState.DONE,
         confirmation=None if state.confirmation is None else confirmation_message(state.confirmation),
+        recording=recording,
     )
 
 

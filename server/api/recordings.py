@@ -1,19 +1,49 @@
 """Recordings of the open case: start, stop, list, download, protect and delete."""
 
-from fastapi import APIRouter, Response
-from fastapi.responses import FileResponse
+from pathlib import Path
+from typing import Annotated, Literal
+
+from fastapi import APIRouter, Request, Response
+from fastapi.responses import FileResponse, StreamingResponse
+from pydantic import Field
 
 from server.api.errors import rejections
-from server.recording.service import RecordingService, RecordingState, StoredRecording
+from server.recording.consent import Consent, ConsentState
+from server.recording.export import Table, csv_lines
+from server.recording.service import RecordingService, StoredRecording
+from server.security.audit import note
+from server.security.person import person_of
 from server.stream.message import Message
 from server.stream.messages import ProblemMessage, problem_message
 
 MCAP = "application/octet-stream"
+CSV = "text/csv"
+
+
+class ConsentMessage(Message):
+    """Whether the patient of the open case consented to recordings."""
+
+    state: ConsentState
+    """Recordings start only with given or not_required."""
+    answered_at: str | None
+    """UTC, ISO 8601; null without an answer."""
+    answered_by: str | None
+
+
+class ConsentRequest(Message):
+    """Whether the patient consented."""
+
+    case_id: Annotated[str, Field(min_length=1, max_length=64)]
+    """The case for which this was asked."""
+    is_given: bool
 
 
 class RecordingStateMessage(Message):
     """What is being recorded."""
 
+    when: Literal["navigating", "manual", "never"]
+    """When recordings start: by themselves, when somebody starts one, or never."""
+    consent: ConsentMessage
     is_recording: bool
     name: str | None
     """Of the running recording; null without one."""
@@ -32,6 +62,10 @@ class RecordingMessage(Message):
     """One recording."""
 
     name: str
+    began_at: str
+    """UTC, ISO 8601."""
+    duration_s: float | None
+    """Null while it runs, and for a file that was cut by a crash and is readable up to there."""
     size_bytes: int
     is_protected: bool
     is_running: bool
@@ -61,27 +95,52 @@ def recordings_router(service: RecordingService) -> APIRouter:
     @router.get("/state", responses=rejections(503))
     def state() -> RecordingStateMessage:
         """Return what is being recorded, in any case."""
-        return _state(service.state)
+        return recording_state_message(service)
 
     @router.post("/start", responses=rejections(409, 503, 507))
     def start() -> RecordingStateMessage:
         """Start a recording of the open case; a running one goes on.
 
         It has every tracked image with the state before it, so that `coaxial replay --check` gives the same
-        results again. Where the disk or the budget ends, the recording stops with an alarm, and navigation
-        goes on.
+        results again. Where the settings require it, somebody has to state the patient's consent first. Where
+        the disk or the budget ends, the recording stops with an alarm, and navigation goes on.
         """
-        return _state(service.start())
+        service.start()
+        return recording_state_message(service)
+
+    @router.post("/consent", responses=rejections(409, 422, 503, 507))
+    def consent(answer: ConsentRequest, request: Request) -> ConsentMessage:
+        """State whether the patient consented to recordings of the open case.
+
+        The answer is stored in the case with its author. A recording that runs without consent is ended.
+        """
+        before = service.consent.state
+        stored = service.answer_consent(
+            answer.case_id, is_given=answer.is_given, made_by=person_of(request.scope).name
+        )
+        note({"what": "consent", "case_id": answer.case_id, "from": before.value, "to": stored.state.value})
+        return _consent(stored)
 
     @router.post("/stop", responses=rejections(503))
     def stop() -> RecordingStateMessage:
         """Stop the recording; the answer comes when its file is closed."""
-        return _state(service.stop())
+        service.stop()
+        return recording_state_message(service)
 
     @router.get("/{name}/file", response_class=FileResponse, responses=rejections(404, 409, 503))
     def download(name: str) -> FileResponse:
         """Return the file of a recording (MCAP). It has images of the operation and names of staff."""
         return FileResponse(service.path(name), media_type=MCAP, filename=name)
+
+    @router.get(
+        "/{name}/export/{table}.csv",
+        response_class=StreamingResponse,
+        responses=rejections(404, 409, 422, 503),
+    )
+    def export(name: str, table: Table) -> StreamingResponse:
+        """Return poses, deviations or alarms of a recording as CSV; the guide describes the columns."""
+        headers = {"Content-Disposition": f'attachment; filename="{Path(name).stem}-{table}.csv"'}
+        return StreamingResponse(csv_lines(service.path(name), table), media_type=CSV, headers=headers)
 
     @router.put("/{name}/protection", responses=rejections(404, 409, 503))
     def protect(name: str, requested: ProtectionMessage) -> ProtectionMessage:
@@ -102,9 +161,21 @@ def _recording(recording: StoredRecording) -> RecordingMessage:
     return RecordingMessage.model_validate(recording, from_attributes=True)
 
 
-def _state(state: RecordingState) -> RecordingStateMessage:
+def _consent(consent: Consent) -> ConsentMessage:
+    return ConsentMessage(
+        state=consent.state,
+        answered_at=consent.answered_at or None,
+        answered_by=consent.answered_by or None,
+    )
+
+
+def recording_state_message(service: RecordingService) -> RecordingStateMessage:
+    """Return the message of what is being recorded."""
+    state = service.state
     status = state.status
     return RecordingStateMessage(
+        when=service.when,
+        consent=_consent(service.consent),
         is_recording=bool(state.name),
         name=state.name or None,
         duration_s=state.duration_s,

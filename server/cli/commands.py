@@ -17,6 +17,7 @@ from server.cli.camera_commands import cameras
 from server.cli.latency_commands import latency_app
 from server.cli.marker_commands import marker_app
 from server.cli.plan_commands import plan_app
+from server.cli.recording_commands import recording_app
 from server.cli.register_commands import register_app
 from server.cli.replay_commands import replay
 from server.cli.time_offset_commands import time_offset
@@ -51,6 +52,7 @@ app.add_typer(latency_app, name="latency")
 app.add_typer(register_app, name="register")
 app.command()(verify)
 app.command()(replay)
+app.add_typer(recording_app, name="recording")
 
 
 class Rate(StrEnum):

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import typer
 
+from server.cli.channel_check import ChannelCheck, check_channel
 from server.cli.landmark_rows import LandmarkRows, read_landmarks
 from server.cli.registration_form import finite, registration_form
 from server.cli.registration_transform import write_transform
@@ -40,6 +41,8 @@ class PointsOptions:
     max_tre_mm: float | None
     config: Path | None
     transform: Path | None = None
+    channel: str | None = None
+    tolerance: str | None = None
 
 
 def register_from_files(options: PointsOptions, *, as_json: bool) -> int:
@@ -63,17 +66,30 @@ def register_from_files(options: PointsOptions, *, as_json: bool) -> int:
     gate = replace(gate, max_tre_mm=np.inf if options.max_tre_mm is None else options.max_tre_mm)
     found = register_points(pairs, excluded=_excluded(options.excluded, pairs), settings=settings)
     failures = found.failures(gate, targets)
+    channel = _channel_check(found, options)
     outliers = found.outliers(gate)
     if as_json:
-        typer.echo(json.dumps(_mapping(found, targets, gate, failures), allow_nan=False))
+        typer.echo(json.dumps(_mapping(found, targets, gate, failures, channel), allow_nan=False))
     else:
-        typer.echo("\n".join(_lines(found, targets, outliers)))
+        typer.echo("\n".join(_lines(found, targets, outliers, channel)))
         for remark in found.remarks:
             typer.echo(f"Note: {remark.message}.\n{remark.remedy}", err=True)
     for failure in failures:
         typer.echo(f"Failed: {failure.message}.\n{failure.remedy}", err=True)
     write_transform(options.transform, found.fixed_from_moving, passed=not failures)
     return FAILED if failures else 0
+
+
+def _channel_check(found: PointRegistration, options: PointsOptions) -> ChannelCheck | None:
+    if options.channel is None and options.tolerance is None:
+        return None
+    if options.channel is None or options.tolerance is None:
+        raise InvalidInput(
+            "CHANNEL_INCOMPLETE",
+            "only one of --channel-mm and --tolerance is given",
+            "Give both, as 'coaxial plan measure --json' prints them.",
+        )
+    return check_channel(found, options.channel, options.tolerance)
 
 
 def target_from_text(text: str) -> Array:
@@ -130,6 +146,7 @@ def _mapping(
     targets: Sequence[Array],
     gate: PointGate,
     failures: Sequence[RegistrationError],
+    channel: ChannelCheck | None,
 ) -> dict[str, Any]:
     outliers = found.outliers(gate)
     form = registration_form(
@@ -170,10 +187,16 @@ def _mapping(
         ],
         "fle_rms_mm": found.fle_mm,
         "scale_ratio": found.scale_ratio,
+        "channel": None if channel is None else channel.mapping,
     }
 
 
-def _lines(found: PointRegistration, targets: Sequence[Array], outliers: Sequence[int]) -> list[str]:
+def _lines(
+    found: PointRegistration,
+    targets: Sequence[Array],
+    outliers: Sequence[int],
+    channel: ChannelCheck | None,
+) -> list[str]:
     left_out = found.leave_one_out_mm
     width = max(5, *(len(label) for label in found.pairs.labels))
     lines = [f"{'point':<{width}}   off mm   x       y       z    left out mm   others fit mm"]
@@ -201,6 +224,7 @@ def _lines(found: PointRegistration, targets: Sequence[Array], outliers: Sequenc
             f"{found.tre_stated_mm(target):.2f} mm stated (includes the uncertainty from few points"
             f"{_outlier_share(found, target)})"
         )
+    lines += [] if channel is None else channel.lines
     lines.append("fixed_from_moving:")
     lines += ["  " + " ".join(f"{number:12.6f}" for number in row) for row in found.fixed_from_moving.matrix]
     return lines

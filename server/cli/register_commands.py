@@ -56,6 +56,23 @@ MinFleOption = Annotated[
         max=20.0,
     ),
 ]
+ChannelOption = Annotated[
+    str | None,
+    typer.Option(
+        "--channel-mm",
+        help="Planned channel, entry and target in the frame of --fixed: says whether the registration "
+        "suffices for the screw, and what would. Needs --tolerance.",
+        metavar="X,Y,Z,X,Y,Z",
+    ),
+]
+ToleranceOption = Annotated[
+    str | None,
+    typer.Option(
+        "--tolerance",
+        help="Tolerance of the screw in that channel, as 'coaxial plan measure' prints it.",
+        metavar="MM,DEG",
+    ),
+]
 TransformOption = Annotated[
     Path | None,
     typer.Option(
@@ -108,6 +125,8 @@ def points(
     ] = None,
     config: ConfigOption = None,
     transform: TransformOption = None,
+    channel_mm: ChannelOption = None,
+    tolerance: ToleranceOption = None,
     json: JsonOption = False,
 ) -> None:
     """Register by landmarks: print the transform, the residual of each point, and the error at targets.
@@ -129,6 +148,8 @@ def points(
         max_tre_mm=max_tre_mm,
         config=config,
         transform=transform,
+        channel=channel_mm,
+        tolerance=tolerance,
     )
     raise typer.Exit(register_from_files(options, as_json=json))
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from html import escape
 
 import numpy as np
-from scipy.stats import chi2
+import scipy
 
 from tracker.geometry import Array
 from tracker.verification import Figures, TheatreRows, Variant, name_of
@@ -74,7 +74,7 @@ def _coverage_panel(
         each = tool_errors[variant][name]
         if each:
             # The least region around what is shown that holds the truth, as a share.
-            minimum = np.sort(chi2.cdf([one.mahalanobis_squared for one in each], each[0].dof))
+            minimum = np.sort(scipy.stats.chi2.cdf([one.mahalanobis_squared for one in each], each[0].dof))
             lines.append(_curve(WIDE * minimum, np.arange(1, len(minimum) + 1) / len(minimum), number))
     return lines
 

@@ -21,6 +21,14 @@ gc.disable()
 
 import cv2  # noqa: E402
 
+# SciPy loads its parts when they are used first, which no image may wait for.
+import scipy.interpolate  # noqa: E402
+import scipy.ndimage  # noqa: E402
+import scipy.optimize  # noqa: E402
+import scipy.sparse.linalg  # noqa: E402
+import scipy.spatial.transform  # noqa: E402
+import scipy.special  # noqa: E402, F401
+
 import server.loop.worker  # noqa: E402, F401  loaded here so that no child has to
 import tracker.rehearsal  # noqa: E402, F401
 from server.loop.compiling import compile_tracker  # noqa: E402

@@ -1,8 +1,12 @@
 """Recordings: what is written while images arrive, and their exact replay.
 
+consent.py   whether the patient consented
+export.py    as CSV
 messages.py  what is in a file beside images and live messages
 process.py   reads the ring in a process of its own and writes the file
 recorder.py  one recording, as the web process sees it
+review.py    timeline, images and results of one that has ended
 service.py   starts and stops recordings of the open case, and lists them
+timeline.py  its index: where images lie, figures as columns, what happened
 replay.py    tracks a recording again, and compares
 """

@@ -14,7 +14,9 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from pathlib import Path
+from typing import Literal
 
 import structlog
 
@@ -25,15 +27,20 @@ from server.errors import RecordingError, SetupOrderError
 from server.live import Problem
 from server.logs import LogSettings
 from server.procedure.open_case import require_open_case
+from server.recording.consent import NAME as CONSENT_NAME
+from server.recording.consent import Consent, ConsentRecord, ConsentState, stored_consent
 from server.recording.messages import DocumentMessage, DocumentsMessage, session_message
 from server.recording.process import RecordingOrder, RecordingStatus
 from server.recording.recorder import Recorder, TrackedImages
+from server.recording.timeline import index_path
 from server.recording_file import Topic, WriterLimits
+from server.recording_file.locations import read_duration_s
 from server.recording_file.topics import SUFFIX
 from server.store import Case, CaseStore, Current, DocumentKind, NotFound, StoreError
 from server.store.home import PRIVATE, RECORDINGS, sync_folder
 
 NAME = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{4}\.mcap")
+TIME_FORMAT = "%Y%m%dT%H%M%SZ"
 PROTECTED = ".protected"
 POLL_S = 0.25
 # After a failure nobody is served by a new attempt four times a second.
@@ -59,12 +66,16 @@ class StoredRecording:
 
     Attributes:
         name: of its file.
+        began_at: UTC, ISO 8601.
+        duration_s: from its first to its last message; None while it runs, and if it was cut.
         size_bytes: of its file.
         is_protected: whether it cannot be deleted.
         is_running: whether it is being written.
     """
 
     name: str
+    began_at: str
+    duration_s: float | None
     size_bytes: int
     is_protected: bool
     is_running: bool
@@ -152,6 +163,47 @@ class RecordingService:
         self._end("the server was stopped")
 
     @property
+    def when(self) -> Literal["navigating", "manual", "never"]:
+        """When recordings start, as set."""
+        return self._config.recording.when
+
+    @property
+    def consent(self) -> Consent:
+        """Whether the patient of the open case consented to recordings."""
+        case = self._store.get_open_case()
+        if self._config.recording.consent == "not_required":
+            return Consent(state=ConsentState.NOT_REQUIRED)
+        return Consent(state=ConsentState.NOT_ASKED) if case is None else stored_consent(self._store, case.id)
+
+    def answer_consent(self, case_id: str, *, is_given: bool, made_by: str) -> Consent:
+        """Store whether the patient consented to recordings of the open case; end the running one if not.
+
+        Args:
+            case_id: the case that was open where the question was asked.
+            is_given: the answer.
+            made_by: name of the person who answers.
+
+        Raises:
+            SetupOrderError: NO_CASE_OPEN, CASE_NOT_OPEN.
+            StoreError: it cannot be stored.
+        """
+        case = require_open_case(self._store)
+        if case.id != case_id:
+            raise SetupOrderError(
+                "CASE_NOT_OPEN",
+                "another case was opened since the question was asked",
+                "Answer the question for the case that is open now.",
+                {"case_id": case.id},
+            )
+        record = ConsentRecord(is_given=is_given)
+        self._store.put(
+            case.id, DocumentKind.CONSENT, CONSENT_NAME, record.model_dump(mode="json"), made_by=made_by
+        )
+        if not is_given:
+            self._end("the patient does not consent to it")
+        return self.consent
+
+    @property
     def state(self) -> RecordingState:
         """What is being recorded."""
         with self._lock:
@@ -172,7 +224,7 @@ class RecordingService:
 
         Raises:
             RecordingError: RECORDING_SWITCHED_OFF, RECORDING_BUDGET_EXCEEDED, RECORDING_DISK_FULL.
-            SetupOrderError: NO_CASE_OPEN.
+            SetupOrderError: NO_CASE_OPEN, RECORDING_CONSENT_MISSING.
             StoreError: the folder of the case cannot be used.
         """
         with self._lock:
@@ -200,11 +252,15 @@ class RecordingService:
         folder, running = self._folder(require_open_case(self._store)), self.state.name
         found = []
         for path in sorted(folder.glob(f"*{SUFFIX}")) if folder.is_dir() else []:
+            if not NAME.fullmatch(path.name):
+                continue
             # It may be deleted meanwhile.
             with suppress(FileNotFoundError):
                 found.append(
                     StoredRecording(
                         name=path.name,
+                        began_at=_began_at(path.name),
+                        duration_s=None if path.name == running else read_duration_s(path),
                         size_bytes=path.stat().st_size,
                         is_protected=_protection(path).exists(),
                         is_running=path.name == running,
@@ -259,6 +315,7 @@ class RecordingService:
                     {"name": name},
                 )
             path.unlink()
+            index_path(path).unlink(missing_ok=True)
             sync_folder(path.parent)
 
     def put_mark(self, text: str) -> None:
@@ -276,6 +333,12 @@ class RecordingService:
                 "Set recording.when to manual or navigating, and start the program again.",
             )
         case = require_open_case(self._store)
+        if not self.consent.state.permits_recording:
+            raise SetupOrderError(
+                "RECORDING_CONSENT_MISSING",
+                "nobody has stated that the patient consented to a recording",
+                "Ask, and answer the question on the operator's page or with POST /api/recordings/consent.",
+            )
         folder = self._folder(case)
         left_bytes = settings.max_total_gb * 1e9 - self._total_bytes()
         if left_bytes <= 0.0:
@@ -296,7 +359,7 @@ class RecordingService:
                 {"free_bytes": free_bytes},
             )
         now = utc_now()
-        name = f"{now:%Y%m%dT%H%M%SZ}-{secrets.token_hex(2)}{SUFFIX}"
+        name = f"{now:{TIME_FORMAT}}-{secrets.token_hex(2)}{SUFFIX}"
         with ExitStack() as stack:
             # A case is not deleted under a recording.
             stack.enter_context(self._store.in_use(case.id))
@@ -367,6 +430,8 @@ class RecordingService:
             self._end("it cannot go on")
         elif running is not None and (case is None or case.id != running.case.id):
             self._end("its case was closed")
+        elif running is not None and not self.consent.state.permits_recording:
+            self._end("the consent to it was withdrawn")
         elif running is not None:
             self._put_documents()
         if self._config.recording.when == "navigating":
@@ -380,6 +445,8 @@ class RecordingService:
             if not navigates:
                 self._is_held_off = False
             is_due = navigates and case is not None and not (is_running or waits or self._is_held_off)
+        # Without consent it does not start, which is no problem of the recording.
+        is_due = is_due and self.consent.state.permits_recording
         if is_running and not navigates:
             self._end("navigation ended")
         elif is_due:
@@ -439,6 +506,10 @@ class RecordingService:
 
     def _folder(self, case: Case) -> Path:
         return self._store.home.cases / case.id / RECORDINGS
+
+
+def _began_at(name: str) -> str:
+    return utc_text(datetime.strptime(name.partition("-")[0], TIME_FORMAT).replace(tzinfo=UTC))
 
 
 def _protection(path: Path) -> Path:

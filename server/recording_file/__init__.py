@@ -1,6 +1,7 @@
 """The file of a recording: MCAP, with images, messages, alarms, and the state of tracking.
 
 codec.py      values of the program as JSON and back
+locations.py  where messages lie in the file
 packing.py    images
 topics.py     what is in the file
 writer.py     writes it, so that a crash loses less than a second

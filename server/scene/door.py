@@ -23,8 +23,6 @@ from viser._viser import InitialCameraConfig
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._infra import _message_producer
 
-SUBPROTOCOL = f"viser-v{viser.__version__}"
-
 Send = Callable[[bytes], Awaitable[None]]
 
 

@@ -2,9 +2,12 @@
 
 from dataclasses import dataclass
 from enum import StrEnum
+from importlib.metadata import version
 
 import msgspec
 
+# What viser's client names, without an import of viser.
+SUBPROTOCOL = f"viser-v{version('viser')}"
 CAMERA_MESSAGE = "ViewerCameraMessage"
 LARGEST_MESSAGE_BYTES = 64 * 1024
 # viser's client sends its camera at most 20 times a second while a person turns the view.

@@ -5,7 +5,7 @@ import contextlib
 import time
 from collections.abc import Callable, MutableMapping
 from contextlib import AbstractContextManager, nullcontext
-from typing import Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import structlog
 from starlette.requests import Request
@@ -14,15 +14,17 @@ from starlette.routing import BaseRoute, Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from server.live import Instant, LiveHub
-from server.scene.door import SUBPROTOCOL, Door
-from server.scene.gate import Gate, Verdict
-from server.scene.page import make_page
-from server.scene.stage import Stage
+from server.scene.gate import SUBPROTOCOL, Gate, Verdict
 from server.security import Person, person_of
 from server.security.hosts import is_same_origin
 from tracker.errors import NavigationError
 from tracker.navigation import Setup
 from tracker.plan import Surface
+
+if TYPE_CHECKING:
+    from server.scene.door import Door
+    from server.scene.page import Page
+    from server.scene.stage import Stage
 
 # A viewer that takes nothing for 2 s is dropped, beside the time that a thin line needs for the last message.
 SEND_TIMEOUT_S = 2.0
@@ -82,9 +84,9 @@ class Scene:
         self._surface = surface
         self._loop: asyncio.AbstractEventLoop | None = None
         self._stale_after_s = stale_after_ms / 1000
-        self._page = make_page(
-            stale_after_ms=stale_after_ms, silent_after_ms=max(MIN_SILENCE_MS, 6 * stale_after_ms)
-        )
+        self._is_running = False
+        self._opening = asyncio.Lock()
+        self._page: Page | None = None
         self._door: Door | None = None
         self._stage: Stage | None = None
         self._instant: Instant | None = None
@@ -102,10 +104,25 @@ class Scene:
     async def start(self) -> None:
         """Begin to follow. Call it in the application's event loop."""
         self._loop = asyncio.get_running_loop()
-        self._door = Door()
-        self._stage = Stage(self._door, setup=self._setup, surface=self._surface)
-        self._follower = asyncio.create_task(self._follow(self._stage), name="scene follower")
+        self._is_running = True
+        self._follower = asyncio.create_task(self._follow(), name="scene follower")
         self._follower.add_done_callback(_say_why)
+
+    async def _opened_page(self) -> "Page":
+        """Return the page; the first call loads viser and makes the stage.
+
+        To load it takes an eighth of the time of a start, and many servers never show a scene.
+        """
+        async with self._opening:
+            if self._page is None:
+                self._page = await asyncio.to_thread(_loaded_page, self._stale_after_s * 1000)
+            if self._door is None and self._is_running:
+                from server.scene.door import Door  # noqa: PLC0415  loaded by now
+                from server.scene.stage import Stage  # noqa: PLC0415
+
+                self._door = Door()
+                self._stage = Stage(self._door, setup=self._setup, surface=self._surface)
+            return self._page
 
     def show_surface(self, surface: Surface | None) -> None:
         """Show this bone from now on, or none. From any thread."""
@@ -119,6 +136,7 @@ class Scene:
 
     async def stop(self) -> None:
         """Let the viewers go and end the follower."""
+        self._is_running = False
         if self._follower is not None:
             self._follower.cancel()
             with contextlib.suppress(asyncio.CancelledError):
@@ -127,7 +145,7 @@ class Scene:
             self._door.stop()
         self._door = self._stage = self._follower = None
 
-    async def _follow(self, stage: Stage) -> None:
+    async def _follow(self) -> None:
         sequence = -1
         while True:
             try:
@@ -136,14 +154,15 @@ class Scene:
             except TimeoutError:
                 # Nobody says anything any more: what stands in the scene is not true now.
                 self._instant = None
-                stage.show_nothing()
+                if self._stage is not None:
+                    self._stage.show_nothing()
                 continue
             sequence, self._instant = instant.sequence, instant
-            if self.viewers > 0:
-                self._draw(stage, instant)
+            if self.viewers > 0 and self._stage is not None:
+                self._draw(self._stage, instant)
             await asyncio.sleep(MIN_INTERVAL_S)
 
-    def _draw(self, stage: Stage, instant: Instant) -> None:
+    def _draw(self, stage: "Stage", instant: Instant) -> None:
         try:
             stage.show(instant)
         except Exception:  # noqa: BLE001 one bad instant must not freeze the scene for ever
@@ -151,11 +170,14 @@ class Scene:
             stage.show_nothing()
 
     async def _answer(self, request: Request) -> Response:
-        return self._page.answer(request)
+        return (await self._opened_page()).answer(request)
 
     async def _watch(self, websocket: WebSocket) -> None:
         """One viewer, from its handshake to its end."""
-        door, rejection = self._door, self._rejection(websocket)
+        rejection = self._rejection(websocket)
+        if rejection is None:
+            await self._opened_page()
+        door = self._door
         if door is None or rejection is not None:
             _log.info("scene_viewer_rejected", reason=rejection or "not running")
             await websocket.close(REJECTED)
@@ -167,7 +189,7 @@ class Scene:
             _log.info("scene_viewer_rejected", reason=full.message)
             await websocket.close(CROWDED)
 
-    async def _show(self, door: Door, websocket: WebSocket) -> None:
+    async def _show(self, door: "Door", websocket: WebSocket) -> None:
         """One who was let in."""
         self.viewers += 1
         if self.viewers == 1 and self._stage is not None and self._instant is not None:
@@ -187,7 +209,7 @@ class Scene:
                 # What stands in it is not renewed, and the next viewer must not find it.
                 self._stage.show_nothing()
 
-    async def _serve(self, door: Door, websocket: WebSocket) -> int | None:
+    async def _serve(self, door: "Door", websocket: WebSocket) -> int | None:
         """Speak and listen until one of both ends; the close code, or None when nobody is left to close."""
         tasks = [
             asyncio.create_task(self._speak(door, websocket)),
@@ -211,7 +233,7 @@ class Scene:
             return f"does not speak {SUBPROTOCOL}"
         return None
 
-    async def _speak(self, door: Door, websocket: WebSocket) -> int | None:
+    async def _speak(self, door: "Door", websocket: WebSocket) -> int | None:
         """Send the scene; the close code, or None when there is nobody left to close."""
         underway_bytes = 0
 
@@ -245,6 +267,14 @@ class Scene:
             if gate.goodbye:
                 _log.warning("scene_viewer_misbehaves", rejections=gate.rejections)
                 return REJECTED
+
+
+def _loaded_page(stale_after_ms: float) -> "Page":
+    """Import viser, and return its page."""
+    import server.scene.stage  # noqa: PLC0415, F401  loaded when somebody comes to look
+    from server.scene.page import make_page  # noqa: PLC0415
+
+    return make_page(stale_after_ms=stale_after_ms, silent_after_ms=max(MIN_SILENCE_MS, 6 * stale_after_ms))
 
 
 def _say_why(follower: asyncio.Task[None]) -> None:

@@ -65,6 +65,10 @@ GET     /api/rehearsal/ct
 GET     /api/recordings
 GET     /api/recordings/state
 GET     /api/recordings/{name}/file
+GET     /api/recordings/{name}/export/{table}.csv
+GET     /api/recordings/{name}/timeline
+GET     /api/recordings/{name}/images/{number}.jpg
+GET     /api/recordings/{name}/instants/{number}
 GET     /api/cases
 GET     /api/cases/{case_id}
 GET     /api/cases/{case_id}/documents
@@ -131,6 +135,7 @@ DELETE  /api/people/invitations/{invitation_id}
 DELETE  /api/people/sessions/{session_id}
 PUT     /api/rehearsal
 POST    /api/procedure/confirmation
+POST    /api/recordings/consent
 POST    /api/recordings/start
 POST    /api/recordings/stop
 PUT     /api/recordings/{name}/protection
@@ -216,6 +221,7 @@ AUDITED = """
 GET     /api/cases/{case_id}/archive
 GET     /api/audit/export
 GET     /api/recordings/{name}/file
+GET     /api/recordings/{name}/export/{table}.csv
 """
 # Executed even if the audit log cannot be written: alarms, and what frees space on a full disk.
 URGENT = """

@@ -23,6 +23,7 @@ class DocumentKind(StrEnum):
     CHECK = "check"
     CONFIRMATION = "confirmation"
     SIGNATURE = "signature"
+    CONSENT = "consent"
     SNAPSHOT = "snapshot"
     ALARM = "alarm"
     AUDIT = "audit"

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
+ALONE = "tests/browser/test_first_minute.py"
 FILES = (
     "tests/tracker/test_scenes.py",
     "tests/tracker/test_more_scenes.py",
@@ -42,7 +43,7 @@ def run(folder: Path, *narrowed: str, fails: str = "nothing", code: int = 1) -> 
 def test_each_file_of_tests_is_run_once(tmp_path: Path) -> None:
     code, called = run(tmp_path)
     assert code == 0
-    first, *others, judged = called
+    first, *others, alone, judged = called
     assert len(others) == 2
     scenes = next(requested for requested in others if "-m browser" not in requested)
     browser = next(requested for requested in others if "-m browser" in requested)
@@ -51,14 +52,21 @@ def test_each_file_of_tests_is_run_once(tmp_path: Path) -> None:
     left_out = {word.removeprefix("--ignore=") for word in first.split() if word.startswith("--ignore=")}
     assert left_out == set(FILES[:2]) == {word for word in scenes.split() if word.endswith(".py")}
     assert {"tests/browser", FILES[3]} <= set(browser.split())
+    # What is left out there comes last, when nothing else runs.
+    assert f"--ignore={ALONE}" in browser.split()
+    assert alone.split()[-1] == ALONE
+    assert (ROOT / ALONE).is_file()
     assert judged.startswith(".make/some-test-passed .venv/log/pytest")
 
 
-@pytest.mark.parametrize("fails", ["not browser", "pytest-scenes.xml", "-m browser", "some-test-passed"])
+@pytest.mark.parametrize(
+    "fails",
+    ["not browser", "pytest-scenes.xml", "pytest-browser.xml", "pytest-alone.xml", "some-test-passed"],
+)
 def test_the_run_fails_with_any_of_its_parts(tmp_path: Path, fails: str) -> None:
     code, called = run(tmp_path, fails=fails)
     assert code != 0
-    assert len(called) == (4 if fails == "some-test-passed" else 3)
+    assert len(called) == (5 if fails == "some-test-passed" else 4)
 
 
 def test_what_is_narrowed_runs_in_two_parts_of_which_one_may_be_empty(tmp_path: Path) -> None:

@@ -26,6 +26,8 @@ from server.procedure.registration_record import CheckRecord, RegistrationRecord
 from server.store import CaseStore, DocumentKind, Home
 from tests.browser.fake_server import Feeder, setup
 from tests.procedure.patient import CAMERA_FROM_VERTEBRA, plan_content
+from tests.server.recording.no_recorder import recordings_without_process
+from tests.server.recording.reviewed import write_drilling
 from tests.server.supervision.signed_in_people import sign_people_in
 from tracker.plan import plan_from_mapping
 from tracker.plan.document import plain
@@ -35,7 +37,8 @@ from tracker.registration import Registration
 # A busy machine brings images late, and nothing is marked on what is not live.
 PATIENT = {"pose_stale_after_ms": 10_000, "video_stale_after_ms": 10_000, "scene_stale_after_ms": 10_000}
 SUPERVISION = {"cosign": {"plan": "required"}, "drawings_fade_after_s": 600}
-CONFIG = Config.model_validate({"supervision": SUPERVISION, "limits": PATIENT})
+RECORDING = {"min_free_gb": 0.0}
+CONFIG = Config.model_validate({"supervision": SUPERVISION, "limits": PATIENT, "recording": RECORDING})
 
 
 def fill(store: CaseStore, run: str) -> None:
@@ -96,6 +99,15 @@ def fill(store: CaseStore, run: str) -> None:
     )
 
 
+def put_recording(store: CaseStore) -> None:
+    """Put a recording of an earlier day into the open case."""
+    case = store.get_open_case()
+    assert case is not None
+    folder = store.home.cases / case.id / "recordings"
+    folder.mkdir(parents=True)
+    write_drilling(folder / "20260101T000000Z-0000.mcap")
+
+
 def main() -> None:
     """Serve until standard input ends."""
     hub = LiveHub()
@@ -117,9 +129,17 @@ def main() -> None:
             publish_setup=lambda _: None,
         )
         fill(store, steps.procedure.run)
+        put_recording(store)
         app = create_app(
             AppParts(
-                hub=hub, config=CONFIG, setup=setup(), alarms=alarms, store=store, jobs=jobs, steps=steps
+                hub=hub,
+                config=CONFIG,
+                setup=setup(),
+                alarms=alarms,
+                store=store,
+                jobs=jobs,
+                steps=steps,
+                recordings=recordings_without_process(store, CONFIG, alarms),
             )
         )
         sign_people_in(app)

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.browser.canvas import PIXELS
 from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Theatre, WatchedPage
 
 pytestmark = pytest.mark.browser
@@ -15,10 +16,9 @@ PAGES = {"supervisor": ("hold-ask", "cut-probe"), "operator/navigate": ("cut-pro
 
 
 # How many figures have a curve.
-CURVES = """() => [...document.querySelectorAll("canvas[data-trend]")].filter((canvas) => {
-    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-    return data.some(value => value > 0);
-}).length"""
+CURVES = f"""() => [...document.querySelectorAll("canvas[data-trend]")].filter(
+    (canvas) => {PIXELS}(canvas).some((value) => value > 0),
+).length"""
 
 
 @pytest.fixture(scope="module", params=PAGES)

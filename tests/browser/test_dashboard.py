@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.browser.canvas import PIXELS
 from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Theatre, WatchedPage, show_scene
 
 pytestmark = pytest.mark.browser
@@ -19,15 +20,15 @@ CUT = "cut-probe"
 expect.set_options(timeout=PATIENCE_MS)
 
 # A digest of what stands on the canvas, and whether anything does.
-DIGEST = """canvas => {
-    const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+DIGEST = f"""canvas => {{
+    const pixels = {PIXELS}(canvas);
     let digest = 0;
-    for (let i = 0; i < pixels.length; i += 4) {
+    for (let i = 0; i < pixels.length; i += 4) {{
         digest = (digest * 31 + pixels[i] + pixels[i + 1] + pixels[i + 2]) | 0;
-    }
+    }}
     return digest;
-}"""
-BLACK = """canvas => canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data
+}}"""
+BLACK = f"""canvas => {PIXELS}(canvas)
     .every((value, index) => index % 4 === 3 || value === 0)"""
 
 # Whether an opaque cover fills the pane, and is what a finger in its middle would touch.

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 import pytest
 from playwright.sync_api import Page, Route, WebSocketRoute, expect
 
-from tests.browser.test_supervision_in_browser import Supervised
+from tests.browser.supervised import Supervised
 from tests.browser.theatre import CHECKOUT, PATIENCE_MS, WatchedPage
 
 pytestmark = pytest.mark.browser

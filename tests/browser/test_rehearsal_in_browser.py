@@ -16,6 +16,7 @@ from urllib.parse import urlsplit
 import pytest
 from playwright.sync_api import Page, ViewportSize, expect
 
+from tests.browser.canvas import PIXELS
 from tests.browser.test_dashboard import DIGEST, is_live
 from tests.browser.theatre import CHECKOUT, SCREENSHOTS, WatchedPage, show_scene
 
@@ -45,7 +46,7 @@ CUT_AND_MOVING = """() => {
         const stage = document.querySelector(`[data-testid="cut-${name}"]`);
         if (stage?.dataset.shows !== "live") return false;
         const canvas = stage.querySelector("canvas");
-        const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+        const data = PIXELS(canvas);
         const greys = data.filter((_, index) => index % 4 === 0 && data[index + 3] === 255);
         const drill = stage.querySelector(name === "probe" ? "[data-part=ring]" : "[data-part=shaft]");
         const images = window.cutImages.get(name) ?? new Set();
@@ -54,7 +55,7 @@ CUT_AND_MOVING = """() => {
         const hasBone = greys.some((grey) => grey > 150) && greys.some((grey) => grey < 110);
         return hasBone && drill.getAttribute("d") !== "" && images.size > 2;
     });
-}"""
+}""".replace("PIXELS", PIXELS)
 DRILLING = """() => {
     const pane = (name) => document.querySelector(`[data-testid="${name}"]`);
     const depth = Number(pane("reading-depth").textContent);

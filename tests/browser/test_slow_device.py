@@ -56,8 +56,8 @@ SLOW = {
         };
     """,
     "drawing": """
-        const draw = CanvasRenderingContext2D.prototype.drawImage;
-        CanvasRenderingContext2D.prototype.drawImage = function (...options) {
+        const draw = ImageBitmapRenderingContext.prototype.transferFromImageBitmap;
+        ImageBitmapRenderingContext.prototype.transferFromImageBitmap = function (...options) {
           if (this.canvas.className === "sharp") {
             for (const until = performance.now() + 150; performance.now() < until; );
           }
@@ -96,7 +96,7 @@ def gave_way_in_order(page: Page, words: str) -> None:
 def test_a_device_that_decodes_slowly_keeps_its_picture_longest_and_its_scene_live(
     theatre: Theatre, watch: Watch
 ) -> None:
-    page = slowed(watch(theatre, 1280, 800), "decoding")
+    page = slowed(watch(theatre, 1280, 900), "decoding")
     gave_way_in_order(page, "Slow decoding")
     # At its slowest and coarsest.
     is_live(page, "scene")
@@ -110,7 +110,7 @@ def test_a_device_that_decodes_slowly_keeps_its_picture_longest_and_its_scene_li
 
 
 def test_a_device_that_draws_slowly_keeps_its_picture_longest(theatre: Theatre, watch: Watch) -> None:
-    page = slowed(watch(theatre, 1280, 800), "drawing", query="?lang=de")
+    page = slowed(watch(theatre, 1280, 900), "drawing", query="?lang=de")
     gave_way_in_order(page, "Langsames Zeichnen")
 
 

@@ -1,15 +1,13 @@
 """A supervisor in one browser, the theatre's screen in another: marks, a co-signature, a hold."""
 
-import os
-import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.theatre import CHECKOUT, PATIENCE_MS, SCREENSHOTS, WatchedPage
+from tests.browser.supervised import Supervised, opened
+from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, WatchedPage
 
 pytestmark = pytest.mark.browser
 expect.set_options(timeout=PATIENCE_MS)
@@ -28,39 +26,12 @@ PAINTED = """(canvas, [x, y, radius]) => {
 }"""
 
 
-class Supervised:
-    """The server process of `supervised_server.py`."""
-
-    def __init__(self) -> None:
-        self.process = subprocess.Popen(
-            [sys.executable, str(CHECKOUT / "tests" / "browser" / "supervised_server.py")],
-            cwd=CHECKOUT,
-            env={**os.environ, "PYTHONPATH": str(CHECKOUT)},
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            text=True,
-        )
-        assert self.process.stdout is not None
-        self.port = int(self.process.stdout.readline())
-
-
 @pytest.fixture(scope="module")
 def supervised() -> Iterator[Supervised]:
     """One server: the pages that are only looked at come before the plan is signed."""
     server = Supervised()
     yield server
     server.process.communicate(timeout=30)
-
-
-def opened(
-    watch: Callable[..., WatchedPage], server: Supervised, person: str, path: str, size: tuple[int, int]
-) -> Page:
-    watched = watch(server, *size)
-    address = f"http://127.0.0.1:{server.port}"
-    watched.page.context.add_cookies([{"name": "person", "value": person, "url": address}])
-    page = watched.open(path)
-    expect(page.get_by_test_id("video")).to_have_attribute("data-live", "true")
-    return page
 
 
 def on_picture(page: Page, x_px: float, y_px: float) -> tuple[float, float]:

@@ -8,6 +8,7 @@ from tracker.navigation.figures import DrillLimits, Figure, FigureName, Status
 from tracker.navigation.lag import LagEstimator
 from tracker.navigation.motion_detection import MotionDetection, motion_detected_by
 from tracker.navigation.motion_monitor import MotionMonitor
+from tracker.navigation.registration_check import RegistrationCheck, check_registration
 from tracker.navigation.snapshot import (
     Absent,
     AbsentReason,
@@ -38,6 +39,7 @@ __all__ = [
     "MotionMonitor",
     "MotionState",
     "NavigationSnapshot",
+    "RegistrationCheck",
     "ScrewSize",
     "Setup",
     "Status",
@@ -47,6 +49,7 @@ __all__ = [
     "VertebraPose",
     "assess",
     "bullseye_view",
+    "check_registration",
     "deviation_from_channel",
     "half_axes_95_mm",
     "motion_detected_by",

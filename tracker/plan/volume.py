@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy import ndimage
+import scipy
 
 from tracker.errors import PlanError
 from tracker.geometry import Array
@@ -109,7 +109,7 @@ class Volume:
         low = np.clip(np.floor(flat.min(axis=0)).astype(np.int64), 0, size - 1)
         high = np.clip(np.ceil(flat.max(axis=0)).astype(np.int64) + 1, low + 1, size)
         part = self.hu[low[0] : high[0], low[1] : high[1], low[2] : high[2]]
-        values = ndimage.map_coordinates(
+        values = scipy.ndimage.map_coordinates(
             part, (flat - low).T, output=np.float64, order=1, mode="constant", cval=OUTSIDE_HU
         )
         return np.asarray(values.reshape(shape))

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import special
+import scipy
 
 from tracker.geometry import Array
 from tracker.registration import AnchoredTo
@@ -169,7 +169,7 @@ def share_of(covered: Sequence[bool], seeds: Sequence[int]) -> Share:
     spread = float((off**2).sum()) / of**2 * count / max(count - 1, 1)
     # All images of a theatre share one registration: the effective sample size is at most the theatres.
     alone = float(np.clip(ratio * (1.0 - ratio) / spread, 1.0, count)) if spread > 0.0 else float(count)
-    z = float(special.ndtri(0.975))
+    z = float(scipy.special.ndtri(0.975))
     middle = (ratio + z**2 / (2.0 * alone)) / (1.0 + z**2 / alone)
     half = z / (1.0 + z**2 / alone) * np.sqrt(ratio * (1.0 - ratio) / alone + (z / (2.0 * alone)) ** 2)
     return Share(

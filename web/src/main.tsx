@@ -46,6 +46,7 @@ import "./theme/people.css";
 import "./theme/connection.css";
 import "./theme/latency.css";
 import "./theme/phone.css";
+import "./theme/recording.css";
 
 import { MantineProvider } from "@mantine/core";
 import { StrictMode } from "react";

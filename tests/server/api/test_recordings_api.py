@@ -1,19 +1,29 @@
 """`/api/recordings`: the whole answers."""
 
+import csv
 from collections.abc import Iterator
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
+import cv2
+import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
 from server.app import AppParts, create_app
+from server.clock import utc_text
 from server.config import Config
+from server.jobs import Jobs
 from server.live import LiveHub
+from server.logs import LogSettings
 from server.store import CaseStore, Home
 from tests.server.recording.no_recorder import recordings_without_process
+from tests.server.recording.reviewed import DRILLED, HEIGHT, WIDTH, drawn, write_drilling
 
 NOTHING = {
+    "when": "manual",
+    "consent": {"state": "not_required", "answered_at": None, "answered_by": None},
     "is_recording": False,
     "name": None,
     "duration_s": 0.0,
@@ -28,26 +38,47 @@ NOTHING = {
 class Door:
     """The HTTP door of a server with one case."""
 
-    def __init__(self, client: TestClient, store: CaseStore) -> None:
-        self.client, self.store = client, store
+    def __init__(self, client: TestClient, store: CaseStore, jobs: Jobs) -> None:
+        self.client, self.store, self.jobs = client, store, jobs
 
     def ask(self, method: str, path: str, status: int, body: object = None) -> dict[str, Any]:
         answer = self.client.request(method, f"/api/recordings{path}", json=body)
         assert answer.status_code == status, answer.text
         return {} if status == 204 else dict(answer.json())
 
+    def put_drilling(self) -> str:
+        """Put a recording into the open case, as a server before this one made it; return its name."""
+        case = self.store.get_open_case()
+        assert case is not None
+        folder = self.store.home.cases / case.id / "recordings"
+        folder.mkdir(parents=True, exist_ok=True)
+        return write_drilling(folder / "20260101T000000Z-0000.mcap").name
+
+    def timeline(self, name: str, query: str = "") -> dict[str, Any]:
+        """Wait for the timeline of a recording."""
+        found = self.ask("GET", f"/{name}/timeline{query}", 200)
+        if found["job"] is not None:
+            self.jobs.wait_for(found["job"]["id"], timeout_s=60.0)
+            found = self.ask("GET", f"/{name}/timeline{query}", 200)
+        return dict(found["timeline"])
+
     def open_a_case(self) -> None:
         self.store.open(self.store.create("L4").id)
 
 
 @pytest.fixture
-def door(tmp_path: Path) -> Iterator[Door]:
+def door(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Door]:
+    consent = getattr(request, "param", "not_required")
     with Home(tmp_path / "home") as home, CaseStore(home) as store:
-        config = Config.model_validate({"recording": {"min_free_gb": 0.0}})
+        config = Config.model_validate({"recording": {"min_free_gb": 0.0, "consent": consent}})
         recordings = recordings_without_process(store, config)
-        app = create_app(AppParts(hub=LiveHub(), config=config, store=store, recordings=recordings))
+        jobs = Jobs(log=LogSettings(as_json=True))
+        app = create_app(
+            AppParts(hub=LiveHub(), config=config, store=store, recordings=recordings, jobs=jobs)
+        )
         with TestClient(app, base_url="http://127.0.0.1:8000") as client:
-            yield Door(client, store)
+            yield Door(client, store, jobs)
+        jobs.close()
 
 
 def test_without_an_open_case_nothing_is_recorded(door: Door) -> None:
@@ -68,8 +99,18 @@ def test_a_recording_is_started_listed_stopped_downloaded_and_deleted(door: Door
         "images": 3,
         "duration_s": started["duration_s"],
     }
+    began_at = utc_text(datetime.strptime(f"{name[:16]}", "%Y%m%dT%H%M%S%z"))
     assert door.ask("GET", "", 200) == {
-        "recordings": [{"name": name, "size_bytes": 8, "is_protected": False, "is_running": True}]
+        "recordings": [
+            {
+                "name": name,
+                "began_at": began_at,
+                "duration_s": None,
+                "size_bytes": 8,
+                "is_protected": False,
+                "is_running": True,
+            }
+        ]
     }
     assert door.ask("DELETE", f"/{name}", 409)["code"] == "RECORDING_RUNS"
     assert door.ask("POST", "/stop", 200) == {**NOTHING, "size_bytes": 1000, "images": 3}
@@ -88,3 +129,77 @@ def test_a_disk_that_is_too_full_answers_with_507(door: Door, monkeypatch: pytes
     door.open_a_case()
     monkeypatch.setattr(Home, "free_bytes", lambda _: -1)
     assert door.ask("POST", "/start", 507)["code"] == "RECORDING_DISK_FULL"
+
+
+@pytest.mark.parametrize("door", ["required"], indirect=True)
+def test_consent_is_answered_before_the_first_recording_of_a_case(door: Door) -> None:
+    door.open_a_case()
+    rejected = door.ask("POST", "/start", 409)
+    assert rejected["code"] == "RECORDING_CONSENT_MISSING"
+    assert rejected["remedy"]
+    case = door.store.get_open_case()
+    assert case is not None
+    answer = {"case_id": case.id, "is_given": True}
+    stored = door.ask("POST", "/consent", 200, answer)
+    assert stored == {"state": "given", "answered_at": stored["answered_at"], "answered_by": "this computer"}
+    assert door.ask("POST", "/start", 200)["consent"] == stored
+    refused = door.ask("POST", "/consent", 200, {**answer, "is_given": False})
+    assert refused["state"] == "not_given"
+    assert not door.ask("GET", "/state", 200)["is_recording"]
+    assert door.ask("POST", "/consent", 409, {**answer, "case_id": "0" * 16})["code"] == "CASE_NOT_OPEN"
+
+
+def test_the_timeline_of_a_recording_is_made_by_a_job_once(door: Door) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    assert door.ask("GET", f"/{name}/instants/0", 409)["code"] == "RECORDING_NOT_INDEXED"
+    timeline = door.timeline(name)
+    assert len(door.jobs.list()) == 1
+    assert timeline["began_at"] == "2026-01-01T00:01:40.000Z"
+    assert (timeline["images"], timeline["is_whole"]) == (len(DRILLED), True)
+    assert timeline["duration_s"] == pytest.approx(3.9)
+    curve = timeline["curves"]["wall"]
+    assert [one is None for one in curve["values"]] == [mode == "hidden" for mode in DRILLED]
+    assert "through" in curve["statuses"]
+    assert ("alarm", "BREACH") in [(one["kind"], one["code"]) for one in timeline["events"]]
+    few = door.timeline(name, "?from_s=2&to_s=3&samples=5")["curves"]
+    assert len(few["at_s"]) < 10
+    door.ask("DELETE", f"/{name}", 204)
+    case = door.store.get_open_case()
+    assert case is not None
+    assert list((door.store.home.cases / case.id / "recordings").iterdir()) == []
+
+
+def test_any_instant_of_a_recording_is_shown_with_its_image(door: Door) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    door.timeline(name)
+    breach = DRILLED.index("breach") + 4
+    instant = door.ask("GET", f"/{name}/instants/{breach}", 200)
+    assert instant["snapshot"]["image_number"] == 1000 + breach
+    assert "BREACH" in [one["condition"] for one in instant["alarms"]["alarms"]]
+    for number in (breach, breach + 1):
+        answer = door.client.get(f"/api/recordings/{name}/images/{number}.jpg")
+        assert answer.headers["content-type"] == "image/jpeg"
+        shown = cv2.imdecode(np.frombuffer(answer.content, np.uint8), cv2.IMREAD_COLOR)
+        assert shown is not None
+        assert shown.shape == (HEIGHT, WIDTH, 3)
+        assert np.abs(shown.astype(int) - drawn(number)[0]).mean() < 2.0
+    assert door.ask("GET", f"/{name}/instants/{len(DRILLED)}", 404)["code"] == "RECORDED_IMAGE_UNKNOWN"
+    assert door.ask("GET", f"/{name}/images/-1.jpg", 422)["code"] == "REQUEST_INVALID"
+
+
+def test_a_recording_that_runs_is_not_reviewed(door: Door) -> None:
+    door.open_a_case()
+    name = door.ask("POST", "/start", 200)["name"]
+    assert door.ask("GET", f"/{name}/timeline", 409)["code"] == "RECORDING_RUNS"
+
+
+def test_a_recording_is_exported_as_csv(door: Door) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    answer = door.client.get(f"/api/recordings/{name}/export/deviations.csv")
+    assert answer.headers["content-type"].startswith("text/csv")
+    rows = list(csv.DictReader(answer.text.splitlines()))
+    assert [row["reason"] == "" for row in rows] == [mode != "hidden" for mode in DRILLED]
+    assert door.ask("GET", f"/{name}/export/images.csv", 422)["code"] == "REQUEST_INVALID"

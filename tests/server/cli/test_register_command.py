@@ -208,3 +208,30 @@ def test_what_is_no_list_of_points_is_reported(tmp_path: Path, content: bytes, c
 
 def test_a_missing_file_is_reported(tmp_path: Path) -> None:
     assert typed("points", "--fixed", tmp_path / "no.csv", "--moving", tmp_path / "no.csv")[0] == 2
+
+
+CHANNEL = ("--channel-mm", "18,-2,12,8,-40,10")
+
+
+def test_a_screw_that_fills_the_pedicle_is_reported_with_what_helps(tmp_path: Path) -> None:
+    truth = touched(VERTEBRA, np.random.default_rng(2), 0.3)
+    fixed = written(tmp_path / "f.csv", truth.fixed_mm)
+    moving = written(tmp_path / "m.csv", truth.moving_mm)
+    words = ("points", "--fixed", fixed, "--moving", moving, *CHANNEL)
+    status, text = typed(*words, "--tolerance", "0.1,0.4")
+    assert status == 0
+    assert "cannot be navigated with this registration" in text
+    check = json.loads(typed(*words, "--tolerance", "0.1,0.4", "--json")[1])["channel"]
+    error = max(check["entry_95_mm"], check["isthmus_95_mm"])
+    errors = [error, *check["with_more_landmarks_95_mm"].values()]
+    assert errors == sorted(errors, reverse=True)
+    assert check["diameter_excess_mm"] == pytest.approx(2.0 * (error - 0.1), abs=0.1)
+    assert "cannot" not in typed(*words, "--tolerance", "6,15")[1]
+
+
+@pytest.mark.parametrize("more", [(), ("--tolerance", "wide"), ("--tolerance", "1,95")])
+def test_a_channel_without_a_usable_tolerance_is_reported(tmp_path: Path, more: tuple[str, ...]) -> None:
+    truth = touched(VERTEBRA, np.random.default_rng(2), 0.3)
+    fixed = written(tmp_path / "f.csv", truth.fixed_mm)
+    moving = written(tmp_path / "m.csv", truth.moving_mm)
+    assert typed("points", "--fixed", fixed, "--moving", moving, *CHANNEL, *more)[0] == 2

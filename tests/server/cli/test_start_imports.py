@@ -3,12 +3,24 @@
 import subprocess
 import sys
 
-# Each takes between a tenth and three quarters of a second, and only jobs, uploads or a migration need it.
-NOT_AT_START = {"alembic", "mako", "networkx", "pydicom", "trimesh"}
+# Each takes between a tenth and three quarters of a second, and only jobs, uploads, registration, a migration
+# or a viewer of the 3-D scene need it.
+NOT_AT_START = {
+    *("alembic", "mako", "networkx", "pydicom", "trimesh", "viser"),
+    *(
+        "scipy.interpolate",
+        "scipy.ndimage",
+        "scipy.optimize",
+        "scipy.sparse",
+        "scipy.spatial",
+        "scipy.special",
+    ),
+    *("skimage.filters", "skimage.measure"),
+}
 IMPORT = """
 import sys
 import server.app, server.cli.run, server.cli.storage, server.cli.web, server.procedure
-print(*sorted({name.split(".")[0] for name in sys.modules}))
+print(*sorted({".".join(name.split(".")[:2]) for name in sys.modules}))
 """
 
 

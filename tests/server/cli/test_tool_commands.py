@@ -1,7 +1,6 @@
 """`coaxial pivot`, `spin` and `tip-check` as typed, and the tool file on its way into the setup."""
 
 import json
-import subprocess
 import sys
 from pathlib import Path
 from typing import Any
@@ -12,7 +11,7 @@ import pytest
 import yaml
 from typer.testing import CliRunner
 
-from server.cli import app
+from server.cli import app, main
 from server.config_file import load_config
 from server.errors import ConfigError
 from server.setup import build_setup
@@ -97,20 +96,18 @@ def test_the_gate_is_the_one_of_the_settings(tmp_path: Path, pivot_poses: Path) 
     assert "allowed 0.01 mm" in result.output
 
 
-def test_a_mistake_is_one_sentence_with_its_remedy_and_status_2(tmp_path: Path) -> None:
+def test_a_mistake_is_one_sentence_with_its_remedy_and_status_2(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     poses = saved(tmp_path, pivoted(Hand(tilts_deg=(30.0, 0.0), spin_deg=0.0)).poses)
-    result = subprocess.run(
-        [sys.executable, "-W", "error", "-m", "server", "pivot", str(poses), "--json"],
-        cwd=Path(__file__).parents[3],
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=120,
-    )
-    assert result.returncode == 2
-    assert result.stdout == ""
-    assert result.stderr.startswith("Error: about one direction the tool was turned by only")
-    assert len(result.stderr.splitlines()) == 2
+    monkeypatch.setattr(sys, "argv", ["coaxial", "pivot", str(poses), "--json"])
+    with pytest.raises(SystemExit) as left:
+        main()
+    reported = capsys.readouterr()
+    assert left.value.code == 2
+    assert reported.out == ""
+    assert reported.err.startswith("Error: about one direction the tool was turned by only")
+    assert len(reported.err.splitlines()) == 2
 
 
 def tool_file(folder: Path, pivot_poses: Path, *, spin_poses: Path | None = None) -> Path:

@@ -10,6 +10,7 @@ from server.config import Config, RecordingConfig
 from server.errors import RecordingError, SetupOrderError
 from server.live import Problem
 from server.logs import LogSettings
+from server.recording.consent import ConsentState
 from server.recording.recorder import Recorder
 from server.recording.service import RecordingService
 from server.recording_file import Topic
@@ -66,7 +67,9 @@ def store(tmp_path: Path) -> Iterator[CaseStore]:
 
 
 def made(store: CaseStore, **settings: object) -> Theatre:
-    return Theatre(store, RecordingConfig.model_validate({"min_free_gb": 0.0, **settings}))
+    return Theatre(
+        store, RecordingConfig.model_validate({"min_free_gb": 0.0, "consent": "not_required", **settings})
+    )
 
 
 def test_a_recording_is_a_file_of_the_open_case_until_it_is_stopped(store: CaseStore) -> None:
@@ -184,3 +187,48 @@ def test_documents_in_use_are_recorded_with_their_hash_and_again_when_they_chang
     assert [topic for topic, _ in texts] == [Topic.DOCUMENTS, Topic.DOCUMENTS, Topic.MARKS]
     assert '"tip":2' in texts[1][1]
     assert not any("Muster" in text for _, text in texts)
+
+
+def test_without_consent_nothing_is_recorded_by_hand_or_by_itself(store: CaseStore) -> None:
+    theatre = made(store, consent="required", when="navigating")
+    case_id = theatre.open_a_case()
+    assert theatre.service.consent.state is ConsentState.NOT_ASKED
+    for is_given in (None, False):
+        if is_given is not None:
+            theatre.service.answer_consent(case_id, is_given=is_given, made_by="Anna")
+        with pytest.raises(SetupOrderError) as rejected:
+            theatre.service.start()
+        assert rejected.value.code == "RECORDING_CONSENT_MISSING"
+        theatre.navigate(on=True)
+        # An operation that nobody may record is no failure.
+        assert Condition.RECORDING_STOPPED not in theatre.conditions
+        assert theatre.recorders == []
+    theatre.service.answer_consent(case_id, is_given=True, made_by="Ben")
+    assert theatre.service.consent.answered_by == "Ben"
+    theatre.service.poll()
+    assert len(theatre.recorders) == 1
+
+
+def test_consent_that_is_taken_back_ends_the_recording(store: CaseStore) -> None:
+    theatre = made(store, consent="required")
+    case_id = theatre.open_a_case()
+    theatre.service.answer_consent(case_id, is_given=True, made_by="Anna")
+    theatre.service.start()
+    theatre.service.answer_consent(case_id, is_given=False, made_by="Ben")
+    assert theatre.recorders[0].reason == "the patient does not consent to it"
+    theatre.service.answer_consent(case_id, is_given=True, made_by="Anna")
+    theatre.service.start()
+    (document,) = store.all(case_id, DocumentKind.CONSENT)
+    store.withdraw(document, by="Ben", reason="the patient changed his mind")
+    theatre.service.poll()
+    assert theatre.recorders[1].reason == "the consent to it was withdrawn"
+
+
+def test_consent_is_of_one_case(store: CaseStore) -> None:
+    theatre = made(store, consent="required")
+    first = theatre.open_a_case()
+    theatre.service.answer_consent(first, is_given=True, made_by="Anna")
+    theatre.open_a_case()
+    assert theatre.service.consent.state is ConsentState.NOT_ASKED
+    with pytest.raises(SetupOrderError, match="another case"):
+        theatre.service.answer_consent(first, is_given=True, made_by="Anna")

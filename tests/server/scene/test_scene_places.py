@@ -9,7 +9,7 @@ from starlette.websockets import WebSocketDisconnect
 from server.app import AppParts, create_app
 from server.config import Config
 from server.live import LiveHub
-from server.scene.door import SUBPROTOCOL
+from server.scene.gate import SUBPROTOCOL
 from server.scene.scene import CROWDED
 from tests.server.supervision.signed_in_people import sign_people_in
 

@@ -19,7 +19,7 @@ from viser._viser import InitialCameraConfig
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._infra import _message_producer
 
-from server.scene.door import SUBPROTOCOL
+from server.scene.gate import SUBPROTOCOL
 
 ALPHABET = "".join(chr(c) for c in range(0x21, 0x7F) if chr(c) not in "\"&<>'`")
 

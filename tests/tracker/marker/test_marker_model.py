@@ -7,6 +7,7 @@ import pytest
 from tests.tracker.scenes import CODE, Image8, code_image
 from tracker import InvalidInput, MarkerModel
 from tracker.marker import ActiveEdges, reject_mirror_symmetric
+from tracker.marker.model import MAX_SYMMETRY
 from tracker.rehearsal.marker_images import drill_marker_image
 
 SIDE_MM = 40.0
@@ -71,7 +72,12 @@ def test_a_rotationally_symmetric_shape_is_rejected(
 
 
 def test_a_mirror_symmetric_shape_is_accepted() -> None:
-    MarkerModel.from_image(code_image(((1, 1, 0), (0, 0, 1), (1, 1, 0))), side_mm=SIDE_MM, name="mine")
+    model = MarkerModel.from_image(
+        code_image(((1, 1, 0), (0, 0, 1), (1, 1, 0))), side_mm=SIDE_MM, name="mine"
+    )
+    by_rotation, by_reflection = model.own_correlation
+    assert by_rotation < MAX_SYMMETRY < by_reflection
+    assert all(len(level.points_mm) > 0 for level in model.levels)
 
 
 def test_a_mirror_symmetric_shape_is_rejected_where_a_reflection_can_be_in_view() -> None:

@@ -18,7 +18,7 @@ from tracker.geometry import (
 )
 from tracker.registration import AnchoredTo
 from tracker.registration.points import PointPairs, PointRegistration, PointSettings, register_points
-from tracker.registration.points.uncertainty import expected_tre_mm
+from tracker.registration.points.uncertainty import expected_tre_mm, variance_ratio_with_more
 
 RUNS = 500
 # Along the camera's depth noise is four times as large as across it.
@@ -170,3 +170,27 @@ def test_the_covariance_of_the_inverse_is_that_of_inverted_samples() -> None:
     one = point_covariance_mm2(there, covariance, at)
     other = point_covariance_mm2(there.inverse, stated, there.move_points(at))
     assert np.trace(one) == pytest.approx(np.trace(other))
+
+
+def test_the_error_with_more_landmarks_is_the_one_that_they_give() -> None:
+    rng = np.random.default_rng(11)
+    expected, found = [], []
+    twice = np.vstack([VERTEBRA, VERTEBRA * [1.0, -1.0, 1.0] + [0.0, 6.0, 0.0]])
+    twice[6:] += VERTEBRA.mean(axis=0) - twice[6:].mean(axis=0)
+    target = np.array([15.0, -20.0, 5.0])
+    for _ in range(100):
+        truth = touched(twice, rng, 0.4)
+        few, many = (
+            register_points(
+                PointPairs(fixed_mm=truth.fixed_mm[:count], moving_mm=truth.moving_mm[:count]), settings=BARE
+            )
+            for count in (6, 12)
+        )
+        ratio = variance_ratio_with_more(few.fre_rms_mm, 6, 6, min_fle_mm=1e-3)
+        expected.append(ratio * np.trace(few.target_covariance_mm2(target)))
+        found.append(np.trace(many.target_covariance_mm2(target)))
+    assert np.sqrt(np.mean(expected) / np.mean(found)) == pytest.approx(1.0, abs=0.15)
+
+
+def test_more_landmarks_do_not_make_one_better_than_the_minimum_fle() -> None:
+    assert variance_ratio_with_more(0.01, 6, 6, min_fle_mm=0.5) == pytest.approx(0.5)

@@ -8,8 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import special
-from scipy.spatial import cKDTree
+import scipy
 
 from tracker.camera.calibration.blocks import Block, inverse, total_information
 from tracker.camera.detection.view import BoardView
@@ -39,7 +38,9 @@ class Uncertainty:
     @property
     def reach_95(self) -> Array:
         """Return half of each 95 % interval (p,)."""
-        return np.asarray(special.stdtrit(self.degrees_of_freedom, 0.975) * np.sqrt(np.diag(self.covariance)))
+        return np.asarray(
+            scipy.special.stdtrit(self.degrees_of_freedom, 0.975) * np.sqrt(np.diag(self.covariance))
+        )
 
 
 def uncertainty(blocks: Sequence[Block], *, is_noise_correlated: bool) -> Uncertainty:
@@ -91,13 +92,13 @@ def noise_is_correlated(
     ratios = np.array([b.squares_px2 / b.coordinates / mean_px2 for b in blocks])
     free = np.array([b.coordinates - b.own for b in blocks], dtype=np.float64)
     chi2 = float((((ratios - 1.0) ** 2) * free / 2.0).sum())
-    return chi2 > float(special.chdtri(len(blocks) - 1, 0.0005))
+    return chi2 > float(scipy.special.chdtri(len(blocks) - 1, 0.0005))
 
 
 def _neighbours(view: BoardView) -> Array:
     """Pairs of points (m, 2) that are next to each other on the board."""
     points = view.object_points_mm[:, :2]
-    tree = cKDTree(points)
+    tree = scipy.spatial.cKDTree(points)
     nearest, _ = tree.query(points, k=2)
     pairs = tree.query_pairs(1.05 * float(np.median(nearest[:, 1])), output_type="ndarray")
     return np.asarray(pairs).reshape(-1, 2)

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from tracker.camera.detection.plane import off_plane_px, plane_map
 from tracker.camera.detection.view import BoardView
@@ -96,7 +96,7 @@ def _handedness(homography: Array, at: Array) -> float:
 
 
 def _step_px(px: Array) -> float:
-    nearest, _ = cKDTree(px).query(px, k=2)
+    nearest, _ = scipy.spatial.cKDTree(px).query(px, k=2)
     return float(np.median(nearest[:, 1]))
 
 

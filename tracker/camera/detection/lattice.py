@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.spatial import cKDTree
+import scipy
 
 from tracker.camera.detection.plane import off_plane_px
 from tracker.geometry import Array
@@ -58,7 +58,7 @@ def largest_lattice(points_px: Array) -> Lattice:
     """The largest regular grid among points (n, 2); a grid of no points if there is none."""
     best: dict[Cell, int] = {}
     if len(points_px) >= 5:
-        tree = cKDTree(points_px)
+        tree = scipy.spatial.cKDTree(points_px)
         tried: set[int] = set()
         for seed in _seeds(points_px):
             if seed in tried:
@@ -109,7 +109,7 @@ def _seeds(points_px: Array) -> list[int]:
     return [int(i) for i in from_middle[: SEEDS // 4]] + [int(i) for i in from_middle[spread]]
 
 
-def _basis_at(points_px: Array, tree: cKDTree, seed: int) -> tuple[Array, Array] | None:
+def _basis_at(points_px: Array, tree: "scipy.spatial.cKDTree", seed: int) -> tuple[Array, Array] | None:
     """Two steps that lead from this point to a neighbour, and back to another one."""
     here = points_px[seed]
     _, near = tree.query(here, k=min(NEIGHBOURS, len(points_px)))
@@ -129,7 +129,9 @@ def _basis_at(points_px: Array, tree: cKDTree, seed: int) -> tuple[Array, Array]
     return None
 
 
-def _grown(points_px: Array, tree: cKDTree, seed: int, basis: tuple[Array, Array]) -> dict[Cell, int]:
+def _grown(
+    points_px: Array, tree: "scipy.spatial.cKDTree", seed: int, basis: tuple[Array, Array]
+) -> dict[Cell, int]:
     """Cells reached from the seed, step by step, each step like those before it."""
     a, b = basis
     if a[0] * b[1] - a[1] * b[0] < 0:

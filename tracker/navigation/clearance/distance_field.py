@@ -9,7 +9,7 @@ from enum import StrEnum
 
 import numpy as np
 import numpy.typing as npt
-from scipy import ndimage
+import scipy
 
 from tracker.errors import PlanError
 from tracker.geometry import Array
@@ -165,7 +165,7 @@ def _squared_steps(bone: Flags, walls: Array, backs: Array) -> npt.NDArray[np.fl
     everything = np.concatenate([walls, points])
     if len(everything) == 0:
         return np.full(bone.shape, np.float32(1e4), np.float32)
-    seeds = ndimage.distance_transform_edt(squared > 1.0, return_distances=False, return_indices=True)
+    seeds = scipy.ndimage.distance_transform_edt(squared > 1.0, return_distances=False, return_indices=True)
     propagate_nearest(everything, seeds, nearest, squared)
     for way in (1, -1):
         sweep_neighbours(everything, nearest, squared, way)
@@ -230,7 +230,7 @@ def _bone_around(
     for closed_mm in closing_radius_mm:
         bone = fill_holes(solid, step_mm=grid.step_mm, closing_radius_mm=closed_mm)
         if not bone.all():
-            ratio = float(ndimage.binary_dilation(bone, CONNECTIVITY_6)[line].mean())
+            ratio = float(scipy.ndimage.binary_dilation(bone, CONNECTIVITY_6)[line].mean())
         if ratio >= MIN_IN_BONE_RATIO:
             return bone, closed_mm
     raise PlanError(

@@ -2,7 +2,7 @@
 
 import numpy as np
 import numpy.typing as npt
-from scipy import ndimage
+import scipy
 
 from tracker.geometry import Array
 from tracker.navigation.clearance.distance_field import (
@@ -43,7 +43,7 @@ def outline_distance_field(
     places = np.arange(-reach, reach, FINE_MM, dtype=np.float32)
     drawn = _signed_mm(np.stack(np.meshgrid(places, places, indexing="ij"), axis=-1), outline)
     index = np.moveaxis((offset @ plane.T + reach) / FINE_MM, -1, 0)
-    signed = ndimage.map_coordinates(drawn, index, order=1, mode="nearest")
+    signed = scipy.ndimage.map_coordinates(drawn, index, order=1, mode="nearest")
     beyond = np.maximum(np.abs(offset @ axis.astype(np.float32)) - HALF_LENGTH_MM, 0.0)
     return _field(WallSource.PEDICLE, grid, signed - beyond)
 

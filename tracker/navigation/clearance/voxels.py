@@ -4,14 +4,15 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy import ndimage
+import scipy
 
 from tracker.geometry import Array
 from tracker.navigation.clearance.distance_kernels import add_votes, mark_ray_crossings
 
 Flags = npt.NDArray[np.bool_]
-CONNECTIVITY_26 = ndimage.generate_binary_structure(3, 3)
-CONNECTIVITY_6 = ndimage.generate_binary_structure(3, 1)
+# Of a voxel with those that share a corner with it, and a face.
+CONNECTIVITY_26 = np.ones((3, 3, 3), dtype=np.bool_)
+CONNECTIVITY_6 = np.abs(np.indices((3, 3, 3)) - 1).sum(axis=0) <= 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,7 +65,7 @@ def fill_holes(solid: Flags, *, step_mm: float, closing_radius_mm: float) -> Fla
     """
     rounds = max(round(closing_radius_mm / step_mm), 1)
     free = ~_grown(solid, rounds)
-    spaces, count = ndimage.label(free)
+    spaces, count = scipy.ndimage.label(free)
     if count == 0:
         return np.ones_like(solid)
     sizes = np.bincount(spaces.ravel(), minlength=count + 1)
@@ -78,12 +79,12 @@ def fill_holes(solid: Flags, *, step_mm: float, closing_radius_mm: float) -> Fla
     # Further than it was held off: into the corners that a ball does not fill. A diagonal step would pass
     # through cortex that is one node thick.
     for _ in range(2 * rounds + 1):
-        reached = ndimage.binary_dilation(reached, CONNECTIVITY_6, mask=~solid) | reached
+        reached = scipy.ndimage.binary_dilation(reached, CONNECTIVITY_6, mask=~solid) | reached
     return np.asarray(~reached)
 
 
 def _grown(flags: Flags, rounds: int) -> Flags:
     """Dilate by an approximate ball: 6- and 26-connectivity alternately."""
     for n in range(rounds):
-        flags = ndimage.binary_dilation(flags, CONNECTIVITY_26 if n % 2 else CONNECTIVITY_6)
+        flags = scipy.ndimage.binary_dilation(flags, CONNECTIVITY_26 if n % 2 else CONNECTIVITY_6)
     return flags

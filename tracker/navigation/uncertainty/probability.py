@@ -10,7 +10,7 @@ from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
-from scipy.special import ndtr, ndtri
+import scipy
 
 from tracker.geometry import Array, Tool, Vertebra
 from tracker.navigation.clearance import Rings, WallDistanceField
@@ -120,7 +120,7 @@ def past_planned_ratio(past_mm: float, sd_depth_mm: float) -> float:
     """Return the probability that the tip is past the planned depth."""
     if sd_depth_mm < 1e-9:
         return float(past_mm > 0.0)
-    return float(ndtr(past_mm / sd_depth_mm))
+    return float(scipy.special.ndtr(past_mm / sd_depth_mm))
 
 
 def _root(covariance: Array) -> Array:
@@ -143,7 +143,7 @@ def _samples() -> Array:
         root = (1.0 + root) ** (1.0 / (DIMENSIONS + 1))
     steps = root ** -np.arange(1.0, DIMENSIONS + 1)
     even = (0.5 + np.outer(np.arange(1.0, LINES // 2 + 1), steps)) % 1.0
-    half = ndtri(even)
+    half = scipy.special.ndtri(even)
     # So few samples are rescaled to unit variance.
     half /= np.sqrt((half**2).mean(axis=0))
     samples = np.concatenate([half, -half])

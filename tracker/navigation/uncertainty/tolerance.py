@@ -34,9 +34,14 @@ class PedicleTolerance:
     @classmethod
     def of_tolerance(cls, tolerance: Tolerance) -> "PedicleTolerance":
         """Return the tolerance as stated in the plan."""
-        slope = float(np.tan(np.radians(tolerance.max_angle_deg)))
-        lever = tolerance.max_offset_mm / slope if slope > 0.0 else USUAL_LEVER_MM
-        return cls(tolerance_mm=tolerance.max_offset_mm, lever_mm=lever)
+        return cls.of_limits(tolerance.max_offset_mm, tolerance.max_angle_deg)
+
+    @classmethod
+    def of_limits(cls, max_offset_mm: float, max_angle_deg: float) -> "PedicleTolerance":
+        """Return the tolerance from the offset and the angle that reach the wall, each alone."""
+        slope = float(np.tan(np.radians(max_angle_deg)))
+        lever = max_offset_mm / slope if slope > 0.0 else USUAL_LEVER_MM
+        return cls(tolerance_mm=max_offset_mm, lever_mm=lever)
 
     @classmethod
     def of_channel(cls, channel: Channel, *, radius_mm: float) -> "PedicleTolerance":

@@ -15,8 +15,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
-from scipy import ndimage
-from scipy.special import ndtr
+import scipy
 
 from tracker.geometry import Array
 
@@ -179,7 +178,7 @@ def profiles_of(
     index = (points - lps_from_ijk[:3, 3]) @ np.linalg.inv(axes).T
     last = np.array(hu.shape[::-1]) - 1.0
     known = ((index >= -1e-6) & (index <= last + 1e-6)).all(axis=-1)
-    values = ndimage.map_coordinates(
+    values = scipy.ndimage.map_coordinates(
         hu, index.reshape(-1, 3)[:, ::-1].T, output=np.float64, order=1, mode="nearest"
     ).reshape(known.shape)
     # A box of width h has the variance h^2 / 12; trilinear interpolation adds h^2 / 6 on average.
@@ -266,7 +265,7 @@ def model(parameters: Array, along_mm: Array) -> tuple[Array, Array]:
     thickness, sigma = np.exp(parameters[:, THICKNESS, None]), np.exp(parameters[:, BLUR, None])
     outer = (wall - along_mm) / sigma
     inner = (wall - thickness - along_mm) / sigma
-    in_bone, in_core = ndtr(outer), ndtr(inner)
+    in_bone, in_core = scipy.special.ndtr(outer), scipy.special.ndtr(inner)
     outer_slope = (cortex - outside) * np.exp(-0.5 * outer**2) / np.sqrt(2.0 * np.pi)
     inner_slope = (marrow - cortex) * np.exp(-0.5 * inner**2) / np.sqrt(2.0 * np.pi)
     jacobian = np.empty((*in_bone.shape, COUNT))

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from skimage.measure import marching_cubes
+import skimage
 
 from tracker.errors import PlanError
 from tracker.geometry import Array
@@ -214,7 +214,7 @@ def _triangles(hu: npt.NDArray[np.float32], threshold_hu: float) -> tuple[Array,
         )
     if crossings == 0:
         raise _not_found(threshold_hu)
-    vertices, faces, _, _ = marching_cubes(  # type: ignore[no-untyped-call]  # it has no types
+    vertices, faces, _, _ = skimage.measure.marching_cubes(  # type: ignore[no-untyped-call]  # it has no types
         hu, level, gradient_direction="descent", allow_degenerate=False
     )
     return np.asarray(vertices, dtype=np.float64), np.asarray(faces, dtype=np.int64)

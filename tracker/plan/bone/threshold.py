@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy import ndimage
-from skimage.filters import threshold_isodata
+import scipy
+import skimage
 
 MIN_HU, MAX_HU = -1024, 1500
 # Muscle, blood and discs; contrast and scanner shift the peak.
@@ -47,7 +47,7 @@ def proposed_threshold(hu: npt.NDArray[np.int16]) -> ThresholdProposal:
     values = np.clip(hu[::step, ::step, ::step], MIN_HU, MAX_HU).astype(np.int64).ravel()
     counts = np.bincount(values - MIN_HU, minlength=MAX_HU - MIN_HU + 1).astype(np.float64)
     levels = np.arange(MIN_HU, MAX_HU + 1, dtype=np.float64)
-    smooth = ndimage.gaussian_filter1d(counts, SMOOTHED_OVER_HU)
+    smooth = scipy.ndimage.gaussian_filter1d(counts, SMOOTHED_OVER_HU)
     soft = (levels >= SOFT_TISSUE_HU[0]) & (levels <= SOFT_TISSUE_HU[1])
     if counts[soft].sum() >= SOFT_TISSUE_NEEDED_RATIO * values.size:
         surroundings = float(levels[soft][smooth[soft].argmax()])
@@ -58,7 +58,7 @@ def proposed_threshold(hu: npt.NDArray[np.int16]) -> ThresholdProposal:
     threshold = minimum
     if np.count_nonzero(counts[brighter]) > 1:
         histogram = (counts[brighter], levels[brighter])
-        found = float(threshold_isodata(hist=histogram))  # type: ignore[no-untyped-call]  # it has no types
+        found = float(skimage.filters.threshold_isodata(hist=histogram))  # type: ignore[no-untyped-call]  # it has no types
         threshold = float(np.clip(found, minimum, max(minimum, MAX_PROPOSED_HU)))
     return ThresholdProposal(
         threshold_hu=threshold,

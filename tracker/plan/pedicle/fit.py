@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.optimize import least_squares
+import scipy
 
 from tracker.geometry import Array
 from tracker.plan.pedicle import tube_model
@@ -262,7 +262,7 @@ def _solve(
         return np.concatenate([fit, off])
 
     low, high = _bounds(start)
-    result = least_squares(
+    result = scipy.optimize.least_squares(
         residuals,
         np.clip(start, low + 1e-6, high - 1e-6),
         bounds=(low, high),

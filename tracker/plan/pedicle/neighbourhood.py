@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy import ndimage
+import scipy
 
 from tracker.geometry import Array
 from tracker.plan.volume import Volume
@@ -74,7 +74,9 @@ class Neighbourhood:
         """Return the smoothed HU (...) at points (..., 3); the border is replicated."""
         index = self.index_of(points_lps_mm)
         flat = index.reshape(-1, 3)[:, ::-1]
-        values = ndimage.map_coordinates(self.smooth, flat.T, output=np.float64, order=1, mode="nearest")
+        values = scipy.ndimage.map_coordinates(
+            self.smooth, flat.T, output=np.float64, order=1, mode="nearest"
+        )
         return np.asarray(values.reshape(index.shape[:-1]))
 
 
@@ -100,7 +102,7 @@ def neighbourhood_of(volume: Volume, centre_lps_mm: Array) -> Neighbourhood:
     cortex = float(np.percentile(near, 98.0)) if len(near) else tissue
     return Neighbourhood(
         block=block,
-        smooth=ndimage.gaussian_filter(block, sigma),
+        smooth=scipy.ndimage.gaussian_filter(block, sigma),
         lps_from_index=affine,
         noise_hu=noise,
         tissue_hu=tissue,

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
-from scipy import ndimage
+import scipy
 
 from tracker.geometry import Array
 from tracker.plan.pedicle.course import Course
@@ -160,7 +160,7 @@ def _best_start(
         usual = float(np.nanmedian(areas)) if np.isfinite(areas).any() else 0.0
         known = np.where(np.isfinite(areas) & (areas >= 0.4 * usual), areas, 1e6)
         # The area is a smooth function of direction; an outlier has closed around another structure.
-        steady = ndimage.median_filter(known.reshape(grid), size=3, mode="nearest").ravel()
+        steady = scipy.ndimage.median_filter(known.reshape(grid), size=3, mode="nearest").ravel()
         score = np.log(steady) + unusual + 0.03 * abs(along_mm)
         score = np.where(np.abs(np.log(known / steady)) < 0.25, score, np.inf)
         way = int(np.argmin(score))

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import ndtr
+import scipy
 
 from tracker.geometry import Array
 from tracker.plan.pedicle import tube_model
@@ -153,7 +153,7 @@ def _other_way_ratio(fitted: FittedBar, at: float) -> float:
     direction = _width_direction(fitted.parameters, section)
     turned_deg = abs(float(np.degrees(np.arctan2(direction[1], direction[0]))))
     own_deg = float(np.degrees(np.sqrt(fitted.covariance[tube_model.AXES, tube_model.AXES][2, 2])))
-    return float(ndtr(-(45.0 - turned_deg) / np.hypot(own_deg, ROLL_SD_DEG)))
+    return float(scipy.special.ndtr(-(45.0 - turned_deg) / np.hypot(own_deg, ROLL_SD_DEG)))
 
 
 def _width_direction(parameters: Array, section: tube_model.Section) -> Array:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy import ndimage
+import scipy
 
 from tracker.geometry import Array
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
@@ -35,7 +35,7 @@ class Solid:
     def depth_at(self, points_mm: Array) -> Array:
         """Return the depth (...) at points (..., 3); far outside beyond the grid."""
         index = (points_mm.reshape(-1, 3) - self.corner_mm) / STEP_MM
-        values = ndimage.map_coordinates(
+        values = scipy.ndimage.map_coordinates(
             self.depth_mm, index.T, output=np.float64, order=1, mode="constant", cval=-20.0
         )
         return np.asarray(values.reshape(points_mm.shape[:-1]))
@@ -64,7 +64,7 @@ def solid_around(near: Neighbourhood, isthmus_mm: Array) -> Solid:
     corner = isthmus_mm + low
     index = np.moveaxis(np.indices(count), 0, -1).reshape(-1, 3)
     points = corner + STEP_MM * index
-    hu = ndimage.gaussian_filter(near.smooth_hu(points).reshape(count), SMOOTH_VOXELS)
+    hu = scipy.ndimage.gaussian_filter(near.smooth_hu(points).reshape(count), SMOOTH_VOXELS)
     inside = near.contains(points).reshape(count)
     soft_hu = hu[(hu > SOFT_HU[0]) & (hu < SOFT_HU[1])]
     tissue = float(np.median(soft_hu)) if len(soft_hu) else near.tissue_hu
@@ -72,16 +72,16 @@ def solid_around(near: Neighbourhood, isthmus_mm: Array) -> Solid:
     gap = max(GAP_MM, float(np.linalg.norm(near.lps_from_index[:3, :3], axis=0).max()))
     bone = hu > limit
     air = (hu < AIR_HU) | ~inside
-    from_bone = ndimage.distance_transform_edt(~bone, sampling=STEP_MM)
+    from_bone = scipy.ndimage.distance_transform_edt(~bone, sampling=STEP_MM)
     wide = (from_bone > gap) | air
-    label, _ = ndimage.label(wide)
+    label, _ = scipy.ndimage.label(wide)
     faces = [label[0], label[-1], label[:, 0], label[:, -1]]
     reached = np.unique(np.concatenate([face.ravel() for face in faces]))
     open_core = np.isin(label, reached[reached > 0]) & wide
-    soft = (ndimage.distance_transform_edt(~open_core, sampling=STEP_MM) <= gap) & ~bone
+    soft = (scipy.ndimage.distance_transform_edt(~open_core, sampling=STEP_MM) <= gap) & ~bone
     solid = ~(soft | open_core)
-    within = ndimage.distance_transform_edt(solid, sampling=STEP_MM)
-    without = ndimage.distance_transform_edt(~solid, sampling=STEP_MM)
+    within = scipy.ndimage.distance_transform_edt(solid, sampling=STEP_MM)
+    without = scipy.ndimage.distance_transform_edt(~solid, sampling=STEP_MM)
     # Half a voxel each way: the surface lies between the last voxel inside and the first outside.
     depth = np.where(solid, within - 0.5 * STEP_MM, 0.5 * STEP_MM - without)
     return Solid(corner_mm=corner, depth_mm=depth.astype(np.float32))

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import ndtr
+import scipy
 
 from tracker.geometry import Array
 
@@ -87,7 +87,10 @@ def model_hu(parameters: Array, samples: Samples) -> Array:
     outside = outside_hu(parameters, angle)
     cortex, marrow = parameters[CORTEX], parameters[MARROW]
     thickness = np.exp(parameters[THICKNESS])
-    into_wall, into_core = ndtr(-distance / sigma), ndtr(-(distance + thickness) / sigma)
+    into_wall, into_core = (
+        scipy.special.ndtr(-distance / sigma),
+        scipy.special.ndtr(-(distance + thickness) / sigma),
+    )
     return np.asarray(outside + (cortex - outside) * into_wall + (marrow - cortex) * into_core)
 
 

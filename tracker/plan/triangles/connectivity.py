@@ -5,8 +5,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
+import scipy
 
 from tracker.geometry import Array
 
@@ -60,8 +59,8 @@ def connectivity_of(faces: Faces) -> Connectivity:
 def parts_of(faces: Faces, vertices: int) -> tuple[int, npt.NDArray[np.int64]]:
     """Return the number of connected components, and the component (m,) of each triangle."""
     a, b = faces[:, [0, 1]].ravel(), faces[:, [1, 2]].ravel()
-    graph = coo_array((np.ones(a.size, dtype=np.int8), (a, b)), shape=(vertices, vertices))
-    _, labels = connected_components(graph, directed=False)
+    graph = scipy.sparse.coo_array((np.ones(a.size, dtype=np.int8), (a, b)), shape=(vertices, vertices))
+    _, labels = scipy.sparse.csgraph.connected_components(graph, directed=False)
     found, parts = np.unique(labels[faces[:, 0]], return_inverse=True)
     return int(found.size), np.asarray(parts.reshape(-1), dtype=np.int64)
 

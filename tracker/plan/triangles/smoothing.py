@@ -4,7 +4,7 @@ It works on a sparse matrix; the smoothing in trimesh visits each vertex in Pyth
 """
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array
+import scipy
 
 from tracker.geometry import Array
 from tracker.plan.triangles.connectivity import Faces, connectivity_of
@@ -49,10 +49,10 @@ def smoothed_values(values: Array, sd: Array, faces: Faces, *, step_sd: float) -
     return np.asarray(out)
 
 
-def _graph(edges: Faces, count: int) -> tuple[csr_array, Array]:
+def _graph(edges: Faces, count: int) -> "tuple[scipy.sparse.csr_array, Array]":
     """Return the adjacency (n, n) of vertices, and the number (n,) of neighbours, at least 1."""
     a, b = edges.T
-    graph = coo_array(
+    graph = scipy.sparse.coo_array(
         (np.ones(2 * a.size), (np.concatenate([a, b]), np.concatenate([b, a]))), shape=(count, count)
     ).tocsr()
     return graph, np.maximum(np.asarray(graph.sum(axis=1)).reshape(-1), 1.0)

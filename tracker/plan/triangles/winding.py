@@ -2,8 +2,7 @@
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
+import scipy
 
 from tracker.geometry import Array
 from tracker.plan.triangles.connectivity import Faces, parts_of
@@ -63,8 +62,10 @@ def _disagreeing(faces: Faces) -> Flags:
     shift = np.where(same_way, faces_count, 0)
     a = np.concatenate([f, f + faces_count])
     b = np.concatenate([g + shift, g + faces_count - shift])
-    graph = coo_array((np.ones(a.size, np.int8), (a, b)), shape=(2 * faces_count, 2 * faces_count))
-    _, labels = connected_components(graph, directed=False)
+    graph = scipy.sparse.coo_array(
+        (np.ones(a.size, np.int8), (a, b)), shape=(2 * faces_count, 2 * faces_count)
+    )
+    _, labels = scipy.sparse.csgraph.connected_components(graph, directed=False)
     turned = labels[:faces_count] > labels[faces_count:]
     # Flip as few as possible: the majority orientation of a component is kept.
     patch = np.minimum(labels[:faces_count], labels[faces_count:])

@@ -5,7 +5,7 @@ from math import hypot
 
 import numpy as np
 import numpy.typing as npt
-from scipy.optimize import minimize_scalar
+import scipy
 
 from tracker.geometry import Array
 from tracker.pose.temporal_calibration.correlation import Moments, correlation_ratio
@@ -212,7 +212,7 @@ class _Both:
 
     def best_s(self) -> float:
         """The offset of the largest correlation within two steps of the search."""
-        found = minimize_scalar(
+        found = scipy.optimize.minimize_scalar(
             lambda offset_s: -self.ratio_at(offset_s),
             bounds=(self.centre_s - 2.0 * STEP_S, self.centre_s + 2.0 * STEP_S),
             method="bounded",

@@ -6,10 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
-from scipy.interpolate import CubicSpline, PPoly
-from scipy.sparse import diags_array
-from scipy.sparse.linalg import spsolve
-from scipy.spatial.transform import Rotation
+import scipy
 
 from tracker.errors import InvalidInput
 from tracker.geometry import Array
@@ -107,7 +104,7 @@ class RateSignal:
     samples: int
     segments: int
     rate_hz: float
-    curve: PPoly | None
+    curve: "scipy.interpolate.PPoly | None"
 
     def at(self, times_s: Array) -> Array:
         """Rates (n, 3) at times (n,)."""
@@ -148,12 +145,12 @@ def rate_signal(series: PoseSeries, motion: Motion, limits: TimeOffsetLimits) ->
     )
 
 
-def _curve(series: PoseSeries, part: slice, motion: Motion, cutoff_hz: float) -> PPoly:
+def _curve(series: PoseSeries, part: slice, motion: Motion, cutoff_hz: float) -> "scipy.interpolate.PPoly":
     times_s = series.times_s[part]
     steps_s = np.diff(times_s)
     if motion is Motion.ROTATION and series.rotations is not None:
         # In the source's frame: another source's differs by the constant rotation between both frames alone.
-        orientations = Rotation.from_matrix(series.rotations[part])
+        orientations = scipy.spatial.transform.Rotation.from_matrix(series.rotations[part])
         moved = np.degrees((orientations[1:] * orientations[:-1].inv()).as_rotvec())
     else:
         moved = np.diff(series.translations_mm[part], axis=0)
@@ -163,7 +160,7 @@ def _curve(series: PoseSeries, part: slice, motion: Motion, cutoff_hz: float) ->
     penalty = (2.0 * np.pi * cutoff_hz) ** -4
     middles_s = (times_s[1:] + times_s[:-1]) / 2.0
     smoothed = smoothing_spline_values(middles_s, rates, weights=steps_s, penalty=penalty)
-    return CubicSpline(middles_s, smoothed, bc_type="natural", extrapolate=False)
+    return scipy.interpolate.CubicSpline(middles_s, smoothed, bc_type="natural", extrapolate=False)
 
 
 def smoothing_spline_values(x: Array, y: Array, *, weights: Array, penalty: float) -> Array:
@@ -176,22 +173,24 @@ def smoothing_spline_values(x: Array, y: Array, *, weights: Array, penalty: floa
     count = len(x)
     below, above = 1.0 / steps[:-1], 1.0 / steps[1:]
     # Second divided differences, (n, n - 2), and the inner products of the second derivative's hat functions.
-    differences = diags_array([below, -below - above, above], offsets=[0, -1, -2], shape=(count, count - 2))
-    hats = diags_array(
+    differences = scipy.sparse.diags_array(
+        [below, -below - above, above], offsets=[0, -1, -2], shape=(count, count - 2)
+    )
+    hats = scipy.sparse.diags_array(
         [steps[1:-1] / 6.0, (steps[:-1] + steps[1:]) / 3.0, steps[1:-1] / 6.0], offsets=[-1, 0, 1]
     )
-    scaled = diags_array(penalty / weights) @ differences
-    curvature = spsolve((hats + differences.T @ scaled).tocsc(), differences.T @ y)
+    scaled = scipy.sparse.diags_array(penalty / weights) @ differences
+    curvature = scipy.sparse.linalg.spsolve((hats + differences.T @ scaled).tocsc(), differences.T @ y)
     return np.asarray(y - scaled @ curvature)
 
 
-def _joined(curves: list[PPoly]) -> PPoly:
+def _joined(curves: "list[scipy.interpolate.PPoly]") -> "scipy.interpolate.PPoly":
     """One curve that is NaN between its parts."""
     gap = np.full((4, 1, 3), np.nan)
     coefficients: list[npt.NDArray[np.float64]] = []
     for curve in curves:
         coefficients += [curve.c, gap]
-    return PPoly(
+    return scipy.interpolate.PPoly(
         np.concatenate(coefficients[:-1], axis=1),
         np.concatenate([curve.x for curve in curves]),
         extrapolate=False,

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy import special
+import scipy
 
 from tracker.geometry import Array
 
@@ -97,7 +97,9 @@ def max_allowed(residuals: Array, used: Mask) -> float:
     freedom = float(np.trace(spread)) ** 2 / power if power > 0.0 else 3.0
     few = (1.0 + 5.0 / max(3 * len(residuals) - 6, 1)) ** 2
     median = float(np.median((residuals**2).sum(axis=1)))
-    by_median = float(special.chdtri(freedom, 1.0 - INLIER_PROBABILITY) / special.chdtri(freedom, 0.5))
+    by_median = float(
+        scipy.special.chdtri(freedom, 1.0 - INLIER_PROBABILITY) / scipy.special.chdtri(freedom, 0.5)
+    )
     return max(float(np.sqrt(few * median * by_median)), MIN_ALLOWED)
 
 
@@ -140,4 +142,4 @@ def autocorrelation_factor(residuals: Array) -> float:
 def _few_poses(count: int, numbers: int) -> float:
     # Effective degrees of freedom of the sandwich estimator, found by simulation of many kinds of noise.
     freedom = max(FREEDOM_BY_POSE * (count - 3), 1.0)
-    return float(numbers * special.fdtri(numbers, freedom, 0.95) / special.chdtri(numbers, 0.05))
+    return float(numbers * scipy.special.fdtri(numbers, freedom, 0.95) / scipy.special.chdtri(numbers, 0.05))

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
-from scipy import optimize
+import scipy
 
 from tracker.errors import CalibrationError
 from tracker.geometry import Array
@@ -251,7 +251,7 @@ def _least_squares(poses: Poses, plain: Equations, x: Array) -> Array:
     if poses.covariances is None:
         return plain.solved()
     # The weights depend on the tip: kept constant, noise of the angles would bias it to the marker.
-    fit = optimize.least_squares(
+    fit = scipy.optimize.least_squares(
         lambda at: plain.whitened(_whitening(poses, at[:3])).residuals(at).ravel(),
         x,
         x_scale="jac",

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import special
+import scipy
 
 from tracker.camera import CameraModel
 from tracker.errors import InvalidInput, RegistrationError
@@ -164,10 +164,10 @@ def _freedom(best: Solution) -> int:
 
 
 def _reject_disagreement(best: Solution, freedom: int, gate: NeedleLimits) -> None:
-    probability = float(special.chdtrc(freedom, best.chi2))
+    probability = float(scipy.special.chdtrc(freedom, best.chi2))
     if probability >= gate.min_probability_ratio:
         return
-    allowed = float(special.chdtri(freedom, gate.min_probability_ratio))
+    allowed = float(scipy.special.chdtri(freedom, gate.min_probability_ratio))
     raise RegistrationError(
         "NEEDLES_DISAGREE",
         f"needles, ruler and touched points disagree: chi squared is {best.chi2:.0f}, allowed {allowed:.0f}; "

@@ -3,6 +3,7 @@
 from tracker.registration.points.pairs import CommonTip, PointPairs
 from tracker.registration.points.registration import PointRegistration, register_points
 from tracker.registration.points.settings import PointGate, PointSettings
+from tracker.registration.points.uncertainty import variance_ratio_with_more
 
 __all__ = [
     "CommonTip",
@@ -11,4 +12,5 @@ __all__ = [
     "PointRegistration",
     "PointSettings",
     "register_points",
+    "variance_ratio_with_more",
 ]

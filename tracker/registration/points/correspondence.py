@@ -11,7 +11,7 @@ from itertools import combinations, permutations
 
 import numpy as np
 import numpy.typing as npt
-from scipy.optimize import linear_sum_assignment
+import scipy
 
 from tracker.errors import RegistrationError
 from tracker.geometry import Array
@@ -160,7 +160,7 @@ def _order_by_distances(fixed_mm: Array, moving_mm: Array) -> tuple[int, ...]:
     ours = np.sort(np.linalg.norm(moving_mm[:, None] - moving_mm[None], axis=2), axis=1)
     theirs = np.sort(np.linalg.norm(fixed_mm[:, None] - fixed_mm[None], axis=2), axis=1)
     costs = ((ours[:, None] - theirs[None]) ** 2).sum(axis=2)
-    return tuple(int(one) for one in linear_sum_assignment(costs)[1])
+    return tuple(int(one) for one in scipy.optimize.linear_sum_assignment(costs)[1])
 
 
 def _swap_text(order: tuple[int, ...], labels: tuple[str, ...]) -> str:

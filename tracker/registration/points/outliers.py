@@ -11,7 +11,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import linalg
+import scipy
 
 from tracker.geometry import Anchor, Array, Rigid, Vertebra, vector_from_rotation
 from tracker.plan.remark import Remark
@@ -96,7 +96,7 @@ def covariance_spanning(covariances: Sequence[Array]) -> Array:
     """
     spanning = np.asarray(covariances[0])
     for other in covariances[1:]:
-        ratios, basis = linalg.eigh(other, spanning)
+        ratios, basis = scipy.linalg.eigh(other, spanning)
         back = np.linalg.inv(basis)
         wider = back.T @ np.diag(np.maximum(ratios, 1.0)) @ back
         spanning = 0.5 * (wider + wider.T)

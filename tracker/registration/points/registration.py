@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy import special
+import scipy
 
 from tracker.errors import RegistrationError
 from tracker.geometry import (
@@ -139,7 +139,7 @@ class PointRegistration:
         best_mm2 = max(
             self.fre_without_mm[order[0]] ** 2, freedom * self.settings.min_fle_mm**2 / 3.0 / others
         )
-        limit_mm = float(np.sqrt(best_mm2 * special.fdtri(freedom, freedom, 0.95)))
+        limit_mm = float(np.sqrt(best_mm2 * scipy.special.fdtri(freedom, freedom, 0.95)))
         return tuple(index for index in order if self.fre_without_mm[index] <= limit_mm)
 
     @property

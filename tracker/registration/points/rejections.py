@@ -1,7 +1,7 @@
 """Reject point sets that determine no rigid transform."""
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from tracker.errors import RegistrationError
 from tracker.geometry import Array
@@ -63,7 +63,7 @@ def _reject_units(pairs: PointPairs) -> None:
 
 
 def _reject_coincident(points: Array, which: str, labels: tuple[str, ...], min_mm: float) -> None:
-    apart, others = cKDTree(points).query(points, k=2)
+    apart, others = scipy.spatial.cKDTree(points).query(points, k=2)
     first = int(np.argmin(apart[:, 1]))
     # Of points in one place, either may be called the nearest.
     second = int(others[first, 1] if others[first, 1] != first else others[first, 0])

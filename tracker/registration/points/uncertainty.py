@@ -5,7 +5,7 @@ contains the truth in 0.92 to 0.98 of simulated cases, which the plain formula d
 """
 
 import numpy as np
-from scipy import special
+import scipy
 
 from tracker.geometry import Anchor, Array, Rigid, Vertebra
 from tracker.registration.points.fit import jacobians, weights_on_ct
@@ -58,6 +58,21 @@ def variance_from_residuals_mm2(residuals_mm: Array, *, min_fle_mm: float) -> fl
     return max(variance, min_fle_mm**2 / 3.0)
 
 
+def variance_ratio_with_more(fre_mm: float, count: int, more: int, *, min_fle_mm: float) -> float:
+    """Return by what the covariance of an unweighted fit is expected to shrink with more landmarks.
+
+    The normal matrix grows with the number of landmarks, by n / (n + more) for equal spread; the variance of
+    a landmark is as measured, and inflated less (`variance_from_residuals_mm2`). Not below the minimum FLE.
+    """
+
+    def of_mean_mm2(number: int) -> float:
+        measured = count * fre_mm**2 / degrees_of_freedom(count)
+        inflated = measured * small_sample_factor(degrees_of_freedom(number)) * ANISOTROPY_FACTOR
+        return max(inflated, min_fle_mm**2 / 3.0) / number
+
+    return of_mean_mm2(count + more) / of_mean_mm2(count)
+
+
 def variance_factor(residuals_mm: Array, weights: Array) -> float:
     """Return the factor of stated covariances, from the residuals (n, 3) and their inverses (n, 3, 3).
 
@@ -97,4 +112,4 @@ def common_tip_jacobian(
 
 def small_sample_factor(freedom: float) -> float:
     """Return the inflation of a variance estimated with so many degrees of freedom."""
-    return float(3.0 * special.fdtri(3, freedom, 0.95) / special.chdtri(3, 0.05))
+    return float(3.0 * scipy.special.fdtri(3, freedom, 0.95) / scipy.special.chdtri(3, 0.05))

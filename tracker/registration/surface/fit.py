@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from tracker.geometry import Anchor, Array, Rigid, Vertebra, rotation_from_vector
 from tracker.registration.points.fit import jacobians
@@ -60,7 +60,9 @@ class SweepFit:
 
 def density_weights(points_mm: Array, correlation_length_mm: float) -> Array:
     """Return (n,) the inverse of the number of points within a radius; a place dwelt upon counts once."""
-    near = cKDTree(points_mm).query_ball_point(points_mm, correlation_length_mm, return_length=True)
+    near = scipy.spatial.cKDTree(points_mm).query_ball_point(
+        points_mm, correlation_length_mm, return_length=True
+    )
     return np.asarray(1.0 / np.asarray(near, dtype=np.float64))
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy import ndimage
+import scipy
 
 from tracker.geometry import Array
 from tracker.plan import Volume
@@ -93,7 +93,9 @@ def scan(hu_at: HuAt, grid: ScanGrid) -> Volume:
     block = hu.reshape(slices, rows, columns)
     if grid.blur_mm > 0.0:
         spacing = np.linalg.norm(grid.lps_from_ijk[:3, :2], axis=0)
-        block = ndimage.gaussian_filter(block, (0.0, grid.blur_mm / spacing[1], grid.blur_mm / spacing[0]))
+        block = scipy.ndimage.gaussian_filter(
+            block, (0.0, grid.blur_mm / spacing[1], grid.blur_mm / spacing[0])
+        )
     if grid.noise_hu > 0.0:
         block = block + np.random.default_rng(grid.seed).normal(0.0, grid.noise_hu, block.shape)
     whole = np.clip(np.round(block), -1024, 30_000).astype(np.int16)
@@ -111,7 +113,7 @@ def _field(hu_at: HuAt, grid: ScanGrid, index: Array) -> Array:
 def _uneven(block: Array, grid: ScanGrid) -> npt.NDArray[np.bool_]:
     """Return the voxels that may contain several tissues: neighbours within two voxels differ."""
     reach = (5 if grid.thickness_ratio > 1.0 else 3, 3, 3)
-    spread = ndimage.maximum_filter(block, size=reach) - ndimage.minimum_filter(block, size=reach)
+    spread = scipy.ndimage.maximum_filter(block, size=reach) - scipy.ndimage.minimum_filter(block, size=reach)
     return np.asarray(spread > FLAT_HU)
 
 

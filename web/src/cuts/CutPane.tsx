@@ -5,6 +5,7 @@ import { formatNumber } from "../live/rounding";
 import { frameOf } from "../operator/plan/slices/place";
 import { rulerMm } from "../operator/plan/slices/zoom";
 import { figureOf } from "../panes/limits";
+import { clearBitmap } from "../panes/bitmapCanvas";
 import { Pane } from "../panes/Pane";
 import { PaintRateLimiter } from "../panes/paintRateLimiter";
 import { setData, setText } from "../panes/setText";
@@ -16,7 +17,7 @@ import type { Cut, Wanted } from "./cutter";
 import { displayedDrill } from "./drill";
 import { cutVerdict, type CutVerdict } from "./cutVerdict";
 import { overlayOf, PARTS } from "./overlay";
-import { clearPixels, drawPixels, paintOverlay } from "./paintCut";
+import { drawPixels, paintOverlay } from "./paintCut";
 import { cutGrid, fieldOf, type CutName, type Pose } from "./planes";
 
 const AHEAD_MM = [0, 5, 10, 20];
@@ -118,7 +119,7 @@ export function CutPane({ name, tabs, tools }: CutPaneProps): ReactNode {
       shown.current !== null &&
       canvas.current !== null
     ) {
-      clearPixels(canvas.current);
+      clearBitmap(canvas.current);
       shown.current = null;
     }
     if (svg.current === null) return;

@@ -1,4 +1,5 @@
 // Puts a cut and what is drawn over it onto the page, past React's state.
+import { paintBitmap } from "../panes/bitmapCanvas";
 import { setText } from "../panes/setText";
 import { frameOf, type PixelGrid } from "../operator/plan/slices/place";
 import type { Cut } from "./cutter";
@@ -9,19 +10,10 @@ const LABEL_PX = 14;
 
 /** Writes the pixels of a cut. */
 export function drawPixels(canvas: HTMLCanvasElement, { grid, buffer }: Cut): void {
-  const context = canvas.getContext("2d");
-  if (context === null) return;
-  if (canvas.width !== grid.width_px || canvas.height !== grid.height_px) {
-    canvas.width = grid.width_px;
-    canvas.height = grid.height_px;
-  }
-  const pixels = new Uint8ClampedArray(buffer);
-  context.putImageData(new ImageData(pixels, grid.width_px, grid.height_px), 0, 0);
-}
-
-/** Leaves nothing of the last cut. */
-export function clearPixels(canvas: HTMLCanvasElement): void {
-  canvas.getContext("2d")?.clearRect(0, 0, canvas.width, canvas.height);
+  const { width_px, height_px } = grid;
+  paintBitmap(canvas, width_px, height_px, (context) => {
+    context.putImageData(new ImageData(new Uint8ClampedArray(buffer), width_px, height_px), 0, 0);
+  });
 }
 
 /** Draws the overlay over a cut of these pixels, which fill `widthPx` of the page; with null nothing is left. */

@@ -67,6 +67,7 @@ export class MarksCanvas {
     // To clear what is clear already would still have the whole picture put together anew.
     if (isEmpty && this.isEmpty) return;
     this.isEmpty = isEmpty;
+    canvas.dataset["empty"] = String(isEmpty);
     this.fit(context);
     if (placement === null) return;
     const pen: Pen = { context, placement, width: canvas.clientWidth };

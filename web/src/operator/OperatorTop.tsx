@@ -2,6 +2,7 @@ import type { ReactNode } from "react";
 import { ViewSwitch } from "../app/ViewSwitch";
 import { Brand } from "../panes/Brand";
 import { LiveStatus } from "../panes/LiveStatus";
+import { RecordControl } from "../recording/RecordControl";
 import { useTexts } from "../texts/TextsContext";
 import { useProcedure } from "../app/procedure";
 
@@ -17,6 +18,7 @@ export function OperatorTop(): ReactNode {
         <span>{texts.theatre.case}</span>{" "}
         <strong>{data === null ? unknown : (data.case_name ?? texts.theatre.noCase)}</strong>
       </p>
+      <RecordControl />
       <LiveStatus withTracking />
       <ViewSwitch />
     </header>

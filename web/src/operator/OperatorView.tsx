@@ -3,6 +3,7 @@ import { useLocation } from "wouter";
 import { AlarmBand } from "../alarms/AlarmBand";
 import { ConfirmRestart } from "../app/ConfirmRestart";
 import { AlertBand } from "../panes/AlertBand";
+import { ConsentQuestion } from "../recording/ConsentQuestion";
 import { QueryStatus } from "../rest/QueryStatus";
 import { useTexts } from "../texts/TextsContext";
 import { OperatorTop } from "./OperatorTop";
@@ -33,6 +34,7 @@ export function OperatorView(): ReactNode {
         <AlarmBand />
       </div>
       <ConfirmRestart />
+      <ConsentQuestion />
       <AlertBand />
       <div className="operator-body">
         <StepRail now={page} />

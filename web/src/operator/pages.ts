@@ -7,12 +7,22 @@ import { NavigatePage } from "./navigate/NavigatePage";
 import { PeoplePage } from "./people/PeoplePage";
 import { PlanPage } from "./plan/PlanPage";
 import type { Step } from "../app/procedure";
+import { RecordingsPage } from "./recordings/RecordingsPage";
 import { RegistrationPage } from "./registration/RegistrationPage";
 import { ReportPage } from "./report/ReportPage";
 import { ToolPage } from "./tool/ToolPage";
 
 export type PageName =
-  "case" | "camera" | "tool" | "plan" | "register" | "check" | "navigate" | "report" | "people";
+  | "case"
+  | "camera"
+  | "tool"
+  | "plan"
+  | "register"
+  | "check"
+  | "navigate"
+  | "recordings"
+  | "report"
+  | "people";
 
 export interface OperatorPage {
   name: PageName;
@@ -29,6 +39,7 @@ export const PAGES: readonly OperatorPage[] = [
   { name: "register", step: "register", Page: RegistrationPage },
   { name: "check", step: "check", Page: CheckPage },
   { name: "navigate", step: "navigate", Page: NavigatePage },
+  { name: "recordings", step: null, Page: RecordingsPage },
   { name: "report", step: null, Page: ReportPage },
   { name: "people", step: null, Page: PeoplePage },
 ];

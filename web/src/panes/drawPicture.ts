@@ -1,4 +1,5 @@
 // From JPEG bytes to the canvas, past React.
+import { clearBitmap, presentBitmap } from "./bitmapCanvas";
 
 /** Draws the picture, and tells when it is decoded; false when it is no picture, or its line has gone meanwhile. */
 export async function drawPicture(
@@ -15,13 +16,8 @@ export async function drawPicture(
   }
   onDecoded();
   try {
-    const context = canvas.getContext("2d", { alpha: false });
-    if (context === null || !isCurrent()) return false;
-    if (canvas.width !== bitmap.width || canvas.height !== bitmap.height) {
-      canvas.width = bitmap.width;
-      canvas.height = bitmap.height;
-    }
-    context.drawImage(bitmap, 0, 0);
+    if (!isCurrent()) return false;
+    presentBitmap(canvas, bitmap);
     return true;
   } finally {
     bitmap.close();
@@ -30,5 +26,5 @@ export async function drawPicture(
 
 /** Leaves nothing of the last picture. */
 export function clearPicture(canvas: HTMLCanvasElement): void {
-  canvas.getContext("2d", { alpha: false })?.clearRect(0, 0, canvas.width, canvas.height);
+  clearBitmap(canvas);
 }

@@ -13,6 +13,8 @@ import { AlertBand } from "../panes/AlertBand";
 import { LoadingNumbers } from "../panes/LoadingNumbers";
 import { NumbersPane } from "../panes/NumbersPane";
 import { VideoPane } from "../panes/VideoPane";
+import { Recordings } from "../recording/Recordings";
+import { RecordingState } from "../recording/RecordingState";
 import type { Signable } from "../room/messages";
 import { useRoomSnapshot } from "../room/RoomContext";
 import { Viewers } from "../room/Viewers";
@@ -43,6 +45,7 @@ export function SupervisorView(): ReactNode {
           <p className="notice">
             {texts.notice}. {own.nothingMoves}
           </p>
+          <RecordingState />
           <ViewSwitch />
           <Viewers />
           <PictureSize />
@@ -70,6 +73,9 @@ export function SupervisorView(): ReactNode {
           <StepsShown />
         </Fold>
         <Signables />
+        <Fold id="recordings" title={texts.operator.page.recordings}>
+          <Recordings mayChange={false} />
+        </Fold>
         <Fold id="log" title={own.log.title}>
           <LogPanel />
         </Fold>

@@ -15,6 +15,7 @@ import type { OperatorTexts } from "./operator/en";
 import type { PeopleTexts } from "./people/en";
 import type { PhoneTexts } from "./phone/en";
 import type { PlanTexts } from "./plan/en";
+import type { RecordingTexts } from "./recording/en";
 import type { RegistrationTexts } from "./registration/en";
 import type { ReportTexts } from "./report/en";
 import type { RestTexts } from "./rest/en";
@@ -130,6 +131,7 @@ export interface Texts {
   phone: PhoneTexts;
   audit: AuditTexts;
   plan: PlanTexts;
+  recording: RecordingTexts;
   registration: RegistrationTexts;
   check: CheckTexts;
   navigate: NavigateTexts;

@@ -14,6 +14,7 @@ import { peopleDe } from "./people/de";
 import { phoneDe } from "./phone/de";
 import { planDe } from "./plan/de";
 import { reasonsDe } from "./reasons/de";
+import { recordingDe } from "./recording/de";
 import { registrationDe } from "./registration/de";
 import { reportDe } from "./report/de";
 import { restDe } from "./rest/de";
@@ -169,6 +170,7 @@ export const de: Texts = {
   phone: phoneDe,
   audit: auditDe,
   plan: planDe,
+  recording: recordingDe,
   registration: registrationDe,
   check: checkDe,
   navigate: navigateDe,

@@ -14,6 +14,7 @@ import { peopleEn } from "./people/en";
 import { phoneEn } from "./phone/en";
 import { planEn } from "./plan/en";
 import { reasonsEn } from "./reasons/en";
+import { recordingEn } from "./recording/en";
 import { registrationEn } from "./registration/en";
 import { reportEn } from "./report/en";
 import { restEn } from "./rest/en";
@@ -171,6 +172,7 @@ export const en: Texts = {
   phone: phoneEn,
   audit: auditEn,
   plan: planEn,
+  recording: recordingEn,
   registration: registrationEn,
   check: checkEn,
   navigate: navigateEn,

@@ -4,6 +4,7 @@ import { ViewSwitch } from "../app/ViewSwitch";
 import { PictureSize } from "../live/PictureSize";
 import { DetailsPane } from "../panes/DetailsPane";
 import { MarkersPane } from "../panes/MarkersPane";
+import { RecordingState } from "../recording/RecordingState";
 import { useTexts } from "../texts/TextsContext";
 
 /** Scores, times and counts for those who want them; closed for those who drill. */
@@ -25,6 +26,7 @@ export function MoreDetails(): ReactNode {
         <div className="more-tools">
           <ViewSwitch />
           <PictureSize />
+          <RecordingState testId="recording-more" />
           <SignedIn />
         </div>
         <MarkersPane />

@@ -1,5 +1,6 @@
 import type { ReactNode } from "react";
 import { Brand } from "../panes/Brand";
+import { RecordingState } from "../recording/RecordingState";
 import { LiveStatus } from "../panes/LiveStatus";
 import { Viewers } from "../room/Viewers";
 import { MoreDetails } from "./MoreDetails";
@@ -12,6 +13,7 @@ export function TheatreTop(): ReactNode {
       <Brand />
       <NavigationStatus />
       <Viewers />
+      <RecordingState />
       <LiveStatus />
       <div className="top-tools">
         <MoreDetails />

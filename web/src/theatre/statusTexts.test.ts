@@ -14,6 +14,7 @@ function standing(check: State, checkAgeMin: number | null = 3): Procedure {
     next_step: "navigate",
     may_navigate: true,
     confirmation: null,
+    recording: null,
     steps: [
       { ...step, step: "register", state: "done", numbers: { age_min: 12.7 } },
       { ...step, step: "check", state: check, numbers: { age_min: checkAgeMin } },

@@ -36,14 +36,23 @@ const RANGES: Record<FigureName, { below: [number, number]; above: [number, numb
   wall: { below: [1, 3], above: [3, 8] },
 };
 
+/** The chart: its right edge in time and its size; samples further apart than `maxStepMs` are not joined. */
+export interface Frame {
+  nowMs: number;
+  width: number;
+  height: number;
+  spanMs?: number;
+  maxStepMs?: number;
+}
+
 export function curveOf(
   samples: readonly Sample[],
   name: FigureName,
-  { nowMs, width, height }: { nowMs: number; width: number; height: number },
+  { nowMs, width, height, spanMs = SPAN_MS, maxStepMs = MAX_STEP_MS }: Frame,
 ): Curve {
   const range = rangeOf(samples, name);
   const [bottom, top] = range;
-  const x = (atMs: number): number => width * (1 - (nowMs - atMs) / SPAN_MS);
+  const x = (atMs: number): number => width * (1 - (nowMs - atMs) / spanMs);
   const y = (value: number): number =>
     height * (1 - (Math.min(Math.max(value, bottom), top) - bottom) / (top - bottom));
   const curve: Curve = { strokes: [], limit: [], wallY: name === "wall" ? y(0) : null, range };
@@ -55,7 +64,7 @@ export function curveOf(
       continue;
     }
     const at: Point = [x(atMs), y(figure.value)];
-    const joined = atMs - (before?.atMs ?? -Infinity) <= MAX_STEP_MS ? before : null;
+    const joined = atMs - (before?.atMs ?? -Infinity) <= maxStepMs ? before : null;
     const last = curve.strokes.at(-1);
     if (joined === null) curve.strokes.push({ status: figure.status, points: [at] });
     else if (last?.status === figure.status) last.points.push(at);

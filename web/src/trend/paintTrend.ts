@@ -1,5 +1,7 @@
 // Puts a figure's curve onto its canvas, past React's state.
 import type { Status } from "../live/messages";
+import { formatFigure } from "../live/rounding";
+import { paintBitmap } from "../panes/bitmapCanvas";
 import type { FigureName } from "../panes/limits";
 import { curveOf } from "./curve";
 import { SPAN_MS, type Sample } from "./history";
@@ -20,69 +22,73 @@ const MIN_SIDE_PX = 12;
 const MIN_LABELLED_PX = 120;
 const LABEL_PX = 13;
 
+export interface TrendFrame {
+  /** At the right edge. */
+  nowMs: number;
+  spanMs?: number;
+  maxStepMs?: number;
+  /** Labelled with the values at its edges, not with its duration. */
+  hasRange?: boolean;
+}
+
 export function paintTrend(
   canvas: HTMLCanvasElement,
   name: FigureName,
   samples: readonly Sample[],
-  nowMs: number,
+  { nowMs, spanMs = SPAN_MS, maxStepMs, hasRange = false }: TrendFrame,
 ): void {
   const { clientWidth, clientHeight } = canvas;
-  const context = canvas.getContext("2d");
-  if (context === null || clientWidth < MIN_SIDE_PX || clientHeight < MIN_SIDE_PX) return;
+  if (clientWidth < MIN_SIDE_PX || clientHeight < MIN_SIDE_PX) return;
   const ratio = devicePixelRatio;
-  const [width, height] = [Math.round(clientWidth * ratio), Math.round(clientHeight * ratio)];
-  if (canvas.width !== width || canvas.height !== height) {
-    canvas.width = width;
-    canvas.height = height;
-  }
   const style = getComputedStyle(canvas);
   const inkOf = (variable: string): string => style.getPropertyValue(variable);
   const inset = LINE_PX;
   const curve = curveOf(samples, name, {
     nowMs,
+    spanMs,
+    ...(maxStepMs === undefined ? {} : { maxStepMs }),
     width: clientWidth - 2 * inset,
     height: clientHeight - 2 * inset,
   });
-  context.setTransform(ratio, 0, 0, ratio, inset * ratio, inset * ratio);
-  context.clearRect(-inset, -inset, clientWidth, clientHeight);
-  context.lineJoin = "round";
-  context.lineWidth = 1;
-  const draw = (points: readonly (readonly [number, number])[], ink: string): void => {
-    context.strokeStyle = ink;
-    context.beginPath();
-    for (const [index, [x, y]] of points.entries()) {
-      if (index === 0) context.moveTo(x, y);
-      else context.lineTo(x, y);
+  paintBitmap(canvas, Math.round(clientWidth * ratio), Math.round(clientHeight * ratio), (context) => {
+    context.setTransform(ratio, 0, 0, ratio, inset * ratio, inset * ratio);
+    context.lineJoin = "round";
+    context.lineWidth = 1;
+    const draw = (points: readonly (readonly [number, number])[], ink: string): void => {
+      context.strokeStyle = ink;
+      context.beginPath();
+      for (const [index, [x, y]] of points.entries()) {
+        if (index === 0) context.moveTo(x, y);
+        else context.lineTo(x, y);
+      }
+      // A single image between two gaps is a dot.
+      if (points.length === 1 && points[0] !== undefined)
+        context.lineTo(points[0][0] + LINE_PX, points[0][1]);
+      context.stroke();
+    };
+    if (curve.wallY !== null) {
+      draw(
+        [
+          [0, curve.wallY],
+          [clientWidth - 2 * inset, curve.wallY],
+        ],
+        inkOf("--high"),
+      );
     }
-    // A single image between two gaps is a dot.
-    if (points.length === 1 && points[0] !== undefined) context.lineTo(points[0][0] + LINE_PX, points[0][1]);
-    context.stroke();
-  };
-  if (curve.wallY !== null) {
-    draw(
-      [
-        [0, curve.wallY],
-        [clientWidth - 2 * inset, curve.wallY],
-      ],
-      inkOf("--high"),
-    );
-  }
-  context.lineWidth = LIMIT_PX;
-  context.setLineDash(DASH_PX);
-  for (const limit of curve.limit) draw(limit, inkOf("--low"));
-  context.setLineDash([]);
-  context.lineWidth = LINE_PX;
-  for (const { status, points } of curve.strokes) draw(points, inkOf(INK[status]));
-  if (clientWidth < MIN_LABELLED_PX) return;
-  context.font = `${LABEL_PX}px ${style.fontFamily}`;
-  context.fillStyle = inkOf("--ink-soft");
-  context.fillText(`\u2212${SPAN_MS / 1000} s`, 0, clientHeight - 2 * inset - 3);
-}
-
-/** Leaves nothing of the curve. */
-export function clearTrend(canvas: HTMLCanvasElement): void {
-  const context = canvas.getContext("2d");
-  if (context === null) return;
-  context.setTransform(1, 0, 0, 1, 0, 0);
-  context.clearRect(0, 0, canvas.width, canvas.height);
+    context.lineWidth = LIMIT_PX;
+    context.setLineDash(DASH_PX);
+    for (const limit of curve.limit) draw(limit, inkOf("--low"));
+    context.setLineDash([]);
+    context.lineWidth = LINE_PX;
+    for (const { status, points } of curve.strokes) draw(points, inkOf(INK[status]));
+    if (clientWidth < MIN_LABELLED_PX) return;
+    context.font = `${LABEL_PX}px ${style.fontFamily}`;
+    context.fillStyle = inkOf("--ink-soft");
+    if (!hasRange) {
+      context.fillText(`\u2212${spanMs / 1000} s`, 0, LABEL_PX);
+      return;
+    }
+    context.fillText(formatFigure(curve.range[1]), 0, LABEL_PX);
+    context.fillText(formatFigure(curve.range[0]), 0, clientHeight - 2 * inset - 3);
+  });
 }

@@ -1,9 +1,10 @@
 import { useEffect, useRef, type RefObject } from "react";
 import { usePainter } from "../live/LiveContext";
+import { clearBitmap } from "../panes/bitmapCanvas";
 import { FIGURES } from "../panes/limits";
 import { setData } from "../panes/setText";
 import { isTrendShown, TrendHistory } from "./history";
-import { clearTrend, paintTrend } from "./paintTrend";
+import { paintTrend } from "./paintTrend";
 
 const EVERY_MS = 250;
 
@@ -31,14 +32,14 @@ export function useTrend(pane: RefObject<HTMLElement | null>): void {
     setData(pane.current, "trend", String(isShown));
     if (!isShown) {
       clearTimeout(timer.current);
-      if (wasShown) for (const { canvas } of canvases()) clearTrend(canvas);
+      if (wasShown) for (const { canvas } of canvases()) clearBitmap(canvas);
       return;
     }
     if (nowMs - paintedAtMs.current < EVERY_MS) return;
     paintedAtMs.current = nowMs;
     // After the figures of this image are painted.
     timer.current = setTimeout(() => {
-      for (const { name, canvas } of canvases()) paintTrend(canvas, name, history.current.samples, nowMs);
+      for (const { name, canvas } of canvases()) paintTrend(canvas, name, history.current.samples, { nowMs });
     });
   });
 }

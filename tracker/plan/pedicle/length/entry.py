@@ -1,7 +1,7 @@
 """Screw entry: the posterior surface of the arch around the axis, not the tip of a process."""
 
 import numpy as np
-from scipy import ndimage
+import scipy
 
 from tracker.geometry import Array
 from tracker.plan.pedicle.outlines import planes_across
@@ -44,6 +44,6 @@ def _areas_mm2(solid: Solid, isthmus_mm: Array, axis: Array) -> Array:
     for row, section in enumerate(bone):
         if not section[middle, middle]:
             break
-        label, _ = ndimage.label(section)
+        label, _ = scipy.ndimage.label(section)
         area[row] = float(((label == label[middle, middle]) & disc).sum()) * GRID_MM**2
     return area

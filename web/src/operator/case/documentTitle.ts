@@ -23,6 +23,7 @@ const NAMED: readonly [kind: Heading["kind"], name: RegExp, title: Title][] = [
   ["tool", /^(.+)$/, "tool"],
   ["marker", /^(.+)$/, "marker"],
   ["patient", /^/, "patient"],
+  ["consent", /^/, "consent"],
 ];
 
 export function documentTitle({ kind, name }: Heading, texts: CaseTexts): string {

@@ -67,6 +67,7 @@ export const caseDe: CaseTexts = {
     alarm: "Alarme",
     confirmation: "Bestätigung",
     signature: "Gegenzeichnung",
+    consent: "Einwilligung",
     audit: "Protokoll",
   },
   maker: {
@@ -89,6 +90,7 @@ export const caseDe: CaseTexts = {
     planSigned: "Gegenzeichnung der Planung",
     registrationSigned: "Gegenzeichnung der Registrierung von {name}",
     patient: "Patientendaten",
+    consent: "Einwilligung in Aufnahmen",
   },
   filesTitle: "Dateien",
   filesCount: "{count} Dateien, {size}",

@@ -60,6 +60,7 @@ export const caseEn = {
     alarm: "Alarms",
     confirmation: "Confirmation",
     signature: "Co-signature",
+    consent: "Consent",
     audit: "Log",
   },
   maker: {
@@ -82,6 +83,7 @@ export const caseEn = {
     planSigned: "Co-signature of the plan",
     registrationSigned: "Co-signature of the registration of {name}",
     patient: "Patient’s identity",
+    consent: "Consent to recordings",
   },
   filesTitle: "Files",
   filesCount: "{count} files, {size}",

@@ -14,6 +14,7 @@ export const operatorDe: OperatorTexts = {
     register: "Registrierung",
     check: "Prüfung",
     navigate: "Navigation",
+    recordings: "Aufnahmen",
     report: "Bericht",
     people: "Personen",
   },

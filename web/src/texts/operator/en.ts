@@ -12,6 +12,7 @@ export const operatorEn = {
     register: "Register",
     check: "Check",
     navigate: "Navigate",
+    recordings: "Recordings",
     report: "Report",
     people: "People",
   },

@@ -1,0 +1,196 @@
+"""Review of recordings: their timeline, and any of their instants."""
+
+from datetime import UTC, datetime
+from typing import Annotated
+
+from fastapi import APIRouter, Path, Query, Response
+from pydantic import ValidationError
+
+from server.api.errors import rejections
+from server.api.jobs import JobMessage, job_message
+from server.clock import utc_text
+from server.errors import RecordingError
+from server.jobs import Job
+from server.recording.review import RecordingReview, Samples, sampled
+from server.recording.timeline import FIGURES, STATUSES, EventKind, RecordingIndex, TimelineEvent
+from server.stream.alarm_messages import AlarmsMessage
+from server.stream.assessment_messages import TextMessage, text_message
+from server.stream.message import Message, finite
+from server.stream.snapshot_messages import SnapshotMessage
+from server.texts import LANGUAGES, STATES, Text, alarm_title
+from tracker.navigation import AbsentReason, Status
+from tracker.navigation.alarms import ALARM_RULES, Condition, Priority
+
+MAX_SAMPLES = 4000
+# Another version may have had others, which have no title here.
+CONDITIONS = {one.value: one for one in Condition}
+REASONS = {one.value: one for one in AbsentReason}
+# The images of a recording do not change.
+CACHE = {"Cache-Control": "private, max-age=3600"}
+
+
+class RecordedEventMessage(Message):
+    """Something that happened."""
+
+    kind: EventKind
+    """navigation: it was on; withheld: no figures; note: about the recording itself."""
+    from_s: float
+    """Since the first image, as all times."""
+    to_s: float | None
+    """Null for what has no duration."""
+    code: str
+    """Condition of an alarm, reason of withheld figures, code of a note, shape of a mark."""
+    title: TextMessage | None
+    """Of an alarm and of withheld figures, in capitals; null for all else."""
+    priority: Priority | None
+    """Of an alarm; null for all else."""
+    by: str
+    """Who did it; empty if nobody did."""
+
+
+class CurveMessage(Message):
+    """One figure; null where it was withheld or undefined."""
+
+    values: list[float | None]
+    limits: list[float | None]
+    statuses: list[Status | None]
+
+
+class CurvesMessage(Message):
+    """The displayed figures; where several images share a sample, the worst of each, and the newest depth."""
+
+    numbers: list[int]
+    """Of the first image of each sample."""
+    at_s: list[float]
+    entry: CurveMessage
+    angle: CurveMessage
+    depth: CurveMessage
+    wall: CurveMessage
+
+
+class TimelineMessage(Message):
+    """What a recording has."""
+
+    began_at: str
+    """Of the first image; UTC, ISO 8601."""
+    duration_s: float
+    images: int
+    is_whole: bool
+    """False for a file that was cut; it is read up to there."""
+    events: list[RecordedEventMessage]
+    curves: CurvesMessage
+    """Between the requested times."""
+
+
+class RecordingReviewMessage(Message):
+    """The timeline, or the job that prepares it; exactly one of them is null."""
+
+    job: JobMessage | None
+    timeline: TimelineMessage | None
+
+
+class RecordedInstantMessage(Message):
+    """One image of a recording with its results."""
+
+    number: int
+    at_s: float
+    snapshot: SnapshotMessage
+    alarms: AlarmsMessage | None
+    """Null where they were not recorded."""
+
+
+Seconds = Annotated[float, Query(ge=0.0, le=1e7)]
+Number = Annotated[int, Path(ge=0, description="Of the image in the recording, from 0.")]
+
+
+def recording_review_router(review: RecordingReview) -> APIRouter:
+    """Return the router of what is in recordings. Its routes are synchronous: they wait for the disk."""
+    router = APIRouter(prefix="/api/recordings/{name}", tags=["recordings"])
+
+    @router.get("/timeline", responses=rejections(404, 409, 422, 503))
+    def timeline(
+        name: str,
+        from_s: Seconds = 0.0,
+        to_s: Seconds = 1e7,
+        samples: Annotated[int, Query(ge=1, le=MAX_SAMPLES)] = 1000,
+    ) -> RecordingReviewMessage:
+        """Return what happened in a recording, and its figures between two times.
+
+        The first request starts a job that reads the recording; ask again when it is done.
+        """
+        index = review.index(name)
+        if isinstance(index, Job):
+            return RecordingReviewMessage(job=job_message(index), timeline=None)
+        end_s = float(index.at_s[-1]) if len(index) else 0.0
+        return RecordingReviewMessage(
+            job=None, timeline=_timeline(index, sampled(index, from_s, min(to_s, end_s), samples))
+        )
+
+    @router.get("/images/{number}.jpg", response_class=Response, responses=rejections(404, 409, 422, 503))
+    def image(name: str, number: Number) -> Response:
+        """Return an image as JPEG, without overlay."""
+        return Response(review.jpeg(name, number), media_type="image/jpeg", headers=CACHE)
+
+    @router.get("/instants/{number}", responses=rejections(404, 409, 422, 503))
+    def instant(name: str, number: Number) -> RecordedInstantMessage:
+        """Return the results of an image, and the alarms after it."""
+        found = review.instant(name, number)
+        try:
+            return RecordedInstantMessage(
+                number=number,
+                at_s=found.at_s,
+                snapshot=SnapshotMessage.model_validate_json(found.snapshot),
+                alarms=AlarmsMessage.model_validate_json(found.alarms) if found.alarms else None,
+            )
+        except ValidationError as error:
+            raise RecordingError(
+                "RECORDING_OTHER_VERSION",
+                f"the results of image {number} cannot be read: {error.error_count()} of their values have "
+                "another form",
+                "Look at the recording with the version of Coaxial that made it.",
+                {"name": name},
+            ) from None
+
+    return router
+
+
+def _timeline(index: RecordingIndex, samples: Samples) -> TimelineMessage:
+    return TimelineMessage(
+        began_at=utc_text(datetime.fromtimestamp(index.begin_unix_s, tz=UTC)),
+        duration_s=float(index.at_s[-1]) if len(index) else 0.0,
+        images=len(index),
+        is_whole=index.is_whole,
+        events=[_event(one) for one in index.events],
+        curves=CurvesMessage(
+            numbers=samples.numbers.tolist(),
+            at_s=samples.at_s.tolist(),
+            **{name: _curve(samples, column) for column, name in enumerate(FIGURES)},
+        ),
+    )
+
+
+def _event(event: TimelineEvent) -> RecordedEventMessage:
+    condition = CONDITIONS.get(event.code)
+    reason = REASONS.get(event.code)
+    title: Text | None = None
+    if condition is not None:
+        title = alarm_title(condition)
+    elif reason is not None:
+        title = {language: STATES[language][reason].title for language in LANGUAGES}
+    return RecordedEventMessage(
+        kind=event.kind,
+        from_s=event.from_s,
+        to_s=event.to_s,
+        code=event.code,
+        title=None if title is None else text_message(title),
+        priority=None if condition is None or event.kind != "alarm" else ALARM_RULES[condition].priority,
+        by=event.by,
+    )
+
+
+def _curve(samples: Samples, column: int) -> CurveMessage:
+    return CurveMessage(
+        values=[finite(one) for one in samples.values[:, column].tolist()],
+        limits=[finite(one) for one in samples.limits[:, column].tolist()],
+        statuses=[None if one < 0 else STATUSES[one] for one in samples.statuses[:, column].tolist()],
+    )

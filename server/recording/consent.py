@@ -1,0 +1,66 @@
+"""The patient's consent to being recorded, as a person stated it; without it nothing is recorded."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from server.config import Section
+from server.procedure.documents import parse_document
+from server.store import CaseStore, DocumentKind
+
+NAME = "recording"
+
+
+class ConsentState(StrEnum):
+    """What is known about the consent."""
+
+    NOT_REQUIRED = "not_required"  # recording.consent
+    NOT_ASKED = "not_asked"
+    GIVEN = "given"
+    NOT_GIVEN = "not_given"
+
+    @property
+    def permits_recording(self) -> bool:
+        """Whether a recording may start."""
+        return self in (ConsentState.NOT_REQUIRED, ConsentState.GIVEN)
+
+
+class ConsentRecord(Section):
+    """An answer as stored in a case; its document has the author and the time."""
+
+    is_given: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Consent:
+    """The consent of a case.
+
+    Attributes:
+        state: what is known.
+        answered_at: UTC, ISO 8601; empty without an answer.
+        answered_by: who answered; empty without an answer.
+    """
+
+    state: ConsentState
+    answered_at: str = ""
+    answered_by: str = ""
+
+
+def stored_consent(store: CaseStore, case_id: str) -> Consent:
+    """Return the newest answer of a case.
+
+    A withdrawn answer is none, nor is one out of an archive: nobody signed in here gave it.
+
+    Raises:
+        InvalidInput: CONSENT_DOCUMENT_INVALID.
+    """
+    document = store.latest(case_id, DocumentKind.CONSENT, NAME)
+    if document is None or document.imported is not None:
+        return Consent(state=ConsentState.NOT_ASKED)
+    record = parse_document(
+        ConsentRecord, document, code="CONSENT_DOCUMENT_INVALID", remedy="Answer the question again."
+    )
+    return Consent(
+        state=ConsentState.GIVEN if record.is_given else ConsentState.NOT_GIVEN,
+        answered_at=document.made_at,
+        answered_by=document.made_by,
+    )

@@ -1,0 +1,333 @@
+"""The index of a recording: where its images lie, their figures as columns, and what happened.
+
+It is made once, by a job, and stored beside the recording, so that a page gets any instant without a search.
+"""
+
+import json
+import os
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, fields
+from itertools import pairwise
+from pathlib import Path
+from typing import IO, Any, Literal, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from server.alarms.evaluation import AlarmCall
+from server.recording_file import Packing, Topic
+from server.recording_file.locations import Location, MessageLocations, read_content
+from tracker.navigation import Status
+from tracker.navigation.alarms import AlarmState, Change
+
+# Grows with each change of what is stored; an index of another version is made again.
+VERSION = 1
+SUFFIX = ".index.npz"
+FIGURES = ("entry", "angle", "depth", "wall")
+STATUSES = tuple(Status)
+PACKINGS = tuple(Packing)
+# Figures that are withheld for a shorter time are a gap of the curves and no event.
+MIN_WITHHELD_S = 0.3
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+Integers: TypeAlias = npt.NDArray[np.int64]
+EventKind: TypeAlias = Literal["navigation", "withheld", "alarm", "acknowledgement", "mark", "note"]
+Report: TypeAlias = Callable[[float, str], None]
+Json: TypeAlias = Any
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TimelineEvent:
+    """Something that happened.
+
+    Attributes:
+        kind: navigation (it was on), withheld (no figures), alarm, acknowledgement, mark, note (about the
+            recording itself).
+        from_s, to_s: since the first image; to_s is None for what has no duration.
+        code: condition of an alarm, reason of withheld figures, code of a note, shape of a mark.
+        by: who did it; empty if nobody did.
+    """
+
+    kind: EventKind
+    from_s: float
+    to_s: float | None = None
+    code: str = ""
+    by: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecordingIndex:
+    """A recording of n images as columns.
+
+    Attributes:
+        begin_unix_s: time of the first image.
+        is_whole: whether the file has its proper end.
+        events: what happened, in the order of their begin.
+        at_s: (n,) since the first image.
+        images, snapshots, alarms: (n, 2) offset and length; length 0 where there is none.
+        packings: (n,) place in `PACKINGS`.
+        sizes_px: (n, 2) width, height.
+        values, limits: (n, 4) of `FIGURES`, in their units; NaN where there is none.
+        statuses: (n, 4) place in `STATUSES`; -1 where there is none.
+    """
+
+    begin_unix_s: float
+    is_whole: bool
+    events: tuple[TimelineEvent, ...]
+    at_s: Floats
+    images: Integers
+    snapshots: Integers
+    alarms: Integers
+    packings: Integers
+    sizes_px: Integers
+    values: Floats
+    limits: Floats
+    statuses: Integers
+
+    def __len__(self) -> int:
+        return len(self.at_s)
+
+
+COLUMNS = tuple(one.name for one in fields(RecordingIndex))[3:]
+
+
+def index_path(recording: Path) -> Path:
+    """Return where the index of a recording is stored."""
+    return recording.with_name(recording.name + SUFFIX)
+
+
+def store_index(report: Report, *, recording: str) -> dict[str, int]:
+    """Make the index of a recording and store it beside it; the work of a job."""
+    path = Path(recording)
+    index = make_index(path, report)
+    about = {
+        "version": VERSION,
+        "file": _fingerprint(path),
+        "begin_unix_s": index.begin_unix_s,
+        "is_whole": index.is_whole,
+        "events": [{one.name: getattr(event, one.name) for one in fields(event)} for event in index.events],
+    }
+    target = index_path(path)
+    unfinished = target.with_name(f"{target.name}.{os.getpid()}")
+    try:
+        with unfinished.open("wb") as file:
+            text = np.frombuffer(json.dumps(about).encode(), dtype=np.uint8)
+            np.savez(file, about=text, **{name: getattr(index, name) for name in COLUMNS})
+        unfinished.replace(target)
+    finally:
+        unfinished.unlink(missing_ok=True)
+    return {"images": len(index)}
+
+
+def stored_index(recording: Path) -> RecordingIndex | None:
+    """Return the stored index of a recording; None if there is none of this file and version."""
+    try:
+        with np.load(index_path(recording), allow_pickle=False) as stored:
+            about = json.loads(stored["about"].tobytes())
+            if about["version"] != VERSION or about["file"] != _fingerprint(recording):
+                return None
+            return RecordingIndex(
+                begin_unix_s=about["begin_unix_s"],
+                is_whole=about["is_whole"],
+                events=tuple(TimelineEvent(**one) for one in about["events"]),
+                **{name: stored[name] for name in COLUMNS},
+            )
+    except (OSError, ValueError, KeyError, TypeError, EOFError):
+        return None
+
+
+def make_index(path: Path, report: Report = lambda _ratio, _doing: None) -> RecordingIndex:
+    """Return the index of a recording, up to where it was cut.
+
+    Raises:
+        RecordingError: RECORDING_NOT_READABLE.
+    """
+    locations, rows, events = MessageLocations(path), _Rows(), _Events()
+    with path.open("rb") as file:
+        for location in locations:
+            match location.topic:
+                case Topic.IMAGE:
+                    rows.image = location
+                    report(locations.position / max(1, locations.size_bytes), "reading the recording")
+                case Topic.SNAPSHOT:
+                    rows.add(location, _json(file, location))
+                case Topic.ALARMS:
+                    rows.alarms.append(location)
+                case Topic.ALARM_STEP:
+                    events.add_step(location.unix_s, _json(file, location))
+                case Topic.MARKS:
+                    events.add_mark(location.unix_s, _json(file, location))
+                case Topic.NOTE:
+                    events.add_note(location.unix_s, _json(file, location))
+    return rows.index(events, is_whole=locations.is_whole)
+
+
+def _json(file: IO[bytes], location: Location) -> Json:
+    """Return a message; an empty mapping if it is damaged."""
+    try:
+        content = json.loads(read_content(file, location.offset, location.length))
+    except ValueError:
+        return {}
+    return content if isinstance(content, dict) else {}
+
+
+@dataclass(slots=True)
+class _Rows:
+    """The columns while they grow, a row for each image that has its result."""
+
+    image: Location | None = None
+    alarms: list[Location] = field(default_factory=list)
+    pairs: list[tuple[Location, Location]] = field(default_factory=list)
+    values: list[list[float]] = field(default_factory=list)
+    limits: list[list[float]] = field(default_factory=list)
+    statuses: list[list[int]] = field(default_factory=list)
+    reasons: list[str] = field(default_factory=list)
+
+    def add(self, snapshot: Location, content: Json) -> None:
+        image = self.image
+        if image is None or image.sequence != snapshot.sequence or "tools" not in content:
+            return
+        self.image = None
+        assessment = _displayed_assessment(content)
+        figures = assessment.get("figures", {})
+        self.pairs.append((image, snapshot))
+        self.reasons.append(assessment.get("reason", ""))
+        self.values.append([_number(figures.get(name, {}).get("value")) for name in FIGURES])
+        self.limits.append([_number(figures.get(name, {}).get("limit")) for name in FIGURES])
+        self.statuses.append([_status(figures.get(name, {}).get("status")) for name in FIGURES])
+
+    def index(self, events: "_Events", *, is_whole: bool) -> RecordingIndex:
+        count = len(self.pairs)
+        unix_s = np.array([image.unix_s for image, _ in self.pairs], dtype=np.float64)
+        begin_s = float(unix_s[0]) if count else 0.0
+        at_s = unix_s - begin_s
+        end_s = float(at_s[-1]) if count else 0.0
+        found = [*events.events(begin_s, end_s), *_withheld(at_s, self.reasons)]
+        return RecordingIndex(
+            begin_unix_s=begin_s,
+            is_whole=is_whole,
+            events=tuple(sorted(found, key=lambda event: event.from_s)),
+            at_s=at_s,
+            images=_places(image for image, _ in self.pairs),
+            snapshots=_places(snapshot for _, snapshot in self.pairs),
+            alarms=self._alarms_of(unix_s),
+            packings=np.array(
+                [PACKINGS.index(image.packing) for image, _ in self.pairs if image.packing is not None],
+                dtype=np.int64,
+            ),
+            sizes_px=np.array([image.size_wh_px for image, _ in self.pairs], dtype=np.int64).reshape(-1, 2),
+            values=np.array(self.values, dtype=np.float64).reshape(-1, len(FIGURES)),
+            limits=np.array(self.limits, dtype=np.float64).reshape(-1, len(FIGURES)),
+            statuses=np.array(self.statuses, dtype=np.int64).reshape(-1, len(FIGURES)),
+        )
+
+    def _alarms_of(self, unix_s: Floats) -> Integers:
+        """Return where the alarms of each image lie: the newest before the next image."""
+        if not self.alarms:
+            return np.zeros((len(unix_s), 2), dtype=np.int64)
+        places = np.vstack([np.zeros((1, 2), dtype=np.int64), _places(self.alarms)])
+        changed_s = np.array([one.unix_s for one in self.alarms])
+        next_s = np.append(unix_s[1:], np.inf)
+        return places[np.searchsorted(changed_s, next_s, side="left")]
+
+
+class _Events:
+    """What happened, from the steps of the alarms, the marks and the notes."""
+
+    def __init__(self) -> None:
+        self._moments: list[TimelineEvent] = []
+        self._navigation: list[tuple[float, bool]] = []
+        self._open: dict[int, tuple[float, str]] = {}
+        self._alarms: list[tuple[float, float | None, str]] = []
+        self._has_steps = False
+
+    def add_step(self, unix_s: float, step: Json) -> None:
+        navigating = step.get("circumstances", {}).get("navigating")
+        if navigating is not None and (not self._navigation or self._navigation[-1][1] != navigating):
+            self._navigation.append((unix_s, navigating))
+        if not self._has_steps:
+            self._has_steps = True
+            # Raised before the recording began.
+            active = [one for one in step.get("alarms", []) if one.get("state") != AlarmState.LATCHED]
+            self._open = {one["number"]: (unix_s, one["condition"]) for one in active}
+        for event in step.get("events", []):
+            number, change = event.get("number"), event.get("change")
+            if number is None:
+                continue
+            if change == Change.RAISED:
+                self._open[number] = (unix_s, event.get("condition") or "")
+            elif change in (Change.CLEARED, Change.LATCHED) and number in self._open:
+                begin_s, code = self._open.pop(number)
+                self._alarms.append((begin_s, unix_s, code))
+            if change == Change.ACKNOWLEDGED and step.get("call") == AlarmCall.ACKNOWLEDGE:
+                self._moments.append(
+                    TimelineEvent(
+                        kind="acknowledgement",
+                        from_s=unix_s,
+                        code=event.get("condition") or "",
+                        by=event.get("by") or "",
+                    )
+                )
+
+    def add_mark(self, unix_s: float, mark: Json) -> None:
+        drawn = mark.get("draw")
+        if isinstance(drawn, Mapping):
+            self._moments.append(
+                TimelineEvent(
+                    kind="mark", from_s=unix_s, code=str(drawn.get("shape", "")), by=str(mark.get("by", ""))
+                )
+            )
+
+    def add_note(self, unix_s: float, note: Json) -> None:
+        self._moments.append(TimelineEvent(kind="note", from_s=unix_s, code=str(note.get("code", ""))))
+
+    def events(self, begin_s: float, end_s: float) -> Iterable[TimelineEvent]:
+        """Yield them in seconds since `begin_s`; what is not over by then ends at `end_s`, since the same."""
+        for one in self._moments:
+            yield TimelineEvent(kind=one.kind, from_s=one.from_s - begin_s, code=one.code, by=one.by)
+        open_alarms = [(at_s, None, code) for at_s, code in self._open.values()]
+        for from_s, to_s, code in [*self._alarms, *open_alarms]:
+            yield TimelineEvent(
+                kind="alarm",
+                from_s=from_s - begin_s,
+                to_s=end_s if to_s is None else to_s - begin_s,
+                code=code,
+            )
+        for (from_s, is_on), (to_s, _) in pairwise([*self._navigation, (begin_s + end_s, False)]):
+            if is_on:
+                yield TimelineEvent(kind="navigation", from_s=from_s - begin_s, to_s=to_s - begin_s)
+
+
+def _withheld(at_s: Floats, reasons: list[str]) -> Iterable[TimelineEvent]:
+    begin = 0
+    for place in range(1, len(reasons) + 1):
+        if place < len(reasons) and reasons[place] == reasons[begin]:
+            continue
+        end_s = float(at_s[min(place, len(reasons) - 1)])
+        if reasons[begin] and end_s - at_s[begin] >= MIN_WITHHELD_S:
+            yield TimelineEvent(kind="withheld", from_s=float(at_s[begin]), to_s=end_s, code=reasons[begin])
+        begin = place
+
+
+def _displayed_assessment(snapshot: Json) -> Mapping[str, Any]:
+    """Return the assessment of the displayed tool, else of the first: why there is none."""
+    tools = snapshot["tools"]
+    shown = [one for one in tools if one.get("name") == snapshot.get("displayed_tool")] or tools
+    return shown[0].get("assessment", {}) if shown else {}
+
+
+def _places(locations: Iterable[Location]) -> Integers:
+    return np.array([(one.offset, one.length) for one in locations], dtype=np.int64).reshape(-1, 2)
+
+
+def _number(value: object) -> float:
+    return float(value) if isinstance(value, int | float) else np.nan
+
+
+def _status(value: str | None) -> int:
+    return STATUSES.index(Status(value)) if value in STATUSES else -1
+
+
+def _fingerprint(path: Path) -> list[int]:
+    found = path.stat()
+    return [found.st_size, found.st_mtime_ns]

@@ -1,0 +1,150 @@
+"""Recordings on the page: their state on every view, and what the operator does with them."""
+
+import re
+from collections.abc import Callable, Iterator
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.supervised import Supervised, opened
+from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, WatchedPage
+from tests.server.recording.reviewed import DRILLED
+
+pytestmark = pytest.mark.browser
+expect.set_options(timeout=PATIENCE_MS)
+
+Watch = Callable[..., WatchedPage]
+SCREEN, TABLET, PHONE = (1920, 1080), (1180, 820), (390, 844)
+
+
+@pytest.fixture(scope="module")
+def supervised() -> Iterator[Supervised]:
+    """One server with an open case."""
+    server = Supervised()
+    yield server
+    server.process.communicate(timeout=30)
+
+
+def picture(page: Page, name: str) -> None:
+    SCREENSHOTS.mkdir(exist_ok=True)
+    page.screenshot(path=SCREENSHOTS / f"recording-{name}.png")
+
+
+def test_what_the_operator_records_is_said_on_every_view(supervised: Supervised, watch: Watch) -> None:
+    operator = opened(watch, supervised, "o1", "operator/navigate", TABLET)
+    theatre = opened(watch, supervised, "v1", "theatre", SCREEN)
+    phone = opened(watch, supervised, "s1", "supervisor?lang=de", PHONE)
+    pages = {"operator": operator, "theatre": theatre, "supervisor": phone}
+    for page in pages.values():
+        expect(page.get_by_test_id("recording-state")).to_have_attribute("data-state", "off")
+    button = operator.get_by_test_id("record")
+    box = button.bounding_box()
+    assert box is not None
+    assert box["height"] >= 48
+    button.click()
+    # Before the first recording of a case somebody answers for the patient.
+    expect(operator.get_by_role("dialog")).to_contain_text("Has the patient consented to recording?")
+    picture(operator, "consent")
+    operator.get_by_test_id("consent-no").click()
+    expect(operator.get_by_role("dialog")).to_be_hidden()
+    expect(operator.get_by_test_id("recording-state")).to_have_attribute("data-state", "off")
+    button.click()
+    operator.get_by_test_id("consent-yes").click()
+    for name, page in pages.items():
+        state = page.get_by_test_id("recording-state")
+        expect(state).to_have_attribute("data-state", "on")
+        expect(state).to_contain_text("REC 0:")
+        expect(state).to_contain_text("1.0 kB")
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+        picture(page, name)
+    assert theatre.get_by_test_id("record").count() == phone.get_by_test_id("record").count() == 0
+    expect(button).to_have_text("■ Stop recording")
+    button.click()
+    for page in pages.values():
+        expect(page.get_by_test_id("recording-state")).to_have_attribute("data-state", "off")
+    # Once answered, it is not asked again.
+    button.click()
+    expect(operator.get_by_test_id("recording-state")).to_have_attribute("data-state", "on")
+    button.click()
+    expect(operator.get_by_test_id("recording-state")).to_have_attribute("data-state", "off")
+
+
+def shows(page: Page, number: int) -> None:
+    """Wait until an image of the recording stands with its figures."""
+    expect(page.get_by_test_id("review-instant")).to_have_attribute("data-number", str(number))
+    source = f"/images/{number}.jpg"
+    expect(page.get_by_test_id("review-image")).to_have_attribute("src", re.compile(re.escape(source) + "$"))
+
+
+@pytest.mark.parametrize("size", [SCREEN, PHONE], ids=["screen", "phone"])
+def test_any_instant_of_a_recording_is_reviewed(
+    supervised: Supervised, watch: Watch, size: tuple[int, int]
+) -> None:
+    page = opened(watch, supervised, "s1", "supervisor", size)
+    page.get_by_test_id("fold-recordings").locator("summary").click()
+    row = page.locator("[data-name='20260101T000000Z-0000.mcap']")
+    expect(row.get_by_test_id("recording-end")).to_have_text("complete")
+    assert row.get_by_test_id("delete").count() == row.get_by_test_id("protect").count() == 0
+    row.get_by_test_id("review-open").click()
+    shows(page, 0)
+    expect(page.get_by_test_id("review-wall")).to_have_text(re.compile(r"^\d\.\d$"))
+
+    # What happened leads to its instant: image, figures and alarms of then.
+    page.get_by_test_id("review-events").get_by_role("button", name="Alarm · BREACH").click()
+    breach = DRILLED.index("breach")
+    expect(page.get_by_test_id("review-wall")).to_have_text(re.compile(r"^−\d\.\d$"))
+    number = int(page.get_by_test_id("review-instant").get_attribute("data-number") or -1)
+    assert breach <= number < breach + 3
+    page.get_by_test_id("review-after").click()
+    shows(page, number + 1)
+    expect(page.get_by_test_id("review-alarms")).to_contain_text("BREACH")
+    page.get_by_test_id("review-before").click()
+    shows(page, number)
+
+    # A touch on the curves, and a part of them.
+    plot = page.locator(".review-plot")
+    plot.evaluate("plot => plot.scrollIntoView({ block: 'center' })")
+    box = plot.bounding_box()
+    assert box is not None
+    at_y = box["y"] + box["height"] / 2
+    hidden = (DRILLED.index("hidden") + 3.5) / (len(DRILLED) - 1)
+    page.mouse.click(box["x"] + hidden * box["width"], at_y)
+    expect(page.get_by_test_id("review-wall")).to_have_text("—")
+    expect(page.get_by_test_id("review-instant")).to_contain_text("No figures at this instant.")
+    axis = page.locator(".review-axis")
+    expect(axis).to_contain_text("0:03")
+    page.mouse.move(box["x"] + 0.1 * box["width"], at_y)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.5 * box["width"], at_y, steps=5)
+    page.mouse.up()
+    expect(axis).not_to_contain_text("0:03")
+    page.get_by_test_id("review-whole").click()
+    expect(axis).to_contain_text("0:03")
+
+    page.get_by_test_id("review-play").click()
+    shows(page, len(DRILLED) - 1)
+    expect(page.get_by_test_id("review-play")).to_contain_text("Play")
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    for button in page.locator(".recordings button:visible, .recordings a:visible").all():
+        shape = button.bounding_box()
+        assert shape is not None
+        assert min(shape["width"], shape["height"]) >= 44, button.inner_text()
+    page.get_by_test_id("review").scroll_into_view_if_needed()
+    picture(page, f"review-{size[0]}")
+
+
+def test_the_operator_protects_and_deletes_a_recording(supervised: Supervised, watch: Watch) -> None:
+    page = opened(watch, supervised, "o1", "operator/navigate", TABLET)
+    page.get_by_test_id("step-recordings").click()
+    row = page.locator("[data-name='20260101T000000Z-0000.mcap']")
+    row.get_by_test_id("protect").click()
+    expect(row).to_contain_text("protected")
+    expect(row.get_by_test_id("delete")).to_be_hidden()
+    picture(page, "list")
+    row.get_by_test_id("protect").click()
+    with page.expect_download() as download:
+        row.get_by_role("link", name="Download").click()
+    assert download.value.suggested_filename == "20260101T000000Z-0000.mcap"
+    row.get_by_test_id("delete").click()
+    row.get_by_test_id("delete").click()
+    expect(row).to_be_hidden()

@@ -1,0 +1,83 @@
+import { Button, Modal } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { useProcedure } from "../app/procedure";
+import { answered, server } from "../rest/client";
+import { RejectionNote } from "../rest/RejectionNote";
+import { useAction } from "../rest/useAction";
+import { useTexts } from "../texts/TextsContext";
+import { isConsented } from "./consent";
+import { ConsentAnswers } from "./ConsentQuestion";
+import { RecordingState } from "./RecordingState";
+
+/** The state of the recording, and the one button that starts and stops it; without consent it asks first. */
+export function RecordControl(): ReactNode {
+  const texts = useTexts().recording;
+  const { data, refetch } = useProcedure();
+  const doing = useAction();
+  const [isAsking, setIsAsking] = useState(false);
+  const recording = data?.recording ?? null;
+  const isOn = recording?.is_recording === true;
+  const start = async (): Promise<void> => {
+    await doing.run(async () => {
+      await answered(server.POST("/api/recordings/start"));
+    });
+    refetch();
+  };
+  const startOrAsk = async (): Promise<void> => {
+    if (recording !== null && isConsented(recording.consent)) await start();
+    else setIsAsking(true);
+  };
+  const stop = async (): Promise<void> => {
+    await doing.run(async () => {
+      await answered(server.POST("/api/recordings/stop"));
+    });
+    refetch();
+  };
+  return (
+    <>
+      <div className="record-control">
+        <RecordingState />
+        {recording !== null && data?.case_id != null && (isOn || recording.when !== "never") && (
+          <Button
+            size="lg"
+            variant="default"
+            loading={doing.busy}
+            data-testid="record"
+            onClick={() => void (isOn ? stop() : startOrAsk())}
+          >
+            <span aria-hidden="true" className="record-sign" data-state={isOn ? "on" : "off"}>
+              {isOn ? "■" : "●"}
+            </span>{" "}
+            {isOn ? texts.stop : texts.start}
+          </Button>
+        )}
+      </div>
+      {data?.case_id != null && (
+        <Modal
+          opened={isAsking}
+          onClose={() => {
+            setIsAsking(false);
+          }}
+          title={texts.consent.title}
+          centered
+          withCloseButton={false}
+        >
+          <p>{texts.consent.sentence}</p>
+          <ConsentAnswers
+            caseId={data.case_id}
+            onAnswer={(isGiven) => {
+              setIsAsking(false);
+              if (isGiven) void start();
+              else refetch();
+            }}
+          />
+        </Modal>
+      )}
+      {doing.rejection !== null && (
+        <div className="record-rejection">
+          <RejectionNote rejection={doing.rejection} />
+        </div>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,33 @@
+import type { ReactNode } from "react";
+import { useProcedure } from "../app/procedure";
+import { useTexts } from "../texts/TextsContext";
+import { recordingText, type RecordingText } from "./recordingText";
+
+const SYMBOL: Record<RecordingText["state"], string> = { on: "●", off: "○", stopped: "▲" };
+
+/** Whether images and figures are being recorded, in a sign and in words; nothing where the server records nothing. */
+export function RecordingState({ testId = "recording-state" }: { testId?: string }): ReactNode {
+  const texts = useTexts().recording;
+  const { data, rejection } = useProcedure();
+  if (data === null) {
+    return rejection === null ? null : (
+      <p className="recording" data-state="unknown" data-testid={testId}>
+        <span className="recording-title">? {texts.unknown}</span>
+      </p>
+    );
+  }
+  if (data.recording === null) return null;
+  const { state, title, details, warnings, serverReason } = recordingText(data.recording, texts);
+  const all = [...details, ...warnings.map((one) => `▲ ${one}`)].join(" · ");
+  return (
+    <p className="recording" data-state={state} data-testid={testId}>
+      <span className="recording-title">
+        <span aria-hidden="true">{SYMBOL[state]}</span> {title}
+      </span>
+      <span className="recording-details" data-warns={warnings.length > 0} title={all || serverReason}>
+        {all}
+        {serverReason !== "" && <span lang="en">{serverReason}</span>}
+      </span>
+    </p>
+  );
+}

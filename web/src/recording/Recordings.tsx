@@ -1,0 +1,147 @@
+import { Button } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { useProcedure } from "../app/procedure";
+import { ConfirmButton } from "../operator/parts/ConfirmButton";
+import { formatBytes, formatTime } from "../operator/parts/format";
+import { answered, server } from "../rest/client";
+import { QueryStatus } from "../rest/QueryStatus";
+import { RejectionNote } from "../rest/RejectionNote";
+import { useAction } from "../rest/useAction";
+import { useQuery } from "../rest/useQuery";
+import type { components } from "../schema";
+import { interpolate } from "../texts/interpolate";
+import { useTexts } from "../texts/TextsContext";
+import { clockDuration } from "./recordingText";
+import { Review } from "./review/Review";
+
+type Stored = components["schemas"]["RecordingMessage"];
+
+/** The recordings of the open case and the review of one; who may change them protects and deletes. */
+export function Recordings({ mayChange }: { mayChange: boolean }): ReactNode {
+  const texts = useTexts();
+  const own = texts.recording.list;
+  const { data: procedure } = useProcedure();
+  const caseId = procedure?.case_id ?? null;
+  // A recording that begins or ends changes the list.
+  const running = procedure?.recording?.name ?? "";
+  const query = useQuery(
+    async (signal) =>
+      caseId === null ? null : (await answered(server.GET("/api/recordings", { signal }))).recordings,
+    { key: `${caseId ?? ""} ${running}` },
+  );
+  const [chosen, setChosen] = useState<string | null>(null);
+  const { data, isLoading } = query;
+  if (procedure === null || (data === null && isLoading))
+    return <QueryStatus query={{ ...query, rejection: null }} />;
+  if (caseId === null) return <p className="soft">{own.noCase}</p>;
+  if (data === null) return <QueryStatus query={query} />;
+  const reviewed = data.find((one) => one.name === chosen && !one.is_running) ?? null;
+  return (
+    <div className="recordings" data-testid="recordings">
+      {data.length === 0 && <p className="soft">{own.none}</p>}
+      <ul className="recordings-list">
+        {data.map((one, index) => (
+          <RecordingRow
+            key={one.name}
+            recording={one}
+            title={interpolate(own.title, { number: index + 1 })}
+            mayChange={mayChange}
+            isReviewed={one === reviewed}
+            onReview={() => {
+              setChosen(one.name === chosen ? null : one.name);
+            }}
+            onChange={query.refetch}
+          />
+        ))}
+      </ul>
+      {reviewed !== null && <Review key={reviewed.name} name={reviewed.name} />}
+    </div>
+  );
+}
+
+interface RecordingRowProps {
+  recording: Stored;
+  title: string;
+  mayChange: boolean;
+  isReviewed: boolean;
+  onReview: () => void;
+  onChange: () => void;
+}
+
+function RecordingRow(props: RecordingRowProps): ReactNode {
+  const { recording, title, mayChange, isReviewed, onReview, onChange } = props;
+  const texts = useTexts();
+  const own = texts.recording.list;
+  const doing = useAction();
+  const { name, is_protected, is_running, duration_s } = recording;
+  const params = { path: { name } };
+  const protect = async (): Promise<void> => {
+    await doing.run(async () => {
+      const body = { is_protected: !is_protected };
+      await answered(server.PUT("/api/recordings/{name}/protection", { params, body }));
+    });
+    onChange();
+  };
+  const remove = async (): Promise<void> => {
+    await doing.run(async () => {
+      await answered(server.DELETE("/api/recordings/{name}", { params }));
+    });
+    onChange();
+  };
+  const state = is_running ? own.running : duration_s === null ? own.cut : own.complete;
+  return (
+    <li className="recordings-row" data-testid="recording" data-name={name} aria-current={isReviewed}>
+      <p className="recordings-about">
+        <strong>{title}</strong> · {formatTime(recording.began_at, texts.language)}
+        <span className="soft">
+          {duration_s !== null && `${clockDuration(duration_s)} · `}
+          {formatBytes(recording.size_bytes)} · <span data-testid="recording-end">{state}</span>
+          {is_protected && ` · ✓ ${own.isProtected}`}
+        </span>
+      </p>
+      {!is_running && (
+        <div className="row recordings-buttons">
+          <Button
+            size="lg"
+            variant={isReviewed ? "filled" : "default"}
+            data-testid="review-open"
+            onClick={onReview}
+          >
+            {isReviewed ? own.close : own.review}
+          </Button>
+          <Button
+            size="lg"
+            variant="default"
+            component="a"
+            href={`/api/recordings/${name}/file`}
+            download={name}
+          >
+            {own.download}
+          </Button>
+          {mayChange && (
+            <Button
+              size="lg"
+              variant="default"
+              loading={doing.busy}
+              data-testid="protect"
+              onClick={() => void protect()}
+            >
+              {is_protected ? own.unprotect : own.protect}
+            </Button>
+          )}
+          {mayChange && !is_protected && (
+            <ConfirmButton
+              confirmLabel={own.deleteConfirm}
+              loading={doing.busy}
+              testId="delete"
+              onConfirm={() => void remove()}
+            >
+              {own.delete}
+            </ConfirmButton>
+          )}
+        </div>
+      )}
+      <RejectionNote rejection={doing.rejection} />
+    </li>
+  );
+}

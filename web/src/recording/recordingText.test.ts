@@ -1,0 +1,50 @@
+import { expect, test } from "vitest";
+import { recordingEn } from "../texts/recording/en";
+import { recording } from "./recordingBuilder";
+import { clockDuration, recordingText, roughDuration, type Recording } from "./recordingText";
+
+const textOf = (changes: Partial<Recording>): ReturnType<typeof recordingText> =>
+  recordingText(recording(changes), recordingEn);
+
+test("a recording says how long, how large, and how long the disk lasts", () => {
+  expect(textOf({})).toEqual({
+    state: "on",
+    title: "REC 12:34",
+    details: ["1.2 GB", "disk lasts 3 h"],
+    warnings: [],
+    serverReason: "",
+  });
+  expect(textOf({ remaining_s: null }).details).toEqual(["1.2 GB"]);
+});
+
+test("missing images and a disk that is nearly full are warnings", () => {
+  const { details, warnings } = textOf({ missing_images: 12, remaining_s: 599 });
+  expect(details).toEqual(["1.2 GB"]);
+  expect(warnings).toEqual(["disk lasts 9 min", "12 images missing"]);
+});
+
+test("a recording that ended by itself says why, in the page's words where it has some", () => {
+  const problem = { code: "RECORDING_DISK_FULL", message: "0.10 GB are free", remedy: "", context: {} };
+  const ended = { is_recording: false, name: null, problem };
+  expect(textOf(ended)).toMatchObject({ state: "stopped", details: ["the disk is full"], serverReason: "" });
+  const other = textOf({ ...ended, problem: { ...problem, code: "SOMETHING_NEW" } });
+  expect(other).toMatchObject({ state: "stopped", details: [], serverReason: "0.10 GB are free" });
+  expect(textOf({ is_recording: false }).state).toBe("off");
+});
+
+test.each([
+  [0.9, "0:00"],
+  [59.99, "0:59"],
+  [3723, "1:02:03"],
+])("%d s are %s on the clock", (seconds, text) => {
+  expect(clockDuration(seconds)).toBe(text);
+});
+
+test.each([
+  [59, "< 1 min"],
+  [3599, "59 min"],
+  [7199, "1 h"],
+  [4e6, "> 100 h"],
+])("%d s are roughly %s", (seconds, text) => {
+  expect(roughDuration(seconds)).toBe(text);
+});

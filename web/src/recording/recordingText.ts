@@ -1,0 +1,66 @@
+// What is said of the recording that runs, or of the last one. Pure.
+import { formatBytes } from "../operator/parts/format";
+import type { components } from "../schema";
+import { interpolate } from "../texts/interpolate";
+import type { RecordingTexts } from "../texts/recording/en";
+
+export type Recording = components["schemas"]["RecordingStateMessage"];
+
+export interface RecordingText {
+  state: "on" | "off" | "stopped";
+  title: string;
+  details: string[];
+  /** What is not as it should be: images that are missing, a disk that is nearly full. */
+  warnings: string[];
+  /** The server's English where this page has no words for the reason; empty otherwise. */
+  serverReason: string;
+}
+
+/** A disk that lasts no longer than this is a warning. */
+const MIN_REMAINING_S = 600;
+
+export function recordingText(recording: Recording, texts: RecordingTexts): RecordingText {
+  const { problem } = recording;
+  if (!recording.is_recording) {
+    if (problem === null) {
+      return { state: "off", title: texts.off, details: [], warnings: [], serverReason: "" };
+    }
+    const reason = texts.reasons[problem.code];
+    return {
+      state: "stopped",
+      title: texts.stopped,
+      details: reason === undefined ? [] : [reason],
+      warnings: [],
+      serverReason: reason === undefined ? problem.message : "",
+    };
+  }
+  const { remaining_s, missing_images } = recording;
+  const lasts = remaining_s === null ? "" : interpolate(texts.lasts, { time: roughDuration(remaining_s) });
+  const isNearlyFull = remaining_s !== null && remaining_s < MIN_REMAINING_S;
+  return {
+    state: "on",
+    title: `${texts.on} ${clockDuration(recording.duration_s)}`,
+    details: [formatBytes(recording.size_bytes), isNearlyFull ? "" : lasts].filter((one) => one !== ""),
+    warnings: [
+      isNearlyFull ? lasts : "",
+      missing_images > 0 ? interpolate(texts.missing, { count: missing_images }) : "",
+    ].filter((one) => one !== ""),
+    serverReason: "",
+  };
+}
+
+/** "0:07", "12:34", "1:02:03". */
+export function clockDuration(seconds: number): string {
+  const all = Math.max(0, Math.floor(seconds));
+  const [h, min, s] = [Math.floor(all / 3600), Math.floor(all / 60) % 60, all % 60];
+  const two = (value: number): string => String(value).padStart(2, "0");
+  return h > 0 ? `${h}:${two(min)}:${two(s)}` : `${min}:${two(s)}`;
+}
+
+/** Rounded down to one unit, so that nobody counts on more than there is. */
+export function roughDuration(seconds: number): string {
+  if (seconds < 60) return "< 1 min";
+  if (seconds < 3600) return `${Math.floor(seconds / 60)} min`;
+  const hours = Math.floor(seconds / 3600);
+  return hours < 100 ? `${hours} h` : "> 100 h";
+}

@@ -1,0 +1,64 @@
+// What the server says of a recording, as the curves and the cursor need it. Pure.
+import type { Status } from "../../live/messages";
+import { FIGURES, type FigureName } from "../../panes/limits";
+import type { components } from "../../schema";
+import { MAX_STEP_MS, type Sample, type TrendFigure } from "../../trend/history";
+import type { Span } from "./span";
+
+export type Timeline = components["schemas"]["TimelineMessage"];
+export type Curves = Timeline["curves"];
+export type RecordedEvent = Timeline["events"][number];
+
+/** So many samples a request; a screen has hardly more columns. */
+export const MAX_SAMPLES = 1000;
+
+/** Samples of a curve in ms since the first image; a figure that was withheld has no value. */
+export function samplesOf(curves: Curves): Sample[] {
+  return curves.at_s.map((atS, row) => ({
+    atMs: 1000 * atS,
+    figures: Object.fromEntries(FIGURES.map((name) => [name, figureAt(curves, name, row)])) as Record<
+      FigureName,
+      TrendFigure
+    >,
+  }));
+}
+
+function figureAt(curves: Curves, name: FigureName, row: number): TrendFigure {
+  const { values, limits, statuses } = curves[name];
+  const status: Status = statuses[row] ?? "unlimited";
+  return { value: values[row] ?? null, limit: limits[row] ?? null, status };
+}
+
+/** Samples of a long span stand for many images, and are further apart. */
+export const maxStepMs = ({ fromS, toS }: Span): number =>
+  Math.max(MAX_STEP_MS, (2500 * (toS - fromS)) / MAX_SAMPLES);
+
+/** The image that was taken at a time, between the samples by their distance. */
+export function numberAt({ at_s, numbers }: Curves, atS: number, images: number): number {
+  let [low, high] = [0, at_s.length - 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if ((at_s[middle] ?? 0) <= atS) low = middle;
+    else high = middle;
+  }
+  const [beforeS, afterS] = [at_s[low] ?? 0, at_s[high] ?? 0];
+  const [before, after] = [numbers[low] ?? 0, numbers[high] ?? 0];
+  const share = afterS > beforeS ? (atS - beforeS) / (afterS - beforeS) : 0;
+  const number = Math.round(before + share * (after - before));
+  return Math.min(Math.max(number, 0), Math.max(images - 1, 0));
+}
+
+/** The rows in which these stand without covering one another, the first begun first; each has at least one. */
+export function rowsOf(events: readonly RecordedEvent[]): RecordedEvent[][] {
+  const rows: RecordedEvent[][] = [];
+  for (const event of events) {
+    const free = rows.find((row) => (row.at(-1)?.to_s ?? Infinity) <= event.from_s);
+    if (free === undefined) rows.push([event]);
+    else free.push(event);
+  }
+  return rows.length === 0 ? [[]] : rows;
+}
+
+/** Whether anything of it lies in the span. */
+export const isWithin = ({ from_s, to_s }: RecordedEvent, { fromS, toS }: Span): boolean =>
+  (to_s ?? from_s) >= fromS && from_s <= toS;

@@ -1,0 +1,52 @@
+// An image of a recording with its results, shown together: an image never stands beside figures of another.
+import { useEffect, useState } from "react";
+import { answered, Rejection, server } from "../../rest/client";
+import type { components } from "../../schema";
+
+export type RecordedInstant = components["schemas"]["RecordedInstantMessage"];
+
+export interface ShownInstant {
+  instant: RecordedInstant | null;
+  /** Of its image; null where it cannot be decoded. */
+  source: string | null;
+  rejection: Rejection | null;
+}
+
+/** The one before stays until the wanted one has come; one that is not wanted any more is left. */
+export function useShownInstant(name: string, number: number): { shown: ShownInstant; isLoading: boolean } {
+  const [shown, setShown] = useState<ShownInstant & { number: number }>({
+    instant: null,
+    source: null,
+    rejection: null,
+    number: -1,
+  });
+  useEffect(() => {
+    const stop = new AbortController();
+    const load = async (): Promise<void> => {
+      const params = { path: { name, number } };
+      const source = `/api/recordings/${name}/images/${number}.jpg`;
+      const image = new Image();
+      image.src = source;
+      const decoding = image.decode().then(
+        () => source,
+        () => null,
+      );
+      try {
+        const instant = await answered(
+          server.GET("/api/recordings/{name}/instants/{number}", { params, signal: stop.signal }),
+        );
+        const decoded = await decoding;
+        if (!stop.signal.aborted) setShown({ instant, source: decoded, rejection: null, number });
+      } catch (error) {
+        if (stop.signal.aborted) return;
+        if (!(error instanceof Rejection)) throw error;
+        setShown({ instant: null, source: await decoding, rejection: error, number });
+      }
+    };
+    void load();
+    return () => {
+      stop.abort();
+    };
+  }, [name, number]);
+  return { shown, isLoading: shown.number !== number };
+}
