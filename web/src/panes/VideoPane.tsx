@@ -5,7 +5,8 @@ import { formatNumber } from "../live/rounding";
 import { MarksLayer } from "../marks/MarksLayer";
 import { useTexts } from "../texts/TextsContext";
 import { Announcer } from "./Announcer";
-import { clearPicture, drawPicture } from "./drawPicture";
+import { clearBitmap } from "./bitmapCanvas";
+import { drawPicture } from "./drawPicture";
 import { Moves } from "./Moves";
 import { PaintRateLimiter } from "./paintRateLimiter";
 import { Pane } from "./Pane";
@@ -59,7 +60,7 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
     setData(stage.current, "live", String(video.live));
     // Also what was still being decoded when its time was over.
     if (painted.current && !video.live && canvas.current) {
-      clearPicture(canvas.current);
+      clearBitmap(canvas.current);
       painted.current = false;
     }
     if (!limiter.current.isDue(nowMs, video.live ? `${video.imageNumber}` : "")) return;

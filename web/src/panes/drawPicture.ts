@@ -1,5 +1,5 @@
 // From JPEG bytes to the canvas, past React.
-import { clearBitmap, presentBitmap } from "./bitmapCanvas";
+import { presentBitmap } from "./bitmapCanvas";
 
 /** Draws the picture, and tells when it is decoded; false when it is no picture, or its line has gone meanwhile. */
 export async function drawPicture(
@@ -22,9 +22,4 @@ export async function drawPicture(
   } finally {
     bitmap.close();
   }
-}
-
-/** Leaves nothing of the last picture. */
-export function clearPicture(canvas: HTMLCanvasElement): void {
-  clearBitmap(canvas);
 }

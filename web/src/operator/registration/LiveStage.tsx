@@ -3,7 +3,8 @@ import { useEffect, useLayoutEffect, useRef, useState, type ReactNode, type RefO
 import { useLive, usePainter } from "../../live/LiveContext";
 import { formatNumber } from "../../live/rounding";
 import { Announcer } from "../../panes/Announcer";
-import { clearPicture, drawPicture } from "../../panes/drawPicture";
+import { clearBitmap } from "../../panes/bitmapCanvas";
+import { drawPicture } from "../../panes/drawPicture";
 import { setData, setText } from "../../panes/setText";
 import { VideoCover } from "../../panes/VideoCover";
 import { useTexts } from "../../texts/TextsContext";
@@ -80,7 +81,7 @@ export function LiveStage({
         ? `${texts.video.image} ${video.imageNumber} · ${texts.video.age} ${formatNumber(video.ageMs, 0)} ms`
         : "",
     );
-    if (!video.live && canvas.current) clearPicture(canvas.current);
+    if (!video.live && canvas.current) clearBitmap(canvas.current);
   });
 
   const hold = (): void => {
