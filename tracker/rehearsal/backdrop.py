@@ -22,6 +22,8 @@ Image32 = npt.NDArray[np.float32]
 
 # Margin around the reference's board in which its marker's edges are measured.
 REFERENCE_MARGIN_PX = 8
+# The default light flickers over 9 levels; 12 pictures of 1280x720 take 33 MB.
+MAX_LIT_PICTURES = 12
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,8 +69,7 @@ class Backdrop:
         self._sensor = sensor
         self.depth_mm, self.points_mm = still.depth_mm, still.points_mm
         self._picture = still.picture
-        # The light changes every few images.
-        self._lit: tuple[float, Image8] = (1.0, self._picture)
+        self._lit: dict[float, Image8] = {1.0: self._picture}
         self._still_noise = self._sensor.still_noise(self._picture)
         self._reference_box = reference_box
 
@@ -83,10 +84,12 @@ class Backdrop:
     def _lit_at(self, at_s: float) -> Image8:
         """Return the picture in the illumination of this time; read-only."""
         flicker = self._sensor.flicker_at(at_s)
-        if flicker != self._lit[0]:
+        if flicker not in self._lit:
+            if len(self._lit) == MAX_LIT_PICTURES:
+                del self._lit[next(iter(self._lit))]
             lit = cv2.convertScaleAbs(self._picture, alpha=flicker)
-            self._lit = (flicker, np.asarray(lit, dtype=np.uint8))
-        return self._lit[1]
+            self._lit[flicker] = np.asarray(lit, dtype=np.uint8)
+        return self._lit[flicker]
 
 
 class Backdrops:

@@ -5,6 +5,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array
+from tracker.rehearsal.layer_kernels import Portrait
 
 Image8 = npt.NDArray[np.uint8]
 Image32 = npt.NDArray[np.float32]
@@ -44,9 +45,11 @@ RADIUS_MM = np.array(
     ]
 )
 PORTRAIT_PER_MM = 4.0
-# More than the body: looking up beyond a picture's border takes OpenCV twice as long.
-PORTRAIT_HALF_MM = 16.0
+PORTRAIT_HALF_MM = 10.0
 PORTRAIT_START_MM, PORTRAIT_END_MM = -3.0, 330.0
+
+# Only this much of the drill ever comes near the bone.
+NEAR_BONE_MM = 78.0
 
 BOARD_HALF_MM = 17.5
 BOARD_PER_MM = 16.0
@@ -55,26 +58,26 @@ BOARD_THICK_MM = 1.6
 BOARD_EDGE_GREY = 0.50
 
 
-def drill_portrait() -> Image8:
-    """Return the side view of the drill body, BGR and coverage, premultiplied.
-
-    Columns run along the axis from `PORTRAIT_START_MM`, rows across it from -`PORTRAIT_HALF_MM`, both
-    `PORTRAIT_PER_MM` to a millimetre.
-    """
+def drill_portrait() -> Portrait:
+    """Return the side view of the drill's body."""
     t, d = _stations()
     radius = np.interp(t, PROFILE_MM, RADIUS_MM, left=0.0)[None, :]
     across = np.clip(d[:, None] / np.maximum(radius, 1e-6), -1.0, 1.0)
     coverage = np.clip((radius - np.abs(d[:, None])) * PORTRAIT_PER_MM + 0.5, 0.0, 1.0) * (radius > 0)
     colour = _colour(t[None, :] + 0 * across, across)
-    return _premultiplied(colour, coverage)
-
-
-def drill_bulge_mm(shown_from_mm: float) -> Image32:
-    """Return the surface height before the axis over the portrait; infinite outside the body."""
-    t, d = _stations()
-    radius = np.interp(t, PROFILE_MM, RADIUS_MM, left=0.0)[None, :]
+    picture = _premultiplied(colour, coverage)
+    shown = np.flatnonzero(picture[..., 3].any(axis=1))
     bulge = np.sqrt(np.maximum(radius**2 - d[:, None] ** 2, 0.0))
-    return np.where(t[None, :] > shown_from_mm, 1e6, bulge).astype(np.float32)
+    return Portrait(
+        picture=picture,
+        bulge_mm=bulge.astype(np.float32),
+        first_row=int(shown[0]) - 1,
+        last_row=int(shown[-1]) + 1,
+        near_columns=round((NEAR_BONE_MM - PORTRAIT_START_MM) * PORTRAIT_PER_MM),
+        start_mm=PORTRAIT_START_MM,
+        half_mm=PORTRAIT_HALF_MM,
+        per_mm=PORTRAIT_PER_MM,
+    )
 
 
 def board_face(marker_image: Image8, half_mm: float = BOARD_HALF_MM) -> Image8:

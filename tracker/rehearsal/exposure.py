@@ -9,16 +9,15 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tracker.rehearsal.lens import Box, Pixels
+from tracker.rehearsal.layer_kernels import composite
+from tracker.rehearsal.lens import Box
 from tracker.rehearsal.point_spread import PointSpread
-from tracker.rehearsal.sensor import BANK_MARGIN, COARSE_GAIN, STILL_SHIFT_PX, Sensor
+from tracker.rehearsal.sensor import BANK_MARGIN, STILL_SHIFT_PX, Sensor
 from tracker.rehearsal.strips import Strips
 
 Image8 = npt.NDArray[np.uint8]
-Image16 = npt.NDArray[np.int16]
 
 BAND_PX = 96
-HALF_COVERAGE = 127
 
 
 class Exposure:
@@ -58,7 +57,9 @@ class Exposure:
         if self._sensor.is_noisy:
             lit = self._lit[y : y + height, x : x + width]
             part = self.image[y : y + height, x : x + width]
-            cv2.add(lit, self._noise(lit[..., 1], x, y), dst=part, dtype=cv2.CV_8U)
+            row, column = self._bank_at
+            noise = self._sensor.noise(lit[..., 1], row + y, column + x)
+            cv2.add(lit, noise, dst=part, dtype=cv2.CV_8U)
 
     def dim(self, box: Box, light: Image8) -> None:
         """Multiply a part of the image by an illumination (h, w); 255 is full."""
@@ -78,29 +79,7 @@ class Exposure:
             spread: its point spread function; None leaves it sharp.
             margin_px: margin of the layer around the strips; the kernel radius if there are several strips.
         """
-        soft = strips.inner(layer if spread is None else spread.of(layer), margin_px)
-        if soft.shape[2] == 2:
-            grey, coverage = cv2.split(soft)
-            gain = strips.taken_from(self._sensor.gain)
-            levels = cv2.multiply(grey, gain, scale=self._flicker, dtype=cv2.CV_8U)
-            colour = cv2.merge([levels] * 3)
-        else:
-            coverage = cv2.extractChannel(soft, 3)
-            bgr = cv2.cvtColor(soft, cv2.COLOR_BGRA2BGR)
-            coarse = cv2.merge([strips.taken_from(self._sensor.coarse_gain)] * 3)
-            colour = cv2.multiply(bgr, coarse, scale=self._flicker / COARSE_GAIN)
-            levels = cv2.extractChannel(colour, 1)
-        uncovered = cv2.merge([255 - coverage] * 3)
-        out = cv2.multiply(strips.taken_from(self.image), uncovered, scale=1.0 / 255.0)
-        out = cv2.add(out, colour)
-        if self._sensor.is_noisy:
-            # The transparent part already has its noise.
-            _, where = cv2.threshold(coverage, HALF_COVERAGE, 255, cv2.THRESH_BINARY)
-            x, y = strips.places[0]
-            out = cv2.add(out, self._noise(levels, max(x, 0), y, where), dtype=cv2.CV_8U)
-        strips.put_into(self.image, np.asarray(out, dtype=np.uint8))
-
-    def _noise(self, levels: Pixels, x: int, y: int, where: Pixels | None = None) -> Image16:
-        """Return fresh noise for a part of the image, scaled by its grey or green."""
-        row, column = self._bank_at
-        return self._sensor.noise(levels, row + y, column + x, where)
+        soft = layer if spread is None else spread.of(layer)
+        light = (self._sensor.gain, self._flicker)
+        noise = self._sensor.noise_table(*self._bank_at)
+        composite(self.image, strips.places, soft, margin_px, light, noise)

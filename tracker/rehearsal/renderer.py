@@ -1,32 +1,29 @@
 """Rendering of theatre images: static scenery with the moving drill."""
 
-from dataclasses import replace
 from typing import TypeVar
 
 import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tracker.geometry import Array, Camera, Marker, Rigid, Tool, skew
+from tracker.geometry import Array, Camera, Marker, Rigid, Tool
 from tracker.rehearsal.backdrop import Backdrops, StillStore
 from tracker.rehearsal.drill import (
     BOARD_HALF_MM,
     BOARD_PER_MM,
     BOARD_THICK_MM,
     PORTRAIT_END_MM,
-    PORTRAIT_HALF_MM,
-    PORTRAIT_PER_MM,
     PORTRAIT_START_MM,
     PROFILE_MM,
     RADIUS_MM,
     board_face,
-    drill_bulge_mm,
     drill_portrait,
 )
 from tracker.rehearsal.events import EventKind
 from tracker.rehearsal.exposure import Exposure
 from tracker.rehearsal.lamp import TO_LAMP, lit, rod_shadow
-from tracker.rehearsal.lens import NODE_PX, looked_up
+from tracker.rehearsal.layer_kernels import Axis, draw_body
+from tracker.rehearsal.lens import MARGIN_NODES, NODE_PX
 from tracker.rehearsal.placement import Room
 from tracker.rehearsal.point_spread import DEFOCUS_PX, PointSpread, point_spread
 from tracker.rehearsal.printed_plane import PrintedPlane, Sampled
@@ -44,9 +41,6 @@ STATION_MM = 8.0
 # The tracker measures the marker: fewer samples double its edge error, to 0.004 px.
 MARKER_SAMPLES = 3
 SPEED_OVER_S = 0.002
-# Only this much of the drill ever comes near the bone.
-NEAR_BONE_MM = 78.0
-NEAR_BONE_PX = (NEAR_BONE_MM - PORTRAIT_START_MM) * PORTRAIT_PER_MM
 SHADOW_GROUND_MM, SHADOW_REACH_MM = 14.0, 260.0
 # The board is wider than the body and throws most of its shadow.
 SHADOW_PROFILE_MM = np.array([*PROFILE_MM[:17], 102, 102.5, 137.5, 138, 168])
@@ -66,14 +60,14 @@ class Renderer:
         self._theatre = theatre
         self.backdrops = cached if cached is not None and cached.show(theatre) else Backdrops(theatre, store)
         self._rays = self.backdrops.rays
-        self.backdrops.at(theatre.placement_at(0.0))
         self._portrait = drill_portrait()
-        self._bulge_mm = drill_bulge_mm(NEAR_BONE_MM)
         self._marker_board = PrintedPlane(
             board_face(theatre.marker.image),
             per_mm=BOARD_PER_MM,
             middle_px=(BOARD_HALF_MM * BOARD_PER_MM,) * 2,
         )
+        # Compiles or loads what draws the body, so that no image is delayed.
+        self.image_at(0.0)
 
     def prepare(self) -> None:
         """Render all static scenery in advance, so that no image is delayed."""
@@ -117,9 +111,10 @@ class Renderer:
         cloth = cloth_px(self._theatre.camera, camera_from_square, half_mm)
         box = self._rays.box_around(cloth, _reach_px(spread))
         if box is not None:
-            layer = np.zeros((box[3], box[2], 4), dtype=np.uint8)
+            strips = Strips.of_box(box)
+            layer = strips.blank()
             draw_cloth(layer, cloth - box[:2])
-            exposure.lay_over(Strips.of_box(box), layer, spread)
+            exposure.lay_over(strips, layer, spread)
 
     def _outline_px(self, camera_from_tool: Rigid[Camera, Tool]) -> Array:
         """Return both sides (2, n, 2) of the drill body in the image."""
@@ -154,17 +149,9 @@ class Renderer:
             return
         margin_px = 0 if spread is None else -(-spread.reach_px // NODE_PX) * NODE_PX
         drawn = strips.grown(margin_px)
-        nodes = drawn.nodes(self._rays)
-        on_portrait = _on_portrait(self._rays.nodes[nodes], self._rays.squares[nodes], camera_from_tool)
-        column, row, axis_mm = cv2.split(drawn.from_nodes(on_portrait))
-        layer = looked_up(self._portrait, column, row)
-        # The bone is near in the first strips or in the last ones.
-        near = np.flatnonzero(on_portrait[..., 0].min(axis=(1, 2)) < NEAR_BONE_PX)
-        if len(near) > 0:
-            some = replace(drawn, places=drawn.places[near[0] : near[-1] + 1])
-            at = np.s_[near[0] * drawn.height : (near[-1] + 1) * drawn.height]
-            bulge_mm = looked_up(self._bulge_mm, column[at], row[at])
-            _hide_behind(layer[at], some.taken_from(still_mm, np.inf), axis_mm[at] - bulge_mm)
+        layer = drawn.blank()
+        axis = Axis(camera_from_tool.translation_mm, -camera_from_tool.rotation[:, 2])
+        draw_body(layer, drawn.places, self._rays.nodes, MARGIN_NODES, self._portrait, axis, still_mm)
         exposure.lay_over(strips, layer, spread, margin_px=margin_px)
 
     def _lay_board(
@@ -231,27 +218,3 @@ def _reach_px(spread: PointSpread | None) -> int:
 
 def _board_corners(z_mm: float) -> Array:
     return np.array([[-1, 1, 0], [1, 1, 0], [1, -1, 0], [-1, -1, 0]]) * BOARD_HALF_MM + [0.0, 0.0, z_mm]
-
-
-def _hide_behind(layer: Image8, still_mm: Image32, surface_mm: Image32) -> None:
-    """Remove from a layer (h, w, 4) at this depth what static objects occlude."""
-    # From a third of a millimetre behind them to a third before.
-    seen = np.clip((still_mm - surface_mm) * np.float32(382.5) + np.float32(127.5), 0.0, 255.0)
-    cv2.multiply(layer, cv2.merge([seen.astype(np.uint8)] * 4), dst=layer, scale=1.0 / 255.0)
-
-
-def _on_portrait(rays: Image32, squares: Image32, camera_from_tool: Rigid[Camera, Tool]) -> Image32:
-    """Return where rays (n, r, c, 3) of squared lengths (n, r, c) pass the drill's axis.
-
-    Returns:
-        Column and row of the portrait, and the depth of the axis in mm (n, r, c, 3).
-    """
-    tip, back = camera_from_tool.translation_mm, -camera_from_tool.rotation[:, 2]
-    slant = float(back @ tip)
-    functions = np.stack([back, tip, skew(back) @ tip])
-    toward, reach, beside = cv2.split(cv2.transform(rays.reshape(-1, rays.shape[2], 3), functions))
-    lean = np.maximum(squares.reshape(toward.shape) - toward * toward, np.float32(1e-6))
-    depth = (reach - toward * slant) / lean
-    column = (depth * toward - (slant + PORTRAIT_START_MM)) * PORTRAIT_PER_MM - 0.5
-    row = (beside / np.sqrt(lean) + PORTRAIT_HALF_MM) * PORTRAIT_PER_MM - 0.5
-    return np.asarray(cv2.merge([column, row, depth]), dtype=np.float32).reshape(rays.shape)

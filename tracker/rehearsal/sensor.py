@@ -13,10 +13,8 @@ Image32 = npt.NDArray[np.float32]
 
 READ_NOISE, SHOT_NOISE_PER_LEVEL = 0.6, 0.012
 BANK_MARGIN = 256
-# What is drawn may reach beyond the image by so much.
-BEYOND_PX = 64
 BANK_SCALE, SIGMA_SCALE = 64, 16
-COARSE_GAIN = 128
+NOISE_SCALE = 1.0 / (BANK_SCALE * SIGMA_SCALE)
 FLICKER_HZ, FLICKER_RATIO = (0.17, 0.41), 0.008
 # Half a grey level at full scale: below this flicker step the static scenery is reused.
 FLICKER_STEP = 1.0 / 512.0
@@ -29,7 +27,6 @@ class Sensor:
 
     Attributes:
         gain: (h, w) of the illumination.
-        coarse_gain: (h, w) the same in 1/128, for unmeasured parts.
         is_noisy: whether there is any noise.
     """
 
@@ -39,9 +36,8 @@ class Sensor:
         self._settings = settings
         self._flicker_rad = random.uniform(0.0, 2.0 * np.pi, 2)
         self.gain = _gain(settings, random)
-        self.coarse_gain = np.rint(self.gain * COARSE_GAIN).astype(np.uint8)
         self.is_noisy = settings.noise > 0.0
-        size = (height + BANK_MARGIN + BEYOND_PX, width + BANK_MARGIN + BEYOND_PX, 3)
+        size = (height + BANK_MARGIN, width + BANK_MARGIN, 3)
         bank = random.standard_normal(size, dtype=np.float32)
         self._bank = np.rint(bank * BANK_SCALE).astype(np.int16)
         levels = np.arange(256)
@@ -60,23 +56,23 @@ class Sensor:
         gain = 1.0 + FLICKER_RATIO * self._settings.light * float(waves.mean())
         return round(gain / FLICKER_STEP) * FLICKER_STEP
 
-    def noise(self, levels: Pixels, row: int, column: int, where: Pixels | None = None) -> Image16:
-        """Return noise (h, w, 3) for grey (h, w) or BGR (h, w, 3), from this position of the noise bank.
-
-        There is none outside of `where` (h, w), which takes grey values.
-        """
+    def noise(self, levels: Pixels, row: int, column: int) -> Image16:
+        """Return noise (h, w, 3) for grey (h, w) or BGR (h, w, 3), from this position of the noise bank."""
         sigmas = cv2.LUT(levels, self._sigma_of_level)
-        if where is not None:
-            sigmas = cv2.bitwise_and(sigmas, sigmas, mask=where)
         if levels.ndim == 2:
             sigmas = cv2.merge([sigmas] * 3)
-        # A strip that reaches out of the image would reach out of the bank, too.
         height, width = levels.shape[:2]
-        row = max(0, min(row, len(self._bank) - height))
-        column = max(0, min(column, self._bank.shape[1] - width))
         grains = self._bank[row : row + height, column : column + width]
-        noise = cv2.multiply(sigmas, grains, scale=1.0 / (BANK_SCALE * SIGMA_SCALE))
-        return np.asarray(noise, dtype=np.int16)
+        return np.asarray(cv2.multiply(sigmas, grains, scale=NOISE_SCALE), dtype=np.int16)
+
+    def noise_table(self, row: int, column: int) -> tuple[Image16, Image16, float]:
+        """Return the noise of an image that starts at this position of the noise bank.
+
+        Returns:
+            Standard deviation of each grey level (256,), noise of standard deviation 1 (h, w, 3), and the
+            scale of their product.
+        """
+        return self._sigma_of_level, self._bank[row:, column:], NOISE_SCALE
 
     def still_noise(self, picture: Image8) -> Image8:
         """Return noise (h + 8, w + 8, 3) for this picture (h, w, 3), valid within its margin.
