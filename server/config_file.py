@@ -320,7 +320,7 @@ def _config_error(mistakes: list[Mistake], file: Path | None) -> ConfigError:
     return ConfigError(
         "CONFIG_INVALID",
         message.rstrip("."),
-        "Correct it and start again; config.yaml in the project lists every key with its default.",
+        "Correct it and start again; coaxial config prints every key with its default.",
         {
             "file": str(file) if file else "",
             "mistakes": [{"where": m.where, "key": m.key, "message": m.sentence} for m in mistakes],

@@ -24,6 +24,7 @@ from server.cli.time_offset_commands import time_offset
 from server.cli.tool_commands import pivot, spin, tip_check
 from server.cli.track_help import TRACK_HELP
 from server.cli.verify_commands import verify
+from server.installation import default_settings, prepare_process
 
 BAD_INPUT = 2
 UNKNOWN_VERSION = "0.1.0"
@@ -225,6 +226,12 @@ def track(
     raise typer.Exit(status)
 
 
+@app.command(name="config")
+def default_config() -> None:
+    """Print the settings file: every key with its meaning and its default."""
+    typer.echo(default_settings(), nl=False)
+
+
 def coaxial_version() -> str:
     """The installed version."""
     try:
@@ -235,6 +242,7 @@ def coaxial_version() -> str:
 
 def main() -> None:
     """Run `coaxial`. Print a `NavigationError` as one sentence with its remedy and exit with status 2."""
+    prepare_process()
     try:
         app(prog_name="coaxial")
     except Exception as error:
