@@ -152,10 +152,16 @@ docs: $(STAMPS)/guide ## build the user guide, which the server shows at /docs/
 
 .PHONY: wheel
 wheel: $(STAMPS)/page $(STAMPS)/guide ## a wheel and a source archive with page and guide inside, into dist
-	@rm -rf dist
+	@rm -f dist/coaxial-*
 	@$(STEP) wheel "Building wheel and source archive" "Look at [tool.hatch] in pyproject.toml." \
 		$(PYTHON_IN_VENV) -m hatchling build -d dist -t sdist -t wheel
 	@ls dist/coaxial-*
+
+.PHONY: sbom
+sbom: $(STAMPS)/dev $(STAMPS)/page-packages ## the software bill of materials (CycloneDX) of what runs, into dist
+	@$(NPM) sbom --sbom-format cyclonedx --package-lock-only >.venv/log/page.cdx.json
+	@$(PYTHON_IN_VENV) .make/sbom.py .venv/log/page.cdx.json dist/coaxial.cdx.json
+	@echo dist/coaxial.cdx.json
 
 .PHONY: lock
 lock: $(STAMPS)/dev ## write the locks again (UPGRADE=--upgrade takes the newest of everything)
