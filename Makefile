@@ -157,6 +157,10 @@ wheel: $(STAMPS)/page $(STAMPS)/guide ## a wheel and a source archive with page 
 		$(PYTHON_IN_VENV) -m hatchling build -d dist -t sdist -t wheel
 	@ls dist/coaxial-*
 
+.PHONY: image
+image: ## the container image, with buildah, podman or docker
+	@sh .make/image
+
 .PHONY: sbom
 sbom: $(STAMPS)/dev $(STAMPS)/page-packages ## the software bill of materials (CycloneDX) of what runs, into dist
 	@$(NPM) sbom --sbom-format cyclonedx --package-lock-only >.venv/log/page.cdx.json

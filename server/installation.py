@@ -15,12 +15,18 @@ from server.home_folder import home_folder
 DISTRIBUTION = "coaxial"
 PACKAGE = Path(str(files("server")))
 CODE_CACHE_VARIABLE = "NUMBA_CACHE_DIR"
+UNIT_EXECUTABLE = "/opt/coaxial/bin/coaxial"
 SAFE_PATH_VARIABLE = "PYTHONSAFEPATH"
 
 
 def file_candidates(packaged: str, in_checkout: str) -> tuple[Path, Path]:
     """Return where a file or folder lies in the installed package, and where it lies in a checkout."""
     return PACKAGE / packaged, PACKAGE.parent / in_checkout
+
+
+def service_unit(executable: Path) -> str:
+    """Return a systemd unit that starts this `coaxial`."""
+    return (PACKAGE / "coaxial.service").read_text(encoding="utf-8").replace(UNIT_EXECUTABLE, str(executable))
 
 
 def default_settings() -> str:
