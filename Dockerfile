@@ -28,7 +28,7 @@ COPY requirements.lock requirements-build.lock ./
 RUN python -m venv --without-pip /opt/coaxial \
     && python -m pip --python /opt/coaxial install --require-hashes --no-deps -r requirements.lock \
     && python -m pip install --require-hashes --no-deps -r requirements-build.lock
-COPY pyproject.toml README.md LICENSE ./
+COPY pyproject.toml README.md LICENSE config.yaml ./
 COPY tracker tracker
 COPY server server
 COPY --from=page /build/web/dist web/dist

@@ -1,5 +1,5 @@
 # Coaxial. `make help` lists what there is; `make run` and `make test` do all their own set-up.
-# Everything that is made lies in .venv, web/node_modules, web/dist and docs/site; `make clean` takes it away again.
+# Everything that is made lies in .venv, dist, web/node_modules, web/dist and docs/site; `make clean` takes it away again.
 # The home folder is neither read nor written; with the stamps in .venv a second start is immediate and needs no network.
 # Cases lie in .coaxial, if COAXIAL_HOME names no other folder; nothing here takes them away.
 
@@ -150,13 +150,30 @@ house: ready $(STAMPS)/dev ## figures on the structure: sizes, small files, circ
 .PHONY: docs
 docs: $(STAMPS)/guide ## build the user guide, which the server shows at /docs/
 
+.PHONY: wheel
+wheel: $(STAMPS)/page $(STAMPS)/guide ## a wheel and a source archive with page and guide inside, into dist
+	@rm -f dist/coaxial-*
+	@$(STEP) wheel "Building wheel and source archive" "Look at [tool.hatch] in pyproject.toml." \
+		$(PYTHON_IN_VENV) -m hatchling build -d dist -t sdist -t wheel
+	@ls dist/coaxial-*
+
+.PHONY: image
+image: ## the container image, with buildah, podman or docker
+	@sh .make/image
+
+.PHONY: sbom
+sbom: $(STAMPS)/dev $(STAMPS)/page-packages ## the software bill of materials (CycloneDX) of what runs, into dist
+	@$(NPM) sbom --sbom-format cyclonedx --package-lock-only >.venv/log/page.cdx.json
+	@$(PYTHON_IN_VENV) .make/sbom.py .venv/log/page.cdx.json dist/coaxial.cdx.json
+	@echo dist/coaxial.cdx.json
+
 .PHONY: lock
 lock: $(STAMPS)/dev ## write the locks again (UPGRADE=--upgrade takes the newest of everything)
 	@UPGRADE="$(UPGRADE)" sh .make/lock
 
 .PHONY: clean
 clean: ## take away everything that was made, but no case
-	rm -rf .venv docs/site docs/.cache web/node_modules web/dist web/*.tsbuildinfo .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
+	rm -rf .venv dist docs/site docs/.cache web/node_modules web/dist web/*.tsbuildinfo .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
 	find tracker server tests -name __pycache__ -type d -prune -exec rm -rf {} +
 	@if [ -e .coaxial ]; then echo "Kept: .coaxial, the folder with the cases. Remove it by hand to lose them."; fi
 

@@ -58,6 +58,7 @@ from server.recording.review import RecordingReview
 from server.recording.service import RecordingService
 from server.scene import mount_scene
 from server.security import HostGuard, KnownHosts, PeopleService, SecurityHeaders, SessionGuard
+from server.sinks import Sinks
 from server.store import CaseStore
 from server.stream.connection import abort_connection
 from server.stream.mjpeg import Video
@@ -93,6 +94,7 @@ class AppParts:
         people: Sessions and invitations; None without access control, as in tests.
         openigtlink: Listening socket of OpenIGTLink; None if it is off.
         recordings: Recordings of the open case; None without them.
+        sinks: Plug-ins that receive each message; None without them.
     """
 
     hub: LiveHub
@@ -108,6 +110,7 @@ class AppParts:
     people: PeopleService | None = None
     openigtlink: socket.socket | None = None
     recordings: RecordingService | None = None
+    sinks: Sinks | None = None
 
 
 def create_app(parts: AppParts) -> FastAPI:
@@ -157,7 +160,13 @@ def create_app(parts: AppParts) -> FastAPI:
     _add_supervision(app, parts, viewers)
     app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))
     app.include_router(gates_router(config))
-    app.include_router(health_router(hub, stale_after_ms=limits.video_stale_after_ms))
+    app.include_router(
+        health_router(
+            hub,
+            stale_after_ms=limits.video_stale_after_ms,
+            sinks=lambda: [] if parts.sinks is None else parts.sinks.status,
+        )
+    )
     app.include_router(metrics_router(metrics))
     app.include_router(rehearsal_router(parts.rehearsed, hub, config.camera))
     _add_procedure(app, parts)

@@ -66,7 +66,7 @@ class CameraConfig(Section):
     name: Name = "main"
     source: Annotated[int, Field(ge=0, le=99)] | Annotated[str, StringConstraints(min_length=1)] = "rehearsal"
     """rehearsal, phone, number or path of a local camera, basler:SERIAL, genicam:SERIAL, a video file, a
-    stream URL, or a folder of images."""
+    stream URL, a folder of images, or plugin:NAME:ADDRESS."""
     calibration: FilePath | None = None
     """Camera file (YAML or JSON) with matrix, distortion and size_wh_px."""
     loop: bool = True
@@ -361,6 +361,13 @@ class RecordingConfig(Section):
     """required: nothing is recorded until somebody has stated in the case that the patient consented."""
 
 
+class PluginsConfig(Section):
+    """Installed plug-ins that are loaded, besides the one of `camera.source`."""
+
+    sinks: Annotated[list[Name], Field(max_length=8)] = []
+    """Names of entry points of the group coaxial.sinks."""
+
+
 class Config(Section):
     """All settings. Paths are absolute, or relative to the working directory."""
 
@@ -383,3 +390,4 @@ class Config(Section):
     video: VideoConfig = VideoConfig()
     openigtlink: OpenIgtLinkConfig = OpenIgtLinkConfig()
     recording: RecordingConfig = RecordingConfig()
+    plugins: PluginsConfig = PluginsConfig()

@@ -16,6 +16,7 @@ from server.capture.address import SourceKind, source_from_text
 from server.config import Config
 from server.errors import ConfigError
 from server.marker_file import load_marker_image
+from server.plugins import IMAGE_SOURCES, SINKS, SOURCE_PREFIX, plugin_names
 from server.tool_file import tool_from_config, tool_mistakes
 from tracker.errors import NavigationError
 
@@ -280,6 +281,22 @@ def _mistakes_between_keys(config: Config, where: _Where) -> list[Mistake]:
         for lone, sentence in tool_mistakes(name, tool):
             key = f"tools.{name}.{lone}"
             mistakes.append(Mistake(where=where.of(("tools", name)), key=key, sentence=sentence))
+    return [*mistakes, *_missing_plugins(config, where)]
+
+
+def _missing_plugins(config: Config, where: _Where) -> list[Mistake]:
+    """Return a mistake for each plug-in that is not installed. None is imported."""
+    named: list[tuple[Key, str, str]] = [(("plugins", "sinks"), SINKS, name) for name in config.plugins.sinks]
+    source = source_from_text(config.camera.source)
+    if source.kind is SourceKind.PLUGIN:
+        named.append((("camera", "source"), IMAGE_SOURCES, source.name.removeprefix(SOURCE_PREFIX)))
+    mistakes = []
+    for key, group, name in named:
+        installed = plugin_names(group)
+        if name not in installed:
+            allowed = ", ".join(installed) or f"none, since no installed package has one in {group}"
+            sentence = f"'{key_text(key)}' names the plug-in '{name}', allowed: {allowed}"
+            mistakes.append(Mistake(where=where.of(key), key=key_text(key), sentence=sentence))
     return mistakes
 
 
@@ -320,7 +337,7 @@ def _config_error(mistakes: list[Mistake], file: Path | None) -> ConfigError:
     return ConfigError(
         "CONFIG_INVALID",
         message.rstrip("."),
-        "Correct it and start again; config.yaml in the project lists every key with its default.",
+        "Correct it and start again; coaxial config prints every key with its default.",
         {
             "file": str(file) if file else "",
             "mistakes": [{"where": m.where, "key": m.key, "message": m.sentence} for m in mistakes],

@@ -19,11 +19,10 @@ from starlette.responses import Response
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
+from server.installation import file_candidates
 from server.security import page_policy
 
-SERVER_FOLDER = Path(__file__).resolve().parent.parent
-# Installed, the guide lies in the package; in a checkout, where its build puts it.
-GUIDE_FOLDERS = (SERVER_FOLDER / "guide", SERVER_FOLDER.parent / "docs" / "site")
+GUIDE_FOLDERS = file_candidates("guide", "docs/site")
 ADDRESS = "/docs"
 # Scripts without attributes run; those with a type of JSON are data, which no policy is about.
 INLINE_SCRIPT = re.compile(rb"<script>(.*?)</script>", re.DOTALL)

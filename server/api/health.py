@@ -1,13 +1,22 @@
 """Health of the server, for container health checks and for people."""
 
 import time
+from collections.abc import Callable, Sequence
 from enum import StrEnum
 
 from fastapi import APIRouter, Request, Response
 
 from server.live import Instant, LiveHub, ProcessState, SourceState
 from server.security import ANONYMOUS, person_of
-from server.stream.messages import Message, ProcessMessage, SourceMessage, process_message, source_message
+from server.sinks import SinkStatus
+from server.stream.messages import (
+    Message,
+    ProblemMessage,
+    ProcessMessage,
+    SourceMessage,
+    process_message,
+    source_message,
+)
 
 
 class HealthState(StrEnum):
@@ -16,6 +25,18 @@ class HealthState(StrEnum):
     OK = "ok"  # images come and are tracked
     DEGRADED = "degraded"  # not now, but the server goes on trying, or a file has come to its end
     FAILED = "failed"  # it does not try any more: only a restart helps
+
+
+class SinkMessage(Message):
+    """State of a plug-in that receives each message. Navigation does not depend on it."""
+
+    name: str
+    problem: ProblemMessage | None
+    """null while it works."""
+    messages: int
+    """Number of messages that it was sent."""
+    skipped: int
+    """Number of instants that it was not sent, because it was not ready."""
 
 
 class HealthMessage(Message):
@@ -27,12 +48,19 @@ class HealthMessage(Message):
     source: SourceMessage | None
     image_age_ms: float | None
     """Age of the newest image; null if there is none."""
+    sinks: list[SinkMessage]
+    """Plug-ins that receive each message; they do not change `status`."""
 
 
-def health_message(instant: Instant | None, *, now_s: float, stale_after_ms: float) -> HealthMessage:
+def health_message(
+    instant: Instant | None, *, now_s: float, stale_after_ms: float, sinks: Sequence[SinkStatus] = ()
+) -> HealthMessage:
     """Return the health at monotonic time `now_s`; images older than `stale_after_ms` degrade it."""
+    stated = [SinkMessage.model_validate(sink, from_attributes=True) for sink in sinks]
     if instant is None:
-        return HealthMessage(status=HealthState.DEGRADED, process=None, source=None, image_age_ms=None)
+        return HealthMessage(
+            status=HealthState.DEGRADED, process=None, source=None, image_age_ms=None, sinks=stated
+        )
     snapshot = instant.snapshot
     age_ms = None if snapshot is None else (now_s - snapshot.captured_at_s) * 1000.0
     is_well = (
@@ -51,10 +79,13 @@ def health_message(instant: Instant | None, *, now_s: float, stale_after_ms: flo
         process=process_message(instant.process),
         source=source_message(instant.source),
         image_age_ms=age_ms,
+        sinks=stated,
     )
 
 
-def health_router(hub: LiveHub, *, stale_after_ms: float) -> APIRouter:
+def health_router(
+    hub: LiveHub, *, stale_after_ms: float, sinks: Callable[[], Sequence[SinkStatus]] = lambda: ()
+) -> APIRouter:
     """Return the router of `GET /health`."""
     router = APIRouter(tags=["health"])
 
@@ -69,11 +100,15 @@ def health_router(hub: LiveHub, *, stale_after_ms: float) -> APIRouter:
         repair an unplugged camera; 503 after the restarts have failed. Without sign-in only the status is
         returned.
         """
-        message = health_message(hub.newest, now_s=time.monotonic(), stale_after_ms=stale_after_ms)
+        message = health_message(
+            hub.newest, now_s=time.monotonic(), stale_after_ms=stale_after_ms, sinks=sinks()
+        )
         response.status_code = 503 if message.status is HealthState.FAILED else 200
         response.headers["Cache-Control"] = "no-store"
         if person_of(request.scope) == ANONYMOUS:
-            return HealthMessage(status=message.status, process=None, source=None, image_age_ms=None)
+            return HealthMessage(
+                status=message.status, process=None, source=None, image_age_ms=None, sinks=[]
+            )
         return message
 
     return router

@@ -10,11 +10,10 @@ from starlette.responses import Response
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
+from server.installation import file_candidates
 from server.security.headers import CAMERA_PAGE_PERMISSIONS
 
-SERVER_FOLDER = Path(__file__).resolve().parent.parent
-# Installed, the page lies in the package; in a checkout, where its build puts it.
-PAGE_FOLDERS = (SERVER_FOLDER / "page", SERVER_FOLDER.parent / "web" / "dist")
+PAGE_FOLDERS = file_candidates("page", "web/dist")
 # Addresses that the page itself understands: they all show its one file.
 CAMERA_VIEW = "camera"
 VIEWS = frozenset({"theatre", "operator", "supervisor", "enter", CAMERA_VIEW})

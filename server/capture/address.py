@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from urllib.parse import urlsplit
 
+from server.plugins import SOURCE_PREFIX
+
 INDUSTRIAL_SCHEMES = ("basler", "genicam")
 STREAM_SCHEMES = ("rtsp", "rtsps", "rtmp", "http", "https", "udp", "tcp")
 
@@ -17,6 +19,7 @@ class SourceKind(StrEnum):
     LOCAL_CAMERA = "local camera"
     INDUSTRIAL_CAMERA = "industrial camera"
     STREAM = "stream"
+    PLUGIN = "plugin"  # of another package
     PATH = "path"  # a video file or a folder: known when it is opened, it may not be there yet
 
 
@@ -36,7 +39,7 @@ class SourceAddress:
 
 
 def source_from_text(text: str | int) -> SourceAddress:
-    """Parse a source: rehearsal, phone, camera (number, device or serial), stream, or path."""
+    """Parse a source: rehearsal, phone, camera (number, device or serial), stream, plug-in, or path."""
     plain = str(text).strip()
     if plain.lower() == "rehearsal":
         return SourceAddress(kind=SourceKind.REHEARSAL, text="rehearsal", name="rehearsal")
@@ -50,6 +53,10 @@ def source_from_text(text: str | int) -> SourceAddress:
     if colon and library.lower() in INDUSTRIAL_SCHEMES:
         text = f"{library.lower()}:{serial.strip()}"
         return SourceAddress(kind=SourceKind.INDUSTRIAL_CAMERA, text=text, name=text)
+    if plain.startswith(SOURCE_PREFIX):
+        # The address after the second colon may contain a password.
+        name = ":".join(plain.split(":", 2)[:2])
+        return SourceAddress(kind=SourceKind.PLUGIN, text=plain, name=name)
     scheme = plain.partition("://")[0].lower()
     if "://" in plain and scheme in STREAM_SCHEMES:
         return SourceAddress(kind=SourceKind.STREAM, text=plain, name=mask_secrets(plain))

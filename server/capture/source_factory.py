@@ -10,6 +10,7 @@ from server.capture.industrial import BaslerCameras, GenTLCameras, IndustrialCam
 from server.capture.local_camera import CalibratedCamera, LocalCameraSource
 from server.capture.modes import WantedMode
 from server.capture.phone import Inbox, PhoneSource
+from server.capture.plugin import PluginSource
 from server.capture.recording import RecordingSource
 from server.capture.rehearsal import CameraOutage, PlayedScene, RehearsalSource, Renderer
 from server.capture.shot import Shot, Source
@@ -78,6 +79,8 @@ def source_from_config(
             lock_light=camera.lock_light,
             first_number=first_number,
         )
+    if address.kind is SourceKind.PLUGIN:
+        return PluginSource(address, first_number=first_number)
     if address.kind is SourceKind.STREAM:
         return StreamSource(address, stop=stop, first_number=first_number)
     return PathSource(address, config=config, stop=stop, first_number=first_number)

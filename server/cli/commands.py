@@ -24,6 +24,7 @@ from server.cli.time_offset_commands import time_offset
 from server.cli.tool_commands import pivot, spin, tip_check
 from server.cli.track_help import TRACK_HELP
 from server.cli.verify_commands import verify
+from server.installation import default_settings, prepare_process, service_unit
 
 BAD_INPUT = 2
 UNKNOWN_VERSION = "0.1.0"
@@ -225,6 +226,22 @@ def track(
     raise typer.Exit(status)
 
 
+@app.command(name="config")
+def default_config() -> None:
+    """Print the settings file: every key with its meaning and its default."""
+    typer.echo(default_settings(), nl=False)
+
+
+@app.command()
+def service_file() -> None:
+    """Print a hardened systemd unit that starts this installation."""
+    executable = Path(sys.executable).parent / "coaxial"
+    for needed in (executable, Path(sys.base_prefix)):
+        if any(needed.is_relative_to(home) for home in (Path.home(), Path("/home"), Path("/root"))):
+            typer.echo(f"Warning: {needed} is in a home folder, which the service cannot read.", err=True)
+    typer.echo(service_unit(executable), nl=False)
+
+
 def coaxial_version() -> str:
     """The installed version."""
     try:
@@ -235,6 +252,7 @@ def coaxial_version() -> str:
 
 def main() -> None:
     """Run `coaxial`. Print a `NavigationError` as one sentence with its remedy and exit with status 2."""
+    prepare_process()
     try:
         app(prog_name="coaxial")
     except Exception as error:

@@ -82,6 +82,7 @@ def _serve(
         from server.cli.web import serve_until  # noqa: PLC0415
         from server.procedure import Steps  # noqa: PLC0415
         from server.recording.service import RecordingService  # noqa: PLC0415
+        from server.sinks import Sinks  # noqa: PLC0415
 
         phone = _phone(config, preparation, tracked)
         alarm_log = StoredAlarmLog(storage.store)
@@ -107,6 +108,8 @@ def _serve(
             product_version=coaxial_version(),
         )
         ending.callback(recordings.close)
+        sinks = Sinks(config.plugins.sinks, tracked.hub, settings)
+        ending.callback(sinks.stop)
         app = create_app(
             AppParts(
                 hub=tracked.hub,
@@ -122,9 +125,11 @@ def _serve(
                 phone=phone,
                 rehearsed=_rehearsed(config, preparation, tracked),
                 openigtlink=link,
+                sinks=sinks,
             )
         )
         recordings.follow()
+        sinks.start()
         tracked.publish(check_alarms=alarms.observe, picture_problem=picture_problem_of(app))
         serve_until(
             app,

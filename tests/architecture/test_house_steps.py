@@ -126,6 +126,32 @@ def test_the_machine_s_node_is_taken_only_if_it_can_build_the_page(
     assert (".venv/bin/python" in said.stderr) is not taken
 
 
+def test_a_machine_without_a_builder_of_images_is_told_what_to_install(bare_path: Path) -> None:
+    said = step("image", path=bare_path)
+    assert said.returncode == 1
+    assert "buildah" in said.stderr
+
+
+def test_a_docker_without_its_daemon_is_no_builder(bare_path: Path) -> None:
+    put(bare_path, "docker", "exit 1")
+    said = step("image", path=bare_path)
+    assert said.returncode == 1
+    assert "reaches no daemon" in said.stderr
+
+
+@pytest.mark.parametrize(
+    ("found", "taken"),
+    [(["docker"], "docker build"), (["docker", "podman"], "podman build --format docker")],
+    ids=["docker-alone", "podman-first"],
+)
+def test_the_builder_that_needs_no_root_builds_the_image(
+    bare_path: Path, found: list[str], taken: str
+) -> None:
+    for name in found:
+        put(bare_path, name, f'[ "$1" = info ] || echo "{name} $*"')
+    assert step("image", path=bare_path).stdout == f"{taken} --tag coaxial .\n"
+
+
 def test_a_step_that_works_says_one_line(bare_path: Path, tmp_path: Path) -> None:
     put(bare_path, "chatter", "echo much; echo more >&2")
     said = step("step", "talk", "Talking", "Be quiet.", "chatter", path=bare_path, cwd=tmp_path)

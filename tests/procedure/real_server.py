@@ -83,9 +83,14 @@ def _message(text: str | bytes) -> dict[str, Any]:
 
 
 @contextmanager
-def real_server(folder: Path, settings: Mapping[str, object]) -> Iterator[RealServer]:
-    """`coaxial run` with these settings and its cases in this folder, ended by its own number."""
-    with started(folder, settings) as process:
+def real_server(
+    folder: Path, settings: Mapping[str, object], *, packages: Path | None = None
+) -> Iterator[RealServer]:
+    """`coaxial run` with these settings and its cases in this folder, ended by its own number.
+
+    `packages`: a folder with further packages, on its import path.
+    """
+    with started(folder, settings, packages=packages) as process:
         try:
             port = port_of(process)
             with httpx2.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE_S) as door:
@@ -101,7 +106,11 @@ def real_server(folder: Path, settings: Mapping[str, object]) -> Iterator[RealSe
 
 
 def started(
-    folder: Path, settings: Mapping[str, object], *, errors: IO[str] | None = None
+    folder: Path,
+    settings: Mapping[str, object],
+    *,
+    errors: IO[str] | None = None,
+    packages: Path | None = None,
 ) -> "subprocess.Popen[str]":
     """The process of `coaxial run`, which may not answer yet; its log goes to `errors`."""
     folder.mkdir(exist_ok=True)
@@ -109,7 +118,11 @@ def started(
     return subprocess.Popen(
         [sys.executable, "-m", "server", "run", "--port", "0"],
         cwd=folder,
-        env={**os.environ, "PYTHONPATH": str(CHECKOUT), "COAXIAL_HOME": str(folder / "home")},
+        env={
+            **os.environ,
+            "PYTHONPATH": os.pathsep.join(map(str, filter(None, (CHECKOUT, packages)))),
+            "COAXIAL_HOME": str(folder / "home"),
+        },
         stdout=subprocess.PIPE,
         stderr=errors,
         text=True,

@@ -145,7 +145,13 @@ def test_a_strange_page_cannot_change_anything(client: TestClient) -> None:
 def test_health_before_the_first_instant_is_degraded(client: TestClient) -> None:
     answer = client.get("/health")
     assert answer.status_code == 200
-    assert answer.json() == {"status": "degraded", "process": None, "source": None, "image_age_ms": None}
+    assert answer.json() == {
+        "status": "degraded",
+        "process": None,
+        "source": None,
+        "image_age_ms": None,
+        "sinks": [],
+    }
 
 
 @pytest.mark.parametrize(

@@ -134,6 +134,7 @@ def test_who_is_not_signed_in_is_told_one_word(house: Guarded) -> None:
         "process": None,
         "source": None,
         "image_age_ms": None,
+        "sinks": [],
     }
 
 

@@ -1,0 +1,58 @@
+"""The process of one sink, in which the plug-in runs.
+
+In a thread of the server it could hold the interpreter, or end it. Its process has a low priority.
+"""
+
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+
+from server.logs import LogSettings, configure_logging
+from server.loop.parent import die_with_parent
+from server.plugins import SINKS, load_plugin
+from server.priority import lower_process_priority
+from tracker.errors import NavigationError
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Report:
+    """The sink is ready for a message.
+
+    Attributes:
+        error: what it raised for the last one; None if nothing.
+        is_ended: whether it was not loaded, so that this is its only report.
+    """
+
+    error: str | None = None
+    is_ended: bool = False
+
+
+def run_sink(name: str, connection: Connection, settings: LogSettings) -> None:
+    """Load the plug-in and give it each message that comes, until the connection is closed."""
+    die_with_parent()
+    configure_logging(settings, process=f"sink {name}")
+    lower_process_priority()
+    try:
+        sink = load_plugin(SINKS, name)()
+    except NavigationError as error:
+        connection.send(Report(error=error.message, is_ended=True))
+        return
+    except Exception as error:  # noqa: BLE001  a plug-in may raise anything
+        connection.send(Report(error=f"it cannot be opened: {_text(error)}", is_ended=True))
+        return
+    error_text: str | None = None
+    try:
+        while True:
+            connection.send(Report(error=error_text))
+            text = connection.recv()
+            try:
+                sink.receive(text)
+                error_text = None
+            except Exception as error:  # noqa: BLE001  as above
+                error_text = _text(error)
+    except (EOFError, OSError):
+        # The server stops.
+        sink.close()
+
+
+def _text(error: Exception) -> str:
+    return f"{type(error).__name__}: {error}"

@@ -1,0 +1,201 @@
+"""One sink as the web process sees it: a thread that sends the newest message when the sink is ready."""
+
+import contextlib
+import multiprocessing
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
+from typing import TypeAlias
+
+import structlog
+
+from server.live import Instant, LiveHub, Problem
+from server.logs import LogSettings
+from server.loop.forks import exit_text
+from server.priority import lower_thread_priority
+from server.sinks.process import Report, run_sink
+
+POLL_S = 0.1
+SLOW_AFTER_S = 2.0
+RESTART_AFTER_S = 5.0
+STOP_TIMEOUT_S = 2.0
+REMEDY = (
+    "Navigation goes on. Correct or update the plug-in, or take it out of plugins.sinks, and start again."
+)
+Write: TypeAlias = Callable[[Instant], str]
+log = structlog.get_logger(__name__)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SinkStatus:
+    """State of a sink.
+
+    Attributes:
+        name: of the plug-in.
+        problem: why it receives nothing, or what it raised; None while it works.
+        messages: how many it was sent.
+        skipped: instants that it was not sent, because it was not ready.
+    """
+
+    name: str
+    problem: Problem | None = None
+    messages: int = 0
+    skipped: int = 0
+
+
+class Sink:
+    """Sends the newest message to a plug-in; nothing waits for it.
+
+    Args:
+        name: of the plug-in.
+        hub: publishes the instants.
+        write: returns the message of an instant as text. Called from the sink's thread.
+        settings: of the log in the sink's process.
+        slow_after_s: time for one message after which the sink counts as slow.
+        restart_after_s: pause before a process that ended is started again.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        hub: LiveHub,
+        *,
+        write: Write,
+        settings: LogSettings,
+        slow_after_s: float = SLOW_AFTER_S,
+        restart_after_s: float = RESTART_AFTER_S,
+    ) -> None:
+        self.name = name
+        self._hub = hub
+        self._write = write
+        self._settings = settings
+        self._slow_after_s = slow_after_s
+        self._restart_after_s = restart_after_s
+        self._stop = threading.Event()
+        self._lock = threading.Lock()
+        self._problem: Problem | None = None
+        self._messages = self._skipped = 0
+        self._sequence: int | None = None
+        self._process: BaseProcess | None = None
+        self._thread = threading.Thread(target=self._run, name=f"sink {name}", daemon=True)
+
+    def start(self) -> None:
+        """Start; returns at once, also while the fork server still loads."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Let the sink close itself, and kill its process if it does not."""
+        self._stop.set()
+        self._thread.join(STOP_TIMEOUT_S)
+        process = self._process
+        if self._thread.is_alive() and process is not None:
+            # The thread may be sending to a process that does not read.
+            process.kill()
+            self._thread.join(STOP_TIMEOUT_S)
+
+    @property
+    def is_alive(self) -> bool:
+        """Whether its thread runs."""
+        return self._thread.is_alive()
+
+    @property
+    def status(self) -> SinkStatus:
+        """Its state. From any thread."""
+        with self._lock:
+            return SinkStatus(
+                name=self.name, problem=self._problem, messages=self._messages, skipped=self._skipped
+            )
+
+    def _run(self) -> None:
+        lower_thread_priority()
+        context = multiprocessing.get_context("forkserver")
+        goes_on = True
+        while goes_on and not self._stop.is_set():
+            ours, theirs = context.Pipe()
+            self._process = context.Process(
+                target=run_sink,
+                args=(self.name, theirs, self._settings),
+                name=f"sink {self.name}",
+                daemon=True,
+            )
+            try:
+                self._process.start()
+                theirs.close()
+                goes_on = self._serve(ours)
+            except (EOFError, OSError):
+                self._process.join(STOP_TIMEOUT_S)
+                if not self._stop.is_set():
+                    self._report("SINK_ENDED", f"its process ended {exit_text(self._process.exitcode)}")
+            except Exception as error:
+                log.exception("a sink failed", sink=self.name)
+                self._report("SINK_FAILED", f"{type(error).__name__}: {error}")
+            finally:
+                theirs.close()
+                ours.close()
+                self._end_process(self._process)
+            self._stop.wait(self._restart_after_s)
+
+    def _serve(self, connection: Connection) -> bool:
+        """Send messages until the sink is stopped; return whether it is worth starting again.
+
+        Raises:
+            EOFError, OSError: its process has ended.
+        """
+        is_ready = False
+        since_s = time.monotonic()
+        while not self._stop.is_set():
+            if not is_ready:
+                is_ready = connection.poll(POLL_S)
+                if is_ready:
+                    report: Report = connection.recv()
+                    if report.is_ended:
+                        self._report("SINK_NOT_LOADED", str(report.error))
+                        return False
+                    self._report("SINK_FAILED", report.error)
+                elif time.monotonic() - since_s > self._slow_after_s:
+                    taken = f"it has taken more than {self._slow_after_s:g} s for one message"
+                    self._report("SINK_SLOW", taken)
+                continue
+            sequence = -1 if self._sequence is None else self._sequence
+            instant = self._hub.wait_after(sequence, POLL_S)
+            if instant is not None:
+                connection.send(self._write(instant))
+                is_ready, since_s = False, time.monotonic()
+                self._count(instant.sequence)
+            elif connection.poll():
+                # It sends nothing unasked, so it has ended, which this raises.
+                connection.recv()
+        return False
+
+    def _count(self, sequence: int) -> None:
+        with self._lock:
+            self._messages += 1
+            if self._sequence is not None:
+                self._skipped += sequence - self._sequence - 1
+            self._sequence = sequence
+
+    def _report(self, code: str, what: str | None) -> None:
+        """Show and log a problem, or with None that there is none any more; each once."""
+        problem = None
+        if what is not None:
+            message = f"the sink {self.name} does not work: {what}"
+            problem = Problem(code=code, message=message, remedy=REMEDY, context={"sink": self.name})
+        with self._lock:
+            before, self._problem = self._problem, problem
+        if problem is not None and problem != before:
+            log.warning(problem.message, code=code, sink=self.name, remedy=REMEDY)
+        elif problem is None and before is not None:
+            log.info("a sink works again", sink=self.name)
+
+    def _end_process(self, process: BaseProcess) -> None:
+        if process.pid is None:
+            return
+        process.join(STOP_TIMEOUT_S)
+        if process.exitcode is None:
+            process.kill()
+            process.join(STOP_TIMEOUT_S)
+        with contextlib.suppress(ValueError):
+            process.close()
