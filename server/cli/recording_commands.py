@@ -1,4 +1,4 @@
-"""`coaxial recording`: a recording as CSV and as video."""
+"""`coaxial recording`: a recording as CSV and as video, and a piece of it."""
 
 from pathlib import Path
 from typing import Annotated, Literal
@@ -7,14 +7,14 @@ import typer
 
 recording_app = typer.Typer(
     name="recording",
-    help="Export recordings.",
+    help="Export and cut recordings.",
     no_args_is_help=True,
 )
 
 
 @recording_app.callback()
 def recording() -> None:
-    """Export recordings."""
+    """Export and cut recordings."""
 
 
 @recording_app.command()
@@ -42,6 +42,35 @@ def export(
         _write_tables(file, to)
     if video is not None:
         _write_video(file, video, language)
+
+
+@recording_app.command()
+def cut(
+    file: Annotated[Path, typer.Argument(help="A recording of Coaxial (.mcap).", metavar="FILE")],
+    target: Annotated[Path, typer.Argument(help="The piece (.mcap).", metavar="OUT")],
+    from_s: Annotated[
+        float, typer.Option("--from", min=0.0, help="Begin, in s since the first image.", metavar="S")
+    ],
+    to_s: Annotated[float, typer.Option("--to", min=0.0, help="End, likewise.", metavar="S")],
+) -> None:
+    """Write a piece of a recording as a recording of its own.
+
+    It begins at the state of tracking that is stored before its begin, up to a minute earlier, so that it
+    replays exactly (coaxial replay OUT --check).
+    """
+    from server.cli.progress import shown_ratio  # noqa: PLC0415  loaded when needed
+    from server.recording.cut import cut_recording  # noqa: PLC0415
+
+    if target.exists() and target.samefile(file):
+        raise typer.BadParameter("OUT is FILE itself.")
+    with shown_ratio("cutting") as report:
+        summary = cut_recording(file, target, from_s=from_s, to_s=to_s, report=lambda ratio, _: report(ratio))
+    typer.echo(str(target))
+    typer.echo(f"{summary.images} images, from {summary.from_s:.2f} to {summary.to_s:.2f} s")
+    if not summary.is_exact:
+        typer.echo("no state of tracking is stored before them, so that they cannot be replayed")
+    elif summary.from_s < from_s:
+        typer.echo(f"it begins at {summary.from_s:.2f} s, where a state of tracking is stored")
 
 
 def _write_tables(file: Path, folder: Path) -> None:
