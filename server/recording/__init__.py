@@ -3,6 +3,7 @@
 consent.py   whether the patient consented
 cut.py       a piece of a recording as a recording of its own
 export.py    as CSV
+exports.py   videos and pieces, made by jobs
 messages.py  what is in a file beside images and live messages
 process.py   reads the ring in a process of its own and writes the file
 recorder.py  one recording, as the web process sees it
