@@ -1,5 +1,6 @@
 """Recordings: what is written while images arrive, and their exact replay.
 
+comments.py  what people wrote on instants of recordings
 consent.py   whether the patient consented
 cut.py       a piece of a recording as a recording of its own
 export.py    as CSV

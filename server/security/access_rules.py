@@ -124,6 +124,7 @@ POST    /api/alarms/screens
 
 # A remote colleague requests a hold, releases it, and co-signs. Nothing moves by it.
 DONE_BY_OVERSEERS = """
+POST    /api/recordings/{name}/comments
 POST    /api/alarms/hold
 POST    /api/alarms/release
 POST    /api/supervision/signatures

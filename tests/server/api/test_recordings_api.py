@@ -19,7 +19,7 @@ from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
 from server.logs import LogSettings
-from server.store import CaseStore, Home
+from server.store import CaseStore, DocumentKind, Home
 from tests.server.recording.no_recorder import recordings_without_process
 from tests.server.recording.reviewed import DRILLED, HEIGHT, WIDTH, drawn, write_drilling
 
@@ -269,3 +269,61 @@ def test_nothing_is_made_from_a_recording_that_runs_or_on_a_full_disk(
     monkeypatch.setattr(Home, "free_bytes", lambda _: -1)
     assert door.ask("POST", f"/{name}/cut", 507, {"from_s": 0, "to_s": 1})["code"] == "RECORDING_DISK_FULL"
     assert list(door.store.home.temporary.iterdir()) == []
+
+
+def test_a_comment_is_stored_in_the_case_and_is_in_the_timeline(door: Door) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    other = name.replace("0000.mcap", "0001.mcap")
+    body = {"at_s": 2.5, "text": "  Wandkontakt: 1 mm medial "}
+    stored = door.ask("POST", f"/{name}/comments", 201, body)
+    assert stored == {
+        "document_id": stored["document_id"],
+        "at_s": 2.5,
+        "text": "Wandkontakt: 1 mm medial",
+        "made_at": stored["made_at"],
+        "made_by": "this computer",
+    }
+    door.ask("POST", f"/{name}/comments", 201, {"at_s": 0.5, "text": "begins"})
+    assert door.ask("POST", f"/{other}/comments", 404, body)["code"] == "RECORDING_UNKNOWN"
+    for text in ("", " ", "two\nlines", "x" * 501):
+        assert door.ask("POST", f"/{name}/comments", 422, {**body, "text": text})["code"] == "REQUEST_INVALID"
+
+    def shown() -> list[tuple[float, str, str]]:
+        events = door.timeline(name)["events"]
+        assert [one["from_s"] for one in events] == sorted(one["from_s"] for one in events)
+        return [(one["from_s"], one["title"]["de"], one["by"]) for one in events if one["kind"] == "comment"]
+
+    assert shown() == [
+        (0.5, "begins", "this computer"),
+        (2.5, "Wandkontakt: 1 mm medial", "this computer"),
+    ]
+    case = door.store.get_open_case()
+    assert case is not None
+    document = door.store.document(case.id, stored["document_id"])
+    assert document.content == {"recording": name, "at_s": 2.5, "text": "Wandkontakt: 1 mm medial"}
+    door.store.withdraw(document, by="ito", reason="mistaken")
+    assert len(shown()) == 1
+    # It is the case's, and stays when the recording goes.
+    door.ask("DELETE", f"/{name}", 204)
+    assert len(door.store.all(case.id, DocumentKind.COMMENT)) == 1
+
+
+def test_the_list_opens_no_file_a_second_time(door: Door, monkeypatch: pytest.MonkeyPatch) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    (first,) = door.ask("GET", "", 200)["recordings"]
+    assert first["duration_s"] == pytest.approx(3.9, abs=0.2)
+
+    def read(path: Path) -> float:
+        assert path.name == name
+        return 7.0
+
+    monkeypatch.setattr("server.recording.service.read_duration_s", read)
+    assert door.ask("GET", "", 200)["recordings"] == [first]
+    # A changed file is read again.
+    case = door.store.get_open_case()
+    assert case is not None
+    with (door.store.home.cases / case.id / "recordings" / name).open("ab") as file:
+        file.write(b"more")
+    assert door.ask("GET", "", 200)["recordings"][0]["duration_s"] == 7.0
