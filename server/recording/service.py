@@ -148,6 +148,8 @@ class RecordingService:
         self._last: RecordingStatus | None = None
         self._problem: Problem | None = None
         self._documents: tuple[str, ...] = ()
+        # By file, with its size and time of change, for which they are true.
+        self._durations: dict[Path, tuple[tuple[int, int], float | None]] = {}
         self._failed_at_s = -RETRY_AFTER_S
         self._is_held_off = False
         self._stop = threading.Event()
@@ -262,7 +264,7 @@ class RecordingService:
                     StoredRecording(
                         name=path.name,
                         began_at=_began_at(path.name),
-                        duration_s=None if path.name == running else read_duration_s(path),
+                        duration_s=None if path.name == running else self._duration_s(path),
                         size_bytes=path.stat().st_size,
                         is_protected=_protection(path).exists(),
                         is_running=path.name == running,
@@ -345,6 +347,7 @@ class RecordingService:
                     {"name": name},
                 )
             path.unlink()
+            self._durations.pop(path, None)
             index_path(path).unlink(missing_ok=True)
             shutil.rmtree(exports_folder(path), ignore_errors=True)
             sync_folder(path.parent)
@@ -421,6 +424,10 @@ class RecordingService:
         if running is None:
             return
         self._last = running.recorder.stop(reason)
+        path = self._folder(running.case) / running.name
+        # A recording that could not begin has no file.
+        with suppress(FileNotFoundError):
+            self._duration_s(path)
         running.in_use.close()
         log.info("a recording ended", file=running.name, images=self._last.images, why=reason)
 
@@ -518,6 +525,15 @@ class RecordingService:
             self._store.home.free_bytes() - self._config.recording.min_free_gb * 1e9,
         )
         return max(0.0, left_bytes) * duration_s / status.written_bytes
+
+    def _duration_s(self, path: Path) -> float | None:
+        """Return the duration of a recording that has ended; its file is read once, unless it changes."""
+        found = path.stat()
+        version = found.st_size, found.st_mtime_ns
+        known = self._durations.get(path)
+        if known is None or known[0] != version:
+            known = self._durations[path] = version, read_duration_s(path)
+        return known[1]
 
     def _total_bytes(self) -> int:
         total = 0
