@@ -35,7 +35,7 @@ from server.api.plan import plan_router
 from server.api.procedure import procedure_router
 from server.api.readout import readout_router
 from server.api.recording_review import recording_review_router
-from server.api.recordings import recordings_router
+from server.api.recordings import recording_exports_router, recordings_router
 from server.api.registration import registration_router
 from server.api.rehearsal import rehearsal_router
 from server.api.requester import set_requester
@@ -54,6 +54,8 @@ from server.openigtlink import OpenIgtLinkServer
 from server.overlay.panel_readings import RESEARCH_SOFTWARE
 from server.procedure import Steps
 from server.procedure.scene_bone import SceneBone
+from server.recording.comments import RecordingComments
+from server.recording.exports import RecordingExports
 from server.recording.review import RecordingReview
 from server.recording.service import RecordingService
 from server.scene import mount_scene
@@ -251,8 +253,12 @@ def _add_supervision(app: FastAPI, parts: AppParts, viewers: Viewers) -> None:
     if parts.recordings is not None:
         room_hub.on_mark = parts.recordings.put_mark
         app.include_router(recordings_router(parts.recordings))
-        if parts.jobs is not None:
-            app.include_router(recording_review_router(RecordingReview(parts.recordings, parts.jobs)))
+        if parts.jobs is not None and parts.store is not None:
+            review = RecordingReview(parts.recordings, parts.jobs)
+            comments = RecordingComments(parts.store, parts.recordings)
+            exports = RecordingExports(parts.recordings, parts.jobs, parts.store.home)
+            app.include_router(recording_review_router(review, comments))
+            app.include_router(recording_exports_router(exports))
 
 
 def _add_procedure(app: FastAPI, parts: AppParts) -> None:

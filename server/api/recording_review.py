@@ -1,18 +1,21 @@
 """Review of recordings: their timeline, and any of their instants."""
 
+from collections.abc import Sequence
 from datetime import UTC, datetime
-from typing import Annotated
+from typing import Annotated, Literal
 
-from fastapi import APIRouter, Path, Query, Response
-from pydantic import ValidationError
+from fastapi import APIRouter, Path, Query, Request, Response
+from pydantic import Field, StringConstraints, ValidationError
 
 from server.api.errors import rejections
 from server.api.jobs import JobMessage, job_message
 from server.clock import utc_text
 from server.errors import RecordingError
 from server.jobs import Job
+from server.recording.comments import MAX_TEXT_LENGTH, Comment, RecordingComments
 from server.recording.review import RecordingReview, Samples, sampled
 from server.recording.timeline import FIGURES, STATUSES, EventKind, RecordingIndex, TimelineEvent
+from server.security.person import person_of
 from server.stream.alarm_messages import AlarmsMessage
 from server.stream.assessment_messages import TextMessage, text_message
 from server.stream.message import Message, finite
@@ -32,16 +35,16 @@ CACHE = {"Cache-Control": "private, max-age=3600"}
 class RecordedEventMessage(Message):
     """Something that happened."""
 
-    kind: EventKind
+    kind: EventKind | Literal["comment"]
     """navigation: it was on; withheld: no figures; note: about the recording itself."""
     from_s: float
     """Since the first image, as all times."""
     to_s: float | None
     """Null for what has no duration."""
     code: str
-    """Condition of an alarm, reason of withheld figures, code of a note, shape of a mark."""
+    """Condition of an alarm, reason of withheld figures, code of a note, shape of a mark, id of a comment."""
     title: TextMessage | None
-    """Of an alarm and of withheld figures, in capitals; null for all else."""
+    """Of an alarm and of withheld figures, in capitals; text of a comment; null for all else."""
     priority: Priority | None
     """Of an alarm; null for all else."""
     by: str
@@ -99,11 +102,36 @@ class RecordedInstantMessage(Message):
     """Null where they were not recorded."""
 
 
+class CommentRequest(Message):
+    """A comment on an instant of a recording."""
+
+    at_s: Annotated[float, Field(ge=0.0, le=1e7, allow_inf_nan=False)]
+    """Since the first image."""
+    text: Annotated[
+        str,
+        StringConstraints(
+            strip_whitespace=True, min_length=1, max_length=MAX_TEXT_LENGTH, pattern=r"^[^\x00-\x1f]+$"
+        ),
+    ]
+    """One line."""
+
+
+class CommentMessage(Message):
+    """A comment, as stored in the case."""
+
+    document_id: str
+    at_s: float
+    text: str
+    made_at: str
+    """UTC, ISO 8601."""
+    made_by: str
+
+
 Seconds = Annotated[float, Query(ge=0.0, le=1e7)]
 Number = Annotated[int, Path(ge=0, description="Of the image in the recording, from 0.")]
 
 
-def recording_review_router(review: RecordingReview) -> APIRouter:
+def recording_review_router(review: RecordingReview, comments: RecordingComments) -> APIRouter:
     """Return the router of what is in recordings. Its routes are synchronous: they wait for the disk."""
     router = APIRouter(prefix="/api/recordings/{name}", tags=["recordings"])
 
@@ -123,8 +151,20 @@ def recording_review_router(review: RecordingReview) -> APIRouter:
             return RecordingReviewMessage(job=job_message(index), timeline=None)
         end_s = float(index.at_s[-1]) if len(index) else 0.0
         return RecordingReviewMessage(
-            job=None, timeline=_timeline(index, sampled(index, from_s, min(to_s, end_s), samples))
+            job=None,
+            timeline=_timeline(index, sampled(index, from_s, min(to_s, end_s), samples), comments.all(name)),
         )
+
+    @router.post("/comments", status_code=201, responses=rejections(404, 409, 422, 503, 507))
+    def comment(name: str, requested: CommentRequest, request: Request) -> CommentMessage:
+        """Write a comment on an instant; it is stored in the case with its author, and is in the timeline.
+
+        To take it back, withdraw its document.
+        """
+        stored = comments.add(
+            name, at_s=requested.at_s, text=requested.text, made_by=person_of(request.scope).name
+        )
+        return CommentMessage.model_validate(stored, from_attributes=True)
 
     @router.get("/images/{number}.jpg", response_class=Response, responses=rejections(404, 409, 422, 503))
     def image(name: str, number: Number) -> Response:
@@ -154,13 +194,14 @@ def recording_review_router(review: RecordingReview) -> APIRouter:
     return router
 
 
-def _timeline(index: RecordingIndex, samples: Samples) -> TimelineMessage:
+def _timeline(index: RecordingIndex, samples: Samples, comments: Sequence[Comment]) -> TimelineMessage:
+    events = [*(_event(one) for one in index.events), *(_comment_event(one) for one in comments)]
     return TimelineMessage(
         began_at=utc_text(datetime.fromtimestamp(index.begin_unix_s, tz=UTC)),
         duration_s=float(index.at_s[-1]) if len(index) else 0.0,
         images=len(index),
         is_whole=index.is_whole,
-        events=[_event(one) for one in index.events],
+        events=sorted(events, key=lambda event: event.from_s),
         curves=CurvesMessage(
             numbers=samples.numbers.tolist(),
             at_s=samples.at_s.tolist(),
@@ -185,6 +226,18 @@ def _event(event: TimelineEvent) -> RecordedEventMessage:
         title=None if title is None else text_message(title),
         priority=None if condition is None or event.kind != "alarm" else ALARM_RULES[condition].priority,
         by=event.by,
+    )
+
+
+def _comment_event(comment: Comment) -> RecordedEventMessage:
+    return RecordedEventMessage(
+        kind="comment",
+        from_s=comment.at_s,
+        to_s=None,
+        code=comment.document_id,
+        title=TextMessage(en=comment.text, de=comment.text),
+        priority=None,
+        by=comment.made_by,
     )
 
 

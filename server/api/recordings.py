@@ -8,15 +8,19 @@ from fastapi.responses import FileResponse, StreamingResponse
 from pydantic import Field
 
 from server.api.errors import rejections
+from server.api.jobs import JobMessage, job_message
 from server.recording.consent import Consent, ConsentState
 from server.recording.export import Table, csv_lines
+from server.recording.exports import VIDEO_SUFFIX, RecordingExports
 from server.recording.service import RecordingService, StoredRecording
 from server.security.audit import note
 from server.security.person import person_of
 from server.stream.message import Message
 from server.stream.messages import ProblemMessage, problem_message
+from server.texts import Language
 
 MCAP = "application/octet-stream"
+MP4 = "video/mp4"
 CSV = "text/csv"
 
 
@@ -75,6 +79,20 @@ class RecordingsMessage(Message):
     """The recordings of the open case, the oldest first."""
 
     recordings: list[RecordingMessage]
+
+
+class VideoRequest(Message):
+    """The video of a recording."""
+
+    language: Language = "en"
+    """Of the words in it."""
+
+
+class CutRequest(Message):
+    """A part of a recording, in s since its first image."""
+
+    from_s: Annotated[float, Field(ge=0.0, le=1e7, allow_inf_nan=False)]
+    to_s: Annotated[float, Field(ge=0.0, le=1e7, allow_inf_nan=False)]
 
 
 class ProtectionMessage(Message):
@@ -153,6 +171,38 @@ def recordings_router(service: RecordingService) -> APIRouter:
         """Delete a recording that is neither protected nor running."""
         service.delete(name)
         return Response(status_code=204)
+
+    return router
+
+
+def recording_exports_router(exports: RecordingExports) -> APIRouter:
+    """Return the router of what is made from recordings, by jobs."""
+    router = APIRouter(prefix="/api/recordings/{name}", tags=["recordings"])
+
+    @router.post("/video", status_code=202, responses=rejections(404, 409, 422, 503, 507))
+    def video(name: str, requested: VideoRequest) -> JobMessage:
+        """Write a recording as a video (MP4) with the overlay, in a job.
+
+        Its result has `file`, to be downloaded, `images`, `gaps` (times without an image, shown as such) and
+        `undrawn` (images that say why they are without results). Needs PyAV.
+        """
+        return job_message(exports.start_video(name, requested.language))
+
+    @router.post("/cut", status_code=202, responses=rejections(404, 409, 422, 503, 507))
+    def cut(name: str, requested: CutRequest) -> JobMessage:
+        """Cut out a part of a recording as a recording that replays exactly, in a job.
+
+        It begins at the stored state of tracking before `from_s`, up to a minute earlier: `from_s` of the
+        result. `is_exact` is false where none is stored; `file` is to be downloaded.
+        """
+        return job_message(exports.start_cut(name, requested.from_s, requested.to_s))
+
+    @router.get("/exports/{file}", response_class=FileResponse, responses=rejections(404, 409, 503))
+    def download(name: str, file: str) -> FileResponse:
+        """Return a file that a job made. It has images of the operation."""
+        path = exports.path(name, file)
+        kind = MP4 if path.suffix == VIDEO_SUFFIX else MCAP
+        return FileResponse(path, media_type=kind, filename=file)
 
     return router
 

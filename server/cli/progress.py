@@ -1,7 +1,7 @@
 """Progress bars for the steps of a command, on standard error if it is a terminal."""
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn, TimeRemainingColumn
@@ -33,3 +33,16 @@ def shown_steps() -> Iterator[Steps]:
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console, transient=True) as progress:
         yield Steps(progress)
+
+
+@contextlib.contextmanager
+def shown_ratio(step: str) -> Iterator[Callable[[float], None]]:
+    """Show one progress bar while the block runs; what is yielded takes the share that is done, 0 to 1."""
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield lambda _: None
+        return
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console, transient=True) as progress:
+        task = progress.add_task(step, total=1.0)
+        yield lambda ratio: progress.update(task, completed=ratio)

@@ -1,34 +1,101 @@
-"""`coaxial recording export`: a recording as CSV."""
+"""`coaxial recording`: a recording as CSV and as video, and a piece of it."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
 recording_app = typer.Typer(
     name="recording",
-    help="Export recordings.",
+    help="Export and cut recordings.",
     no_args_is_help=True,
 )
 
 
 @recording_app.callback()
 def recording() -> None:
-    """Export recordings."""
+    """Export and cut recordings."""
 
 
 @recording_app.command()
 def export(
     file: Annotated[Path, typer.Argument(help="A recording of Coaxial (.mcap).", metavar="FILE")],
-    to: Annotated[Path, typer.Option("--to", help="Folder of the CSV files; made if needed.", metavar="DIR")],
+    to: Annotated[
+        Path | None, typer.Option("--to", help="Folder of the CSV files; made if needed.", metavar="DIR")
+    ] = None,
+    video: Annotated[
+        Path | None,
+        typer.Option("--video", help="Video (MP4) with the overlay; needs PyAV.", metavar="FILE"),
+    ] = None,
+    language: Annotated[
+        Literal["en", "de"], typer.Option("--language", help="Of the words in the video.")
+    ] = "en",
 ) -> None:
-    """Write poses.csv, deviations.csv and alarms.csv of a recording; columns are named with their units."""
+    """Write poses.csv, deviations.csv and alarms.csv of a recording, or a video of it.
+
+    Columns are named with their units. The video has each image at its capture time, with the overlay of its
+    results, and is marked as a recording.
+    """
+    if to is None and video is None:
+        raise typer.BadParameter("Name a folder for CSV (--to), a video (--video), or both.")
+    if to is not None:
+        _write_tables(file, to)
+    if video is not None:
+        _write_video(file, video, language)
+
+
+@recording_app.command()
+def cut(
+    file: Annotated[Path, typer.Argument(help="A recording of Coaxial (.mcap).", metavar="FILE")],
+    target: Annotated[Path, typer.Argument(help="The piece (.mcap).", metavar="OUT")],
+    from_s: Annotated[
+        float, typer.Option("--from", min=0.0, help="Begin, in s since the first image.", metavar="S")
+    ],
+    to_s: Annotated[float, typer.Option("--to", min=0.0, help="End, likewise.", metavar="S")],
+) -> None:
+    """Write a piece of a recording as a recording of its own.
+
+    It begins at the state of tracking that is stored before its begin, up to a minute earlier, so that it
+    replays exactly (coaxial replay OUT --check).
+    """
+    from server.cli.progress import shown_ratio  # noqa: PLC0415  loaded when needed
+    from server.recording.cut import cut_recording  # noqa: PLC0415
+
+    if target.exists() and target.samefile(file):
+        raise typer.BadParameter("OUT is FILE itself.")
+    with shown_ratio("cutting") as report:
+        summary = cut_recording(file, target, from_s=from_s, to_s=to_s, report=lambda ratio, _: report(ratio))
+    typer.echo(str(target))
+    typer.echo(f"{summary.images} images, from {summary.from_s:.2f} to {summary.to_s:.2f} s")
+    if not summary.is_exact:
+        typer.echo("no state of tracking is stored before them, so that they cannot be replayed")
+    elif summary.from_s < from_s:
+        typer.echo(f"it begins at {summary.from_s:.2f} s, where a state of tracking is stored")
+
+
+def _write_tables(file: Path, folder: Path) -> None:
     from server.recording.export import Table, csv_lines  # noqa: PLC0415  loaded when needed
 
     tables = {table: csv_lines(file, table) for table in Table}
-    to.mkdir(parents=True, exist_ok=True)
+    folder.mkdir(parents=True, exist_ok=True)
     for table, lines in tables.items():
-        target = to / f"{table}.csv"
+        target = folder / f"{table}.csv"
         with target.open("w", encoding="utf-8", newline="") as written:
             written.writelines(lines)
         typer.echo(str(target))
+
+
+def _write_video(file: Path, target: Path, language: Literal["en", "de"]) -> None:
+    from server.cli.progress import shown_ratio  # noqa: PLC0415
+    from server.recording.video import write_video  # noqa: PLC0415  loaded when needed
+
+    with shown_ratio("writing the video") as report:
+        summary = write_video(file, target, language=language, report=lambda ratio, _: report(ratio))
+    typer.echo(str(target))
+    typer.echo(f"{summary.images} images")
+    if summary.gaps:
+        typer.echo(f"{summary.gaps} times without images, shown as such")
+    if summary.undrawn:
+        typer.echo(f"{summary.undrawn} images without their results, as each of them says")
+    if not summary.is_whole:
+        typer.echo(f"the recording was cut: {summary.why_cut}; read up to there")

@@ -85,7 +85,9 @@ def _print(report: ReplayReport) -> None:
         typer.echo(f"not compared: {report.unchecked_steps} steps of the alarms")
     if not report.images:
         typer.echo("no image could be compared")
-    _print_end(report.remarks, is_whole=report.is_whole, why_cut=report.why_cut)
+    if report.is_damaged:
+        typer.echo(f"the file is damaged: {report.why_cut}; nothing after that was compared")
+    _print_end(report.remarks, is_whole=report.is_whole or report.is_damaged, why_cut=report.why_cut)
 
 
 def _print_differences(what: str, found: Differences, compared: str, unit: str) -> None:
@@ -117,6 +119,7 @@ def _values(report: ReplayReport) -> dict[str, object]:
         "changed_versions": report.changed_versions,
         "remarks": report.remarks,
         "is_whole": report.is_whole,
+        "is_damaged": report.is_damaged,
         "why_cut": report.why_cut,
     }
 

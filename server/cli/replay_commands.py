@@ -30,8 +30,8 @@ def replay(
 ) -> None:
     """Say what is in a recording, or check that it gives the same poses and alarms again.
 
-    Exit status 1 if anything differs, or if nothing could be compared. To watch a recording, use it as a
-    source: coaxial run --source FILE.
+    Exit status 1 if anything differs, if the file is damaged, or if nothing could be compared. To watch a
+    recording, use it as a source: coaxial run --source FILE.
     """
     from server.cli.replay import check_file, describe_file  # noqa: PLC0415  loaded when needed
 

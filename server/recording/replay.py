@@ -108,7 +108,8 @@ class ReplayReport:
         poses, alarms: what differs.
         remarks: of the recording, and why something was not checked.
         is_whole: whether the file has its proper end.
-        why_cut: why not.
+        is_damaged: whether a part of it is not what was written.
+        why_cut: why it was not read to its end.
     """
 
     session: SessionMessage | None = None
@@ -121,12 +122,14 @@ class ReplayReport:
     alarms: Differences = field(default_factory=Differences)
     remarks: list[str] = field(default_factory=list)
     is_whole: bool = False
+    is_damaged: bool = False
     why_cut: str = ""
 
     @property
     def is_equal(self) -> bool:
-        """Whether something was compared, and all of it is equal."""
-        return self.images > 0 and self.poses.first is None and self.alarms.first is None
+        """Whether something was compared, all of it is equal, and no part of the file is damaged."""
+        is_same = self.poses.first is None and self.alarms.first is None
+        return self.images > 0 and is_same and not self.is_damaged
 
     @property
     def changed_versions(self) -> list[str]:
@@ -159,6 +162,7 @@ def check_recording(path: Path, *, limits: AlarmLimits | None = None) -> ReplayR
     replay.end()
     report = replay.report
     report.is_whole, report.why_cut = reader.is_whole, reader.why_cut
+    report.is_damaged = reader.is_damaged
     return report
 
 

@@ -85,11 +85,7 @@ class RecordingReview:
             NotFound: RECORDING_UNKNOWN.
             SetupOrderError: NO_CASE_OPEN.
         """
-        path = self._recordings.path(name)
-        if self._recordings.state.name == name:
-            raise RecordingError(
-                "RECORDING_RUNS", f"{name} is being written", "Stop the recording first.", {"name": name}
-            )
+        path = self._recordings.ended_path(name)
         with self._lock:
             found = self._stored(path)
             if found is not None:

@@ -9,6 +9,7 @@ import hashlib
 import json
 import re
 import secrets
+import shutil
 import threading
 import time
 from collections.abc import Callable, Sequence
@@ -42,6 +43,7 @@ from server.store.home import PRIVATE, RECORDINGS, sync_folder
 NAME = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{4}\.mcap")
 TIME_FORMAT = "%Y%m%dT%H%M%SZ"
 PROTECTED = ".protected"
+EXPORTS = ".exports"
 POLL_S = 0.25
 # After a failure nobody is served by a new attempt four times a second.
 RETRY_AFTER_S = 30.0
@@ -146,6 +148,8 @@ class RecordingService:
         self._last: RecordingStatus | None = None
         self._problem: Problem | None = None
         self._documents: tuple[str, ...] = ()
+        # By file, with its size and time of change, for which they are true.
+        self._durations: dict[Path, tuple[tuple[int, int], float | None]] = {}
         self._failed_at_s = -RETRY_AFTER_S
         self._is_held_off = False
         self._stop = threading.Event()
@@ -260,7 +264,7 @@ class RecordingService:
                     StoredRecording(
                         name=path.name,
                         began_at=_began_at(path.name),
-                        duration_s=None if path.name == running else read_duration_s(path),
+                        duration_s=None if path.name == running else self._duration_s(path),
                         size_bytes=path.stat().st_size,
                         is_protected=_protection(path).exists(),
                         is_running=path.name == running,
@@ -285,6 +289,36 @@ class RecordingService:
             )
         return path
 
+    def ended_path(self, name: str) -> Path:
+        """Return the file of a recording that is not being written.
+
+        Raises:
+            RecordingError: RECORDING_RUNS.
+            NotFound: RECORDING_UNKNOWN.
+            SetupOrderError: NO_CASE_OPEN.
+        """
+        path = self.path(name)
+        if self.state.name == name:
+            raise _runs(name)
+        return path
+
+    def require_space(self) -> None:
+        """Reject what would be written beside the recordings where their disk is nearly full.
+
+        Raises:
+            RecordingError: RECORDING_DISK_FULL.
+        """
+        min_free_gb = self._config.recording.min_free_gb
+        free_bytes = self._store.home.free_bytes()
+        if free_bytes < min_free_gb * 1e9:
+            raise RecordingError(
+                "RECORDING_DISK_FULL",
+                f"{free_bytes / 1e9:.2f} GB are free on the disk of the cases, and "
+                f"{min_free_gb:g} GB must stay free (recording.min_free_gb)",
+                "Free disk space first.",
+                {"free_bytes": free_bytes},
+            )
+
     def protect(self, name: str, *, is_protected: bool) -> None:
         """Protect a recording from deletion, or end that. Raises the same errors as `path`."""
         mark = _protection(self.path(name))
@@ -304,9 +338,7 @@ class RecordingService:
         with self._lock:
             path = self.path(name)
             if self._running is not None and self._running.name == name:
-                raise RecordingError(
-                    "RECORDING_RUNS", f"{name} is being written", "Stop the recording first.", {"name": name}
-                )
+                raise _runs(name)
             if _protection(path).exists():
                 raise RecordingError(
                     "RECORDING_PROTECTED",
@@ -315,7 +347,9 @@ class RecordingService:
                     {"name": name},
                 )
             path.unlink()
+            self._durations.pop(path, None)
             index_path(path).unlink(missing_ok=True)
+            shutil.rmtree(exports_folder(path), ignore_errors=True)
             sync_folder(path.parent)
 
     def put_mark(self, text: str) -> None:
@@ -348,16 +382,7 @@ class RecordingService:
                 "Delete recordings that are not needed, or raise recording.max_total_gb.",
                 {"max_total_gb": settings.max_total_gb},
             )
-        min_free_bytes = settings.min_free_gb * 1e9
-        free_bytes = self._store.home.free_bytes()
-        if free_bytes < min_free_bytes:
-            raise RecordingError(
-                "RECORDING_DISK_FULL",
-                f"{free_bytes / 1e9:.2f} GB are free on the disk of the cases, and "
-                f"{settings.min_free_gb:g} GB must stay free (recording.min_free_gb)",
-                "Free disk space first.",
-                {"free_bytes": free_bytes},
-            )
+        self.require_space()
         now = utc_now()
         name = f"{now:{TIME_FORMAT}}-{secrets.token_hex(2)}{SUFFIX}"
         with ExitStack() as stack:
@@ -367,7 +392,7 @@ class RecordingService:
             sync_folder(folder.parent)
             order = RecordingOrder(
                 path=folder / name,
-                limits=WriterLimits(max_bytes=left_bytes, min_free_bytes=min_free_bytes),
+                limits=WriterLimits(max_bytes=left_bytes, min_free_bytes=settings.min_free_gb * 1e9),
                 session=session_message(
                     self._config,
                     case_id=case.id,
@@ -399,6 +424,10 @@ class RecordingService:
         if running is None:
             return
         self._last = running.recorder.stop(reason)
+        path = self._folder(running.case) / running.name
+        # A recording that could not begin has no file.
+        with suppress(FileNotFoundError):
+            self._duration_s(path)
         running.in_use.close()
         log.info("a recording ended", file=running.name, images=self._last.images, why=reason)
 
@@ -497,11 +526,21 @@ class RecordingService:
         )
         return max(0.0, left_bytes) * duration_s / status.written_bytes
 
+    def _duration_s(self, path: Path) -> float | None:
+        """Return the duration of a recording that has ended; its file is read once, unless it changes."""
+        found = path.stat()
+        version = found.st_size, found.st_mtime_ns
+        known = self._durations.get(path)
+        if known is None or known[0] != version:
+            known = self._durations[path] = version, read_duration_s(path)
+        return known[1]
+
     def _total_bytes(self) -> int:
         total = 0
-        for path in self._store.home.cases.glob(f"*/{RECORDINGS}/*{SUFFIX}"):
-            with suppress(FileNotFoundError):
-                total += path.stat().st_size
+        for pattern in (f"*{SUFFIX}", f"*{EXPORTS}/*"):
+            for path in self._store.home.cases.glob(f"*/{RECORDINGS}/{pattern}"):
+                with suppress(FileNotFoundError):
+                    total += path.stat().st_size
         return total
 
     def _folder(self, case: Case) -> Path:
@@ -510,6 +549,17 @@ class RecordingService:
 
 def _began_at(name: str) -> str:
     return utc_text(datetime.strptime(name.partition("-")[0], TIME_FORMAT).replace(tzinfo=UTC))
+
+
+def exports_folder(recording: Path) -> Path:
+    """Return the folder of what was made from a recording, which is deleted with it."""
+    return recording.with_name(recording.name + EXPORTS)
+
+
+def _runs(name: str) -> RecordingError:
+    return RecordingError(
+        "RECORDING_RUNS", f"{name} is being written", "Stop the recording first.", {"name": name}
+    )
 
 
 def _protection(path: Path) -> Path:

@@ -1,6 +1,7 @@
 """The file of a recording: MCAP, with images, messages, alarms, and the state of tracking.
 
 codec.py      values of the program as JSON and back
+copy.py       writes messages of one recording into another
 locations.py  where messages lie in the file
 packing.py    images
 topics.py     what is in the file

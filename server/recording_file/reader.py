@@ -9,7 +9,7 @@ from typing import IO
 
 import zstandard
 from mcap.exceptions import McapError
-from mcap.records import Channel, Footer, Header, Message
+from mcap.records import Channel, Footer, Header, Message, Schema
 from mcap.stream_reader import CRCValidationError, StreamReader
 
 from server.errors import RecordingError
@@ -29,7 +29,8 @@ class RecordedMessage:
 
     Attributes:
         topic: what it is.
-        unix_s: when, Unix time.
+        channel_id: of its channel, see `RecordingReader.channels`.
+        log_ns: when, Unix time in ns.
         sequence: number of the image, where it is about one.
         content: its bytes.
         packed: the image; None for every other message.
@@ -37,11 +38,17 @@ class RecordedMessage:
     """
 
     topic: Topic
-    unix_s: float
+    channel_id: int
+    log_ns: int
     sequence: int
     content: bytes
     packed: PackedImage | None = None
     is_compressed: bool = False
+
+    @property
+    def unix_s(self) -> float:
+        """When, Unix time."""
+        return self.log_ns / NANOSECONDS
 
     @property
     def image(self) -> Image | None:
@@ -69,16 +76,19 @@ class RecordingReader:
 
     Attributes:
         is_whole: whether the file was read to its proper end; known after `messages`.
-        why_cut: why not; empty if it was.
+        is_damaged: whether a part that was read is not what was written.
+        why_cut: why it was not read to its end; empty if it was.
+        library: the program that wrote it, with its version.
+        channels, schemas: by id, of the messages that were read.
 
     Raises:
         RecordingError: RECORDING_NOT_READABLE: there is no such file, or it is no recording of Coaxial.
     """
 
     def __init__(self, path: Path) -> None:
-        self.is_whole, self.why_cut = False, ""
-        self._path = path
-        self._channels: dict[int, Channel] = {}
+        self.is_whole, self.is_damaged, self.why_cut = False, False, ""
+        self.channels: dict[int, Channel] = {}
+        self.schemas: dict[int, Schema] = {}
         try:
             self._file: IO[bytes] = path.open("rb")
         except OSError as error:
@@ -94,13 +104,16 @@ class RecordingReader:
         if not isinstance(header, Header) or header.profile != PROFILE:
             self._file.close()
             raise _not_readable(path, "it is no recording of Coaxial")
+        self.library = header.library
 
     def messages(self) -> Iterator[RecordedMessage]:
         """Yield the messages up to the end, or to where the file was cut or is damaged."""
         try:
             for record in self._records:
                 if isinstance(record, Channel):
-                    self._channels[record.id] = record
+                    self.channels[record.id] = record
+                elif isinstance(record, Schema):
+                    self.schemas[record.id] = record
                 elif isinstance(record, Message):
                     message = self._message(record)
                     if message is not None:
@@ -108,7 +121,7 @@ class RecordingReader:
                 elif isinstance(record, Footer):
                     self.is_whole = True
         except CRCValidationError:
-            self.why_cut = "a checksum is wrong"
+            self.is_damaged, self.why_cut = True, "a checksum is wrong"
         except (McapError, ValueError, EOFError, struct.error, KeyError, IndexError):
             self.why_cut = "it ends in the middle of a chunk"
         else:
@@ -121,7 +134,7 @@ class RecordingReader:
         self._file.close()
 
     def _message(self, record: Message) -> RecordedMessage | None:
-        channel = self._channels[record.channel_id]
+        channel = self.channels[record.channel_id]
         topic = TOPICS.get(channel.topic)
         if topic is None:
             return None
@@ -132,7 +145,8 @@ class RecordingReader:
             packed = PackedImage(packing=packing, size_wh_px=size, content=record.data)
         return RecordedMessage(
             topic=topic,
-            unix_s=record.log_time / NANOSECONDS,
+            channel_id=record.channel_id,
+            log_ns=record.log_time,
             sequence=record.sequence,
             content=record.data,
             packed=packed,

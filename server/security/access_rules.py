@@ -69,6 +69,7 @@ GET     /api/recordings/{name}/export/{table}.csv
 GET     /api/recordings/{name}/timeline
 GET     /api/recordings/{name}/images/{number}.jpg
 GET     /api/recordings/{name}/instants/{number}
+GET     /api/recordings/{name}/exports/{file}
 GET     /api/cases
 GET     /api/cases/{case_id}
 GET     /api/cases/{case_id}/documents
@@ -123,6 +124,7 @@ POST    /api/alarms/screens
 
 # A remote colleague requests a hold, releases it, and co-signs. Nothing moves by it.
 DONE_BY_OVERSEERS = """
+POST    /api/recordings/{name}/comments
 POST    /api/alarms/hold
 POST    /api/alarms/release
 POST    /api/supervision/signatures
@@ -138,6 +140,8 @@ POST    /api/procedure/confirmation
 POST    /api/recordings/consent
 POST    /api/recordings/start
 POST    /api/recordings/stop
+POST    /api/recordings/{name}/video
+POST    /api/recordings/{name}/cut
 PUT     /api/recordings/{name}/protection
 DELETE  /api/recordings/{name}
 POST    /api/cases
@@ -222,6 +226,7 @@ GET     /api/cases/{case_id}/archive
 GET     /api/audit/export
 GET     /api/recordings/{name}/file
 GET     /api/recordings/{name}/export/{table}.csv
+GET     /api/recordings/{name}/exports/{file}
 """
 # Executed even if the audit log cannot be written: alarms, and what frees space on a full disk.
 URGENT = """

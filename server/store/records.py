@@ -24,6 +24,7 @@ class DocumentKind(StrEnum):
     CONFIRMATION = "confirmation"
     SIGNATURE = "signature"
     CONSENT = "consent"
+    COMMENT = "comment"
     SNAPSHOT = "snapshot"
     ALARM = "alarm"
     AUDIT = "audit"

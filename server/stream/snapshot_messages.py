@@ -128,7 +128,7 @@ def snapshot_message(snapshot: NavigationSnapshot, *, now_s: float) -> SnapshotM
         anchored_to=None if isinstance(registration, Absent) else registration.anchored_to,
         reference=setup.reference or None,
         channel_name=None if isinstance(setup.channel, Absent) else setup.channel.name,
-        channel=_channel(setup),
+        channel=channel_message(setup),
         withheld=setup.withheld,
         vertebra=vertebra_message(snapshot.vertebra),
         motion=_watched(snapshot),
@@ -148,7 +148,8 @@ def snapshot_message(snapshot: NavigationSnapshot, *, now_s: float) -> SnapshotM
     )
 
 
-def _channel(setup: Setup) -> ChannelMessage | None:
+def channel_message(setup: Setup) -> ChannelMessage | None:
+    """Return the message of the planned channel; None without a plan."""
     channel, screw = setup.channel, setup.screw
     if isinstance(channel, Absent):
         return None

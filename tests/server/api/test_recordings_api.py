@@ -1,11 +1,13 @@
 """`/api/recordings`: the whole answers."""
 
 import csv
+import io
 from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
 from typing import Any
 
+import av
 import cv2
 import numpy as np
 import pytest
@@ -17,7 +19,7 @@ from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
 from server.logs import LogSettings
-from server.store import CaseStore, Home
+from server.store import CaseStore, DocumentKind, Home
 from tests.server.recording.no_recorder import recordings_without_process
 from tests.server.recording.reviewed import DRILLED, HEIGHT, WIDTH, drawn, write_drilling
 
@@ -203,3 +205,125 @@ def test_a_recording_is_exported_as_csv(door: Door) -> None:
     rows = list(csv.DictReader(answer.text.splitlines()))
     assert [row["reason"] == "" for row in rows] == [mode != "hidden" for mode in DRILLED]
     assert door.ask("GET", f"/{name}/export/images.csv", 422)["code"] == "REQUEST_INVALID"
+
+
+def made(door: Door, name: str, what: str, body: object) -> dict[str, Any]:
+    """Wait for a video or piece of a recording, and return its job."""
+    job = door.ask("POST", f"/{name}/{what}", 202, body)
+    door.jobs.wait_for(job["id"], timeout_s=120.0)
+    return dict(door.client.get(f"/api/jobs/{job['id']}").json())
+
+
+def downloaded(door: Door, name: str, file: str) -> bytes:
+    answer = door.client.get(f"/api/recordings/{name}/exports/{file}")
+    assert answer.status_code == 200
+    assert file in answer.headers["content-disposition"]
+    return answer.content
+
+
+def test_a_video_is_made_by_a_job_and_downloaded(door: Door) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    job = made(door, name, "video", {"language": "de"})
+    assert job["state"] == "done", job
+    assert job["progress_ratio"] == 1.0
+    result = job["result"]
+    assert (result["images"], result["gaps"], result["is_whole"]) == (len(DRILLED), 0, True)
+    content = downloaded(door, name, result["file"])
+    assert len(content) == result["size_bytes"]
+    with av.open(io.BytesIO(content)) as video:
+        assert sum(1 for _ in video.decode(video=0)) == len(DRILLED)
+    # The next takes its place.
+    again = made(door, name, "video", {})["result"]["file"]
+    assert again != result["file"]
+    assert door.ask("GET", f"/{name}/exports/{result['file']}", 404)["code"] == "EXPORT_UNKNOWN"
+
+
+def test_a_piece_is_made_by_a_job_and_deleted_with_its_recording(door: Door) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    job = made(door, name, "cut", {"from_s": 1.75, "to_s": 2.55})
+    assert job["state"] == "done", job
+    result = job["result"]
+    assert (result["images"], result["is_exact"]) == (8, False)
+    assert downloaded(door, name, result["file"]).startswith(b"\x89MCAP0")
+    # It is no recording of the case.
+    assert [one["name"] for one in door.ask("GET", "", 200)["recordings"]] == [name]
+    assert made(door, name, "cut", {"from_s": 9, "to_s": 10})["problem"]["code"] == "CUT_EMPTY"
+    assert door.ask("GET", f"/{name}/exports/..", 404)["code"]
+    assert list(door.store.home.temporary.iterdir()) == []
+    door.ask("DELETE", f"/{name}", 204)
+    case = door.store.get_open_case()
+    assert case is not None
+    assert list((door.store.home.cases / case.id / "recordings").iterdir()) == []
+
+
+def test_nothing_is_made_from_a_recording_that_runs_or_on_a_full_disk(
+    door: Door, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    running = door.ask("POST", "/start", 200)["name"]
+    assert door.ask("POST", f"/{running}/video", 409, {})["code"] == "RECORDING_RUNS"
+    door.ask("POST", "/stop", 200)
+    monkeypatch.setattr(Home, "free_bytes", lambda _: -1)
+    assert door.ask("POST", f"/{name}/cut", 507, {"from_s": 0, "to_s": 1})["code"] == "RECORDING_DISK_FULL"
+    assert list(door.store.home.temporary.iterdir()) == []
+
+
+def test_a_comment_is_stored_in_the_case_and_is_in_the_timeline(door: Door) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    other = name.replace("0000.mcap", "0001.mcap")
+    body = {"at_s": 2.5, "text": "  Wandkontakt: 1 mm medial "}
+    stored = door.ask("POST", f"/{name}/comments", 201, body)
+    assert stored == {
+        "document_id": stored["document_id"],
+        "at_s": 2.5,
+        "text": "Wandkontakt: 1 mm medial",
+        "made_at": stored["made_at"],
+        "made_by": "this computer",
+    }
+    door.ask("POST", f"/{name}/comments", 201, {"at_s": 0.5, "text": "begins"})
+    assert door.ask("POST", f"/{other}/comments", 404, body)["code"] == "RECORDING_UNKNOWN"
+    for text in ("", " ", "two\nlines", "x" * 501):
+        assert door.ask("POST", f"/{name}/comments", 422, {**body, "text": text})["code"] == "REQUEST_INVALID"
+
+    def shown() -> list[tuple[float, str, str]]:
+        events = door.timeline(name)["events"]
+        assert [one["from_s"] for one in events] == sorted(one["from_s"] for one in events)
+        return [(one["from_s"], one["title"]["de"], one["by"]) for one in events if one["kind"] == "comment"]
+
+    assert shown() == [
+        (0.5, "begins", "this computer"),
+        (2.5, "Wandkontakt: 1 mm medial", "this computer"),
+    ]
+    case = door.store.get_open_case()
+    assert case is not None
+    document = door.store.document(case.id, stored["document_id"])
+    assert document.content == {"recording": name, "at_s": 2.5, "text": "Wandkontakt: 1 mm medial"}
+    door.store.withdraw(document, by="ito", reason="mistaken")
+    assert len(shown()) == 1
+    # It is the case's, and stays when the recording goes.
+    door.ask("DELETE", f"/{name}", 204)
+    assert len(door.store.all(case.id, DocumentKind.COMMENT)) == 1
+
+
+def test_the_list_opens_no_file_a_second_time(door: Door, monkeypatch: pytest.MonkeyPatch) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    (first,) = door.ask("GET", "", 200)["recordings"]
+    assert first["duration_s"] == pytest.approx(3.9, abs=0.2)
+
+    def read(path: Path) -> float:
+        assert path.name == name
+        return 7.0
+
+    monkeypatch.setattr("server.recording.service.read_duration_s", read)
+    assert door.ask("GET", "", 200)["recordings"] == [first]
+    # A changed file is read again.
+    case = door.store.get_open_case()
+    assert case is not None
+    with (door.store.home.cases / case.id / "recordings" / name).open("ab") as file:
+        file.write(b"more")
+    assert door.ask("GET", "", 200)["recordings"][0]["duration_s"] == 7.0

@@ -3,6 +3,7 @@
 import csv
 from pathlib import Path
 
+import av
 import pytest
 from typer.testing import CliRunner
 
@@ -67,3 +68,19 @@ def test_a_cut_recording_is_exported_up_to_its_cut_and_another_file_not_at_all(
     result = CliRunner().invoke(app, ["recording", "export", str(cut), "--to", str(tmp_path / "none")])
     assert result.exit_code != 0
     assert not (tmp_path / "none").exists()
+
+
+def test_a_video_is_written_beside_or_without_the_tables(drilling: Path, tmp_path: Path) -> None:
+    video = tmp_path / "case.mp4"
+    result = CliRunner().invoke(app, ["recording", "export", str(drilling), "--video", str(video)])
+    assert result.exit_code == 0, result.output
+    assert f"{len(DRILLED)} images" in result.output
+    with av.open(str(video)) as container:
+        assert sum(1 for _ in container.decode(video=0)) == len(DRILLED)
+    assert list(tmp_path.iterdir()) == [video]
+
+
+def test_without_a_target_nothing_is_exported(drilling: Path) -> None:
+    result = CliRunner().invoke(app, ["recording", "export", str(drilling)])
+    assert result.exit_code == 2
+    assert "--video" in result.output

@@ -38,6 +38,7 @@ CAMERAS_MAY = {
     "WS /ws/camera",
 }
 SUPERVISORS_DO = {
+    "POST /api/recordings/{name}/comments",
     "DELETE /api/session",
     "POST /api/session",
     "POST /api/alarms/hold",

@@ -7,6 +7,7 @@ analyse_drill(tool, channel, field, tolerance, ...)
 from tracker.navigation.uncertainty.analysis import Drill, DrillAnalysis, analyse_drill
 from tracker.navigation.uncertainty.probability import Probability, past_planned_ratio, probability_of_breach
 from tracker.navigation.uncertainty.propagation import (
+    ELLIPSOID_95,
     DrillUncertainty,
     crossing_sds_mm,
     propagate_uncertainty,
@@ -19,6 +20,7 @@ from tracker.navigation.uncertainty.uncertain_pose import (
 )
 
 __all__ = [
+    "ELLIPSOID_95",
     "Drill",
     "DrillAnalysis",
     "DrillUncertainty",

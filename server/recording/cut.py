@@ -1,0 +1,197 @@
+"""A piece of a recording as a recording of its own, which replays as exactly as the whole.
+
+A recording is exact from a stored state of tracking on, so that a piece begins at the newest state before its
+requested begin: up to `process.STATE_PERIOD_S` before it. Bytes and times of its messages are those of the
+whole; what was in effect before (session, documents, source, alarms) comes first, at the time of the first
+image.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import inf
+from pathlib import Path
+from typing import TypeAlias
+
+from server.disk import is_full
+from server.errors import RecordingError
+from server.recording.messages import NoteMessage
+from server.recording_file import RecordedMessage, RecordingReader, Topic
+from server.recording_file.copy import RecordingCopy
+from server.recording_file.locations import Location, MessageLocations
+
+# In effect until the next of them.
+LASTING = (Topic.DOCUMENTS, Topic.SOURCE, Topic.ALARMS)
+# Steps of the alarms are written by another thread than images, and may stand after later ones.
+MAX_DISORDER_S = 5.0
+
+Report: TypeAlias = Callable[[float, str], None]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CutSummary:
+    """What was cut out.
+
+    Attributes:
+        images: in the piece.
+        from_s: of its first image, since the first image of the whole; a state is stored there.
+        to_s: of its last image, likewise.
+        is_exact: whether it begins with a state, without which it cannot be replayed.
+    """
+
+    images: int
+    from_s: float
+    to_s: float
+    is_exact: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Begin:
+    """Where a piece begins: `number` is of its first image; `state` whether the state before it is stored."""
+
+    number: int
+    unix_s: float
+    has_state: bool
+
+
+def cut_recording(
+    recording: Path,
+    target: Path,
+    *,
+    from_s: float,
+    to_s: float,
+    report: Report = lambda _ratio, _doing: None,
+) -> CutSummary:
+    """Write the piece of a recording between two times.
+
+    Args:
+        recording: the whole.
+        target: the piece; overwritten.
+        from_s: begin, since the first image of the whole.
+        to_s: end, likewise.
+        report: called with the share that is done, and what is being done.
+
+    Raises:
+        RecordingError: RECORDING_NOT_READABLE, RECORDING_DAMAGED, CUT_EMPTY, CUT_NOT_WRITTEN.
+    """
+    first_s, begin = _begin(recording, from_s, to_s)
+    end_s = first_s + to_s
+    reader = RecordingReader(recording)
+    unfinished = target.with_name(f"{target.name}.part")
+    try:
+        with RecordingCopy(unfinished, reader) as copy:
+            piece = _Piece(copy, begin, end_s)
+            for message in reader.messages():
+                if message.topic is Topic.IMAGE and message.unix_s > end_s + MAX_DISORDER_S:
+                    break
+                piece.take(message)
+                report((message.unix_s - first_s) / max(end_s - first_s, 1e-3), "cutting")
+            if reader.is_damaged:
+                raise RecordingError(
+                    "RECORDING_DAMAGED",
+                    f"{recording.name} cannot be read up to {to_s:.1f} s: {reader.why_cut}",
+                    "Choose a part before the damage, or take the recording from another copy.",
+                )
+            piece.end(recording.name, first_s=first_s, from_s=from_s, to_s=to_s)
+        unfinished.replace(target)
+    except OSError as error:
+        what = "the disk is full" if is_full(error) else (error.strerror or str(error)).lower()
+        raise RecordingError(
+            "CUT_NOT_WRITTEN",
+            f"{target.name} cannot be written: {what}",
+            "Check that its folder exists and its disk has space, then cut again.",
+        ) from error
+    finally:
+        reader.close()
+        unfinished.unlink(missing_ok=True)
+    return CutSummary(
+        images=piece.images,
+        from_s=begin.unix_s - first_s,
+        to_s=piece.last_s - first_s,
+        is_exact=begin.has_state,
+    )
+
+
+def _begin(recording: Path, from_s: float, to_s: float) -> tuple[float, _Begin]:
+    """Return the time of the first image of the whole, and where the piece begins.
+
+    Raises:
+        RecordingError: CUT_EMPTY, RECORDING_NOT_READABLE.
+    """
+    first_s, last_s = inf, -inf
+    state: Location | None = None
+    image: Location | None = None
+    for location in MessageLocations(recording):
+        if location.topic is Topic.STATE and location.unix_s <= first_s + from_s:
+            state = location
+        elif location.topic is Topic.IMAGE:
+            first_s = min(first_s, location.unix_s)
+            last_s = location.unix_s
+            if image is None and location.unix_s >= first_s + from_s:
+                image = location
+    if image is None or not from_s <= to_s or image.unix_s > first_s + to_s:
+        has = f"has images from 0 to {last_s - first_s:.1f} s" if last_s >= first_s else "has no image"
+        raise RecordingError(
+            "CUT_EMPTY",
+            f"there is no image from {from_s:.1f} to {to_s:.1f} s; {recording.name} {has}",
+            "Name a part with images, its begin before its end.",
+            {"from_s": from_s, "to_s": to_s},
+        )
+    start = image if state is None else state
+    return first_s, _Begin(number=start.sequence, unix_s=start.unix_s, has_state=state is not None)
+
+
+class _Piece:
+    def __init__(self, copy: RecordingCopy, begin: _Begin, end_s: float) -> None:
+        self.images, self.last_s = 0, begin.unix_s
+        self._copy, self._begin, self._end_s = copy, begin, end_s
+        self._lasting: dict[Topic, RecordedMessage] = {}
+        self._has_begun = self._has_alarms = False
+        self._last_ns = 0
+
+    def take(self, message: RecordedMessage) -> None:
+        """Copy the message if it belongs to the piece."""
+        if not self._has_begun:
+            if message.topic is Topic.SESSION or message.topic in LASTING:
+                self._lasting[message.topic] = message
+            if not self._is_first(message):
+                return
+            self._has_begun = True
+            # SESSION, which came first, is first again.
+            for lasting in self._lasting.values():
+                self._copy.add(lasting, log_ns=message.log_ns)
+        if message.unix_s > self._end_s:
+            return
+        if message.topic is Topic.ALARM_STATE:
+            self._has_alarms = True
+        elif message.topic is Topic.ALARM_STEP and self._begin.has_state and not self._has_alarms:
+            # Of images before the piece.
+            return
+        self._copy.add(message)
+        self._last_ns = max(self._last_ns, message.log_ns)
+        if message.topic is Topic.SNAPSHOT:
+            self.images += 1
+            self.last_s = message.unix_s
+
+    def end(self, name: str, *, first_s: float, from_s: float, to_s: float) -> None:
+        """Add the note that this is a piece, and of what."""
+        begins_s = self._begin.unix_s - first_s
+        text = f"cut from {name}: {from_s:.1f} to {to_s:.1f} s after its first image"
+        text += (
+            f", begun at the stored state at {begins_s:.1f} s"
+            if self._begin.has_state
+            else "; no state is stored before it, so that it cannot be replayed"
+        )
+        self._copy.add_json(
+            Topic.NOTE,
+            NoteMessage(code="CUT", message=text).model_dump_json(),
+            log_ns=self._last_ns,
+            schema=NoteMessage.model_json_schema(),
+        )
+
+    def _is_first(self, message: RecordedMessage) -> bool:
+        topic = Topic.STATE if self._begin.has_state else Topic.TRACKED
+        return (
+            message.topic is topic
+            and message.sequence == self._begin.number
+            and message.unix_s == self._begin.unix_s
+        )

@@ -1,0 +1,115 @@
+"""`RecordingExports`: videos and pieces of recordings, made by jobs and stored as long as the recording.
+
+A new video takes the place of the one before, and a new piece of the one before it.
+"""
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from server.jobs import Job, Jobs
+from server.recording.cut import Report, cut_recording
+from server.recording.service import RecordingService, exports_folder
+from server.recording.video import write_video
+from server.recording_file.topics import SUFFIX
+from server.store import Home, NotFound
+from server.store.home import PRIVATE, sync_folder
+from server.texts import Language
+
+VIDEO_SUFFIX = ".mp4"
+
+
+class RecordingExports:
+    """Makes files from recordings of the open case. Thread-safe.
+
+    Args:
+        recordings: the recordings.
+        jobs: one for each file.
+        home: has the folder of temporary files.
+    """
+
+    def __init__(self, recordings: RecordingService, jobs: Jobs, home: Home) -> None:
+        self._recordings = recordings
+        self._jobs = jobs
+        self._home = home
+
+    def start_video(self, name: str, language: Language) -> Job:
+        """Start to write a recording as a video; the result of the job has the name of the file.
+
+        Raises:
+            RecordingError: RECORDING_RUNS, RECORDING_DISK_FULL.
+            NotFound: RECORDING_UNKNOWN.
+            SetupOrderError: NO_CASE_OPEN.
+        """
+        file = f"{Path(name).stem}-{language}{VIDEO_SUFFIX}"
+        return self._start("video of a recording", make_video, name, file, {"language": language})
+
+    def start_cut(self, name: str, from_s: float, to_s: float) -> Job:
+        """Start to cut out what lies between two times since the first image.
+
+        Raises the same errors as `start_video`.
+        """
+        file = f"{Path(name).stem}-{from_s:.1f}-{to_s:.1f}s{SUFFIX}"
+        return self._start("piece of a recording", make_piece, name, file, {"from_s": from_s, "to_s": to_s})
+
+    def path(self, name: str, file: str) -> Path:
+        """Return a file that was made from a recording.
+
+        Raises:
+            NotFound: RECORDING_UNKNOWN, EXPORT_UNKNOWN.
+            SetupOrderError: NO_CASE_OPEN.
+        """
+        folder = exports_folder(self._recordings.path(name))
+        found = folder / file
+        if found.parent != folder or not found.is_file():
+            raise NotFound(
+                "EXPORT_UNKNOWN",
+                f"nothing of this name was made from {name}",
+                "Make it again; a later video or piece takes the place of the one before.",
+                {"name": name},
+            )
+        return found
+
+    def _start(self, title: str, work: Any, name: str, file: str, arguments: dict[str, object]) -> Job:  # noqa: ANN401
+        recording = self._recordings.ended_path(name)
+        self._recordings.require_space()
+        folder = self._home.new_temporary(".export")
+        folder.mkdir(mode=PRIVATE, parents=True)
+        return self._jobs.start(
+            title,
+            work,
+            {"recording": str(recording), "folder": str(folder), "file": file, **arguments},
+            folder=folder,
+            conclude=lambda result: _stored(recording, folder / file, result),
+        )
+
+
+def make_video(report: Report, *, recording: str, folder: str, file: str, language: Language) -> object:
+    """Write the video; the work of a job."""
+    return asdict(write_video(Path(recording), Path(folder) / file, language=language, report=report))
+
+
+def make_piece(
+    report: Report, *, recording: str, folder: str, file: str, from_s: float, to_s: float
+) -> object:
+    """Write the piece; the work of a job."""
+    return asdict(
+        cut_recording(Path(recording), Path(folder) / file, from_s=from_s, to_s=to_s, report=report)
+    )
+
+
+def _stored(recording: Path, made: Path, result: Any) -> dict[str, object]:  # noqa: ANN401
+    """Move the file beside its recording, and return its name and size with what the job said."""
+    if not recording.exists():
+        raise NotFound(
+            "RECORDING_UNKNOWN",
+            f"{recording.name} was deleted meanwhile",
+            "Load the list of recordings again.",
+        )
+    folder = exports_folder(recording)
+    folder.mkdir(mode=PRIVATE, exist_ok=True)
+    for earlier in folder.glob(f"*{made.suffix}"):
+        earlier.unlink(missing_ok=True)
+    stored = made.replace(folder / made.name)
+    sync_folder(folder)
+    return {"file": stored.name, "size_bytes": stored.stat().st_size, **result}

@@ -1,0 +1,335 @@
+"""A recording as a video (MP4, VP9) with the overlay of each image drawn into it.
+
+The overlay is drawn by `server.overlay` from the recorded results, not computed again. Images keep their
+capture times, so that the rate varies as it did. Where results cannot be drawn, the image says so; where no
+image came for longer than `limits.video_stale_after_ms`, the video shows a card in place of the last image
+with its old figures.
+
+PyAV is an optional dependency: its wheels hold x264 and x265, which are under the GPL. Neither is used.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias, cast
+
+import cv2
+import numpy as np
+from pydantic import ValidationError
+
+from server.clock import utc_text
+from server.errors import RecordingError
+from server.loop.tracking_state import TrackingState
+from server.overlay import draw_card, draw_overlay, with_strip
+from server.recording.recorded_results import alarms_of, belongs_to, setup_of, snapshot_of
+from server.recording.timeline import RecordingIndex, make_index, stored_index
+from server.recording_file import CodecError, RecordedMessage, RecordingReader, Topic, decoded_value
+from server.recording_file.locations import read_content
+from server.recording_file.packing import Image
+from server.stream.alarm_messages import AlarmsMessage
+from server.stream.snapshot_messages import SnapshotMessage
+from server.texts import Language, Text
+from tracker.errors import InvalidInput
+from tracker.navigation.alarms import QUIET
+
+if TYPE_CHECKING:
+    from av.container import OutputContainer
+    from av.video.stream import VideoStream
+
+CODEC = "libvpx-vp9"
+# Constant quality, at a speed of about 60 images of 1280x720 a second on one core.
+OPTIONS = {"deadline": "realtime", "cpu-used": "8", "row-mt": "1", "crf": "30", "b": "0"}
+TIME_BASE = Fraction(1, 90_000)
+MAX_GAP_S = 0.5
+BT_709 = 1
+
+NO_SETUP: Text = {
+    "en": "RESULTS NOT DRAWN · their setup is not in the recording",
+    "de": "ERGEBNISSE NICHT GEZEICHNET · ihr Aufbau fehlt in der Aufzeichnung",
+}
+OTHER_VERSION: Text = {
+    "en": "RESULTS NOT DRAWN · another version recorded them",
+    "de": "ERGEBNISSE NICHT GEZEICHNET · von einer anderen Version aufgezeichnet",
+}
+NO_ALARMS: Text = {"en": "ALARMS NOT RECORDED", "de": "ALARME NICHT AUFGEZEICHNET"}
+NOT_DECODED: Text = {"en": "IMAGE DAMAGED", "de": "BILD BESCHÄDIGT"}
+NO_IMAGE: Text = {"en": "NO IMAGE", "de": "KEIN BILD"}
+GAP: Text = {"en": "No image came for {} s.", "de": "{} s lang kam kein Bild."}
+IMAGE: Text = {"en": "image", "de": "Bild"}
+
+Report: TypeAlias = Callable[[float, str], None]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VideoSummary:
+    """What was written.
+
+    Attributes:
+        images: recorded images in the video.
+        gaps: cards beside them, one for each time without an image.
+        undrawn: images of them whose results could not be drawn.
+        is_whole: whether the recording was read to its proper end.
+        why_cut: why not.
+    """
+
+    images: int
+    gaps: int
+    undrawn: int
+    is_whole: bool
+    why_cut: str = ""
+
+
+def write_video(
+    recording: Path,
+    target: Path,
+    *,
+    language: Language = "en",
+    report: Report = lambda _ratio, _doing: None,
+) -> VideoSummary:
+    """Write a recording as video, up to where it was cut.
+
+    Args:
+        recording: of the recording.
+        target: of the video; overwritten.
+        language: of all words.
+        report: called with the share that is done, and what is being done.
+
+    Raises:
+        RecordingError: VIDEO_ENCODER_MISSING, VIDEO_NOT_WRITTEN, RECORDING_NOT_READABLE, RECORDING_EMPTY.
+    """
+    _require_encoder()
+    index = stored_index(recording) or make_index(recording)
+    if not len(index):
+        raise RecordingError(
+            "RECORDING_EMPTY", f"{recording.name} has no image", "Choose a recording with images."
+        )
+    pictures = _Pictures(recording, index, language)
+    images = gaps = 0
+    with _Encoder(target) as encoder:
+        for picture in pictures:
+            encoder.add(picture.image, picture.at_s)
+            images, gaps = images + (not picture.is_gap), gaps + picture.is_gap
+            report(images / len(index), "writing the video")
+    return VideoSummary(
+        images=images,
+        gaps=gaps,
+        undrawn=pictures.undrawn,
+        is_whole=pictures.is_whole,
+        why_cut=pictures.why_cut,
+    )
+
+
+def _require_encoder() -> None:
+    why = "videos are written with PyAV, which is not installed"
+    try:
+        import av  # noqa: PLC0415  optional
+    except ImportError:
+        has_encoder = False
+    else:
+        has_encoder = CODEC in av.codecs_available
+        why = f"the FFmpeg of the installed PyAV lacks {CODEC}"
+    if not has_encoder:
+        raise RecordingError(
+            "VIDEO_ENCODER_MISSING",
+            why,
+            'Install it into the environment of Coaxial: pip install "coaxial[video]", or pip install av.',
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class _Picture:
+    image: Image
+    at_s: float
+    is_gap: bool = False
+
+
+class _Pictures:
+    """The pictures of a video in their order."""
+
+    def __init__(self, path: Path, index: RecordingIndex, language: Language) -> None:
+        self.undrawn = 0
+        self.is_whole, self.why_cut = False, ""
+        self._path, self._index, self._language = path, index, language
+        self._max_gap_s = MAX_GAP_S
+        self._state: TrackingState | None = None
+
+    def __iter__(self) -> Iterator[_Picture]:
+        reader = RecordingReader(self._path)
+        image: RecordedMessage | None = None
+        number, before_s = 0, 0.0
+        size_wh_px = (0, 0)
+        for message in reader.messages():
+            match message.topic:
+                case Topic.SESSION:
+                    limits = message.json().get("settings", {}).get("limits", {})
+                    self._max_gap_s = limits.get("video_stale_after_ms", 1e3 * MAX_GAP_S) / 1e3
+                case Topic.STATE:
+                    self._state = _state(message)
+                case Topic.NOTE if message.json()["code"] in ("STATE_MISSING", "PROCESS_CHANGED"):
+                    # What follows may have another setup.
+                    self._state = None
+                case Topic.IMAGE:
+                    image = message
+                case Topic.SNAPSHOT if image is not None and image.sequence == message.sequence:
+                    if number >= len(self._index):
+                        break
+                    at_s = float(self._index.at_s[number])
+                    if number and at_s - before_s > self._max_gap_s:
+                        yield self._card(size_wh_px, before_s, at_s)
+                    if image.packed is not None:
+                        size_wh_px = image.packed.size_wh_px
+                    yield self._picture(number, at_s, size_wh_px, image, message)
+                    image, before_s, number = None, at_s, number + 1
+        self.is_whole, self.why_cut = reader.is_whole, reader.why_cut
+
+    def _picture(
+        self,
+        number: int,
+        at_s: float,
+        size_wh_px: tuple[int, int],
+        image: RecordedMessage,
+        snapshot: RecordedMessage,
+    ) -> _Picture:
+        pixels, note = image.image, ""
+        if pixels is None:
+            width, height = size_wh_px
+            pixels, note = np.zeros((height, width, 3), dtype=np.uint8), NOT_DECODED[self._language]
+        else:
+            pixels, note = self._drawn(number, pixels, snapshot)
+        self.undrawn += bool(note) and note != NO_ALARMS[self._language]
+        place = f"{IMAGE[self._language]} {image.sequence}, {number + 1} / {len(self._index)}"
+        words = f"{self._time(at_s)} · {place}"
+        return _Picture(with_strip(pixels, words, note=note, language=self._language), at_s)
+
+    def _drawn(self, number: int, pixels: Image, snapshot: RecordedMessage) -> tuple[Image, str]:
+        """Return the image with its results, and what is missing from it."""
+        language = self._language
+        try:
+            message = SnapshotMessage.model_validate_json(snapshot.content)
+            content = self._alarms(number)
+            alarms = alarms_of(AlarmsMessage.model_validate_json(content)) if content else QUIET
+        except ValidationError:
+            return pixels, OTHER_VERSION[language]
+        state, size_wh_px = self._state, (message.width_px, message.height_px)
+        setup = None if state is None else setup_of(state.preparation, size_wh_px)
+        if setup is None or not belongs_to(setup, message):
+            return pixels, NO_SETUP[language]
+        try:
+            drawn = draw_overlay(pixels, snapshot_of(message, setup), alarms, language=language)
+        except InvalidInput:
+            return pixels, NOT_DECODED[language]
+        return drawn, "" if content else NO_ALARMS[language]
+
+    def _alarms(self, number: int) -> bytes:
+        offset, length = (int(one) for one in self._index.alarms[number])
+        if not length:
+            return b""
+        with self._path.open("rb") as file:
+            return read_content(file, offset, length)
+
+    def _card(self, size_wh_px: tuple[int, int], before_s: float, next_s: float) -> _Picture:
+        """Return what is shown from when the image before is too old until the next one comes."""
+        at_s = before_s + self._max_gap_s
+        lasted = GAP[self._language].format(f"{next_s - before_s:.1f}")
+        card = draw_card(size_wh_px=size_wh_px, title=NO_IMAGE[self._language], lines=(lasted,))
+        return _Picture(with_strip(card, self._time(at_s), language=self._language), at_s, is_gap=True)
+
+    def _time(self, at_s: float) -> str:
+        """Return an instant as time of day, to the millisecond, and since the first image."""
+        time = utc_text(datetime.fromtimestamp(self._index.begin_unix_s + at_s, tz=UTC))
+        minutes, seconds = divmod(at_s, 60.0)
+        return f"{time.replace('T', ' ').replace('Z', ' UTC')} · {int(minutes)}:{seconds:06.3f}"
+
+
+class _Encoder:
+    """Encodes pictures of one size at their times; others are fitted into it.
+
+    Raises:
+        RecordingError: VIDEO_NOT_WRITTEN.
+    """
+
+    def __init__(self, target: Path) -> None:
+        self._target = target
+        self._container: OutputContainer | None = None
+        self._stream: VideoStream | None = None
+        self._pts = -1
+
+    def __enter__(self) -> "_Encoder":
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if self._container is None:
+            return
+        try:
+            if kind is None and self._stream is not None:
+                self._container.mux(self._stream.encode(None))
+        except OSError as error:
+            raise _not_written(self._target, error) from error
+        finally:
+            self._container.close()
+
+    def add(self, image: Image, at_s: float) -> None:
+        """Encode a picture that is shown from `at_s` on."""
+        import av  # noqa: PLC0415  optional
+
+        try:
+            if self._container is None or self._stream is None:
+                self._container, self._stream = _opened(self._target, image)
+            size_wh_px = (self._stream.width, self._stream.height)
+            frame = av.VideoFrame.from_ndarray(_fitted(image, size_wh_px), format="bgr24")
+            frame = frame.reformat(format="yuv420p", dst_colorspace="ITU709")
+            # Strictly increasing: two images may have come within a tick.
+            self._pts = max(round(at_s / TIME_BASE), self._pts + 1)
+            frame.pts, frame.time_base = self._pts, TIME_BASE
+            self._container.mux(self._stream.encode(frame))
+        except OSError as error:
+            raise _not_written(self._target, error) from error
+
+
+def _opened(target: Path, image: Image) -> "tuple[OutputContainer, VideoStream]":
+    import av  # noqa: PLC0415  optional
+
+    container = av.open(str(target), "w", format="mp4", options={"movflags": "faststart"})
+    stream = cast("VideoStream", container.add_stream(CODEC, rate=30, options=OPTIONS))
+    height, width = image.shape[:2]
+    # Colour has half the resolution.
+    stream.width, stream.height = width + width % 2, height + height % 2
+    stream.pix_fmt = "yuv420p"
+    stream.time_base = stream.codec_context.time_base = TIME_BASE
+    context = stream.codec_context
+    context.colorspace = context.color_primaries = context.color_trc = BT_709
+    container.metadata["title"] = "Recording of Coaxial, not live"
+    return container, stream
+
+
+def _fitted(image: Image, size_wh_px: tuple[int, int]) -> Image:
+    """Return the image in this size, with black at its right and lower edge where its shape is another."""
+    width, height = size_wh_px
+    ratio = min(width / image.shape[1], height / image.shape[0])
+    if ratio < 1.0 or ratio > 1.01:
+        image = np.asarray(
+            cv2.resize(image, None, fx=ratio, fy=ratio, interpolation=cv2.INTER_AREA), np.uint8
+        )
+    below, beside = height - image.shape[0], width - image.shape[1]
+    if not (below or beside):
+        return image
+    return np.asarray(cv2.copyMakeBorder(image, 0, below, 0, beside, cv2.BORDER_CONSTANT), np.uint8)
+
+
+def _not_written(target: Path, error: OSError) -> RecordingError:
+    return RecordingError(
+        "VIDEO_NOT_WRITTEN",
+        f"the video {target.name} cannot be written: {(error.strerror or str(error)).lower()}",
+        "Check that its folder exists and its disk has space, then export again.",
+    )
+
+
+def _state(message: RecordedMessage) -> TrackingState | None:
+    """Return a state of tracking; None if another version made it."""
+    try:
+        state = decoded_value(message.json())
+    except (CodecError, ValueError):
+        return None
+    return state if isinstance(state, TrackingState) else None
