@@ -21,7 +21,7 @@ from server.capture.v4l2 import VideoDevice, VideoDevices, system_devices
 from server.capture.v4l2.structs import fourcc_text
 from server.errors import CaptureError
 from server.live import CameraMode, CameraStatus, ImageClock
-from tracker.camera import CameraControl, FlickerMonitor
+from tracker.camera import CameraControl
 
 log = structlog.get_logger(__name__)
 
@@ -102,7 +102,6 @@ class LocalCameraSource:
         self._requested: CameraMode | None = None
         self._check: ModeCheck | None = None
         self._control_lock: ControlLock | None = None
-        self._flicker_monitor = FlickerMonitor()
 
     @property
     def defect(self) -> CaptureError | None:
@@ -117,7 +116,6 @@ class LocalCameraSource:
             requested=self._requested,
             granted=None if self._check is None else self._check.granted,
             controls={} if self._control_lock is None else self._control_lock.values,
-            flicker=self._flicker_monitor.flicker,
         )
 
     def adopt(self, calibration: CalibratedCamera | None) -> None:
@@ -143,7 +141,6 @@ class LocalCameraSource:
         self._camera = camera
         self._device = self._opened_device()
         self._timestamps.restart()
-        self._flicker_monitor = FlickerMonitor()
         self._ask(camera)
         self._lock_controls_now()
 
@@ -167,7 +164,6 @@ class LocalCameraSource:
             self._check.take((width, height), captured_at_s)
         if self._control_lock is not None:
             self._control_lock.poll(self._clock())
-        self._detect_flicker(image, captured_at_s)
         shot = Shot(
             image=np.asarray(image, dtype=np.uint8),
             number=self._number,
@@ -186,23 +182,6 @@ class LocalCameraSource:
             self._device.close()
             self._device = None
         self._control_lock = None
-
-    def _detect_flicker(self, image: np.ndarray, at_s: float) -> None:
-        """Detect flicker of lamps, and log its start and end."""
-        before = self._flicker_monitor.flicker
-        self._flicker_monitor.take(np.asarray(image, dtype=np.uint8), at_s)
-        flicker = self._flicker_monitor.flicker
-        if flicker is not None and before is None:
-            log.warning(
-                "lamps flicker in the images",
-                code="LAMP_FLICKER",
-                camera=self.name,
-                mains_hz=flicker.mains_hz,
-                depth_percent=round(100.0 * flicker.depth_ratio, 1),
-                remedy="The page lists exposure times that cancel it.",
-            )
-        elif flicker is None and before is not None:
-            log.info("lamps do not flicker any more", camera=self.name)
 
     def _use_adopted(self) -> None:
         """Apply the calibration that was adopted last, if it differs."""

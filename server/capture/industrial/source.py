@@ -11,7 +11,7 @@ from server.capture.address import SourceAddress
 from server.capture.controls import ControlLock
 from server.capture.device_clock import DeviceClock
 from server.capture.driver_clock import DriverClock
-from server.capture.industrial.camera_controls import IndustrialControls
+from server.capture.industrial.camera_controls import EXPOSURE_UNIT_MS, IndustrialControls
 from server.capture.industrial.camera_setup import (
     choose_industrial_mode,
     read_capabilities,
@@ -105,6 +105,7 @@ class IndustrialCameraSource:
             granted=None if self._check is None else self._check.granted,
             controls={} if self._control_lock is None else self._control_lock.values,
             trigger=self._triggered_by,
+            exposure_unit_ms=EXPOSURE_UNIT_MS,
         )
 
     def adopt(self, calibration: CalibratedCamera | None) -> None:

@@ -228,6 +228,7 @@ def test_exposure_gain_and_white_balance_are_locked_once_they_have_settled(
     assert camera.features["ExposureTime"] == 12_000.0
     controls = source.camera.controls
     assert controls[CameraControl.EXPOSURE] == 12_000
+    assert source.camera.exposure_ms == pytest.approx(12.0)
     assert controls[CameraControl.GAIN] == 325
     # What somebody changes later is seen.
     camera.features["Gain"] = 6.0
