@@ -19,7 +19,7 @@ from server.tool_file import tool_from_config
 from tracker.camera import CameraControl, CameraModel
 from tracker.errors import CalibrationError
 from tracker.marker import MarkerModel, ScoreSettings
-from tracker.navigation import Absent, AbsentReason, DrillLimits, DrillReference, Setup
+from tracker.navigation import Absent, AbsentReason, DrillLimits, DrillReference, MeasuredLatency, Setup
 from tracker.navigation.clearance import select_wall
 from tracker.pipeline import Tracker
 from tracker.plan import Channel
@@ -67,7 +67,7 @@ class CaseSetup:
     Attributes:
         camera: Camera calibration of the case.
         camera_controls, readout_ms: See `CameraFile`; of this calibration.
-        latency_ms: 99th percentile of the latency from exposure to display; None if not measured.
+        latency: Latency from exposure to display; None if not measured.
         models: Markers of the case.
         tools: Tools calibrated in the case, by name.
         channel: The active channel.
@@ -82,7 +82,7 @@ class CaseSetup:
     camera: CameraModel | None = None
     camera_controls: Mapping[CameraControl, int] = field(default_factory=dict)
     readout_ms: float | None = None
-    latency_ms: float | None = None
+    latency: MeasuredLatency | None = None
     models: tuple[MarkerModel, ...] = ()
     tools: Mapping[str, ToolModel] = field(default_factory=dict)
     channel: Channel | None = None
@@ -117,7 +117,7 @@ class Preparation:
         smoothing: Smoothing of poses.
         readout_s: Readout time from the first to the last row; 0 for a global shutter.
         theatre: Theatre of the rehearsal; None for other sources.
-        withheld, registered_from_s, latency_ms: see `CaseSetup`.
+        withheld, registered_from_s, latency: see `CaseSetup`.
         guide: Wall and screw of the pedicle besides its channel; None uses the channel only.
         camera_controls: see `CaseSetup`; of the camera file, where the camera is that of the settings.
         same_sensor_area: Images of all sizes show the same area of the sensor (setting).
@@ -137,7 +137,7 @@ class Preparation:
     theatre: "Theatre | None" = None
     withheld: AbsentReason | None = None
     registered_from_s: float | None = None
-    latency_ms: float | None = None
+    latency: MeasuredLatency | None = None
     drill_reference: DrillReference | None = None
     limits: DrillLimits = field(default_factory=DrillLimits)
     camera_controls: Mapping[CameraControl, int] = field(default_factory=dict)
@@ -203,7 +203,7 @@ class Preparation:
             models=models,
             tools={**self.tools, **known},
             readout_s=self._readout_s(case.readout_ms),
-            latency_ms=case.latency_ms,
+            latency=case.latency,
         )
         if case.channel is None:
             return changed

@@ -111,7 +111,7 @@ class Tracking:
             drill_reference=self._guide,
             motion=motion,
         )
-        snapshot = self._lagging.take(snapshot, latency_ms=self._preparation.latency_ms)
+        snapshot = self._lagging.take(snapshot, latency=self._preparation.latency)
         stage_ms = {
             "waiting": (started_s - shot.captured_at_s) * 1000.0,
             **tracker.stage_ms,
