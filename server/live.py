@@ -92,6 +92,7 @@ class CameraStatus:
         flicker: Detected lamp flicker; None if there is none or it is unknown.
         is_predicted: Whether its codec predicts images from earlier ones.
         exposure_unit_ms: Unit of the control EXPOSURE.
+        device: Which camera it is: its model, or its serial number where it has one; empty if unknown.
     """
 
     clock: ImageClock
@@ -102,6 +103,7 @@ class CameraStatus:
     flicker: LampFlicker | None = None
     is_predicted: bool = False
     exposure_unit_ms: float = V4L2_EXPOSURE_UNIT_MS
+    device: str = ""
 
     @property
     def exposure_ms(self) -> float | None:

@@ -99,6 +99,7 @@ class LocalCameraSource:
         self._timestamps = DriverClock()
         self._camera: Video | None = None
         self._device: VideoDevice | None = None
+        self._device_name = ""
         self._requested: CameraMode | None = None
         self._check: ModeCheck | None = None
         self._control_lock: ControlLock | None = None
@@ -116,6 +117,7 @@ class LocalCameraSource:
             requested=self._requested,
             granted=None if self._check is None else self._check.granted,
             controls={} if self._control_lock is None else self._control_lock.values,
+            device=self._device_name,
         )
 
     def adopt(self, calibration: CalibratedCamera | None) -> None:
@@ -139,7 +141,7 @@ class LocalCameraSource:
                 {"camera": self.name},
             )
         self._camera = camera
-        self._device = self._opened_device()
+        self._device, self._device_name = self._opened_device()
         self._timestamps.restart()
         self._ask(camera)
         self._lock_controls_now()
@@ -226,18 +228,18 @@ class LocalCameraSource:
             )
         return captured_at_s
 
-    def _opened_device(self) -> VideoDevice | None:
-        """Open the device beside OpenCV; None where system or device do not support it."""
+    def _opened_device(self) -> tuple[VideoDevice | None, str]:
+        """Open the device beside OpenCV, with its name; None where system or device do not support it."""
         path = f"/dev/video{int(self._text)}" if self._text.isdecimal() else self._text
         with contextlib.suppress(OSError):
             device = self._devices.open(path)
             try:
-                device.description()
+                name = device.description().name
             except OSError:
                 device.close()
                 raise
-            return device
-        return None
+            return device, name
+        return None, ""
 
     def _ask(self, camera: Video) -> None:
         """Request a mode, and store the granted one."""

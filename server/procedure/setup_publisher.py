@@ -161,6 +161,7 @@ class SetupPublisher:
         return CaseSetup(
             camera=None if camera is None else camera.model,
             camera_controls={} if camera is None else camera.controls,
+            camera_device="" if camera is None else camera.device,
             readout_ms=None if camera is None else camera.readout_ms,
             models=self._markers.of_case,
             tools=tools,

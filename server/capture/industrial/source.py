@@ -85,6 +85,7 @@ class IndustrialCameraSource:
         self._timestamps = DriverClock()
         self._has_own_clock = False
         self._camera: IndustrialCamera | None = None
+        self._opened_serial = ""
         self._latch: LatchedClock | None = None
         self._requested: CameraMode | None = None
         self._check: ModeCheck | None = None
@@ -106,6 +107,7 @@ class IndustrialCameraSource:
             controls={} if self._control_lock is None else self._control_lock.values,
             trigger=self._triggered_by,
             exposure_unit_ms=EXPOSURE_UNIT_MS,
+            device=self._opened_serial,
         )
 
     def adopt(self, calibration: CalibratedCamera | None) -> None:
@@ -171,6 +173,7 @@ class IndustrialCameraSource:
 
     def _opened(self) -> IndustrialCamera:
         if self._serial:
+            self._opened_serial = self._serial
             return self._cameras.open(self._serial)
         found = self._cameras.descriptions()
         if len(found) != 1:
@@ -179,7 +182,8 @@ class IndustrialCameraSource:
                 if found
                 else "no camera is connected"
             )
-        return self._cameras.open(found[0].serial)
+        self._opened_serial = found[0].serial
+        return self._cameras.open(self._opened_serial)
 
     def _set_up(self, camera: IndustrialCamera) -> None:
         controls = IndustrialControls(camera)

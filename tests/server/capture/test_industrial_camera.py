@@ -324,3 +324,14 @@ def test_a_library_that_is_missing_is_reported_with_how_to_get_it() -> None:
         source.open()
     assert caught.value.code == "CAMERA_LIBRARY_MISSING"
     assert "coaxial[basler]" in caught.value.remedy
+
+
+@pytest.mark.parametrize("text", ["basler:4711", "basler:"])
+def test_the_status_names_the_camera_by_its_serial_number(camera: FakeIndustrialCamera, text: str) -> None:
+    source = IndustrialCameraSource(
+        source_from_text(text),
+        cameras=FakeIndustrialCameras(sn4711=camera),
+        stop=threading.Event(),
+        clock=camera.clock,
+    )
+    assert opened(source).camera.device == SERIAL

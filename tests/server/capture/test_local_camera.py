@@ -157,6 +157,7 @@ def test_a_device_that_cannot_be_opened_is_reported(video: FakeVideo) -> None:
 def test_the_controls_are_in_the_status_and_are_read_again(video: FakeVideo) -> None:
     source = source_of(video)
     source.open()
+    assert source.camera.device == "Webcam"
     assert source.camera.controls[CameraControl.AUTOFOCUS] == 1
     read(source, video, after_s=4.0)
     assert source.camera.controls[CameraControl.AUTOFOCUS] == 0
