@@ -27,6 +27,7 @@ class CameraFile:
         camera_name: `camera.name` of the calibrated camera; None if not stated.
         camera_source: `camera.source` of the calibrated camera; None if not stated.
         controls: Camera controls at the calibration, in driver units; empty if not stated.
+        device: `CameraStatus.device` at the calibration; empty if not stated.
         readout_ms: Readout time from the first to the last row; None if not stated.
         report: What is stated of the calibration (rms_px, sd, warnings); see `server.camera_remarks`.
     """
@@ -35,6 +36,7 @@ class CameraFile:
     camera_name: str | None = None
     camera_source: str | None = None
     controls: Mapping[CameraControl, int] = field(default_factory=dict)
+    device: str = ""
     readout_ms: float | None = None
     report: Mapping[str, object] = field(default_factory=dict)
 
@@ -70,6 +72,7 @@ def read_camera_file(path: Path) -> CameraFile:
         camera_name=_text(whose.get("name")),
         camera_source=_text(whose.get("source")),
         controls=controls,
+        device=_text(whose.get("device")) or "",
         readout_ms=readout_ms,
         report=values,
     )
@@ -143,6 +146,7 @@ def camera_file_text(file: CameraFile, facts: Mapping[str, object]) -> str:
     whose: dict[str, object] = {
         "name": file.camera_name,
         "source": file.camera_source,
+        "device": file.device or None,
         "readout_ms": file.readout_ms,
     }
     if file.controls:

@@ -20,7 +20,7 @@ from tracker.navigation import NavigationSnapshot
 from tracker.navigation.alarms import QUIET, AlarmSnapshot
 
 # V4L2_EXPOSURE_MANUAL, and the unit of V4L2_CID_EXPOSURE_ABSOLUTE.
-EXPOSURE_FIXED, EXPOSURE_UNIT_MS = 1, 0.1
+EXPOSURE_FIXED, V4L2_EXPOSURE_UNIT_MS = 1, 0.1
 
 
 class SourceState(StrEnum):
@@ -91,6 +91,8 @@ class CameraStatus:
         trigger: Trigger input; empty in free run.
         flicker: Detected lamp flicker; None if there is none or it is unknown.
         is_predicted: Whether its codec predicts images from earlier ones.
+        exposure_unit_ms: Unit of the control EXPOSURE.
+        device: Which camera it is: its model, or its serial number where it has one; empty if unknown.
     """
 
     clock: ImageClock
@@ -100,13 +102,15 @@ class CameraStatus:
     trigger: str = ""
     flicker: LampFlicker | None = None
     is_predicted: bool = False
+    exposure_unit_ms: float = V4L2_EXPOSURE_UNIT_MS
+    device: str = ""
 
     @property
     def exposure_ms(self) -> float | None:
         """Exposure time; None if unknown or automatic."""
         exposure = self.controls.get(CameraControl.EXPOSURE)
         is_fixed = self.controls.get(CameraControl.AUTO_EXPOSURE) == EXPOSURE_FIXED
-        return exposure * EXPOSURE_UNIT_MS if exposure and is_fixed else None
+        return exposure * self.exposure_unit_ms if exposure and is_fixed else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

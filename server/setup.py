@@ -19,7 +19,7 @@ from server.tool_file import tool_from_config
 from tracker.camera import CameraControl, CameraModel
 from tracker.errors import CalibrationError
 from tracker.marker import MarkerModel, ScoreSettings
-from tracker.navigation import Absent, AbsentReason, DrillLimits, DrillReference, Setup
+from tracker.navigation import Absent, AbsentReason, DrillLimits, DrillReference, MeasuredLatency, Setup
 from tracker.navigation.clearance import select_wall
 from tracker.pipeline import Tracker
 from tracker.plan import Channel
@@ -66,8 +66,8 @@ class CaseSetup:
 
     Attributes:
         camera: Camera calibration of the case.
-        camera_controls, readout_ms: See `CameraFile`; of this calibration.
-        latency_ms: 99th percentile of the latency from exposure to display; None if not measured.
+        camera_controls, camera_device, readout_ms: See `CameraFile`; of this calibration.
+        latency: Latency from exposure to display; None if not measured.
         models: Markers of the case.
         tools: Tools calibrated in the case, by name.
         channel: The active channel.
@@ -81,8 +81,9 @@ class CaseSetup:
 
     camera: CameraModel | None = None
     camera_controls: Mapping[CameraControl, int] = field(default_factory=dict)
+    camera_device: str = ""
     readout_ms: float | None = None
-    latency_ms: float | None = None
+    latency: MeasuredLatency | None = None
     models: tuple[MarkerModel, ...] = ()
     tools: Mapping[str, ToolModel] = field(default_factory=dict)
     channel: Channel | None = None
@@ -117,9 +118,10 @@ class Preparation:
         smoothing: Smoothing of poses.
         readout_s: Readout time from the first to the last row; 0 for a global shutter.
         theatre: Theatre of the rehearsal; None for other sources.
-        withheld, registered_from_s, latency_ms: see `CaseSetup`.
+        withheld, registered_from_s, latency: see `CaseSetup`.
         guide: Wall and screw of the pedicle besides its channel; None uses the channel only.
-        camera_controls: see `CaseSetup`; of the camera file, where the camera is that of the settings.
+        camera_controls, camera_device: see `CaseSetup`; of the camera file, where the camera is that of the
+            settings.
         same_sensor_area: Images of all sizes show the same area of the sensor (setting).
         ct_id: of the CT on which the channel was planned; empty if there is none.
     """
@@ -137,10 +139,11 @@ class Preparation:
     theatre: "Theatre | None" = None
     withheld: AbsentReason | None = None
     registered_from_s: float | None = None
-    latency_ms: float | None = None
+    latency: MeasuredLatency | None = None
     drill_reference: DrillReference | None = None
     limits: DrillLimits = field(default_factory=DrillLimits)
     camera_controls: Mapping[CameraControl, int] = field(default_factory=dict)
+    camera_device: str = ""
     same_sensor_area: bool = False
     ct_id: str = ""
 
@@ -171,14 +174,27 @@ class Preparation:
         """The setup with a calibrated camera; None without one, because the image size is not known yet."""
         return None if self.camera is None else self._setup(self.camera, calibrated=True)
 
-    def setup_for(self, size_wh_px: tuple[int, int], *, image: str | None = None) -> Setup:
-        """Return the setup for images of this size; `image` names the image in messages.
+    def setup_for(self, size_wh_px: tuple[int, int], *, image: str | None = None, device: str = "") -> Setup:
+        """Return the setup for images of this size.
+
+        Args:
+            size_wh_px: Size of the images.
+            image: Name of the image for messages.
+            device: `CameraStatus.device` of the camera; empty if unknown.
 
         Raises:
-            CalibrationError: CAMERA_SIZE_MISMATCH, the camera was calibrated at another size.
+            CalibrationError: CAMERA_SIZE_MISMATCH, the camera was calibrated at another size; CAMERA_DIFFERS,
+                another one was calibrated.
         """
         if self.camera is None:
             return self.uncalibrated_setup_for(size_wh_px)
+        if device and self.camera_device and device != self.camera_device:
+            raise CalibrationError(
+                "CAMERA_DIFFERS",
+                f"the calibration is of the camera '{self.camera_device}', and images come from '{device}'",
+                "Connect the calibrated camera, or calibrate this one.",
+                {"calibrated": self.camera_device, "camera": device},
+            )
         camera = camera_for_size(self.camera, size_wh_px, same_sensor_area=self.same_sensor_area, image=image)
         return self._setup(camera, calibrated=True)
 
@@ -200,10 +216,11 @@ class Preparation:
             self,
             camera=case.camera or self.camera,
             camera_controls=self.camera_controls if case.camera is None else case.camera_controls,
+            camera_device=self.camera_device if case.camera is None else case.camera_device,
             models=models,
             tools={**self.tools, **known},
             readout_s=self._readout_s(case.readout_ms),
-            latency_ms=case.latency_ms,
+            latency=case.latency,
         )
         if case.channel is None:
             return changed
@@ -269,6 +286,7 @@ def build_setup(config: Config) -> Preparation:
     bare = Preparation(
         camera=None if camera is None else camera.model,
         camera_controls={} if camera is None else camera.controls,
+        camera_device="" if camera is None else camera.device,
         same_sensor_area=config.camera.same_sensor_area,
         models=models,
         tools=tools,

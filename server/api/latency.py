@@ -29,7 +29,9 @@ def latency_router(step: LatencyStep) -> APIRouter:
         """Return the last latency measurement of this camera."""
         result = step.newest()
         return LatencyMessage(
-            measuring=step.is_measuring, result=None if result is None else result_message(result)
+            measuring=step.is_measuring,
+            result=None if result is None else result_message(result),
+            applies=result is not None and step.applies(result),
         )
 
     @router.post("/measurement", status_code=201, responses=rejections(422, 503))

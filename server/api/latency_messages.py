@@ -145,6 +145,9 @@ class LatencyMessage(Message):
     measuring: bool
     result: LatencyResultMessage | None
     """The newest result of this camera; null if never measured."""
+    applies: bool
+    """Whether it holds for the present images: they have its size, and come no more slowly. False without a
+    result, true while no images come."""
 
 
 def codes_message(measurement: LatencyMeasurement) -> LatencyCodesMessage:

@@ -3,14 +3,16 @@
 import threading
 import time
 from collections import deque
+from dataclasses import replace
 
 import structlog
 
 from server.capture.frozen_image import FrozenImageDetector
 from server.capture.shot import Shot, Source
 from server.errors import CaptureError
-from server.live import Problem, SourceState, SourceStatus
+from server.live import CameraStatus, Problem, SourceState, SourceStatus
 from server.priority import lower_thread_priority
+from tracker.camera import FlickerMonitor
 
 # Half a second to connect and this to wait: a source that is back is found within a second.
 RETRY_AFTER_S = 0.3
@@ -26,8 +28,8 @@ class Capture:
     """The newest image of a source, which is reopened automatically when it fails.
 
     Nothing is queued: an image that was not taken before the next one is skipped, and counted. If a camera
-    repeats the same image, nothing is passed on after `FROZEN_AFTER_S`. Simulated images are made at low
-    priority.
+    repeats the same image, nothing is passed on after `FROZEN_AFTER_S`. Images of a camera are searched for
+    flicker of lamps. Simulated images are made at low priority.
     """
 
     def __init__(
@@ -41,6 +43,7 @@ class Capture:
         self._state = SourceState.OPENING
         self._problem: Problem | None = None
         self._same = FrozenImageDetector()
+        self._flicker_monitor = FlickerMonitor()
         self._last_logged: tuple[str, str] | None = None
         self._failed_at_s: float | None = None
         self._is_open = False
@@ -101,8 +104,12 @@ class Capture:
                 images=self._images,
                 skipped_images=max(0, self._images - self._taken - pending),
                 rate_hz=_rate_hz(recent) if state is SourceState.RUNNING else 0.0,
-                camera=self._source.camera,
+                camera=self._camera_status(),
             )
+
+    def _camera_status(self) -> CameraStatus | None:
+        camera = self._source.camera
+        return None if camera is None else replace(camera, flicker=self._flicker_monitor.flicker)
 
     def _stalled(self) -> Problem:
         camera = self._source.camera
@@ -142,6 +149,7 @@ class Capture:
 
     def _read_until_it_ends(self) -> None:
         self._source.open()
+        self._flicker_monitor = FlickerMonitor()
         with self._change:
             self._is_open = True
             self._alive_at_s = time.monotonic()
@@ -151,6 +159,7 @@ class Capture:
                 self._end()
                 return
             if not self._is_frozen(shot):
+                self._detect_flicker(shot)
                 self._publish(shot)
 
     def _is_frozen(self, shot: Shot) -> bool:
@@ -172,6 +181,25 @@ class Capture:
                 {"source": self._source.name, "limit_s": STALLED_AFTER_S},
             )
         return True
+
+    def _detect_flicker(self, shot: Shot) -> None:
+        """Detect flicker of lamps in the images of a camera, and log its start and end."""
+        if self._source.camera is None:
+            return
+        before = self._flicker_monitor.flicker
+        self._flicker_monitor.take(shot.image, shot.captured_at_s)
+        flicker = self._flicker_monitor.flicker
+        if flicker is not None and before is None:
+            log.warning(
+                "lamps flicker in the images",
+                code="LAMP_FLICKER",
+                camera=self._source.name,
+                mains_hz=flicker.mains_hz,
+                depth_percent=round(100.0 * flicker.depth_ratio, 1),
+                remedy="The page lists exposure times that cancel it.",
+            )
+        elif flicker is None and before is not None:
+            log.info("lamps do not flicker any more", camera=self._source.name)
 
     def _publish(self, shot: Shot) -> None:
         defect = self._source.defect

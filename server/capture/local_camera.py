@@ -21,7 +21,7 @@ from server.capture.v4l2 import VideoDevice, VideoDevices, system_devices
 from server.capture.v4l2.structs import fourcc_text
 from server.errors import CaptureError
 from server.live import CameraMode, CameraStatus, ImageClock
-from tracker.camera import CameraControl, FlickerMonitor
+from tracker.camera import CameraControl
 
 log = structlog.get_logger(__name__)
 
@@ -99,10 +99,10 @@ class LocalCameraSource:
         self._timestamps = DriverClock()
         self._camera: Video | None = None
         self._device: VideoDevice | None = None
+        self._device_name = ""
         self._requested: CameraMode | None = None
         self._check: ModeCheck | None = None
         self._control_lock: ControlLock | None = None
-        self._flicker_monitor = FlickerMonitor()
 
     @property
     def defect(self) -> CaptureError | None:
@@ -117,7 +117,7 @@ class LocalCameraSource:
             requested=self._requested,
             granted=None if self._check is None else self._check.granted,
             controls={} if self._control_lock is None else self._control_lock.values,
-            flicker=self._flicker_monitor.flicker,
+            device=self._device_name,
         )
 
     def adopt(self, calibration: CalibratedCamera | None) -> None:
@@ -141,9 +141,8 @@ class LocalCameraSource:
                 {"camera": self.name},
             )
         self._camera = camera
-        self._device = self._opened_device()
+        self._device, self._device_name = self._opened_device()
         self._timestamps.restart()
-        self._flicker_monitor = FlickerMonitor()
         self._ask(camera)
         self._lock_controls_now()
 
@@ -167,7 +166,6 @@ class LocalCameraSource:
             self._check.take((width, height), captured_at_s)
         if self._control_lock is not None:
             self._control_lock.poll(self._clock())
-        self._detect_flicker(image, captured_at_s)
         shot = Shot(
             image=np.asarray(image, dtype=np.uint8),
             number=self._number,
@@ -186,23 +184,6 @@ class LocalCameraSource:
             self._device.close()
             self._device = None
         self._control_lock = None
-
-    def _detect_flicker(self, image: np.ndarray, at_s: float) -> None:
-        """Detect flicker of lamps, and log its start and end."""
-        before = self._flicker_monitor.flicker
-        self._flicker_monitor.take(np.asarray(image, dtype=np.uint8), at_s)
-        flicker = self._flicker_monitor.flicker
-        if flicker is not None and before is None:
-            log.warning(
-                "lamps flicker in the images",
-                code="LAMP_FLICKER",
-                camera=self.name,
-                mains_hz=flicker.mains_hz,
-                depth_percent=round(100.0 * flicker.depth_ratio, 1),
-                remedy="The page lists exposure times that cancel it.",
-            )
-        elif flicker is None and before is not None:
-            log.info("lamps do not flicker any more", camera=self.name)
 
     def _use_adopted(self) -> None:
         """Apply the calibration that was adopted last, if it differs."""
@@ -247,18 +228,18 @@ class LocalCameraSource:
             )
         return captured_at_s
 
-    def _opened_device(self) -> VideoDevice | None:
-        """Open the device beside OpenCV; None where system or device do not support it."""
+    def _opened_device(self) -> tuple[VideoDevice | None, str]:
+        """Open the device beside OpenCV, with its name; None where system or device do not support it."""
         path = f"/dev/video{int(self._text)}" if self._text.isdecimal() else self._text
         with contextlib.suppress(OSError):
             device = self._devices.open(path)
             try:
-                device.description()
+                name = device.description().name
             except OSError:
                 device.close()
                 raise
-            return device
-        return None
+            return device, name
+        return None, ""
 
     def _ask(self, camera: Video) -> None:
         """Request a mode, and store the granted one."""

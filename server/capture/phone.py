@@ -152,7 +152,7 @@ class PhoneSource:
             return CameraStatus(clock=ImageClock.ARRIVAL)
         camera = last.camera
         granted = CameraMode(fourcc="MJPG", size_wh_px=camera.size_wh_px, rate_hz=camera.rate_hz)
-        return CameraStatus(clock=last.clock, granted=granted, controls=camera.controls)
+        return CameraStatus(clock=last.clock, granted=granted, controls=camera.controls, device=camera.label)
 
     def open(self) -> None:
         """Wait for a sender. Images sent before are old, and not read."""

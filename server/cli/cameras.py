@@ -90,7 +90,7 @@ def list_cameras(config_file: Path | None, *, as_json: bool) -> int:
         lines = [line for camera in found for line in _lines(camera)]
         lines += [line for camera in industrial for line in industrial_lines(camera)]
         typer.echo("\n".join(lines), nl=bool(lines))
-    if found or industrial:
+    if found or any(camera.description.serial for camera in industrial):
         return 0
     message, remedy = NONE_FOUND if sys.platform == "linux" else NONE_KNOWN
     typer.echo(f"Error: {message}.\n{remedy}", err=True)

@@ -23,14 +23,14 @@ from tracker.camera import CameraControl
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FoundIndustrialCamera:
-    """An industrial camera, or one that could not be opened.
+    """An industrial camera, one that could not be opened, or a library that could not list its cameras.
 
     Attributes:
-        description: which one.
-        offer: None when it could not be asked.
-        chosen: the mode that Coaxial takes; None where it offers no pixel format that is read.
-        controls: that it has, with their values now.
-        problem: why it could not be asked; empty where it could.
+        description: its identity; without a serial number for a library.
+        offer: its capabilities; None if the query failed.
+        chosen: the mode that Coaxial selects; None if it can decode none of its formats.
+        controls: supported controls with their present values.
+        problem: why the query failed; empty if it succeeded.
     """
 
     description: IndustrialDescription
@@ -52,12 +52,16 @@ def find_industrial_cameras(
     calibrated_size_wh_px: tuple[int, int] | None,
     is_triggered: bool,
 ) -> list[FoundIndustrialCamera]:
-    """Return the cameras of all libraries; a library that is missing or fails contributes none."""
+    """Return the cameras of all libraries; a missing library has none, one that fails has an address only."""
     found: list[FoundIndustrialCamera] = []
     for library in libraries:
         try:
             descriptions = library.descriptions()
-        except (ImportError, OSError):
+        except ImportError:
+            continue
+        except OSError as error:
+            failed = IndustrialDescription(address=f"{library.extra}:", name="", serial="", bus="")
+            found.append(FoundIndustrialCamera(description=failed, controls={}, problem=str(error)))
             continue
         for description in descriptions:
             try:
@@ -123,6 +127,11 @@ def control_values(controls: Mapping[CameraControl, ControlReading]) -> dict[str
 def industrial_lines(camera: FoundIndustrialCamera) -> list[str]:
     """Return the printed lines of a camera."""
     description, offer = camera.description, camera.offer
+    if not description.serial:
+        return [
+            f"{description.address}  its cameras cannot be listed: {camera.problem}",
+            "    Check that its library and driver are installed completely.",
+        ]
     if offer is None:
         return [
             f"{description.address}  cannot be opened: {camera.problem}",

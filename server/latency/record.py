@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from tracker.navigation import MeasuredLatency
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LatencyReport:
@@ -73,3 +75,12 @@ class LatencyResult:
     rate_hz: float
     screen: Screen
     report: LatencyReport
+
+    @property
+    def measured(self) -> MeasuredLatency:
+        """What the lag of a moving tip depends on."""
+        return MeasuredLatency(
+            p99_ms=self.report.p99_ms,
+            size_wh_px=(self.width_px, self.height_px),
+            image_period_ms=self.report.image_period_ms,
+        )

@@ -42,13 +42,19 @@ class Tracking:
         self._lagging = LagEstimator()
         self._watched_registration: tuple[bytes, float | None] | None = None
         self._guide: DrillReference | None = None
-        self._size_problem: Problem | None = None
+        self._device = ""
+        self._camera_problem: Problem | None = None
         self._changes: tuple[ControlChange, ...] = ()
 
     @property
     def problem(self) -> Problem | None:
         """Why no measurement is given although images arrive; None otherwise."""
-        return self._size_problem or (_changed_problem(self._changes[0]) if self._changes else None)
+        return self._camera_problem or (_changed_problem(self._changes[0]) if self._changes else None)
+
+    @property
+    def device(self) -> str:
+        """The camera that is prepared for; empty if unknown."""
+        return self._device
 
     @property
     def preparation(self) -> Preparation:
@@ -76,20 +82,23 @@ class Tracking:
         *,
         skipped_images: int,
         controls: Mapping[CameraControl, int] | None = None,
+        device: str = "",
         clock: Callable[[], float] = time.monotonic,
     ) -> NavigationSnapshot:
-        """Return the navigation snapshot of an image; `controls` are the camera's present control values.
+        """Return the navigation snapshot of an image.
 
-        A camera file for another size is reported as `problem`; the marker is then tracked without
-        calibration, and no measurement is given.
+        `controls` and `device` are those of the camera's status. A calibration of another size or camera is
+        reported as `problem`; the marker is then tracked without calibration, and no measurement is given.
 
         Raises:
             NavigationError: the tracker cannot work on this image.
         """
         height, width = shot.image.shape[:2]
         started_s = clock()
-        if self._setup is None or self._setup.camera.size_wh_px != (width, height):
-            self.prepare((width, height), shot.captured_at_s)
+        device = device or self._device
+        is_prepared = self._setup is not None and self._setup.camera.size_wh_px == (width, height)
+        if not is_prepared or device != self._device:
+            self.prepare((width, height), shot.captured_at_s, device=device)
         setup, tracker = self._setup, self._tracker
         if setup is None or tracker is None:
             raise RuntimeError("no setup was made")
@@ -111,7 +120,7 @@ class Tracking:
             drill_reference=self._guide,
             motion=motion,
         )
-        snapshot = self._lagging.take(snapshot, latency_ms=self._preparation.latency_ms)
+        snapshot = self._lagging.take(snapshot, latency=self._preparation.latency)
         stage_ms = {
             "waiting": (started_s - shot.captured_at_s) * 1000.0,
             **tracker.stage_ms,
@@ -120,15 +129,16 @@ class Tracking:
         }
         return dataclasses.replace(snapshot, stage_ms=stage_ms)
 
-    def prepare(self, size_wh_px: tuple[int, int], at_s: float) -> None:
-        """Set up for images of this size, the first of which is captured at `at_s`."""
-        self._size_problem = None
+    def prepare(self, size_wh_px: tuple[int, int], at_s: float, *, device: str = "") -> None:
+        """Set up for images of this size and camera, the first of which is captured at `at_s`."""
+        self._device = device
+        self._camera_problem = None
         try:
-            setup = self._preparation.setup_for(size_wh_px)
+            setup = self._preparation.setup_for(size_wh_px, device=device)
         except CalibrationError as error:
             # Logged here and shown on the page; the video continues without measurements.
             log.warning(error.message, code=error.code, remedy=error.remedy)
-            self._size_problem = Problem.from_error(error)
+            self._camera_problem = Problem.from_error(error)
             setup = self._preparation.uncalibrated_setup_for(size_wh_px)
         self._tracker = self._preparation.tracker_for(setup)
         self._steadying, self._lagging = ToolSmoothing(self._preparation.smoothing), LagEstimator()

@@ -37,7 +37,9 @@ STATE: dict[type, frozenset[str]] = {
     ToolSmoothing: frozenset({"_tools"}),
 }
 DERIVED: dict[type, frozenset[str]] = {
-    Tracking: frozenset({"_base_preparation", "_preparation", "_setup", "_size_problem", "_guide"}),
+    Tracking: frozenset(
+        {"_base_preparation", "_preparation", "_setup", "_camera_problem", "_guide", "_device"}
+    ),
     Tracker: frozenset(
         {
             "readout_s",
@@ -94,12 +96,14 @@ class TrackingState:
     Attributes:
         preparation: the setup in use, with the documents of the case; without the rehearsal's theatre.
         size_wh_px: size of the images that it is prepared for; None if the next image prepares it.
+        device: the camera that it is prepared for; empty if unknown.
         tracking: what the images before have left.
     """
 
     preparation: Preparation
     size_wh_px: tuple[int, int] | None
     tracking: ObjectState
+    device: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -139,6 +143,7 @@ def capture_state(tracking: Tracking) -> TrackingState:
         preparation=preparation,
         size_wh_px=None if setup is None else setup.camera.size_wh_px,
         tracking=_captured(tracking),
+        device=tracking.device,
     )
 
 
@@ -150,7 +155,7 @@ def restore_state(state: TrackingState, *, at_s: float) -> Tracking:
     """
     tracking = Tracking(state.preparation)
     if state.size_wh_px is not None:
-        tracking.prepare(state.size_wh_px, at_s)
+        tracking.prepare(state.size_wh_px, at_s, device=state.device)
     _overlay(tracking, state.tracking)
     return tracking
 

@@ -79,6 +79,7 @@ class BoardCollection:
         self._collector: BoardCollector | None = None
         self._taken: list[CollectedView] = []
         self._controls: Mapping[CameraControl, int] = {}
+        self._device = ""
         self._image_number = -1
         self._message = "waiting for an image"
         self._points_px = NO_POINTS
@@ -117,6 +118,12 @@ class BoardCollection:
         """Camera controls at the last collected view; empty if unknown."""
         with self._lock:
             return self._controls
+
+    @property
+    def device(self) -> str:
+        """The camera of the last collected view, see `CameraStatus.device`; empty if unknown."""
+        with self._lock:
+            return self._device
 
     def add(self, image: npt.NDArray[np.uint8], *, name: str) -> None:
         """Add the view of an image that was taken manually, without testing whether it adds information.
@@ -166,7 +173,16 @@ class BoardCollection:
             self._message = MESSAGES[judgement]
 
     def _record_controls(self, source: SourceStatus) -> None:
-        """Reject views after a change of the camera controls: the intrinsics may have changed."""
+        """Reject views after a change of the camera or its controls: the intrinsics may have changed."""
+        device = "" if source.camera is None else source.camera.device
+        if device and self._device and device != self._device:
+            raise CalibrationError(
+                "CAMERA_DIFFERS",
+                f"the camera changed from '{self._device}' to '{device}' while views were taken",
+                "Leave one camera connected, and start again.",
+                {"before": self._device, "now": device},
+            )
+        self._device = device or self._device
         now = {} if source.camera is None else source.camera.controls
         changes = control_changes(self._controls, now)
         if changes:

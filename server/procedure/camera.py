@@ -89,7 +89,8 @@ class CameraStep:
         """
         case = require_open_case(self._store)
         collection = self.collection
-        taken, status, controls = collection.taken, collection.status, collection.controls
+        taken, status = collection.taken, collection.status
+        controls, device = collection.controls, collection.device
         if not taken:
             raise SetupOrderError(
                 "COLLECTION_EMPTY",
@@ -98,7 +99,9 @@ class CameraStep:
             )
 
         def keep(values: Any) -> object:  # noqa: ANN401  what JSON made of the answer of `calibrate_views`
-            document = self._keep(case, values["report"], values["plots"], made_by, controls=controls)
+            document = self._keep(
+                case, values["report"], values["plots"], made_by, controls=controls, device=device
+            )
             return {"document_id": document.id, "version": document.version, **values["report"]}
 
         return self._jobs.start(
@@ -171,6 +174,7 @@ class CameraStep:
         made_by: str,
         *,
         controls: Mapping[CameraControl, int],
+        device: str,
     ) -> Document:
         """Store an accepted calibration with its plots.
 
@@ -195,6 +199,8 @@ class CameraStep:
         camera = {key: report[key] for key in ("matrix", "distortion", "size_wh_px")}
         if controls:
             camera["controls"] = controls_values(controls)
+        if device:
+            camera["device"] = device
         camera.update(self._readout_so_far(case, report["size_wh_px"]))
         return self._store.put(
             case.id,
@@ -253,5 +259,6 @@ def camera_from_document(document: Document, *, source: str) -> CameraFile:
         report=report if isinstance(report, Mapping) else {},
         camera_source=source,
         controls=controls_in(values),
+        device=str(values.get("device", "")),
         readout_ms=readout_in(values),
     )

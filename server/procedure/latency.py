@@ -284,6 +284,14 @@ class LatencyStep:
         """
         return self._file.of(self._camera)
 
+    def applies(self, result: LatencyResult) -> bool:
+        """Whether a result holds for the size and rate of the present images; True while none come."""
+        newest = self._hub.newest
+        if newest is None or newest.snapshot is None or newest.source.rate_hz <= 0.0:
+            return True
+        period_ms = 1000.0 / newest.source.rate_hz
+        return result.measured.applies_to(newest.snapshot.size_wh_px, period_ms=period_ms)
+
     def _opened_id(self) -> str | None:
         case = self._store.get_open_case()
         return None if case is None else case.id

@@ -33,7 +33,7 @@ from server.procedure.tool import tool_from_document
 from server.setup import CaseSetup
 from server.store import CaseStore, Current, Document, DocumentKind
 from tracker.errors import NavigationError
-from tracker.navigation import AbsentReason, DrillReference
+from tracker.navigation import AbsentReason, DrillReference, MeasuredLatency
 from tracker.plan import Channel
 from tracker.pose import ToolModel
 from tracker.registration import AnchoredTo
@@ -56,7 +56,7 @@ class SetupPublisher:
         defaults: setup from the settings; a calibration of another camera source, or a registration that is
             anchored to another reference, is not used.
         markers: source of the case's markers.
-        latency_ms: returns the last measured latency of the camera; None if it was not measured.
+        latency: returns the last measured latency of the camera; None if it was not measured.
         publish_facts: called with the facts for the alarms after each change.
     """
 
@@ -70,7 +70,7 @@ class SetupPublisher:
         defaults: SetupDefaults,
         markers: MarkerStep,
         publish_facts: Callable[[ProcedureFacts], None],
-        latency_ms: Callable[[], float | None] = lambda: None,
+        latency: Callable[[], MeasuredLatency | None] = lambda: None,
     ) -> None:
         self._store = store
         self._publish_setup = publish_setup
@@ -80,8 +80,12 @@ class SetupPublisher:
         self._drill_references = drill_references
         self._markers = markers
         self._publish_facts = publish_facts
-        self._latency_ms = latency_ms
-        self._published: tuple[tuple[str, ...], DrillReference | None, float | None] = ((), None, None)
+        self._latency = latency
+        self._published: tuple[tuple[str, ...], DrillReference | None, MeasuredLatency | None] = (
+            (),
+            None,
+            None,
+        )
         drill_references.on_change = self.refresh
 
     def refresh(self) -> None:
@@ -91,15 +95,15 @@ class SetupPublisher:
             ids = tuple(document.id for document in documents)
             active = [document for document in documents if document.kind is DocumentKind.PLAN]
             drill_reference = self._drill_references.build(active[0]) if active else None
-            latency_ms = self._latency_ms()
-            if (ids, latency_ms) != (
+            latency = self._latency()
+            if (ids, latency) != (
                 self._published[0],
                 self._published[2],
             ) or drill_reference is not self._published[1]:
                 self._publish_setup(
-                    replace(self._setup_of(documents), drill_reference=drill_reference, latency_ms=latency_ms)
+                    replace(self._setup_of(documents), drill_reference=drill_reference, latency=latency)
                 )
-                self._published = (ids, drill_reference, latency_ms)
+                self._published = (ids, drill_reference, latency)
                 self._publish_facts(facts_of(self._procedure.state(), now_s=time.monotonic()))
 
     def _documents(self) -> list[Document]:
@@ -157,6 +161,7 @@ class SetupPublisher:
         return CaseSetup(
             camera=None if camera is None else camera.model,
             camera_controls={} if camera is None else camera.controls,
+            camera_device="" if camera is None else camera.device,
             readout_ms=None if camera is None else camera.readout_ms,
             models=self._markers.of_case,
             tools=tools,

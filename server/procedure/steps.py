@@ -30,6 +30,7 @@ from server.setup import CaseSetup
 from server.store import CaseStore, StoreError
 from server.store.latency_file import LatencyFile
 from tracker.marker import MarkerModel
+from tracker.navigation import MeasuredLatency
 from tracker.pose.tool import ToolGate
 
 # Names in the rehearsal's simulated theatre; repeated here because importing the theatre is slow.
@@ -109,7 +110,7 @@ class Steps:
             defaults=defaults,
             markers=marker_step,
             publish_facts=publish_facts,
-            latency_ms=lambda: _latency_ms(latencies, defaults.source),
+            latency=lambda: _latency(latencies, defaults.source),
         )
         _publish_changes(setup_publisher, store)
         ct_provider = CtProvider(store)
@@ -195,14 +196,14 @@ def _camera_step(
     )
 
 
-def _latency_ms(latencies: LatencyFile, camera: str) -> float | None:
-    """Return the 99th percentile of the last measurement; None if there is none, or it cannot be read."""
+def _latency(latencies: LatencyFile, camera: str) -> MeasuredLatency | None:
+    """Return the last measurement; None if there is none, or it cannot be read."""
     try:
         result = latencies.of(camera)
     except StoreError as error:
         log.warning(error.message, code=error.code, remedy=error.remedy)
         return None
-    return None if result is None else result.report.p99_ms
+    return None if result is None else result.measured
 
 
 def _tool_step(hub: LiveHub, store: CaseStore, config: Config, markers: MarkerStep) -> ToolStep:

@@ -53,6 +53,8 @@ class TrackedMessage(Message):
     skipped_images: int
     controls: dict[str, int] | None
     """Of the camera; null for other sources."""
+    device: str = ""
+    """Which camera it is; empty if unknown."""
     is_predicted: bool
     """Whether the image came from video that predicts its images, such as H.264."""
 

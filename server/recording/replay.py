@@ -274,6 +274,7 @@ class _Replay:
                 shot,
                 skipped_images=tracked.skipped_images,
                 controls=controls_of(tracked.controls),
+                device=tracked.device,
                 clock=lambda: 0.0,
             )
         except NavigationError as error:

@@ -109,13 +109,15 @@ def test_a_board_can_be_printed(server: Server, file: str, begins: bytes) -> Non
     assert rejected["code"] == "BOARD_TOO_LARGE"
 
 
-def test_the_controls_of_the_camera_are_kept_with_its_calibration_and_come_into_use(server: Server) -> None:
+def test_identity_and_controls_of_the_camera_are_kept_with_its_calibration_and_come_into_use(
+    server: Server,
+) -> None:
     open_a_case(server)
     _, images = shown()
     server.ask("POST", "/api/camera/collection", 201, json={"board": DOTS})
     controls = {CameraControl.FOCUS: 45, CameraControl.GAIN: 20}
     for late_s in (0.0, 0.3):
-        camera = CameraStatus(clock=ImageClock.DRIVER, controls=controls)
+        camera = CameraStatus(clock=ImageClock.DRIVER, controls=controls, device="Webcam")
         server.show(at_s=late_s, image=images[0], camera=camera)
         server.until(
             lambda: server.ask("GET", "/api/camera/collection", 200)["image_number"] == server.number
@@ -127,6 +129,7 @@ def test_the_controls_of_the_camera_are_kept_with_its_calibration_and_come_into_
     stored = server.ask("GET", "/api/camera/calibration", 200)
     assert stored["content"]["camera"]["controls"] == {"focus": 45, "gain": 20}
     assert server.adopted[-1].camera_controls == controls
+    assert stored["content"]["camera"]["device"] == server.adopted[-1].camera_device == "Webcam"
 
 
 def test_another_calibration_of_the_same_mode_keeps_the_readout(server: Server) -> None:

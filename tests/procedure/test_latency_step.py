@@ -3,6 +3,7 @@
 import json
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from server.store import CaseStore, Home
 from server.store.latency_file import LatencyFile
 from tests.procedure.conftest import Server
 from tests.server.latency.test_code_reading import drawn, filmed, screen
-from tracker.navigation import NavigationSnapshot
+from tracker.navigation import MeasuredLatency, NavigationSnapshot
 
 MEASUREMENT = "/api/latency/measurement"
 CONCLUSION = f"{MEASUREMENT}/conclusion"
@@ -27,6 +28,7 @@ BEHIND_MS = 9000.0
 CODES = 20
 # Painted so long before the image that shows it.
 LATENCY_MS = 70.0
+MEASURED = MeasuredLatency(p99_ms=LATENCY_MS, size_wh_px=(1280, 720), image_period_ms=PERIOD_MS)
 SCREEN = {"width_px": 1280, "height_px": 800, "period_ms": 16.7}
 
 
@@ -80,7 +82,7 @@ def film(server: Server, codes: list[int]) -> dict[str, Any]:
 
 
 def test_a_latency_is_measured_kept_and_told_to_everybody(server: Server) -> None:
-    assert server.ask("GET", "/api/latency", 200) == {"measuring": False, "result": None}
+    assert server.ask("GET", "/api/latency", 200) == {"measuring": False, "result": None, "applies": False}
     plan = begun(server)
     assert (plan["cells"], len(plan["patterns"]), plan["codes"], plan["min_timed"]) == (4, 250, CODES, 13)
     assert (plan["min_code_ms"], plan["max_code_ms"]) == (100.0, 150.0)
@@ -105,9 +107,9 @@ def test_a_latency_is_measured_kept_and_told_to_everybody(server: Server) -> Non
         25.0,
     )
     assert (result["made_by"], result["screen"]) == ("ito", SCREEN)
-    assert server.ask("GET", "/api/latency", 200) == {"measuring": False, "result": result}
+    assert server.ask("GET", "/api/latency", 200) == {"measuring": False, "result": result, "applies": True}
     # What moves is told with it from the next image on, also without a case.
-    assert server.adopted[-1].latency_ms == LATENCY_MS
+    assert server.adopted[-1].latency == MEASURED
 
 
 def test_a_result_outlasts_a_start_of_the_server(server: Server, restarted: Callable[[], Server]) -> None:
@@ -115,7 +117,21 @@ def test_a_result_outlasts_a_start_of_the_server(server: Server, restarted: Call
     result = server.ask("POST", CONCLUSION, 201, json=film(server, list(range(CODES))))
     again = restarted()
     assert again.ask("GET", "/api/latency", 200)["result"] == result
-    assert again.adopted[-1].latency_ms == LATENCY_MS
+    assert again.adopted[-1].latency == MEASURED
+
+
+def test_a_result_does_not_apply_to_images_of_another_size_or_a_lower_rate(server: Server) -> None:
+    begun(server)
+    server.ask("POST", CONCLUSION, 201, json=film(server, list(range(CODES))))
+    applies = []
+    for rate_hz, size_wh_px in [(60.0, (1280, 720)), (15.0, (1280, 720)), (25.0, (640, 360))]:
+        server.show(at_s=9.0, rate_hz=rate_hz)
+        newest = server.hub.newest
+        assert newest is not None
+        assert newest.snapshot is not None
+        server.hub.publish(replace(newest, snapshot=replace(newest.snapshot, size_wh_px=size_wh_px)))
+        applies.append(server.ask("GET", "/api/latency", 200)["applies"])
+    assert applies == [True, False, False]
 
 
 def test_a_camera_that_looks_elsewhere_is_refused_in_numbers_and_leaves_what_was_kept(server: Server) -> None:
@@ -133,7 +149,7 @@ def test_a_camera_that_looks_elsewhere_is_refused_in_numbers_and_leaves_what_was
     assert rejected["code"] == "LATENCY_CODE_NOT_READ"
     assert rejected["message"] == "the code was read in 5 of 29 images, needed 13"
     assert rejected["remedy"].startswith("Point the camera at the screen, darken the room")
-    assert server.ask("GET", "/api/latency", 200) == {"measuring": False, "result": stored}
+    assert server.ask("GET", "/api/latency", 200) == {"measuring": False, "result": stored, "applies": True}
     assert server.ask("POST", CONCLUSION, 409, json=said)["code"] == "COLLECTION_MISSING"
 
 

@@ -107,15 +107,19 @@ def test_a_camera_file_that_cannot_be_used_names_itself(tmp_path: Path, text: st
     assert "c.yaml" in caught.value.message
 
 
-def test_a_camera_file_keeps_the_controls_of_its_camera(tmp_path: Path) -> None:
+def test_a_camera_file_keeps_identity_and_controls_of_its_camera(tmp_path: Path) -> None:
     path = tmp_path / "c.yaml"
-    path.write_text(json.dumps({**CAMERA, "camera": {"name": "main", "controls": {"focus": 120, "zoom": 0}}}))
+    camera = {"name": "main", "device": "Webcam", "controls": {"focus": 120, "zoom": 0}}
+    path.write_text(json.dumps({**CAMERA, "camera": camera}))
     file = read_camera_file(path)
+    assert file.device == "Webcam"
     assert file.controls == {CameraControl.FOCUS: 120, CameraControl.ZOOM: 0}
     path.write_text(camera_file_text(file, {}))
-    assert read_camera_file(path).controls == file.controls
+    again = read_camera_file(path)
+    assert (again.controls, again.device) == (file.controls, file.device)
     settings = Config(camera=CameraConfig(source="v.mov", calibration=path))
     assert build_setup(settings).camera_controls == file.controls
+    assert build_setup(settings).camera_device == "Webcam"
 
 
 def config(folder: Path, *, calibrated: bool) -> Config:

@@ -5,7 +5,7 @@ from tracker.navigation.bullseye import BullseyeView, bullseye_view, half_axes_9
 from tracker.navigation.deviation import Deviation, deviation_from_channel
 from tracker.navigation.drill_reference import DrillReference, ScrewSize
 from tracker.navigation.figures import DrillLimits, Figure, FigureName, Status
-from tracker.navigation.lag import LagEstimator
+from tracker.navigation.lag import LagEstimator, MeasuredLatency
 from tracker.navigation.motion_detection import MotionDetection, motion_detected_by
 from tracker.navigation.motion_monitor import MotionMonitor
 from tracker.navigation.registration_check import RegistrationCheck, check_registration
@@ -35,6 +35,7 @@ __all__ = [
     "FigureName",
     "Lag",
     "LagEstimator",
+    "MeasuredLatency",
     "MotionDetection",
     "MotionMonitor",
     "MotionState",

@@ -7,7 +7,7 @@ every approach to the bone would be "uncertain", which would hide the other verd
 
 from collections import deque
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import nan
 
 import numpy as np
@@ -24,9 +24,36 @@ from tracker.navigation.snapshot import Absent, NavigationSnapshot
 # | MAX_GAP_S | s | a tool that was out of view begins anew | higher: its way in between is a speed |
 # | MIN_SPEED_SD | sd | F(3, 9) at 99.9 % is 13.9, x3, root | lower: a tool at rest has a margin at times |
 # | MIN_SPEED_MM_S | mm/s | 0.1 mm in 100 ms | lower: drift of a pose is a motion |
+# | MAX_PERIOD_RATIO | 1 | 10 ms at 30 images/s, a tenth of a latency | higher: the latency is understated |
+# | PERIOD_IMAGES | 1 | a second at 30 images/s | lower: a few skipped images withhold the latency |
 WINDOW_S, MAX_WINDOW_S, MAX_GAP_S = 0.2, 0.8, 0.5
 MIN_IMAGES = 5
 MIN_SPEED_SD, MIN_SPEED_MM_S = 6.5, 1.0
+MAX_PERIOD_RATIO, PERIOD_IMAGES = 1.3, 30
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeasuredLatency:
+    """A measured latency with the images that it was measured with.
+
+    Attributes:
+        p99_ms: 99th percentile of the delay from exposure to display.
+        size_wh_px: size of the images.
+        image_period_ms: time between two of them; 0 if unknown.
+    """
+
+    p99_ms: float
+    size_wh_px: tuple[int, int]
+    image_period_ms: float
+
+    def applies_to(self, size_wh_px: tuple[int, int], *, period_ms: float) -> bool:
+        """Whether it holds for images of this size and period; NaN is an unknown period.
+
+        Images of another size take another time to read, transfer, track and draw. Those that come more
+        slowly are older on average when they are displayed.
+        """
+        is_slower = self.image_period_ms > 0.0 and period_ms > MAX_PERIOD_RATIO * self.image_period_ms
+        return size_wh_px == self.size_wh_px and not is_slower
 
 
 class TipSpeedEstimator:
@@ -65,19 +92,29 @@ class LagEstimator:
 
     def __init__(self) -> None:
         self._tips: dict[str, TipSpeedEstimator] = {}
+        self._times_s: deque[float] = deque(maxlen=PERIOD_IMAGES + 1)
 
-    def take(self, snapshot: NavigationSnapshot, *, latency_ms: float | None) -> NavigationSnapshot:
+    def take(self, snapshot: NavigationSnapshot, *, latency: MeasuredLatency | None) -> NavigationSnapshot:
         """Return the snapshot with the lag of each assessed tool.
 
         Args:
             snapshot: of the next image.
-            latency_ms: 99th percentile of the delay from exposure to display; None if not measured.
+            latency: of this camera and a screen; None if not measured. Unused for images that it does not
+                apply to.
         """
+        self._times_s.append(snapshot.captured_at_s)
+        latency_ms = None
+        if latency is not None and latency.applies_to(snapshot.size_wh_px, period_ms=self._period_ms()):
+            latency_ms = latency.p99_ms
         assessments: Mapping[str, Assessment | Absent] = {
             name: self._with_lag(snapshot, name, one, latency_ms)
             for name, one in snapshot.assessments.items()
         }
         return replace(snapshot, assessments=assessments)
+
+    def _period_ms(self) -> float:
+        images = len(self._times_s) - 1
+        return 1000.0 * (self._times_s[-1] - self._times_s[0]) / images if images > 0 else nan
 
     def _with_lag(
         self, snapshot: NavigationSnapshot, name: str, one: Assessment | Absent, latency_ms: float | None

@@ -7,6 +7,8 @@ from server.capture.v4l2 import ControlReading
 from server.capture.v4l2.structs import EXPOSURE_MANUAL
 from tracker.camera import CameraControl
 
+# Unit of the control EXPOSURE: a microsecond.
+EXPOSURE_UNIT_MS = 0.001
 # Value of V4L2 for automatic exposure.
 EXPOSURE_AUTO = 0
 OFF = "Off"

@@ -29,9 +29,8 @@ class CameraCapabilities:
     """Capabilities of a camera.
 
     Attributes:
-        pixel_formats: PFNC names. A CameraCapabilities width_px, height_px size range; the maximum is the
-            whole sensor.
-        width_px, height_px: of its images; the largest are of the whole sensor.
+        pixel_formats: PFNC names.
+        width_px, height_px: size of its images; the largest is of the whole sensor.
         rate_hz: images per second; None where it cannot be set.
         triggers: trigger inputs.
     """

@@ -32,10 +32,10 @@ class IndustrialDescription:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bounds:
-    """Present range of a numeric feature. A Bounds min_value, max_value inclusive.
+    """Present range of a numeric feature.
 
     Attributes:
-        min_value, max_value: both are allowed.
+        min_value, max_value: inclusive.
         step: increment; 0 for a continuous range.
     """
 

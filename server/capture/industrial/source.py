@@ -11,7 +11,7 @@ from server.capture.address import SourceAddress
 from server.capture.controls import ControlLock
 from server.capture.device_clock import DeviceClock
 from server.capture.driver_clock import DriverClock
-from server.capture.industrial.camera_controls import IndustrialControls
+from server.capture.industrial.camera_controls import EXPOSURE_UNIT_MS, IndustrialControls
 from server.capture.industrial.camera_setup import (
     choose_industrial_mode,
     read_capabilities,
@@ -85,6 +85,7 @@ class IndustrialCameraSource:
         self._timestamps = DriverClock()
         self._has_own_clock = False
         self._camera: IndustrialCamera | None = None
+        self._opened_serial = ""
         self._latch: LatchedClock | None = None
         self._requested: CameraMode | None = None
         self._check: ModeCheck | None = None
@@ -105,6 +106,8 @@ class IndustrialCameraSource:
             granted=None if self._check is None else self._check.granted,
             controls={} if self._control_lock is None else self._control_lock.values,
             trigger=self._triggered_by,
+            exposure_unit_ms=EXPOSURE_UNIT_MS,
+            device=self._opened_serial,
         )
 
     def adopt(self, calibration: CalibratedCamera | None) -> None:
@@ -170,6 +173,7 @@ class IndustrialCameraSource:
 
     def _opened(self) -> IndustrialCamera:
         if self._serial:
+            self._opened_serial = self._serial
             return self._cameras.open(self._serial)
         found = self._cameras.descriptions()
         if len(found) != 1:
@@ -178,7 +182,8 @@ class IndustrialCameraSource:
                 if found
                 else "no camera is connected"
             )
-        return self._cameras.open(found[0].serial)
+        self._opened_serial = found[0].serial
+        return self._cameras.open(self._opened_serial)
 
     def _set_up(self, camera: IndustrialCamera) -> None:
         controls = IndustrialControls(camera)

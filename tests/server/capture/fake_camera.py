@@ -115,7 +115,6 @@ class FakeVideo:
         self.stamp: Callable[[float], float] = lambda taken_s: taken_s
         self.size_wh_px: tuple[int, int] | None = None
         self.is_open = True
-        self.grey: float | None = None
         self._stamp_s = 0.0
         self._taken = 0
 
@@ -160,8 +159,7 @@ class FakeVideo:
         width, height = self.size_wh_px or self.camera.granted.size_wh_px
         self._taken += 1
         # Of another grey each time, as no two images of a sensor are the same; one byte in memory.
-        grey = self._taken % 251 if self.grey is None else self.grey
-        image = np.broadcast_to(np.uint8(grey), (height, width, 3))
+        image = np.broadcast_to(np.uint8(self._taken % 251), (height, width, 3))
         return True, image
 
     def release(self) -> None:

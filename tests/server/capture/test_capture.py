@@ -13,6 +13,7 @@ from server.capture.capture import Capture
 from server.capture.shot import Shot
 from server.errors import CaptureError
 from server.live import CameraStatus, ImageClock, SourceState
+from tests.tracker.camera.lamps import lit
 
 
 def shot(number: int, *, grey: int | None = None, at_s: float | None = None) -> Shot:
@@ -215,6 +216,43 @@ def test_a_folder_or_a_film_may_show_the_same_image_for_long() -> None:
     capture.start()
     until(lambda: capture.status().images == 40)
     assert capture.status().state is SourceState.RUNNING
+    stop.set()
+    source.reported.put(None)
+    capture.close()
+
+
+@pytest.mark.parametrize(
+    "clock", [ImageClock.DRIVER, ImageClock.DEVICE, ImageClock.SENDER, ImageClock.BROWSER]
+)
+def test_lamps_that_flicker_are_noted_for_every_kind_of_camera_and_judged_anew_when_it_is_reopened(
+    clock: ImageClock,
+) -> None:
+    source, stop = ToldSource(stalls=True), threading.Event()
+    source.camera = CameraStatus(clock=clock)
+    capture = Capture(source, stop=stop)
+    began_s = time.monotonic()
+    grey = np.full((64, 256, 3), 120, dtype=np.uint8)
+    for number in range(140):
+        at_s = began_s + number / 30
+        image = lit(grey, at_s, light_hz=100.0, depth_ratio=0.1)
+        source.reported.put(Shot(image=image, number=number, captured_at_s=at_s, source_time_s=at_s))
+    with capture_logs() as logs:
+        capture.start()
+        until(lambda: capture.status().images == 140)
+    status = capture.status()
+    assert status.problem is None
+    assert status.camera is not None
+    assert status.camera.clock is clock
+    assert status.camera.flicker is not None
+    assert status.camera.flicker.mains_hz == (50,)
+    assert [line["code"] for line in logs if line["log_level"] == "warning"] == ["LAMP_FLICKER"]
+    source.reported.put(gone())
+    until(lambda: source.opened == 2)
+    source.reported.put(shot(140))
+    until(lambda: capture.status().images == 141)
+    status = capture.status()
+    assert status.camera is not None
+    assert status.camera.flicker is None
     stop.set()
     source.reported.put(None)
     capture.close()

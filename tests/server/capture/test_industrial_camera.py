@@ -228,6 +228,7 @@ def test_exposure_gain_and_white_balance_are_locked_once_they_have_settled(
     assert camera.features["ExposureTime"] == 12_000.0
     controls = source.camera.controls
     assert controls[CameraControl.EXPOSURE] == 12_000
+    assert source.camera.exposure_ms == pytest.approx(12.0)
     assert controls[CameraControl.GAIN] == 325
     # What somebody changes later is seen.
     camera.features["Gain"] = 6.0
@@ -323,3 +324,14 @@ def test_a_library_that_is_missing_is_reported_with_how_to_get_it() -> None:
         source.open()
     assert caught.value.code == "CAMERA_LIBRARY_MISSING"
     assert "coaxial[basler]" in caught.value.remedy
+
+
+@pytest.mark.parametrize("text", ["basler:4711", "basler:"])
+def test_the_status_names_the_camera_by_its_serial_number(camera: FakeIndustrialCamera, text: str) -> None:
+    source = IndustrialCameraSource(
+        source_from_text(text),
+        cameras=FakeIndustrialCameras(sn4711=camera),
+        stop=threading.Event(),
+        clock=camera.clock,
+    )
+    assert opened(source).camera.device == SERIAL

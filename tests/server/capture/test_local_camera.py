@@ -1,6 +1,5 @@
 """A local camera as a source: requested mode, and clock of its images."""
 
-import numpy as np
 import pytest
 from structlog.testing import capture_logs
 
@@ -158,6 +157,7 @@ def test_a_device_that_cannot_be_opened_is_reported(video: FakeVideo) -> None:
 def test_the_controls_are_in_the_status_and_are_read_again(video: FakeVideo) -> None:
     source = source_of(video)
     source.open()
+    assert source.camera.device == "Webcam"
     assert source.camera.controls[CameraControl.AUTOFOCUS] == 1
     read(source, video, after_s=4.0)
     assert source.camera.controls[CameraControl.AUTOFOCUS] == 0
@@ -190,19 +190,3 @@ def test_a_size_that_the_settings_name_stays_whatever_is_adopted(video: FakeVide
     source.adopt(CalibratedCamera(size_wh_px=HD))
     assert read(source, video).image.shape == (480, 640, 3)
     assert video.calls == ["open 0"]
-
-
-def test_lamps_that_flicker_are_a_note_and_no_defect(video: FakeVideo) -> None:
-    source = source_of(video, wanted=WantedMode(size_wh_px=VGA, rate_hz=30))
-    source.open()
-    with capture_logs() as logs:
-        for _ in range(140):
-            video.grey = 120.0 + 12.0 * np.cos(2.0 * np.pi * 100.0 * (video.now_s + 1 / 30))
-            read(source, video)
-    assert source.defect is None
-    assert source.camera.flicker is not None
-    assert source.camera.flicker.mains_hz == (50,)
-    assert [line["code"] for line in logs if line["log_level"] == "warning"] == ["LAMP_FLICKER"]
-    # Another camera, or another setting of it, is judged anew.
-    source.open()
-    assert source.camera.flicker is None

@@ -52,6 +52,7 @@ def test_an_image_comes_with_the_time_of_its_capture_and_the_browsers_word_on_it
     status = source.camera
     assert status.clock is ImageClock.BROWSER
     assert str(status.granted) == "160x90 MJPG at 30 Hz"
+    assert status.device == "back"
     assert status.controls == {CameraControl.FOCUS: 400, CameraControl.ZOOM: 100, CameraControl.AUTOFOCUS: 0}
 
 

@@ -151,3 +151,22 @@ def test_a_library_that_is_not_installed_lists_nothing(
     result = listed(monkeypatch, tmp_path, industrial=missing)
     assert result.exit_code == 1
     assert "coaxial[basler]" in result.stderr
+
+
+def test_a_library_that_fails_is_reported_with_its_reason_beside_the_cameras_of_others(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    failing = FakeIndustrialCameras()
+
+    def failed() -> tuple[()]:
+        raise OSError("the transport layer cannot be loaded")
+
+    monkeypatch.setattr(failing, "descriptions", failed)
+    monkeypatch.setattr("sys.platform", "linux")
+    alone = listed(monkeypatch, tmp_path, industrial=failing)
+    assert alone.exit_code == 1
+    assert alone.stdout.splitlines() == [
+        "basler:  its cameras cannot be listed: the transport layer cannot be loaded",
+        "    Check that its library and driver are installed completely.",
+    ]
+    assert listed(monkeypatch, tmp_path, FakeCamera(), industrial=failing).exit_code == 0

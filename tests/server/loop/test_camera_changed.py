@@ -13,6 +13,7 @@ from server.capture.shot import Shot
 from server.config import Config, RehearsalConfig
 from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.loop.tracking import Tracking
+from server.loop.tracking_state import capture_state, restore_state
 from server.setup import CaseSetup, Preparation, build_setup
 from server.texts import alarm_text, headline_of
 from tracker.camera import CameraControl
@@ -136,3 +137,31 @@ def test_images_that_change_their_size_lose_their_millimetres_with_the_first_one
         problem = tracking.problem
         reported.append((snapshot.setup.camera_calibrated, "" if problem is None else problem.code))
     assert reported == [(True, ""), (False, "CAMERA_SIZE_MISMATCH"), (True, "")]
+
+
+def test_another_camera_than_the_calibrated_one_gives_no_millimetres_until_it_is_back() -> None:
+    preparation, image = prepared()
+    tracking = Tracking(replace(preparation, camera_device="Webcam A"))
+    reported = []
+    # The status of a camera that is just being opened names none.
+    for number, device in enumerate(("Webcam A", "", "Webcam B", "", "Webcam A")):
+        at_s = 1.0 + number * PERIOD_S
+        shot = Shot(image=image, number=number, captured_at_s=at_s, source_time_s=at_s)
+        snapshot = tracking.process(shot, skipped_images=0, device=device)
+        problem = tracking.problem
+        reported.append((snapshot.setup.camera_calibrated, "" if problem is None else problem.code))
+        if problem is not None:
+            assert "'Webcam A'" in problem.message
+            assert "'Webcam B'" in problem.message
+        restored = restore_state(capture_state(tracking), at_s=at_s)
+        assert restored.setup is not None
+        assert restored.setup.camera_calibrated is snapshot.setup.camera_calibrated
+    differs = (False, "CAMERA_DIFFERS")
+    assert reported == [(True, ""), (True, ""), differs, differs, (True, "")]
+
+
+def test_a_calibration_that_names_no_camera_is_used_with_any() -> None:
+    preparation, image = prepared()
+    tracking = Tracking(preparation)
+    shot = Shot(image=image, number=0, captured_at_s=1.0, source_time_s=1.0)
+    assert tracking.process(shot, skipped_images=0, device="Webcam B").setup.camera_calibrated

@@ -128,6 +128,22 @@ def test_a_lens_that_moves_between_two_views_ends_it(camera: Camera) -> None:
     assert len(camera.collection.taken) == 1
 
 
+def test_another_camera_between_two_views_ends_it(camera: Camera) -> None:
+    def source(device: str) -> SourceStatus:
+        status = CameraStatus(clock=ImageClock.DRIVER, device=device)
+        return SourceStatus(name="0", state=SourceState.RUNNING, camera=status)
+
+    for image in images()[:2]:
+        camera.show(image, source("Webcam A"))
+    assert camera.collection.device == "Webcam A"
+    camera.show(images()[2], source("Webcam B"))
+    camera.show(images()[3], source("Webcam B"))
+    problem = camera.collection.status.problem
+    assert problem is not None
+    assert problem.code == "CAMERA_DIFFERS"
+    assert len(camera.collection.taken) == 1
+
+
 def test_an_image_that_was_taken_by_hand_counts_as_it_is(camera: Camera) -> None:
     camera.collection.add(images()[0], name="by hand")
     camera.collection.add(images()[0], name="again")

@@ -6,6 +6,7 @@ import { latencyText } from "./latencyText";
 
 const measured: Latency = {
   measuring: false,
+  applies: true,
   result: {
     at: "2026-11-24T11:05:00Z",
     made_by: "ito",
@@ -35,5 +36,11 @@ test("the latency stands in one line with its day", () => {
 });
 
 test("what was not measured is said", () => {
-  expect(latencyText({ measuring: true, result: null }, latencyEn)).toBe("not measured");
+  expect(latencyText({ measuring: true, result: null, applies: false }, latencyEn)).toBe("not measured");
+});
+
+test("a latency of images of another size or rate is not stated", () => {
+  expect(latencyText({ ...measured, applies: false }, latencyEn)).toBe(
+    "measured with 1280 × 720 px at 30 images/s, other than now: measure again",
+  );
 });

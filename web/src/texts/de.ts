@@ -46,7 +46,7 @@ export const de: Texts = {
     errorUnknown: "95-%-Fehler unbekannt",
     steadied: "beruhigt, verzögert um",
     whileMoving: "in Bewegung",
-    latencyUnknown: "in Bewegung, Latenz nicht gemessen",
+    latencyUnknown: "in Bewegung, Latenz unbekannt",
     trend: "{figure} der letzten 30 s, mit Grenze",
   },
   reading: {

@@ -48,7 +48,7 @@ export const en: Texts = {
     errorUnknown: "95 % error unknown",
     steadied: "steadied, behind by",
     whileMoving: "while moving",
-    latencyUnknown: "moving, latency not measured",
+    latencyUnknown: "moving, latency not known",
     trend: "{figure} in the last 30 s, with its limit",
   },
   reading: {

@@ -4,6 +4,7 @@ import { answered, Rejection, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import { useLatency } from "../../rest/useLatency";
+import { otherImagesText } from "../../panes/latencyText";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { LatencyReport } from "./LatencyReport";
@@ -39,6 +40,11 @@ export function LatencyCard(): ReactNode {
         data !== null && <p className="soft">{texts.never}</p>
       ) : (
         <LatencyReport result={result} />
+      )}
+      {result !== null && data?.applies === false && (
+        <p role="status" data-testid="latency-other-images">
+          {otherImagesText(result, texts)}
+        </p>
       )}
       <div>
         <Button

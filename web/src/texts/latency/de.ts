@@ -26,4 +26,5 @@ export const latencyDe: LatencyTexts = {
   lightToPage: "Licht bis Seite",
   measured: "{median} ms Median, {p99} ms p99, gemessen {day}",
   notMeasured: "nicht gemessen",
+  otherImages: "mit {size} bei {rate} Bildern/s gemessen, anders als jetzt: neu messen",
 };

@@ -24,6 +24,7 @@ export const latencyEn = {
   lightToPage: "Light to page",
   measured: "{median} ms median, {p99} ms p99, measured {day}",
   notMeasured: "not measured",
+  otherImages: "measured with {size} at {rate} images/s, other than now: measure again",
 };
 
 export type LatencyTexts = typeof latencyEn;
