@@ -9,7 +9,7 @@ from tracker.errors import InvalidInput
 from tracker.navigation import RegistrationCheck, check_registration
 from tracker.navigation.uncertainty import PedicleTolerance, UncertainPose
 from tracker.plan import Channel
-from tracker.registration.points import PointRegistration, variance_ratio_with_more
+from tracker.registration.points import PointRegistration
 
 # So many more landmarks a person may still touch.
 MORE_LANDMARKS = (2, 4, 8)
@@ -52,7 +52,7 @@ class ChannelCheck:
         if now.suffices:
             return found
         # Marker and tool add to each figure: none of them promises enough.
-        found.append("This screw cannot be navigated with this registration: every image is UNCERTAIN.")
+        found.append("This screw cannot be navigated with this registration: every image is SET-UP INSUFFICIENT.")
         found += [
             f"  {more} more landmarks, spread as these and none mistaken: {check.error_95_mm:.2f} mm, "
             f"{'enough at best' if check.suffices else 'not enough'}"
@@ -84,15 +84,7 @@ def check_channel(found: PointRegistration, channel_text: str, tolerance_text: s
         pose = UncertainPose(pose=found.fixed_from_moving, covariance=covariance)
         return check_registration(pose, channel, tolerance)
 
-    with_more = {
-        more: check(
-            found.covariance_without_outlier
-            * variance_ratio_with_more(
-                found.fre_rms_mm, int(found.used.sum()), more, min_fle_mm=found.settings.min_fle_mm
-            )
-        )
-        for more in MORE_LANDMARKS
-    }
+    with_more = {more: check(found.covariance_with_more(more)) for more in MORE_LANDMARKS}
     return ChannelCheck(now=check(found.covariance), with_more=with_more)
 
 

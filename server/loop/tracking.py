@@ -20,6 +20,7 @@ from tracker.navigation import (
     NavigationSnapshot,
     Setup,
     ToolSmoothing,
+    min_errors_95_mm,
     navigate,
 )
 from tracker.pipeline import Tracker
@@ -144,6 +145,8 @@ class Tracking:
         self._steadying, self._lagging = ToolSmoothing(self._preparation.smoothing), LagEstimator()
         channel = setup.channel
         self._guide = self._preparation.drill_reference_for(channel) if isinstance(channel, Channel) else None
+        if self._guide is not None:
+            setup = dataclasses.replace(setup, min_errors_95_mm=min_errors_95_mm(setup, self._guide))
         self._monitor_registration(setup, at_s)
         self._setup = setup
 

@@ -87,6 +87,8 @@ class AssessmentMessage(Message):
     """What the wall was measured against; null where unknown."""
     lag: LagMessage | None
     """Null where it is not measured."""
+    min_error_95_mm: float | None
+    """The least error that registration and tool allow on the channel; null where unknown."""
 
 
 class HeadlineMessage(Message):
@@ -114,6 +116,7 @@ def assessment_message(assessment: Assessment | Absent) -> AssessmentMessage | A
         end_wall=assessment.end_wall,
         against=assessment.against,
         lag=_lag(assessment.lag),
+        min_error_95_mm=finite(assessment.min_error_95_mm),
     )
 
 

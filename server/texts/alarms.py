@@ -110,7 +110,7 @@ def _remedy(alarm: Alarm, language: Language) -> str:
 
 def _fields(alarm: Alarm, language: Language, unix_offset_s: float) -> Mapping[str, str]:
     # Decimals of the displayed figure: the 95 % error has two.
-    decimals = 2 if alarm.condition is Condition.POSE_UNCERTAIN else None
+    decimals = 2 if alarm.condition in (Condition.POSE_UNCERTAIN, Condition.SETUP_INSUFFICIENT) else None
     peak = alarm.peak
     worst_site = None if peak is None else peak.site
     return {

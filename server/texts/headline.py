@@ -42,6 +42,7 @@ TONES: Mapping[Verdict, Tone] = {
     Verdict.TOO_DEEP: Tone.DANGER,
     Verdict.UNCERTAIN: Tone.WARNING,
     Verdict.BREACH_LIKELY: Tone.WARNING,
+    Verdict.SETUP_INSUFFICIENT: Tone.WARNING,
     Verdict.NEAR_WALL: Tone.WARNING,
     Verdict.CORRECT_ENTRY: Tone.CAUTION,
     Verdict.CORRECT_ANGLE: Tone.CAUTION,
@@ -186,6 +187,7 @@ def _detail(assessment: Assessment, language: Language) -> str:
         end_limit=amount(end.limit, "%"),
         end_wall=wall_text(assessment.end_wall, language),
         error_limit=amount(figures[FigureName.ERROR].limit, "mm", decimals=2),
+        min_error_mm=amount(assessment.min_error_95_mm, "mm", decimals=2),
         move=move,
     )
 
@@ -235,6 +237,7 @@ TITLES: Mapping[Language, Mapping[Verdict, str]] = {
         Verdict.TOO_DEEP: "TOO DEEP {past_mm}",
         Verdict.UNCERTAIN: "UNCERTAIN ±{error_mm}",
         Verdict.BREACH_LIKELY: "BREACH RISK {risk}",
+        Verdict.SETUP_INSUFFICIENT: "SET-UP INSUFFICIENT ±{error_mm}",
         Verdict.NEAR_WALL: "NEAR {wall}WALL {wall_mm}",
         Verdict.CORRECT_ENTRY: "CORRECT {corrections}",
         Verdict.CORRECT_ANGLE: "AIM {corrections}",
@@ -247,6 +250,7 @@ TITLES: Mapping[Language, Mapping[Verdict, str]] = {
         Verdict.TOO_DEEP: "ZU TIEF {past_mm}",
         Verdict.UNCERTAIN: "UNSICHER ±{error_mm}",
         Verdict.BREACH_LIKELY: "DURCHBRUCHRISIKO {risk}",
+        Verdict.SETUP_INSUFFICIENT: "AUFBAU REICHT NICHT ±{error_mm}",
         Verdict.NEAR_WALL: "NAHE {wall}WAND {wall_mm}",
         Verdict.CORRECT_ENTRY: "KORRIGIEREN {corrections}",
         Verdict.CORRECT_ANGLE: "RICHTEN {corrections}",
@@ -272,6 +276,8 @@ DETAILS: Mapping[Language, Mapping[Verdict, str]] = {
         Verdict.TOO_DEEP: "Stop. Withdraw the drill.",
         Verdict.UNCERTAIN: "95 % error, limit {error_limit}",
         Verdict.BREACH_LIKELY: "within 2 mm, limit {risk_limit}",
+        Verdict.SETUP_INSUFFICIENT: "95 % error, at best {min_error_mm} with this registration and tool, "
+        "limit {error_limit}",
         Verdict.NEAR_WALL: "limit {wall_limit}{move}",
         Verdict.CORRECT_ENTRY: "entry {entry_mm}, limit {entry_limit}",
         Verdict.CORRECT_ANGLE: "angle {angle_deg}, limit {angle_limit}",
@@ -284,6 +290,8 @@ DETAILS: Mapping[Language, Mapping[Verdict, str]] = {
         Verdict.TOO_DEEP: "Anhalten. Bohrer zurückziehen.",
         Verdict.UNCERTAIN: "95-%-Fehler, Grenze {error_limit}",
         Verdict.BREACH_LIKELY: "innerhalb von 2 mm, Grenze {risk_limit}",
+        Verdict.SETUP_INSUFFICIENT: "95-%-Fehler, mit Registrierung und Werkzeug bestenfalls {min_error_mm}, "
+        "Grenze {error_limit}",
         Verdict.NEAR_WALL: "Grenze {wall_limit}{move}",
         Verdict.CORRECT_ENTRY: "Eintritt {entry_mm}, Grenze {entry_limit}",
         Verdict.CORRECT_ANGLE: "Winkel {angle_deg}, Grenze {angle_limit}",

@@ -116,6 +116,12 @@ ENGLISH: Mapping[Condition, Phrases] = {
         bare_past="Tip position was too uncertain to be shown.",
         remedy="Hold the marker closer, steadier and more tilted.",
     ),
+    Condition.SETUP_INSUFFICIENT: Phrases(
+        title="SET-UP INSUFFICIENT",
+        present="95 % error ±{value}, limit {limit}. No view meets it with this registration and tool.",
+        past="95 % error was ±{worst}.",
+        remedy="Register with more landmarks, or plan a thinner screw.",
+    ),
     Condition.POSE_JUMPED: Phrases(
         title="POSE AMBIGUOUS",
         present="Two poses fit the image, or the pose jumped.",
@@ -269,6 +275,12 @@ GERMAN: Mapping[Condition, Phrases] = {
         bare="Spitze zu unsicher, um sie zu zeigen.",
         bare_past="Spitze war zu unsicher, um sie zu zeigen.",
         remedy="Marker näher, ruhiger, schräger zeigen.",
+    ),
+    Condition.SETUP_INSUFFICIENT: Phrases(
+        title="AUFBAU REICHT NICHT",
+        present="95-%-Fehler ±{value}, Grenze {limit}. Mit Registrierung und Werkzeug unerreichbar.",
+        past="95-%-Fehler war ±{worst}.",
+        remedy="Mit mehr Landmarken registrieren oder dünnere Schraube planen.",
     ),
     Condition.POSE_JUMPED: Phrases(
         title="LAGE NICHT EINDEUTIG",

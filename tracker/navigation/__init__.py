@@ -8,7 +8,12 @@ from tracker.navigation.figures import DrillLimits, Figure, FigureName, Status
 from tracker.navigation.lag import LagEstimator, MeasuredLatency
 from tracker.navigation.motion_detection import MotionDetection, motion_detected_by
 from tracker.navigation.motion_monitor import MotionMonitor
-from tracker.navigation.registration_check import RegistrationCheck, check_registration
+from tracker.navigation.registration_check import (
+    RegistrationCheck,
+    check_registration,
+    check_setup,
+    min_errors_95_mm,
+)
 from tracker.navigation.snapshot import (
     Absent,
     AbsentReason,
@@ -51,8 +56,10 @@ __all__ = [
     "assess",
     "bullseye_view",
     "check_registration",
+    "check_setup",
     "deviation_from_channel",
     "half_axes_95_mm",
+    "min_errors_95_mm",
     "motion_detected_by",
     "navigate",
 ]

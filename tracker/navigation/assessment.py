@@ -4,6 +4,9 @@ Headline, figures, alarms, overlay, wire messages and log all use this assessmen
 nothing. Presence of a condition is decided without hysteresis; only a present condition is described in the
 present tense and gets an instruction. A drill outside the planned cylinder but within all limits is therefore
 on path; a screw whose probability of breach at its end exceeds `alarms.breach_ratio` is not.
+An error over its limit is `UNCERTAIN` if a better view could mend it, and `SETUP_INSUFFICIENT` if not even
+the least error of the set-up is within the limit. The second is the same in every image: a likely breach,
+which takes the uncertainty into account, goes before it.
 `tests/server/texts/contradictions.py` states the rule; `random_drilling.py` searches for violations.
 """
 
@@ -38,8 +41,9 @@ class Verdict(StrEnum):
 
     THROUGH_WALL = "through_wall"  # a part of the drill is through the wall
     TOO_DEEP = "too_deep"  # the tip is past the planned depth
-    UNCERTAIN = "uncertain"  # the 95 % uncertainty is larger than what the pedicle leaves
+    UNCERTAIN = "uncertain"  # the 95 % uncertainty is larger than what the pedicle leaves, in this image
     BREACH_LIKELY = "breach_likely"  # the probability of a breach, now or 2 mm further, is over its limit
+    SETUP_INSUFFICIENT = "setup_insufficient"  # so is that of this registration and tool in every image
     NEAR_WALL = "near_wall"  # less bone is left than the warning distance
     CORRECT_ENTRY = "correct_entry"  # the entry offset is over its limit
     CORRECT_ANGLE = "correct_angle"  # the angle is over its limit
@@ -126,6 +130,8 @@ class Assessment:
         end_wall: the wall nearest to the screw at the planned depth; None if the screw misses the pedicle.
         against: what the wall distance was measured against; None if nothing is known.
         lag: of a moving tip; None if not computed. Independent of the verdict.
+        min_error_95_mm: the least value of the figure ERROR that registration and tool allow for a drill on
+            the channel (`check_setup`); NaN if not known.
     """
 
     verdict: Verdict
@@ -135,6 +141,12 @@ class Assessment:
     end_wall: Wall | None = None
     against: WallSource | None = None
     lag: Lag | None = None
+    min_error_95_mm: float = nan
+
+    @property
+    def setup_suffices(self) -> bool:
+        """False if no image can have an error within its limit with this registration and tool."""
+        return not _is_out_of_reach(self.figures[FigureName.ERROR], self.min_error_95_mm)
 
     @property
     def rank(self) -> tuple[float, float]:
@@ -144,7 +156,12 @@ class Assessment:
 
 
 def assess(
-    deviation: Deviation, analysis: DrillAnalysis | None, channel: Channel, limits: DrillLimits
+    deviation: Deviation,
+    analysis: DrillAnalysis | None,
+    channel: Channel,
+    limits: DrillLimits,
+    *,
+    min_error_95_mm: float = nan,
 ) -> Assessment:
     """Compute the figures of one drill in one image, compare them with their limits, and return the verdict.
 
@@ -153,6 +170,7 @@ def assess(
         analysis: clearance and uncertainty; None if no pedicle is known. Then only the depth has a limit.
         channel: the planned channel.
         limits: those that are not part of a plan.
+        min_error_95_mm: see `Assessment`.
     """
     figures = drill_figures(deviation, analysis, channel, limits)
     if analysis is None:
@@ -160,7 +178,7 @@ def assess(
         return Assessment(verdict=Verdict.TOO_DEEP if is_deep else Verdict.NOT_ASSESSED, figures=figures)
     clearance = analysis.clearance
     wall, end_wall = _wall_of(clearance.now), _wall_of(clearance.at_end)
-    verdict = _verdict(figures)
+    verdict = _verdict(figures, min_error_95_mm)
     return Assessment(
         verdict=verdict,
         figures=figures,
@@ -170,10 +188,11 @@ def assess(
         wall=wall,
         end_wall=end_wall,
         against=clearance.against,
+        min_error_95_mm=min_error_95_mm,
     )
 
 
-def _verdict(figures: Mapping[FigureName, Figure]) -> Verdict:
+def _verdict(figures: Mapping[FigureName, Figure], min_error_95_mm: float) -> Verdict:
     def status(name: FigureName) -> Status:
         return figures[name].status
 
@@ -183,17 +202,24 @@ def _verdict(figures: Mapping[FigureName, Figure]) -> Verdict:
         return Verdict.TOO_DEEP
     error = figures[FigureName.ERROR]
     # An infinite error means a drill across the channel, not uncertainty: its angle gives the verdict.
-    if error.status is Status.OVER and isfinite(error.value):
-        return Verdict.UNCERTAIN
-    for name, verdict in (
-        (FigureName.RISK, Verdict.BREACH_LIKELY),
-        (FigureName.WALL, Verdict.NEAR_WALL),
+    is_uncertain = error.status is Status.OVER and isfinite(error.value)
+    is_insufficient = is_uncertain and _is_out_of_reach(error, min_error_95_mm)
+    for is_present, verdict in (
+        (is_uncertain and not is_insufficient, Verdict.UNCERTAIN),
+        (status(FigureName.RISK) is Status.OVER, Verdict.BREACH_LIKELY),
+        (is_insufficient, Verdict.SETUP_INSUFFICIENT),
+        (status(FigureName.WALL) is Status.OVER, Verdict.NEAR_WALL),
     ):
-        if status(name) is Status.OVER:
+        if is_present:
             return verdict
     if (worse := _worse_of(figures)) is not None:
         return worse
     return Verdict.CORRECT_END if status(FigureName.END) is Status.OVER else Verdict.ON_PATH
+
+
+def _is_out_of_reach(error: Figure, min_error_95_mm: float) -> bool:
+    # False for NaN: where the least error is not known, a better view is not excluded.
+    return min_error_95_mm > error.limit
 
 
 def _worse_of(figures: Mapping[FigureName, Figure]) -> Verdict | None:

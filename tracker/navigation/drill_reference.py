@@ -58,15 +58,24 @@ class DrillReference:
         self, tool: UncertainPose[Vertebra, Tool], model: ToolModel, channel: Channel
     ) -> DrillAnalysis:
         """Compute clearance, uncertainty and breach probability of a drill in the vertebra frame."""
-        tolerance = self.tolerance or PedicleTolerance.of_channel(channel, radius_mm=model.radius_mm)
         drill = Drill(
             radius_mm=model.radius_mm,
             length_mm=model.length_mm,
             screw_radius_mm=None if self.screw is None else self.screw.radius_mm,
         )
         return analyse_drill(
-            tool, channel, self.wall, tolerance, drill, side=self.side, wall_sd_mm=self.wall_sd_mm
+            tool,
+            channel,
+            self.wall,
+            self.tolerance_for(model, channel),
+            drill,
+            side=self.side,
+            wall_sd_mm=self.wall_sd_mm,
         )
+
+    def tolerance_for(self, model: ToolModel, channel: Channel) -> PedicleTolerance:
+        """Return the allowed error of this drill in the channel."""
+        return self.tolerance or PedicleTolerance.of_channel(channel, radius_mm=model.radius_mm)
 
 
 def tool_in_vertebra(

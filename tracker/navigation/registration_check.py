@@ -1,20 +1,37 @@
 """Whether a registration suffices for one screw, known before navigation.
 
-The drill is placed on the planned channel with an exact marker pose and an exact tip. What is left is the
-registration's share of the error: if it exceeds what the pedicle leaves, so does that of every image with
-the drill on the channel. This holds for a covariance that has no error in common with the drill
-(`Registration.tip_jacobian` is 0, as on the command line); of a tip that registers and drills, part cancels.
+The drill is placed on the planned channel. What its error is there at best is compared with what the pedicle
+leaves: if it exceeds that, so does the error of every image with the drill on the channel.
+
+`check_registration` takes the registration alone, with an exact marker pose and an exact tip.
+`check_setup` adds the calibration of the tool and the tracking error of the best capture. Of a tip that
+registers and drills, part of the error cancels (`Registration.tip_jacobian`); how much depends on how the
+drill is held, so that the smallest error over all rotations about its axis is taken.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from tracker.geometry import Anchor, Rigid, Tool, Vertebra
+from tracker.geometry import Anchor, Array, Camera, Marker, Rigid, Tool, Vertebra
 from tracker.navigation.directions import channel_directions
+from tracker.navigation.drill_reference import DrillReference, tool_in_vertebra
 from tracker.navigation.figures import rounded_down, rounded_up
-from tracker.navigation.uncertainty import PedicleTolerance, UncertainPose, check_tolerance
+from tracker.navigation.snapshot import Absent, Setup
+from tracker.navigation.uncertainty import (
+    PedicleTolerance,
+    ToleranceCheck,
+    UncertainPose,
+    check_tolerance,
+)
 from tracker.plan import Channel
+from tracker.pose import ToolModel
+from tracker.registration import Registration
+
+# Steps of the rotation about the drill's axis; between two of them the error changes by less than 1 %.
+ROTATIONS = 24
+# Depths of the tip as shares of the depth of the isthmus: an error of the axis has no lever at the tip.
+DEPTHS = (0.0, 0.5, 1.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,7 +55,7 @@ class RegistrationCheck:
 
     @property
     def suffices(self) -> bool:
-        """False if every image of this set-up is UNCERTAIN; True does not promise that any is not."""
+        """False if the error is over its limit in every image; True does not promise that any is within."""
         return self.error_95_mm <= self.tolerance_mm
 
     @property
@@ -65,13 +82,86 @@ def check_registration(
         channel: the planned channel.
         tolerance: of the planned screw in it.
     """
-    across = channel_directions(channel)
-    planned: Rigid[Vertebra, Tool] = Rigid(
-        rotation=np.column_stack([np.cross(across.cranial, across.axis), across.cranial, across.axis]),
-        translation_mm=channel.entry_in_vertebra_mm,
+    drill = UncertainPose(
+        pose=vertebra_from_anchor.pose.inverse @ _planned(channel), covariance=np.zeros((6, 6))
     )
-    drill = UncertainPose(pose=vertebra_from_anchor.pose.inverse @ planned, covariance=np.zeros((6, 6)))
-    check = check_tolerance(vertebra_from_anchor @ drill, channel, tolerance)
+    return _rounded(check_tolerance(vertebra_from_anchor @ drill, channel, tolerance))
+
+
+def check_setup(
+    registration: Registration, tool: ToolModel, channel: Channel, tolerance: PedicleTolerance
+) -> RegistrationCheck:
+    """Compare the least error of registration, tool and tracking on a channel with what the screw leaves.
+
+    Returns the check of the rotation and depth of the drill on its planned axis with the least error.
+
+    Args:
+        registration: with its covariance, and the tip that it has in common with the drill.
+        tool: the drill, with the covariance of its calibration.
+        channel: the planned channel.
+        tolerance: of the planned screw in it; of the drill if there is no screw.
+    """
+    checks = (
+        check_tolerance(
+            _placed(registration, tool, channel, share * tolerance.lever_mm, turn), channel, tolerance
+        )
+        for share in DEPTHS
+        for turn in np.arange(ROTATIONS) * 2.0 * np.pi / ROTATIONS
+    )
+    return _rounded(min(checks, key=lambda one: max(one.entry_95_mm, one.isthmus_95_mm)))
+
+
+def min_errors_95_mm(setup: Setup, drill_reference: DrillReference) -> dict[str, float]:
+    """Return the least 95 % error on the channel of each tool of a setup; empty without a registration."""
+    registration, channel = setup.registration, setup.channel
+    if isinstance(registration, Absent) or isinstance(channel, Absent):
+        return {}
+    return {
+        name: check_setup(
+            registration, tool, channel, drill_reference.tolerance_for(tool, channel)
+        ).error_95_mm
+        for name, tool in setup.tools.items()
+    }
+
+
+def _placed(
+    registration: Registration, tool: ToolModel, channel: Channel, depth_mm: float, turn_rad: float
+) -> UncertainPose[Vertebra, Tool]:
+    """Return the tool on the channel, rotated about its axis, with the error that navigation would state."""
+    anchor = registration.anchor_from_vertebra
+    # The anchor takes the place of the camera: what both see of the patient's marker cancels.
+    camera_from_vertebra: Rigid[Camera, Vertebra] = Rigid(
+        rotation=anchor.rotation, translation_mm=anchor.translation_mm
+    )
+    marker: Rigid[Camera, Marker] = (
+        camera_from_vertebra
+        @ _planned(channel, depth_mm=depth_mm, turn_rad=turn_rad)
+        @ tool.marker_from_tool.inverse
+    )
+    tracking = np.zeros((6, 6))
+    tracking[:3, :3] = registration.tracking_covariance_mm2
+    return tool_in_vertebra(
+        UncertainPose(pose=camera_from_vertebra, covariance=registration.covariance),
+        UncertainPose(pose=marker, covariance=tracking),
+        tool,
+        tip_jacobian=registration.tip_jacobian if registration.tool == tool.name else None,
+    )
+
+
+def _planned(channel: Channel, *, depth_mm: float = 0.0, turn_rad: float = 0.0) -> Rigid[Vertebra, Tool]:
+    """Return the pose of a drill on the channel."""
+    across = channel_directions(channel)
+    sideways: Array = np.cross(across.cranial, across.axis)
+    cos, sin = np.cos(turn_rad), np.sin(turn_rad)
+    return Rigid(
+        rotation=np.column_stack(
+            [cos * sideways + sin * across.cranial, cos * across.cranial - sin * sideways, across.axis]
+        ),
+        translation_mm=channel.entry_in_vertebra_mm + depth_mm * across.axis,
+    )
+
+
+def _rounded(check: ToleranceCheck) -> RegistrationCheck:
     return RegistrationCheck(
         entry_95_mm=rounded_up(check.entry_95_mm, decimals=2),
         isthmus_95_mm=rounded_up(check.isthmus_95_mm, decimals=2),

@@ -90,6 +90,8 @@ class Setup:
         limits: of a drill, beside those of its pedicle.
         side: of the patient, as planned; None if not stated.
         ct_id: of the CT on which the channel was planned; empty if there is none.
+        min_errors_95_mm: by tool name, the least 95 % error on the channel with this registration, see
+            `check_setup`. Tools for which it is not known are missing.
     """
 
     camera: CameraModel
@@ -104,6 +106,7 @@ class Setup:
     limits: DrillLimits = field(default_factory=DrillLimits)
     side: Side | None = None
     ct_id: str = ""
+    min_errors_95_mm: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

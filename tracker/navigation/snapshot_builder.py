@@ -1,6 +1,7 @@
 """Build the navigation snapshot of one image from the sightings of its markers."""
 
 from collections.abc import Mapping
+from math import nan
 
 import numpy as np
 
@@ -182,14 +183,20 @@ def _analyse(
 
 
 def _assess(
-    setup: Setup, deviation: Deviation | Absent, analysis: DrillAnalysis | Absent
+    setup: Setup, name: str, deviation: Deviation | Absent, analysis: DrillAnalysis | Absent
 ) -> Assessment | Absent:
     """Return the assessment of a tool, or why it has none."""
     if isinstance(deviation, Absent):
         return deviation
     if isinstance(setup.channel, Absent):
         return setup.channel
-    return assess(deviation, None if isinstance(analysis, Absent) else analysis, setup.channel, setup.limits)
+    return assess(
+        deviation,
+        None if isinstance(analysis, Absent) else analysis,
+        setup.channel,
+        setup.limits,
+        min_error_95_mm=setup.min_errors_95_mm.get(name, nan),
+    )
 
 
 def navigate(
@@ -237,7 +244,7 @@ def navigate(
         tools=tools,
         deviations=deviations,
         analyses=analyses,
-        assessments={name: _assess(setup, one, analyses[name]) for name, one in deviations.items()},
+        assessments={name: _assess(setup, name, one, analyses[name]) for name, one in deviations.items()},
         motion=motion,
         stage_ms=stage_ms,
         skipped_images=skipped_images,

@@ -47,6 +47,8 @@ class Registration:
         tip_jacobian: (6, 3), derivative of `anchor_from_vertebra` with respect to the calibrated tip
             position; if the same tool registers and drills, much of that error cancels. 0 if no tip was used.
         tool: the tool with that tip; empty if none.
+        tracking_covariance_mm2: (3, 3), of the tip in the anchor frame from the poses of the markers alone,
+            at the best capture: what tracking adds in an image of a drill seen as well. 0 if not known.
 
     Raises:
         RegistrationError: REGISTRATION_COVARIANCE_INVALID, the covariance is not finite or not positive
@@ -59,6 +61,7 @@ class Registration:
     covariance: Array
     tip_jacobian: Array = field(default_factory=lambda: np.zeros((6, 3)))
     tool: str = ""
+    tracking_covariance_mm2: Array = field(default_factory=lambda: np.zeros((3, 3)))
 
     @classmethod
     def known_to_camera(cls, camera_from_vertebra: Rigid[Camera, Vertebra]) -> "Registration":
@@ -95,7 +98,18 @@ class Registration:
             )
         covariance = 0.5 * (covariance + covariance.T)
         slope = np.array(self.tip_jacobian, dtype=np.float64).reshape(6, 3)
-        for name, array in (("covariance", covariance), ("tip_jacobian", slope)):
+        tracking = np.array(self.tracking_covariance_mm2, dtype=np.float64).reshape(3, 3)
+        if not np.isfinite(tracking).all() or np.linalg.eigvalsh(tracking).min() < -1e-9:
+            raise RegistrationError(
+                "REGISTRATION_COVARIANCE_INVALID",
+                "the uncertainty of tracking at the registration is not a finite covariance",
+                "Register again.",
+            )
+        for name, array in (
+            ("covariance", covariance),
+            ("tip_jacobian", slope),
+            ("tracking_covariance_mm2", tracking),
+        ):
             array.setflags(write=False)
             object.__setattr__(self, name, array)
 

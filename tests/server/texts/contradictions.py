@@ -29,6 +29,8 @@ PHYSIOLOGICAL = {
     Condition.CLEARANCE_LOW,
 }
 
+OF_ERROR = {Condition.POSE_UNCERTAIN, Condition.SETUP_INSUFFICIENT}
+
 
 @dataclass(slots=True)
 class ContradictionCheck:
@@ -98,7 +100,7 @@ class ContradictionCheck:
             assert " was " not in f" {sentence.lower()}", "what is there is not moment in the past tense"
         elif alarm.condition in PHYSIOLOGICAL:
             assert "was " in sentence.lower(), "what is not there is moment in the past tense"
-        if moment.snapshot is None or alarm.condition not in PHYSIOLOGICAL | {Condition.POSE_UNCERTAIN}:
+        if moment.snapshot is None or alarm.condition not in PHYSIOLOGICAL | OF_ERROR:
             return
         name, is_over = _FIGURE_OF[alarm.condition]
         figures = [getattr(each.figures, name) for each in assessments.values()]
@@ -194,6 +196,7 @@ def _verdict_fits(assessment: AssessmentMessage) -> None:
     named = {
         Verdict.TOO_DEEP: "deep",
         Verdict.UNCERTAIN: "error",
+        Verdict.SETUP_INSUFFICIENT: "error",
         Verdict.BREACH_LIKELY: "risk",
         Verdict.NEAR_WALL: "wall",
         Verdict.CORRECT_ENTRY: "entry",
@@ -202,6 +205,11 @@ def _verdict_fits(assessment: AssessmentMessage) -> None:
     }
     if assessment.verdict in named:
         assert over[named[assessment.verdict]]
+    if assessment.verdict in (Verdict.UNCERTAIN, Verdict.SETUP_INSUFFICIENT):
+        least_mm = assessment.min_error_95_mm
+        assert f.error.limit is not None
+        is_out_of_reach = least_mm is not None and least_mm > f.error.limit
+        assert is_out_of_reach == (assessment.verdict is Verdict.SETUP_INSUFFICIENT)
 
 
 def _overlay(moment: Moment, snapshot: SnapshotMessage) -> None:
@@ -272,4 +280,5 @@ _FIGURE_OF: Mapping[Condition, tuple[str, Callable[[FigureMessage], bool]]] = {
     Condition.BREACH_LIKELY: ("risk", _over),
     Condition.CLEARANCE_LOW: ("wall", lambda figure: _less(figure, figure.limit) and not _less(figure, 0.0)),
     Condition.POSE_UNCERTAIN: ("error", _over),
+    Condition.SETUP_INSUFFICIENT: ("error", _over),
 }

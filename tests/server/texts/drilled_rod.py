@@ -1,6 +1,7 @@
 """A camera over the rod of `tests.tracker.navigation.bones`, and a drill seen where a test wants it."""
 
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
@@ -30,14 +31,15 @@ UNSEEN = Unseen(reason=UnseenReason.NO_CANDIDATE)
 Where: TypeAlias = Sequence[float] | npt.NDArray[np.float64]
 
 
-def setup_of(names: Collection[str] = ("drill",)) -> Setup:
-    """A calibrated camera, these tools, and the rod's channel, registered."""
+def setup_of(names: Collection[str] = ("drill",), *, registered_sd_mm: float = 0.0) -> Setup:
+    """A calibrated camera, these tools, and the rod's channel, registered to this standard deviation."""
+    shift = np.diag([registered_sd_mm**2] * 3 + [0.0] * 3)
     return Setup(
         camera=CAMERA,
         camera_calibrated=True,
         tools={name: drill(name) for name in names},
         channel=ROD_CHANNEL,
-        registration=Registration.known_to_camera(CAMERA_FROM_VERTEBRA),
+        registration=replace(Registration.known_to_camera(CAMERA_FROM_VERTEBRA), covariance=shift),
         side="left",
     )
 

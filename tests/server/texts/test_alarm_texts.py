@@ -92,6 +92,12 @@ TIME = clock_text(NOON_S + 3.0)
             id="with the digits of its figure",
         ),
         pytest.param(
+            alarm(Condition.SETUP_INSUFFICIENT, measure=mm(1.94, 1.5)),
+            "95 % error ±1.94 mm, limit 1.50 mm. No view meets it with this registration and tool.",
+            "Register with more landmarks, or plan a thinner screw.",
+            id="what no view mends is not blamed on the view",
+        ),
+        pytest.param(
             alarm(
                 Condition.CAMERA_CHANGED,
                 measure=Measure(value=135.0, limit=120.0, unit=""),

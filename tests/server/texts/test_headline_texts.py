@@ -66,6 +66,13 @@ def headline_at(snapshot_of: SnapshotOf, depth_mm: float, **off: float) -> Headl
             id="uncertain",
         ),
         pytest.param(
+            {"depth_mm": 30.0, "unsure": 10.0, "min_error_95_mm": 2.1},
+            Tone.WARNING,
+            "SET-UP INSUFFICIENT ±2.77 mm",
+            "95 % error, at best 2.10 mm with this registration and tool, limit 1.80 mm",
+            id="insufficient-set-up",
+        ),
+        pytest.param(
             {"depth_mm": 56.2}, Tone.DANGER, "TOO DEEP 1.2 mm", "Stop. Withdraw the drill.", id="too-deep"
         ),
         pytest.param(

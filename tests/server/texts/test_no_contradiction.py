@@ -51,7 +51,7 @@ def test_a_verdict_that_is_wrong_on_purpose_is_found(wrong: Verdict, monkeypatch
     monkeypatch.setattr(
         assessment,
         "_verdict",
-        lambda figures: wrong if right(figures) is Verdict.NEAR_WALL else right(figures),
+        lambda *known: wrong if right(*known) is Verdict.NEAR_WALL else right(*known),
     )
     with pytest.raises(AssertionError):
         _check_all()

@@ -1,6 +1,7 @@
 """Assessments of drills in a simple bone: a rod of 5 mm radius, 55 mm deep, a drill of 2 mm radius."""
 
 from functools import cache
+from math import nan
 
 import numpy as np
 
@@ -54,7 +55,12 @@ def judged_at(
 
 
 def assessed_at(
-    depth_mm: float, *, unsure: float = 1.0, tolerance_mm: float = 1.8, **off: float
+    depth_mm: float,
+    *,
+    unsure: float = 1.0,
+    tolerance_mm: float = 1.8,
+    min_error_95_mm: float = nan,
+    **off: float,
 ) -> Assessment:
     """The assessment of such a drill."""
     return assess(
@@ -62,4 +68,5 @@ def assessed_at(
         judged_at(depth_mm, unsure=unsure, tolerance_mm=tolerance_mm, **off),
         ROD_CHANNEL,
         LIMITS,
+        min_error_95_mm=min_error_95_mm,
     )

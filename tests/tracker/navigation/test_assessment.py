@@ -83,6 +83,42 @@ OVER = {Status.OVER, Status.THROUGH}
             id="probably-through",
         ),
         pytest.param({"depth_mm": 30.0, "unsure": 10.0}, Verdict.UNCERTAIN, (), id="uncertain"),
+        pytest.param(
+            {"depth_mm": 30.0, "unsure": 10.0, "min_error_95_mm": 1.8},
+            Verdict.UNCERTAIN,
+            (),
+            id="uncertain-now-although-the-set-up-just-suffices",
+        ),
+        pytest.param(
+            {"depth_mm": 30.0, "unsure": 10.0, "min_error_95_mm": 1.81},
+            Verdict.SETUP_INSUFFICIENT,
+            (),
+            id="uncertain-in-every-image",
+        ),
+        pytest.param(
+            {"depth_mm": 30.0, "min_error_95_mm": 1.81},
+            Verdict.ON_PATH,
+            (),
+            id="within-its-limit-although-the-bound-says-otherwise",
+        ),
+        pytest.param(
+            {"depth_mm": 30.0, "cranial_mm": 2.4, "unsure": 7.0, "min_error_95_mm": 1.81},
+            Verdict.BREACH_LIKELY,
+            ((math.nan, Direction.CAUDAL),),
+            id="a-likely-breach-goes-before-a-set-up-that-does-not-suffice",
+        ),
+        pytest.param(
+            {"depth_mm": 56.2, "unsure": 10.0, "min_error_95_mm": 1.81},
+            Verdict.TOO_DEEP,
+            (),
+            id="too-deep-with-a-set-up-that-does-not-suffice",
+        ),
+        pytest.param(
+            {"depth_mm": 30.0, "medial_mm": -3.8, "unsure": 10.0, "min_error_95_mm": 1.81},
+            Verdict.THROUGH_WALL,
+            ((math.nan, Direction.MEDIAL),),
+            id="through-with-a-set-up-that-does-not-suffice",
+        ),
         pytest.param({"depth_mm": 56.2}, Verdict.TOO_DEEP, (), id="too-deep"),
         pytest.param(
             {"depth_mm": 30.0, "medial_mm": -3.8},
@@ -186,6 +222,28 @@ def test_the_verdict_is_the_worst_that_the_figures_say_and_on_path_only_within_a
     assert_consistent(assessment)
 
 
+@settings(deadline=None, max_examples=100)
+@given(
+    drill=DRILLS, scale=st.floats(0.2, 12.0), tolerance_mm=st.floats(0.0, 3.0), least_mm=st.floats(0.0, 6.0)
+)
+def test_a_set_up_that_does_not_suffice_makes_no_verdict_calmer(
+    drill: dict[str, float], scale: float, tolerance_mm: float, least_mm: float
+) -> None:
+    placed = {**drill, "unsure": scale, "tolerance_mm": tolerance_mm}
+    unknown, known = assessed_at(**placed), assessed_at(**placed, min_error_95_mm=least_mm)
+    assert known.figures == unknown.figures or "nan" in repr(known.figures)
+    if unknown.verdict is not Verdict.UNCERTAIN:
+        assert known.verdict is unknown.verdict
+        return
+    if least_mm <= known.figures[FigureName.ERROR].limit:
+        assert known.verdict is Verdict.UNCERTAIN
+        return
+    is_likely = known.figures[FigureName.RISK].status is Status.OVER
+    assert known.verdict is (Verdict.BREACH_LIKELY if is_likely else Verdict.SETUP_INSUFFICIENT)
+    # None of the verdicts that only ask for a correction hides it.
+    assert known.verdict.severity > Verdict.NEAR_WALL.severity
+
+
 def assert_consistent(assessment: Assessment) -> None:
     """The law of every assessment, said once more from the rounded numbers alone."""
     f, verdict = assessment.figures, assessment.verdict
@@ -199,6 +257,7 @@ def assert_consistent(assessment: Assessment) -> None:
         Verdict.THROUGH_WALL: FigureName.WALL,
         Verdict.TOO_DEEP: FigureName.TO_GO,
         Verdict.UNCERTAIN: FigureName.ERROR,
+        Verdict.SETUP_INSUFFICIENT: FigureName.ERROR,
         Verdict.BREACH_LIKELY: FigureName.RISK,
         Verdict.NEAR_WALL: FigureName.WALL,
         Verdict.CORRECT_ENTRY: FigureName.ENTRY,

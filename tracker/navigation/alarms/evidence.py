@@ -168,6 +168,18 @@ def _pose_uncertain(inputs: AlarmInputs, limits: AlarmLimits, raised: bool) -> E
         return Evidence(presence=Presence.YES)
     if isinstance(sd_mm, NotKnown) or isinstance(max_mm, NotKnown):
         return UNKNOWN
+    # No way to hold the marker mends it: another alarm of the same figure says so.
+    return _error_over(sd_mm, max_mm, limits, raised) if inputs.setup_sufficient else SUPERSEDED
+
+
+def _setup_insufficient(inputs: AlarmInputs, limits: AlarmLimits, raised: bool) -> Evidence:
+    sd_mm, max_mm = inputs.tip_sd_mm, inputs.max_tip_sd_mm
+    if isinstance(sd_mm, NotKnown) or isinstance(max_mm, NotKnown):
+        return UNKNOWN
+    return GONE if inputs.setup_sufficient else _error_over(sd_mm, max_mm, limits, raised)
+
+
+def _error_over(sd_mm: float, max_mm: float, limits: AlarmLimits, raised: bool) -> Evidence:
     measure = Measure(value=sd_mm, limit=max_mm, unit="mm")
     # A hysteresis larger than the limit could never be cleared.
     clears_at_mm = max(max_mm - limits.hysteresis_mm, 0.8 * max_mm)
@@ -231,6 +243,7 @@ _EVALUATORS: Mapping[Condition, Evaluator] = MappingProxyType(
         Condition.CAMERA_GONE: lambda inputs, _limits, _standing: _flag(not inputs.camera_works),
         Condition.TRACKING_STOPPED: lambda inputs, _limits, _standing: _flag(not inputs.tracker_works),
         Condition.POSE_UNCERTAIN: _pose_uncertain,
+        Condition.SETUP_INSUFFICIENT: _setup_insufficient,
         Condition.POSE_JUMPED: lambda inputs, _limits, _standing: _flag(not inputs.pose_steady),
         Condition.CAMERA_MOVED: lambda inputs, _limits, _standing: _flag(not inputs.camera_in_place),
         Condition.REFERENCE_MOVED: lambda inputs, _limits, _standing: _flag(not inputs.reference_in_place),

@@ -123,12 +123,17 @@ def _with_figures(inputs: AlarmInputs, snapshot: NavigationSnapshot) -> AlarmInp
         return inputs
     riskiest = max(limited, key=lambda name: limited[name].figures[FigureName.RISK].value)
     nearest = min(assessed, key=lambda name: _wall_mm(assessed[name]))
-    errors = [one.figures[FigureName.ERROR] for one in limited.values()]
     # For a drill across the channel it is infinite, which is no measure of the pose uncertainty.
-    finite = [error for error in errors if isfinite(error.value)]
+    finite = [one for one in limited.values() if isfinite(one.figures[FigureName.ERROR].value)]
     if finite:
-        unsure = max(finite, key=lambda error: error.value - error.limit)
-        inputs = replace(inputs, tip_sd_mm=unsure.value, max_tip_sd_mm=unsure.limit)
+        unsure = max(finite, key=_error_excess_mm)
+        error = unsure.figures[FigureName.ERROR]
+        inputs = replace(
+            inputs,
+            tip_sd_mm=error.value,
+            max_tip_sd_mm=error.limit,
+            setup_sufficient=unsure.setup_suffices,
+        )
     return replace(
         inputs,
         clearance_mm=_wall_mm(assessed[nearest]),
@@ -136,6 +141,11 @@ def _with_figures(inputs: AlarmInputs, snapshot: NavigationSnapshot) -> AlarmInp
         breach_ratio=limited[riskiest].figures[FigureName.RISK].value / 100.0,
         risk_site=_site(snapshot, riskiest, of_wall=True),
     )
+
+
+def _error_excess_mm(assessment: Assessment) -> float:
+    error = assessment.figures[FigureName.ERROR]
+    return error.value - error.limit
 
 
 def _wall_mm(assessment: Assessment) -> float:

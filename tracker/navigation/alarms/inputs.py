@@ -52,6 +52,7 @@ class AlarmInputs:
         depth_site: where the deepest tip is; None if not known.
         tip_sd_mm: uncertainty of the tip.
         max_tip_sd_mm: its limit in this pedicle.
+        setup_sufficient: registration and tool allow an uncertainty within that limit.
         drill_unseen_s: how long the drill was not seen, up to the newest image; 0 while it is seen.
         drill_put_away: not seen for so long that it was put away.
         reference_unseen_s: as for the drill; 0 without a patient reference.
@@ -87,6 +88,7 @@ class AlarmInputs:
     depth_site: Site | None = None
     tip_sd_mm: Reading = NOT_KNOWN
     max_tip_sd_mm: Reading = NOT_KNOWN
+    setup_sufficient: bool = True
     drill_unseen_s: float = 0.0
     drill_put_away: bool = False
     reference_unseen_s: float = 0.0

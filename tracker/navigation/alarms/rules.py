@@ -49,6 +49,7 @@ class Condition(StrEnum):
     CAMERA_GONE = "CAMERA_GONE"  # the camera is known to give no images
     TRACKING_STOPPED = "TRACKING_STOPPED"  # the process that tracks is known not to run
     POSE_UNCERTAIN = "POSE_UNCERTAIN"  # the tip is less sure than this pedicle allows
+    SETUP_INSUFFICIENT = "SETUP_INSUFFICIENT"  # so it is in every image with this registration and tool
     POSE_JUMPED = "POSE_JUMPED"  # two poses explain the image, or it moved faster than a hand
     CAMERA_MOVED = "CAMERA_MOVED"  # since the registration
     REFERENCE_MOVED = "REFERENCE_MOVED"  # since the registration
@@ -143,6 +144,8 @@ ALARM_RULES: Mapping[Condition, AlarmRule] = MappingProxyType(
         Condition.CAMERA_GONE: _technical(Priority.MEDIUM),
         Condition.TRACKING_STOPPED: _technical(Priority.MEDIUM),
         Condition.POSE_UNCERTAIN: _of_newest_image(confirm_s=0.5, clear_s=2.0),
+        # Known before navigation, and not mended by how the marker is held.
+        Condition.SETUP_INSUFFICIENT: _of_newest_image(confirm_s=0.5, clear_s=2.0),
         Condition.POSE_JUMPED: _of_newest_image(clear_s=2.0),
         Condition.CAMERA_MOVED: _technical(Priority.HIGH),
         Condition.REFERENCE_MOVED: _technical(Priority.HIGH),

@@ -3,7 +3,7 @@
 from tracker.registration.points.pairs import CommonTip, PointPairs
 from tracker.registration.points.registration import PointRegistration, register_points
 from tracker.registration.points.settings import PointGate, PointSettings
-from tracker.registration.points.uncertainty import variance_ratio_with_more
+from tracker.registration.points.uncertainty import expected_covariance
 
 __all__ = [
     "CommonTip",
@@ -11,6 +11,6 @@ __all__ = [
     "PointPairs",
     "PointRegistration",
     "PointSettings",
+    "expected_covariance",
     "register_points",
-    "variance_ratio_with_more",
 ]

@@ -39,10 +39,12 @@ from tracker.registration.points.uncertainty import (
     common_tip_jacobian,
     degrees_of_freedom,
     expected_tre_mm,
+    factor_ratio_with_more,
     fle_from_fre_mm,
     normal_matrix,
     variance_factor,
     variance_from_residuals_mm2,
+    variance_ratio_with_more,
 )
 from tracker.registration.record import AnchoredTo, Method, Registration
 
@@ -120,6 +122,27 @@ class PointRegistration:
         covariance = point_covariance_mm2(self.fixed_from_moving, self.covariance_without_outlier, at)
         return float(np.sqrt(np.trace(covariance)))
 
+    def covariance_with_more(self, more: int) -> Array:
+        """Return the expected covariance (6, 6) of `fixed_from_moving` with more landmarks.
+
+        They are spread as these, as precise, captured as these, and none has a gross error. The error of the
+        common tip does not become smaller.
+        """
+        of_tip = np.zeros((6, 6))
+        if self.pairs.common is not None:
+            of_tip = self.tip_jacobian @ self.pairs.common.covariance_mm2 @ self.tip_jacobian.T
+        count = int(self.used.sum())
+        if self.pairs.moving_covariances_mm2 is None:
+            ratio = variance_ratio_with_more(
+                self.fre_rms_mm, count, more, min_fle_mm=self.settings.min_fle_mm
+            )
+        else:
+            noise = _noise(self.pairs.of(np.flatnonzero(self.used).tolist()), self.settings)
+            ratio = factor_ratio_with_more(
+                self.residuals_mm[self.used], weights_on_ct(self.fixed_from_moving, noise), more
+            )
+        return np.asarray((self.covariance_without_outlier - of_tip) * ratio + of_tip)
+
     def outliers(self, gate: PointGate) -> tuple[int, ...]:
         """Return the indices of the points that may be mistaken, the likeliest first; empty if it passes.
 
@@ -155,7 +178,17 @@ class PointRegistration:
             covariance=inverse_covariance(self.fixed_from_moving, self.covariance),
             tip_jacobian=inverse_jacobian(self.fixed_from_moving) @ self.tip_jacobian,
             tool="" if self.pairs.common is None else self.pairs.common.tool,
+            tracking_covariance_mm2=self._tracking_covariance_mm2,
         )
+
+    @property
+    def _tracking_covariance_mm2(self) -> Array:
+        """(3, 3) covariance of the best captured tip without its calibration; 0 if none is stated."""
+        stated = self.pairs.moving_covariances_mm2
+        # Without a common tip, its calibration is part of what is stated.
+        if stated is None or self.pairs.common is None:
+            return np.zeros((3, 3))
+        return np.asarray(min(stated[self.used], key=np.trace))
 
     def failures(self, gate: PointGate, targets_mm: Sequence[npt.ArrayLike]) -> tuple[RegistrationError, ...]:
         """Return the errors that prevent its use for these targets on the CT; empty if it passes."""

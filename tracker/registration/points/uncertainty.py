@@ -7,7 +7,7 @@ contains the truth in 0.92 to 0.98 of simulated cases, which the plain formula d
 import numpy as np
 import scipy
 
-from tracker.geometry import Anchor, Array, Rigid, Vertebra
+from tracker.geometry import Anchor, Array, Rigid, Vertebra, skew
 from tracker.registration.points.fit import jacobians, weights_on_ct
 
 # What is stated of tips is believed as if it had been told from so many numbers, and then corrected by the
@@ -81,13 +81,44 @@ def variance_factor(residuals_mm: Array, weights: Array) -> float:
     0.92 if it is 1.4 times as large.
     """
     squares = float(np.einsum("ni,nij,nj->", residuals_mm, weights, residuals_mm))
-    freedom = PRIOR_DEGREES_OF_FREEDOM + degrees_of_freedom(len(residuals_mm))
+    return _factor(squares, degrees_of_freedom(len(residuals_mm)))
+
+
+def factor_ratio_with_more(residuals_mm: Array, weights: Array, more: int) -> float:
+    """Return by what the covariance of a weighted fit is expected to shrink with more landmarks.
+
+    As `variance_ratio_with_more`, of landmarks as precise as these: their weighted squares grow with the
+    degrees of freedom, and the factor (`variance_factor`) is inflated less.
+    """
+    count = len(residuals_mm)
+    squares = float(np.einsum("ni,nij,nj->", residuals_mm, weights, residuals_mm))
+    now, then = degrees_of_freedom(count), degrees_of_freedom(count + more)
+    return _factor(squares * then / now, then) / _factor(squares, now) * count / (count + more)
+
+
+def _factor(squares: float, freedom_of_residuals: int) -> float:
+    freedom = PRIOR_DEGREES_OF_FREEDOM + freedom_of_residuals
     return max(
         (PRIOR_DEGREES_OF_FREEDOM + squares)
         / freedom
         * small_sample_factor(freedom + PRIOR_DEGREES_OF_FREEDOM),
         MIN_FACTOR,
     )
+
+
+def expected_covariance(fixed_mm: Array, sd_mm: float) -> Array:
+    """Return the covariance (6, 6) that an unweighted fit of landmarks (n, 3) is expected to state.
+
+    Of the translation and of a small left-multiplied rotation about the origin of the CT. Each landmark is
+    localised with the standard deviation `sd_mm` along each axis, and none has a gross error. n is at least
+    4, and the landmarks are not collinear.
+    """
+    middle = fixed_mm.mean(axis=0)
+    factor = small_sample_factor(degrees_of_freedom(len(fixed_mm))) * ANISOTROPY_FACTOR
+    weights = np.tile(np.eye(3) / (sd_mm**2 * factor), (len(fixed_mm), 1, 1))
+    carried = np.eye(6)
+    carried[:3, 3:] = skew(middle)
+    return np.asarray(carried @ np.linalg.inv(normal_matrix(fixed_mm - middle, weights)) @ carried.T)
 
 
 def normal_matrix(arms_mm: Array, weights: Array) -> Array:

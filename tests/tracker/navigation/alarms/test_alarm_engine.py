@@ -237,6 +237,7 @@ ALARMING: dict[Condition, dict[str, object]] = {
     Condition.CAMERA_GONE: {"camera_works": False},
     Condition.TRACKING_STOPPED: {"tracker_works": False},
     Condition.POSE_UNCERTAIN: {"tip_sd_mm": 1.4},
+    Condition.SETUP_INSUFFICIENT: {"tip_sd_mm": 1.4, "setup_sufficient": False},
     Condition.POSE_JUMPED: {"pose_steady": False},
     Condition.CAMERA_MOVED: {"camera_in_place": False},
     Condition.REFERENCE_MOVED: {"reference_in_place": False},
@@ -261,6 +262,7 @@ ALARMING: dict[Condition, dict[str, object]] = {
         Condition.REFERENCE_UNSEEN,
         Condition.MARKER_TWICE,
         Condition.POSE_UNCERTAIN,
+        Condition.SETUP_INSUFFICIENT,
         Condition.POSE_JUMPED,
     ],
 )
