@@ -16,6 +16,7 @@ from server.procedure.readout_collection import BurstStage, ReadoutCollection
 from server.store import Case, CaseStore, Document, DocumentKind
 from tracker.camera import Board, CameraModel
 from tracker.camera.readout_time import TimedView, estimate_readout
+from tracker.errors import CalibrationError
 
 
 class ReadoutSource(StrEnum):
@@ -111,7 +112,8 @@ class ReadoutStep:
         Raises:
             SetupOrderError: NO_CASE_OPEN, COLLECTION_MISSING, COLLECTION_UNREADY.
             OutOfDateError: DOCUMENT_MISSING or DOCUMENT_OUT_OF_DATE.
-            CalibrationError: CAMERA_DIFFERS.
+            CalibrationError: CAMERA_DIFFERS; CAMERA_SIZE_MISMATCH, images have another size than the
+                calibration's, and so another readout time.
         """
         case = require_open_case(self._store)
         collection = self.collection
@@ -123,6 +125,7 @@ class ReadoutStep:
                 "Move the board until all images are taken and read.",
             )
         camera = camera_from_document(self._calibration(case), source=self._source).model
+        _reject_other_size(collection.size_wh_px, camera)
 
         def keep(values: Any) -> object:  # noqa: ANN401  what JSON made of the answer of `fit_readout`
             self._keep(
@@ -160,6 +163,20 @@ class ReadoutStep:
             files=list(before.files),
             expected_version=before.version,
         )
+
+
+def _reject_other_size(size_wh_px: tuple[int, int], camera: CameraModel) -> None:
+    if size_wh_px == camera.size_wh_px:
+        return
+    (width, height), (width_before, height_before) = size_wh_px, camera.size_wh_px
+    raise CalibrationError(
+        "CAMERA_SIZE_MISMATCH",
+        f"images of the board are {width}x{height} px, but the camera was calibrated at "
+        f"{width_before}x{height_before} px, and the readout is stored for that size",
+        f"Set the camera to {width_before}x{height_before} px and measure again, or calibrate it at "
+        f"{width}x{height} px.",
+        {"image_size_wh_px": [width, height], "calibrated_size_wh_px": [width_before, height_before]},
+    )
 
 
 def fit_readout(report: Report, *, views: tuple[TimedView, ...], camera: CameraModel) -> dict[str, object]:

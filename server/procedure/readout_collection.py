@@ -64,6 +64,7 @@ class ReadoutCollection:
         self._lock = threading.Lock()
         self._stage = BurstStage.SHOW
         self._images: list[tuple[float, npt.NDArray[np.uint8]]] = []
+        self._size_wh_px = (0, 0)
         self._taken = 0
         self._read = 0
         self._views: list[TimedView] = []
@@ -90,6 +91,12 @@ class ReadoutCollection:
         """The detected board in the processed images."""
         with self._lock:
             return tuple(self._views)
+
+    @property
+    def size_wh_px(self) -> tuple[int, int]:
+        """Size of the images taken; (0, 0) before the first."""
+        with self._lock:
+            return self._size_wh_px
 
     def stop(self) -> None:
         """Stop the burst."""
@@ -136,6 +143,7 @@ class ReadoutCollection:
                         {"images": len(self._images), "pause_s": round(at_s - last_s, 2)},
                     )
             self._images.append((at_s, grey.copy()))
+            self._size_wh_px = (grey.shape[1], grey.shape[0])
             self._taken = len(self._images)
             if self._taken >= BURST_IMAGES:
                 self._stage = BurstStage.READING

@@ -11,6 +11,7 @@ from server.store import DocumentKind
 from tests.procedure.conftest import Server
 from tests.procedure.test_camera_step import open_a_case
 from tests.tracker.camera.moving_board import BOARD, CAMERA, image_at, shaken
+from tracker.camera import CameraModel
 
 BY = {"made_by": "ito"}
 DOTS = {
@@ -34,17 +35,20 @@ def _has(server: Server, key: str, value: object) -> Callable[[], bool]:
 
 @pytest.fixture
 def calibrated(server: Server) -> Server:
-    case_id = open_a_case(server)
+    _keep_calibration(server, open_a_case(server), CAMERA)
+    return server
+
+
+def _keep_calibration(server: Server, case_id: str, model: CameraModel) -> None:
     camera = {
-        "matrix": CAMERA.matrix.tolist(),
-        "distortion": CAMERA.distortion.tolist(),
-        "size_wh_px": list(CAMERA.size_wh_px),
+        "matrix": model.matrix.tolist(),
+        "distortion": model.distortion.tolist(),
+        "size_wh_px": list(model.size_wh_px),
         "source": "rehearsal",
     }
     server.store.put(
         case_id, DocumentKind.CAMERA, MAIN_CAMERA, {"camera": camera, "report": {}}, made_by="ito"
     )
-    return server
 
 
 def test_it_is_not_known_until_somebody_says_so_and_is_used_at_once(calibrated: Server) -> None:
@@ -120,6 +124,19 @@ def test_what_does_not_determine_it_is_refused_and_nothing_is_kept(
     job = calibrated.done(calibrated.ask("POST", f"{READOUT}/measurement", 202, json=BY))
     assert job["problem"]["code"] == "READOUT_TOO_FEW_IMAGES"
     assert calibrated.ask("GET", READOUT, 200)["readout_ms"] is None
+
+
+def test_a_burst_of_another_size_than_the_calibrations_is_refused(
+    server: Server, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    width, height = CAMERA.size_wh_px
+    _keep_calibration(server, open_a_case(server), CAMERA.scaled_to((2 * width, 2 * height)))
+    monkeypatch.setattr(readout_collection, "BURST_IMAGES", 3)
+    _burst(server, readout_s=0.02)
+    rejected = server.ask("POST", f"{READOUT}/measurement", 409, json=BY)
+    assert rejected["code"] == "CAMERA_SIZE_MISMATCH"
+    assert f"{width}x{height} px" in rejected["message"]
+    assert f"{2 * width}x{2 * height} px" in rejected["message"]
 
 
 def test_a_burst_with_a_pause_in_it_is_ended(calibrated: Server) -> None:

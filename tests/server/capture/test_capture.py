@@ -119,6 +119,19 @@ def test_a_fault_is_reported_once_however_often_it_is_tried_and_it_comes_back() 
     assert [line["event"] for line in logs].count("cable out") == 1
 
 
+def test_an_image_that_nobody_took_before_the_camera_was_lost_is_not_live() -> None:
+    source, stop = ToldSource(), threading.Event()
+    capture = Capture(source, stop=stop)
+    source.reported.put(shot(0))
+    source.reported.put(gone())
+    capture.start()
+    until(lambda: capture.status().state is SourceState.RECONNECTING)
+    assert capture.take(1000.0) is None
+    stop.set()
+    source.reported.put(None)
+    capture.close()
+
+
 def test_a_change_of_the_status_wakes_who_waits_for_an_image() -> None:
     source, stop = ToldSource(), threading.Event()
     capture = Capture(source, stop=stop)

@@ -177,7 +177,7 @@ def test_a_fault_in_the_tracker_ends_the_loop_and_is_not_swallowed(
         work(ORDER, link[0], threading.Event(), Counting(), tracking, newest=LatestCase())
 
 
-def test_a_case_that_is_opened_sets_the_camera_to_its_calibration(
+def test_a_case_that_is_opened_sets_its_camera_to_its_calibration_and_tracking_learns_which_camera_it_is(
     link: tuple[WorkerLink, KeptRing],
 ) -> None:
     small = tuple(modes("YUYV", SIZE, 30.0))
@@ -194,12 +194,13 @@ def test_a_case_that_is_opened_sets_the_camera_to_its_calibration(
     )
     thread.start()
     deadline_s = time.monotonic() + 30.0
-    while video.camera.controls[CameraControl.FOCUS] != 45:
+    while video.camera.controls[CameraControl.FOCUS] != 45 or not tracking.device:
         assert time.monotonic() < deadline_s
         threading.Event().wait(0.002)
     stop.set()
     thread.join(30)
     assert video.camera.was_set == [(CameraControl.AUTOFOCUS, 0), (CameraControl.FOCUS, 45)]
+    assert tracking.device == "Webcam"
 
 
 def test_a_case_that_is_opened_moves_the_cut_out_of_an_industrial_camera(
