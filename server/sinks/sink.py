@@ -86,14 +86,22 @@ class Sink:
         """Start; returns at once, also while the fork server still loads."""
         self._thread.start()
 
+    def request_stop(self) -> None:
+        """Let the sink close itself; returns at once."""
+        self._stop.set()
+
     def stop(self) -> None:
         """Let the sink close itself, and kill its process if it does not."""
-        self._stop.set()
+        self.request_stop()
+        if self._thread.ident is None:
+            return
         self._thread.join(STOP_TIMEOUT_S)
         process = self._process
         if self._thread.is_alive() and process is not None:
-            # The thread may be sending to a process that does not read.
-            process.kill()
+            # The thread may be sending to a process that does not read. While the fork server still loads,
+            # there is no process, and the fork server ends with this one.
+            with contextlib.suppress(ValueError, AttributeError):
+                process.kill()
             self._thread.join(STOP_TIMEOUT_S)
 
     @property

@@ -24,7 +24,9 @@ class Sinks:
             sink.start()
 
     def stop(self) -> None:
-        """Stop all of them."""
+        """Stop all of them, side by side."""
+        for sink in self._sinks:
+            sink.request_stop()
         for sink in self._sinks:
             sink.stop()
 

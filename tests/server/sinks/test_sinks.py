@@ -156,6 +156,11 @@ def test_a_sink_that_never_answers_is_stopped(folder: Path, theatre: Callable[..
     assert not running.sink.is_alive
 
 
+def test_sinks_that_were_not_started_can_be_stopped() -> None:
+    # As where the start of the server fails.
+    Sinks(["file"], LiveHub(), SETTINGS).stop()
+
+
 def test_a_sink_that_raises_is_named_and_receives_the_next_message(
     folder: Path, theatre: Callable[..., Theatre]
 ) -> None:
