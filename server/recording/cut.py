@@ -23,6 +23,8 @@ from server.recording_file.locations import Location, MessageLocations
 LASTING = (Topic.DOCUMENTS, Topic.SOURCE, Topic.ALARMS)
 # Steps of the alarms are written by another thread than images, and may stand after later ones.
 MAX_DISORDER_S = 5.0
+# Times of images that are handed back: Unix time has a quarter of a microsecond in a float.
+ROUNDING_S = 1e-6
 
 Report: TypeAlias = Callable[[float, str], None]
 
@@ -74,7 +76,7 @@ def cut_recording(
         RecordingError: RECORDING_NOT_READABLE, RECORDING_DAMAGED, CUT_EMPTY, CUT_NOT_WRITTEN.
     """
     first_s, begin = _begin(recording, from_s, to_s)
-    end_s = first_s + to_s
+    end_s = first_s + to_s + ROUNDING_S
     reader = RecordingReader(recording)
     unfinished = target.with_name(f"{target.name}.part")
     try:
@@ -121,14 +123,14 @@ def _begin(recording: Path, from_s: float, to_s: float) -> tuple[float, _Begin]:
     state: Location | None = None
     image: Location | None = None
     for location in MessageLocations(recording):
-        if location.topic is Topic.STATE and location.unix_s <= first_s + from_s:
+        if location.topic is Topic.STATE and location.unix_s <= first_s + from_s + ROUNDING_S:
             state = location
         elif location.topic is Topic.IMAGE:
             first_s = min(first_s, location.unix_s)
             last_s = location.unix_s
-            if image is None and location.unix_s >= first_s + from_s:
+            if image is None and location.unix_s >= first_s + from_s - ROUNDING_S:
                 image = location
-    if image is None or not from_s <= to_s or image.unix_s > first_s + to_s:
+    if image is None or not from_s <= to_s or image.unix_s > first_s + to_s + ROUNDING_S:
         has = f"has images from 0 to {last_s - first_s:.1f} s" if last_s >= first_s else "has no image"
         raise RecordingError(
             "CUT_EMPTY",

@@ -54,7 +54,7 @@ export function Recordings({ mayChange }: { mayChange: boolean }): ReactNode {
           />
         ))}
       </ul>
-      {reviewed !== null && <Review key={reviewed.name} name={reviewed.name} />}
+      {reviewed !== null && <Review key={reviewed.name} name={reviewed.name} mayExport={mayChange} />}
     </div>
   );
 }

@@ -24,6 +24,7 @@ const NAMED: readonly [kind: Heading["kind"], name: RegExp, title: Title][] = [
   ["marker", /^(.+)$/, "marker"],
   ["patient", /^/, "patient"],
   ["consent", /^/, "consent"],
+  ["comment", /^/, "comment"],
 ];
 
 export function documentTitle({ kind, name }: Heading, texts: CaseTexts): string {

@@ -1,5 +1,4 @@
-import { Button, Slider } from "@mantine/core";
-import { useEffect, useEffectEvent, useRef, useState, type ReactNode } from "react";
+import { useEffect, useEffectEvent, useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { JobProgress } from "../../rest/JobProgress";
 import { QueryStatus } from "../../rest/QueryStatus";
@@ -7,15 +6,20 @@ import { useJob } from "../../rest/useJob";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
 import { clockDuration } from "../recordingText";
+import { CommentForm } from "./CommentForm";
 import { eventText, SYMBOL } from "./eventText";
+import { Exports } from "./Exports";
 import { InstantView } from "./InstantView";
+import { Player } from "./Player";
 import { ReviewTimeline } from "./ReviewTimeline";
-import { clampSpan, moveSpan, zoomSpan, type Span } from "./span";
+import { clampSpan, type Span } from "./span";
+import { SpanButtons } from "./SpanButtons";
 import { isWithin, MAX_SAMPLES, numberAt, type Curves, type Timeline } from "./timeline";
+import { usePlayback } from "./usePlayback";
 import { useShownInstant } from "./useShownInstant";
 
 /** One recording: prepared the first time that it is asked for, then its timeline and any instant of it. */
-export function Review({ name }: { name: string }): ReactNode {
+export function Review({ name, mayExport }: { name: string; mayExport: boolean }): ReactNode {
   const [span, setSpan] = useState<Span | null>(null);
   const query = useQuery(
     (signal) =>
@@ -52,7 +56,17 @@ export function Review({ name }: { name: string }): ReactNode {
       <JobProgress followed={{ follow, ...followed }} />
     );
   }
-  return <Timed name={name} timeline={timeline} whole={whole} span={span} onSpan={setSpan} />;
+  return (
+    <Timed
+      name={name}
+      timeline={timeline}
+      whole={whole}
+      span={span}
+      mayExport={mayExport}
+      onSpan={setSpan}
+      onChange={refetch}
+    />
+  );
 }
 
 interface TimedProps {
@@ -61,14 +75,18 @@ interface TimedProps {
   /** Of the whole recording, while the timeline has those of the part that is seen. */
   whole: Curves;
   span: Span | null;
+  mayExport: boolean;
   onSpan: (span: Span) => void;
+  onChange: () => void;
 }
 
-function Timed({ name, timeline, whole, span, onSpan }: TimedProps): ReactNode {
+function Timed(props: TimedProps): ReactNode {
+  const { name, timeline, whole, span, mayExport, onSpan, onChange } = props;
   const texts = useTexts();
   const own = texts.recording.review;
   const { duration_s: durationS, images } = timeline;
   const [number, setNumber] = useState(0);
+  const [piece, setPiece] = useState<Span | null>(null);
   const { shown, isLoading } = useShownInstant(name, number);
   const [isPlaying, setIsPlaying] = usePlayback({ timeline, whole, shown, isLoading, onNumber: setNumber });
   const seen = span ?? clampSpan({ fromS: 0, toS: durationS }, durationS);
@@ -88,107 +106,28 @@ function Timed({ name, timeline, whole, span, onSpan }: TimedProps): ReactNode {
     <div className="review" data-testid="review">
       {!timeline.is_whole && <p className="review-cut">▲ {own.cut}</p>}
       <InstantView shown={shown} images={images} />
-      <div className="review-player">
-        <Button
-          size="lg"
-          variant="default"
-          aria-label={own.before}
-          onClick={() => {
-            go(number - 1);
-          }}
-          data-testid="review-before"
-        >
-          ◀|
-        </Button>
-        <Button
-          size="lg"
-          className="review-play"
-          data-testid="review-play"
-          onClick={() => {
-            if (!isPlaying && number >= images - 1) setNumber(0);
-            setIsPlaying(!isPlaying);
-          }}
-        >
-          {isPlaying ? `❚❚ ${own.pause}` : `▶ ${own.play}`}
-        </Button>
-        <Button
-          size="lg"
-          variant="default"
-          aria-label={own.after}
-          onClick={() => {
-            go(number + 1);
-          }}
-          data-testid="review-after"
-        >
-          |▶
-        </Button>
-        <Slider
-          className="review-scrubber"
-          size="xl"
-          thumbSize={40}
-          min={0}
-          max={Math.max(images - 1, 1)}
-          label={null}
-          value={number}
-          thumbProps={{ "aria-label": own.scrubber, "aria-valuetext": clockDuration(atS) }}
-          onChange={go}
-        />
-      </div>
-      <div className="review-zoom">
-        <Button
-          size="lg"
-          variant="default"
-          aria-label={own.earlier}
-          onClick={() => {
-            changeSpan(moveSpan(seen, -0.5, durationS));
-          }}
-        >
-          ←
-        </Button>
-        <Button
-          size="lg"
-          variant="default"
-          aria-label={own.zoomOut}
-          onClick={() => {
-            changeSpan(zoomSpan(seen, 0.5, atS, durationS));
-          }}
-        >
-          −
-        </Button>
-        <Button
-          size="lg"
-          variant="default"
-          aria-label={own.zoomIn}
-          data-testid="review-zoom-in"
-          onClick={() => {
-            changeSpan(zoomSpan(seen, 2, atS, durationS));
-          }}
-        >
-          +
-        </Button>
-        <Button
-          size="lg"
-          variant="default"
-          aria-label={own.later}
-          onClick={() => {
-            changeSpan(moveSpan(seen, 0.5, durationS));
-          }}
-        >
-          →
-        </Button>
-        <Button
-          size="lg"
-          variant="default"
-          data-testid="review-whole"
-          onClick={() => {
-            changeSpan({ fromS: 0, toS: durationS });
-          }}
-        >
-          {own.whole}
-        </Button>
-        <span className="soft">{own.gestures}</span>
-      </div>
-      <ReviewTimeline timeline={timeline} span={seen} atS={atS} onSeek={seek} onSpan={changeSpan} />
+      <Player
+        number={number}
+        images={images}
+        atS={atS}
+        isPlaying={isPlaying}
+        onPlay={(on) => {
+          if (on && number >= images - 1) setNumber(0);
+          setIsPlaying(on);
+        }}
+        onNumber={go}
+      />
+      <SpanButtons span={seen} atS={atS} durationS={durationS} onSpan={onSpan} />
+      <ReviewTimeline
+        timeline={timeline}
+        span={seen}
+        piece={piece}
+        atS={atS}
+        onSeek={seek}
+        onSpan={changeSpan}
+      />
+      <CommentForm name={name} atS={atS} onWritten={onChange} />
+      {mayExport && <Exports name={name} atS={atS} durationS={durationS} piece={piece} onPiece={setPiece} />}
       <section aria-label={own.events}>
         <h4>{own.events}</h4>
         <ul className="review-events" data-testid="review-events">
@@ -212,47 +151,4 @@ function Timed({ name, timeline, whole, span, onSpan }: TimedProps): ReactNode {
       </section>
     </div>
   );
-}
-
-interface Playback {
-  timeline: Timeline;
-  whole: Curves;
-  shown: { instant: { at_s: number } | null };
-  isLoading: boolean;
-  onNumber: (number: number) => void;
-}
-
-const FRAME_MS = 40;
-
-/** Plays at the rate of the recording; an image that is late is waited for, and those after it are skipped. */
-function usePlayback({
-  timeline,
-  whole,
-  shown,
-  isLoading,
-  onNumber,
-}: Playback): [boolean, (on: boolean) => void] {
-  const [isPlaying, setIsPlaying] = useState(false);
-  const [, setTick] = useState(0);
-  const begin = useRef<{ atMs: number; atS: number } | null>(null);
-  const atS = shown.instant?.at_s ?? 0;
-  useEffect(() => {
-    if (!isPlaying) {
-      begin.current = null;
-      return;
-    }
-    if (isLoading) return;
-    begin.current ??= { atMs: performance.now(), atS };
-    const timer = setTimeout(() => {
-      if (begin.current === null) return;
-      const toS = begin.current.atS + (performance.now() - begin.current.atMs) / 1000;
-      onNumber(numberAt(whole, toS, timeline.images));
-      if (toS >= timeline.duration_s) setIsPlaying(false);
-      else setTick((before) => before + 1);
-    }, FRAME_MS);
-    return () => {
-      clearTimeout(timer);
-    };
-  });
-  return [isPlaying, setIsPlaying];
 }

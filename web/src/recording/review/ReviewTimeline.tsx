@@ -19,6 +19,8 @@ const CURVE_PX = 84;
 interface ReviewTimelineProps {
   timeline: Timeline;
   span: Span;
+  /** What is to be cut out; null for nothing. */
+  piece: Span | null;
   /** The instant that is shown, since the first image. */
   atS: number;
   onSeek: (atS: number) => void;
@@ -26,7 +28,8 @@ interface ReviewTimelineProps {
 }
 
 /** What happened, and the curves of the figures: a touch chooses an instant, a drag or two fingers what is seen of it. */
-export function ReviewTimeline({ timeline, span, atS, onSeek, onSpan }: ReviewTimelineProps): ReactNode {
+export function ReviewTimeline(props: ReviewTimelineProps): ReactNode {
+  const { timeline, span, piece, atS, onSeek, onSpan } = props;
   const texts = useTexts();
   const own = texts.recording.review;
   const plot = useRef<HTMLDivElement>(null);
@@ -132,6 +135,7 @@ export function ReviewTimeline({ timeline, span, atS, onSeek, onSpan }: ReviewTi
         {FIGURES.map((name) => (
           <FigureCurve key={name} name={name} timeline={timeline} span={span} />
         ))}
+        {piece !== null && <Piece piece={piece} span={span} />}
         {cursor >= 0 && cursor <= 1 && <div className="review-cursor" style={{ left: percent(cursor) }} />}
         {selection !== null && (
           <div
@@ -146,6 +150,21 @@ export function ReviewTimeline({ timeline, span, atS, onSeek, onSpan }: ReviewTi
         <span>{clockDuration(span.toS)}</span>
       </p>
     </div>
+  );
+}
+
+/** What is to be cut out, as far as it is seen. */
+function Piece({ piece, span }: { piece: Span; span: Span }): ReactNode {
+  const [from, to] = [piece.fromS, piece.toS].map((atS) => Math.min(Math.max(ratioAt(span, atS), 0), 1)) as [
+    number,
+    number,
+  ];
+  return (
+    <div
+      className="review-piece"
+      data-testid="review-piece"
+      style={{ left: percent(from), width: percent(to - from) }}
+    />
   );
 }
 

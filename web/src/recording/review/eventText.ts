@@ -10,6 +10,7 @@ export const SYMBOL: Record<RecordedEvent["kind"], string> = {
   alarm: "▲",
   acknowledgement: "✓",
   mark: "✎",
+  comment: "❝",
   note: "■",
 };
 

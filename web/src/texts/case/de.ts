@@ -68,6 +68,7 @@ export const caseDe: CaseTexts = {
     confirmation: "Bestätigung",
     signature: "Gegenzeichnung",
     consent: "Einwilligung",
+    comment: "Kommentar",
     audit: "Protokoll",
   },
   maker: {
@@ -91,6 +92,7 @@ export const caseDe: CaseTexts = {
     registrationSigned: "Gegenzeichnung der Registrierung von {name}",
     patient: "Patientendaten",
     consent: "Einwilligung in Aufnahmen",
+    comment: "Kommentar zu einer Aufnahme",
   },
   filesTitle: "Dateien",
   filesCount: "{count} Dateien, {size}",

@@ -61,6 +61,7 @@ export const caseEn = {
     confirmation: "Confirmation",
     signature: "Co-signature",
     consent: "Consent",
+    comment: "Comment",
     audit: "Log",
   },
   maker: {
@@ -84,6 +85,7 @@ export const caseEn = {
     registrationSigned: "Co-signature of the registration of {name}",
     patient: "Patient’s identity",
     consent: "Consent to recordings",
+    comment: "Comment on a recording",
   },
   filesTitle: "Files",
   filesCount: "{count} files, {size}",

@@ -55,12 +55,34 @@ export const recordingDe: RecordingTexts = {
     events: "Was geschah",
     moments: "Handlungen",
     curve: "Verlauf mit Grenze",
+    comment: {
+      label: "Kommentar zu diesem Zeitpunkt",
+      write: "Kommentieren bei {time}",
+    },
+    exports: {
+      title: "Ausgeben",
+      beginHere: "Stück beginnt hier",
+      endHere: "Stück endet hier",
+      piece: "Stück: {from} bis {to}",
+      whole:
+        "Für ein Stück einen Zeitpunkt als Beginn und einen als Ende wählen. Ein Video zeigt die ganze Aufnahme.",
+      savePiece: "Stück speichern",
+      saveVideo: "Als Video speichern",
+      download: "{file} herunterladen",
+      pieceMade:
+        "{images} Bilder ab {from}, wo ein Zustand der Verfolgung gespeichert ist. Es ist exakt wiederholbar.",
+      pieceInexact:
+        "{images} Bilder ab {from}. Vor ihnen ist kein Zustand der Verfolgung gespeichert: nicht wiederholbar.",
+      videoMade: "{images} Bilder mit Einblendung.",
+      undrawn: "{undrawn} davon sagen, warum ihnen Ergebnisse fehlen.",
+    },
     kinds: {
       navigation: "Navigation",
       withheld: "Keine Zahlen",
       alarm: "Alarm",
       acknowledgement: "Quittiert",
       mark: "Markierung",
+      comment: "Kommentar",
       note: "Aufnahme",
     },
     notes: {
@@ -69,6 +91,7 @@ export const recordingDe: RecordingTexts = {
       STATE_MISSING: "nicht exakt wiederholbar",
       PROCESS_CHANGED: "Verfolgung neu gestartet",
       STOPPED: "beendet",
+      CUT: "aus einer anderen Aufnahme geschnitten",
     },
   },
   reasons: {

@@ -53,12 +53,33 @@ export const recordingEn = {
     events: "What happened",
     moments: "Acts",
     curve: "its curve, with the limit",
+    comment: {
+      label: "Comment on this instant",
+      write: "Comment at {time}",
+    },
+    exports: {
+      title: "Take out",
+      beginHere: "Piece begins here",
+      endHere: "Piece ends here",
+      piece: "Piece: {from} to {to}",
+      whole:
+        "Choose an instant for the begin and one for the end of a piece. A video is of the whole recording.",
+      savePiece: "Save piece",
+      saveVideo: "Save as video",
+      download: "Download {file}",
+      pieceMade: "{images} images, from {from} on, where a state of tracking is stored. It replays exactly.",
+      pieceInexact:
+        "{images} images, from {from} on. No state of tracking is stored before them: it cannot be replayed.",
+      videoMade: "{images} images with their overlay.",
+      undrawn: "{undrawn} of them say why they are without results.",
+    },
     kinds: {
       navigation: "Navigation",
       withheld: "No figures",
       alarm: "Alarm",
       acknowledgement: "Acknowledged",
       mark: "Mark",
+      comment: "Comment",
       note: "Recording",
     },
     notes: {
@@ -67,6 +88,7 @@ export const recordingEn = {
       STATE_MISSING: "not to be replayed exactly",
       PROCESS_CHANGED: "tracking was started again",
       STOPPED: "ended",
+      CUT: "cut out of another recording",
     } as Record<string, string>,
   },
   /** By the code of the server's problem. */

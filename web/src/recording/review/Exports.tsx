@@ -1,0 +1,110 @@
+import { Button } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { JobProgress } from "../../rest/JobProgress";
+import { RejectionNote } from "../../rest/RejectionNote";
+import { useAction } from "../../rest/useAction";
+import { isOver, useJob, type Job } from "../../rest/useJob";
+import { interpolate } from "../../texts/interpolate";
+import { useTexts } from "../../texts/TextsContext";
+import { clockDuration } from "../recordingText";
+import { exportOf, exportText, type RecordingExport } from "./recordingExport";
+import type { Span } from "./span";
+
+interface ExportsProps {
+  name: string;
+  atS: number;
+  durationS: number;
+  piece: Span | null;
+  onPiece: (piece: Span) => void;
+}
+
+/** Save a piece of the recording, or the whole as a video, and download what was made. */
+export function Exports({ name, atS, durationS, piece, onPiece }: ExportsProps): ReactNode {
+  const texts = useTexts();
+  const own = texts.recording.review.exports;
+  const [made, setMade] = useState<RecordingExport | null>(null);
+  const doing = useAction();
+  const followed = useJob((job) => {
+    setMade(exportOf(job));
+  });
+  const isBusy = doing.busy || (followed.job !== null && !isOver(followed.job));
+  const path = { name };
+  const start = (ask: () => Promise<Job>) => () => {
+    setMade(null);
+    void doing.run(async () => {
+      followed.follow(await ask());
+    });
+  };
+  const cut = start(() =>
+    answered(
+      server.POST("/api/recordings/{name}/cut", {
+        params: { path },
+        body: { from_s: piece?.fromS ?? 0, to_s: piece?.toS ?? durationS },
+      }),
+    ),
+  );
+  const film = start(() =>
+    answered(
+      server.POST("/api/recordings/{name}/video", {
+        params: { path },
+        body: { language: texts.language === "de" ? "de" : "en" },
+      }),
+    ),
+  );
+  return (
+    <section className="review-exports" aria-label={own.title}>
+      <h4>{own.title}</h4>
+      <p className="soft" data-testid="review-piece-text">
+        {piece === null
+          ? own.whole
+          : interpolate(own.piece, { from: clockDuration(piece.fromS), to: clockDuration(piece.toS) })}
+      </p>
+      <div className="row">
+        <Button
+          size="lg"
+          variant="default"
+          data-testid="review-piece-begin"
+          onClick={() => {
+            onPiece({ fromS: atS, toS: Math.max(atS, piece?.toS ?? durationS) });
+          }}
+        >
+          {own.beginHere}
+        </Button>
+        <Button
+          size="lg"
+          variant="default"
+          data-testid="review-piece-end"
+          onClick={() => {
+            onPiece({ fromS: Math.min(atS, piece?.fromS ?? 0), toS: atS });
+          }}
+        >
+          {own.endHere}
+        </Button>
+        <Button size="lg" disabled={isBusy || piece === null} data-testid="review-piece-save" onClick={cut}>
+          {own.savePiece}
+        </Button>
+        <Button size="lg" disabled={isBusy} data-testid="review-video-save" onClick={film}>
+          {own.saveVideo}
+        </Button>
+      </div>
+      <RejectionNote rejection={doing.rejection} />
+      <JobProgress followed={followed} />
+      {made !== null && (
+        <div className="row" role="status">
+          <Button
+            size="lg"
+            variant="default"
+            component="a"
+            href={`/api/recordings/${name}/exports/${made.file}`}
+            download={made.file}
+            data-testid="review-export-download"
+          >
+            {interpolate(own.download, { file: made.file })}
+          </Button>
+          <p>{exportText(made, texts)}</p>
+        </div>
+      )}
+    </section>
+  );
+}

@@ -1,0 +1,23 @@
+import { expect, test } from "vitest";
+import type { Job } from "../../rest/useJob";
+import { de } from "../../texts/de";
+import { en } from "../../texts/en";
+import { exportOf, exportText } from "./recordingExport";
+
+const FILE = { file: "a.mp4", size_bytes: 14_000_000, images: 120 };
+
+test("a video says how many of its images are without results", () => {
+  expect(exportText({ ...FILE, undrawn: 0 }, en)).toBe("120 images with their overlay. 14.0 MB");
+  expect(exportText({ ...FILE, undrawn: 7 }, en)).toContain("7 of them say why they are without results.");
+});
+
+test("a piece says where it begins, and whether it replays", () => {
+  expect(exportText({ ...FILE, from_s: 61, is_exact: true }, en)).toContain("from 1:01 on, where a state");
+  expect(exportText({ ...FILE, from_s: 61, is_exact: false }, de)).toContain("nicht wiederholbar");
+});
+
+test("what failed made nothing", () => {
+  const job = { state: "done", result: FILE } as unknown as Job;
+  expect(exportOf(job)).toEqual(FILE);
+  expect(exportOf({ ...job, state: "failed" })).toBeNull();
+});

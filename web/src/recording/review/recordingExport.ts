@@ -1,0 +1,30 @@
+// What a job made of a recording, and what is said about it. Pure.
+import { formatBytes } from "../../operator/parts/format";
+import type { Job } from "../../rest/useJob";
+import type { Texts } from "../../texts/catalogue";
+import { interpolate } from "../../texts/interpolate";
+import { clockDuration } from "../recordingText";
+
+/** Of a piece `is_exact` and `from_s`, of a video `undrawn`. */
+export interface RecordingExport {
+  file: string;
+  size_bytes: number;
+  images: number;
+  from_s?: number;
+  is_exact?: boolean;
+  undrawn?: number;
+}
+
+/** Null where the job failed or was cancelled. */
+export const exportOf = (job: Job): RecordingExport | null =>
+  job.state === "done" ? (job.result as RecordingExport) : null;
+
+/** "120 images with their overlay. 14 MB" */
+export function exportText(made: RecordingExport, texts: Texts): string {
+  const own = texts.recording.review.exports;
+  const { images, is_exact, from_s = 0, undrawn = 0 } = made;
+  const template = is_exact === undefined ? own.videoMade : is_exact ? own.pieceMade : own.pieceInexact;
+  const parts = [interpolate(template, { images, from: clockDuration(from_s) })];
+  if (undrawn > 0) parts.push(interpolate(own.undrawn, { undrawn }));
+  return `${parts.join(" ")} ${formatBytes(made.size_bytes)}`;
+}
