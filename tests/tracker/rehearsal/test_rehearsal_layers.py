@@ -16,9 +16,8 @@ CAMERA = CameraModel(
     size_wh_px=(WIDTH, HEIGHT),
 )
 RAYS = RayGrid(CAMERA)
-# Across the image, from its left to the right and a little down, 1.5 px to a millimetre, near the lower border.
+# From left to right and a little down, near the lower border, 1.5 px to a millimetre.
 TIP_MM, BACK = np.array([-30.0, 75.0, 200.0]), np.array([np.cos(0.2), np.sin(0.2), 0.0])
-BLACK, WHITE = 0, 255
 
 
 def body(still_mm: float, places: tuple[tuple[int, int], ...] = ((0, 0),)) -> npt.NDArray[np.uint8]:
