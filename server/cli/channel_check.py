@@ -52,7 +52,9 @@ class ChannelCheck:
         if now.suffices:
             return found
         # Marker and tool add to each figure: none of them promises enough.
-        found.append("This screw cannot be navigated with this registration: every image is SET-UP INSUFFICIENT.")
+        found.append(
+            "This screw cannot be navigated with this registration: every image is SET-UP INSUFFICIENT."
+        )
         found += [
             f"  {more} more landmarks, spread as these and none mistaken: {check.error_95_mm:.2f} mm, "
             f"{'enough at best' if check.suffices else 'not enough'}"
