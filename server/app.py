@@ -283,7 +283,14 @@ def _add_procedure(app: FastAPI, parts: AppParts) -> None:
                 min_landmarks=parts.config.registration.min_points,
             )
         )
-        app.include_router(procedure_router(parts.steps.procedure, parts.steps.confirm, parts.recordings))
+        app.include_router(
+            procedure_router(
+                parts.steps.procedure,
+                parts.steps.confirm,
+                parts.recordings,
+                setup_check=parts.steps.setup_check,
+            )
+        )
         app.include_router(registration_router(parts.steps.registration))
         app.include_router(sweep_router(parts.steps.registration.sweep))
         app.include_router(needles_router(parts.steps.registration, parts.steps.ct_provider))

@@ -7,8 +7,10 @@ from pydantic import Field
 
 from server.api.errors import rejections
 from server.api.recordings import RecordingStateMessage, recording_state_message
+from server.api.setup_check_messages import SetupCheckMessage, setup_check_message
 from server.procedure.confirmation import ConfirmationPrompt
 from server.procedure.confirmation_step import ConfirmStep
+from server.procedure.setup_check import SetupCheck, SetupChecker
 from server.procedure.state import Procedure, ProcedureState, StepName, StepState
 from server.recording.service import RecordingService
 from server.security.person import person_of
@@ -82,12 +84,18 @@ class ProcedureMessage(Message):
     may_navigate: bool
     confirmation: ConfirmationMessage | None
     """The required confirmation; null if none is."""
+    setup_check: SetupCheckMessage | None
+    """Of the active channel; null without a screw, or with neither a registration nor four landmarks."""
     recording: RecordingStateMessage | None
     """What is being recorded; null without recordings."""
 
 
 def procedure_router(
-    procedure: Procedure, confirm: ConfirmStep, recordings: RecordingService | None = None
+    procedure: Procedure,
+    confirm: ConfirmStep,
+    recordings: RecordingService | None = None,
+    *,
+    setup_check: SetupChecker,
 ) -> APIRouter:
     """Return the router of `/api/procedure`."""
     router = APIRouter(prefix="/api/procedure", tags=["procedure"])
@@ -95,7 +103,7 @@ def procedure_router(
     def message() -> ProcedureMessage:
         # Each page asks for this already, so that none asks for the state of recordings apart.
         recording = None if recordings is None else recording_state_message(recordings)
-        return procedure_message(procedure.state(), recording)
+        return procedure_message(procedure.state(), recording, setup_check.check())
 
     @router.get("", responses=rejections(503))
     def state() -> ProcedureMessage:
@@ -114,7 +122,9 @@ def procedure_router(
     return router
 
 
-def procedure_message(state: ProcedureState, recording: RecordingStateMessage | None) -> ProcedureMessage:
+def procedure_message(
+    state: ProcedureState, recording: RecordingStateMessage | None, setup_check: SetupCheck | None
+) -> ProcedureMessage:
     """Return the message of the procedure."""
     return ProcedureMessage(
         case_id=state.case_id or None,
@@ -139,6 +149,7 @@ def procedure_message(state: ProcedureState, recording: RecordingStateMessage | 
         next_step=state.next_step,
         may_navigate=state.status(StepName.NAVIGATE).finding.state is StepState.DONE,
         confirmation=None if state.confirmation is None else confirmation_message(state.confirmation),
+        setup_check=None if setup_check is None else setup_check_message(setup_check),
         recording=recording,
     )
 

@@ -95,6 +95,7 @@ def _serve(
             jobs=storage.jobs,
             config=config,
             markers=preparation.models,
+            tools=preparation.tools,
             publish_setup=_case_callback(tracked, preparation, phone),
             publish_facts=alarms.set_facts,
             tracked_from_s=lambda: tracked.tracks_from_s,

@@ -28,8 +28,8 @@ log = structlog.get_logger(__name__)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Planned:
-    """The planned pedicle and screw of the active channel."""
+class PlannedPedicle:
+    """The planned pedicle and screw of the active channel; None where the plan has none."""
 
     active: ActiveChannel
     measure: PedicleMeasure | None
@@ -64,7 +64,7 @@ class DrillReferenceBuilder:
             if self._made is not None and self._made[0] == key:
                 return self._made[1]
         try:
-            planned = self._planned(active)
+            planned = planned_pedicle(self._store, active)
         except NavigationError as error:
             log.warning(error.message, code=error.code, remedy=error.remedy, document=active.title)
             return None
@@ -77,7 +77,11 @@ class DrillReferenceBuilder:
         return drill_reference
 
     def _measure(
-        self, key: tuple[str, ...], planned: _Planned, drill_reference: DrillReference, surface: Document
+        self,
+        key: tuple[str, ...],
+        planned: PlannedPedicle,
+        drill_reference: DrillReference,
+        surface: Document,
     ) -> None:
         def keep(chosen: object) -> object:
             if not isinstance(chosen, WallSelection):
@@ -111,24 +115,29 @@ class DrillReferenceBuilder:
             conclude=keep,
         )
 
-    def _planned(self, active: Document) -> _Planned:
-        """Return pedicle and screw of the active channel from the plan that it depends on."""
-        chosen = active_channel_from_document(active)
-        plan = self._store.document(active.case_id, active.depends_on[0])
-        vertebra = vertebra_named(plan_from_mapping(plan.content), chosen.vertebra)
-        measures = [one.measured for one in vertebra.pedicles if one.measured.side == chosen.side]
-        screws = [one.screws[0] for one in vertebra.channels if one.side == chosen.side and one.screws]
-        return _Planned(
-            active=chosen,
-            measure=measures[0] if measures else None,
-            screw=screws[0] if screws else None,
-        )
-
     def _surface(self, case_id: str) -> Document | None:
         document = self._store.latest(case_id, DocumentKind.SURFACE, MAIN_SURFACE)
         if document is None or not document.files:
             return None
         return document if isinstance(self._store.validity(document), Current) else None
+
+
+def planned_pedicle(store: CaseStore, active: Document) -> PlannedPedicle:
+    """Return pedicle and screw of the active channel from the plan that it depends on.
+
+    Raises:
+        PlanError, InvalidInput: the plan or the channel cannot be read.
+    """
+    chosen = active_channel_from_document(active)
+    plan = store.document(active.case_id, active.depends_on[0])
+    vertebra = vertebra_named(plan_from_mapping(plan.content), chosen.vertebra)
+    measures = [one.measured for one in vertebra.pedicles if one.measured.side == chosen.side]
+    screws = [one.screws[0] for one in vertebra.channels if one.side == chosen.side and one.screws]
+    return PlannedPedicle(
+        active=chosen,
+        measure=measures[0] if measures else None,
+        screw=screws[0] if screws else None,
+    )
 
 
 def _surface_sd_mm(surface: Document) -> float:
@@ -137,7 +146,7 @@ def _surface_sd_mm(surface: Document) -> float:
     return float(stated) if isinstance(stated, int | float) else WALL_SD_MM
 
 
-def _guide(planned: _Planned, chosen: WallSelection) -> DrillReference:
+def _guide(planned: PlannedPedicle, chosen: WallSelection) -> DrillReference:
     screw = planned.screw
     return DrillReference(
         wall=chosen.wall,

@@ -1,5 +1,6 @@
 """Records of a registration and of its check on anatomy, as stored in a case."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Annotated
 
@@ -50,6 +51,15 @@ class NudgeHistory(Section):
         )
 
 
+class ExpectedCovariance(Section):
+    """The covariance that is expected with more landmarks, see `PointRegistration.covariance_with_more`."""
+
+    landmarks: int
+    """Their number, with those of the registration."""
+    covariance: Annotated[list[Row6], Field(min_length=6, max_length=6)]
+    """Of `anchor_from_vertebra`."""
+
+
 class RegistrationRecord(Section):
     """A registration as stored in a case."""
 
@@ -65,6 +75,10 @@ class RegistrationRecord(Section):
     """Sensitivity of the registration to an error of the tool tip; 0 where no tip was used."""
     tool: str = ""
     """The tool whose tip captured the points."""
+    tracking_covariance_mm2: Annotated[list[Point], Field(min_length=3, max_length=3)] = [[0.0] * 3] * 3
+    """Of the tip in the anchor frame, from the markers' poses at the best capture; 0 where not known."""
+    with_more_landmarks: list[ExpectedCovariance] = Field(default_factory=list)
+    """Rising; empty where it cannot be predicted."""
     run: str
     """Server run in which it was made. A move of the camera between two runs is not detected."""
     from_s: float | None = None
@@ -87,6 +101,7 @@ class RegistrationRecord(Section):
         numbers: dict[str, Value],
         made_from: dict[str, object],
         from_s: float | None,
+        with_more_landmarks: Sequence[ExpectedCovariance] = (),
     ) -> "RegistrationRecord":
         """Create the record of a registration."""
         return cls(
@@ -98,6 +113,8 @@ class RegistrationRecord(Section):
             covariance=registration.covariance.tolist(),
             tip_jacobian=registration.tip_jacobian.tolist(),
             tool=registration.tool,
+            tracking_covariance_mm2=registration.tracking_covariance_mm2.tolist(),
+            with_more_landmarks=list(with_more_landmarks),
             run=run,
             numbers=numbers,
             made_from=made_from,
@@ -119,6 +136,7 @@ class RegistrationRecord(Section):
             covariance=np.array(self.covariance),
             tip_jacobian=np.array(self.tip_jacobian),
             tool=self.tool,
+            tracking_covariance_mm2=np.array(self.tracking_covariance_mm2),
         )
 
 

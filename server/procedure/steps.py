@@ -2,8 +2,9 @@
 
 import math
 import secrets
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import structlog
 
@@ -22,6 +23,7 @@ from server.procedure.navigation_ct import NavigationCtProvider
 from server.procedure.plan import PlanStep
 from server.procedure.readout import ReadoutStep
 from server.procedure.registration import RegistrationSteps
+from server.procedure.setup_check import SetupChecker
 from server.procedure.setup_publisher import SetupPublisher
 from server.procedure.state import Procedure, SetupDefaults
 from server.procedure.surface import SurfaceStep
@@ -31,10 +33,13 @@ from server.store import CaseStore, StoreError
 from server.store.latency_file import LatencyFile
 from tracker.marker import MarkerModel
 from tracker.navigation import MeasuredLatency
+from tracker.pose import ToolModel
 from tracker.pose.tool import ToolGate
 
 # Names in the rehearsal's simulated theatre; repeated here because importing the theatre is slow.
 REHEARSED_TOOL, REHEARSED_REFERENCE = "drill", "reference"
+
+NO_TOOLS: Mapping[str, ToolModel] = MappingProxyType({})
 
 log = structlog.get_logger(__name__)
 
@@ -57,6 +62,7 @@ class Steps:
         procedure: state of the procedure and order of its steps.
         registration: registers the vertebra on the patient.
         confirm: confirms a registration after a restart.
+        setup_check: whether the planned screw can be navigated with the registration.
     """
 
     camera: CameraStep
@@ -72,6 +78,7 @@ class Steps:
     procedure: Procedure
     registration: RegistrationSteps
     confirm: ConfirmStep
+    setup_check: SetupChecker
 
     @classmethod
     def of(
@@ -83,6 +90,7 @@ class Steps:
         config: Config,
         markers: Sequence[MarkerModel],
         publish_setup: Callable[[CaseSetup], None],
+        tools: Mapping[str, ToolModel] = NO_TOOLS,
         publish_facts: Callable[[ProcedureFacts], None] = lambda _: None,
         tracked_from_s: Callable[[], float] = lambda: -math.inf,
     ) -> "Steps":
@@ -95,6 +103,7 @@ class Steps:
             config: acceptance limits, and the configured tools.
             markers: markers that are tracked in every case.
             publish_setup: sends the setup of the open case to the tracking process.
+            tools: tools of the settings, which are used in every case.
             publish_facts: sends the facts of the procedure to the alarms.
             tracked_from_s: start of the current tracking process, on the image clock.
         """
@@ -138,6 +147,7 @@ class Steps:
             procedure=procedure,
             registration=_registration(hub, store, config, procedure, defaults, plan=plan, surface=surface),
             confirm=ConfirmStep(hub=hub, store=store, procedure=procedure),
+            setup_check=SetupChecker(store=store, defaults=defaults, tools=tools, catalogue=plan.catalogue),
         )
 
     def close(self) -> None:

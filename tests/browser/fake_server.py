@@ -42,7 +42,7 @@ from tests.server.texts.drilled_rod import UNSEEN, concluded, seen_at, setup_of
 from tests.tracker.navigation.assessed import drill_reference
 from tracker import CameraModel, Seen, ToolModel, Unseen, UnseenReason
 from tracker.geometry import Camera, Rigid, Tool, Vertebra
-from tracker.navigation import NavigationSnapshot, Setup, navigate
+from tracker.navigation import NavigationSnapshot, Setup, min_errors_95_mm, navigate
 from tracker.plan import Channel
 from tracker.registration import Registration
 
@@ -59,7 +59,7 @@ PLACES_IN_BONE = {
     "near": (29.0, 2.4, 0.0, 0.0, 0.0, 1.0),
     "breach": (29.0, 3.75, 0.0, 0.0, 0.0, 1.0),
 }
-IN_BONE = {*PLACES_IN_BONE, "hidden", "wander"}
+IN_BONE = {*PLACES_IN_BONE, "hidden", "wander", "insufficient"}
 UNPLUGGED = Problem(
     code="CAMERA_LOST",
     message="the camera has given no image for 2.0 s, allowed 1.0 s",
@@ -140,7 +140,9 @@ def snapshot_in_bone(mode: str, number: int, now_s: float) -> NavigationSnapshot
         where = first + share * (second - first)
     else:
         where = np.array(PLACES_IN_BONE.get(mode, PLACES_IN_BONE["path"]))
-    stands = setup_of()
+    # 95 % of 0.9 mm lie within 2.21 mm, and 1.8 mm are left.
+    stands = setup_of(registered_sd_mm=0.9 if mode == "insufficient" else 0.0)
+    stands = replace(stands, min_errors_95_mm=min_errors_95_mm(stands, drill_reference()))
     sighting = UNSEEN if mode == "hidden" else seen_at(where, stands.tools["drill"])
     return concluded(stands, drill_reference(), {"drill": sighting}, number=number, captured_at_s=now_s)
 

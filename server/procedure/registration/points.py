@@ -13,14 +13,17 @@ from server.procedure.registration.capture_settings import capture_settings
 from server.procedure.registration.context import RegistrationContext, RegistrationContextFinder
 from server.procedure.registration.points_session import PointsSession, PointsStatus, residuals_mm
 from server.procedure.registration.repository import RegistrationRepository
-from server.procedure.registration_record import Value
+from server.procedure.registration_record import ExpectedCovariance, Value
 from server.store import Document
 from tracker.errors import RegistrationError
+from tracker.geometry import inverse_covariance
 from tracker.registration.needles import TouchedPoint
 from tracker.registration.points import PointRegistration
 
 # Fiducial localisation error of a landmark on CT and bone together, per axis.
 LANDMARK_SD_MM = 0.7
+# So many more landmarks a person may still touch.
+MORE_LANDMARKS = (2, 4, 8)
 # From the entry point to the end of a channel.
 ALONG = (0.0, 0.25, 0.5, 0.75, 1.0)
 
@@ -149,6 +152,7 @@ class PointsStep:
             made_from=made_from(status),
             made_by=made_by,
             from_s=status.from_s,
+            with_more_landmarks=with_more_landmarks(status.fit),
         )
         self.end()
         return document
@@ -211,6 +215,18 @@ def target_errors(context: RegistrationContext, fit: PointRegistration) -> tuple
                 )
             )
     return tuple(found)
+
+
+def with_more_landmarks(fit: PointRegistration) -> list[ExpectedCovariance]:
+    """Return the covariances of the registration that are expected with more landmarks."""
+    count = int(fit.used.sum())
+    return [
+        ExpectedCovariance(
+            landmarks=count + more,
+            covariance=inverse_covariance(fit.fixed_from_moving, fit.covariance_with_more(more)).tolist(),
+        )
+        for more in MORE_LANDMARKS
+    ]
 
 
 def made_from(status: PointsStatus) -> dict[str, object]:

@@ -12,7 +12,12 @@ from dataclasses import dataclass
 from server.errors import SetupOrderError
 from server.procedure.open_case import require_open_case
 from server.procedure.registration.context import RegistrationContext
-from server.procedure.registration_record import RegistrationRecord, Value, registration_from_document
+from server.procedure.registration_record import (
+    ExpectedCovariance,
+    RegistrationRecord,
+    Value,
+    registration_from_document,
+)
 from server.procedure.state import Procedure, SetupDefaults
 from server.store import CaseStore, Document, DocumentKind, Validity
 from tracker.registration import Registration
@@ -94,6 +99,7 @@ class RegistrationRepository:
         from_s: float | None,
         also_on: Sequence[str] = (),
         expected_version: int | None = None,
+        with_more_landmarks: Sequence[ExpectedCovariance] = (),
     ) -> Document:
         """Store an accepted registration as the next version for its vertebra.
 
@@ -108,6 +114,7 @@ class RegistrationRepository:
             numbers=numbers,
             made_from=made_from,
             from_s=from_s,
+            with_more_landmarks=with_more_landmarks,
         )
         return self._store.put(
             context.case_id,

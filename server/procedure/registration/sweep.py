@@ -1,7 +1,7 @@
 """The surface registration step: a sweep of the tip over the bone refines a point registration."""
 
 import threading
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -227,7 +227,10 @@ class SweepStep:
             raise failures[0]
         document = self._repository.put(
             status.context,
-            found.registration(status.context.anchored_to),
+            replace(
+                found.registration(status.context.anchored_to),
+                tracking_covariance_mm2=status.start.record.registration.tracking_covariance_mm2,
+            ),
             numbers=self.numbers(status, found),
             made_from={
                 "tool": status.context.tool,

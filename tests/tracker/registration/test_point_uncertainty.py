@@ -17,7 +17,14 @@ from tracker.geometry import (
     vector_from_rotation,
 )
 from tracker.registration import AnchoredTo
-from tracker.registration.points import PointPairs, PointRegistration, PointSettings, register_points
+from tracker.registration.points import (
+    CommonTip,
+    PointPairs,
+    PointRegistration,
+    PointSettings,
+    expected_covariance,
+    register_points,
+)
 from tracker.registration.points.uncertainty import expected_tre_mm, variance_ratio_with_more
 
 RUNS = 500
@@ -194,3 +201,49 @@ def test_the_error_with_more_landmarks_is_the_one_that_they_give() -> None:
 
 def test_more_landmarks_do_not_make_one_better_than_the_minimum_fle() -> None:
     assert variance_ratio_with_more(0.01, 6, 6, min_fle_mm=0.5) == pytest.approx(0.5)
+
+
+def test_stated_and_common_errors_have_their_own_shares_with_more_landmarks() -> None:
+    rng = np.random.default_rng(12)
+    twice = np.vstack([VERTEBRA, VERTEBRA * [1.0, -1.0, 1.0] + [0.0, 6.0, 0.0]])
+    twice[6:] += VERTEBRA.mean(axis=0) - twice[6:].mean(axis=0)
+    target = np.array([15.0, -20.0, 5.0])
+    # All captured with the marker in one orientation: a rigid shift of 0.3 mm that no landmark lessens.
+    tip = CommonTip(
+        tool="drill", covariance_mm2=0.3**2 * np.eye(3), anchor_from_marker=np.tile(np.eye(3), (12, 1, 1))
+    )
+    expected, found = [], []
+    for _ in range(60):
+        truth = touched(twice, rng, 0.4)
+        whole = PointPairs(
+            fixed_mm=truth.fixed_mm,
+            moving_mm=truth.moving_mm,
+            moving_covariances_mm2=np.tile(0.4**2 * np.eye(3), (12, 1, 1)),
+            common=tip,
+        )
+        few = register_points(whole.of(range(6)), settings=BARE)
+        many = register_points(whole, settings=BARE)
+        at = few.fixed_from_moving.inverse.move_points(target)
+        expected.append(
+            np.trace(point_covariance_mm2(few.fixed_from_moving, few.covariance_with_more(6), at))
+        )
+        found.append(np.trace(many.target_covariance_mm2(target)))
+    assert np.sqrt(np.mean(expected) / np.mean(found)) == pytest.approx(1.0, abs=0.1)
+    of_very_many = point_covariance_mm2(few.fixed_from_moving, few.covariance_with_more(10**6), at)
+    assert of_very_many == pytest.approx(0.3**2 * np.eye(3), abs=1e-3)
+
+
+def test_planned_landmarks_are_expected_to_give_what_their_fit_states() -> None:
+    rng = np.random.default_rng(13)
+    target = np.array([15.0, -20.0, 5.0])
+    identity: Rigid[Vertebra, Anchor] = Rigid(rotation=np.eye(3), translation_mm=np.zeros(3))
+    stated = []
+    for _ in range(100):
+        truth = touched(VERTEBRA, rng, 0.7)
+        pairs = PointPairs(fixed_mm=truth.fixed_mm, moving_mm=truth.moving_mm)
+        stated.append(np.trace(register_points(pairs, settings=BARE).target_covariance_mm2(target)))
+    planned = np.trace(point_covariance_mm2(identity, expected_covariance(VERTEBRA, 0.7), target))
+    assert np.sqrt(planned / np.mean(stated)) == pytest.approx(1.0, abs=0.1)
+    # More landmarks of the same spread are as the same ones once more.
+    twice = expected_covariance(np.vstack([VERTEBRA, VERTEBRA]), 0.7)
+    assert expected_covariance(VERTEBRA, 0.7, more=len(VERTEBRA)) == pytest.approx(twice)

@@ -106,16 +106,18 @@ def _factor(squares: float, freedom_of_residuals: int) -> float:
     )
 
 
-def expected_covariance(fixed_mm: Array, sd_mm: float) -> Array:
+def expected_covariance(fixed_mm: Array, sd_mm: float, *, more: int = 0) -> Array:
     """Return the covariance (6, 6) that an unweighted fit of landmarks (n, 3) is expected to state.
 
     Of the translation and of a small left-multiplied rotation about the origin of the CT. Each landmark is
     localised with the standard deviation `sd_mm` along each axis, and none has a gross error. n is at least
-    4, and the landmarks are not collinear.
+    4, and the landmarks are not collinear. `more`: so many more landmarks, spread as these.
     """
     middle = fixed_mm.mean(axis=0)
-    factor = small_sample_factor(degrees_of_freedom(len(fixed_mm))) * ANISOTROPY_FACTOR
-    weights = np.tile(np.eye(3) / (sd_mm**2 * factor), (len(fixed_mm), 1, 1))
+    count = len(fixed_mm)
+    factor = small_sample_factor(degrees_of_freedom(count + more)) * ANISOTROPY_FACTOR
+    variance_mm2 = sd_mm**2 * factor * count / (count + more)
+    weights = np.tile(np.eye(3) / variance_mm2, (count, 1, 1))
     carried = np.eye(6)
     carried[:3, 3:] = skew(middle)
     return np.asarray(carried @ np.linalg.inv(normal_matrix(fixed_mm - middle, weights)) @ carried.T)

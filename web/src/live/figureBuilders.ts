@@ -30,6 +30,7 @@ export function assessment(
     end_wall: "medial",
     against: "bone",
     lag: null,
+    min_error_95_mm: null,
     ...changes,
   };
 }

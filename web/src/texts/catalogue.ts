@@ -11,6 +11,7 @@ import type { LatencyTexts } from "./latency/en";
 import type { ConnectionTexts } from "./connection/en";
 import type { MarksTexts } from "./marks/en";
 import type { NavigateTexts } from "./navigate/en";
+import type { SetupCheckTexts } from "./setupCheck/en";
 import type { OperatorTexts } from "./operator/en";
 import type { PeopleTexts } from "./people/en";
 import type { PhoneTexts } from "./phone/en";
@@ -135,6 +136,7 @@ export interface Texts {
   registration: RegistrationTexts;
   check: CheckTexts;
   navigate: NavigateTexts;
+  setupCheck: SetupCheckTexts;
   report: ReportTexts;
   supervisor: SupervisorTexts;
   marks: MarksTexts;

@@ -7,6 +7,7 @@ import { signInDe } from "./signin/de";
 import { latencyDe } from "./latency/de";
 import { connectionDe } from "./connection/de";
 import { navigateDe } from "./navigate/de";
+import { setupCheckDe } from "./setupCheck/de";
 import { marksDe } from "./marks/de";
 import { operatorDe } from "./operator/de";
 import { auditDe } from "./audit/de";
@@ -174,6 +175,7 @@ export const de: Texts = {
   registration: registrationDe,
   check: checkDe,
   navigate: navigateDe,
+  setupCheck: setupCheckDe,
   report: reportDe,
   supervisor: supervisorDe,
   marks: marksDe,

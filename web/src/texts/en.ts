@@ -7,6 +7,7 @@ import { signInEn } from "./signin/en";
 import { latencyEn } from "./latency/en";
 import { connectionEn } from "./connection/en";
 import { navigateEn } from "./navigate/en";
+import { setupCheckEn } from "./setupCheck/en";
 import { marksEn } from "./marks/en";
 import { operatorEn } from "./operator/en";
 import { auditEn } from "./audit/en";
@@ -176,6 +177,7 @@ export const en: Texts = {
   registration: registrationEn,
   check: checkEn,
   navigate: navigateEn,
+  setupCheck: setupCheckEn,
   report: reportEn,
   supervisor: supervisorEn,
   marks: marksEn,

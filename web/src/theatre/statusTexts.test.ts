@@ -14,6 +14,7 @@ function standing(check: State, checkAgeMin: number | null = 3): Procedure {
     next_step: "navigate",
     may_navigate: true,
     confirmation: null,
+    setup_check: null,
     recording: null,
     steps: [
       { ...step, step: "register", state: "done", numbers: { age_min: 12.7 } },

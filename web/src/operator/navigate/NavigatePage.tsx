@@ -6,6 +6,7 @@ import { LoadingNumbers } from "../../panes/LoadingNumbers";
 import { NumbersPane } from "../../panes/NumbersPane";
 import { VideoPane } from "../../panes/VideoPane";
 import { useProcedure } from "../../app/procedure";
+import { SetupCheckNote } from "../SetupCheckNote";
 import { RehearsalStrip } from "../registration/RehearsalStrip";
 import { ChannelSwitch } from "./ChannelSwitch";
 import { Gates } from "./Gates";
@@ -19,6 +20,7 @@ export function NavigatePage(): ReactNode {
     <div className="registration" data-testid="navigate" data-may={data?.may_navigate}>
       <MovementWarning />
       <Gates />
+      <SetupCheckNote />
       <div className="board">
         <AfterFirstMessage loading={<LoadingNumbers />}>
           <NumbersPane />

@@ -1,6 +1,7 @@
 import type { ReactNode } from "react";
 import { Link } from "wouter";
 import { useTexts } from "../../texts/TextsContext";
+import { SetupCheckNote } from "../SetupCheckNote";
 import { RegistrationNow } from "./RegistrationNow";
 import { useActiveProcedures } from "./useActiveProcedures";
 
@@ -15,6 +16,7 @@ export function MethodChoice(): ReactNode {
   return (
     <>
       <RegistrationNow />
+      <SetupCheckNote />
       <p className="quiet">{texts.choice.ends}</p>
       <ul className="methods">
         {METHODS.map((method) => (

@@ -2,6 +2,7 @@ import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { useTexts } from "../../../texts/TextsContext";
+import { SetupCheckNote } from "../../SetupCheckNote";
 import { SideChooser } from "../pedicle/SideChooser";
 import { VertebraChooser } from "../pedicle/VertebraChooser";
 import { useSlices } from "../slices/SlicesContext";
@@ -70,6 +71,7 @@ export function ChannelPart(): ReactNode {
           <>
             <ActiveChoice vertebra={name} planned={planned} />
             <ScrewChoice key={of} vertebra={name} planned={planned} isMeasured={isMeasured} />
+            <SetupCheckNote />
             <div className="buttons">
               <Button
                 size="lg"

@@ -4,6 +4,7 @@ import { answered, server } from "../../../rest/client";
 import { useQuery } from "../../../rest/useQuery";
 import { Icon } from "../../../panes/Icon";
 import { useTexts } from "../../../texts/TextsContext";
+import { SetupCheckNote } from "../../SetupCheckNote";
 import { VertebraChooser } from "../pedicle/VertebraChooser";
 import { CursorPad } from "../slices/CursorPad";
 import { useSlices } from "../slices/SlicesContext";
@@ -45,6 +46,7 @@ export function LandmarksPart(): ReactNode {
         {landmarks.length} {texts.set}
         {minLandmarks !== null && ` · ${texts.needed} ${minLandmarks}`} · {texts.better}
       </p>
+      <SetupCheckNote />
       <CursorPad />
       <Button
         size="xl"

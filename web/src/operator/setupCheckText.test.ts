@@ -1,0 +1,67 @@
+import { expect, test } from "vitest";
+import { setupCheckDe } from "../texts/setupCheck/de";
+import { setupCheckEn } from "../texts/setupCheck/en";
+import { remedyText, setupSentence, type SetupCheck } from "./setupCheckText";
+
+function error(entry: number, isthmus: number, tolerance: number): SetupCheck["found"] {
+  const larger = Math.max(entry, isthmus);
+  return {
+    entry_95_mm: entry,
+    isthmus_95_mm: isthmus,
+    error_95_mm: larger,
+    tolerance_mm: tolerance,
+    suffices: larger <= tolerance,
+  };
+}
+
+const CHECK: SetupCheck = {
+  basis: "registration",
+  method: "points",
+  vertebra: "L3",
+  side: "left",
+  diameter_mm: 6.5,
+  tool: "drill",
+  found: error(1.1, 1.2, 0.5),
+  remedies: [],
+};
+
+test("a registration that does not suffice says so with its figures", () => {
+  expect(setupSentence(CHECK, "left", setupCheckEn)).toBe(
+    "L3 left, screw of 6.5 mm: error at the isthmus at least 1.20 mm (95 %), 0.50 mm to the wall. " +
+      "The set-up does not suffice: every image would be SET-UP INSUFFICIENT.",
+  );
+});
+
+test("the place is that of the larger error, and what suffices is not warned of", () => {
+  const text = setupSentence({ ...CHECK, found: error(0.4, 0.3, 0.5) }, "left", setupCheckEn);
+  expect(text).toContain("error at the entry at least 0.40 mm");
+  expect(text).toContain("The set-up suffices for this screw.");
+});
+
+test("before a registration the sentence is an expectation", () => {
+  expect(setupSentence({ ...CHECK, basis: "landmarks", method: null }, "left", setupCheckEn)).toContain(
+    "with the planned landmarks and an exact tool, an error of 1.20 mm (95 %) is expected",
+  );
+});
+
+test.each([
+  [
+    { kind: "more_landmarks", landmarks: 8, diameter_mm: null, expected: error(0.8, 0.9, 0.5) },
+    "8 landmarks, spread as these and none mistaken: 0.90 mm, not enough.",
+  ],
+  [
+    { kind: "thinner_screw", landmarks: null, diameter_mm: 5, expected: error(1.1, 1.2, 1.25) },
+    "Screw of 5.0 mm: 1.25 mm to the wall, enough at best.",
+  ],
+  [
+    { kind: "exact_tool", landmarks: null, diameter_mm: null, expected: error(0.2, 0.3, 0.5) },
+    "A tool with exact tip and axis: 0.30 mm, enough at best.",
+  ],
+  [
+    { kind: "surface_sweep", landmarks: null, diameter_mm: null, expected: null },
+    "A surface sweep: its error is known after it.",
+  ],
+] as const)("a remedy has the figure that it would give", (remedy, text) => {
+  expect(remedyText(remedy, setupCheckEn)).toBe(text);
+  expect(remedyText(remedy, setupCheckDe)).not.toMatch(/[{}]/);
+});

@@ -1,0 +1,36 @@
+// The check of the planned screw in words: one sentence with its figures, and each remedy with the figure it would give.
+import type { components } from "../schema";
+import { formatNumber } from "../live/rounding";
+import { interpolate } from "../texts/interpolate";
+import type { SetupCheckTexts } from "../texts/setupCheck/en";
+
+export type SetupCheck = components["schemas"]["SetupCheckMessage"];
+type Remedy = SetupCheck["remedies"][number];
+
+export function setupSentence(check: SetupCheck, side: string, texts: SetupCheckTexts): string {
+  const { found } = check;
+  const sentence = interpolate(texts[check.basis], {
+    vertebra: check.vertebra,
+    side,
+    diameter: formatNumber(check.diameter_mm, 1),
+    place: found.isthmus_95_mm >= found.entry_95_mm ? texts.isthmus : texts.entry,
+    error: formatNumber(found.error_95_mm, 2),
+    tolerance: formatNumber(found.tolerance_mm, 2),
+  });
+  return `${sentence} ${found.suffices ? texts.suffices : texts.insufficient}`;
+}
+
+export function remedyText(
+  { kind, expected, landmarks, diameter_mm }: Remedy,
+  texts: SetupCheckTexts,
+): string {
+  const text = texts.remedy[kind];
+  if (expected === null) return `${text}.`;
+  const figure = interpolate(text, {
+    landmarks: landmarks === null ? "" : String(landmarks),
+    diameter: diameter_mm === null ? "" : formatNumber(diameter_mm, 1),
+    error: formatNumber(expected.error_95_mm, 2),
+    tolerance: formatNumber(expected.tolerance_mm, 2),
+  });
+  return `${figure}, ${expected.suffices ? texts.enough : texts.notEnough}.`;
+}
