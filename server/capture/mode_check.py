@@ -130,7 +130,7 @@ class ModeCheck:
         wanted, requested, granted = self._wanted, self._requested, self._granted
         parts = []
         if wanted.size_wh_px is not None or wanted.rate_hz is not None:
-            parts.append(f"the settings ask for {_wanted_text(wanted)}")
+            parts.append(f"the settings ask for {wanted}")
         if requested is not None:
             parts.append(f"{requested} was requested")
         if granted.size_wh_px != (0, 0):
@@ -149,9 +149,3 @@ class ModeCheck:
         return CaptureError(
             code, f"{self._name} gives other images than requested: {', '.join(parts)}", remedy, context
         )
-
-
-def _wanted_text(wanted: WantedMode) -> str:
-    size = "" if wanted.size_wh_px is None else f"{wanted.size_wh_px[0]}x{wanted.size_wh_px[1]}"
-    rate = "" if wanted.rate_hz is None else f"{wanted.rate_hz:.4g} Hz"
-    return " at ".join(part for part in (size, rate) if part)

@@ -29,6 +29,12 @@ class WantedMode:
     size_wh_px: tuple[int, int] | None = None
     rate_hz: float | None = None
 
+    def __str__(self) -> str:
+        """Return a text such as "1920x1080 at 30 Hz"; empty if nothing is given."""
+        size = "" if self.size_wh_px is None else f"{self.size_wh_px[0]}x{self.size_wh_px[1]}"
+        rate = "" if self.rate_hz is None else f"{self.rate_hz:.4g} Hz"
+        return " at ".join(part for part in (size, rate) if part)
+
 
 def choose_mode(
     offered: Sequence[CameraMode], wanted: WantedMode, *, calibrated_size_wh_px: tuple[int, int] | None = None

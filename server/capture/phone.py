@@ -16,6 +16,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
+from server.capture.modes import WantedMode, is_same_rate
 from server.capture.shot import Shot
 from server.errors import CaptureError
 from server.live import CameraMode, CameraStatus, ImageClock, Problem
@@ -115,6 +116,7 @@ class PhoneSource:
     Args:
         inbox: updates of the receiver.
         stop: ends all waits.
+        wanted: mode of the settings, which the browser may not grant.
         first_number: number of its first image.
         clock: monotonic.
     """
@@ -124,6 +126,7 @@ class PhoneSource:
         inbox: Inbox,
         *,
         stop: threading.Event,
+        wanted: WantedMode | None = None,
         first_number: int = 0,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
@@ -132,6 +135,7 @@ class PhoneSource:
         self.stalls = True
         self._inbox = inbox
         self._stop = stop
+        self._wanted = wanted or WantedMode()
         self._number = first_number
         self._clock = clock
         self._sequence = 0
@@ -140,9 +144,13 @@ class PhoneSource:
 
     @property
     def defect(self) -> CaptureError | None:
-        """An unlocked focus, which may move unnoticed and invalidate the calibration; else None."""
-        camera = None if self._last is None else self._last.camera
-        return None if camera is None or camera.focus is Focus.LOCKED else _focus_not_locked(camera)
+        """A focus that may move and so invalidate the calibration, or a mode that was not granted."""
+        if self._last is None:
+            return None
+        camera = self._last.camera
+        if camera.focus is not Focus.LOCKED:
+            return _focus_not_locked(camera)
+        return _mode_not_granted(camera, self._wanted)
 
     @property
     def camera(self) -> CameraStatus:
@@ -250,6 +258,22 @@ def _silent() -> CaptureError:
 
 def _unusable(problem: Problem) -> CaptureError:
     return CaptureError(problem.code, problem.message, problem.remedy, dict(problem.context))
+
+
+def _mode_not_granted(camera: PhoneCamera, wanted: WantedMode) -> CaptureError | None:
+    size, rate_hz = wanted.size_wh_px, wanted.rate_hz
+    # Held upright, it gives the same size with its sides exchanged.
+    is_other_size = size is not None and sorted(size) != sorted(camera.size_wh_px)
+    is_other_rate = bool(rate_hz and camera.rate_hz) and not is_same_rate(rate_hz or 0.0, camera.rate_hz)
+    if not is_other_size and not is_other_rate:
+        return None
+    granted = CameraMode(fourcc="", size_wh_px=camera.size_wh_px, rate_hz=camera.rate_hz)
+    return CaptureError(
+        "CAMERA_MODE_NOT_GRANTED",
+        f"the phone gives other images than requested: the settings ask for {wanted}, {granted} was granted",
+        "Set camera.width, camera.height and camera.rate_hz to what the phone's camera has, or to null.",
+        {"camera": NAME, "requested": str(wanted), "granted": str(granted)},
+    )
 
 
 def _focus_not_locked(camera: PhoneCamera) -> CaptureError:

@@ -67,7 +67,7 @@ def source_from_config(
             outages=outages,
         )
     if address.kind is SourceKind.PHONE:
-        return _phone(inbox, stop, first_number)
+        return _phone(inbox, stop, wanted_mode(camera), first_number)
     if address.kind is SourceKind.INDUSTRIAL_CAMERA:
         return _industrial_camera(camera, address, stop, calibration, first_number)
     if address.kind is SourceKind.LOCAL_CAMERA:
@@ -105,14 +105,14 @@ def _industrial_camera(
     )
 
 
-def _phone(inbox: Inbox | None, stop: threading.Event, first_number: int) -> PhoneSource:
+def _phone(inbox: Inbox | None, stop: threading.Event, wanted: WantedMode, first_number: int) -> PhoneSource:
     if inbox is None:
         raise CaptureError(
             "PHONE_WITHOUT_SERVER",
             "a phone sends its images to a running server, and there is none here",
             "Start it with coaxial run --source phone.",
         )
-    return PhoneSource(inbox, stop=stop, first_number=first_number)
+    return PhoneSource(inbox, stop=stop, wanted=wanted, first_number=first_number)
 
 
 def wanted_mode(camera: CameraConfig) -> WantedMode:

@@ -135,3 +135,27 @@ def test_a_focus_that_may_move_is_reported(focus: Focus, code: str | None) -> No
     # It is gone, and with it what was known of it.
     source.close()
     assert (source.defect, source.camera.controls) == (None, {})
+
+
+@pytest.mark.parametrize(
+    ("size_wh_px", "rate_hz", "code"),
+    [
+        pytest.param(None, None, None, id="nothing is asked"),
+        pytest.param((160, 90), 30.0, None, id="as asked"),
+        pytest.param((90, 160), 30.0, None, id="held upright"),
+        pytest.param((1280, 720), None, "CAMERA_MODE_NOT_GRANTED", id="another size"),
+        pytest.param(None, 60.0, "CAMERA_MODE_NOT_GRANTED", id="another rate"),
+    ],
+)
+def test_a_mode_that_the_browser_does_not_grant_is_reported_with_both(
+    size_wh_px: tuple[int, int] | None, rate_hz: float | None, code: str | None
+) -> None:
+    width, height = size_wh_px or (None, None)
+    config = Config(camera=CameraConfig(source="phone", width=width, height=height, rate_hz=rate_hz))
+    source = source_from_config(config, stop=threading.Event(), inbox=Script(HERE, [sent(1)]))
+    source.open()
+    source.read()
+    assert (None if source.defect is None else source.defect.code) == code
+    if source.defect is not None:
+        assert ("60 Hz" if size_wh_px is None else "1280x720") in source.defect.message
+        assert "160x90 at 30 Hz was granted" in source.defect.message
