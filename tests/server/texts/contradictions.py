@@ -206,9 +206,9 @@ def _verdict_fits(assessment: AssessmentMessage) -> None:
     if assessment.verdict in named:
         assert over[named[assessment.verdict]]
     if assessment.verdict in (Verdict.UNCERTAIN, Verdict.SETUP_INSUFFICIENT):
-        least_mm = assessment.min_error_95_mm
+        min_mm = assessment.min_error_95_mm
         assert f.error.limit is not None
-        is_out_of_reach = least_mm is not None and least_mm > f.error.limit
+        is_out_of_reach = min_mm is not None and min_mm > f.error.limit
         assert is_out_of_reach == (assessment.verdict is Verdict.SETUP_INSUFFICIENT)
 
 

@@ -223,19 +223,17 @@ def test_the_verdict_is_the_worst_that_the_figures_say_and_on_path_only_within_a
 
 
 @settings(deadline=None, max_examples=100)
-@given(
-    drill=DRILLS, scale=st.floats(0.2, 12.0), tolerance_mm=st.floats(0.0, 3.0), least_mm=st.floats(0.0, 6.0)
-)
+@given(drill=DRILLS, scale=st.floats(0.2, 12.0), tolerance_mm=st.floats(0.0, 3.0), min_mm=st.floats(0.0, 6.0))
 def test_a_set_up_that_does_not_suffice_makes_no_verdict_calmer(
-    drill: dict[str, float], scale: float, tolerance_mm: float, least_mm: float
+    drill: dict[str, float], scale: float, tolerance_mm: float, min_mm: float
 ) -> None:
     placed = {**drill, "unsure": scale, "tolerance_mm": tolerance_mm}
-    unknown, known = assessed_at(**placed), assessed_at(**placed, min_error_95_mm=least_mm)
+    unknown, known = assessed_at(**placed), assessed_at(**placed, min_error_95_mm=min_mm)
     assert known.figures == unknown.figures or "nan" in repr(known.figures)
     if unknown.verdict is not Verdict.UNCERTAIN:
         assert known.verdict is unknown.verdict
         return
-    if least_mm <= known.figures[FigureName.ERROR].limit:
+    if min_mm <= known.figures[FigureName.ERROR].limit:
         assert known.verdict is Verdict.UNCERTAIN
         return
     is_likely = known.figures[FigureName.RISK].status is Status.OVER

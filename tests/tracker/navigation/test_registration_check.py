@@ -198,9 +198,9 @@ def test_what_navigation_states_of_a_drill_on_its_channel_is_never_less() -> Non
         channel=CHANNEL,
         registration=registered,
     )
-    (least_mm,) = min_errors_95_mm(setup, reference).values()
-    assert least_mm == check_setup(registered, tool, CHANNEL, tolerance(0.5)).error_95_mm
-    setup = replace(setup, min_errors_95_mm={"drill": least_mm})
+    (min_mm,) = min_errors_95_mm(setup, reference).values()
+    assert min_mm == check_setup(registered, tool, CHANNEL, tolerance(0.5)).error_95_mm
+    setup = replace(setup, min_errors_95_mm={"drill": min_mm})
     across = channel_directions(CHANNEL)
     for depth_mm in (-5.0, 0.0, 9.0, 18.0, 30.0):
         for turn in ([0.0, 0.0, 0.0], [0.0, 0.0, 2.0]):
@@ -236,5 +236,5 @@ def test_what_navigation_states_of_a_drill_on_its_channel_is_never_less() -> Non
             )
             assessment = snapshot.assessments["drill"]
             assert isinstance(assessment, Assessment)
-            assert assessment.figures[FigureName.ERROR].value >= least_mm
+            assert assessment.figures[FigureName.ERROR].value >= min_mm
             assert assessment.verdict in (Verdict.SETUP_INSUFFICIENT, Verdict.BREACH_LIKELY)
