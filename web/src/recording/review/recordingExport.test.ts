@@ -13,6 +13,10 @@ test("a video says how many of its images are without results", () => {
 
 test("a piece says where it begins, and whether it replays", () => {
   expect(exportText({ ...FILE, from_s: 61, is_exact: true }, en)).toContain("from 1:01 on, where a state");
+  expect(exportText({ ...FILE, from_s: 61, is_exact: true }, en)).toContain("It replays exactly.");
+  const missing = exportText({ ...FILE, from_s: 61, is_exact: true, missing_images: 3 }, en);
+  expect(missing).toContain("3 images between them were not recorded");
+  expect(missing).not.toContain("replays exactly");
   expect(exportText({ ...FILE, from_s: 61, is_exact: false }, de)).toContain("nicht wiederholbar");
 });
 
