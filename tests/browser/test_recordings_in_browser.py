@@ -166,7 +166,9 @@ def test_a_piece_and_a_video_are_saved_and_an_instant_is_commented(
     expect(page.get_by_test_id("review-comment")).to_have_value("")
 
     page.get_by_test_id("review-video-save").click()
-    expect(exports).to_contain_text(f"{len(DRILLED)} images with their overlay.")
+    expect(exports).to_contain_text(
+        f"{len(DRILLED)} images, 0 with their overlay. The others say why they have none."
+    )
     picture(page, "exports")
     with page.expect_download() as film:
         page.get_by_test_id("review-export-download").click()

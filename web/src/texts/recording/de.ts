@@ -75,8 +75,8 @@ export const recordingDe: RecordingTexts = {
       exact: "Es ist exakt wiederholbar.",
       missing:
         "{missing} Bilder dazwischen wurden nicht aufgenommen; nach ihnen ist es ab dem nächsten gespeicherten Zustand wiederholbar.",
-      videoMade: "{images} Bilder mit Einblendung.",
-      undrawn: "{undrawn} davon sagen, warum ihnen Ergebnisse fehlen.",
+      videoMade: "{images} Bilder, {drawn} mit Einblendung.",
+      undrawn: "Die anderen sagen, warum sie keine haben.",
     },
     kinds: {
       navigation: "Navigation",

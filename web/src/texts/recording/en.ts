@@ -73,8 +73,8 @@ export const recordingEn = {
       exact: "It replays exactly.",
       missing:
         "{missing} images between them were not recorded; after these it replays from the next stored state on.",
-      videoMade: "{images} images with their overlay.",
-      undrawn: "{undrawn} of them say why they are without results.",
+      videoMade: "{images} images, {drawn} with their overlay.",
+      undrawn: "The others say why they have none.",
     },
     kinds: {
       navigation: "Navigation",
