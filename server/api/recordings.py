@@ -193,7 +193,8 @@ def recording_exports_router(exports: RecordingExports) -> APIRouter:
         """Cut out a part of a recording as a recording that replays exactly, in a job.
 
         It begins at the stored state of tracking before `from_s`, up to a minute earlier: `from_s` of the
-        result. `is_exact` is false where none is stored; `file` is to be downloaded.
+        result. `is_exact` is false where none is stored, and `missing_images` were not recorded between its
+        `images`; `file` is to be downloaded.
         """
         return job_message(exports.start_cut(name, requested.from_s, requested.to_s))
 

@@ -67,6 +67,8 @@ def cut(
         summary = cut_recording(file, target, from_s=from_s, to_s=to_s, report=lambda ratio, _: report(ratio))
     typer.echo(str(target))
     typer.echo(f"{summary.images} images, from {summary.from_s:.2f} to {summary.to_s:.2f} s")
+    if summary.missing_images:
+        typer.echo(f"{summary.missing_images} tracked images between them were not recorded")
     if not summary.is_exact:
         typer.echo("no state of tracking is stored before them, so that they cannot be replayed")
     elif summary.from_s < from_s:

@@ -37,10 +37,13 @@ class CutSummary:
         images: in the piece.
         from_s: of its first image, since the first image of the whole; a state is stored there.
         to_s: of its last image, likewise.
+        missing_images: tracked images between them that are not in the whole; after them a replay is exact
+            from the next state on only.
         is_exact: whether it begins with a state, without which it cannot be replayed.
     """
 
     images: int
+    missing_images: int
     from_s: float
     to_s: float
     is_exact: bool
@@ -107,6 +110,7 @@ def cut_recording(
         unfinished.unlink(missing_ok=True)
     return CutSummary(
         images=piece.images,
+        missing_images=piece.missing_images,
         from_s=begin.unix_s - first_s,
         to_s=piece.last_s - first_s,
         is_exact=begin.has_state,
@@ -144,7 +148,7 @@ def _begin(recording: Path, from_s: float, to_s: float) -> tuple[float, _Begin]:
 
 class _Piece:
     def __init__(self, copy: RecordingCopy, begin: _Begin, end_s: float) -> None:
-        self.images, self.last_s = 0, begin.unix_s
+        self.images, self.missing_images, self.last_s = 0, 0, begin.unix_s
         self._copy, self._begin, self._end_s = copy, begin, end_s
         self._lasting: dict[Topic, RecordedMessage] = {}
         self._has_begun = self._has_alarms = False
@@ -168,6 +172,8 @@ class _Piece:
         elif message.topic is Topic.ALARM_STEP and self._begin.has_state and not self._has_alarms:
             # Of images before the piece.
             return
+        elif message.topic is Topic.NOTE:
+            self.missing_images += int(message.json()["images"])
         self._copy.add(message)
         self._last_ns = max(self._last_ns, message.log_ns)
         if message.topic is Topic.SNAPSHOT:

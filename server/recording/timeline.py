@@ -21,11 +21,13 @@ from tracker.navigation import Status
 from tracker.navigation.alarms import AlarmState, Change
 
 # Grows with each change of what is stored; an index of another version is made again.
-VERSION = 1
+VERSION = 2
 SUFFIX = ".index.npz"
 FIGURES = ("entry", "angle", "depth", "wall")
 STATUSES = tuple(Status)
 PACKINGS = tuple(Packing)
+# A machine that is too slow loses images again and again, which is one event.
+MAX_NOTE_GAP_S = 5.0
 # Figures that are withheld for a shorter time are a gap of the curves and no event.
 MIN_WITHHELD_S = 0.3
 
@@ -239,6 +241,7 @@ class _Events:
         self._navigation: list[tuple[float, bool]] = []
         self._open: dict[int, tuple[float, str]] = {}
         self._alarms: list[tuple[float, float | None, str]] = []
+        self._noted: dict[str, float] = {}
         self._has_steps = False
 
     def add_step(self, unix_s: float, step: Json) -> None:
@@ -279,7 +282,11 @@ class _Events:
             )
 
     def add_note(self, unix_s: float, note: Json) -> None:
-        self._moments.append(TimelineEvent(kind="note", from_s=unix_s, code=str(note.get("code", ""))))
+        code = str(note.get("code", ""))
+        before_s = self._noted.get(code)
+        self._noted[code] = unix_s
+        if before_s is None or unix_s - before_s > MAX_NOTE_GAP_S:
+            self._moments.append(TimelineEvent(kind="note", from_s=unix_s, code=code))
 
     def events(self, begin_s: float, end_s: float) -> Iterable[TimelineEvent]:
         """Yield them in seconds since `begin_s`; what is not over by then ends at `end_s`, since the same."""

@@ -48,7 +48,7 @@ class RecordingCopy:
     ) -> None:
         try:
             if kind is None:
-                self._writer.finish()
+                self._writer.finish()  # type: ignore[no-untyped-call]
         finally:
             self._file.close()
 

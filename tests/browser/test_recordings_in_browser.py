@@ -2,7 +2,9 @@
 
 import re
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
+import av
 import pytest
 from playwright.sync_api import Page, expect
 
@@ -131,6 +133,59 @@ def test_any_instant_of_a_recording_is_reviewed(
         assert min(shape["width"], shape["height"]) >= 44, button.inner_text()
     page.get_by_test_id("review").scroll_into_view_if_needed()
     picture(page, f"review-{size[0]}")
+
+
+def test_a_piece_and_a_video_are_saved_and_an_instant_is_commented(
+    supervised: Supervised, watch: Watch, tmp_path: Path
+) -> None:
+    page = opened(watch, supervised, "o1", "operator/navigate", TABLET)
+    page.get_by_test_id("step-recordings").click()
+    row = "[data-name='20260101T000000Z-0000.mcap']"
+    page.locator(row).get_by_test_id("review-open").click()
+    shows(page, 0)
+    expect(page.get_by_test_id("review-piece-save")).to_be_disabled()
+    page.get_by_test_id("review-events").get_by_role("button", name="Alarm · BREACH").click()
+    page.get_by_test_id("review-piece-begin").click()
+    begin = int(page.get_by_test_id("review-instant").get_attribute("data-number") or -1)
+    page.get_by_test_id("review-after").click()
+    shows(page, begin + 1)
+    page.get_by_test_id("review-piece-end").click()
+    expect(page.get_by_test_id("review-piece")).to_be_visible()
+    page.get_by_test_id("review-piece-save").click()
+    exports = page.locator(".review-exports")
+    expect(exports).to_contain_text("2 images, from 0:02 on. No state of tracking is stored before them")
+    with page.expect_download() as piece:
+        page.get_by_test_id("review-export-download").click()
+    assert piece.value.suggested_filename.endswith("s.mcap")
+
+    page.get_by_test_id("review-comment").fill("Medial wall")
+    expect(page.get_by_test_id("review-comment-write")).to_have_text("Comment at 0:02")
+    page.get_by_test_id("review-comment-write").click()
+    commented = page.get_by_test_id("review-events").get_by_role("button", name="Comment · Medial wall · ")
+    expect(commented).to_be_visible()
+    expect(page.get_by_test_id("review-comment")).to_have_value("")
+
+    page.get_by_test_id("review-video-save").click()
+    expect(exports).to_contain_text(
+        f"{len(DRILLED)} images, 0 with their overlay. The others say why they have none."
+    )
+    picture(page, "exports")
+    with page.expect_download() as film:
+        page.get_by_test_id("review-export-download").click()
+    film.value.save_as(tmp_path / "case.mp4")
+    with av.open(str(tmp_path / "case.mp4")) as video:
+        assert sum(1 for _ in video.decode(video=0)) == len(DRILLED)
+
+    # A supervisor reads the comment and writes one, and takes nothing out.
+    page = opened(watch, supervised, "s1", "supervisor", PHONE)
+    page.get_by_test_id("fold-recordings").locator("summary").click()
+    page.locator(row).get_by_test_id("review-open").click()
+    shows(page, 0)
+    expect(page.get_by_test_id("review-events")).to_contain_text("Medial wall")
+    page.get_by_test_id("review-comment").fill("Seen")
+    page.get_by_test_id("review-comment-write").click()
+    expect(page.get_by_test_id("review-events")).to_contain_text("Comment · Seen · ")
+    assert page.get_by_test_id("review-video-save").count() == 0
 
 
 def test_the_operator_protects_and_deletes_a_recording(supervised: Supervised, watch: Watch) -> None:

@@ -113,6 +113,18 @@ def test_a_changed_byte_is_found(two_states: Path, tmp_path: Path, monkeypatch: 
     assert sorted(one.name for one in tmp_path.iterdir()) == ["piece.mcap", "two.mcap"]
 
 
+def test_a_piece_says_how_many_images_are_missing_in_it(made: Make, tmp_path: Path) -> None:
+    theatre = made("lost.mcap")
+    theatre.begin()
+    theatre.track(0)
+    for number in range(1, 7):
+        # The ring has four.
+        theatre.track(number, read=False)
+    theatre.read()
+    theatre.end()
+    assert cut_recording(theatre.path, tmp_path / "piece.mcap", from_s=0.0, to_s=9.0).missing_images == 2
+
+
 def test_a_recording_without_a_state_is_cut_at_the_image_and_says_that_it_cannot_be_replayed(
     led: Path, tmp_path: Path
 ) -> None:

@@ -7,7 +7,15 @@ import numpy as np
 import pytest
 
 from server.recording.review import sampled
-from server.recording.timeline import FIGURES, STATUSES, index_path, make_index, store_index, stored_index
+from server.recording.timeline import (
+    FIGURES,
+    STATUSES,
+    _Events,
+    index_path,
+    make_index,
+    store_index,
+    stored_index,
+)
 from server.recording_file import RecordingReader, Topic
 from server.recording_file.locations import MessageLocations, read_content, read_duration_s
 from tests.server.recording.reviewed import DRILLED, RATE_HZ, write_drilling
@@ -38,6 +46,18 @@ def test_a_cut_file_is_indexed_up_to_its_last_whole_message(drilling: Path, tmp_
     assert read_duration_s(drilling) == pytest.approx(len(DRILLED) / RATE_HZ, abs=0.2)
     whole = make_index(drilling)
     np.testing.assert_array_equal(index.values, whole.values[: len(index)])
+
+
+def test_images_that_are_lost_again_and_again_are_one_event() -> None:
+    events = _Events()
+    for at_s in (1.0, 2.0, 6.0, 20.0):
+        events.add_note(at_s, {"code": "IMAGES_MISSING"})
+    events.add_note(21.0, {"code": "STOPPED"})
+    assert [(one.from_s, one.code) for one in events.events(0.0, 30.0)] == [
+        (1.0, "IMAGES_MISSING"),
+        (20.0, "IMAGES_MISSING"),
+        (21.0, "STOPPED"),
+    ]
 
 
 def test_the_figures_are_those_of_the_snapshots_and_gaps_where_they_are_withheld(drilling: Path) -> None:

@@ -26,7 +26,7 @@ export function ConsentAnswers({ caseId, onAnswer }: ConsentAnswersProps): React
   };
   return (
     <>
-      <div className="enter-choices">
+      <div className="enter-choices consent-choices">
         <Button size="lg" loading={doing.busy} data-testid="consent-yes" onClick={() => void answer(true)}>
           {texts.yes}
         </Button>

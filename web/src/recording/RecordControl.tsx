@@ -58,7 +58,8 @@ export function RecordControl(): ReactNode {
           onClose={() => {
             setIsAsking(false);
           }}
-          title={texts.consent.title}
+          title={<strong className="consent-title">{texts.consent.title}</strong>}
+          size="lg"
           centered
           withCloseButton={false}
         >

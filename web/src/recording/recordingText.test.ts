@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { recordingEn } from "../texts/recording/en";
 import { recording } from "./recordingBuilder";
-import { clockDuration, recordingText, roughDuration, type Recording } from "./recordingText";
+import { clockDuration, clockTenths, recordingText, roughDuration, type Recording } from "./recordingText";
 
 const textOf = (changes: Partial<Recording>): ReturnType<typeof recordingText> =>
   recordingText(recording(changes), recordingEn);
@@ -47,4 +47,13 @@ test.each([
   [4e6, "> 100 h"],
 ])("%d s are roughly %s", (seconds, text) => {
   expect(roughDuration(seconds)).toBe(text);
+});
+
+test.each([
+  [0, "0:00.0"],
+  [2.4, "0:02.4"],
+  [59.9999999, "1:00.0"],
+  [3661.25, "1:01:01.2"],
+])("%d s with tenths is %s", (seconds, text) => {
+  expect(clockTenths(seconds)).toBe(text);
 });

@@ -64,3 +64,10 @@ export function roughDuration(seconds: number): string {
   const hours = Math.floor(seconds / 3600);
   return hours < 100 ? `${hours} h` : "> 100 h";
 }
+
+/** The same with tenths of a second: "0:12.3". */
+export function clockTenths(seconds: number): string {
+  // Times of images come with rounding errors of a microsecond.
+  const tenths = Math.floor(10 * seconds + 1e-4);
+  return `${clockDuration(Math.floor(tenths / 10))}.${tenths % 10}`;
+}

@@ -7,7 +7,7 @@ import { useAction } from "../../rest/useAction";
 import { isOver, useJob, type Job } from "../../rest/useJob";
 import { interpolate } from "../../texts/interpolate";
 import { useTexts } from "../../texts/TextsContext";
-import { clockDuration } from "../recordingText";
+import { clockTenths } from "../recordingText";
 import { exportOf, exportText, type RecordingExport } from "./recordingExport";
 import type { Span } from "./span";
 
@@ -58,7 +58,7 @@ export function Exports({ name, atS, durationS, piece, onPiece }: ExportsProps):
       <p className="soft" data-testid="review-piece-text">
         {piece === null
           ? own.whole
-          : interpolate(own.piece, { from: clockDuration(piece.fromS), to: clockDuration(piece.toS) })}
+          : interpolate(own.piece, { from: clockTenths(piece.fromS), to: clockTenths(piece.toS) })}
       </p>
       <div className="row">
         <Button

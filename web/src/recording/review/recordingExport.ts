@@ -12,6 +12,7 @@ export interface RecordingExport {
   images: number;
   from_s?: number;
   is_exact?: boolean;
+  missing_images?: number;
   undrawn?: number;
 }
 
@@ -19,12 +20,14 @@ export interface RecordingExport {
 export const exportOf = (job: Job): RecordingExport | null =>
   job.state === "done" ? (job.result as RecordingExport) : null;
 
-/** "120 images with their overlay. 14 MB" */
+/** "120 images, 120 with their overlay. 14.0 MB" */
 export function exportText(made: RecordingExport, texts: Texts): string {
   const own = texts.recording.review.exports;
-  const { images, is_exact, from_s = 0, undrawn = 0 } = made;
+  const { images, is_exact, from_s = 0, undrawn = 0, missing_images: missing = 0 } = made;
   const template = is_exact === undefined ? own.videoMade : is_exact ? own.pieceMade : own.pieceInexact;
-  const parts = [interpolate(template, { images, from: clockDuration(from_s) })];
-  if (undrawn > 0) parts.push(interpolate(own.undrawn, { undrawn }));
+  const parts = [interpolate(template, { images, drawn: images - undrawn, from: clockDuration(from_s) })];
+  if (missing > 0) parts.push(interpolate(own.missing, { missing }));
+  else if (is_exact === true) parts.push(own.exact);
+  if (undrawn > 0) parts.push(own.undrawn);
   return `${parts.join(" ")} ${formatBytes(made.size_bytes)}`;
 }

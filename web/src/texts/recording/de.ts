@@ -69,12 +69,14 @@ export const recordingDe: RecordingTexts = {
       savePiece: "Stück speichern",
       saveVideo: "Als Video speichern",
       download: "{file} herunterladen",
-      pieceMade:
-        "{images} Bilder ab {from}, wo ein Zustand der Verfolgung gespeichert ist. Es ist exakt wiederholbar.",
+      pieceMade: "{images} Bilder ab {from}, wo ein Zustand der Verfolgung gespeichert ist.",
       pieceInexact:
         "{images} Bilder ab {from}. Vor ihnen ist kein Zustand der Verfolgung gespeichert: nicht wiederholbar.",
-      videoMade: "{images} Bilder mit Einblendung.",
-      undrawn: "{undrawn} davon sagen, warum ihnen Ergebnisse fehlen.",
+      exact: "Es ist exakt wiederholbar.",
+      missing:
+        "{missing} Bilder dazwischen wurden nicht aufgenommen; nach ihnen ist es ab dem nächsten gespeicherten Zustand wiederholbar.",
+      videoMade: "{images} Bilder, {drawn} mit Einblendung.",
+      undrawn: "Die anderen sagen, warum sie keine haben.",
     },
     kinds: {
       navigation: "Navigation",

@@ -67,11 +67,14 @@ export const recordingEn = {
       savePiece: "Save piece",
       saveVideo: "Save as video",
       download: "Download {file}",
-      pieceMade: "{images} images, from {from} on, where a state of tracking is stored. It replays exactly.",
+      pieceMade: "{images} images, from {from} on, where a state of tracking is stored.",
       pieceInexact:
         "{images} images, from {from} on. No state of tracking is stored before them: it cannot be replayed.",
-      videoMade: "{images} images with their overlay.",
-      undrawn: "{undrawn} of them say why they are without results.",
+      exact: "It replays exactly.",
+      missing:
+        "{missing} images between them were not recorded; after these it replays from the next stored state on.",
+      videoMade: "{images} images, {drawn} with their overlay.",
+      undrawn: "The others say why they have none.",
     },
     kinds: {
       navigation: "Navigation",
