@@ -60,20 +60,20 @@ export const recordingDe: RecordingTexts = {
       write: "Kommentieren bei {time}",
     },
     exports: {
-      title: "Ausgeben",
+      title: "Exportieren",
       beginHere: "Stück beginnt hier",
       endHere: "Stück endet hier",
-      piece: "Stück: {from} bis {to}",
+      piece: "Stück: {from} bis {to}. Ein Video zeigt die ganze Aufnahme.",
       whole:
         "Für ein Stück einen Zeitpunkt als Beginn und einen als Ende wählen. Ein Video zeigt die ganze Aufnahme.",
       savePiece: "Stück speichern",
       saveVideo: "Als Video speichern",
       download: "{file} herunterladen",
       pieceMade:
-        "{images} Bilder ab {from}, wo ein Zustand der Verfolgung gespeichert ist. Es ist exakt wiederholbar.",
+        "{images} Bilder ab {from}, wo ein Zustand des Trackings gespeichert ist. Es ist exakt wiederholbar.",
       pieceInexact:
-        "{images} Bilder ab {from}. Vor ihnen ist kein Zustand der Verfolgung gespeichert: nicht wiederholbar.",
-      videoMade: "{images} Bilder mit Einblendung.",
+        "{images} Bilder ab {from}. Vor ihnen ist kein Zustand des Trackings gespeichert: nicht wiederholbar.",
+      videoMade: "{images} Bilder mit Overlay.",
       undrawn: "{undrawn} davon sagen, warum ihnen Ergebnisse fehlen.",
     },
     kinds: {
@@ -89,14 +89,14 @@ export const recordingDe: RecordingTexts = {
       IMAGES_MISSING: "Bilder fehlen",
       STEPS_MISSING: "Alarme fehlen",
       STATE_MISSING: "nicht exakt wiederholbar",
-      PROCESS_CHANGED: "Verfolgung neu gestartet",
+      PROCESS_CHANGED: "Tracking neu gestartet",
       STOPPED: "beendet",
       CUT: "aus einer anderen Aufnahme geschnitten",
     },
   },
   reasons: {
     RECORDING_DISK_FULL: "die Platte ist voll",
-    RECORDING_BUDGET_EXCEEDED: "alle Aufnahmen zusammen sind so groß, wie sie sein dürfen",
+    RECORDING_BUDGET_EXCEEDED: "alle Aufnahmen zusammen haben ihre Höchstgröße erreicht",
     RECORDING_NOT_WRITTEN: "die Platte ließ sich nicht beschreiben",
     RECORDING_PROCESS_ENDED: "ihr Prozess ist beendet",
   },
