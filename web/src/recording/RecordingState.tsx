@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { useProcedure } from "../app/procedure";
 import { useTexts } from "../texts/TextsContext";
-import { recordingText, type RecordingText } from "./recordingText";
+import { detailsLine, recordingText, type RecordingText } from "./recordingText";
 
 const SYMBOL: Record<RecordingText["state"], string> = { on: "●", off: "○", stopped: "▲" };
 
@@ -17,8 +17,9 @@ export function RecordingState({ testId = "recording-state" }: { testId?: string
     );
   }
   if (data.recording === null) return null;
-  const { state, title, details, warnings, serverReason } = recordingText(data.recording, texts);
-  const all = [...details, ...warnings.map((one) => `▲ ${one}`)].join(" · ");
+  const text = recordingText(data.recording, texts);
+  const { state, title, warnings, serverReason } = text;
+  const all = detailsLine(text);
   return (
     <p className="recording" data-state={state} data-testid={testId}>
       <span className="recording-title">

@@ -24,10 +24,12 @@ export function Recordings({ mayChange }: { mayChange: boolean }): ReactNode {
   const caseId = procedure?.case_id ?? null;
   // A recording that begins or ends changes the list.
   const running = procedure?.recording?.name ?? "";
+  // Its file is in the list only after its first bytes.
+  const isWritten = (procedure?.recording?.size_bytes ?? 0) > 0;
   const query = useQuery(
     async (signal) =>
       caseId === null ? null : (await answered(server.GET("/api/recordings", { signal }))).recordings,
-    { key: `${caseId ?? ""} ${running}` },
+    { key: `${caseId ?? ""} ${running} ${isWritten}` },
   );
   const [chosen, setChosen] = useState<string | null>(null);
   const { data, isLoading } = query;

@@ -1,7 +1,14 @@
 import { expect, test } from "vitest";
 import { recordingEn } from "../texts/recording/en";
 import { recording } from "./recordingBuilder";
-import { clockDuration, clockTenths, recordingText, roughDuration, type Recording } from "./recordingText";
+import {
+  clockDuration,
+  clockTenths,
+  detailsLine,
+  recordingText,
+  roughDuration,
+  type Recording,
+} from "./recordingText";
 
 const textOf = (changes: Partial<Recording>): ReturnType<typeof recordingText> =>
   recordingText(recording(changes), recordingEn);
@@ -21,6 +28,10 @@ test("missing images and a disk that is nearly full are warnings", () => {
   const { details, warnings } = textOf({ missing_images: 12, remaining_s: 599 });
   expect(details).toEqual(["1.2 GB"]);
   expect(warnings).toEqual(["disk lasts 9 min", "12 images missing"]);
+});
+
+test("warnings stand before what a narrow header may cut off", () => {
+  expect(detailsLine(textOf({ missing_images: 12 }))).toBe("▲ 12 images missing · 1.2 GB · disk lasts 3 h");
 });
 
 test("a recording that ended by itself says why, in the page's words where it has some", () => {

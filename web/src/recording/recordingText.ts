@@ -49,6 +49,10 @@ export function recordingText(recording: Recording, texts: RecordingTexts): Reco
   };
 }
 
+/** Warnings first: a narrow header cuts off the end. */
+export const detailsLine = ({ details, warnings }: RecordingText): string =>
+  [...warnings.map((one) => `▲ ${one}`), ...details].join(" · ");
+
 /** "0:07", "12:34", "1:02:03". */
 export function clockDuration(seconds: number): string {
   const all = Math.max(0, Math.floor(seconds));

@@ -144,7 +144,7 @@ export const de: Texts = {
     stage: "Stufe",
     time: "Zeit",
     skipped: "Übersprungene Bilder",
-    restarts: "Neustarts der Verfolgung",
+    restarts: "Neustarts des Trackings",
     images: "Bilder",
     size: "Bildgröße",
     clock: "Bildzeit von",

@@ -14,7 +14,7 @@ import { Player } from "./Player";
 import { ReviewTimeline } from "./ReviewTimeline";
 import { clampSpan, type Span } from "./span";
 import { SpanButtons } from "./SpanButtons";
-import { isWithin, MAX_SAMPLES, numberAt, type Curves, type Timeline } from "./timeline";
+import { isWithin, MAX_SAMPLES, mergedNotes, numberAt, type Curves, type Timeline } from "./timeline";
 import { usePlayback } from "./usePlayback";
 import { useShownInstant } from "./useShownInstant";
 
@@ -131,7 +131,7 @@ function Timed(props: TimedProps): ReactNode {
       <section aria-label={own.events}>
         <h4>{own.events}</h4>
         <ul className="review-events" data-testid="review-events">
-          {timeline.events
+          {mergedNotes(timeline.events)
             .filter((event) => isWithin(event, seen))
             .map((event) => (
               <li key={`${event.kind} ${event.code} ${event.from_s}`}>

@@ -2,6 +2,7 @@ import { expect, test } from "vitest";
 import {
   isWithin,
   maxStepMs,
+  mergedNotes,
   numberAt,
   rowsOf,
   samplesOf,
@@ -76,4 +77,26 @@ test("alarms at the same time stand in rows of their own", () => {
     [1, 3],
   ]);
   expect(rowsOf([])).toEqual([[]]);
+});
+
+test("equal notes close to one another are one, and other events between them stay", () => {
+  const event = (kind: RecordedEvent["kind"], code: string, from_s: number): RecordedEvent => ({
+    kind,
+    code,
+    from_s,
+    to_s: null,
+    title: null,
+    priority: null,
+    by: "",
+  });
+  const alarm = event("alarm", "BREACH", 12);
+  const missing = [10, 11, 14, 30].map((atS) => event("note", "IMAGES_MISSING", atS));
+  const [first, second, third, later] = missing as [
+    RecordedEvent,
+    RecordedEvent,
+    RecordedEvent,
+    RecordedEvent,
+  ];
+  expect(mergedNotes([first, second, alarm, third, later])).toEqual([{ ...first, to_s: 14 }, alarm, later]);
+  expect(mergedNotes([alarm, { ...alarm, from_s: 13 }])).toHaveLength(2);
 });

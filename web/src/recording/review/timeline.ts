@@ -48,6 +48,29 @@ export function numberAt({ at_s, numbers }: Curves, atS: number, images: number)
   return Math.min(Math.max(number, 0), Math.max(images - 1, 0));
 }
 
+/** Equal notes closer than this are one in the list: on a slow computer images are missing several times a second. */
+const MAX_NOTE_GAP_S = 5;
+
+/** Events with repeated notes merged into one from the first to the last; all others as they are. */
+export function mergedNotes(events: readonly RecordedEvent[]): RecordedEvent[] {
+  const merged: RecordedEvent[] = [];
+  const newest = new Map<string, number>();
+  for (const event of events) {
+    const at = newest.get(event.code);
+    const before = at === undefined ? undefined : merged[at];
+    const end = event.to_s ?? event.from_s;
+    if (event.kind !== "note") merged.push(event);
+    else if (
+      at !== undefined &&
+      before !== undefined &&
+      event.from_s - (before.to_s ?? before.from_s) <= MAX_NOTE_GAP_S
+    )
+      merged[at] = { ...before, to_s: end };
+    else newest.set(event.code, merged.push(event) - 1);
+  }
+  return merged;
+}
+
 /** The rows in which these stand without covering one another, the first begun first; each has at least one. */
 export function rowsOf(events: readonly RecordedEvent[]): RecordedEvent[][] {
   const rows: RecordedEvent[][] = [];

@@ -12,7 +12,7 @@ export const caseDe: CaseTexts = {
   },
   firstTitle: "Mit einem Fall beginnen",
   firstLead:
-    "Hier liegt noch kein Fall. Ein Fall enthält alles, was für einen Eingriff entsteht: Kalibrierung, Planung, Registrierung, Prüfungen und Alarme.",
+    "Es gibt noch keinen Fall. Ein Fall enthält alles, was für einen Eingriff entsteht: Kalibrierung, Planung, Registrierung, Prüfungen und Alarme.",
   newTitle: "Neuer Fall",
   name: "Name des Falls",
   nameHint: "So, wie das Team ihn nennt. Er steht auf jedem Bildschirm, also bitte ohne Patientennamen.",

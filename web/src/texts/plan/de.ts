@@ -154,7 +154,7 @@ export const planDe: PlanTexts = {
     moveHere: "Zum Kreuz versetzen",
     remove: "Entfernen",
     rehearsal: "Dies ist eine Probe: Ihr Bohrer berührt eigene Landmarken.",
-    takeRehearsed: "Landmarken der Probe nehmen",
+    takeRehearsed: "Landmarken des Probebetriebs nehmen",
     usual: {
       leftSuperior: "linker oberer Gelenkfortsatz",
       rightSuperior: "rechter oberer Gelenkfortsatz",

@@ -11,7 +11,7 @@ export const slicesDe: SlicesTexts = {
     previewAlt: "Erste Schicht des CT, das gerade gelesen wird",
     rehearsal: {
       hint: "Dies ist eine Probe. Ihr Wirbel hat ein eigenes CT.",
-      take: "CT der Probe nehmen",
+      take: "CT des Probebetriebs nehmen",
     },
     second: {
       title: "Ein weiteres CT macht die Arbeit auf diesem ungültig",

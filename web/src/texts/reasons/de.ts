@@ -15,15 +15,15 @@ export const reasonsDe: Pick<Texts, "cause" | "unseen"> = {
     "server-gone": { state: "SERVER WEG", sentence: "Keine Antwort vom Server. Neuer Versuch von selbst." },
     "process-starting": {
       state: "STARTET",
-      sentence: "Die Verfolgung wird gestartet. Das dauert einige Sekunden.",
+      sentence: "Das Tracking wird gestartet. Das dauert einige Sekunden.",
     },
     "process-restarting": {
       state: "STARTET NEU",
-      sentence: "Die Verfolgung blieb stehen und wird neu gestartet.",
+      sentence: "Das Tracking blieb stehen und wird neu gestartet.",
     },
     "process-given_up": {
       state: "VERFOLGUNG STEHT",
-      sentence: "Die Verfolgung ist zu oft ausgefallen. Siehe Meldung.",
+      sentence: "Das Tracking ist zu oft ausgefallen. Siehe Meldung.",
     },
     "source-opening": { state: "KAMERA WIRD GEÖFFNET", sentence: "Die Kamera wird geöffnet." },
     "source-reconnecting": {
@@ -33,7 +33,7 @@ export const reasonsDe: Pick<Texts, "cause" | "unseen"> = {
     "source-ended": { state: "ENDE DES VIDEOS", sentence: "Das Video ist bis zum Ende gespielt." },
     "no-image": { state: "WARTET", sentence: "Kein Bild von der Kamera." },
     "no-picture": { state: "WARTET", sentence: "Auf dieser Seite ist noch kein Bild angekommen." },
-    old: { state: "ZU ALT", sentence: "Das Letzte ist zu alt, um gezeigt zu werden." },
+    old: { state: "ZU ALT", sentence: "Die neuesten Daten sind zu alt und werden nicht gezeigt." },
   },
   unseen: {
     NO_CANDIDATE: "nichts im Bild sieht ihm ähnlich",

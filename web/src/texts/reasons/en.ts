@@ -24,7 +24,7 @@ export const reasonsEn: Pick<Texts, "cause" | "unseen"> = {
     "source-ended": { state: "END OF VIDEO", sentence: "The video has been played to its end." },
     "no-image": { state: "WAITING", sentence: "No image from the camera." },
     "no-picture": { state: "WAITING", sentence: "No picture has reached this page yet." },
-    old: { state: "TOO OLD", sentence: "What came last is too old to be shown." },
+    old: { state: "TOO OLD", sentence: "The newest data is too old and is not shown." },
   },
   unseen: {
     NO_CANDIDATE: "nothing in the image looks like it",

@@ -6,7 +6,7 @@ export const restartDe: RestartTexts = {
     server_started:
       "Der Server wurde neu gestartet. Bis zur Bestätigung wird nichts gegen den Kanal angezeigt.",
     tracking_started:
-      "Die Verfolgung wurde neu gestartet. Ob die Kamera inzwischen bewegt wurde, hat niemand gesehen.",
+      "Das Tracking wurde neu gestartet. Ob die Kamera inzwischen bewegt wurde, hat niemand gesehen.",
   },
   look: {
     reference: "Ist das der richtige Patient, und ist der Marker am Knochen unberührt?",

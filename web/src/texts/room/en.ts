@@ -1,6 +1,6 @@
 export const roomEn = {
   watching: "Watching",
-  unknown: "Who is watching is not known now.",
+  unknown: "Who is watching is not known at the moment.",
   you: "you",
   role: {
     operator: "operator",

@@ -4,7 +4,7 @@ export const shellDe: ShellTexts = {
   views: "Ansichten",
   view: { theatre: "Operationssaal", operator: "Bedienung", supervisor: "Aufsicht" },
   status: "Zustand des Systems",
-  tracking: "Verfolgung",
+  tracking: "Tracking",
   live: "Zahlen aktuell",
   none: "keine Zahlen",
 };

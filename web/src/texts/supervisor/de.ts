@@ -12,7 +12,7 @@ export const supervisorDe: SupervisorTexts = {
     line: "Leitung",
     notShown: "nicht geöffnet",
     gone: "nicht live",
-    good: "steht",
+    good: "verbunden",
     lost: "weg, verbindet neu",
   },
   hold: {

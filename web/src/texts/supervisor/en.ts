@@ -7,10 +7,10 @@ export const supervisorEn = {
     picture: "Picture",
     numbers: "Numbers",
     scene: "3-D",
-    line: "Line",
+    line: "Connection",
     notShown: "not opened",
     gone: "not live",
-    good: "stands",
+    good: "connected",
     lost: "gone, reconnecting",
   },
   hold: {

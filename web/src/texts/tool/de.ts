@@ -31,7 +31,7 @@ export const toolDe: ToolTexts = {
   ended: "Es wird nichts mehr aufgenommen.",
   takings: {
     taken: "✓ Lage aufgenommen",
-    no_picture: "▲▲ Kein Bild: Kamera oder Verfolgung steht",
+    no_picture: "▲▲ Kein Bild: Kamera oder Tracking steht",
     not_seen: "▲ Der Marker ist nicht zu sehen",
     too_uncertain: "▲ Die Lage ist zu unsicher: näher heran oder den Marker zur Kamera drehen",
     alone: "Suche …",
