@@ -1,7 +1,7 @@
 """The settings: what config.yaml may say, with the ranges that are allowed.
 
 Every limit has its one home here; screen, overlay and alarm read the same field. How a file becomes these
-records, and how a mistake in it is told, is in `server.config_file`.
+records, and how a mistake in it is reported, is in `server.config_file`.
 """
 
 from pathlib import Path

@@ -303,9 +303,13 @@ def build_setup(config: Config) -> Preparation:
     )
     if source_from_text(config.camera.source).kind is SourceKind.REHEARSAL:
         theatre = theatre_from_config(config.rehearsal)
-        brought = (theatre.marker,) if theatre.reference is None else (theatre.marker, theatre.reference)
+        theatre_models = (
+            (theatre.marker,) if theatre.reference is None else (theatre.marker, theatre.reference)
+        )
         named = config.reference.marker or ("" if theatre.reference is None else theatre.reference.name)
-        base = replace(bare, models=(*brought, *models), theatre=theatre, reference=named, readout_s=0.0)
+        base = replace(
+            bare, models=(*theatre_models, *models), theatre=theatre, reference=named, readout_s=0.0
+        )
         return _with_theatre_setup(base, theatre) if config.rehearsal.provides_setup else base
     return bare
 

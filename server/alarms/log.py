@@ -150,10 +150,10 @@ class StoredAlarmLog:
         lines: list[Line] = []
         for document in documents:
             stored = document.content.get("lines")
-            told_lines = (
+            valid_lines = (
                 [line for line in stored if isinstance(line, dict)] if isinstance(stored, list) else []
             )
-            lines += told_lines if document.imported is None else [_doubted(line) for line in told_lines]
+            lines += valid_lines if document.imported is None else [_doubted(line) for line in valid_lines]
         return lines[-count:]
 
     def stop(self) -> None:

@@ -67,11 +67,11 @@ def markers_router(step: MarkerStep, home: Home) -> APIRouter:
         """
         async with received(request, home, max_bytes=MAX_PICTURE_BYTES) as path:
 
-            def kept() -> KnownMarkerMessage:
+            def add_marker() -> KnownMarkerMessage:
                 step.add(name, side_mm=side_mm, picture=path, named=file[:100], made_by=made_by)
                 return _message(step.one(name))
 
-            return await to_thread.run_sync(kept)
+            return await to_thread.run_sync(add_marker)
 
     @router.get(
         "/{name}/picture",

@@ -44,7 +44,7 @@ def people_router(people: PeopleService | None, *, listens_everywhere: bool) -> 
     @router.post("/invitations", status_code=201, responses=rejections(409, 422, 503))
     def invite(requested: InviteRequest, request: Request) -> InvitedMessage:
         """Create an invitation; its link and QR code are only returned here."""
-        desk = _required(people)
+        service = _required(people)
         session_h = requested.session_lasts_h
         wanted = NewInvitation(
             name=requested.name,
@@ -54,7 +54,7 @@ def people_router(people: PeopleService | None, *, listens_everywhere: bool) -> 
             for_machine=requested.for_machine,
             session_lasts=None if session_h is None else timedelta(hours=session_h),
         )
-        invitation, token = desk.invite(wanted, by=actor_name(request.scope, None))
+        invitation, token = service.invite(wanted, by=actor_name(request.scope, None))
         note(
             {
                 "what": "invitation",

@@ -38,7 +38,7 @@ class ConsentRequest(Message):
     """Whether the patient consented."""
 
     case_id: Annotated[str, Field(min_length=1, max_length=64)]
-    """The case for which this was asked."""
+    """The case for which this was requested."""
     is_given: bool
 
 

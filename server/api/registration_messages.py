@@ -325,17 +325,17 @@ def nudges_message(status: NudgeStatus) -> NudgesMessage:
 
 def registration_message(stored: StoredRegistration, gate: RegistrationConfig) -> RegistrationMessage:
     """Return the message of a registration."""
-    kept: RegistrationRecord = stored.record
+    record: RegistrationRecord = stored.record
     return RegistrationMessage(
         heading=heading_message(stored.document, stored.validity),
-        vertebra=kept.vertebra,
-        method=kept.method,
-        anchored_to=kept.anchored_to,
-        reference=kept.reference or None,
-        anchor_from_vertebra=[list(row) for row in kept.anchor_from_vertebra],
-        covariance=[list(row) for row in kept.covariance],
-        numbers=dict(kept.numbers),
-        made_from=dict(kept.made_from),
+        vertebra=record.vertebra,
+        method=record.method,
+        anchored_to=record.anchored_to,
+        reference=record.reference or None,
+        anchor_from_vertebra=[list(row) for row in record.anchor_from_vertebra],
+        covariance=[list(row) for row in record.covariance],
+        numbers=dict(record.numbers),
+        made_from=dict(record.made_from),
         check=CheckRuleMessage(
             required=gate.check_required,
             max_mm=gate.max_check_mm,

@@ -30,7 +30,7 @@ average; a state without image and an alarm that changes are sent at once.
 
 `WS /ws/camera`: the page `/camera` sends the images of its device's camera, where `camera.source` is `phone`.
 Text messages are JSON with one key. The page sends `hello` with its key and receives `welcome`
-(size, rate, quality, largest part) or `refused` (an error). `note` is sent for each image and twice a second:
+(size, rate, quality, largest part) or `rejected` (error). `note` is sent for each image and twice a second:
 the page answers its `ping` with `pong` and its clock in ms. `credit` is the total number of images that the
 page may send. Each image is an `image` message (bytes, capture time, clock) and the JPEG in binary parts,
 preceded by `camera` with the settings of the browser. One page sends at a time; after 3 s of silence it

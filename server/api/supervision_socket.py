@@ -33,15 +33,15 @@ _log = structlog.get_logger(__name__)
 async def serve_room(websocket: WebSocket, *, room_hub: RoomHub, viewers: Viewers) -> None:
     """Serve a client in the room until it disconnects, stalls, or sends an invalid message."""
     await websocket.accept()
-    asked = websocket.query_params.get("view", "")
-    if asked not in set(View):
+    requested_view = websocket.query_params.get("view", "")
+    if requested_view not in set(View):
         await websocket.close(REJECTED, f"view is one of {', '.join(View)}")
         return
     person = person_of(websocket.scope)
     try:
         with (
             viewers.register(ViewerKind.ROOM, person=person),
-            room_hub.join(person, View(asked)) as here,
+            room_hub.join(person, View(requested_view)) as here,
         ):
             await _talk(websocket, room_hub, viewers, here)
     except TooManyViewers as full:

@@ -37,7 +37,7 @@ class KnownToolMessage(Message):
     marker: str | None
     radius_mm: float | None
     length_mm: float | None
-    kept: DocumentMessage | None
+    calibration: DocumentMessage | None
     """Its newest calibration in the open case, valid or not."""
     check: DocumentMessage | None
     """Its newest tip check."""
@@ -160,7 +160,7 @@ def _known(tool: KnownTool, step: ToolStep) -> KnownToolMessage:
         marker=None if configured is None else configured.marker,
         radius_mm=None if configured is None else configured.radius_mm,
         length_mm=None if configured is None else configured.length_mm,
-        kept=None if document is None else document_message(document, step.validity(document)),
+        calibration=None if document is None else document_message(document, step.validity(document)),
         check=None if tool.check is None else document_message(tool.check, step.validity(tool.check)),
     )
 

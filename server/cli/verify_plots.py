@@ -17,7 +17,7 @@ MIN_ERROR, MAX_ERROR = 0.01, 100.0
 
 
 def plots_of(theatres: Sequence[TheatreRows], figures: Figures) -> dict[str, str]:
-    """Pictures by name: `errors`, a curve for each variant; `coverage`, stated against held."""
+    """Pictures by name: `errors`, a curve for each variant; `coverage`, stated against observed."""
     variants = [one.variant for one in figures.variants if one.quantities]
     tool_errors = {variant: _errors_of(theatres, variant) for variant in variants}
     return {
@@ -27,7 +27,7 @@ def plots_of(theatres: Sequence[TheatreRows], figures: Figures) -> dict[str, str
             [_errors_panel(name, variants, tool_errors) for name in QUANTITIES],
         ),
         "coverage": _page(
-            "Share of images whose truth is held (up) by the region stated for this share (across)",
+            "Share of images whose truth lies in the region (up) stated for this share (across)",
             variants,
             [_coverage_panel(name, variants, tool_errors) for name in QUANTITIES],
         ),

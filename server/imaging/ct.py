@@ -47,10 +47,10 @@ class SeriesDescription:
         images: how many slices there are.
         size_wh_px: columns and rows of a slice; zeros where the slices differ.
         pixel_mm: distance between columns and between rows; zeros if unknown.
-        thickness_mm: as told by the scanner, 0 if unknown.
+        thickness_mm: as stated by the scanner, 0 if unknown.
         kernel: the filter with which it was computed ("Br38f"); empty if unknown.
         compression: the name of its transfer syntax.
-        trouble: why this series cannot be planned on; empty if nothing is known against it.
+        problem: why this series cannot be used for a plan; empty if no reason is known.
     """
 
     series: str

@@ -121,7 +121,7 @@ def _parsed(content: bytes, file_format: str) -> "trimesh.Trimesh":
     import trimesh  # noqa: PLC0415  see above
 
     try:
-        # Coordinates that are no numbers are refused by name, not warned of in passing.
+        # Coordinates that are no numbers are rejected by name, not warned of in passing.
         with np.errstate(all="ignore"):
             mesh = trimesh.load_mesh(
                 io.BytesIO(content), file_type=file_format, process=False, resolver=None, skip_materials=True

@@ -63,7 +63,7 @@ def run_work(
     *,
     is_answer: bool,
 ) -> None:
-    """The whole life of the process. `is_answer`: what comes out is told as it is, not concluded first."""
+    """The whole life of the process. `is_answer`: the result is sent as it is, not concluded first."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     die_with_parent()
     configure_logging(settings, process="job")

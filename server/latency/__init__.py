@@ -4,7 +4,7 @@ codes.py        the codes: the bit patterns that a page draws, and how long each
 reading.py      the code in an image
 clocks.py       the server's clock on the page's time axis, from questions and answers
 statistics.py   median, 99th percentile and stages from times of painting, capture and showing; pure
-record.py       a result as it is kept
+record.py       a result as it is stored
 """
 
 from server.latency.clocks import ClockComparison

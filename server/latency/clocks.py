@@ -7,7 +7,7 @@ import numpy as np
 
 # Answers that took longer than the fastest one by more than this say less of the clocks than of the line.
 MAX_EXTRA_MS = 2.0
-# Below this span a drift cannot be told from the noise of the line.
+# Below this span a drift cannot be distinguished from network jitter.
 MIN_SPAN_MS = 5000.0
 # Quartz clocks differ by less; a steeper slope is noise of the line.
 MAX_DRIFT_RATIO = 500e-6

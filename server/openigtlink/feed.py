@@ -1,8 +1,8 @@
 """What one client gets now, and what it must no longer take for valid.
 
-A client shows the last pose until it gets another, or is told that there is none. So for each device it is
+A client shows the last pose until it gets another, or a message that there is none. So for each device it is
 known until when what the client has may be shown, by the limits of the page (`limits` in the settings), and
-at that time the client is told, also when no image comes any more.
+at that time the client is notified, also when no image comes any more.
 """
 
 from collections.abc import Iterable
@@ -56,7 +56,7 @@ class Feed:
 
     @property
     def expires_at_s(self) -> float:
-        """When the client must be told that something is too old; infinity if it has nothing."""
+        """When the client must be notified that something is too old; infinity if it has nothing."""
         return min(self._valid_until_s.values(), default=inf)
 
     def messages(self, contents: InstantContents, *, now_s: float, unix_offset_s: float) -> list[Message]:
@@ -88,7 +88,7 @@ class Feed:
         return sent
 
     def expired(self, *, now_s: float, unix_offset_s: float) -> list[Message]:
-        """Return what the client has to be told of what is too old by now."""
+        """Return the messages about what is too old by now."""
         old = [device for device, until_s in self._valid_until_s.items() if not now_s <= until_s]
         self._valid_until_s |= dict.fromkeys(old, inf)
         if PROGRAM in old:

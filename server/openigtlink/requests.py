@@ -44,7 +44,7 @@ class RequestReader:
         """Yield each message that is complete now, or the error of one whose body was damaged on the way.
 
         Raises:
-            WireError: what follows cannot be told apart.
+            WireError: where the next message begins is unknown.
             OversizeError: a header announces a body that is too long; it is never waited for.
             TooManyRequestsError: more than 20 messages a second on average.
         """

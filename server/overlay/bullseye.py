@@ -117,7 +117,7 @@ def draw_bullseye(image: Image, inset: Inset, target: Target) -> None:
 
 
 def _clamped(place_mm: Array, tip_mm: Array, extent_mm: float) -> Array:
-    """A place held within reach, along its line from the tip; the tip itself where there is none."""
+    """Clamp a place to the extent along its line from the tip; return the tip itself where there is none."""
     if not np.isfinite(place_mm).all():
         return tip_mm
     way = place_mm - tip_mm

@@ -14,7 +14,7 @@ from tracker.geometry import Array
 Image: TypeAlias = npt.NDArray[np.uint8]
 Colour: TypeAlias = tuple[int, int, int]
 
-# BGR. Blue and orange are told apart with every kind of colour blindness; each also differs in form.
+# BGR. Blue and orange are distinguished with every kind of colour blindness; each also differs in form.
 PLAN_BLUE: Colour = (245, 185, 80)
 DRILL_ORANGE: Colour = (20, 150, 255)
 WHITE: Colour = (255, 255, 255)
@@ -110,6 +110,6 @@ def _font() -> "cv2.FontFace":
 
 
 def _fixed_point(run: Array) -> npt.NDArray[np.int32]:
-    """OpenCV's whole numbers for sub-pixel drawing, held within what it can draw."""
+    """OpenCV's whole numbers for sub-pixel drawing, clamped to what it can draw."""
     bounded = np.nan_to_num(np.clip(run, -FARTHEST_PX, FARTHEST_PX), copy=False)
     return np.round(bounded * (1 << SUBPIXEL_BITS)).astype(np.int32).reshape(-1, 1, 2)

@@ -68,7 +68,7 @@ def _dots(board: DotBoard, dot_mm: float | None) -> Iterator[Disc]:
     if not 0.0 < widest_mm <= MAX_DOT_RATIO * nearest_mm:
         raise InvalidInput(
             "BOARD_DOTS_UNPRINTABLE",
-            f"dots {widest_mm:g} mm wide with {nearest_mm:.3g} mm from one to the next cannot be told apart, "
+            f"dots {widest_mm:g} mm wide with {nearest_mm:.3g} mm from one to the next cannot be separated, "
             f"allowed above 0 to {MAX_DOT_RATIO * nearest_mm:.3g} mm",
             "Give a smaller --dot-mm, or a larger --pitch-mm; larger dots are half as wide again.",
             {"dot_mm": dot_mm, "nearest_mm": float(nearest_mm)},

@@ -58,7 +58,7 @@ def board_sheet(board: Board, *, paper: str = "A4", dot_mm: float | None = None)
 
 
 def description_of(board: Board) -> str:
-    """The board in a line, as it is told to `coaxial calibrate`."""
+    """The board in a line, as an argument of `coaxial calibrate`."""
     size = f"{board.columns}x{board.rows}"
     if isinstance(board, DotBoard):
         asymmetric = " asymmetric" if board.layout is DotLayout.ASYMMETRIC else ""

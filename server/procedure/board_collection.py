@@ -200,7 +200,7 @@ class BoardCollection:
         if len(self._taken) >= MAX_VIEWS:
             raise InvalidInput(
                 "VIEWS_ENOUGH",
-                f"{MAX_VIEWS} views are taken, which is the most that are kept",
+                f"{MAX_VIEWS} views are taken, which is the maximum",
                 "Calibrate with them, or start again.",
                 {"views": MAX_VIEWS},
             )

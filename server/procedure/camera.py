@@ -186,7 +186,7 @@ class CameraStep:
         if not rms_px <= self._gate.max_rms_px:
             raise CalibrationError(
                 "CALIBRATION_ABOVE_GATE",
-                f"points lie off by {rms_px} px RMS, allowed {self._gate.max_rms_px:g} px; nothing was kept",
+                f"points lie off by {rms_px} px RMS, allowed {self._gate.max_rms_px:g} px; it is not stored",
                 "Take sharp views of a flat, stiff board, or look at the report for views that do not fit.",
                 {"rms_px": rms_px, "max_rms_px": self._gate.max_rms_px},
             )

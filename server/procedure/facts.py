@@ -1,4 +1,4 @@
-"""What the alarms are told of the procedure: what is out of date, and when was last checked."""
+"""What the alarms need of the procedure: what is out of date, and the time of the last check."""
 
 from server.alarms import ProcedureFacts
 from server.procedure.state import ProcedureState, StepName, StepState

@@ -162,7 +162,7 @@ class LatencyMeasurement:
         if images >= MAX_IMAGES:
             raise SetupOrderError(
                 "LATENCY_TOO_LONG",
-                f"the code was looked for in {images} images, which is the most that are kept",
+                f"the code was looked for in {images} images, which is the maximum",
                 "Measure again, with the camera at the screen before you begin.",
                 {"images": images},
             )

@@ -14,7 +14,7 @@ class ConsentState(StrEnum):
     """What is known about the consent."""
 
     NOT_REQUIRED = "not_required"  # recording.consent
-    NOT_ASKED = "not_asked"
+    NOT_ANSWERED = "not_answered"
     GIVEN = "given"
     NOT_GIVEN = "not_given"
 
@@ -55,7 +55,7 @@ def stored_consent(store: CaseStore, case_id: str) -> Consent:
     """
     document = store.latest(case_id, DocumentKind.CONSENT, NAME)
     if document is None or document.imported is not None:
-        return Consent(state=ConsentState.NOT_ASKED)
+        return Consent(state=ConsentState.NOT_ANSWERED)
     record = parse_document(
         ConsentRecord, document, code="CONSENT_DOCUMENT_INVALID", remedy="Answer the question again."
     )

@@ -51,7 +51,7 @@ STATUS_PERIOD_S = 0.25
 MIN_REQUEST_INTERVAL_S = 5.0
 # A piece that is cut out begins with a state. One takes tracking 2 ms, and 4 MB of the file.
 STATE_PERIOD_S = 60.0
-# Packed images that wait for a state; more are dropped and noted.
+# Packed images that wait for a state; more are dropped and recorded as missing.
 MAX_WAITING_BYTES = 256 * 2**20
 
 Write: TypeAlias = Callable[[], None]

@@ -1,7 +1,7 @@
 """One recording as the web process sees it: its process, and what is sent to it.
 
 Publisher and alarms only append to a queue; a thread sends. If the recording process does not read for so
-long that the queue is full, steps of the alarms are dropped and noted: nothing here waits for a disk.
+long that the queue is full, alarm steps are dropped and recorded as missing: nothing here waits for a disk.
 """
 
 import contextlib

@@ -151,7 +151,7 @@ class RecordingService:
         # By file, with its size and time of change, for which they are true.
         self._durations: dict[Path, tuple[tuple[int, int], float | None]] = {}
         self._failed_at_s = -RETRY_AFTER_S
-        self._is_held_off = False
+        self._is_autostart_suspended = False
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._follow, name="recordings", daemon=True)
 
@@ -177,7 +177,9 @@ class RecordingService:
         case = self._store.get_open_case()
         if self._config.recording.consent == "not_required":
             return Consent(state=ConsentState.NOT_REQUIRED)
-        return Consent(state=ConsentState.NOT_ASKED) if case is None else stored_consent(self._store, case.id)
+        return (
+            Consent(state=ConsentState.NOT_ANSWERED) if case is None else stored_consent(self._store, case.id)
+        )
 
     def answer_consent(self, case_id: str, *, is_given: bool, made_by: str) -> Consent:
         """Store whether the patient consented to recordings of the open case; end the running one if not.
@@ -234,14 +236,14 @@ class RecordingService:
         with self._lock:
             if self._running is None:
                 self._begin()
-            self._is_held_off = False
+            self._is_autostart_suspended = False
         return self.state
 
     def stop(self) -> RecordingState:
         """Stop the recording, wait until its file is closed, and return the state."""
         with self._lock:
             # Until navigation ends it is not started again by itself.
-            self._is_held_off = True
+            self._is_autostart_suspended = True
             self._problem = None
         self._alarms.set_recording_runs(runs=True)
         self._end("somebody stopped it")
@@ -472,8 +474,10 @@ class RecordingService:
             is_running = self._running is not None
             waits = time.monotonic() - self._failed_at_s < RETRY_AFTER_S
             if not navigates:
-                self._is_held_off = False
-            is_due = navigates and case is not None and not (is_running or waits or self._is_held_off)
+                self._is_autostart_suspended = False
+            is_due = (
+                navigates and case is not None and not (is_running or waits or self._is_autostart_suspended)
+            )
         # Without consent it does not start, which is no problem of the recording.
         is_due = is_due and self.consent.state.permits_recording
         if is_running and not navigates:

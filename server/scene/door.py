@@ -72,7 +72,7 @@ class Door(viser.ViserServer):
 
         A viewer that is slow skips: only the newest of each pose is kept, once for all viewers.
         """
-        # What was removed from the scene need not be told to somebody who never saw it.
+        # What was removed from the scene need not be sent to a viewer that never got it.
         self._run_garbage_collector()
         await _message_producer(
             cast(Any, _Line(send)),
@@ -87,6 +87,6 @@ class Door(viser.ViserServer):
         self._thread_executor.shutdown(wait=False)
 
     def request_share_url(self, verbose: bool = True) -> str | None:
-        """Refused: the theatre is not shown through somebody else's tunnel."""
+        """Raise PermissionError: the theatre is not shown through somebody else's tunnel."""
         del verbose
         raise PermissionError("the scene has no share tunnel")

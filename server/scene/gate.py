@@ -60,7 +60,7 @@ class Gate:
 
     @property
     def goodbye(self) -> bool:
-        """Whether this viewer has sent so much that is refused that it must go."""
+        """Whether this viewer is disconnected for too many rejected messages."""
         return self.rejections > REJECTIONS_BEFORE_GOODBYE
 
     def _verdict(self, message: bytes | str | None) -> Verdict:

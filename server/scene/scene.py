@@ -1,4 +1,4 @@
-"""The scene as a part of the application: its two addresses, its follower, its viewers."""
+"""The scene as a part of the application: its two addresses, its update task, its viewers."""
 
 import asyncio
 import contextlib
@@ -90,7 +90,7 @@ class Scene:
         self._door: Door | None = None
         self._stage: Stage | None = None
         self._instant: Instant | None = None
-        self._follower: asyncio.Task[None] | None = None
+        self._update_task: asyncio.Task[None] | None = None
         self.viewers = 0
         self.slow_viewers = 0
         self.counts: dict[Verdict, int] = dict.fromkeys(Verdict, 0)
@@ -102,11 +102,11 @@ class Scene:
         ]
 
     async def start(self) -> None:
-        """Begin to follow. Call it in the application's event loop."""
+        """Start the update task. Call it in the application's event loop."""
         self._loop = asyncio.get_running_loop()
         self._is_running = True
-        self._follower = asyncio.create_task(self._follow(), name="scene follower")
-        self._follower.add_done_callback(_say_why)
+        self._update_task = asyncio.create_task(self._update(), name="scene update")
+        self._update_task.add_done_callback(_log_end)
 
     async def _opened_page(self) -> "Page":
         """Return the page; the first call loads viser and makes the stage.
@@ -135,17 +135,17 @@ class Scene:
             self._stage.show_surface(self._surface)
 
     async def stop(self) -> None:
-        """Let the viewers go and end the follower."""
+        """Disconnect the viewers and stop the update task."""
         self._is_running = False
-        if self._follower is not None:
-            self._follower.cancel()
+        if self._update_task is not None:
+            self._update_task.cancel()
             with contextlib.suppress(asyncio.CancelledError):
-                await self._follower
+                await self._update_task
         if self._door is not None:
             self._door.stop()
-        self._door = self._stage = self._follower = None
+        self._door = self._stage = self._update_task = None
 
-    async def _follow(self) -> None:
+    async def _update(self) -> None:
         sequence = -1
         while True:
             try:
@@ -277,10 +277,10 @@ def _loaded_page(stale_after_ms: float) -> "Page":
     return make_page(stale_after_ms=stale_after_ms, silent_after_ms=max(MIN_SILENCE_MS, 6 * stale_after_ms))
 
 
-def _say_why(follower: asyncio.Task[None]) -> None:
-    """A follower that ends by itself leaves every viewer with a stale scene; the log must say why."""
-    if not follower.cancelled() and (error := follower.exception()) is not None:
-        _log.critical("scene_follower_died", exc_info=error)
+def _log_end(task: asyncio.Task[None]) -> None:
+    """Log why the update task ended by itself, which leaves every viewer with a stale scene."""
+    if not task.cancelled() and (error := task.exception()) is not None:
+        _log.critical("scene_update_died", exc_info=error)
 
 
 def mount_scene(

@@ -6,7 +6,7 @@ import numpy as np
 
 from tracker.geometry import Array
 
-KEPT_S = 10.0
+SPAN_S = 10.0
 EVERY_S = 0.1
 # A tip that was away for longer came back from elsewhere.
 LONGEST_GAP_S = 1.0
@@ -27,7 +27,7 @@ class Trace:
         if self._places and at_s - self._places[-1][0] < EVERY_S:
             return False
         self._places.append((at_s, np.asarray(tip_mm, dtype=np.float64)))
-        while at_s - self._places[0][0] > KEPT_S:
+        while at_s - self._places[0][0] > SPAN_S:
             self._places.popleft()
         return True
 

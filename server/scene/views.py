@@ -1,6 +1,6 @@
 """From where a viewer looks: from behind the patient, along the channel, or as the camera does.
 
-Each view is told as three hidden nodes, its eye, what it looks at, and what is up; `watch.js` puts the viewer
+Each view is sent as three hidden nodes, its eye, what it looks at, and what is up; `watch.js` puts the viewer
 there. So a viewer changes the view without asking the server, and follows it when it moves.
 """
 

@@ -32,7 +32,7 @@ async def run_audited(
     entry: Entry,
     keeps_answer: bool = False,
 ) -> None:
-    """Run the application; hold the response back until its audit entry, with all noted changes, is written.
+    """Run the application; hold the response back until its audit entry, with all changes, is written.
 
     If it cannot be written, the response is replaced by an error that says that the action was done; with
     `keeps_answer` the response stays and only the server's log reports the failure.

@@ -141,7 +141,7 @@ class PeopleRejected(NavigationError):
             "TOO_MANY_PEOPLE",
             f"{count} open invitations and sessions would be stored, allowed are {allowed}",
             "Revoke invitations and end sessions that are not needed.",
-            {"kept": count, "allowed": allowed},
+            {"stored": count, "allowed": allowed},
         )
 
 

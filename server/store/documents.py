@@ -120,7 +120,7 @@ def versions(session: Session, case_id: str, kind: DocumentKind, name: str) -> t
 
 
 def every_document(session: Session, case_id: str) -> Iterator[Document]:
-    """All documents of a case, one after the other, each after those that it stands on."""
+    """All documents of a case, one after the other, each after those that it depends on."""
     bases, files = links_of(session, case_id)
     for row in session.scalars(
         select(DocumentRow)

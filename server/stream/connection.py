@@ -53,9 +53,9 @@ class Connection:
     def unsent_bytes(self) -> int:
         """Bytes in the write buffers of this process."""
         below = below_tls(self.transport)
-        held = self.transport.get_write_buffer_size()
+        buffered_bytes = self.transport.get_write_buffer_size()
         # Encrypted bytes lie in the transport below, where TLS does not count them itself.
-        return held if below is None else held + below.get_write_buffer_size()
+        return buffered_bytes if below is None else buffered_bytes + below.get_write_buffer_size()
 
     async def drained(self, *, timeout_s: float) -> None:
         """Wait until the write buffer is empty: only then is the next message chosen.

@@ -96,7 +96,7 @@ class ViewRequests:
         requested: set while the next image may be sent.
         at_s: time of the last request, monotonic.
         showing_s: time that the client reported for displaying the last image.
-        pace: spacing of the images that the client asked for.
+        pace: spacing of the images that the client requested.
     """
 
     def __init__(self, viewer: Viewer) -> None:

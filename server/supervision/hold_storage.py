@@ -103,5 +103,5 @@ class HoldRequestFile:
             sync_folder(self._folder)
 
 
-def _requested(told_line: Mapping[str, Any]) -> HoldRequest:
-    return HoldRequest(person_id=str(told_line["id"]), name=str(told_line["name"]), at=str(told_line["at"]))
+def _requested(entry: Mapping[str, Any]) -> HoldRequest:
+    return HoldRequest(person_id=str(entry["id"]), name=str(entry["name"]), at=str(entry["at"]))

@@ -196,7 +196,7 @@ class SignatureService:
                 "SIGNED_VERSION_OLD",
                 f"the {what.value} was changed since it was displayed: it is {document.title} now",
                 "Look at the newest version, then sign that one.",
-                {"newest_id": document.id, "asked_id": document_id},
+                {"newest_id": document.id, "requested_id": document_id},
             )
         if person.id != LOCAL_USER.id and may_have_made(person.name, document):
             taken_in = "" if document.imported is None else f", and taken in by {document.imported.by}"

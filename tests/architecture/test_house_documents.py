@@ -145,7 +145,7 @@ def test_every_source_that_is_named_exists(document: Path) -> None:
 
 
 def test_a_source_that_was_renamed_is_found() -> None:
-    named = sources_named("`service.py`, `alarms/service.py`, `desk.py`, `web/src/App.tsx` and `make test`")
-    assert named == {"service.py", "alarms/service.py", "desk.py", "web/src/App.tsx"}
+    named = sources_named("`service.py`, `alarms/service.py`, `gone.py`, `web/src/App.tsx` and `make test`")
+    assert named == {"service.py", "alarms/service.py", "gone.py", "web/src/App.tsx"}
     sources = ["server/alarms/service.py", "web/src/App.tsx"]
-    assert [name for name in sorted(named) if not is_source(name, sources)] == ["desk.py"]
+    assert [name for name in sorted(named) if not is_source(name, sources)] == ["gone.py"]

@@ -49,7 +49,7 @@ def versions(lock: str) -> dict[str, str]:
     return {match[1]: match[2] for match in matches if match}
 
 
-def asked_for() -> dict[str, list[str]]:
+def required_packages() -> dict[str, list[str]]:
     """Names that pyproject.toml asks for, by the lock that must hold them."""
     project: dict[str, Any] = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     groups = project["dependency-groups"]
@@ -92,7 +92,7 @@ def test_what_must_not_be_in_a_lock_is_seen(line: str, fault: str) -> None:
 
 @pytest.mark.parametrize("lock", LOCKS)
 def test_a_lock_holds_what_the_project_asks_for(lock: str) -> None:
-    assert set(asked_for()[lock]) <= versions(lock).keys()
+    assert set(required_packages()[lock]) <= versions(lock).keys()
 
 
 @pytest.mark.parametrize(

@@ -121,10 +121,10 @@ def test_an_interval_holds_the_true_share_as_often_as_it_says() -> None:
     low, high = interval(24, 24, 1.96)
     assert (round(low, 2), round(high, 2)) == (0.86, 1.0)
     counts = np.random.default_rng(3).binomial(60, 0.95, 2000)
-    held = [
+    covered = [
         interval(int(count), 60, 1.96)[0] <= 0.95 <= interval(int(count), 60, 1.96)[1] for count in counts
     ]
-    assert 0.92 < np.mean(held) < 0.99
+    assert 0.92 < np.mean(covered) < 0.99
 
 
 def test_figures_are_read_as_they_were_written_and_other_sections_stay(tmp_path: Path) -> None:

@@ -232,7 +232,7 @@ def begun(ending: ExitStack, port: int) -> Feeder:
     alarms = AlarmService(config)
     feeder = Feeder(hub, alarms)
     door = ending.enter_context(socket.create_server(("127.0.0.1", port), reuse_port=False))
-    app = create_app(kept_parts(ending, AppParts(hub=hub, config=config, setup=setup(), alarms=alarms)))
+    app = create_app(parts_with_store(ending, AppParts(hub=hub, config=config, setup=setup(), alarms=alarms)))
     said = uvicorn.Config(app, log_level="error", lifespan="on", timeout_graceful_shutdown=FAREWELL_S)
     server = uvicorn.Server(said)
     serving = threading.Thread(target=server.run, args=([door],), name="web server", daemon=True)
@@ -250,7 +250,7 @@ def begun(ending: ExitStack, port: int) -> Feeder:
     return feeder
 
 
-def kept_parts(ending: ExitStack, parts: AppParts) -> AppParts:
+def parts_with_store(ending: ExitStack, parts: AppParts) -> AppParts:
     """The same with an empty folder for cases, which goes at the end."""
     home = ending.enter_context(Home(Path(ending.enter_context(TemporaryDirectory()))))
     store = ending.enter_context(CaseStore(home))

@@ -33,8 +33,10 @@ def prepared(home: Path, rehearsal: RehearsalConfig) -> Theatre:
             "size_wh_px": list(camera.size_wh_px),
             "source": "rehearsal",
         }
-        kept = store.put(case.id, DocumentKind.CAMERA, "main", {"camera": values}, made_by="test")
-        store.put(case.id, DocumentKind.TOOL, "drill", tool_content(), made_by="test", depends_on=[kept.id])
+        calibration = store.put(case.id, DocumentKind.CAMERA, "main", {"camera": values}, made_by="test")
+        store.put(
+            case.id, DocumentKind.TOOL, "drill", tool_content(), made_by="test", depends_on=[calibration.id]
+        )
         volume = rehearsal_ct(spacing_mm=SPACING_MM)
         with store.new_file(case.id, ".npy") as new:
             np.save(new.path, volume.hu)

@@ -89,7 +89,7 @@ def test_numbers_stand_out_more_than_words_have_to(
     page = opened("/theatre", THEATRE)
     shared_theatre.tell("deep")
     expect(page.locator("[data-reading=depth]")).to_have_attribute(
-        "data-standing", "through", timeout=PATIENCE_MS
+        "data-status", "through", timeout=PATIENCE_MS
     )
     enhanced = {"runOnly": {"type": "rule", "values": ["color-contrast-enhanced"]}}
     found = page.evaluate(

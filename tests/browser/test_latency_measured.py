@@ -43,7 +43,7 @@ def filming(camera: ScreenCamera, tmp_path_factory: pytest.TempPathFactory) -> I
 def page(camera: ScreenCamera, filming: RealServer, watch: Callable[..., WatchedPage]) -> Page:
     """The camera's page, with the camera before it."""
     camera.delay_s, camera.covered = SHORT_S, False
-    # A measurement that is refused is a 409, which the browser writes into its console.
+    # A measurement that is rejected is a 409, which the browser writes into its console.
     watched = watch(filming, strict=False)
     page = watched.page
 

@@ -79,7 +79,7 @@ RECORDER = f"""(() => {{
             if (!around?.checkVisibility({{ visibilityProperty: true }})) continue;
             if (wrong.some((one) => node.data.includes(one))) seen.push(node.data);
             // What the server has told may be an alarm.
-            else if (!window.told && around.closest("[role=alert]")) seen.push(node.data);
+            else if (!window.isAnswered && around.closest("[role=alert]")) seen.push(node.data);
         }}
     }};
     new MutationObserver((records) => {{
@@ -101,7 +101,7 @@ class Loading:
     def __init__(self, watched: WatchedPage, *, rejects: bool = False) -> None:
         self.page = watched.page
         self._rejects = rejects
-        self._held: dict[str, list[Route]] = {"session": [], "rest": [], "live": []}
+        self._pending: dict[str, list[Route]] = {"session": [], "rest": [], "live": []}
         self._lines: list[WebSocketRoute] = []
         self._open: set[str] = set()
         self.page.add_init_script(RECORDER)
@@ -121,10 +121,10 @@ class Loading:
         """Let the session, all other answers (rest), or what is live go, from now on."""
         self._open.update(kinds)
         if kinds != ("session",):
-            self.page.evaluate("window.told = true")
+            self.page.evaluate("window.isAnswered = true")
         for kind in kinds:
-            while self._held[kind]:
-                self._held[kind].pop().continue_()
+            while self._pending[kind]:
+                self._pending[kind].pop().continue_()
         if "live" in kinds:
             while self._lines:
                 self._lines.pop().close()
@@ -164,7 +164,7 @@ class Loading:
         if kind in self._open:
             route.continue_()
         else:
-            self._held[kind].append(route)
+            self._pending[kind].append(route)
 
     def _line(self, line: WebSocketRoute) -> None:
         if "live" in self._open:
@@ -183,7 +183,7 @@ def supervised() -> Iterator[Supervised]:
 
 
 def begun(watch: Watch, server: Supervised, person: str, path: str, *, rejects: bool = False) -> Loading:
-    # This server's CT has no slices, and the browser writes each refusal into its console.
+    # This server's CT has no slices, and the browser writes each rejection into its console.
     watched = watch(server, 1180, 820, strict=path != "operator/plan")
     address = f"http://127.0.0.1:{server.port}"
     watched.page.context.add_cookies([{"name": "person", "value": person, "url": address}])

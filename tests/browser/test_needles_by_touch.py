@@ -58,8 +58,8 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RealServer]:
 
 @pytest.fixture
 def tablet(server: RealServer, browser: Browser) -> Iterator[Tablet]:
-    with tablet_at(browser, server.port, patience_ms=PATIENCE_MS) as held:
-        yield held
+    with tablet_at(browser, server.port, patience_ms=PATIENCE_MS) as opened:
+        yield opened
 
 
 def test_one_failed_answer_does_not_end_the_work_on_the_plan(tablet: Tablet) -> None:
@@ -74,12 +74,12 @@ def test_one_failed_answer_does_not_end_the_work_on_the_plan(tablet: Tablet) -> 
     message = "the case is being written"
     problem = {"code": "STORE_BUSY", "message": message, "remedy": "Wait.", "context": {}}
 
-    def refuse(route: Route) -> None:
+    def reject(route: Route) -> None:
         route.fulfill(status=409, json=problem)
 
-    page.route("**/api/procedure", refuse)
+    page.route("**/api/procedure", reject)
     expect(page.get_by_text(message)).to_be_visible()
-    page.unroute("**/api/procedure", refuse)
+    page.unroute("**/api/procedure", reject)
     expect(page.get_by_text(message)).to_be_hidden()
     expect(name).to_be_visible()
 

@@ -113,11 +113,11 @@ def test_images_of_a_browsers_camera_arrive_in_their_size_and_in_order(
     expect(page.get_by_test_id("phone-server")).to_be_visible()
     page.screenshot(path=SCREENSHOTS / "phone_upright.png")
 
-    # A second device is refused with a sentence, and the first one goes on.
+    # A second device is rejected with a sentence, and the first one goes on.
     second = opened(browser, port, LYING)
     second.screenshot(path=SCREENSHOTS / "phone_lying_idle.png")
     touch_start(second)
-    expect(second.get_by_test_id("phone-trouble")).to_contain_text("PHONE_TAKEN")
+    expect(second.get_by_test_id("phone-problem")).to_contain_text("PHONE_TAKEN")
     second.screenshot(path=SCREENSHOTS / "phone_lying_rejected.png")
     assert source.read() is not None
 

@@ -34,16 +34,16 @@ expect.set_options(timeout=PATIENCE_MS)
 # Stands in the page before its own script does, and writes down when what happened.
 RECORDER = """(() => {
     if (window.parent !== window) return;
-    const kept = window.kept = { panes: [], heardAt: 0, firstHeardAt: null, tries: [], longestPause: 0 };
+    const log = window.log = { panes: [], heardAt: 0, firstHeardAt: null, tries: [], longestPause: 0 };
     new MutationObserver((records) => {
         for (const { target } of records) {
             const { testid, live } = target.dataset;
-            kept.panes.push({ at: performance.now(), pane: testid, live });
+            log.panes.push({ at: performance.now(), pane: testid, live });
         }
     }).observe(document, { subtree: true, attributes: true, attributeFilter: ["data-live"] });
     let last = performance.now();
     setInterval(() => {
-        kept.longestPause = Math.max(kept.longestPause, performance.now() - last);
+        log.longestPause = Math.max(log.longestPause, performance.now() - last);
         last = performance.now();
     }, 20);
     const Own = window.WebSocket;
@@ -51,12 +51,12 @@ RECORDER = """(() => {
         constructor(...given) {
             super(...given);
             const address = String(given[0]);
-            if (address.includes("/ws/view")) kept.tries.push(performance.now());
+            if (address.includes("/ws/view")) log.tries.push(performance.now());
             // Figures come with a message of their own, often before the first picture.
             else if (!address.includes("/ws/live")) return;
             this.addEventListener("message", () => {
-                kept.heardAt = performance.now();
-                kept.firstHeardAt ??= kept.heardAt;
+                log.heardAt = performance.now();
+                log.firstHeardAt ??= log.heardAt;
             });
         }
     };
@@ -123,7 +123,7 @@ def first_changes(page: Page, *, live: bool) -> dict[str, float]:
     return {
         pane: next(
             (one["at"] for one in changes if one["pane"] == pane and one["live"] == wanted),
-            page.evaluate("kept.heardAt"),
+            page.evaluate("log.heardAt"),
         )
         for pane in PANES
     }
@@ -148,20 +148,20 @@ def recorded(watched: WatchedPage) -> Iterator[Page]:
 
 def absence(page: Page, *, go: Callable[[], None], come: Callable[[], None]) -> Absence:
     """Have the server go, and come again when it was gone for 5 s of the page's time."""
-    page.evaluate("Object.assign(kept, { panes: [], tries: [], longestPause: 0 })")
+    page.evaluate("Object.assign(log, { panes: [], tries: [], longestPause: 0 })")
     go()
     all_live(page, live=False)
     says_gone(page)
-    last_heard = page.evaluate("kept.heardAt")
+    last_heard = page.evaluate("log.heardAt")
     said = first_changes(page, live=False)
-    page.wait_for_function("forMs => performance.now() - kept.heardAt > forMs", arg=GONE_FOR_MS)
-    page.evaluate("Object.assign(kept, { panes: [], firstHeardAt: null })")
+    page.wait_for_function("forMs => performance.now() - log.heardAt > forMs", arg=GONE_FOR_MS)
+    page.evaluate("Object.assign(log, { panes: [], firstHeardAt: null })")
     come()
     returned = page.evaluate("performance.now()")
     all_live(page, live=True)
     is_right_again(page)
     right = first_changes(page, live=True)
-    stored = page.evaluate("kept")
+    stored = page.evaluate("log")
     tries = [last_heard, *stored["tries"]]
     return Absence(
         said_ms={pane: at - last_heard for pane, at in said.items()},

@@ -120,10 +120,10 @@ def hold_is_heard(theatre: Page, sato: Page) -> None:
     sato.get_by_test_id("hold-ask").click()
     sato.get_by_test_id("hold-ask").click()
     expect(theatre.get_by_test_id("alarms")).to_contain_text("Dr Sato")
-    expect(sato.get_by_test_id("hold")).to_have_attribute("data-asked", "true")
+    expect(sato.get_by_test_id("hold")).to_have_attribute("data-requested", "true")
     picture(theatre, "hold-in-theatre")
     sato.get_by_test_id("hold-release").click()
-    expect(sato.get_by_test_id("hold")).to_have_attribute("data-asked", "false")
+    expect(sato.get_by_test_id("hold")).to_have_attribute("data-requested", "false")
 
 
 @pytest.mark.parametrize(("width", "height"), [(1920, 1080), (390, 844)])

@@ -54,8 +54,8 @@ def server(tmp_path: Path) -> Iterator[RealServer]:
 
 @pytest.fixture
 def tablet(browser: Browser, server: RealServer) -> Iterator[Tablet]:
-    with tablet_at(browser, server.port, patience_ms=PATIENCE_MS) as held:
-        yield held
+    with tablet_at(browser, server.port, patience_ms=PATIENCE_MS) as opened:
+        yield opened
 
 
 @pytest.mark.timeout(1500)
@@ -156,7 +156,7 @@ def in_theatre(browser: Browser, server: RealServer, tablet: Tablet, sato: Watch
     expect(tablet.page.get_by_test_id("alarms")).to_contain_text("Dr Sato", timeout=PATIENCE_MS)
     page.screenshot(path=SCREENSHOTS / "three-hold.png")
     sato.page.get_by_test_id("hold-release").click()
-    expect(sato.page.get_by_test_id("hold")).to_have_attribute("data-asked", "false", timeout=PATIENCE_MS)
+    expect(sato.page.get_by_test_id("hold")).to_have_attribute("data-requested", "false", timeout=PATIENCE_MS)
     left(screen)
 
 

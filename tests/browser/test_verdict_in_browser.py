@@ -82,7 +82,7 @@ def test_a_breach_from_the_path_to_its_acknowledgement(page: Page, shared_theatr
     shared_theatre.tell("entry")
     headline(page, "▲ CORRECT 2.4 mm medial, 1.3 mm caudal", "caution")
     expect(page.get_by_test_id("headline-detail")).to_have_text("entry 2.7 mm, limit 1.8 mm")
-    expect(page.locator("[data-reading=entry]")).to_have_attribute("data-standing", "over")
+    expect(page.locator("[data-reading=entry]")).to_have_attribute("data-status", "over")
     keep(page, "entry-over")
     shared_theatre.tell("near")
     headline(page, "◆ NEAR MEDIAL WALL 0.5 mm", "warning")

@@ -97,7 +97,7 @@ class WatchedPage:
             self._complain(message.text)
 
     def _complain(self, text: str) -> None:
-        # viser's client tries to evaluate a string, is refused by the scene's own policy (the page's names
+        # viser's client tries to evaluate a string, is rejected by the scene's own policy (the page's names
         # no wasm), and goes on without.
         if not ("Evaluating a string as JavaScript" in text and "wasm-unsafe-eval" in text):
             self.complaints.append(text)

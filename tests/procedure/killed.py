@@ -97,7 +97,7 @@ class Theatre:
             self._start()
         one.back_s = time.monotonic() - began_s
         one.broken += self._promised.broken(self._server)
-        one.broken += self._steps_kept(one.target)
+        one.broken += self._changed_steps(one.target)
         one.stopped_by = self._goes_on_once_confirmed(one)
         self._promised.observe(self._server)
         return one
@@ -137,8 +137,8 @@ class Theatre:
         is_another = family_of(self._server.process.pid).tracking is not None and live["snapshot"] is not None
         return {**live["process"], "state": live["process"]["state"] if is_another else "none"}
 
-    def _steps_kept(self, target: str) -> Iterator[str]:
-        """Tell of steps that stand otherwise; after a start a camera that nobody watched is to be checked."""
+    def _changed_steps(self, target: str) -> Iterator[str]:
+        """Yield the steps whose state changed; after a start the check of an unwatched camera is due."""
         allowed = {"navigate"} if target == "tracking" or self._reference else {"check", "navigate"}
         for step, (was, now) in self._promised.changed_steps(self._server).items():
             if step not in allowed:

@@ -44,7 +44,7 @@ class RealServer:
         return answer.json() if answer.content else None
 
     def rejected(self, method: str, path: str, code: str, **sent: Any) -> Any:  # noqa: ANN401  JSON
-        """The refusal of a step out of its turn: its code, a sentence with what happened, what to do."""
+        """The rejection of a step out of its turn: its code, a sentence with what happened, what to do."""
         reported = self.ask(method, path, 409, **sent)
         assert reported["code"] == code, reported
         assert reported["message"]

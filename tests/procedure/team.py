@@ -186,12 +186,12 @@ class Team:
         self.play("check")
         landmark = self.theatre.check_landmark.name
 
-        def held() -> bool:
+        def is_captured() -> bool:
             self.server.until("the tip at rest", lambda: self.touched() == landmark)
             self.server.ask("POST", CHECK, 201, json={**DRILL, "landmark": landmark})
             return str(self._captured_at(CHECK)["capture"]["state"]) == "taken"
 
-        self.server.until("a tip that was held still", held)
+        self.server.until("a tip that was held still", is_captured)
         return dict(self.server.ask("POST", f"{CHECK}/conclusion", 201, json=BY)["content"])
 
     def steps(self) -> dict[str, str]:
@@ -200,7 +200,7 @@ class Team:
         return {one["step"]: one["state"] for one in reported["steps"]}
 
     def waits_for(self, step: str, code: str) -> None:
-        """The server says that this is to be done now, and refuses to register before it."""
+        """The server says that this is to be done now, and rejects a registration before it."""
         assert self.server.ask("GET", "/api/procedure", 200)["next_step"] == step
         self.server.rejected("POST", POINTS, code, json=DRILL)
 

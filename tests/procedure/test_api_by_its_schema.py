@@ -20,7 +20,7 @@ from schemathesis.specs.openapi.checks import (
 from tests.procedure.conftest import serving
 from tests.served import served
 
-# A refusal of what the description lets through is no fault: what a case allows is in no schema.
+# A rejection of what the description lets through is no fault: what a case allows is in no schema.
 CHECKS = [
     not_a_server_error,
     status_code_conformance,

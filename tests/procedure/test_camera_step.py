@@ -193,7 +193,7 @@ def test_views_are_taken_by_themselves_from_the_live_images(server: Server) -> N
         pytest.param([0] * 5, "VIEWS_FROM_ONE_PLACE", id="all-from-one-place"),
     ],
 )
-def test_views_that_say_too_little_are_refused_and_nothing_is_kept(
+def test_views_that_say_too_little_are_rejected_and_nothing_is_kept(
     server: Server, views: slice | list[int], code: str
 ) -> None:
     case_id = open_a_case(server)
@@ -203,8 +203,8 @@ def test_views_that_say_too_little_are_refused_and_nothing_is_kept(
     for image in some:
         server.ask("POST", "/api/camera/collection/images", 201, content=png(image))
     answer = server.door.post("/api/camera/calibration", json={"made_by": "ito"})
-    asked_for = answer.status_code == 202
-    problem = server.done(answer.json())["problem"] if asked_for else answer.json()
+    is_started = answer.status_code == 202
+    problem = server.done(answer.json())["problem"] if is_started else answer.json()
     assert problem["code"] == code, problem
     assert problem["remedy"]
     assert server.ask("GET", f"/api/cases/{case_id}/documents", 200)["documents"] == []
@@ -223,7 +223,7 @@ def test_views_that_say_too_little_are_refused_and_nothing_is_kept(
         pytest.param(png(np.full((200, 300), 128, np.uint8)), "BOARD_NOT_FOUND", id="no-board-in-it"),
     ],
 )
-def test_an_image_that_cannot_be_used_is_refused(server: Server, content: bytes, code: str) -> None:
+def test_an_image_that_cannot_be_used_is_rejected(server: Server, content: bytes, code: str) -> None:
     server.ask("POST", "/api/camera/collection", 201, json={"board": DOTS})
     answer = server.ask("POST", "/api/camera/collection/images", 422, content=content)
     assert answer["code"] == code
@@ -236,7 +236,7 @@ def test_without_an_open_case_nothing_is_computed(server: Server) -> None:
     assert server.ask("GET", "/api/jobs", 200) == {"jobs": []}
 
 
-def test_a_board_that_cannot_be_is_refused_with_what_is_allowed(server: Server) -> None:
+def test_a_board_that_cannot_be_is_rejected_with_what_is_allowed(server: Server) -> None:
     board = {**DOTS, "fiducials": [900]}
     rejected = server.ask("POST", "/api/camera/collection", 422, json={"board": board})
     assert rejected["code"] == "BOARD_INVALID"

@@ -213,13 +213,13 @@ def test_a_signature_says_who_invited_the_signer_and_whether_that_was_the_maker(
     case_id = planned(server)
     change_plan(server, case_id, made_by=" ITO ")
     sign(server, "plan", "s1")
-    with collect_changes() as noted:
+    with collect_changes() as changes:
         reported = sign(server, "plan", "s3")["signable"][0]["signatures"]
     assert [(one["by"], one["invited_by"], one["invited_by_maker"]) for one in reported] == [
         ("Dr Sato", "", False),
         ("Dr Lee", "ito", True),
     ]
-    (line,) = [dict(one) for one in noted if "invited_by" in one]
+    (line,) = [dict(one) for one in changes if "invited_by" in one]
     assert line == {
         "what": "signature",
         "of": "plan 'main' version 2",

@@ -1,4 +1,4 @@
-"""A CT through the door: sent, read, looked at, refused, cancelled, and there again after a restart."""
+"""A CT through the door: sent, read, looked at, rejected, cancelled, and there again after a restart."""
 
 import gc
 import json

@@ -1,9 +1,9 @@
-"""What OpenAPI says of refusals is what is answered, at every address."""
+"""What OpenAPI says of rejections is what is answered, at every address."""
 
 from tests.procedure.conftest import Server
 
 
-def test_every_refusal_is_documented_in_the_shape_that_it_has(server: Server) -> None:
+def test_every_rejection_is_documented_in_the_shape_that_it_has(server: Server) -> None:
     document = server.ask("GET", "/api/openapi.json", 200)
     rejections = {
         (method, path, status): answer.get("content", {}).get("application/json", {}).get("schema")
@@ -17,6 +17,6 @@ def test_every_refusal_is_documented_in_the_shape_that_it_has(server: Server) ->
     ours = {"$ref": "#/components/schemas/ProblemMessage"}
     assert {where: schema for where, schema in rejections.items() if schema != ours} == {}
     assert "ValidationError" not in str(document)
-    # One that the framework itself refuses.
+    # One that the framework itself rejects.
     reported = server.ask("GET", "/api/cases/none/archive", 422, params={"with_identity": "perhaps"})
     assert set(reported) == set(document["components"]["schemas"]["ProblemMessage"]["required"])

@@ -117,17 +117,19 @@ def contents(wheel: Path) -> dict[str, bytes]:
 
 
 def test_it_holds_program_page_guide_and_settings_and_nothing_else(built: Built) -> None:
-    held = contents(built.wheel)
-    assert {name.split("/")[0] for name in held} == {"server", "tracker", "coaxial-0.1.0.dist-info"}
-    assert set(in_git("server", "tracker")) <= held.keys()
+    members = contents(built.wheel)
+    assert {name.split("/")[0] for name in members} == {"server", "tracker", "coaxial-0.1.0.dist-info"}
+    assert set(in_git("server", "tracker")) <= members.keys()
     of_page = {
         f"server/page/{file.relative_to(ROOT / 'web/dist').as_posix()}"
         for file in files_in(ROOT / "web/dist")
     }
-    assert of_page <= held.keys()
-    assert {"server/page/index.html", "server/guide/index.html", "server/config.yaml"} <= held.keys()
+    assert of_page <= members.keys()
+    assert {"server/page/index.html", "server/guide/index.html", "server/config.yaml"} <= members.keys()
     assert [
-        name for name in held if re.search(r"(^|/)(tests|node_modules|__pycache__)/|\.(nb[ic]|mcap)$", name)
+        name
+        for name in members
+        if re.search(r"(^|/)(tests|node_modules|__pycache__)/|\.(nb[ic]|mcap)$", name)
     ] == []
 
 
@@ -145,15 +147,15 @@ def test_it_names_no_folder_of_its_builder(built: Built) -> None:
 def test_the_source_archive_lacks_nothing_and_has_nothing_that_is_no_source(built: Built) -> None:
     assert contents(built.wheel_of_sdist) == contents(built.wheel)
     with tarfile.open(built.sdist) as archive:
-        held = {name.split("/", 1)[1] for name in archive.getnames()}
-    made = {name for name in held if name.startswith(("web/dist/", "docs/site/"))}
-    assert held - made == {*in_git(), "PKG-INFO"}
+        members = {name.split("/", 1)[1] for name in archive.getnames()}
+    made = {name for name in members if name.startswith(("web/dist/", "docs/site/"))}
+    assert members - made == {*in_git(), "PKG-INFO"}
 
 
 def test_its_metadata_are_those_of_the_project(built: Built) -> None:
     project = PYPROJECT["project"]
-    held = contents(built.wheel)
-    metadata = email.message_from_bytes(held["coaxial-0.1.0.dist-info/METADATA"])
+    members = contents(built.wheel)
+    metadata = email.message_from_bytes(members["coaxial-0.1.0.dist-info/METADATA"])
     required = [re.sub(r"[\s'\"]", "", one) for one in metadata.get_all("Requires-Dist", [])]
     needed = {one.split(">")[0].split("=")[0] for one in project["dependencies"]}
     assert {re.split(r"[<>=;]", one)[0] for one in required if "extra==" not in one} == {
@@ -162,7 +164,7 @@ def test_its_metadata_are_those_of_the_project(built: Built) -> None:
     assert set(metadata.get_all("Provides-Extra", [])) == set(project["optional-dependencies"])
     assert metadata["License-Expression"] == "Apache-2.0"
     assert "not a medical device" in metadata["Summary"]
-    assert b"coaxial = server.__main__:main" in held["coaxial-0.1.0.dist-info/entry_points.txt"]
+    assert b"coaxial = server.__main__:main" in members["coaxial-0.1.0.dist-info/entry_points.txt"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

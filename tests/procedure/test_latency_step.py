@@ -134,7 +134,9 @@ def test_a_result_does_not_apply_to_images_of_another_size_or_a_lower_rate(serve
     assert applies == [True, False, False]
 
 
-def test_a_camera_that_looks_elsewhere_is_refused_in_numbers_and_leaves_what_was_kept(server: Server) -> None:
+def test_a_camera_that_looks_elsewhere_is_rejected_in_numbers_and_leaves_what_was_kept(
+    server: Server,
+) -> None:
     begun(server)
     stored = server.ask("POST", CONCLUSION, 201, json=film(server, list(range(CODES))))
     begun(server)
@@ -167,7 +169,7 @@ def test_without_images_nothing_is_measured(server: Server) -> None:
         pytest.param({"count": 20}, id="a-word-that-is-not-known"),
     ],
 )
-def test_a_plan_that_cannot_be_is_refused(server: Server, changed: dict[str, Any]) -> None:
+def test_a_plan_that_cannot_be_is_rejected(server: Server, changed: dict[str, Any]) -> None:
     begun(server)
     assert server.ask("POST", MEASUREMENT, 422, json=changed)["code"] == "REQUEST_INVALID"
 

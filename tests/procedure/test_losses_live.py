@@ -20,12 +20,12 @@ EVENTS = (
     RehearsalEventConfig(kind="reference_occluded", at_s=6.5, lasts_s=1.5),
     RehearsalEventConfig(kind="camera_stops", at_s=10.0, lasts_s=2.0),
 )
-ALL_TOLD = {"pose": "tool", "deviation": "deviation", "judgement": "judgement", "assessment": "assessment"}
+ALL_PRESENT = {"pose": "tool", "deviation": "deviation", "judgement": "judgement", "assessment": "assessment"}
 
 
 def kinds(tool: dict[str, Any]) -> dict[str, str]:
-    """What is told of a tool, and what is absent."""
-    return {name: tool[name]["kind"] for name in ALL_TOLD}
+    """Return the kind of each value of a tool."""
+    return {name: tool[name]["kind"] for name in ALL_PRESENT}
 
 
 @pytest.mark.timeout(900)
@@ -55,9 +55,9 @@ def test_what_is_lost_is_not_reported_in_any_message_and_its_alarm_comes(tmp_pat
                     reasons[lost].add(tool["deviation"]["reason"])
                     alarms[lost] |= {one["condition"] for one in message["alarms"]["alarms"]}
                 elif truth.at_s > 2.5:
-                    alarms["nothing"] |= {"told"} if kinds(tool) == ALL_TOLD else set()
+                    alarms["nothing"] |= {"present"} if kinds(tool) == ALL_PRESENT else set()
         assert reasons == {"drill": {"MARKER_UNSEEN"}, "reference": {"REFERENCE_UNSEEN"}}
-        assert "told" in alarms["nothing"]
+        assert "present" in alarms["nothing"]
         assert "DRILL_UNSEEN" in alarms["drill"]
         assert "REFERENCE_UNSEEN" in alarms["reference"]
         assert "CAMERA_GONE" in alarms["camera"]

@@ -114,7 +114,7 @@ def test_marker_whose_picture_is_damaged_is_left_out_and_can_be_taken_away(serve
         pytest.param(None, {"name": "a b"}, 422, "REQUEST_INVALID", id="a-name-with-a-blank"),
     ],
 )
-def test_what_cannot_be_a_marker_is_refused_and_nothing_changes(
+def test_what_cannot_be_a_marker_is_rejected_and_nothing_changes(
     server: Server, image: np.ndarray | None, changed: dict[str, object], status: int, code: str
 ) -> None:
     open_a_case(server)
@@ -137,17 +137,21 @@ def test_tool_behind_a_changed_marker_is_out_of_date(server: Server, how: str) -
     gather(server, Scene.PIVOT, "pivot", marker="awl")
     server.ask("POST", "/api/tools/collection/conclusion", 201, json={**BY, **SHAPE})
     (tool,) = server.ask("GET", "/api/tools", 200)["tools"]
-    assert (tool["name"], tool["from_settings"], tool["kept"]["heading"]["current"]) == ("drill", False, True)
-    assert tool["kept"]["content"]["side_mm"] == 25.0
+    assert (tool["name"], tool["from_settings"], tool["calibration"]["heading"]["current"]) == (
+        "drill",
+        False,
+        True,
+    )
+    assert tool["calibration"]["content"]["side_mm"] == 25.0
     (marker,) = server.store.all(case_id, DocumentKind.MARKER)
-    assert marker.id in tool["kept"]["heading"]["depends_on"]
+    assert marker.id in tool["calibration"]["heading"]["depends_on"]
     if how == "replaced":
         send(server, side_mm=24.0)
     else:
         server.ask("DELETE", "/api/markers/awl", 204, params=BY)
     (tool,) = server.ask("GET", "/api/tools", 200)["tools"]
-    assert not tool["kept"]["heading"]["current"]
-    assert "awl" in tool["kept"]["heading"]["out_of_date"]
+    assert not tool["calibration"]["heading"]["current"]
+    assert "awl" in tool["calibration"]["heading"]["out_of_date"]
     assert server.adopted[-1].tools == {}
 
 

@@ -1,4 +1,4 @@
-"""Plan and patient are registered by needles through the door: marked, under the laid slice, or refused."""
+"""Plan and patient are registered by needles through the door: marked, under the laid slice, or rejected."""
 
 from typing import Any
 
@@ -34,8 +34,8 @@ NEEDLES = "/api/registration/needles"
 CAMERA = Theatre(TheatreSettings()).camera
 VIEW = {"vertical_mm": 380.0, "horizontal_mm": 240.0}
 MEASURED = RulerMeasurement(vertical_mm=380.0, horizontal_mm=240.0)
-STANDING_ON = ["left transverse process", "right transverse process", "spinous process"]
-MIDDLE = np.mean([LANDMARKS[name] for name in STANDING_ON], axis=0)
+NEEDLE_LANDMARKS = ["left transverse process", "right transverse process", "spinous process"]
+MIDDLE = np.mean([LANDMARKS[name] for name in NEEDLE_LANDMARKS], axis=0)
 IMAGE = np.full((CAMERA.size_wh_px[1], CAMERA.size_wh_px[0], 3), 90, np.uint8)
 UP_MM = np.array([0.0, 40.0, 0.0])
 ORIGIN_LPS_MM = (-50.0, -40.0, -5.0)
@@ -104,7 +104,7 @@ def test_needles_that_are_marked_register_and_say_what_they_cannot_see(server: S
     ready(server)
     patient = Patient(server=server, camera_from_vertebra=truth())
     patient.show(None, image=IMAGE)
-    requested = {"view": VIEW, "landmarks": STANDING_ON, "marked": marked(STANDING_ON)}
+    requested = {"view": VIEW, "landmarks": NEEDLE_LANDMARKS, "marked": marked(NEEDLE_LANDMARKS)}
     document = server.ask("POST", f"{NEEDLES}/conclusion", 201, json={**requested, **BY})
     numbers = document["content"]["numbers"]
     assert document["content"]["method"] == "needles"
@@ -118,7 +118,7 @@ def test_needles_that_are_marked_register_and_say_what_they_cannot_see(server: S
     off = found.anchor_from_vertebra.move_points(MIDDLE) - truth().move_points(MIDDLE)
     assert np.linalg.norm(off) < 2.0
     assert withheld(server) is AbsentReason.NOT_CHECKED
-    used = {**DRILL, "landmark": STANDING_ON[0]}
+    used = {**DRILL, "landmark": NEEDLE_LANDMARKS[0]}
     assert server.ask("POST", "/api/registration/check", 409, json=used)["code"] == "LANDMARK_WAS_USED"
     server.ask("POST", "/api/registration/check", 201, json={**DRILL, "landmark": "left lamina"})
 
@@ -185,14 +185,14 @@ def test_needles_that_the_software_finds_are_proposed_and_kept_when_a_person_has
 ) -> None:
     ready(server)
     patient = Patient(server=server, camera_from_vertebra=truth())
-    patient.show(None, image=drawn(STANDING_ON))
-    requested = {"view": VIEW, "landmarks": STANDING_ON}
+    patient.show(None, image=drawn(NEEDLE_LANDMARKS))
+    requested = {"view": VIEW, "landmarks": NEEDLE_LANDMARKS}
     proposals = server.ask("POST", f"{NEEDLES}/proposal", 200, json=requested)["proposals"]
     best = proposals[0]
     assert best["probability_ratio"] == max(one["probability_ratio"] for one in proposals)
-    assert [one["name"] for one in best["laid"]["needles"]] == STANDING_ON
+    assert [one["name"] for one in best["laid"]["needles"]] == NEEDLE_LANDMARKS
     assert all(abs(one["offset_mm"]) < 3.0 for one in best["laid"]["needles"])
-    for found, true in zip(best["marked"], marked(STANDING_ON), strict=True):
+    for found, true in zip(best["marked"], marked(NEEDLE_LANDMARKS), strict=True):
         assert np.linalg.norm(np.subtract(found["entry_px"], true["entry_px"])) < 6.0
     # Nobody has looked at it yet.
     assert (
@@ -206,16 +206,16 @@ def test_needles_that_the_software_finds_are_proposed_and_kept_when_a_person_has
     document = server.ask("POST", f"{NEEDLES}/conclusion", 201, json=picked)
     assert document["content"]["made_from"]["way"] == "picked"
     # As sure as it was proposed, although a person's own mark is surer.
-    proposed, kept = best["laid"]["numbers"], document["content"]["numbers"]
-    assert kept["across_sd_mm"] == pytest.approx(proposed["across_sd_mm"], rel=0.05)
-    assert kept["tilt_sd_deg"] == pytest.approx(proposed["tilt_sd_deg"], rel=0.05)
+    proposed, stored = best["laid"]["numbers"], document["content"]["numbers"]
+    assert stored["across_sd_mm"] == pytest.approx(proposed["across_sd_mm"], rel=0.05)
+    assert stored["tilt_sd_deg"] == pytest.approx(proposed["tilt_sd_deg"], rel=0.05)
     assert registered(server) is not None
     swapped = [best["marked"][number] for number in (1, 0, 2)]
     rejected = server.ask("POST", f"{NEEDLES}/conclusion", 409, json={**requested, "marked": swapped, **BY})
     assert rejected["code"] == "NEEDLES_SWAPPED"
 
 
-def test_what_needles_cannot_do_is_refused_with_a_remedy(server: Server) -> None:
+def test_what_needles_cannot_do_is_rejected_with_a_remedy(server: Server) -> None:
     case_id = ready(server)
     patient = Patient(server=server)
 
@@ -224,20 +224,20 @@ def test_what_needles_cannot_do_is_refused_with_a_remedy(server: Server) -> None
         assert rejected["remedy"]
         return str(rejected["code"])
 
-    assert code("overlay", 503, landmarks=STANDING_ON) == "NO_PICTURE"
+    assert code("overlay", 503, landmarks=NEEDLE_LANDMARKS) == "NO_PICTURE"
     patient.show(None, image=IMAGE)
     assert code("overlay", 409) == "REFERENCE_MISSING"
     assert code("overlay", 409, landmarks=["nose"]) == "LANDMARK_UNKNOWN"
-    assert code("proposal", 409, landmarks=STANDING_ON) == "NEEDLES_NOT_FOUND"
-    assert code("proposal", 409, landmarks=STANDING_ON, use_touched=True) == "COLLECTION_MISSING"
-    needles = marked(STANDING_ON)
-    two = {"landmarks": STANDING_ON, "marked": needles[:2]}
+    assert code("proposal", 409, landmarks=NEEDLE_LANDMARKS) == "NEEDLES_NOT_FOUND"
+    assert code("proposal", 409, landmarks=NEEDLE_LANDMARKS, use_touched=True) == "COLLECTION_MISSING"
+    needles = marked(NEEDLE_LANDMARKS)
+    two = {"landmarks": NEEDLE_LANDMARKS, "marked": needles[:2]}
     assert code("conclusion", 422, **two, **BY) == "NEEDLES_UNPAIRED"
     overlay = {"shift_px": [640.0, 360.0], "scale_px_per_mm": 3.0}
-    both = {"landmarks": STANDING_ON, "marked": needles, "overlay": overlay}
+    both = {"landmarks": NEEDLE_LANDMARKS, "marked": needles, "overlay": overlay}
     assert code("conclusion", 422, **both, **BY) == "REQUEST_INVALID"
     assert code("proposal", 422, view={"vertical_mm": -1.0, "horizontal_mm": 1.0}) == "REQUEST_INVALID"
     assert registered(server) is None
     camera = server.store.current(case_id, DocumentKind.CAMERA, "main")
     server.store.withdraw(camera, by="test", reason="it fell")
-    assert code("overlay", 409, landmarks=STANDING_ON) == "CAMERA_OUT_OF_DATE"
+    assert code("overlay", 409, landmarks=NEEDLE_LANDMARKS) == "CAMERA_OUT_OF_DATE"

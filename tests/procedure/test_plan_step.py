@@ -1,4 +1,4 @@
-"""From an empty case to a channel that is to be drilled, through the door; and what is refused on the way."""
+"""From an empty case to a channel that is to be drilled, through the door; and what is rejected."""
 
 import json
 from typing import Any
@@ -80,10 +80,10 @@ def test_from_an_empty_case_to_a_channel_to_be_drilled(server: Server) -> None:
     beside = np.linalg.norm(away - (away @ channel.axis_in_vertebra) * channel.axis_in_vertebra)
     assert beside < 0.6
     assert 2 * channel.radius_mm == pytest.approx(truth.width_mm, abs=VOXEL_MM / 2)
-    told_before = len(server.adopted)
+    adopted_before = len(server.adopted)
     server.ask("POST", "/api/plan/vertebrae", 201, json={**BY, "name": "L4"})
     assert server.ask("GET", "/api/plan", 200)["active_channel"]["side"] == "left"
-    channels = [case.channel for case in server.adopted[told_before:]]
+    channels = [case.channel for case in server.adopted[adopted_before:]]
     assert None not in (channels or [None]), "navigation has its channel at every moment of the change"
 
     # A corrected number is used, the measured one stays, and the channel is another: it must be chosen anew.
@@ -110,7 +110,7 @@ def test_a_plan_on_nifti_in_another_order_is_the_same(server: Server) -> None:
     assert min(picture(server, "/api/plan/vertebrae/L3/reference.png").shape[:2]) >= 512
 
 
-def test_a_channel_by_hand_and_what_is_refused(server: Server) -> None:
+def test_a_channel_by_hand_and_what_is_rejected(server: Server) -> None:
     opened(server)
     assert server.ask("GET", "/api/plan", 409)["code"] == "PLAN_MISSING"
     assert server.ask("POST", "/api/plan/vertebrae", 409, json={**BY, "name": "L3"})["code"] == "CT_MISSING"
@@ -154,7 +154,7 @@ def test_a_channel_by_hand_and_what_is_refused(server: Server) -> None:
     assert server.ask("DELETE", "/api/plan/vertebrae/L3", 200, params=BY)["plan"]["vertebrae"] == []
 
 
-def test_landmarks_are_set_go_out_and_come_back_and_odd_ones_are_refused(server: Server) -> None:
+def test_landmarks_are_set_go_out_and_come_back_and_odd_ones_are_rejected(server: Server) -> None:
     opened(server)
     sent(server, dicom_zip())
     server.ask("POST", "/api/plan/vertebrae", 201, json={**BY, "name": "L3"})
@@ -233,7 +233,7 @@ def test_a_plan_goes_out_and_comes_back_and_says_who_made_it(server: Server) -> 
     server.ask("POST", "/api/plan/import", 201, **sent_other)
 
 
-def test_hostile_plan_files_are_refused_and_nothing_is_stored(server: Server) -> None:
+def test_hostile_plan_files_are_rejected_and_nothing_is_stored(server: Server) -> None:
     planned(server, dicom_zip())
     file = server.ask("GET", "/api/plan/export", 200)
     before = server.ask("GET", "/api/plan", 200)

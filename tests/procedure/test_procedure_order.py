@@ -1,4 +1,4 @@
-"""The procedure is a machine: each transition, and what is refused before its turn."""
+"""The procedure is a machine: each transition, and what is rejected before its turn."""
 
 from collections.abc import Callable
 from datetime import UTC, datetime, timedelta
@@ -232,7 +232,7 @@ def other_source(server: Server) -> None:
         (active, None, "REGISTER_MISSING", "done done done missing missing missing"),
     ],
 )
-def test_out_of_turn_the_door_refuses_and_says_what_to_do(
+def test_out_of_turn_the_door_rejects_and_says_what_to_do(
     server: Server,
     made: Callable[[Server], None],
     register_code: str | None,
@@ -251,7 +251,7 @@ def test_out_of_turn_the_door_refuses_and_says_what_to_do(
         assert points["remedy"]
 
 
-def test_what_is_not_there_is_refused_by_name(server: Server) -> None:
+def test_what_is_not_there_is_rejected_by_name(server: Server) -> None:
     ready(server)
     patient = Patient(server=server)
     patient.show(None)

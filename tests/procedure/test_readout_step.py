@@ -116,7 +116,7 @@ def test_a_shaken_board_measures_it_and_it_is_kept_with_its_spread(
     assert calibrated.adopted[-1].readout_ms == reported["readout_ms"]
 
 
-def test_what_does_not_determine_it_is_refused_and_nothing_is_kept(
+def test_what_does_not_determine_it_is_rejected_and_nothing_is_kept(
     calibrated: Server, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(readout_collection, "BURST_IMAGES", 3)
@@ -126,7 +126,7 @@ def test_what_does_not_determine_it_is_refused_and_nothing_is_kept(
     assert calibrated.ask("GET", READOUT, 200)["readout_ms"] is None
 
 
-def test_a_burst_of_another_size_than_the_calibrations_is_refused(
+def test_a_burst_of_another_size_than_the_calibrations_is_rejected(
     server: Server, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     width, height = CAMERA.size_wh_px

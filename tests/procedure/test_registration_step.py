@@ -1,4 +1,4 @@
-"""Plan and patient are registered by points through the door, checked and kept, or refused."""
+"""Plan and patient are registered by points through the door, checked and kept, or rejected."""
 
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -92,7 +92,7 @@ def test_from_an_open_case_to_numbers_against_the_channel(server: Server) -> Non
     assert server.ask("GET", "/api/registration", 200)["heading"]["current"]
 
 
-def test_a_mistaken_landmark_is_refused_with_its_numbers_and_may_be_left_out(server: Server) -> None:
+def test_a_mistaken_landmark_is_rejected_with_its_numbers_and_may_be_left_out(server: Server) -> None:
     ready(server)
     patient = Patient(server=server)
     patient.show(None)
@@ -128,7 +128,7 @@ def test_a_mistaken_landmark_is_refused_with_its_numbers_and_may_be_left_out(ser
     server.ask("POST", f"{POINTS}/conclusion", 201, json=BY)
 
 
-def test_a_capture_is_refused_where_the_tip_moves_or_is_not_seen(server: Server) -> None:
+def test_a_capture_is_rejected_where_the_tip_moves_or_is_not_seen(server: Server) -> None:
     ready(server)
     patient = Patient(server=server)
     patient.show(None)

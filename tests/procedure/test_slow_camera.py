@@ -1,4 +1,4 @@
-"""A slow camera captures landmarks, checks and calibrates a tool; a refusal names the rate."""
+"""A slow camera captures landmarks, checks and calibrates a tool; a rejection names the rate."""
 
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -111,7 +111,7 @@ def test_a_capture_ends_when_the_camera_stops(server: Server) -> None:
         pytest.param(5.0, 1.3, "1.30 s passed between two of 7 images, allowed 1.00 s", id="5-hz"),
     ],
 )
-def test_lost_images_refuse_a_capture_with_the_rate(
+def test_lost_images_reject_a_capture_with_the_rate(
     server: Server, rate_hz: float, gap_s: float, said: str
 ) -> None:
     patient = begun(server, rate_hz)
@@ -125,7 +125,7 @@ def test_lost_images_refuse_a_capture_with_the_rate(
     assert f"at {rate_hz:.1f} images/s" in problem["message"]
 
 
-def test_a_check_before_a_camera_that_is_too_slow_is_refused_with_its_rate(server: Server) -> None:
+def test_a_check_before_a_camera_that_is_too_slow_is_rejected_with_its_rate(server: Server) -> None:
     ready(server)
     patient = Patient(server=server)
     patient.register(USED)

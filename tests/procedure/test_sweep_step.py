@@ -1,4 +1,4 @@
-"""A registration by points is refined by a sweep over the bone through the door, or refused."""
+"""A registration by points is refined by a sweep over the bone through the door, or rejected."""
 
 from typing import Any
 

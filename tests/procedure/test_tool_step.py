@@ -113,7 +113,7 @@ def test_a_new_camera_puts_the_tool_out_of_date(server: Server) -> None:
     assert server.adopted[-1].camera is not None
 
 
-def test_a_tool_that_was_hardly_tilted_is_refused_with_its_numbers(server: Server) -> None:
+def test_a_tool_that_was_hardly_tilted_is_rejected_with_its_numbers(server: Server) -> None:
     calibrated(server)
     reported = gather(server, Scene.OPERATION, "pivot", images=60)
     assert reported["missing"]
@@ -145,7 +145,7 @@ def test_without_millimetres_no_pose_is_taken(server: Server) -> None:
         pytest.param({"tool": "../x", "purpose": "pivot"}, 422, "REQUEST_INVALID", id="no-such-name"),
     ],
 )
-def test_what_cannot_be_begun_is_refused(
+def test_what_cannot_be_begun_is_rejected(
     server: Server, requested: dict[str, str], status: int, code: str
 ) -> None:
     calibrated(server)

@@ -90,7 +90,7 @@ def goes_on_once_confirmed(team: Team) -> None:
 
 
 def register(team: Team) -> None:
-    """Landmarks are touched until they say well enough where the vertebra is; too few are refused."""
+    """Landmarks are touched until they say well enough where the vertebra is; too few are rejected."""
     reported = team.touch(2)
     assert [one["code"] for one in reported["missing"]] == ["POINTS_TOO_FEW"]
     team.server.rejected("POST", f"{POINTS}/conclusion", "POINTS_TOO_FEW", json=BY)

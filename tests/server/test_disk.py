@@ -1,4 +1,4 @@
-"""Room on the disk: refused before it is taken, and told in numbers when there is too little."""
+"""Room on the disk: rejected before it is taken, and told in numbers when there is too little."""
 
 import errno
 import os
@@ -14,7 +14,7 @@ from server.imaging.voxels import voxels_to_fill
 VOLUME = (64, 64, 64)
 
 
-def test_a_ct_without_room_is_refused_before_its_file_is_made(
+def test_a_ct_without_room_is_rejected_before_its_file_is_made(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(disk, "RESERVED_BYTES", 2**60)

@@ -48,7 +48,7 @@ def test_a_marker_picture_is_read_as_grey(tmp_path: Path, suffix: str) -> None:
         pytest.param(100, 98, 255, None, id="two-percent-off-square-is-fine"),
     ],
 )
-def test_a_picture_that_cannot_be_a_marker_is_refused_with_its_numbers(
+def test_a_picture_that_cannot_be_a_marker_is_rejected_with_its_numbers(
     tmp_path: Path, width: int, height: int, contrast: int, code: str | None
 ) -> None:
     file = picture(tmp_path / "m.png", width=width, height=height, contrast=contrast)
@@ -61,7 +61,7 @@ def test_a_picture_that_cannot_be_a_marker_is_refused_with_its_numbers(
     assert "m.png" in caught.value.message
 
 
-def test_a_file_that_is_no_picture_is_refused(tmp_path: Path) -> None:
+def test_a_file_that_is_no_picture_is_rejected(tmp_path: Path) -> None:
     (tmp_path / "m.png").write_text("words")
     with pytest.raises(InvalidInput, match="5 bytes"):
         load_marker_image(tmp_path / "m.png")
@@ -153,9 +153,9 @@ def test_how_long_a_camera_reads_its_rows_reaches_the_tracker_and_not_the_rehear
         assert preparation.setup is not None
         assert preparation.tracker_for(preparation.setup).readout_s == readout_s
         # What is kept with the case's calibration comes before the settings, also a global shutter.
-        for kept_ms in (21.0, 0.0):
-            expected_s = 0.0 if source == "rehearsal" else kept_ms / 1000.0
-            assert preparation.with_case(CaseSetup(readout_ms=kept_ms)).readout_s == expected_s
+        for stored_ms in (21.0, 0.0):
+            expected_s = 0.0 if source == "rehearsal" else stored_ms / 1000.0
+            assert preparation.with_case(CaseSetup(readout_ms=stored_ms)).readout_s == expected_s
         assert preparation.with_case(CaseSetup()).readout_s == readout_s
 
 
@@ -168,7 +168,7 @@ def test_without_plan_and_registration_both_are_absent_with_their_reason(tmp_pat
     assert setup.tools["t"].marker == "m"
 
 
-def test_a_camera_file_for_another_size_is_refused_with_both_sizes(tmp_path: Path) -> None:
+def test_a_camera_file_for_another_size_is_rejected_with_both_sizes(tmp_path: Path) -> None:
     preparation = build_setup(config(tmp_path, calibrated=True))
     with pytest.raises(CalibrationError) as caught:
         preparation.setup_for((640, 360))

@@ -13,7 +13,7 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="threads are cou
 THREADS = "OPENBLAS_NUM_THREADS"
 
 
-def told_by_a_server(**environment: str) -> list[str]:
+def reported_by_process(**environment: str) -> list[str]:
     """What a process says that has loaded the server, then NumPy: what is set, and its threads."""
     stored = {name: value for name, value in os.environ.items() if name != THREADS}
     reported = subprocess.run(
@@ -33,9 +33,9 @@ def told_by_a_server(**environment: str) -> list[str]:
 
 
 def test_a_process_that_loads_numpy_has_one_thread() -> None:
-    setting, *threads = told_by_a_server()
+    setting, *threads = reported_by_process()
     assert (setting, len(threads)) == ("1", 1)
 
 
 def test_who_sets_another_number_has_it() -> None:
-    assert told_by_a_server(**{THREADS: "2"})[0] == "2"
+    assert reported_by_process(**{THREADS: "2"})[0] == "2"

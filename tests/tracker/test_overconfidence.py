@@ -66,7 +66,7 @@ def test_a_tip_that_is_too_unsure_has_no_place_and_no_numbers() -> None:
 
 
 @pytest.mark.parametrize("turns", range(4))
-def test_two_models_of_one_shape_are_refused_however_they_are_turned(turns: int) -> None:
+def test_two_models_of_one_shape_are_rejected_however_they_are_turned(turns: int) -> None:
     turned = MarkerModel.from_image(
         np.ascontiguousarray(np.rot90(code_image(), turns)), side_mm=40.0, name="turned"
     )

@@ -75,7 +75,7 @@ def drawn(folder: Path, sent: NavigationCt, wanted: dict[str, object]) -> npt.ND
     answer = TestClient(app).get("/api/navigation/ct")
     place = json.loads(answer.headers["volume-place"])
     (folder / "voxels").write_bytes(answer.content)
-    asked = {
+    arguments = {
         "affine": place["lps_from_ijk"],
         "size": place["size_ijk"],
         "grey": BONE,
@@ -84,7 +84,7 @@ def drawn(folder: Path, sent: NavigationCt, wanted: dict[str, object]) -> npt.ND
         **wanted,
     }
     command = [*NODE, "-e", PROGRAM, str(CHECKOUT / "web")]
-    subprocess.run(command, cwd=CHECKOUT, input=json.dumps(asked), text=True, check=True)
+    subprocess.run(command, cwd=CHECKOUT, input=json.dumps(arguments), text=True, check=True)
     return np.fromfile(folder / "pixels", np.uint8).reshape(HEIGHT_PX, WIDTH_PX, 4)
 
 

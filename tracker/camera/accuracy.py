@@ -281,6 +281,6 @@ def _distance(plane: tuple[Array, Array], displacements: Displacements) -> float
 def _plane_unknown(problem: str) -> CalibrationError:
     return CalibrationError(
         "ACCURACY_PLANE_UNKNOWN",
-        f"where the plane of the displacements lies cannot be told: {problem}",
+        f"the plane of the displacements is not determined: {problem}",
         "Give more points of the plane, spread over it and other than those that are measured.",
     )

@@ -30,7 +30,7 @@ CELLS_A_GROUP = BANDS // ROW_GROUPS
 # | SEGMENTS | 1 | mains drift within one stays under half a turn | fewer: an off-frequency grid is missed |
 # | MIN_BEAT_HZ | Hz | main lobe of one segment's Hann window | lower: slow light is taken for a lamp |
 # | MAINS_ERROR_HZ | Hz | twice a grid's normal +-0.2 Hz, twice as fast | lower: an island grid is missed |
-# | MIN_DEPTH_RATIO | 1 | a few times an image's noise | lower: told where nothing is to be gained |
+# | MIN_DEPTH_RATIO | 1 | a few times an image's noise | lower: reported where nothing is to be gained |
 # | CLEARS_AT_RATIO | 1 | hysteresis of MIN_DEPTH_RATIO | higher: the advisory comes and goes |
 # | MIN_LINE_RATIO | 1 | power over the strongest neighbouring frequency | lower: motion is taken for a lamp |
 # | MIN_AGREEMENT | 1 | sum over parts as vectors / as lengths | lower: a moving hand is taken for a lamp |
@@ -63,7 +63,7 @@ class LampFlicker:
     """Light that beats with the mains.
 
     Attributes:
-        mains_hz: 50 or 60; both where images at this rate cannot tell them apart.
+        mains_hz: 50 or 60; both where images at this rate cannot distinguish them.
         depth_ratio: (brightest - darkest) / (brightest + darkest) of the wave in the image's levels.
     """
 

@@ -21,7 +21,7 @@ MIN_CONTRAST_GREY = 40
 # The border must be dark for all but a worn corner.
 MIN_DARK_BORDER_RATIO = 0.9
 # A shape with a quarter or half turn symmetry has no unique orientation, and one that is its own mirror image
-# cannot be told from its reflection.
+# cannot be distinguished from its reflection.
 MAX_SYMMETRY = 0.985
 # More similar shapes are confused when small or blurred. Those of a printed sheet reach 0.88, a shape and its
 # mirror image 0.98.

@@ -120,7 +120,7 @@ def set_trigger(features: Features, name: str, trigger: str | None) -> str:
 
     Raises:
         CaptureError: CAMERA_TRIGGER_NOT_OFFERED.
-        OSError: the camera refuses.
+        OSError: the camera rejects the setting.
     """
     # Triggers may be left on by another program.
     for selected in features.options("TriggerSelector"):

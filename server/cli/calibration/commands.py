@@ -33,11 +33,13 @@ PlotsOption = Annotated[
 ]
 CameraNameOption = Annotated[
     str | None,
-    typer.Option(help="The camera's name in the settings; another one is refused later.", metavar="NAME"),
+    typer.Option(help="The camera's name in the settings; another one is rejected later.", metavar="NAME"),
 ]
 CameraSourceOption = Annotated[
     str | None,
-    typer.Option(help="The camera's source in the settings; another one is refused later.", metavar="SOURCE"),
+    typer.Option(
+        help="The camera's source in the settings; another one is rejected later.", metavar="SOURCE"
+    ),
 ]
 CoefficientsOption = Annotated[
     int | None,

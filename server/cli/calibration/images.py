@@ -22,7 +22,7 @@ class Picture:
     """One image file.
 
     Attributes:
-        name: as it is told.
+        name: as shown in reports.
         image: (h, w, 3), as the sensor gave it: what a file says about its turning is left aside.
     """
 
@@ -63,7 +63,7 @@ def files_of(given: Sequence[str]) -> list[Path]:
 
 
 def names_of(files: Sequence[Path]) -> list[str]:
-    """Short names, that are still told apart."""
+    """Return the shortest names that distinguish the files."""
     short = [file.name for file in files]
     return short if len(set(short)) == len(short) else [str(file) for file in files]
 

@@ -24,7 +24,7 @@ from tracker.errors import InvalidInput
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RigOrder:
-    """What was asked for; see the options of `coaxial calibrate-rig`."""
+    """What was requested; see the options of `coaxial calibrate-rig`."""
 
     cameras: tuple[str, ...]
     board: BoardOptions

@@ -1,4 +1,4 @@
-"""`coaxial calibrate`: boards found in images, a camera fitted, a file written, a report told."""
+"""`coaxial calibrate`: boards found in images, a camera fitted, a file written, a report printed."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -118,7 +118,7 @@ def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
 
 
 def looked_at(files: Sequence[Path], boards: Sequence[Board], steps: Steps) -> Looked:
-    """Every board looked for in every image; what is no image, or another camera's, is told and left out.
+    """Every board looked for in every image; what is no image, or another camera's, is reported and left out.
 
     Raises:
         InvalidInput: IMAGE_UNREADABLE, there is no image at all.

@@ -43,7 +43,7 @@ def _check_geometry(frames: list[Frame]) -> None:
         if any(missing):
             raise InvalidInput(
                 "CT_GEOMETRY_MISSING",
-                f"{sum(missing)} of {len(frames)} slices do not tell their {attribute}",
+                f"{sum(missing)} of {len(frames)} slices do not state their {attribute}",
                 "Export the series again with its geometry; pictures of slices cannot be planned on.",
                 {"slices": sum(missing), "of": len(frames)},
             )
@@ -95,7 +95,7 @@ def _check_values(frames: list[Frame]) -> None:
         tables = sum(frame.shared.has_table for frame in frames)
         raise InvalidInput(
             "CT_RESCALE_MISSING",
-            f"{unscaled} of {len(frames)} slices do not tell how their numbers become Hounsfield units "
+            f"{unscaled} of {len(frames)} slices do not state how their numbers become Hounsfield units "
             f"(Rescale Slope and Intercept){', but by a table' if tables else ''}",
             "Export the original CT series again.",
             {"slices": unscaled, "of": len(frames)},
@@ -137,7 +137,7 @@ def series_warnings(frames: list[Frame], stack: Stack, beyond: int) -> list[str]
         )
     if abs(abs(first.tilt_deg) - stack.tilt_deg) > 1.0 and first.tilt_deg:
         warnings.append(
-            f"The scanner tells a gantry tilt of {first.tilt_deg:.1f} deg, the places of the slices "
+            f"The scanner states a gantry tilt of {first.tilt_deg:.1f} deg, the places of the slices "
             f"{stack.tilt_deg:.1f} deg; the places are used."
         )
     if max(stack.spacing_mm, first.thickness_mm) > THICK_MM:
@@ -161,5 +161,5 @@ def series_warnings(frames: list[Frame], stack: Stack, beyond: int) -> list[str]
             f"{beyond} voxels lay beyond {MIN_HU} to {MAX_HU} HU and were set to the nearest of both."
         )
     if not first.patient_identity.identifier and not first.patient_identity.name:
-        warnings.append("The files do not tell whose CT this is; make sure that it is this patient's.")
+        warnings.append("The files do not state whose CT this is; make sure that it is this patient's.")
     return warnings

@@ -78,7 +78,7 @@ def frames_of(entry: Entry, header: Dataset) -> list[Frame] | UnusedFile:
         groups, common = [], None
     if len(groups) != shared.frames:
         # Frames without a place of their own (a film, a turntable) are no slices.
-        return UnusedFile(reason="files of many images that do not tell where each lies")
+        return UnusedFile(reason="files of many images that do not state where each lies")
     return [_grouped_frame(shared, index, group, common, header) for index, group in enumerate(groups)]
 
 

@@ -29,7 +29,7 @@ ENDS_ITSELF = frozenset(
 
 
 def check_readable(shared: FileAttributes) -> None:
-    """Refuses pixels of a kind that cannot be read, before any is read.
+    """Reject pixel formats that cannot be decoded, before any pixel is read.
 
     Raises:
         InvalidInput: CT_COMPRESSION_UNKNOWN, CT_SLICE_TOO_LARGE, CT_PIXELS_UNKNOWN.

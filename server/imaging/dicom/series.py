@@ -18,7 +18,7 @@ GIVE_ONE = "Give the folder of one patient alone."
 
 
 def group_frames_by_series(container: Container, progress: Progress) -> dict[str, list[Frame]]:
-    """All slices that were found, by series; what takes no part is noted in the container.
+    """All slices that were found, by series; what takes no part is recorded in the container.
 
     Raises:
         InvalidInput: CT_FILE_DAMAGED, CT_NO_DICOM.
@@ -65,7 +65,7 @@ def _beforehand(container: Container) -> int:
 
 
 def check_one_patient(frames: list[Frame], *, what: str) -> None:
-    """Refuses images of more than one patient, without telling who they are.
+    """Reject images of more than one patient, without naming them.
 
     Raises:
         InvalidInput: CT_PATIENTS_MIXED.
@@ -135,7 +135,7 @@ def _problem(frames: list[Frame]) -> str:
     if len(frames) < 2:
         return "it has 1 slice, needed at least 2"
     if not all(frame.position_lps_mm and frame.directions and frame.pixel_mm for frame in frames):
-        return "its slices do not tell where they lie"
+        return "its slices do not state where they lie"
     return ""
 
 

@@ -154,10 +154,10 @@ class CtStep:
 
     def _keep_upload(self, upload: _Upload, series: object) -> object:
         """Move the upload out of the job's folder, which is deleted with the job."""
-        kept = self._store.home.new_temporary(".ct")
+        folder = self._store.home.new_temporary(".ct")
         with translate_errors(self._store.home.folder):
-            upload.folder.replace(kept)
-        upload.folder, upload.is_pending = kept, True
+            upload.folder.replace(folder)
+        upload.folder, upload.is_pending = folder, True
         return {"upload_id": upload.id, "series": series}
 
     def _keep_ct(self, upload: _Upload, content: Mapping[str, object]) -> object:

@@ -49,7 +49,7 @@ def import_plan(content: bytes, ct: MappedCt, *, is_for_other_ct: bool = False) 
 
     Raises:
         InvalidInput: PLAN_FILE_INVALID, PLAN_FILE_VERSION, PLAN_OF_ANOTHER_CT.
-        PlanError: PLAN_INVALID, PLAN_VERSION_UNKNOWN, or what a record refuses.
+        PlanError: PLAN_INVALID, PLAN_VERSION_UNKNOWN, or the error of a record.
     """
     mapped = _parsed(content)
     if mapped.get("format") != FORMAT:

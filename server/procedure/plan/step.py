@@ -58,7 +58,7 @@ class PlanStep:
     """Plans on the CT of the open case; safe to use from any thread.
 
     Args:
-        store: where the plan is kept.
+        store: where the plan is stored.
         jobs: where pedicles are measured.
         opened: the CT.
         config: catalogue and margins.
@@ -114,7 +114,7 @@ class PlanStep:
                 if self._ct_provider.current().document.id != measured_on:
                     raise PlanError(
                         "CT_CHANGED",
-                        "the CT was replaced while the pedicle was measured; nothing was kept",
+                        "the CT was replaced while the pedicle was measured; nothing was stored",
                         "Click into the pedicle on the new CT.",
                     )
                 return changes.with_measure(

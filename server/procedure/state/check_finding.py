@@ -67,8 +67,7 @@ def _of(record: CheckRecord, check: Document, *, again_after_min: float, minutes
     elif not 0.0 <= minutes < again_after_min:
         state, remedy = StepState.DUE, CHECK
         text = (
-            f"the check on {record.landmark} is {minutes:.0f} min old, "
-            f"asked for every {again_after_min:g} min"
+            f"the check on {record.landmark} is {minutes:.0f} min old, required every {again_after_min:g} min"
         )
     else:
         state, remedy = StepState.DONE, ""

@@ -4,24 +4,24 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
-_noted: ContextVar[list[dict[str, object]] | None] = ContextVar("coaxial_audit_noted", default=None)
+_changes: ContextVar[list[dict[str, object]] | None] = ContextVar("coaxial_audit_changes", default=None)
 MAX_CHANGES = 100
 
 
 @contextmanager
 def collect_changes() -> Iterator[list[dict[str, object]]]:
-    """Collect the changes noted in this context, in any thread; the list grows meanwhile."""
+    """Collect the changes made in this context, in any thread; the list grows meanwhile."""
     changes: list[dict[str, object]] = []
-    token = _noted.set(changes)
+    token = _changes.set(changes)
     try:
         yield changes
     finally:
-        _noted.reset(token)
+        _changes.reset(token)
 
 
 def note(change: dict[str, object]) -> bool:
     """Note a change; return False outside of a request."""
-    changes = _noted.get()
+    changes = _changes.get()
     if changes is None:
         return False
     if len(changes) < MAX_CHANGES:

@@ -95,7 +95,7 @@ class AuditLog:
         if in_minute > MAX_REJECTIONS_PER_MINUTE:
             return
         if in_minute == MAX_REJECTIONS_PER_MINUTE:
-            entry = Entry(who=SERVER, what="more was refused in this minute than is written down")
+            entry = Entry(who=SERVER, what="more was rejected in this minute than is logged")
         try:
             self.append(entry)
         except NavigationError as error:

@@ -47,9 +47,9 @@ class Token:
         """SHA-256 in hexadecimal, as stored."""
         return hashlib.sha256(self.text.encode()).hexdigest()
 
-    def matches(self, kept_sum: str) -> bool:
+    def matches(self, stored_sum: str) -> bool:
         """Return whether its sum equals the stored one, in constant time."""
-        return hmac.compare_digest(self.sum, kept_sum)
+        return hmac.compare_digest(self.sum, stored_sum)
 
     def __repr__(self) -> str:
         """Without the secret, which must not be logged."""

@@ -109,7 +109,7 @@ def _reject_misfits(documents: Iterable[DocumentSchema], files: set[str]) -> Non
             )
         for basis in document.stands_on:
             if earlier.get(basis, DocumentKind.PATIENT) is DocumentKind.PATIENT:
-                raise archive_error(f"the document {document.id} stands on {basis}, which is not before it")
+                raise archive_error(f"the document {document.id} depends on {basis}, which is not before it")
         repeated = any(len(set(ids)) != len(ids) for ids in (document.stands_on, document.files))
         if repeated or not files.issuperset(document.files):
             raise archive_error(
@@ -123,8 +123,8 @@ def _as_imported(document: DocumentSchema, now: str) -> DocumentSchema:
     """Withdraw imported signatures, and mark names as stated by the archive: they are not authenticated."""
     withdrawn = document.withdrawn
     if withdrawn is not None:
-        told_so = withdrawn.model_copy(update={"by": says_archive(withdrawn.by)})
-        return document.model_copy(update={"withdrawn": told_so})
+        attributed = withdrawn.model_copy(update={"by": says_archive(withdrawn.by)})
+        return document.model_copy(update={"withdrawn": attributed})
     if document.kind is not DocumentKind.SIGNATURE:
         return document
     reason = "it came in with an archive, and has to be signed again here"

@@ -51,7 +51,7 @@ class SizeChoice(StrEnum):
 
 
 class ChoiceUnknown(NavigationError):
-    """What a viewer asked for is none of the choices, as of sizes."""
+    """What a viewer requested is none of the choices, as of sizes."""
 
     def __init__(self, kind: str, requested: str, known: Sequence[str]) -> None:
         super().__init__(

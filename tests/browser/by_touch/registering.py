@@ -34,10 +34,10 @@ def check_on_a_landmark(tablet: Tablet) -> None:
     tablet.finds("tip-rests", "data-landmark", landmark)
     tablet.tap(f"check-{landmark}")
     tablet.tap("check-begin")
-    over = page.locator("[data-testid=check-outcome], [data-testid=capture-refused]")
+    over = page.locator("[data-testid=check-outcome], [data-testid=capture-rejected]")
     over.wait_for()
     # A hand that had just left the landmark holds the tip on it again.
-    while page.get_by_test_id("capture-refused").count() > 0:
+    while page.get_by_test_id("capture-rejected").count() > 0:
         tablet.finds("tip-rests", "data-landmark", landmark)
         with page.expect_response(lambda answer: answer.url.endswith("/api/registration/check")):
             tablet.tap("check-again")
@@ -66,7 +66,7 @@ def _touch_where_the_tip_rests(tablet: Tablet) -> None:
     line.locator(".landmark-name").tap()
     with page.expect_response(lambda answer: answer.url.endswith("/points/captures")):
         tablet.tap("capture")
-    over = page.locator("[data-testid=captured], [data-testid=capture-refused]").filter(has_text=str(name))
+    over = page.locator("[data-testid=captured], [data-testid=capture-rejected]").filter(has_text=str(name))
     over.wait_for()
     if over.get_attribute("data-testid") == "captured":
         expect(line).to_have_attribute("data-touched", "true", timeout=tablet.patience_ms)

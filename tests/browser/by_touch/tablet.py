@@ -95,6 +95,6 @@ def tablet_at(browser: Browser, port: int, *, patience_ms: float) -> Iterator[Ta
     assert not tablet.faults, tablet.faults
     assert not watched.strangers, watched.strangers
     # What is gathered may end between two questions about it, and the first slice of an upload goes with it;
-    # the browser writes such refusals down.
+    # the browser writes such rejections down.
     complaints = [one for one in watched.complaints if "409 (Conflict)" not in one]
     assert not complaints, complaints

@@ -130,7 +130,7 @@ class People:
                 self.act()
                 rejected = 0
             except Rejected as why:
-                # A collection that lost its images is refused; whoever was told so begins again.
+                # A collection that lost its images is rejected; whoever was told so begins again.
                 rejected += 1
                 if why.status == SERVERS_MISTAKE or rejected > MAX_REJECTED:
                     raise

@@ -79,7 +79,7 @@ class Promised:
         there = "\n".join([*lines, json.dumps(outline), json.dumps(reported, ensure_ascii=False)])
         yield from (f"what {name} did is missing" for name in sorted(self.names) if f'"{name}"' not in there)
         damage = server.ask("POST", f"/api/cases/{self.opened}/verification", 200)["damages"]
-        yield from (one["told"] for one in damage)
+        yield from (one["message"] for one in damage)
 
     def changed_steps(self, server: RealServer) -> dict[str, tuple[str, str]]:
         """Steps that stand otherwise than before, where no document came to it since they were read."""

@@ -105,7 +105,7 @@ def test_a_line_that_was_cut_spoils_no_other(tmp_path: Path) -> None:
     assert lines_of(tmp_path / "none.jsonl") == []
 
 
-def test_a_disk_that_refuses_is_reported_and_written_when_it_is_back(
+def test_a_disk_that_fails_is_reported_and_written_when_it_is_back(
     log: StoredAlarmLog, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     broken = [True]

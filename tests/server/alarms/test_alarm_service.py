@@ -38,7 +38,7 @@ class Retained:
 
 
 class Room:
-    """A desk, its clock and its images."""
+    """A service, its clock and its images."""
 
     def __init__(self, snapshot_of: SnapshotOf) -> None:
         self.now_s = 1000.0

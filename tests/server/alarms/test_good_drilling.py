@@ -24,7 +24,7 @@ def test_a_breach_is_raised_and_no_sooner_than_it_is_true() -> None:
 
 
 @pytest.mark.parametrize(
-    ("held_mm", "condition", "times"),
+    ("limit_mm", "condition", "times"),
     [
         # A warning is confirmed by half a second in a row, which a tremor at the very limit never gives.
         pytest.param(1.0, Condition.CLEARANCE_LOW, 0, id="at-the-warning-distance"),
@@ -32,5 +32,5 @@ def test_a_breach_is_raised_and_no_sooner_than_it_is_true() -> None:
         pytest.param(0.0, Condition.BREACH, 1, id="at-the-wall"),
     ],
 )
-def test_a_drill_held_at_a_limit_does_not_chatter(held_mm: float, condition: Condition, times: int) -> None:
-    assert raised_while_stationary(7, held_mm, condition, seconds=8.0) == times
+def test_a_drill_held_at_a_limit_does_not_chatter(limit_mm: float, condition: Condition, times: int) -> None:
+    assert raised_while_stationary(7, limit_mm, condition, seconds=8.0) == times

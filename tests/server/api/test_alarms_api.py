@@ -147,7 +147,7 @@ def test_screens_say_whether_they_are_armed(door: Door) -> None:
         pytest.param("hold", {"by": ""}, "REQUEST_INVALID", id="an anonymous hold"),
     ],
 )
-def test_what_cannot_be_done_is_refused(door: Door, path: str, sent: dict[str, Any], code: str) -> None:
+def test_what_cannot_be_done_is_rejected(door: Door, path: str, sent: dict[str, Any], code: str) -> None:
     answer = door.post(path, 422, **sent)
     assert answer["code"] == code
     assert answer["remedy"]

@@ -69,7 +69,7 @@ def test_the_page_is_told_names_limits_and_addresses(client: TestClient) -> None
         ("GET", "/video/side.mjpg", 404, "CAMERA_UNKNOWN"),
     ],
 )
-def test_every_refusal_has_the_one_shape(
+def test_every_rejection_has_the_one_shape(
     client: TestClient, method: str, path: str, status: int, code: str
 ) -> None:
     answer = client.request(method, path)
@@ -130,7 +130,7 @@ def test_every_answer_forbids_what_is_not_from_here(client: TestClient, path: st
     assert headers["cache-control"]
 
 
-def test_a_strange_name_in_the_host_is_refused(client: TestClient) -> None:
+def test_a_strange_name_in_the_host_is_rejected(client: TestClient) -> None:
     answer = client.get("/health", headers={"Host": "evil.example"})
     assert answer.status_code == 421
     assert answer.json()["code"] == "HOST_UNKNOWN"

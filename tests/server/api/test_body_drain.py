@@ -1,4 +1,4 @@
-"""Uploads that are refused before their end, by clients that read the answer only when all is sent."""
+"""Uploads that are rejected before their end, by clients that read the answer only when all is sent."""
 
 import http.client
 import json

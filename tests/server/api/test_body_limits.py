@@ -1,4 +1,4 @@
-"""Bodies that are too long, or come too slowly, are refused in words, and the line goes."""
+"""Bodies that are too long, or come too slowly, are rejected in words, and the line goes."""
 
 import asyncio
 import contextlib
@@ -29,14 +29,16 @@ def in_pieces(size_bytes: int) -> Iterator[bytes]:
         yield b"a" * 2**16
 
 
-@pytest.mark.parametrize("is_told", [True, False])
+@pytest.mark.parametrize("has_length", [True, False])
 @pytest.mark.parametrize(
     ("path", "max_bytes"), [("/api/session", MAX_TO_SIGN_IN_BYTES), ("/api/cases", MAX_BYTES)]
 )
-def test_more_than_is_taken_is_refused(house: Guarded, path: str, max_bytes: int, *, is_told: bool) -> None:
+def test_more_than_is_taken_is_rejected(
+    house: Guarded, path: str, max_bytes: int, *, has_length: bool
+) -> None:
     headers = {"Content-Type": "application/json", **({} if path == "/api/session" else house.bearer())}
     pieces = in_pieces(max_bytes + 2**16)
-    answer = house.door.post(path, content=b"".join(pieces) if is_told else pieces, headers=headers)
+    answer = house.door.post(path, content=b"".join(pieces) if has_length else pieces, headers=headers)
     assert (answer.status_code, answer.json()["code"]) == (413, "BODY_TOO_LARGE"), answer.text
     assert f"the maximum is {max_bytes // 1024} kB" in answer.json()["message"]
     assert answer.json()["remedy"]
@@ -108,7 +110,7 @@ JSON, FILE = "/api/cases", "/api/ct"
 
 
 @pytest.mark.parametrize("path", [JSON, FILE])
-def test_a_body_that_stops_coming_is_refused_in_words(path: str) -> None:
+def test_a_body_that_stops_coming_is_rejected_in_words(path: str) -> None:
     said, after_s = sent(path, [(0.1, 5000), (0.1, 0)])
     assert said == (
         "BODY_TOO_SLOW: 4.9 kB of the request arrived, the last 4.9 kB in 20 s; the minimum is 32 kB in "
@@ -165,7 +167,7 @@ def test_whoever_was_heard_to_the_end_may_stay_silent() -> None:
     assert [one["type"] for one in silent] == ["http.request", "http.disconnect"]
 
 
-def test_every_request_with_a_body_has_the_refusal_in_its_description(house: Guarded) -> None:
+def test_every_request_with_a_body_has_the_rejection_in_its_description(house: Guarded) -> None:
     with_body = [
         (path, method, operation)
         for path, methods in house.app.openapi()["paths"].items()

@@ -81,14 +81,14 @@ def test_a_case_from_its_making_to_its_end(door: TestClient) -> None:
 
 
 @pytest.mark.parametrize("name", ["", "  ", "a\nb", "x" * 201, 5, None, "\u202egnp", "\u200b", "a\u2028b"])
-def test_a_name_that_cannot_be_is_refused(door: TestClient, name: object) -> None:
+def test_a_name_that_cannot_be_is_rejected(door: TestClient, name: object) -> None:
     answer = door.post("/api/cases", json={"name": name})
     assert answer.status_code == 422
     assert set(answer.json()) == {"code", "message", "remedy", "context"}
     assert door.get("/api/cases").json()["cases"] == []
 
 
-def test_a_body_that_is_no_text_is_refused_like_one_that_is_no_json(door: TestClient) -> None:
+def test_a_body_that_is_no_text_is_rejected_like_one_that_is_no_json(door: TestClient) -> None:
     for content in (b"\xff\xfe{", b"{", b'{"name": ' + b"9" * 5000 + b"}"):
         answer = door.post("/api/cases", content=content, headers={"Content-Type": "application/json"})
         assert answer.status_code == 422

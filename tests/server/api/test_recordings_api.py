@@ -145,8 +145,8 @@ def test_consent_is_answered_before_the_first_recording_of_a_case(door: Door) ->
     stored = door.ask("POST", "/consent", 200, answer)
     assert stored == {"state": "given", "answered_at": stored["answered_at"], "answered_by": "this computer"}
     assert door.ask("POST", "/start", 200)["consent"] == stored
-    refused = door.ask("POST", "/consent", 200, {**answer, "is_given": False})
-    assert refused["state"] == "not_given"
+    declined = door.ask("POST", "/consent", 200, {**answer, "is_given": False})
+    assert declined["state"] == "not_given"
     assert not door.ask("GET", "/state", 200)["is_recording"]
     assert door.ask("POST", "/consent", 409, {**answer, "case_id": "0" * 16})["code"] == "CASE_NOT_OPEN"
 

@@ -84,7 +84,7 @@ def test_another_scene_is_played_in_the_same_theatre(door: TestClient, played: P
         {},
     ],
 )
-def test_what_cannot_be_played_is_refused(
+def test_what_cannot_be_played_is_rejected(
     door: TestClient, played: Played, requested: dict[str, object]
 ) -> None:
     answer = door.put("/api/rehearsal", json=requested)

@@ -22,10 +22,10 @@ def write_video(
     return path
 
 
-def cut_video(path: Path, *, images: int = 20, kept_ratio: float = 0.6) -> Path:
+def cut_video(path: Path, *, images: int = 20, content_ratio: float = 0.6) -> Path:
     whole = write_video(path, images=images)
     content = whole.read_bytes()
-    path.write_bytes(content[: int(len(content) * kept_ratio)])
+    path.write_bytes(content[: int(len(content) * content_ratio)])
     return path
 
 

@@ -23,7 +23,7 @@ SERIAL = "0815-0000"
 WANTED = WantedMode(size_wh_px=(320, 240), rate_hz=100.0)
 
 
-class KeptCameras(BaslerCameras):
+class SpyCameras(BaslerCameras):
     """Hands the test the camera that the source has opened."""
 
     def open(self, serial: str) -> BaslerCamera:
@@ -35,7 +35,7 @@ class Emulated:
     """A source of the emulated camera, captured."""
 
     def __init__(self, trigger: str | None) -> None:
-        self.cameras = KeptCameras()
+        self.cameras = SpyCameras()
         self.stop = threading.Event()
         self.is_captured = False
         self.source = IndustrialCameraSource(

@@ -22,11 +22,11 @@ def shot(number: int, *, grey: int | None = None, at_s: float | None = None) -> 
     return Shot(image=image, number=number, captured_at_s=now_s, source_time_s=now_s)
 
 
-class ToldSource:
+class ScriptedSource:
     """Gives what the test puts in: a shot, an error to raise, or None for the end."""
 
     def __init__(self, *, waits_for_consumer: bool = False, stalls: bool = False) -> None:
-        self.name = "told"
+        self.name = "scripted"
         self.waits_for_consumer = waits_for_consumer
         self.stalls = stalls
         self.defect: CaptureError | None = None
@@ -59,7 +59,7 @@ def until(true: Callable[[], bool]) -> None:
 
 
 def test_the_newest_image_wins_and_the_skipped_are_counted() -> None:
-    source, stop = ToldSource(), threading.Event()
+    source, stop = ScriptedSource(), threading.Event()
     capture = Capture(source, stop=stop)
     for number in range(5):
         source.reported.put(shot(number))
@@ -76,7 +76,7 @@ def test_the_newest_image_wins_and_the_skipped_are_counted() -> None:
 
 
 def test_a_source_that_waits_for_its_taker_skips_nothing() -> None:
-    source, stop = ToldSource(waits_for_consumer=True), threading.Event()
+    source, stop = ScriptedSource(waits_for_consumer=True), threading.Event()
     capture = Capture(source, stop=stop)
     for number in range(5):
         source.reported.put(shot(number))
@@ -92,7 +92,7 @@ def test_a_source_that_waits_for_its_taker_skips_nothing() -> None:
 
 
 def test_a_fault_is_reported_once_however_often_it_is_tried_and_it_comes_back() -> None:
-    source, stop = ToldSource(), threading.Event()
+    source, stop = ScriptedSource(), threading.Event()
     capture = Capture(source, stop=stop)
     with capture_logs() as logs:
         source.reported.put(shot(0))
@@ -120,7 +120,7 @@ def test_a_fault_is_reported_once_however_often_it_is_tried_and_it_comes_back() 
 
 
 def test_an_image_that_nobody_took_before_the_camera_was_lost_is_not_live() -> None:
-    source, stop = ToldSource(), threading.Event()
+    source, stop = ScriptedSource(), threading.Event()
     capture = Capture(source, stop=stop)
     source.reported.put(shot(0))
     source.reported.put(gone())
@@ -133,7 +133,7 @@ def test_an_image_that_nobody_took_before_the_camera_was_lost_is_not_live() -> N
 
 
 def test_a_change_of_the_status_wakes_who_waits_for_an_image() -> None:
-    source, stop = ToldSource(), threading.Event()
+    source, stop = ScriptedSource(), threading.Event()
     capture = Capture(source, stop=stop)
     source.reported.put(gone())
     capture.start()
@@ -144,7 +144,7 @@ def test_a_change_of_the_status_wakes_who_waits_for_an_image() -> None:
 
 
 def test_an_unexpected_fault_is_raised_where_the_images_are_taken() -> None:
-    source, stop = ToldSource(), threading.Event()
+    source, stop = ScriptedSource(), threading.Event()
     capture = Capture(source, stop=stop)
     source.reported.put(ZeroDivisionError("a bug"))
     capture.start()
@@ -153,7 +153,7 @@ def test_an_unexpected_fault_is_raised_where_the_images_are_taken() -> None:
 
 
 def test_a_camera_that_is_open_and_silent_counts_as_stalled(monkeypatch: pytest.MonkeyPatch) -> None:
-    source, stop = ToldSource(stalls=True), threading.Event()
+    source, stop = ScriptedSource(stalls=True), threading.Event()
     capture = Capture(source, stop=stop)
     source.reported.put(shot(0))
     capture.start()
@@ -172,7 +172,7 @@ def test_a_camera_that_is_open_and_silent_counts_as_stalled(monkeypatch: pytest.
 def test_a_camera_that_waits_for_its_trigger_is_not_taken_for_a_broken_one(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    source, stop = ToldSource(stalls=True), threading.Event()
+    source, stop = ScriptedSource(stalls=True), threading.Event()
     source.camera = CameraStatus(clock=ImageClock.DEVICE, trigger="Line1")
     capture = Capture(source, stop=stop)
     source.reported.put(shot(0))
@@ -184,13 +184,13 @@ def test_a_camera_that_waits_for_its_trigger_is_not_taken_for_a_broken_one(
         status = capture.status()
     assert status.problem is not None
     assert status.problem.code == "CAMERA_NOT_TRIGGERED"
-    assert status.problem.message == "told waits for a pulse on Line1, and got none for 2 s"
+    assert status.problem.message == "scripted waits for a pulse on Line1, and got none for 2 s"
     stop.set()
     source.reported.put(None)
 
 
 def test_an_image_that_a_frozen_camera_repeats_is_not_live() -> None:
-    source, stop = ToldSource(stalls=True), threading.Event()
+    source, stop = ScriptedSource(stalls=True), threading.Event()
     capture = Capture(source, stop=stop)
     began_s = time.monotonic()
     # Each image twice, as of a slower camera; then one for ever.
@@ -216,12 +216,12 @@ def test_an_image_that_a_frozen_camera_repeats_is_not_live() -> None:
     source.reported.put(None)
     capture.close()
     assert [line["event"] for line in logs if line["log_level"] == "warning"] == [
-        "the source told gave the same image for 2 s"
+        "the source scripted gave the same image for 2 s"
     ]
 
 
 def test_a_folder_or_a_film_may_show_the_same_image_for_long() -> None:
-    source, stop = ToldSource(), threading.Event()
+    source, stop = ScriptedSource(), threading.Event()
     capture = Capture(source, stop=stop)
     began_s = time.monotonic()
     for number in range(40):
@@ -240,7 +240,7 @@ def test_a_folder_or_a_film_may_show_the_same_image_for_long() -> None:
 def test_lamps_that_flicker_are_noted_for_every_kind_of_camera_and_judged_anew_when_it_is_reopened(
     clock: ImageClock,
 ) -> None:
-    source, stop = ToldSource(stalls=True), threading.Event()
+    source, stop = ScriptedSource(stalls=True), threading.Event()
     source.camera = CameraStatus(clock=clock)
     capture = Capture(source, stop=stop)
     began_s = time.monotonic()

@@ -58,7 +58,7 @@ def read(source: StreamSource, count: int) -> list[Shot]:
     return shots
 
 
-def delays_kept_s(shots: Sequence[Shot]) -> list[float]:
+def time_errors_s(shots: Sequence[Shot]) -> list[float]:
     """By how much each image looks younger than it is."""
     return [shot.captured_at_s - 1000.0 - (shot.number + 1) * PERIOD_S for shot in shots]
 
@@ -77,7 +77,7 @@ def test_the_jitter_of_the_network_is_taken_out_by_the_senders_clock(
     source = source_of(serve(images(120)), delays_s)
     shots = read(source, 100)
     assert float(np.std([delays_s[shot.number] for shot in shots[20:]])) > 0.003
-    assert delays_kept_s(shots[20:]) == pytest.approx([MIN_S] * len(shots[20:]), abs=2e-4)
+    assert time_errors_s(shots[20:]) == pytest.approx([MIN_S] * len(shots[20:]), abs=2e-4)
     assert source.camera is not None
     assert source.camera.clock is ImageClock.SENDER
 
@@ -87,11 +87,11 @@ def test_an_image_that_was_held_back_for_a_moment_is_as_old_as_it_is(
 ) -> None:
     delays_s = [MIN_S] * 60
     # Less than a pause is: by their rhythm alone these would be live.
-    held_s = (PAUSE_PERIODS - 1.5) * PERIOD_S
-    delays_s[30:33] = [MIN_S + held_s] * 3
+    stall_s = (PAUSE_PERIODS - 1.5) * PERIOD_S
+    delays_s[30:33] = [MIN_S + stall_s] * 3
     shots = read(source_of(serve(images(60)), delays_s), 50)
     assert {30, 31, 32} <= {shot.number for shot in shots}
-    assert delays_kept_s(shots) == pytest.approx([MIN_S] * len(shots), abs=2e-4)
+    assert time_errors_s(shots) == pytest.approx([MIN_S] * len(shots), abs=2e-4)
 
 
 # FFmpeg takes a step back by more than a minute for a counter that began anew, and steps forward.
@@ -104,7 +104,7 @@ def test_a_clock_that_jumps_is_reported_once_and_taken_up_anew(
     with capture_logs() as logs:
         shots = read(source, 50)
     assert [line["code"] for line in logs if line["log_level"] == "warning"] == ["STREAM_CLOCK_JUMPED"]
-    assert delays_kept_s(shots) == pytest.approx([MIN_S] * len(shots), abs=2e-4)
+    assert time_errors_s(shots) == pytest.approx([MIN_S] * len(shots), abs=2e-4)
     assert source.camera is not None
     assert source.camera.clock is ImageClock.SENDER
 
@@ -120,11 +120,11 @@ def test_a_clock_that_does_not_keep_time_is_given_up_and_no_image_looked_younger
     assert "STREAM_CLOCK_IMPLAUSIBLE" in [line.get("code") for line in logs]
     assert source.camera is not None
     assert source.camera.clock is ImageClock.ARRIVAL
-    kept_s = delays_kept_s(shots)
-    assert max(kept_s) <= MIN_S + 1e-4
+    errors_s = time_errors_s(shots)
+    assert max(errors_s) <= MIN_S + 1e-4
     # What runs slow makes them look older, until that is more than can be.
-    assert min(kept_s) > MIN_S - MAX_AGE_S - 0.2
-    assert kept_s[-1] == pytest.approx(MIN_S, abs=1e-4)
+    assert min(errors_s) > MIN_S - MAX_AGE_S - 0.2
+    assert errors_s[-1] == pytest.approx(MIN_S, abs=1e-4)
 
 
 def test_sound_beside_the_video_is_not_requested_and_sender_reports_move_nothing(
@@ -139,7 +139,7 @@ def test_sound_beside_the_video_is_not_requested_and_sender_reports_move_nothing
         shots = read(source_of(server, [MIN_S] * 60), 50)
     assert server.methods.count("SETUP") == 1
     assert [line for line in logs if line["log_level"] == "warning"] == []
-    assert delays_kept_s(shots) == pytest.approx([MIN_S] * len(shots), abs=2e-4)
+    assert time_errors_s(shots) == pytest.approx([MIN_S] * len(shots), abs=2e-4)
 
 
 def test_of_the_senders_wall_clock_the_first_report_alone_is_known(serve: Callable[..., RtspServer]) -> None:

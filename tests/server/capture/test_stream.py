@@ -99,7 +99,7 @@ def test_a_stream_gives_images_and_reconnects_when_its_server_is_back(
 
 def test_nobody_there_is_reported_at_once_with_host_and_port(stop: threading.Event) -> None:
     with socket.socket() as taken:
-        taken.bind(("127.0.0.1", 0))  # bound, not listening: refused
+        taken.bind(("127.0.0.1", 0))  # bound, not listening: rejected
         port = taken.getsockname()[1]
         with pytest.raises(CaptureError) as caught:
             stream_of(port, stop).open()

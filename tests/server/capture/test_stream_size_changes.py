@@ -33,13 +33,13 @@ class Sent:
 
     grey: int
     size_wh_px: tuple[int, int] = VGA
-    kept_ratio: float = 1.0
+    content_ratio: float = 1.0
     claimed_ratio: float = 1.0
 
     @property
     def part(self) -> bytes:
         content = cv2.imencode(".jpg", grey_image(self.grey, self.size_wh_px))[1].tobytes()
-        content = content[: int(len(content) * self.kept_ratio)]
+        content = content[: int(len(content) * self.content_ratio)]
         head = b"--x\r\nContent-Type: image/jpeg\r\nContent-Length: %d\r\n\r\n"
         return head % int(len(content) * self.claimed_ratio) + content + b"\r\n"
 
@@ -158,7 +158,8 @@ def test_images_that_are_cut_off_are_left_out_and_when_all_are_it_is_reported(
     serve: Callable[[Sequence[Sent]], LyingServer],
 ) -> None:
     sent = [
-        Sent(grey=40 + 4 * number, kept_ratio=0.5 if number % 3 == 2 else 1.0) for number in range(36 + AHEAD)
+        Sent(grey=40 + 4 * number, content_ratio=0.5 if number % 3 == 2 else 1.0)
+        for number in range(36 + AHEAD)
     ]
     shots = read(source_of(serve(sent), []), 20)
     assert all((grey_of(shot) - 40) // 4 % 3 != 2 for shot in shots)
@@ -166,7 +167,7 @@ def test_images_that_are_cut_off_are_left_out_and_when_all_are_it_is_reported(
         assert float(np.std(shot.image)) < 1.0, "a part of it is missing"
     torn = [
         *[Sent(grey=90) for _ in range(8)],
-        *[Sent(grey=100 + n, kept_ratio=0.5) for n in range(MAX_TORN + AHEAD)],
+        *[Sent(grey=100 + n, content_ratio=0.5) for n in range(MAX_TORN + AHEAD)],
     ]
     source = source_of(serve(torn), [])
     source.open()

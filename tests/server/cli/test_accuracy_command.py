@@ -129,7 +129,7 @@ def test_a_table_of_a_spreadsheet_in_any_order_is_read(tmp_path: Path) -> None:
         pytest.param(TABLE_2.splitlines()[0], HEADER, "RULER_UNCHECKED", id="nothing-to-check-with"),
     ],
 )
-def test_a_table_that_cannot_be_is_refused_with_its_line(
+def test_a_table_that_cannot_be_is_rejected_with_its_line(
     text: str, header: str, said: str, tmp_path: Path
 ) -> None:
     status, reported = typed("ruler", table(tmp_path / "r.csv", text, header), *V_AND_H)
@@ -177,7 +177,7 @@ def test_a_board_in_an_image_is_measured_at_its_points(tmp_path: Path, camera: P
     ] == pytest.approx(2.0 * document["plane_distance_mm"], rel=0.01)
 
 
-def test_an_image_that_cannot_be_measured_is_refused(tmp_path: Path, camera: Path) -> None:
+def test_an_image_that_cannot_be_measured_is_rejected(tmp_path: Path, camera: Path) -> None:
     empty, small, text = tmp_path / "empty.png", tmp_path / "small.png", tmp_path / "text.png"
     cv2.imwrite(str(empty), np.full((720, 1280), 200, np.uint8))
     cv2.imwrite(str(small), np.full((480, 640), 200, np.uint8))

@@ -65,10 +65,10 @@ def test_each_board_is_written(words: tuple[str, ...], said: str, kind: str, tmp
         pytest.param(("charuco", "--dictionary", "DICT_9X9"), "BOARD_INVALID", id="no-dictionary"),
     ],
 )
-def test_what_cannot_be_printed_is_refused(words: tuple[str, ...], code: str, tmp_path: Path) -> None:
+def test_what_cannot_be_printed_is_rejected(words: tuple[str, ...], code: str, tmp_path: Path) -> None:
     assert typed(*words, "--output", tmp_path / "board.pdf") == (2, code)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_file_that_is_neither_pdf_nor_svg_is_refused(tmp_path: Path) -> None:
+def test_a_file_that_is_neither_pdf_nor_svg_is_rejected(tmp_path: Path) -> None:
     assert typed("dots", "--output", tmp_path / "board.png") == (2, "BOARD_FILE_UNKNOWN")

@@ -76,7 +76,7 @@ def test_without_an_output_it_says_that_no_camera_file_is_there(images: Path) ->
     assert "No camera file was written: name one with --output" in text
 
 
-def test_a_file_of_another_camera_is_refused(images: Path, tmp_path: Path) -> None:
+def test_a_file_of_another_camera_is_rejected(images: Path, tmp_path: Path) -> None:
     output = tmp_path / "camera.yaml"
     assert typed(*BOARD, "--output", output, "--camera-name", "side", images)[0] == 0
     file = read_camera_file(output)

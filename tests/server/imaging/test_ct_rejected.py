@@ -1,4 +1,4 @@
-"""Every CT that is refused, and by which code: the whole table."""
+"""Every CT that is rejected, and by which code: the whole table."""
 
 import struct
 from pathlib import Path
@@ -146,8 +146,8 @@ TABLE: dict[str, tuple[str, Case]] = {
 
 
 @pytest.mark.parametrize(("code", "make"), TABLE.values(), ids=TABLE.keys())
-def test_a_ct_that_cannot_be_trusted_is_refused(code: str, make: Case, tmp_path: Path) -> None:
-    given, into = tmp_path / "given", tmp_path / "kept"
+def test_a_ct_that_cannot_be_trusted_is_rejected(code: str, make: Case, tmp_path: Path) -> None:
+    given, into = tmp_path / "given", tmp_path / "stored"
     given.mkdir()
     into.mkdir()
     with pytest.raises(InvalidInput) as caught:
@@ -171,7 +171,7 @@ def test_a_ct_that_cannot_be_trusted_is_refused(code: str, make: Case, tmp_path:
     assert not error.message[0].isupper()
 
 
-def test_a_series_that_is_not_there_is_refused(tmp_path: Path) -> None:
+def test_a_series_that_is_not_there_is_rejected(tmp_path: Path) -> None:
     with pytest.raises(InvalidInput) as caught:
         read_ct(made_ct().write(tmp_path), series="1.2.3")
     assert caught.value.code == "CT_SERIES_UNKNOWN"

@@ -1,4 +1,4 @@
-"""Meshes of every kind that programs write come in whole; what is no mesh is refused in one sentence."""
+"""Meshes of every kind that programs write come in whole; what is no mesh is rejected in one sentence."""
 
 from pathlib import Path
 
@@ -125,7 +125,7 @@ def test_several_objects_in_one_file_come_as_parts() -> None:
         pytest.param(obj(), "", "no format", id="no-format"),
     ],
 )
-def test_what_is_no_mesh_is_refused_in_a_sentence(content: bytes, file_format: str, said: str) -> None:
+def test_what_is_no_mesh_is_rejected_in_a_sentence(content: bytes, file_format: str, said: str) -> None:
     with pytest.raises(NavigationError, match=said) as reported:
         mesh_from_bytes(content, file_format=file_format)
     assert reported.value.code in {"MESH_UNREADABLE", "MESH_FORMAT_UNKNOWN", "MESH_EMPTY"}
@@ -139,13 +139,13 @@ def test_what_is_no_mesh_is_refused_in_a_sentence(content: bytes, file_format: s
         pytest.param(obj().replace(b"v 160.000000", b"v 1e30", 1), "above 1e9", id="beyond-the-moon"),
     ],
 )
-def test_coordinates_that_cannot_be_are_refused(content: bytes, said: str) -> None:
+def test_coordinates_that_cannot_be_are_rejected(content: bytes, said: str) -> None:
     with pytest.raises(PlanError, match=said) as reported:
         mesh_from_bytes(content, file_format="obj")
     assert reported.value.code == "MESH_INVALID"
 
 
-def told_of(content: bytes, file_format: str) -> tuple[str, str] | None:
+def problem_of(content: bytes, file_format: str) -> tuple[str, str] | None:
     try:
         mesh_from_bytes(content, file_format=file_format)
     except NavigationError as error:
@@ -164,13 +164,13 @@ def test_damaged_files_end_in_a_surface_or_in_a_sentence(content: bytes, file_fo
         damaged = bytearray(content[: rng.integers(len(content) // 2, 2 * len(content))])
         for at in rng.integers(0, len(damaged), 4):
             damaged[at] = rng.integers(0, 256)
-        reported = told_of(bytes(damaged), file_format)
+        reported = problem_of(bytes(damaged), file_format)
         assert reported is None or all(reported)
         rejected += reported is not None
     assert rejected > 10
 
 
-def test_a_file_too_large_is_refused_unread(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_too_large_is_rejected_unread(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("server.imaging.meshes.MAX_BYTES", 100)
     path = tmp_path / "bone.obj"
     path.write_bytes(obj())

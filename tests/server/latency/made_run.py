@@ -86,11 +86,11 @@ class Run:
                 )
             )
 
-    def _compared(self, asked_ms: float) -> ClockComparison:
+    def _compared(self, requested_ms: float) -> ClockComparison:
         return ClockComparison(
-            requested_at_ms=asked_ms,
-            responded_at_ms=asked_ms + 3.0,
-            server_s=self.server_s(asked_ms + 1.5),
+            requested_at_ms=requested_ms,
+            responded_at_ms=requested_ms + 3.0,
+            server_s=self.server_s(requested_ms + 1.5),
         )
 
     def server_s(self, page_ms: float) -> float:

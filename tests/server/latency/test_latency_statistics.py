@@ -217,7 +217,7 @@ def test_a_hand_before_the_camera_leaves_its_codes_out() -> None:
         ),
     ],
 )
-def test_what_cannot_be_timed_is_refused_in_numbers(run: Run, code: str, said: str) -> None:
+def test_what_cannot_be_timed_is_rejected_in_numbers(run: Run, code: str, said: str) -> None:
     with pytest.raises(CalibrationError) as rejected:
         run.report()
     assert rejected.value.code == code
@@ -225,6 +225,6 @@ def test_what_cannot_be_timed_is_refused_in_numbers(run: Run, code: str, said: s
     assert rejected.value.remedy.endswith(".")
 
 
-def test_nothing_at_all_is_refused_too() -> None:
+def test_nothing_at_all_is_rejected_too() -> None:
     with pytest.raises(CalibrationError, match="read in 0 of 0 images, needed 100"):
         latency_report(painted=[], read=[], shown=[], comparisons=Run().comparisons, min_timed=100)

@@ -53,7 +53,7 @@ class PublishedImage:
     is_on_stage: bool
 
     @property
-    def is_told(self) -> bool:
+    def is_in_message(self) -> bool:
         """Whether the JSON says where the drill is, or how far it is from the channel."""
         snapshot = self.message.snapshot
         return snapshot is not None and any(

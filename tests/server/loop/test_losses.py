@@ -100,7 +100,7 @@ def in_order(theatre: ShownTheatre) -> None:
     """Up to the event the drill is drawn, told and on the stage, and nothing is wrong."""
     while theatre.now_s < AT_S - 1e-9:
         shown = theatre.image()
-        assert (shown.is_drawn, shown.is_told, shown.is_on_stage) == (True, True, True)
+        assert (shown.is_drawn, shown.is_in_message, shown.is_on_stage) == (True, True, True)
         assert shown.alarms == {}
 
 
@@ -112,10 +112,10 @@ def test_what_is_lost_is_gone_everywhere_with_its_image(theatres: Theatres, name
         theatre = theatres.make(loss.event, size_mm=loss.size_mm, reference=loss.reference)
         in_order(theatre)
         shown = theatre.image()
-        assert loss.gone_after_s > 0.0 or not shown.is_told
+        assert loss.gone_after_s > 0.0 or not shown.is_in_message
         while loss.reason is not shown.reason:
             # All of it or nothing, in every image.
-            assert shown.is_told == shown.is_hinted_at == shown.is_drawn == shown.is_on_stage
+            assert shown.is_in_message == shown.is_hinted_at == shown.is_drawn == shown.is_on_stage
             assert shown.at_s < AT_S + loss.gone_after_s + SEARCH_S, "it is shown still"
             shown = theatre.image()
         gone_at_s = shown.at_s

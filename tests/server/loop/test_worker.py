@@ -105,7 +105,7 @@ class Prepared(Preparation):
         return self.made
 
 
-class KeptRing(ImageRing):
+class SpyRing(ImageRing):
     """A ring that remembers all that was written."""
 
     def __init__(self) -> None:
@@ -123,8 +123,8 @@ class KeptRing(ImageRing):
 
 
 @pytest.fixture
-def link() -> Iterator[tuple[WorkerLink, KeptRing]]:
-    ring = KeptRing()
+def link() -> Iterator[tuple[WorkerLink, SpyRing]]:
+    ring = SpyRing()
     notices, notice = multiprocessing.Pipe(duplex=False)
     reported, stop = multiprocessing.Pipe(duplex=False)
     yield WorkerLink(ring=ring, notice=notice, orders=reported), ring
@@ -132,7 +132,7 @@ def link() -> Iterator[tuple[WorkerLink, KeptRing]]:
         end.close()
 
 
-def run_to_the_end(link: tuple[WorkerLink, KeptRing], tracker: Tracker) -> list[Report]:
+def run_to_the_end(link: tuple[WorkerLink, SpyRing], tracker: Tracker) -> list[Report]:
     stop = threading.Event()
     thread = threading.Thread(
         target=work,
@@ -147,7 +147,7 @@ def run_to_the_end(link: tuple[WorkerLink, KeptRing], tracker: Tracker) -> list[
 
 
 def test_each_image_is_reported_with_its_number_and_the_counts_go_on(
-    link: tuple[WorkerLink, KeptRing],
+    link: tuple[WorkerLink, SpyRing],
 ) -> None:
     reports = run_to_the_end(link, Failing(255, ZeroDivisionError()))
     shown = [report for report in reports if report.snapshot]
@@ -158,8 +158,8 @@ def test_each_image_is_reported_with_its_number_and_the_counts_go_on(
     assert reports[-1].snapshot is None
 
 
-def test_an_image_that_the_tracker_refuses_becomes_trouble_and_the_next_one_ends_it(
-    link: tuple[WorkerLink, KeptRing],
+def test_an_image_that_the_tracker_rejects_becomes_a_problem_and_the_next_one_ends_it(
+    link: tuple[WorkerLink, SpyRing],
 ) -> None:
     rejection = InvalidInput("IMAGE_ODD", "an image is odd", "Give an even one.")
     reports = run_to_the_end(link, Failing(11, rejection))
@@ -170,7 +170,7 @@ def test_an_image_that_the_tracker_refuses_becomes_trouble_and_the_next_one_ends
 
 
 def test_a_fault_in_the_tracker_ends_the_loop_and_is_not_swallowed(
-    link: tuple[WorkerLink, KeptRing],
+    link: tuple[WorkerLink, SpyRing],
 ) -> None:
     tracking = Tracking(Prepared(Failing(11, ZeroDivisionError("a bug"))))
     with pytest.raises(ZeroDivisionError):
@@ -178,7 +178,7 @@ def test_a_fault_in_the_tracker_ends_the_loop_and_is_not_swallowed(
 
 
 def test_a_case_that_is_opened_sets_its_camera_to_its_calibration_and_tracking_learns_which_camera_it_is(
-    link: tuple[WorkerLink, KeptRing],
+    link: tuple[WorkerLink, SpyRing],
 ) -> None:
     small = tuple(modes("YUYV", SIZE, 30.0))
     video = FakeVideo(FakeCamera(offered=small))
@@ -204,7 +204,7 @@ def test_a_case_that_is_opened_sets_its_camera_to_its_calibration_and_tracking_l
 
 
 def test_a_case_that_is_opened_moves_the_cut_out_of_an_industrial_camera(
-    link: tuple[WorkerLink, KeptRing],
+    link: tuple[WorkerLink, SpyRing],
 ) -> None:
     camera = FakeIndustrialCamera()
     stop = threading.Event()

@@ -30,7 +30,7 @@ def expired(to: Feed, at_s: float) -> list[Message]:
     return to.expired(now_s=at_s, unix_offset_s=UNIX_S)
 
 
-def asked(to: Feed, kind: str, at_s: float = 100.0, device: str = "any") -> list[Message]:
+def answers_to(to: Feed, kind: str, at_s: float = 100.0, device: str = "any") -> list[Message]:
     request = Message(type=kind, device=device, timestamp_s=0.0)
     return to.answer(request, now_s=at_s, unix_offset_s=UNIX_S)
 
@@ -73,8 +73,8 @@ def test_when_no_image_comes_any_more_the_client_is_told_at_the_limit_and_once()
     sent(one)
     assert one.expires_at_s == 100.0 + FIGURES_S
     assert expired(one, one.expires_at_s) == []
-    told = said(expired(one, one.expires_at_s + 1e-6))
-    assert set(told) == {("STATUS", device) for _, device in LIVE} | {("STRING", "Headline")}
+    received = said(expired(one, one.expires_at_s + 1e-6))
+    assert set(received) == {("STATUS", device) for _, device in LIVE} | {("STRING", "Headline")}
     assert one.expires_at_s == 100.0 + REASONS_S
     assert said(expired(one, 101.0)) == {("STATUS", "Coaxial"): "TOO_OLD"}
     assert one.expires_at_s == inf
@@ -97,24 +97,24 @@ def test_an_instant_without_an_image_takes_all_away() -> None:
     one = feed()
     sent(one)
     empty = contents(None)
-    told = said(one.messages(empty, now_s=100.05, unix_offset_s=UNIX_S))
-    assert {told["STATUS", device] for _, device in LIVE} == {"GONE"}
-    assert told["STRING", "Headline"] == "NO IMAGE"
-    assert (told["STATUS", "Plan"], told["STATUS", "Coaxial"]) == ("NO_IMAGE", "NO_IMAGE")
+    received = said(one.messages(empty, now_s=100.05, unix_offset_s=UNIX_S))
+    assert {received["STATUS", device] for _, device in LIVE} == {"GONE"}
+    assert received["STRING", "Headline"] == "NO IMAGE"
+    assert (received["STATUS", "Plan"], received["STATUS", "Coaxial"]) == ("NO_IMAGE", "NO_IMAGE")
     assert one.expires_at_s == inf
     assert one.messages(empty, now_s=100.1, unix_offset_s=UNIX_S) == []
 
 
 def test_a_client_asks_for_the_state_and_never_gets_an_old_one() -> None:
     one = feed()
-    assert said(asked(one, "GET_STATUS")) == {("STATUS", "any"): "NO_IMAGE"}
+    assert said(answers_to(one, "GET_STATUS")) == {("STATUS", "any"): "NO_IMAGE"}
     sent(one)
-    assert said(asked(one, "GET_STATUS", 100.4)) == {("STATUS", "any"): "OK"}
-    assert said(asked(one, "GET_STATUS", 100.6, device="")) == {("STATUS", "Coaxial"): "TOO_OLD"}
+    assert said(answers_to(one, "GET_STATUS", 100.4)) == {("STATUS", "any"): "OK"}
+    assert said(answers_to(one, "GET_STATUS", 100.6, device="")) == {("STATUS", "Coaxial"): "TOO_OLD"}
 
 
 def test_a_client_asks_what_is_spoken() -> None:
-    (answer,) = asked(feed(), "GET_CAPABIL")
+    (answer,) = answers_to(feed(), "GET_CAPABIL")
     assert answer.type == "CAPABILITY"
     assert len(answer.content) % 12 == 0
     assert b"TRANSFORM" in answer.content
@@ -124,22 +124,22 @@ def test_a_client_asks_what_is_spoken() -> None:
 def test_a_client_stops_its_poses_and_starts_them_again(ending: str) -> None:
     one = feed()
     sent(one)
-    told = said(asked(one, f"STP_{ending}"))
-    assert {told["STATUS", device] for _, device in LIVE} == {"STOPPED"}
-    assert told[f"RTS_{ending}", "any"] == b"\0"
+    received = said(answers_to(one, f"STP_{ending}"))
+    assert {received["STATUS", device] for _, device in LIVE} == {"STOPPED"}
+    assert received[f"RTS_{ending}", "any"] == b"\0"
     assert one.expires_at_s == inf
     assert sent(one, captured_at_s=100.1) == []
-    assert set(said(asked(one, f"STT_{ending}"))) == {(f"RTS_{ending}", "any")}
+    assert set(said(answers_to(one, f"STT_{ending}"))) == {(f"RTS_{ending}", "any")}
     assert set(said(sent(one, captured_at_s=100.2))) == LIVE | TEXTS
 
 
 @pytest.mark.parametrize("kind", ["TRANSFORM", "IMAGE", "GET_IMAGE", "STT_TDATA", "RTS_STATUS", ""])
 def test_what_is_not_known_is_ignored(kind: str) -> None:
-    assert asked(feed(), kind) == []
+    assert answers_to(feed(), kind) == []
 
 
 def test_all_messages_can_be_packed() -> None:
     one = feed()
-    for messages in (sent(one), expired(one, 101.0), asked(one, "GET_CAPABIL")):
+    for messages in (sent(one), expired(one, 101.0), answers_to(one, "GET_CAPABIL")):
         for version in wire.VERSIONS:
             assert all(wire.pack(message, version=version) for message in messages)

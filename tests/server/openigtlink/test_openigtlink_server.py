@@ -123,9 +123,9 @@ def test_when_images_stop_the_client_is_told_without_another_instant() -> None:
         while not world.hub._waiting:
             await asyncio.sleep(0)
         world.now_s += 1.0
-        told = await until(reader, HEADLINE)
-        assert told["STATUS", "drillTip"] == "TOO_OLD"
-        assert str(told[HEADLINE]).startswith("TOO_OLD")
+        received = await until(reader, HEADLINE)
+        assert received["STATUS", "drillTip"] == "TOO_OLD"
+        assert str(received[HEADLINE]).startswith("TOO_OLD")
 
     played(scene)
 
@@ -138,8 +138,8 @@ def test_between_two_images_of_a_slow_rate_no_pose_stays_valid_and_the_newest_fo
         world.publish(4)
         world.now_s += 2.0
         world.publish(5)
-        told = await until(reader, HEADLINE)
-        assert told["STATUS", "drillTip"] == "TOO_OLD"
+        received = await until(reader, HEADLINE)
+        assert received["STATUS", "drillTip"] == "TOO_OLD"
         assert depth_mm(await until(reader, HEADLINE)) == pytest.approx(5.0, abs=1e-4)
 
     played(scene, max_rate_hz=1.0)

@@ -145,7 +145,7 @@ def test_wild_corners_of_a_marker_break_nothing(snapshot_of: SnapshotOf, wild: f
     assert draw_overlay(grey(), snapshot).shape == (360, 640, 3)
 
 
-def test_an_image_of_another_size_is_refused(snapshot_of: SnapshotOf) -> None:
+def test_an_image_of_another_size_is_rejected(snapshot_of: SnapshotOf) -> None:
     with pytest.raises(InvalidInput) as reported:
         draw_overlay(grey((320, 180)), snapshot_of())
     assert reported.value.code == "OVERLAY_SIZE"
@@ -182,7 +182,7 @@ def test_a_jpeg_shows_the_image() -> None:
     assert np.abs(decoded.astype(int) - 110).max() <= 2
 
 
-def test_an_image_without_pixels_is_refused() -> None:
+def test_an_image_without_pixels_is_rejected() -> None:
     with pytest.raises(InvalidInput) as reported:
         encode_jpeg(np.zeros((0, 0, 3), np.uint8), 80)
     assert reported.value.code == "IMAGE_NOT_ENCODED"

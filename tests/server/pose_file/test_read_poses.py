@@ -262,7 +262,7 @@ def test_a_mistake_is_reported_with_its_place(tmp_path: Path, name: str, content
 
 
 @pytest.mark.parametrize("kind", ["nowhere", "empty-folder", "binary", "cut-npy", "objects-npy"])
-def test_what_is_no_file_of_poses_is_refused(tmp_path: Path, kind: str) -> None:
+def test_what_is_no_file_of_poses_is_rejected(tmp_path: Path, kind: str) -> None:
     path = tmp_path / {"binary": "p.txt", "cut-npy": "p.npy", "objects-npy": "p.npy"}.get(kind, kind)
     if kind == "empty-folder":
         path.mkdir()

@@ -206,7 +206,7 @@ def test_the_page_lies_as_the_board_needs_it_with_white_around(
     assert right <= page[0] - 12.0
 
 
-def test_a_board_that_does_not_fit_is_refused_with_both_sizes() -> None:
+def test_a_board_that_does_not_fit_is_rejected_with_both_sizes() -> None:
     with pytest.raises(InvalidInput, match=r"308\.0 x 218\.0 mm.*186\.0 x 271\.0") as reported:
         board_sheet(CheckerBoard(columns=9, rows=6, square_mm=30.0))
     assert reported.value.code == "BOARD_TOO_LARGE"
@@ -215,12 +215,12 @@ def test_a_board_that_does_not_fit_is_refused_with_both_sizes() -> None:
 @pytest.mark.parametrize(
     ("dot_mm", "fiducials"), [(3.5, ()), (2.5, (3,)), (0.0, ()), (-1.0, ()), (float("nan"), ())]
 )
-def test_dots_that_touch_or_have_no_width_are_refused(dot_mm: float, fiducials: tuple[int, ...]) -> None:
+def test_dots_that_touch_or_have_no_width_are_rejected(dot_mm: float, fiducials: tuple[int, ...]) -> None:
     with pytest.raises(InvalidInput) as reported:
         board_sheet(DotBoard(columns=4, rows=3, pitch_mm=4.0, fiducials=fiducials), dot_mm=dot_mm)
     assert reported.value.code == "BOARD_DOTS_UNPRINTABLE"
 
 
-def test_a_paper_that_nobody_has_is_refused() -> None:
+def test_a_paper_that_nobody_has_is_rejected() -> None:
     with pytest.raises(InvalidInput, match="A4, A3, letter"):
         board_sheet(CheckerBoard(columns=4, rows=3, square_mm=10.0), paper="A0")

@@ -126,7 +126,7 @@ def test_words_cannot_break_out_of_their_file() -> None:
 
 
 @pytest.mark.parametrize("side_mm", [0.0, 4.9, 101.0, float("nan")])
-def test_a_side_that_the_page_cannot_hold_is_refused(side_mm: float) -> None:
+def test_a_side_that_the_page_cannot_hold_is_rejected(side_mm: float) -> None:
     with pytest.raises(InvalidInput) as reported:
         marker_sheet(SHAPE, side_mm=side_mm, name="drill")
     assert reported.value.code == "MARKER_SIDE_UNPRINTABLE"

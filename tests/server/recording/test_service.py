@@ -192,7 +192,7 @@ def test_documents_in_use_are_recorded_with_their_hash_and_again_when_they_chang
 def test_without_consent_nothing_is_recorded_by_hand_or_by_itself(store: CaseStore) -> None:
     theatre = made(store, consent="required", when="navigating")
     case_id = theatre.open_a_case()
-    assert theatre.service.consent.state is ConsentState.NOT_ASKED
+    assert theatre.service.consent.state is ConsentState.NOT_ANSWERED
     for is_given in (None, False):
         if is_given is not None:
             theatre.service.answer_consent(case_id, is_given=is_given, made_by="Anna")
@@ -229,6 +229,6 @@ def test_consent_is_of_one_case(store: CaseStore) -> None:
     first = theatre.open_a_case()
     theatre.service.answer_consent(first, is_given=True, made_by="Anna")
     theatre.open_a_case()
-    assert theatre.service.consent.state is ConsentState.NOT_ASKED
+    assert theatre.service.consent.state is ConsentState.NOT_ANSWERED
     with pytest.raises(SetupOrderError, match="another case"):
         theatre.service.answer_consent(first, is_given=True, made_by="Anna")

@@ -26,8 +26,8 @@ from tracker.registration import Registration
 
 PARENT = """<!doctype html><title>parent</title><body style="margin:0;background:#222">
 <script>
-window.told = [];
-addEventListener("message", (e) => { if (e.origin === location.origin) told.push(e.data); });
+window.received = [];
+addEventListener("message", (e) => { if (e.origin === location.origin) received.push(e.data); });
 </script>
 <iframe id="scene" src="/scene/" style="border:0;width:100vw;height:100vh"></iframe>"""
 

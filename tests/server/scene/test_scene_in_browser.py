@@ -57,8 +57,8 @@ def opened(browser: Browser, address: str) -> Page:
 
 
 def reported(page: Page, condition: str) -> None:
-    """Wait until the page around the scene has been told something for which `condition` of m holds."""
-    page.wait_for_function(f"told.some((m) => {condition})", timeout=60_000)
+    """Wait until the page around the scene has received a message m for which `condition` holds."""
+    page.wait_for_function(f"received.some((m) => {condition})", timeout=60_000)
 
 
 def picture(page: Page) -> npt.NDArray[np.uint8]:
@@ -89,7 +89,7 @@ def test_the_drill_is_seen_told_about_and_hidden(browser: Browser, theatre: Thea
             reported(page, "m.image_number >= 200010")
             uncovered(page)
             hidden = picture(page)
-        messages = page.evaluate("told")
+        messages = page.evaluate("received")
         page.close()
     assert orange_px(shown) > 500
     assert orange_px(hidden) == 0
@@ -107,7 +107,9 @@ def test_silence_takes_the_number_away(browser: Browser, theatre: Theatre) -> No
         page = opened(browser, server.address)
         with fed(server, theatre):
             reported(page, "m.image_number >= 5")
-        page.wait_for_function("told.at(-1).image_number === null && told.at(-1).connected", timeout=60_000)
+        page.wait_for_function(
+            "received.at(-1).image_number === null && received.at(-1).connected", timeout=60_000
+        )
         assert orange_px(picture(page)) == 0
         page.close()
 
@@ -126,7 +128,7 @@ def test_an_untouched_screen_comes_back_after_a_restart(browser: Browser, theatr
             assert frame.evaluate("Document.prototype.hasFocus.call(document)") is False
             frame.evaluate("window.untouched = true")
     reported(page, "!m.connected")
-    page.evaluate("told.length = 0")
+    page.evaluate("received.length = 0")
     with running(theatre, port=port) as server, fed(server, theatre, first_image=0):
         reported(page, "m.connected && m.image_number >= 5 && m.image_number < 1000")
         assert frame.evaluate("window.untouched") is True
@@ -180,10 +182,10 @@ def test_a_line_that_fell_silent_is_asked_for_anew(
         with fed(server, theatre):
             reported(page, "m.image_number >= 5")
         # A server that lost its power: the line stands, and nothing ever comes.
-        follower = server.app.state.scene._follower
-        page.evaluate("told.length = 0")
-        follower.get_loop().call_soon_threadsafe(follower.cancel)
+        task = server.app.state.scene._update_task
+        page.evaluate("received.length = 0")
+        task.get_loop().call_soon_threadsafe(task.cancel)
         page.wait_for_function(
-            "told.findIndex((m) => !m.connected) >= 0 && told.at(-1).connected", timeout=60_000
+            "received.findIndex((m) => !m.connected) >= 0 && received.at(-1).connected", timeout=60_000
         )
         page.close()

@@ -178,7 +178,7 @@ def test_one_bad_instant_hides_the_drill_and_the_next_is_shown(
         pytest.param({"protocol": "viser-v1.1.0"}, id="of another version"),
     ],
 )
-def test_a_stranger_is_refused_before_the_handshake(theatre: Theatre, wish: dict[str, str]) -> None:
+def test_a_stranger_is_rejected_before_the_handshake(theatre: Theatre, wish: dict[str, str]) -> None:
     with running(theatre) as server:
         with pytest.raises(InvalidStatus) as rejected, viewer(server, **wish):
             pass
@@ -186,7 +186,7 @@ def test_a_stranger_is_refused_before_the_handshake(theatre: Theatre, wish: dict
         assert server.app.state.scene.viewers == 0
 
 
-def test_a_crowd_is_refused(theatre: Theatre) -> None:
+def test_a_crowd_is_rejected(theatre: Theatre) -> None:
     with running(theatre, max_viewers=1) as server, viewer(server) as line:
         line.recv(timeout=20)
         with pytest.raises(InvalidStatus), viewer(server):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from server.scene.trace import EVERY_S, KEPT_S, Trace
+from server.scene.trace import EVERY_S, SPAN_S, Trace
 
 
 def filled(seconds: float, rate_hz: float = 30.0) -> Trace:
@@ -14,9 +14,9 @@ def filled(seconds: float, rate_hz: float = 30.0) -> Trace:
 
 def test_the_last_ten_seconds_are_kept_and_no_more() -> None:
     segments = filled(25.0).segments_mm
-    assert segments[-1, 1, 0] - segments[0, 0, 0] <= KEPT_S
-    assert len(segments) <= KEPT_S / EVERY_S
-    assert len(segments) > 0.7 * KEPT_S / EVERY_S
+    assert segments[-1, 1, 0] - segments[0, 0, 0] <= SPAN_S
+    assert len(segments) <= SPAN_S / EVERY_S
+    assert len(segments) > 0.7 * SPAN_S / EVERY_S
 
 
 def test_segments_hang_together() -> None:

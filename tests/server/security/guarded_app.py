@@ -69,7 +69,7 @@ class Guarded:
 
 
 def people_of(folder: Path, clock: Clock, *, required: bool = True) -> PeopleService:
-    """The desk of a folder, by this clock."""
+    """Return the service of a folder, with this clock."""
     audit = AuditLog(folder, clock=clock.now)
     return PeopleService(folder, audit=audit, required=required, clock=clock.now, seconds=clock.seconds)
 

@@ -95,7 +95,7 @@ def test_what_each_role_may_is_what_was_agreed() -> None:
     assert {rule.name for rule in ACCESS_RULES if rule.is_public} == {"GET /health", "POST /api/session"}
 
 
-def asked_of(house: Guarded, rule: Rule, headers: dict[str, str]) -> tuple[int, str]:
+def answer_to(house: Guarded, rule: Rule, headers: dict[str, str]) -> tuple[int, str]:
     """Status and code of the answer; what lets in is asked in a way that changes nothing."""
     path = re.sub(r"\{[a-z_]+\}", "none", rule.template)
     if rule.method == "WS":
@@ -115,14 +115,14 @@ def asked_of(house: Guarded, rule: Rule, headers: dict[str, str]) -> tuple[int, 
 def test_each_address_lets_in_whom_the_table_names_and_nobody_else(
     house: Guarded, bearers: dict[Role, dict[str, str]], rule: Rule
 ) -> None:
-    status, code = asked_of(house, rule, {})
+    status, code = answer_to(house, rule, {})
     if rule.is_public:
         assert (status, code) != (401, "SESSION_NEEDED")
     else:
         assert (status, code) == (401, "SESSION_NEEDED")
     for role in Role:
         signs_out = rule.name == "DELETE /api/session"
-        status, code = asked_of(house, rule, house.bearer(role) if signs_out else bearers[role])
+        status, code = answer_to(house, rule, house.bearer(role) if signs_out else bearers[role])
         if role in rule.roles:
             assert code not in {"ROLE_REJECTED", "SESSION_NEEDED", "SESSION_EXPIRED"}, (role, status, code)
         else:

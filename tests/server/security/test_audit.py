@@ -232,7 +232,7 @@ def test_rejections_are_written_so_often_and_no_more(log: AuditLog) -> None:
     for _ in range(200):
         log.append_rejection(Entry(who=LOCAL_USER, what="POST /api/session", status=403))
     assert log.head.count == LINES + 60
-    assert b"more was refused" in log.newest(1)[0]
+    assert b"more was rejected" in log.newest(1)[0]
 
 
 def test_what_is_changed_is_noted_in_its_request_and_else_has_a_line_of_its_own(log: AuditLog) -> None:

@@ -31,22 +31,22 @@ def clock() -> Clock:
 
 
 @pytest.fixture
-def desk(tmp_path: Path, clock: Clock) -> PeopleService:
+def service(tmp_path: Path, clock: Clock) -> PeopleService:
     return people_of(tmp_path, clock)
 
 
-def invited(desk: PeopleService, *, role: Role = Role.VIEWER, single_use: bool = True) -> str:
+def invited(service: PeopleService, *, role: Role = Role.VIEWER, single_use: bool = True) -> str:
     wanted = NewInvitation(name="Dr. Ito", role=role, lasts=timedelta(hours=1), single_use=single_use)
-    return desk.invite(wanted, by="test")[1].text
+    return service.invite(wanted, by="test")[1].text
 
 
-def test_an_invitation_lets_in_once_with_its_name_and_role(desk: PeopleService) -> None:
-    link = invited(desk, role=Role.SUPERVISOR)
-    session, token = desk.sign_in(link, address=HERE)
-    assert desk.session_of(token.text, address=HERE) == session
+def test_an_invitation_lets_in_once_with_its_name_and_role(service: PeopleService) -> None:
+    link = invited(service, role=Role.SUPERVISOR)
+    session, token = service.sign_in(link, address=HERE)
+    assert service.session_of(token.text, address=HERE) == session
     assert (session.person.name, session.person.role) == ("Dr. Ito", Role.SUPERVISOR)
     with pytest.raises(InvitationRejected) as rejected:
-        desk.sign_in(link, address=HERE)
+        service.sign_in(link, address=HERE)
     assert rejected.value.code == "INVITATION_USED"
 
 
@@ -65,49 +65,49 @@ def test_who_invited_somebody_is_known_of_them_over_a_restart(tmp_path: Path, cl
 
 
 def test_one_for_many_lets_in_many_as_the_same_person_until_its_time_is_over(
-    desk: PeopleService, clock: Clock
+    service: PeopleService, clock: Clock
 ) -> None:
-    link = invited(desk, single_use=False)
-    first, second = desk.sign_in(link, address=HERE)[0], desk.sign_in(link, address=HERE)[0]
+    link = invited(service, single_use=False)
+    first, second = service.sign_in(link, address=HERE)[0], service.sign_in(link, address=HERE)[0]
     assert first.id != second.id
     assert first.person == second.person
     clock.passes(hours=1)
     with pytest.raises(InvitationRejected) as rejected:
-        desk.sign_in(link, address=HERE)
+        service.sign_in(link, address=HERE)
     assert rejected.value.code == "INVITATION_EXPIRED"
 
 
-def test_one_that_was_taken_back_lets_nobody_in_and_leaves_who_is_in(desk: PeopleService) -> None:
-    link = invited(desk, single_use=False)
-    session, _ = desk.sign_in(link, address=HERE)
-    desk.revoke(session.invitation_id)
-    assert desk.is_valid(session.id)
+def test_one_that_was_taken_back_lets_nobody_in_and_leaves_who_is_in(service: PeopleService) -> None:
+    link = invited(service, single_use=False)
+    session, _ = service.sign_in(link, address=HERE)
+    service.revoke(session.invitation_id)
+    assert service.is_valid(session.id)
     with pytest.raises(InvitationRejected) as rejected:
-        desk.sign_in(link, address=HERE)
+        service.sign_in(link, address=HERE)
     assert rejected.value.code == "INVITATION_REVOKED"
 
 
-def test_a_session_ends_by_the_clock_and_when_somebody_ends_it(desk: PeopleService, clock: Clock) -> None:
-    session, token = desk.sign_in(invited(desk), address=HERE)
-    other, other_token = desk.sign_in(invited(desk), address=HERE)
-    desk.end_session(other.id)
-    assert not desk.is_valid(other.id)
+def test_a_session_ends_by_the_clock_and_when_somebody_ends_it(service: PeopleService, clock: Clock) -> None:
+    session, token = service.sign_in(invited(service), address=HERE)
+    other, other_token = service.sign_in(invited(service), address=HERE)
+    service.end_session(other.id)
+    assert not service.is_valid(other.id)
     clock.passes(hours=11, minutes=59)
-    assert desk.is_valid(session.id)
+    assert service.is_valid(session.id)
     clock.passes(minutes=1)
     for shown in (token, other_token):
         with pytest.raises(SessionRejected) as rejected:
-            desk.session_of(shown.text, address=HERE)
+            service.session_of(shown.text, address=HERE)
         assert rejected.value.code == "SESSION_EXPIRED"
     with pytest.raises(PersonUnknown):
-        desk.end_session(session.id)
+        service.end_session(session.id)
 
 
 def test_sessions_and_invitations_outlast_a_restart_and_the_disk_opens_nothing(
-    desk: PeopleService, tmp_path: Path, clock: Clock
+    service: PeopleService, tmp_path: Path, clock: Clock
 ) -> None:
-    link = invited(desk, single_use=False)
-    session, token = desk.sign_in(link, address=HERE)
+    link = invited(service, single_use=False)
+    session, token = service.sign_in(link, address=HERE)
     again = people_of(tmp_path, clock)
     assert again.session_of(token.text, address=HERE) == session
     assert again.sign_in(link, address=HERE)[0].person == session.person
@@ -118,84 +118,84 @@ def test_sessions_and_invitations_outlast_a_restart_and_the_disk_opens_nothing(
         assert secret.partition(".")[2] not in stored.read_text()
 
 
-def test_a_right_name_with_a_wrong_secret_opens_nothing(desk: PeopleService) -> None:
-    session, token = desk.sign_in(invited(desk), address=HERE)
+def test_a_right_name_with_a_wrong_secret_opens_nothing(service: PeopleService) -> None:
+    session, token = service.sign_in(invited(service), address=HERE)
     wrong = f"{session.id}.{'A' * 43}"
     assert wrong != token.text
     with pytest.raises(SessionRejected):
-        desk.session_of(wrong, address=HERE)
+        service.session_of(wrong, address=HERE)
 
 
-def test_failed_logins_are_limited_by_address_and_wait_a_minute(desk: PeopleService, clock: Clock) -> None:
-    link = invited(desk)
+def test_failed_logins_are_limited_by_address_and_wait_a_minute(service: PeopleService, clock: Clock) -> None:
+    link = invited(service)
     for number in range(10):
         with pytest.raises(InvitationRejected):
-            desk.sign_in(f"{number:012x}.{'A' * 43}", address=HERE)
+            service.sign_in(f"{number:012x}.{'A' * 43}", address=HERE)
         clock.passes(seconds=1)
     with pytest.raises(TooManyTries) as reported:
-        desk.sign_in("x", address=HERE)
+        service.sign_in("x", address=HERE)
     assert reported.value.context == {"wait_s": 50}
     with pytest.raises(TooManyTries):
-        desk.session_of("nonsense", address=HERE)
+        service.session_of("nonsense", address=HERE)
     # Somebody elsewhere is not kept waiting by that, and neither is who has the right link, or is in already.
     with pytest.raises(InvitationRejected):
-        desk.sign_in("x", address="192.0.2.8")
-    session, token = desk.sign_in(link, address=HERE)
-    assert desk.session_of(token.text, address=HERE) == session
+        service.sign_in("x", address="192.0.2.8")
+    session, token = service.sign_in(link, address=HERE)
+    assert service.session_of(token.text, address=HERE) == session
     with pytest.raises(InvitationRejected) as used:
-        desk.sign_in(link, address=HERE)
+        service.sign_in(link, address=HERE)
     assert used.value.code == "INVITATION_USED"
     clock.passes(seconds=50)
     with pytest.raises(InvitationRejected):
-        desk.sign_in("x", address=HERE)
+        service.sign_in("x", address=HERE)
 
 
-def test_failed_logins_from_everywhere_are_limited_together(desk: PeopleService) -> None:
+def test_failed_logins_from_everywhere_are_limited_together(service: PeopleService) -> None:
     for number in range(100):
         with pytest.raises(SessionRejected):
-            desk.session_of("x", address=f"192.0.2.{number}")
+            service.session_of("x", address=f"192.0.2.{number}")
     with pytest.raises(TooManyTries):
-        desk.session_of("x", address="198.51.100.1")
+        service.session_of("x", address="198.51.100.1")
 
 
-def test_neighbours_in_one_network_of_the_new_kind_count_as_one(desk: PeopleService) -> None:
+def test_neighbours_in_one_network_of_the_new_kind_count_as_one(service: PeopleService) -> None:
     for number in range(10):
         with pytest.raises(SessionRejected):
-            desk.session_of("x", address=f"2001:db8::{number}")
+            service.session_of("x", address=f"2001:db8::{number}")
     with pytest.raises(TooManyTries):
-        desk.session_of("x", address="2001:db8::ffff")
+        service.session_of("x", address="2001:db8::ffff")
     with pytest.raises(SessionRejected):
-        desk.session_of("x", address="2001:db8:0:1::1")
+        service.session_of("x", address="2001:db8:0:1::1")
 
 
 def test_the_operators_link_comes_until_an_operator_is_in_and_the_old_one_ends(
-    desk: PeopleService, clock: Clock
+    service: PeopleService, clock: Clock
 ) -> None:
-    first = desk.operator_token(wanted=False)
-    second = desk.operator_token(wanted=False)
+    first = service.operator_token(wanted=False)
+    second = service.operator_token(wanted=False)
     assert first is not None
     assert second is not None
     with pytest.raises(InvitationRejected) as rejected:
-        desk.sign_in(first.text, address=HERE)
+        service.sign_in(first.text, address=HERE)
     assert rejected.value.code == "INVITATION_REVOKED"
-    session, _ = desk.sign_in(second.text, address=HERE)
+    session, _ = service.sign_in(second.text, address=HERE)
     assert session.person.role is Role.OPERATOR
-    assert desk.operator_token(wanted=False) is None
-    assert desk.operator_token(wanted=True) is not None
+    assert service.operator_token(wanted=False) is None
+    assert service.operator_token(wanted=True) is not None
     clock.passes(hours=13)
-    assert desk.operator_token(wanted=False) is not None
+    assert service.operator_token(wanted=False) is not None
 
 
-def test_what_ended_long_ago_is_forgotten(desk: PeopleService, tmp_path: Path, clock: Clock) -> None:
-    desk.sign_in(invited(desk), address=HERE)
+def test_what_ended_long_ago_is_forgotten(service: PeopleService, tmp_path: Path, clock: Clock) -> None:
+    service.sign_in(invited(service), address=HERE)
     clock.passes(days=4)
-    invited(desk)
+    invited(service)
     stored = json.loads((tmp_path / "people.json").read_text())
     assert (len(stored["sessions"]), len(stored["invitations"])) == (0, 1)
 
 
-def test_a_damaged_file_is_reported(desk: PeopleService, tmp_path: Path, clock: Clock) -> None:
-    invited(desk)
+def test_a_damaged_file_is_reported(service: PeopleService, tmp_path: Path, clock: Clock) -> None:
+    invited(service)
     (tmp_path / "people.json").write_text('{"form": 1, "invitations": [{}]}')
     with pytest.raises(StoreError) as reported:
         people_of(tmp_path, clock)
@@ -203,59 +203,59 @@ def test_a_damaged_file_is_reported(desk: PeopleService, tmp_path: Path, clock: 
 
 
 def test_ended_sessions_make_room_and_the_operator_gets_in_however_many_there_are(
-    desk: PeopleService, tmp_path: Path, clock: Clock, monkeypatch: pytest.MonkeyPatch
+    service: PeopleService, tmp_path: Path, clock: Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(retention, "MAX_RECORDS", 12)
-    link = invited(desk, single_use=False)
-    held, _ = desk.sign_in(link, address=HERE)
+    link = invited(service, single_use=False)
+    active, _ = service.sign_in(link, address=HERE)
     for _ in range(30):
         clock.passes(seconds=1)
-        last = desk.end_session(desk.sign_in(link, address=HERE)[0].id)
+        last = service.end_session(service.sign_in(link, address=HERE)[0].id)
     there = json.loads((tmp_path / "people.json").read_text())
     assert len(there["sessions"]) + len(there["invitations"]) == 12
-    assert {held.id, last.id} <= {one["id"] for one in there["sessions"]}
-    # Links that were used go as well; then what holds fills the room, and only that is refused.
-    desk.sign_in(invited(desk), address=HERE)
+    assert {active.id, last.id} <= {one["id"] for one in there["sessions"]}
+    # Links that were used go as well; then what holds fills the room, and only that is rejected.
+    service.sign_in(invited(service), address=HERE)
     for _ in range(9):
-        invited(desk)
+        invited(service)
     with pytest.raises(PeopleRejected) as reported:
-        invited(desk)
+        invited(service)
     assert reported.value.code == "TOO_MANY_PEOPLE"
     with pytest.raises(PeopleRejected):
-        desk.sign_in(link, address=HERE)
-    desk.end_session(held.id)
-    invited(desk)
+        service.sign_in(link, address=HERE)
+    service.end_session(active.id)
+    invited(service)
     again = people_of(tmp_path, clock)
     token = again.operator_token(wanted=False)
     assert token is not None
     assert again.sign_in(token.text, address=HERE)[0].person.role is Role.OPERATOR
 
 
-def test_one_link_lets_in_twenty_at_a_time(desk: PeopleService) -> None:
-    link = invited(desk, single_use=False)
-    sessions = [desk.sign_in(link, address=HERE)[0] for _ in range(20)]
+def test_one_link_lets_in_twenty_at_a_time(service: PeopleService) -> None:
+    link = invited(service, single_use=False)
+    sessions = [service.sign_in(link, address=HERE)[0] for _ in range(20)]
     with pytest.raises(InvitationRejected) as rejected:
-        desk.sign_in(link, address=HERE)
+        service.sign_in(link, address=HERE)
     assert rejected.value.code == "INVITATION_FULL"
     assert "20 sessions are signed in by this link" in rejected.value.message
-    assert all(desk.is_valid(one.id) for one in sessions)
-    desk.end_session(sessions[0].id)
-    desk.sign_in(link, address=HERE)
-    desk.sign_in(invited(desk), address=HERE)
+    assert all(service.is_valid(one.id) for one in sessions)
+    service.end_session(sessions[0].id)
+    service.sign_in(link, address=HERE)
+    service.sign_in(invited(service), address=HERE)
 
 
 def test_one_link_signs_in_forty_times_an_hour_and_its_audit_lines_end_there(
-    desk: PeopleService, clock: Clock
+    service: PeopleService, clock: Clock
 ) -> None:
     lasting = NewInvitation(name="Hall", role=Role.VIEWER, lasts=timedelta(hours=3), single_use=False)
-    link, other = desk.invite(lasting, by="test")[1].text, desk.invite(lasting, by="test")[1].text
+    link, other = service.invite(lasting, by="test")[1].text, service.invite(lasting, by="test")[1].text
     for _ in range(40):
         clock.passes(seconds=30)
-        session, token = desk.sign_in(link, address=HERE)
-        desk.end_session(session.id)
-    session, token = desk.sign_in(other, address=HERE)
+        session, token = service.sign_in(link, address=HERE)
+        service.end_session(session.id)
+    session, token = service.sign_in(other, address=HERE)
     with pytest.raises(TooManyTries) as reported:
-        desk.sign_in(link, address=HERE)
+        service.sign_in(link, address=HERE)
     assert reported.value.code == "TOO_MANY_SIGN_INS"
     assert reported.value.message == (
         "this link has signed in 40 times within 60 min, and signs in again in 41 min"
@@ -263,20 +263,20 @@ def test_one_link_signs_in_forty_times_an_hour_and_its_audit_lines_end_there(
     assert reported.value.context["wait_s"] == 3600 - 39 * 30
     assert reported.value.remedy
     # Who is in stays in, and other links let in.
-    assert desk.session_of(token.text, address=HERE) == session
+    assert service.session_of(token.text, address=HERE) == session
     clock.passes(seconds=3600 - 39 * 30)
-    desk.sign_in(link, address=HERE)
-    # A refused try does not make the wait longer, and each place comes back for itself.
+    service.sign_in(link, address=HERE)
+    # A rejected try does not make the wait longer, and each place comes back for itself.
     with pytest.raises(TooManyTries) as reported:
-        desk.sign_in(link, address=HERE)
+        service.sign_in(link, address=HERE)
     assert reported.value.context["wait_s"] == 30
 
 
 def test_nobody_waits_at_the_door_while_the_disk_is_slow(
-    desk: PeopleService, monkeypatch: pytest.MonkeyPatch
+    service: PeopleService, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    link = invited(desk, single_use=False)
-    session, token = desk.sign_in(link, address=HERE)
+    link = invited(service, single_use=False)
+    session, token = service.sign_in(link, address=HERE)
     writing, may_go_on = threading.Event(), threading.Event()
 
     def slow(*_: object) -> None:
@@ -287,9 +287,9 @@ def test_nobody_waits_at_the_door_while_the_disk_is_slow(
     seen: list[object] = []
 
     def ask() -> None:
-        seen.extend([desk.session_of(token.text, address=HERE) == session, desk.is_valid(session.id)])
+        seen.extend([service.session_of(token.text, address=HERE) == session, service.is_valid(session.id)])
 
-    entering = threading.Thread(target=desk.sign_in, args=(link,), kwargs={"address": HERE})
+    entering = threading.Thread(target=service.sign_in, args=(link,), kwargs={"address": HERE})
     asking = threading.Thread(target=ask, daemon=True)
     entering.start()
     try:
@@ -303,9 +303,9 @@ def test_nobody_waits_at_the_door_while_the_disk_is_slow(
 
 
 def test_a_disk_with_room_for_a_part_keeps_the_old_file_and_says_so(
-    desk: PeopleService, tmp_path: Path, clock: Clock, monkeypatch: pytest.MonkeyPatch
+    service: PeopleService, tmp_path: Path, clock: Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    link = invited(desk, single_use=False)
+    link = invited(service, single_use=False)
     before, write, room = (tmp_path / "people.json").read_bytes(), os.write, [200]
 
     def nearly_full(descriptor: int, content: bytes) -> int:
@@ -317,7 +317,7 @@ def test_a_disk_with_room_for_a_part_keeps_the_old_file_and_says_so(
 
     monkeypatch.setattr(os, "write", nearly_full)
     with pytest.raises(StoreError) as reported:
-        desk.sign_in(link, address=HERE)
+        service.sign_in(link, address=HERE)
     assert reported.value.code == "STORE_FULL"
     assert (tmp_path / "people.json").read_bytes() == before
     assert [one.name for one in tmp_path.glob(".*")] == []

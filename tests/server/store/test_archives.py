@@ -211,7 +211,7 @@ def everything_in(home: Home) -> set[Path]:
 @pytest.mark.parametrize(
     ("change", "said", "agreeing"), [row[1:] for row in CHANGES], ids=[row[0] for row in CHANGES]
 )
-def test_a_hostile_archive_is_refused_whole(
+def test_a_hostile_archive_is_rejected_whole(
     store: CaseStore, home: Home, case: Case, tmp_path: Path, change: Damaging, said: str, *, agreeing: bool
 ) -> None:
     parts = parts_of(store.export_case(case.id, with_identity=True).path)
@@ -230,14 +230,14 @@ def test_a_hostile_archive_is_refused_whole(
 
 
 @pytest.mark.parametrize("content", [b"", b"PK\x03\x04", b"no zip at all" * 100])
-def test_what_is_no_zip_is_refused(store: CaseStore, tmp_path: Path, content: bytes) -> None:
+def test_what_is_no_zip_is_rejected(store: CaseStore, tmp_path: Path, content: bytes) -> None:
     path = tmp_path / "a.zip"
     path.write_bytes(content)
     with pytest.raises(InvalidInput, match="no sound zip file"):
         store.import_archive(path, by="M. Ito")
 
 
-def test_an_archive_cut_or_changed_anywhere_is_refused(store: CaseStore, case: Case, tmp_path: Path) -> None:
+def test_an_archive_cut_or_changed_anywhere_is_rejected(store: CaseStore, case: Case, tmp_path: Path) -> None:
     whole = store.export_case(case.id).path.read_bytes()
     path = tmp_path / "a.zip"
     for n in range(0, len(whole), len(whole) // 40):
@@ -250,7 +250,7 @@ def test_an_archive_cut_or_changed_anywhere_is_refused(store: CaseStore, case: C
                 assert len(store.outline(taken.id)) == 4
 
 
-def test_a_bomb_is_refused_before_it_is_unpacked(
+def test_a_bomb_is_rejected_before_it_is_unpacked(
     store: CaseStore, home: Home, case: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     parts = parts_of(store.export_case(case.id).path)
@@ -262,7 +262,7 @@ def test_a_bomb_is_refused_before_it_is_unpacked(
     assert [one.name for one in home.cases.iterdir()] == [case.id]
 
 
-def test_a_link_in_an_archive_is_refused(store: CaseStore, case: Case, tmp_path: Path) -> None:
+def test_a_link_in_an_archive_is_rejected(store: CaseStore, case: Case, tmp_path: Path) -> None:
     parts = parts_of(store.export_case(case.id).path)
     path = written(tmp_path, parts)
     with zipfile.ZipFile(path, "w") as archive:
@@ -275,7 +275,7 @@ def test_a_link_in_an_archive_is_refused(store: CaseStore, case: Case, tmp_path:
         store.import_archive(path, by="M. Ito")
 
 
-def test_a_case_without_room_is_refused_before_it_is_unpacked(
+def test_a_case_without_room_is_rejected_before_it_is_unpacked(
     store: CaseStore, case: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     archive = store.export_case(case.id)

@@ -1,4 +1,4 @@
-"""Documents of a case: versions, what they stand on, and whether they hold."""
+"""Documents of a case: versions, what they depend on, and whether they are valid."""
 
 import math
 import threading
@@ -70,8 +70,8 @@ def test_a_new_plan_puts_what_was_registered_on_the_old_one_out_of_date(store: C
     replaced = OutOfDate(reason="it depends on plan 'L3' version 1, which was replaced by version 2")
     assert store.validity(registration) == replaced
     assert store.validity(check) == replaced
-    standings = {entry.heading.id: entry.validity for entry in store.outline(ct.case_id)}
-    assert standings == {one.id: store.validity(one) for one in (ct, plan, newer, registration, check)}
+    validities = {entry.heading.id: entry.validity for entry in store.outline(ct.case_id)}
+    assert validities == {one.id: store.validity(one) for one in (ct, plan, newer, registration, check)}
 
 
 def test_what_was_withdrawn_takes_with_it_what_stands_on_it_and_no_older_version_holds_again(
@@ -117,7 +117,7 @@ def test_a_step_gets_only_what_holds(store: CaseStore, put: Put, case_id: str) -
 
 
 @pytest.mark.parametrize("expected", [0, 1, 3])
-def test_a_change_made_on_another_version_is_refused_with_both_numbers(
+def test_a_change_made_on_another_version_is_rejected_with_both_numbers(
     store: CaseStore, put: Put, case_id: str, expected: int
 ) -> None:
     put(PLAN, "L3"), put(PLAN, "L3")
@@ -141,14 +141,14 @@ def test_a_change_made_on_another_version_is_refused_with_both_numbers(
         pytest.param([1], r"it is a list, not a mapping", id="no-mapping"),
     ],
 )
-def test_what_json_cannot_say_is_refused(store: CaseStore, case_id: str, content: object, said: str) -> None:
+def test_what_json_cannot_say_is_rejected(store: CaseStore, case_id: str, content: object, said: str) -> None:
     with pytest.raises(InvalidInput, match=said) as rejected:
         store.put(case_id, PLAN, "a", content, made_by="ito")  # type: ignore[arg-type]  # wrong on purpose
     assert rejected.value.code == "CONTENT_NOT_JSON"
     assert store.history(case_id, PLAN, "a") == ()
 
 
-def test_a_bottomless_and_a_huge_content_are_refused(store: CaseStore, case_id: str) -> None:
+def test_a_bottomless_and_a_huge_content_are_rejected(store: CaseStore, case_id: str) -> None:
     deep: dict[str, object] = {}
     for _ in range(10_000):
         deep = {"a": deep}
@@ -159,7 +159,7 @@ def test_a_bottomless_and_a_huge_content_are_refused(store: CaseStore, case_id: 
 
 
 @pytest.mark.parametrize("name", ["", "   ", "a\nb", "a\0b", "x" * 201, "\ud800"])
-def test_a_name_that_nobody_can_read_is_refused(store: CaseStore, case_id: str, name: str) -> None:
+def test_a_name_that_nobody_can_read_is_rejected(store: CaseStore, case_id: str, name: str) -> None:
     with pytest.raises(InvalidInput) as rejected:
         store.put(case_id, PLAN, name, {}, made_by="ito")
     assert rejected.value.code == "NAME_INVALID"

@@ -64,7 +64,7 @@ def test_a_full_disk_while_a_file_is_written_is_reported(store: CaseStore, case_
 
 
 @pytest.mark.parametrize("suffix", ["", "npy", ".", "./x", ".a/../b", ".NPY", ".a.b.c", ".\0"])
-def test_a_strange_ending_is_refused(store: CaseStore, case_id: str, suffix: str) -> None:
+def test_a_strange_ending_is_rejected(store: CaseStore, case_id: str, suffix: str) -> None:
     with pytest.raises(InvalidInput), store.new_file(case_id, suffix):
         pass
 
@@ -181,9 +181,9 @@ def test_power_lost_between_any_two_steps_costs_nothing_that_was_confirmed(
             assert (f"Case {case_id[:6]}" in there) is (number >= after_copy), number
             for case in again.list():
                 assert again.verify(case.id) == (), number
-                held = {file.path.read_bytes() for file in again.files(case.id)}
-                assert held >= {b"first"} or number < confirmed, number
-                assert held >= {b"first", b"second"} or number < after_second, number
+                contents = {file.path.read_bytes() for file in again.files(case.id)}
+                assert contents >= {b"first"} or number < confirmed, number
+                assert contents >= {b"first", b"second"} or number < after_second, number
             on_disk = {path.name for path in home.cases.rglob("*") if path.is_file()}
             assert on_disk == {file.id for case in again.list() for file in again.files(case.id)}, number
     assert first

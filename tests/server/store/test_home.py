@@ -59,7 +59,7 @@ def test_two_servers_never_share_a_folder(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("said", [OSError(errno.ENOLCK, "No locks available"), NotImplementedError("flock")])
-def test_a_disk_without_locks_is_refused_with_a_remedy(
+def test_a_disk_without_locks_is_rejected_with_a_remedy(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, said: Exception
 ) -> None:
     def acquire(*_: object, **__: object) -> None:
@@ -72,7 +72,7 @@ def test_a_disk_without_locks_is_refused_with_a_remedy(
     assert "COAXIAL_HOME" in rejected.value.remedy
 
 
-def test_a_refused_second_server_does_not_touch_the_work_of_the_first(home: Home) -> None:
+def test_a_rejected_second_server_does_not_touch_the_work_of_the_first(home: Home) -> None:
     work = home.temporary / "upload"
     work.write_bytes(b"half")
     with pytest.raises(StoreError):
@@ -137,7 +137,7 @@ def revision_of(database: Path) -> str:
         return str(raw.execute("SELECT version_num FROM alembic_version").fetchone()[0])
 
 
-def test_an_older_database_is_kept_before_it_is_changed_and_a_newer_one_refused(tmp_path: Path) -> None:
+def test_an_older_database_is_kept_before_it_is_changed_and_a_newer_one_rejected(tmp_path: Path) -> None:
     migrations = with_a_third_form(tmp_path / "m", "op.execute('ALTER TABLE cases ADD COLUMN more TEXT')")
     with Home(tmp_path / "h") as home:
         with CaseStore(home) as store:

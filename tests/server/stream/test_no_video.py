@@ -34,7 +34,7 @@ NOON = datetime(2026, 1, 1, 12, 0, 0).astimezone()
             ProcessStatus(state=ProcessState.RESTARTING),
             SourceStatus(name="0", state=SourceState.RUNNING),
             ("Tracking has stopped and is being started again.",),
-            id="a-state-without-trouble",
+            id="a-state-without-a-problem",
         ),
         pytest.param(
             ProcessStatus(state=ProcessState.RUNNING),

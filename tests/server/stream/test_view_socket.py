@@ -206,7 +206,7 @@ def test_a_client_gets_none_larger_than_it_can_show_and_none_smaller_for_being_s
         pytest.param(0.0, 10.0, 10.5, id="says-nothing"),
         pytest.param(0.3, 10.0, 10.2, id="busy-itself"),
         pytest.param(9.0, 10.1, 10.1, id="claims-more-than-there-was"),
-        pytest.param(0.3, 11.0, 10.5, id="granted-before-it-was-noted"),
+        pytest.param(0.3, 11.0, 10.5, id="credited-before-it-was-recorded"),
     ],
 )
 def test_what_the_client_needed_itself_is_not_the_connections(

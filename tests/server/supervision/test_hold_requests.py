@@ -97,11 +97,11 @@ def test_it_is_on_the_disk_for_its_owner_alone_before_it_is_confirmed(
     synced: list[int] = []
     real = os.fsync
 
-    def noted(number: int) -> None:
+    def counted_fsync(number: int) -> None:
         synced.append(number)
         real(number)
 
-    monkeypatch.setattr(os, "fsync", noted)
+    monkeypatch.setattr(os, "fsync", counted_fsync)
     start()[0].request(SATO)
     # The file, and the folder that has its name.
     assert len(synced) == 2

@@ -119,11 +119,11 @@ class ContradictionCheck:
         if moment.snapshot is None:
             return
         through = any(each.verdict is Verdict.THROUGH_WALL for each in assessments.values())
-        standing = any(
+        is_raised = any(
             one.condition is Condition.BREACH and one.state is not AlarmState.LATCHED
             for one in moment.alarms.alarms
         )
-        self.through_images = self.through_images + 1 if through and not standing else 0
+        self.through_images = self.through_images + 1 if through and not is_raised else 0
         assert self.through_images < MAX_UNANNOUNCED
 
     def _worst(self, moment: Moment, assessments: Mapping[str, AssessmentMessage]) -> None:
@@ -133,14 +133,14 @@ class ContradictionCheck:
         walls = [one.figures.wall.value for one in assessments.values()]
         now = min((wall for wall in walls if wall is not None), default=inf)
         alarms = moment.message.alarms.alarms
-        standing = {one.number: one for one in alarms if one.condition is Condition.BREACH}
-        for number, alarm in standing.items():
+        breaches = {one.number: one for one in alarms if one.condition is Condition.BREACH}
+        for number, alarm in breaches.items():
             if alarm.state is not AlarmState.LATCHED:
                 before = self.deepest.get(number, min(now, self.shown_before))
                 self.deepest[number] = min(before, now)
             assert alarm.worst is not None
             assert alarm.worst.value <= self.deepest[number] + 1e-9
-        self.shown_before = min(self.shown_before, now) if now < 0.0 and not standing else inf
+        self.shown_before = min(self.shown_before, now) if now < 0.0 and not breaches else inf
 
     def _log(self, moment: Moment) -> None:
         by_number = {one.number: one for one in moment.message.alarms.alarms}

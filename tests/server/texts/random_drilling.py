@@ -51,7 +51,7 @@ PLACES: Sequence[tuple[float, float, float, float, float, float]] = [
 
 
 @dataclass(slots=True)
-class KeptLog(NoLog):
+class MemoryLog(NoLog):
     """The log's lines, as they are handed to the disk."""
 
     lines: list[Mapping[str, object]] = field(default_factory=list)
@@ -91,7 +91,7 @@ class RandomDrilling:
         self.setup = setup_of(names, registered_sd_mm=0.45 if seed % 3 == 1 else 0.0)
         self.setup = replace(self.setup, min_errors_95_mm=min_errors_95_mm(self.setup, self.drill_reference))
         self.at_s = 1000.0
-        self.log = KeptLog()
+        self.log = MemoryLog()
         self.service = AlarmService(
             Config(),
             log=self.log,

@@ -53,7 +53,7 @@ class Theatre:
     def __init__(self, *names: str) -> None:
         self.setup = setup_of(names or ("drill",))
         self.at_s, self.number = 100.0, 0
-        self.desk = AlarmService(
+        self.service = AlarmService(
             Config(), clock=lambda: self.at_s, wall_clock=lambda: datetime.fromtimestamp(self.at_s, tz=UTC)
         )
         self.snapshot: NavigationSnapshot | None = None
@@ -73,15 +73,15 @@ class Theatre:
             self.snapshot = concluded(
                 setup, drill_reference(), sightings, number=self.number, captured_at_s=self.at_s - 0.01
             )
-            self.desk.observe(self.snapshot, RUNS, WORKS)
-        return self.desk.picture
+            self.service.observe(self.snapshot, RUNS, WORKS)
+        return self.service.picture
 
     @property
     def headline(self) -> Headline:
-        return headline_of(self.snapshot, self.desk.picture)
+        return headline_of(self.snapshot, self.service.picture)
 
     def alarm(self, condition: Condition) -> Alarm:
-        return next(one for one in self.desk.picture.alarms if one.condition is condition)
+        return next(one for one in self.service.picture.alarms if one.condition is condition)
 
     def sentence(self, condition: Condition) -> str:
         return alarm_text(self.alarm(condition), unix_offset_s=0.0).sentence["en"]
@@ -120,12 +120,12 @@ def test_of_a_drill_that_is_lost_in_a_breach_another_one_says_nothing() -> None:
     assert theatre.alarm(Condition.BREACH).state is AlarmState.ACTIVE
     assert theatre.sentence(Condition.BREACH).startswith("Not tracked. drill: Was 1.6 mm through")
     assert theatre.headline.tone != "good"
-    theatre.desk.acknowledge([one.number for one in theatre.desk.picture.alarms], by="Ito")
+    theatre.service.acknowledge([one.number for one in theatre.service.picture.alarms], by="Ito")
     theatre.images(5.0, {"awl": PATH})
     assert theatre.alarm(Condition.BREACH).state is AlarmState.ACKNOWLEDGED
     assert theatre.headline.tone != "good"
     theatre.images(3.0, {"drill": PATH, "awl": PATH})
-    assert {one.condition for one in theatre.desk.picture.alarms} <= {Condition.NO_ARMED_SCREEN}
+    assert {one.condition for one in theatre.service.picture.alarms} <= {Condition.NO_ARMED_SCREEN}
 
 
 def test_what_is_over_says_nothing_of_now_where_nothing_is_measured_now() -> None:
@@ -160,7 +160,7 @@ def test_a_number_that_is_not_measured_any_more_is_not_reported_as_of_now() -> N
 def test_when_tracking_dies_in_a_breach_its_number_is_at_once_of_the_past() -> None:
     theatre = Theatre()
     before = theatre.images(1.0, {"drill": BREACH})
-    picture = theatre.desk.observe(None, RUNS, DIED)
+    picture = theatre.service.observe(None, RUNS, DIED)
     assert theatre.alarm(Condition.BREACH).presence is Presence.UNKNOWN
     assert theatre.sentence(Condition.BREACH).startswith("Not tracked. Was ")
     # Whoever publishes on a change publishes this one.

@@ -82,7 +82,7 @@ def test_points_that_displacements_share_are_left_out_of_the_fit() -> None:
         accuracy_left_out(CAMERA, around)
 
 
-def test_a_fit_to_the_measured_points_is_refused() -> None:
+def test_a_fit_to_the_measured_points_is_rejected() -> None:
     measured = rows(4)
     fit = np.concatenate([GRID + 3.5, measured.first_mm[:2]])
     with pytest.raises(InvalidInput, match="2 of the 65") as reported:
@@ -124,13 +124,13 @@ def test_the_ruler_in_the_form_of_table_2() -> None:
         pytest.param(GRID * np.nan, "finite", id="no-numbers"),
     ],
 )
-def test_points_that_give_no_plane_are_refused(fit: Array, said: str) -> None:
+def test_points_that_give_no_plane_are_rejected(fit: Array, said: str) -> None:
     px = seen_at(fit) if fit.shape[1] == 2 and np.isfinite(fit).all() else np.zeros(fit.shape)
     with pytest.raises(NavigationError, match=said):
         accuracy_on_plane(CAMERA, rows(4), fit_mm=fit, fit_px=px)
 
 
-def test_points_of_another_image_size_are_refused() -> None:
+def test_points_of_another_image_size_are_rejected() -> None:
     matrix = np.array(MATRIX)
     matrix[:2, 2] = 319.5, 239.5
     small = CameraModel(matrix=matrix, distortion=np.zeros(5), size_wh_px=(640, 480))
@@ -149,6 +149,6 @@ def test_points_of_another_image_size_are_refused() -> None:
         pytest.param(np.zeros((1, 2)), np.full((1, 2), np.inf), "finite", id="beyond"),
     ],
 )
-def test_displacements_that_cannot_be_are_refused(first: Array, second: Array, said: str) -> None:
+def test_displacements_that_cannot_be_are_rejected(first: Array, second: Array, said: str) -> None:
     with pytest.raises(InvalidInput, match=said):
         Displacements(first_mm=first, second_mm=second, first_px=first, second_px=first)

@@ -53,7 +53,7 @@ def test_odd_by_even_corners_tell_which_way_up() -> None:
         ),
     ],
 )
-def test_what_cannot_be_a_board_is_refused(make: object) -> None:
+def test_what_cannot_be_a_board_is_rejected(make: object) -> None:
     with pytest.raises(InvalidInput) as reported:
         make()  # type: ignore[operator]  # a table of makers
     assert reported.value.code == "BOARD_INVALID"

@@ -1,4 +1,4 @@
-"""Cameras calibrated from views whose truth is known, and views that must be refused."""
+"""Cameras calibrated from views whose truth is known, and views that must be rejected."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -133,10 +133,10 @@ def test_the_lens_model_is_one_that_holds_on_views_held_out(lens: int, taken: tu
     rng = np.random.default_rng(3)
     known = known_camera(rng, coefficients=lens)
     report = calibrate(views_of(known, rng), size_wh_px=known.model.size_wh_px)
-    held = dict(report.choice.held_out_rms_px)
+    rms_px = dict(report.choice.held_out_rms_px)
     assert report.choice.coefficients in taken
-    assert set(held) == {4, 5, 8}
-    assert held[report.choice.coefficients] < 1.01 * min(held.values())
+    assert set(rms_px) == {4, 5, 8}
+    assert rms_px[report.choice.coefficients] < 1.01 * min(rms_px.values())
 
 
 def test_what_the_views_cannot_tell_is_warned_of(camera: KnownCamera) -> None:
@@ -159,14 +159,14 @@ def test_what_the_views_cannot_tell_is_warned_of(camera: KnownCamera) -> None:
     }
 
 
-def test_too_few_views_are_refused(camera: KnownCamera, views: list[BoardView]) -> None:
+def test_too_few_views_are_rejected(camera: KnownCamera, views: list[BoardView]) -> None:
     for some in ([], views[:1], views[:2]):
         with pytest.raises(CalibrationError) as reported:
             calibrated(some, camera)
         assert reported.value.code == "TOO_FEW_VIEWS"
 
 
-def test_views_from_one_place_and_parallel_views_are_refused(camera: KnownCamera) -> None:
+def test_views_from_one_place_and_parallel_views_are_rejected(camera: KnownCamera) -> None:
     rng = np.random.default_rng(6)
     first = seen_view(camera.model, BOARD, rng, noise_px=0.0)
     same = [
@@ -193,7 +193,7 @@ def test_views_of_two_cameras_show_in_the_rms(camera: KnownCamera, views: list[B
     assert report.views_used == len(mixed)
 
 
-def test_an_odd_number_of_coefficients_is_refused(camera: KnownCamera, views: list[BoardView]) -> None:
+def test_an_odd_number_of_coefficients_is_rejected(camera: KnownCamera, views: list[BoardView]) -> None:
     with pytest.raises(InvalidInput) as reported:
         calibrated(views, camera, coefficients=6)
     assert reported.value.code == "COEFFICIENTS_INVALID"

@@ -1,4 +1,4 @@
-"""The camera: what is refused, and that the compiled lens is OpenCV's."""
+"""The camera: what is rejected, and that the compiled lens is OpenCV's."""
 
 import pickle
 from collections.abc import Sequence
@@ -47,7 +47,7 @@ def _with_entry(row: int, column: int, value: float) -> list[list[float]]:
         pytest.param(np.transpose(K), (), (640, 480), "is not", id="transposed"),
     ],
 )
-def test_numbers_that_no_camera_has_are_refused(
+def test_numbers_that_no_camera_has_are_rejected(
     matrix: Sequence[Sequence[float]], distortion: Sequence[float], size: tuple[int, int], says: str
 ) -> None:
     with pytest.raises(InvalidInput, match=says) as caught:

@@ -160,7 +160,7 @@ def test_noise_alone_is_no_board() -> None:
         assert isinstance(find_board(noise, board), BoardNotFound)
 
 
-def test_what_is_no_image_is_refused() -> None:
+def test_what_is_no_image_is_rejected() -> None:
     with pytest.raises(InvalidInput) as reported:
         find_board(np.zeros((4, 4), np.uint8), DOTS)
     assert reported.value.code == "IMAGE_INVALID"

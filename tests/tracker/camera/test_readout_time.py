@@ -69,7 +69,7 @@ def test_from_rendered_images_of_a_rolling_shutter_the_readout_is_found() -> Non
     ],
     ids=["few", "far apart", "slow", "one way", "noisy", "too long", "from below"],
 )
-def test_what_does_not_determine_it_is_refused_with_numbers(
+def test_what_does_not_determine_it_is_rejected_with_numbers(
     motion: Motion, seen: dict[str, Any], code: str, says: str
 ) -> None:
     views = seen_views(motion, **{"readout_s": 0.016, "images": 18, **seen})

@@ -1,4 +1,4 @@
-"""Cameras of one rig: where they stand to each other, and what must be refused."""
+"""Cameras of one rig: where they stand to each other, and what must be rejected."""
 
 import numpy as np
 import pytest
@@ -101,7 +101,7 @@ def test_two_pairs_that_were_swapped_are_left_out_with_the_reason() -> None:
     assert rig.rms_px < 1.1 * NOISE_PX * np.sqrt(2.0)
 
 
-def test_pairs_that_do_not_belong_together_are_refused() -> None:
+def test_pairs_that_do_not_belong_together_are_rejected() -> None:
     shots, reports = rig_of("left", "right")
     rolled = [{**shot, "right": shots[n - 1]["right"]} for n, shot in enumerate(shots)]
     with pytest.raises(CalibrationError) as reported:
@@ -109,7 +109,7 @@ def test_pairs_that_do_not_belong_together_are_refused() -> None:
     assert reported.value.code == "RIG_VIEWS_DISAGREE"
 
 
-def test_cameras_that_share_no_views_are_refused() -> None:
+def test_cameras_that_share_no_views_are_rejected() -> None:
     shots, reports = rig_of("left", "right")
     apart = [{name: shot[name]} for shot in shots for name in shot]
     with pytest.raises(CalibrationError) as reported:

@@ -1,4 +1,4 @@
-"""The paper's ruler: its equations undo each other, and numbers that cannot be are refused."""
+"""The paper's ruler: its equations undo each other, and numbers that cannot be are rejected."""
 
 import math
 
@@ -45,7 +45,7 @@ def test_what_made_the_ruler_is_what_it_measures(
         pytest.param(5.0, 5.0, math.inf, "focal length is inf px", id="endless-focal-length"),
     ],
 )
-def test_a_ruler_that_cannot_be_is_refused(
+def test_a_ruler_that_cannot_be_is_rejected(
     vertical: float, horizontal: float, focal: float, said: str
 ) -> None:
     with pytest.raises(InvalidInput, match=said) as reported:

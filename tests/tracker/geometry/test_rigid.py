@@ -1,4 +1,4 @@
-"""Rigid motions: group laws, refusals, and covariance carried to a point."""
+"""Rigid motions: group laws, rejections, and covariance carried to a point."""
 
 import numpy as np
 import pytest
@@ -83,7 +83,7 @@ def test_a_stack_of_points_keeps_its_shape() -> None:
         pytest.param(np.zeros((3, 3)), np.zeros(3), id="all zero"),
     ],
 )
-def test_what_is_no_rigid_motion_is_refused(
+def test_what_is_no_rigid_motion_is_rejected(
     rotation: np.ndarray[tuple[int, ...], np.dtype[np.float64]],
     translation: np.ndarray[tuple[int, ...], np.dtype[np.float64]],
 ) -> None:

@@ -44,8 +44,8 @@ def test_the_rows_of_a_pose_do_not_depend_on_the_order_in_which_they_are_solved(
     count = len(matrix)
     illumination_first = np.roll(np.arange(count), -REST)
 
-    rows, is_told = pose_rows(matrix, illumination_first, (BANDED, WIDE), 0.0)
+    rows, is_solved = pose_rows(matrix, illumination_first, (BANDED, WIDE), 0.0)
 
-    assert is_told
+    assert is_solved
     assert rows == pytest.approx(pose_rows(matrix, np.arange(count), (0, 0), 0.0)[0], rel=1e-6)
     assert rows == pytest.approx(np.linalg.inv(matrix)[:6], rel=1e-6)

@@ -118,7 +118,7 @@ def test_turning_the_drill_about_its_own_axis_changes_nothing() -> None:
         pytest.param((0.0, float("nan"), 0.0), 4.0, id="target not a number"),
     ],
 )
-def test_a_channel_that_cannot_be_drilled_is_refused(
+def test_a_channel_that_cannot_be_drilled_is_rejected(
     target_mm: tuple[float, float, float], radius_mm: float
 ) -> None:
     with pytest.raises(PlanError) as caught:
@@ -140,7 +140,7 @@ def test_a_channel_knows_its_length_and_direction_and_cannot_be_written() -> Non
 
 
 @pytest.mark.parametrize("axis", [(0, 0, 0), (np.nan, 0, 1), (0, np.inf, 0)])
-def test_a_tool_without_a_direction_is_refused(axis: tuple[float, float, float]) -> None:
+def test_a_tool_without_a_direction_is_rejected(axis: tuple[float, float, float]) -> None:
     with pytest.raises(InvalidInput) as caught:
         _drill((0, 0, 0), axis)
     assert caught.value.code == "TOOL_AXIS_INVALID"

@@ -13,7 +13,7 @@ CENTRE_PX = (240.0, 180.0)
 SIDES_PX = (28.0, 60.0)
 
 
-def _held(side_px: float) -> Rigid[Camera, Marker]:
+def _pose(side_px: float) -> Rigid[Camera, Marker]:
     return pose_of(CENTRE_PX, side_px, tilt_deg=15.0)
 
 
@@ -30,9 +30,9 @@ def _under_a_finger(image: Image8, side_px: float, from_deg: float) -> Image8:
 
 def _covered(fields: Fields, side_px: float, from_deg: float) -> Seen | Unseen:
     """What is said of these fields under the finger, where the marker was an image before."""
-    tracker, held = tracker_of(), _held(side_px)
-    tracker.step(image_of(held), captured_at_s=0.0)
-    image = _under_a_finger(image_of(held, fields=fields), side_px, from_deg)
+    tracker, pose = tracker_of(), _pose(side_px)
+    tracker.step(image_of(pose), captured_at_s=0.0)
+    image = _under_a_finger(image_of(pose, fields=fields), side_px, from_deg)
     return tracker.step(image, captured_at_s=0.03)["code"]
 
 
@@ -42,7 +42,7 @@ def test_a_marker_is_kept_when_a_finger_hides_nearly_a_half_of_it(side_px: float
     for from_deg in range(0, 360, 45):
         found = _covered(CODE, side_px, from_deg)
         if isinstance(found, Seen):
-            assert off_px(found, _held(side_px)) < 1.0
+            assert off_px(found, _pose(side_px)) < 1.0
             retained.append(from_deg)
     assert len(retained) >= minimum
 

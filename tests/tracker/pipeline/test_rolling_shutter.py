@@ -141,7 +141,7 @@ def test_an_image_that_comes_again_shows_the_marker_where_it_was() -> None:
 
 
 @pytest.mark.parametrize("readout_s", [-0.001, 0.3, float("nan")])
-def test_a_readout_that_no_camera_has_is_refused(readout_s: float) -> None:
+def test_a_readout_that_no_camera_has_is_rejected(readout_s: float) -> None:
     with pytest.raises(InvalidInput, match="ms") as caught:
         Tracker(camera=RIG.camera, models=[FACE.model], readout_s=readout_s)
     assert caught.value.code == "READOUT_INVALID"

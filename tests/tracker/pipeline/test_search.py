@@ -1,4 +1,4 @@
-"""What a search says of one image: found, told apart, refused."""
+"""What a search says of one image: found, distinguished, rejected."""
 
 from collections.abc import Iterator
 

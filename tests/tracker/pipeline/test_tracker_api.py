@@ -91,7 +91,7 @@ def test_a_bright_field_too_many_says_that_the_shape_differs() -> None:
         pytest.param(None, "IMAGE_INVALID", id="what is read of a file that is not there"),
     ],
 )
-def test_an_image_of_another_size_or_kind_is_refused(image: npt.NDArray[np.uint8], code: str) -> None:
+def test_an_image_of_another_size_or_kind_is_rejected(image: npt.NDArray[np.uint8], code: str) -> None:
     tracker = tracker_of()
     with pytest.raises(InvalidInput) as caught:
         tracker.search(image)
@@ -102,7 +102,7 @@ def test_an_image_of_another_size_or_kind_is_refused(image: npt.NDArray[np.uint8
     assert caught.value.remedy.endswith(".")
 
 
-def test_names_that_occur_twice_are_refused() -> None:
+def test_names_that_occur_twice_are_rejected() -> None:
     with pytest.raises(InvalidInput, match="2 markers have 1 names: code") as caught:
         Tracker(camera=CAMERA, models=[MODEL, code_model(OTHER, name="code")])
     assert caught.value.code == "MARKER_NAMES_NOT_UNIQUE"

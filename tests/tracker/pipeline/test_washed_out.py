@@ -10,7 +10,7 @@ from tracker.geometry import Camera, Marker, Rigid
 
 SIDE_PX = 60.0
 CENTRE_PX = (240.0, 180.0)
-HELD: Rigid[Camera, Marker] = pose_of(CENTRE_PX, SIDE_PX)
+POSE: Rigid[Camera, Marker] = pose_of(CENTRE_PX, SIDE_PX)
 
 
 def _under_glare(image: Image8, from_deg: float) -> Image8:
@@ -26,15 +26,15 @@ def _under_glare(image: Image8, from_deg: float) -> Image8:
 def _in_glare(fields: Fields, from_deg: float) -> Seen | Unseen:
     """What is said of these fields under glare, where the marker was an image before."""
     tracker = tracker_of()
-    tracker.step(image_of(HELD), captured_at_s=0.0)
-    return tracker.step(_under_glare(image_of(HELD, fields=fields), from_deg), captured_at_s=0.03)["code"]
+    tracker.step(image_of(POSE), captured_at_s=0.0)
+    return tracker.step(_under_glare(image_of(POSE, fields=fields), from_deg), captured_at_s=0.03)["code"]
 
 
 @pytest.mark.parametrize("from_deg", range(0, 360, 45))
 def test_a_marker_is_kept_where_it_was_when_glare_hides_a_half_of_it(from_deg: float) -> None:
     found = seen(_in_glare(CODE, from_deg))
     assert found.found_by == "track"
-    assert off_px(found, HELD) < 0.6
+    assert off_px(found, POSE) < 0.6
 
 
 @pytest.mark.parametrize("field", OUTER_FIELDS)
@@ -44,7 +44,7 @@ def test_a_look_alike_is_not_kept_for_the_glare_on_its_other_side(field: int) ->
 
 def test_a_blank_sheet_in_glare_is_not_kept() -> None:
     tracker = tracker_of()
-    tracker.step(image_of(HELD), captured_at_s=0.0)
+    tracker.step(image_of(POSE), captured_at_s=0.0)
     for k in range(4):
         image = _under_glare(image_of(), 90.0 * k)
         assert isinstance(tracker.step(image, captured_at_s=0.01 * (k + 1))["code"], Unseen)

@@ -138,7 +138,7 @@ def test_the_turn_between_rotations_is_exact_from_nothing_to_half_a_turn(angle_d
 def test_the_pose_s_rows_of_an_inverse_are_those_of_the_whole_inverse() -> None:
     rows = np.random.default_rng(3).normal(size=(20, 7)) * [1.0, 1.0, 0.1, 90.0, 80.0, 70.0, 1.0]
     matrix = rows.T @ rows
-    rows_of_pose, is_told = pose_rows(matrix, np.arange(7), (0, 0), RIDGE)
-    assert is_told
+    rows_of_pose, is_solved = pose_rows(matrix, np.arange(7), (0, 0), RIDGE)
+    assert is_solved
     np.testing.assert_allclose(rows_of_pose, np.linalg.inv(matrix)[:6], rtol=1e-6, atol=1e-12)
     assert not pose_rows(np.zeros((7, 7)), np.arange(7), (0, 0), RIDGE)[1]

@@ -73,7 +73,7 @@ def test_edges_alone_that_fit_one_solution_only_say_nothing_for_the_next_images(
 
 def test_against_what_was_said_before_an_image_speaks_with_its_own_weight() -> None:
     before_sd2 = 10.0
-    for systematic_residual_ratio, kept_sd2 in ((0.0, 0.9 * 5.0), (1.0, 0.0)):
+    for systematic_residual_ratio, expected_sd2 in ((0.0, 0.9 * 5.0), (1.0, 0.0)):
         prior = Prior()
         prior.update(_seen(POSE, delta_chi2=before_sd2 / 0.9, systematic_residual_ratio=0.0), 0.0)
         assert prior.delta_chi2 == pytest.approx(before_sd2)
@@ -82,7 +82,7 @@ def test_against_what_was_said_before_an_image_speaks_with_its_own_weight() -> N
             flipped_pose(POSE), delta_chi2=5.0, systematic_residual_ratio=systematic_residual_ratio
         )
         prior.update(turned, 1 / 30.0)
-        assert prior.delta_chi2 == pytest.approx(kept_sd2)
+        assert prior.delta_chi2 == pytest.approx(expected_sd2)
 
 
 def _still(seed: int, *, of_one_field: bool) -> Iterator[tuple[Scene, Image]]:

@@ -136,7 +136,7 @@ def test_two_rests_on_a_landmark_are_not_one_however_few_the_images() -> None:
     assert error.context["allowed_s"] == 0.25
 
 
-def test_a_tip_that_moved_during_an_allowed_gap_is_refused() -> None:
+def test_a_tip_that_moved_during_an_allowed_gap_is_rejected() -> None:
     assert rejected(collected(samples(ON_A_LOADED_MACHINE_S, off_mm=2.0))).code == "CAPTURE_MOVED"
 
 

@@ -45,6 +45,6 @@ def test_a_landmark_that_was_used_checks_nothing() -> None:
         assert caught.value.code == "LANDMARK_WAS_USED"
 
 
-def test_a_tip_that_is_no_place_is_refused() -> None:
+def test_a_tip_that_is_no_place_is_rejected() -> None:
     with pytest.raises(RegistrationError, match="finite"):
         checked([np.nan, 0.0, 0.0])

@@ -88,7 +88,7 @@ def test_all_together_are_bounded_and_leading_back_is_not() -> None:
 
 
 @pytest.mark.parametrize("amount", [0.0, 0.2, -2.0, float("nan"), float("inf")])
-def test_other_steps_are_refused(amount: float) -> None:
+def test_other_steps_are_rejected(amount: float) -> None:
     with pytest.raises(RegistrationError, match="no step"):
         shift(NudgeAxis.LEFT, amount)
 
@@ -122,6 +122,6 @@ def test_a_turn_widens_the_far_end_and_not_the_pivot() -> None:
     assert angle_between_deg(axis, turned) == pytest.approx(4.0)
 
 
-def test_a_pivot_that_is_none_is_refused() -> None:
+def test_a_pivot_that_is_none_is_rejected() -> None:
     with pytest.raises(RegistrationError, match="finite"):
         NudgedRegistration(made=made(), pivot_mm=np.array([0.0, np.nan, 0.0]))

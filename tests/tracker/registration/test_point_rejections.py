@@ -22,11 +22,11 @@ def line(count: int, beside_mm: float, seed: int = 0) -> np.ndarray:
 
 
 @pytest.mark.parametrize("count", [0, 1, 2])
-def test_too_few_points_are_refused(count: int) -> None:
+def test_too_few_points_are_rejected(count: int) -> None:
     assert rejected(VERTEBRA[:count], VERTEBRA[:count]).code == "POINTS_TOO_FEW"
 
 
-def test_excluding_too_many_is_refused_too() -> None:
+def test_excluding_too_many_is_rejected_too() -> None:
     with pytest.raises(RegistrationError, match="needed 3"):
         register_points(PointPairs(fixed_mm=VERTEBRA[:4], moving_mm=VERTEBRA[:4]), excluded=[0, 2])
 
@@ -47,7 +47,7 @@ def test_excluding_too_many_is_refused_too() -> None:
         pytest.param(VERTEBRA, line(6, 0.5), "POINTS_COLLINEAR", id="touched-along-a-line"),
     ],
 )
-def test_points_that_say_no_motion_are_refused(fixed: np.ndarray, moving: np.ndarray, code: str) -> None:
+def test_points_that_say_no_motion_are_rejected(fixed: np.ndarray, moving: np.ndarray, code: str) -> None:
     assert rejected(fixed, moving).code == code
 
 
@@ -103,7 +103,7 @@ def test_two_signs_are_a_turn_and_no_mirror() -> None:
     assert register_points(PointPairs(fixed_mm=VERTEBRA, moving_mm=ras)).fre_rms_mm < 1e-9
 
 
-def test_sides_that_look_alike_are_a_warning_and_no_refusal() -> None:
+def test_sides_that_look_alike_are_a_warning_and_no_rejection() -> None:
     fixed = np.array([[20.0, 0.0, 10.0], [-20.0, 0.0, 10.0], [0.0, 30.0, -5.0]])
     truth = touched(fixed, np.random.default_rng(3), 0.3)
     found = register_points(PointPairs(fixed_mm=fixed, moving_mm=truth.moving_mm))
@@ -142,11 +142,11 @@ def test_noise_of_a_bad_hand_is_never_called_a_swap() -> None:
         pytest.param(np.full((6, 3, 3), np.nan), id="not-numbers"),
     ],
 )
-def test_covariances_that_are_none_are_refused(covariances: np.ndarray) -> None:
+def test_covariances_that_are_none_are_rejected(covariances: np.ndarray) -> None:
     with pytest.raises(RegistrationError, match="covariances"):
         PointPairs(fixed_mm=VERTEBRA, moving_mm=VERTEBRA, moving_covariances_mm2=covariances)
 
 
-def test_names_that_occur_twice_are_refused() -> None:
+def test_names_that_occur_twice_are_rejected() -> None:
     with pytest.raises(RegistrationError, match="different names"):
         PointPairs(fixed_mm=VERTEBRA[:3], moving_mm=VERTEBRA[:3], labels=("a", "b", "a"))

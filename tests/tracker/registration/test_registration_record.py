@@ -135,7 +135,7 @@ def test_a_pose_and_its_inverse_err_by_the_same() -> None:
     np.testing.assert_allclose(both, 2.0 * swing @ OF_REFERENCE @ swing.T, rtol=1e-9, atol=1e-12)
 
 
-def test_a_covariance_that_is_none_is_refused() -> None:
+def test_a_covariance_that_is_none_is_rejected() -> None:
     with pytest.raises(RegistrationError, match="not a finite covariance") as rejected:
         Registration(
             method=Method.POINTS,

@@ -168,19 +168,19 @@ def test_a_patch_of_one_lamina_is_not_believed() -> None:
         pytest.param(np.zeros((30, 2)), "SURFACE_SWEEP_INVALID", id="flat"),
     ],
 )
-def test_what_is_no_sweep_is_refused(points: np.ndarray, code: str) -> None:
+def test_what_is_no_sweep_is_rejected(points: np.ndarray, code: str) -> None:
     truth = sweep_over(corners_from_behind(), np.random.default_rng(10))
     with pytest.raises(RegistrationError) as caught:
         register_surface(closest_points_on_vertebra(), points, truth.start)
     assert caught.value.code == code
 
 
-def test_a_start_that_is_far_is_refused() -> None:
+def test_a_start_that_is_far_is_rejected() -> None:
     truth = sweep_over(corners_from_behind(), np.random.default_rng(11), off_mm=60.0)
     assert rejected(vertebra(), truth).code == "SURFACE_START_FAR"
 
 
-def test_a_sweep_that_mostly_left_the_bone_is_refused() -> None:
+def test_a_sweep_that_mostly_left_the_bone_is_rejected() -> None:
     rng = np.random.default_rng(12)
     truth = sweep_over(corners_from_behind(), rng, sd_mm=0.1, count=60)
     moving = truth.moving_mm + rng.uniform(-12.0, 12.0, (60, 3)) * (np.arange(60) % 4 > 0)[:, None]

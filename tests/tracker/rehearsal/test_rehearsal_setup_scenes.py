@@ -77,10 +77,10 @@ def test_the_board_holds_still_then_moves_on_and_stays_in_the_image() -> None:
     theatre, renderer = board_theatre(BoardKind.DOTS)
     points = BOARD_FROM_KIND[BoardKind.DOTS].object_points_mm
     for place in range(16):
-        held = [place * (HOLD_S + MOVE_S) + late_s for late_s in (0.1, 1.0)]
+        times_s = [place * (HOLD_S + MOVE_S) + late_s for late_s in (0.1, 1.0)]
         px = [
             theatre.camera.px_from_camera(renderer.camera_from_board_at(at_s).move_points(points))
-            for at_s in held
+            for at_s in times_s
         ]
         assert np.abs(px[1] - px[0]).max() < 0.5
         assert (px[0] > 0).all()

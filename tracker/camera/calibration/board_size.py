@@ -37,8 +37,8 @@ def with_board_size_warning(
 def likely_size(views: Sequence[BoardView], board: Board) -> tuple[int, int] | None:
     """Columns and rows that the board seems to have, None where the views fit to what was said of it.
 
-    Told where half of the views or more, and at least three, show one and the same whole rectangle, and none
-    shows more of the board. A ChArUco board's corners are named by their markers, so nothing is told of it.
+    Given where half of the views or more, and at least three, show one and the same whole rectangle, and none
+    shows more of the board. A ChArUco board's corners are named by their markers, so its size is not given.
     """
     if isinstance(board, CharucoBoard) or not views:
         return None

@@ -129,7 +129,7 @@ def _choice(settings: CalibrationSettings, retained: InlierViews, size_wh_px: tu
         return ModelChoice(
             coefficients=settings.coefficients,
             held_out_rms_px=(),
-            reason=f"{settings.coefficients} were asked for",
+            reason=f"{settings.coefficients} were requested",
         )
     return choose_model(retained.views, size_wh_px)
 

@@ -35,25 +35,25 @@ def choose_model(views: Sequence[BoardView], size_wh_px: tuple[int, int]) -> Mod
             held_out_rms_px=(),
             reason=f"{few} without a trial: {len(views)} views, to hold some out takes {MIN_VIEWS}",
         )
-    held = {model: held_out_rms_px(views, size_wh_px, model) for model in MODELS}
-    reported = tuple((model, rms) for model, rms in held.items() if np.isfinite(rms))
-    usual = held[USUAL]
-    if held[8] < (1.0 - RICHER_BY) * min(usual, held[4]) and _is_plausible(views, size_wh_px):
+    rms = {model: held_out_rms_px(views, size_wh_px, model) for model in MODELS}
+    reported = tuple((model, px) for model, px in rms.items() if np.isfinite(px))
+    usual = rms[USUAL]
+    if rms[8] < (1.0 - RICHER_BY) * min(usual, rms[4]) and _is_plausible(views, size_wh_px):
         return ModelChoice(
             coefficients=8,
             held_out_rms_px=reported,
-            reason=f"8 describe views held out to {held[8]:.3f} px, 5 to {usual:.3f} px",
+            reason=f"8 describe views held out to {rms[8]:.3f} px, 5 to {usual:.3f} px",
         )
-    if held[4] < (1.0 - SIMPLER_BY) * usual:
+    if rms[4] < (1.0 - SIMPLER_BY) * usual:
         return ModelChoice(
             coefficients=4,
             held_out_rms_px=reported,
-            reason=f"4 describe views held out to {held[4]:.3f} px, 5 only to {usual:.3f} px",
+            reason=f"4 describe views held out to {rms[4]:.3f} px, 5 only to {usual:.3f} px",
         )
     return ModelChoice(
         coefficients=USUAL,
         held_out_rms_px=reported,
-        reason=f"5 describe views held out to {usual:.3f} px, 4 to {held[4]:.3f} px, 8 to {held[8]:.3f} px",
+        reason=f"5 describe views held out to {usual:.3f} px, 4 to {rms[4]:.3f} px, 8 to {rms[8]:.3f} px",
     )
 
 

@@ -70,7 +70,7 @@ def reject_one_pose(views: Sequence[BoardView], size_wh_px: tuple[int, int]) -> 
     raise CalibrationError(
         "VIEWS_ALL_PARALLEL",
         f"in all {len(views)} views the board is parallel to itself within {widest_deg:.1f} deg, needed "
-        f"{PARALLEL_DEG:g} deg: distance and focal length cannot be told apart",
+        f"{PARALLEL_DEG:g} deg: distance and focal length cannot be separated",
         remedy,
         context,
     )

@@ -47,7 +47,7 @@ def place_on_board(
     Args:
         cells: where each point stands in its grid, from 0.
         px: (n, 2) its place in the image: where all places do equally well, the first row runs to the right.
-        looks: (n,) what each point looks like; -1 where that cannot be told.
+        looks: (n,) what each point looks like; -1 where that is unknown.
         board: (rows, columns) the id of the board's point at each cell, -1 where there is none.
         board_looks: (points,) what each point of the board looks like.
         quarters_swap_looks: a quarter turn makes 0 of 1 and 1 of 0, as the colours around a corner do.

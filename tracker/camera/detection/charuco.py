@@ -22,7 +22,7 @@ MIN_WINDOW_PX = 3.0
 
 
 def find_charuco(grey: GreyImage, board: CharucoBoard) -> BoardView | BoardNotFound:
-    """The corners of the board in an image, or why not; the layout is found out where it is not told."""
+    """The corners of the board in an image, or why not; the layout is estimated where it is not given."""
     layout = board.layout
     ambiguity = PlacementAmbiguity.NONE
     if layout is None:
@@ -85,7 +85,7 @@ def _detected(
     found, ids, _, marker_ids = detector.detectBoard(grey)
     markers = _count(marker_ids)
     if not _count(ids) and markers >= MIN_CORNERS:
-        # One marker that was read wrongly makes OpenCV refuse all; wrong corners are taken out below.
+        # One marker that was read wrongly makes OpenCV reject all; wrong corners are taken out below.
         unchecked = cv2.aruco.CharucoParameters()
         unchecked.checkMarkers = False
         detector.setCharucoParameters(unchecked)

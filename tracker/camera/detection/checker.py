@@ -19,7 +19,7 @@ ENLARGEMENT, MAX_ENLARGED_PX = 1.5, 2_000_000
 MIN_SIDE = 3
 MAX_GRIDS = 4
 MIN_REGULAR_RATIO, MIN_CONTRAST_RATIO = 0.75, 0.6
-# Corners of a part of a board at which the colours may be told wrongly, as by glare.
+# Corners of a part of a board at which the colours may be wrong, as by glare.
 MAX_ODD_RATIO = 0.05
 
 

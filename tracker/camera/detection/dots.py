@@ -12,7 +12,7 @@ from tracker.geometry import Array
 
 MIN_DOTS = 12
 LARGER_AREA_RATIO = 1.6
-# Between an ellipse (4/3) and a square (1.4); told of spots that are large enough to show their shape.
+# Between an ellipse (4/3) and a square (1.4); applied to spots that are large enough to show their shape.
 MAX_FOURTH_MOMENT = 1.368
 MIN_AREA_FOR_SHAPE_PX2 = 60.0
 

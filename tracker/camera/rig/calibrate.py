@@ -187,7 +187,7 @@ def _reject_outlier_points(bundle: Bundle, views: list[dict[str, BoardView]]) ->
     retained: list[dict[str, BoardView]] = [{} for _ in views]
     for index, name, residual in every:
         near = np.linalg.norm(residual, axis=1) <= MAX_POINT_SDS * sigma_px
-        # A view of which most is odd is told by the RMS of its instant, not made smaller.
+        # A view of which most is odd is reported by the RMS of its instant, not made smaller.
         retained[index][name] = views[index][name].part(near if near.mean() > 0.75 else np.ones_like(near))
     return retained
 

@@ -13,7 +13,7 @@ from tracker.geometry import Array, Camera, Pattern, Rigid
 
 MIN_PAIRS = 3
 # A pair is out where it places a camera farther off than this from where most pairs place it; the shift is
-# told as a part of the board's distance.
+# stated as a part of the board's distance.
 MAX_TURN_DEG, MAX_SHIFT_RATIO = 3.0, 0.04
 MAX_OUT_RATIO = 0.34
 
@@ -61,7 +61,7 @@ def agreement(shots: Sequence[Shot], models: Mapping[str, CameraModel]) -> Agree
         retained.append({name: one for name, one in posed.items() if one is not None})
         unsure = [name for name, one in posed.items() if one is None]
         if unsure:
-            reasons[index] = f"which part of the board {', '.join(unsure)} sees cannot be told"
+            reasons[index] = f"which part of the board {', '.join(unsure)} sees is ambiguous"
     places: dict[str, Rigid[Camera, Camera]] = {cameras[0]: Rigid.identity()}
     whole = _whole_board(retained)
     while len(places) < len(cameras):

@@ -98,7 +98,7 @@ class AlarmEngine:
                 "ALARM_PAUSE_TOO_LONG",
                 f"a pause of {seconds:g} s was requested, allowed is more than 0 and up to {MAX_PAUSE_S:g} s",
                 "Pause for a shorter time; the sound comes back by itself and can be paused again.",
-                {"asked_s": seconds if isfinite(seconds) else str(seconds), "max_s": MAX_PAUSE_S},
+                {"requested_s": seconds if isfinite(seconds) else str(seconds), "max_s": MAX_PAUSE_S},
             )
         at_s = self._forward(at_s)
         self._paused_until_s = at_s + seconds

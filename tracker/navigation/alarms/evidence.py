@@ -238,27 +238,27 @@ _EVALUATORS: Mapping[Condition, Evaluator] = MappingProxyType(
         Condition.CLEARANCE_LOW: _clearance_low,
         Condition.DRILL_UNSEEN: _drill_unseen,
         Condition.REFERENCE_UNSEEN: _reference_unseen,
-        Condition.MARKER_TWICE: lambda inputs, _limits, _standing: _flag(not inputs.markers_unique),
+        Condition.MARKER_TWICE: lambda inputs, _limits, _raised: _flag(not inputs.markers_unique),
         Condition.CAMERA_STALLED: _camera_stalled,
-        Condition.CAMERA_GONE: lambda inputs, _limits, _standing: _flag(not inputs.camera_works),
-        Condition.TRACKING_STOPPED: lambda inputs, _limits, _standing: _flag(not inputs.tracker_works),
+        Condition.CAMERA_GONE: lambda inputs, _limits, _raised: _flag(not inputs.camera_works),
+        Condition.TRACKING_STOPPED: lambda inputs, _limits, _raised: _flag(not inputs.tracker_works),
         Condition.POSE_UNCERTAIN: _pose_uncertain,
         Condition.SETUP_INSUFFICIENT: _setup_insufficient,
-        Condition.POSE_JUMPED: lambda inputs, _limits, _standing: _flag(not inputs.pose_steady),
-        Condition.CAMERA_MOVED: lambda inputs, _limits, _standing: _flag(not inputs.camera_in_place),
-        Condition.REFERENCE_MOVED: lambda inputs, _limits, _standing: _flag(not inputs.reference_in_place),
+        Condition.POSE_JUMPED: lambda inputs, _limits, _raised: _flag(not inputs.pose_steady),
+        Condition.CAMERA_MOVED: lambda inputs, _limits, _raised: _flag(not inputs.camera_in_place),
+        Condition.REFERENCE_MOVED: lambda inputs, _limits, _raised: _flag(not inputs.reference_in_place),
         Condition.CAMERA_CHANGED: _camera_changed,
-        Condition.REGISTRATION_OUT_OF_DATE: lambda inputs, _limits, _standing: _flag(
+        Condition.REGISTRATION_OUT_OF_DATE: lambda inputs, _limits, _raised: _flag(
             not inputs.registration_current
         ),
-        Condition.CALIBRATION_OUT_OF_DATE: lambda inputs, _limits, _standing: _flag(
+        Condition.CALIBRATION_OUT_OF_DATE: lambda inputs, _limits, _raised: _flag(
             not inputs.calibration_current
         ),
         Condition.CHECK_DUE: _check_due,
         Condition.NO_ARMED_SCREEN: _no_armed_screen,
         Condition.DISK_NEARLY_FULL: _disk_nearly_full,
-        Condition.VIEWER_LOST: lambda inputs, _limits, _standing: _flag(inputs.lost_screens > 0),
-        Condition.RECORDING_STOPPED: lambda inputs, _limits, _standing: _flag(not inputs.recording_runs),
+        Condition.VIEWER_LOST: lambda inputs, _limits, _raised: _flag(inputs.lost_screens > 0),
+        Condition.RECORDING_STOPPED: lambda inputs, _limits, _raised: _flag(not inputs.recording_runs),
         Condition.HOLD_REQUESTED: _hold_requested,
     }
 )

@@ -105,7 +105,7 @@ class StepContext:
 def advanced(was: Occurrence, evidence: Evidence, trait: AlarmRule, moment: StepContext) -> Occurrence:
     """Return the occurrence after one more step."""
     if was.is_raised:
-        return _standing(was, evidence, trait, moment)
+        return _advance_raised(was, evidence, trait, moment)
     shows = evidence.presence is Presence.YES
     is_open = (evidence.presence is Presence.UNKNOWN and trait.persists_when_unknown) or evidence.superseded
     waits = was.present_since_s < inf and is_open
@@ -147,7 +147,7 @@ def _is_confirmed(now: Occurrence, trait: AlarmRule, moment: StepContext) -> boo
     )
 
 
-def _standing(was: Occurrence, evidence: Evidence, trait: AlarmRule, moment: StepContext) -> Occurrence:
+def _advance_raised(was: Occurrence, evidence: Evidence, trait: AlarmRule, moment: StepContext) -> Occurrence:
     gone = evidence.presence is Presence.NO or (
         evidence.presence is Presence.UNKNOWN and not trait.persists_when_unknown
     )

@@ -80,11 +80,11 @@ def _belong(corners: Array, entry_mm: Array, across: Directions, maps: tuple[Arr
     middle = corners.mean(axis=1) - entry_mm
     row, column = (_places(middle @ way) for way in (across.medial, across.cranial))
     size = len(maps[0])
-    held = (row >= 0) & (column >= 0) & (row < size) & (column < size)
+    in_grid = (row >= 0) & (column >= 0) & (row < size) & (column < size)
     row, column = np.clip(row, 0, size - 1), np.clip(column, 0, size - 1)
     depth = middle @ across.axis
     on_map = np.any([np.abs(depth - one[row, column]) < SAME_MM for one in maps], axis=0)
-    return np.asarray(held & on_map & (normal @ across.axis < MAX_POSTERIOR_COSINE))
+    return np.asarray(in_grid & on_map & (normal @ across.axis < MAX_POSTERIOR_COSINE))
 
 
 def _places(along: Array) -> npt.NDArray[np.int64]:

@@ -66,7 +66,7 @@ class FittedBar:
 def fit_bar(near: Neighbourhood, bar: Bar, *, fixed_axis: bool = False) -> FittedBar:
     """Fit the bar around its narrowest section; iterate until window and axis are consistent.
 
-    Held, it keeps the direction that it was given, and only the place and shape of its section are fitted.
+    With a fixed axis, only the place and shape of its section are fitted.
     """
     half = float(np.clip(0.8 * min(bar.behind_mm, bar.ahead_mm), MIN_HALF_MM, MAX_HALF_MM))
     origin, axis = bar.centre_mm, bar.axis

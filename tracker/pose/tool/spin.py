@@ -165,7 +165,7 @@ def _towards_tip(axis: Array, tip_in_marker_mm: Array) -> Array:
     if tip_in_marker_mm.shape != (3,) or not np.isfinite(tip_in_marker_mm).all() or length < 1.0:
         raise InvalidInput(
             "TOOL_TIP_INVALID",
-            f"the tip is {tip_in_marker_mm.tolist()}, which tells no direction from the marker",
+            f"the tip is {tip_in_marker_mm.tolist()}, which gives no direction from the marker",
             "Give the tip as three numbers in mm in the marker's frame, as pivot calibration says it.",
         )
     off_deg = angle_between_deg(axis, tip_in_marker_mm)

@@ -95,7 +95,7 @@ def _shown_costs(
 
 def _far(off: Array, spread: Array) -> Array:
     """Return squared Mahalanobis distances (m) of rows (m, k)."""
-    # The entries are told from their middle, so that two of these numbers follow from the others.
+    # The entries are relative to their mean, so that two of these numbers follow from the others.
     known = np.linalg.pinv(spread, rcond=1e-9, hermitian=True)
     return np.asarray(np.einsum("ni,ij,nj->n", off, known, off))
 

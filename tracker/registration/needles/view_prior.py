@@ -165,7 +165,7 @@ def _frame(along: Array, up: Array) -> Array:
     if length < 1e-3:
         raise InvalidInput(
             "VIEW_INVALID",
-            "the camera looks straight down, so that V and H do not tell which way is up in its image",
+            "the camera looks straight down, so that V and H do not determine which way is up in its image",
             "Measure H to the vertebra again, or tilt the camera.",
         )
     right /= length

@@ -10,7 +10,7 @@ import scipy
 from tracker.geometry import Anchor, Array, Rigid, Vertebra, skew
 from tracker.registration.points.fit import jacobians, weights_on_ct
 
-# What is stated of tips is believed as if it had been told from so many numbers, and then corrected by the
+# What is stated of tips is weighted as if estimated from so many numbers, and then corrected by the
 # residuals: landmarks are found less well than a tip is known, and that shows in the residuals alone.
 PRIOR_DEGREES_OF_FREEDOM = 4.0
 # A fit better than the stated noise may be chance.

@@ -142,15 +142,15 @@ def register_surface(
     first = fit_sweep(nearest, sweep, start)
     middle = first.fixed_from_moving.move_points(points).mean(axis=0)
     lever = max(float(np.linalg.norm(targets - middle, axis=1).max()), _radius_mm(points))
-    alone, held = _directions(nearest, sweep, first, middle, lever)
+    alone, with_landmarks = _directions(nearest, sweep, first, middle, lever)
     reject_disagreement(first, sweep, settings)
-    reject_sliding(held, settings)
+    reject_sliding(with_landmarks, settings)
     best, alternatives = multi_start_fit(nearest, sweep, start, first, alone.way, lever, settings)
     reject_disagreement(best, sweep, settings)
     reject_ambiguous(sweep, best, alternatives, targets, settings)
     middle = best.fixed_from_moving.move_points(points).mean(axis=0)
-    alone, held = _directions(nearest, sweep, best, middle, lever)
-    reject_sliding(held, settings)
+    alone, with_landmarks = _directions(nearest, sweep, best, middle, lever)
+    reject_sliding(with_landmarks, settings)
     return _result(nearest, sweep, best, start, alone, settings)
 
 
@@ -189,8 +189,8 @@ def _directions(
     """Return the least observable motion mode of the sweep alone, and of sweep and landmarks."""
     smooth = nearest.smooth_normals(laid.nearest_mm)
     alone = equations(sweep, laid, middle, normals=smooth, landmarks=False)[0]
-    held = equations(sweep, laid, middle, normals=smooth)[0]
-    return motion_modes(alone, lever_mm)[0], motion_modes(held, lever_mm)[0]
+    with_landmarks = equations(sweep, laid, middle, normals=smooth)[0]
+    return motion_modes(alone, lever_mm)[0], motion_modes(with_landmarks, lever_mm)[0]
 
 
 def _result(

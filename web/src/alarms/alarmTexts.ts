@@ -1,4 +1,4 @@
-// The words of an alarm beside the figures that stand on the page. Pure.
+// The words of an alarm beside the figures that are displayed. Pure.
 import { isOfNow } from "../live/assess";
 import type { View } from "../live/live";
 import type { AlarmMessage } from "../live/messages";

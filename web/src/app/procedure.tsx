@@ -1,4 +1,4 @@
-// How the procedure stands, asked of the server once for everything on the page, and often enough that no gate
+// The state of the procedure, requested once for everything on the page, and often enough that no gate
 // looks open that is shut.
 import { createContext, use, useCallback, useEffect, useMemo, useState, type ReactNode } from "react";
 import { answered, server } from "../rest/client";
@@ -14,7 +14,7 @@ const OFTEN_MS = 1000;
 const SELDOM_MS = 4000;
 
 interface SharedQuery extends QueryState<Procedure> {
-  /** From now on it is asked for often, until what this gives is called. */
+  /** Requests it often from now on, until the returned function is called. */
   hurry: () => () => void;
   /** The open case of the last answer; null where none was open, undefined before the first answer. */
   caseId: string | null | undefined;
@@ -45,7 +45,7 @@ export function ProcedureProvider({ view, children }: { view: ViewName; children
 
 function useShared(): SharedQuery {
   const value = use(ProcedureContext);
-  if (value === null) throw new Error("useProcedure stands outside ProcedureProvider");
+  if (value === null) throw new Error("useProcedure must be used inside ProcedureProvider");
   return value;
 }
 
@@ -62,7 +62,7 @@ export function useCaseId(): string | null | undefined {
   return useShared().caseId;
 }
 
-/** Asked for often as long as this stands on the page, and at once when it comes. */
+/** Requested often while this is mounted, and at once when it mounts. */
 export function useFrequentProcedure(): QueryState<Procedure> {
   const shared = useShared();
   const { hurry, refetch } = shared;

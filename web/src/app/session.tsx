@@ -86,6 +86,6 @@ export function SessionProvider({ children }: { children: ReactNode }): ReactNod
 
 export function useSession(): SessionValue {
   const value = use(SessionContext);
-  if (value === null) throw new Error("useSession stands outside SessionProvider");
+  if (value === null) throw new Error("useSession must be used inside SessionProvider");
   return value;
 }

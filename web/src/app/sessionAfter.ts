@@ -14,7 +14,7 @@ export type Session =
   /** Nobody is signed in; `expired` where somebody was. */
   | { state: "out"; expired: boolean };
 
-/** What to believe after an answer (or the code of a refusal), from what was believed before it. */
+/** What to believe after an answer (or the code of a rejection), from what was believed before it. */
 export function sessionAfter(before: Session, answer: Session | string): Session {
   if (typeof answer !== "string") return same(before, answer) ? before : answer;
   if (answer === "SESSION_NEEDED" || answer === "SESSION_EXPIRED") {

@@ -45,5 +45,5 @@ function noVolumeText(volume: NoVolume, t: TheatreTexts["cuts"]): string {
   if (volume.state === "rejected") return `${volume.problem.message}. ${volume.problem.remedy}`;
   if (volume.state !== "failed") return t.noVolume[volume.state];
   const why = volume.message === "" ? t.noAnswer : `${t.unreadable}: ${volume.message}.`;
-  return `${why} ${t.askedAgain}`;
+  return `${why} ${t.requestedAgain}`;
 }

@@ -88,7 +88,7 @@ export function CutsProvider({ ctOnRequest = false, children }: CutsProviderProp
 
 export function useCuts(): CutsValue {
   const value = use(CutsContext);
-  if (value === null) throw new Error("useCuts stands outside CutsProvider");
+  if (value === null) throw new Error("useCuts must be used inside CutsProvider");
   return value;
 }
 

@@ -46,7 +46,7 @@ export function wantsPlan(numbers: NumbersVerdict, untrackedMs: number | null): 
 }
 
 /**
- * The verdict on a cut that stands on the page (null where none does).
+ * The verdict on a cut that is displayed (null where none is).
  *
  * `volume`, `channel` and `numbers` are those of the newest message; `limitMs` is the greatest age of a drawing that
  * follows the drill, as for the 3-D scene.

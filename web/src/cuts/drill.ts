@@ -16,7 +16,7 @@ export interface Drill {
 /** Of each image that a cut has asked about: every cut asks several times an image. */
 const drills = new WeakMap<SnapshotMessage, Drill | null>();
 
-/** The drill whose figures stand on the page; null where none do, or where its place is not known. */
+/** The drill whose figures are displayed; null where none are, or where its place is not known. */
 export function displayedDrill(numbers: NumbersVerdict): Drill | null {
   if (!numbers.live) return null;
   const { snapshot, reading } = numbers;

@@ -51,7 +51,7 @@ export function LiveProvider({ children }: { children: ReactNode }): ReactNode {
 
 export function useLive(): LiveValue {
   const value = use(LiveContext);
-  if (value === null) throw new Error("useLive stands outside LiveProvider");
+  if (value === null) throw new Error("useLive must be used inside LiveProvider");
   return value;
 }
 

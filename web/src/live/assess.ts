@@ -24,7 +24,7 @@ export interface Situation extends FirstMessageWait {
   hidden: boolean;
   lastReceivedAtMs: number | null;
   newest: LiveMessage | null;
-  /** Whose numbers stand on the page. */
+  /** Whose numbers are displayed. */
   numbers: ReceivedImage | null;
   /** Whose picture stands on the canvas. */
   picture: ReceivedImage | null;
@@ -35,7 +35,7 @@ export interface Situation extends FirstMessageWait {
   limits: Limits;
 }
 
-/** Until the server has told its own. */
+/** Until the server has sent its own. */
 const DEFAULT_LIMITS: Limits = {
   pose_stale_after_ms: 150,
   video_stale_after_ms: 500,

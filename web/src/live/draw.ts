@@ -1,4 +1,4 @@
-/** Draws the picture of a frame; false when it cannot be drawn. Tells when it is decoded. */
+/** Draws the picture of a frame; false when it cannot be drawn. Reports when it is decoded. */
 export type Draw = (
   jpeg: Uint8Array<ArrayBuffer>,
   isCurrent: () => boolean,

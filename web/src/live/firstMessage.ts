@@ -12,7 +12,7 @@ export interface FirstMessageWait {
 /**
  * Without any sign of the server for this long, a page that is still loading says that it is not reached. On a
  * loaded machine the first message takes up to 5 s: twice that raises no false alarm, and who stands before an
- * empty screen for longer needs to be told what to look at.
+ * empty screen for longer needs a hint what to check.
  */
 export const REACHED_WITHIN_MS = 10_000;
 

@@ -183,13 +183,13 @@ test("a page that was too busy to hear counts that as its own time", async () =>
   expect(await live.receive(frame(1))).toMatchObject({ showingMs: 200 });
 });
 
-test("a chosen size is told at once, and the picture says which one came", async () => {
-  const told: string[] = [];
-  live.setOnChoice((choice) => told.push(choice));
+test("a chosen size is reported at once, and the picture says which one came", async () => {
+  const choices: string[] = [];
+  live.setOnChoice((choice) => choices.push(choice));
   live.choosePicture("half");
   const { message: full, jpeg: picture } = frame(1);
   await live.receive({ message: { ...full, shown_scale_ratio: 0.5 }, jpeg: picture });
-  expect(told).toEqual(["half"]);
+  expect(choices).toEqual(["half"]);
   expect(live.update().pictureDelivery).toMatchObject({ choice: "half", widthPx: 640, heightPx: 360 });
 });
 
@@ -201,8 +201,8 @@ test("a server that says nothing any more is gone within a second", async () => 
 
 test("who measures is told of each picture that was drawn, with its message and when it came", async () => {
   const shown: [number, number][] = [];
-  live.onShown = ({ message: told, receivedAtMs }) => {
-    shown.push([told.sequence, receivedAtMs]);
+  live.onShown = ({ message, receivedAtMs }) => {
+    shown.push([message.sequence, receivedAtMs]);
   };
   await live.receive(frame(1));
   live.setDraw(() => Promise.resolve(false));

@@ -178,7 +178,7 @@ export class Live {
     return { isDisplayed: true, showingMs: timer.deviceMs(sentAtMs, this.load.sharesMachine) };
   }
 
-  /** The answer to a question that was asked because the line was quiet, or to compare clocks. */
+  /** The answer to a request that was sent because the line was quiet, or to compare clocks. */
   receiveAnswer(message: LiveMessage | null, requestedAtMs: number, generation: number): void {
     if (generation !== this.generation) return;
     const answeredAtMs = (this.situation.waitingSinceMs = this.markReceived());

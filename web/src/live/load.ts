@@ -1,4 +1,4 @@
-// What this page can carry: measured with each image, told as what is slow, and kept within by what gives way.
+// What this page can carry: measured with each image, reported as what is slow, and kept within by what gives way.
 import type { Limits } from "./assess";
 import { BudgetControl, budgetSteps, strainIn, UNLIMITED, type DrawingBudget } from "./budget";
 import { PictureDeliveryMonitor, type PictureDelivery, type PictureChoice } from "./pictureDelivery";
@@ -68,7 +68,7 @@ export class Load {
     return new ImageTimer(this.now, this.stall, receivedAtMs);
   }
 
-  /** A pane with the 3-D scene stands on the page until the answer is called. */
+  /** A pane with the 3-D scene is displayed until the answer is called. */
   showScene(): () => void {
     this.isSceneShown = true;
     return () => {

@@ -5,7 +5,7 @@ import { ANSWER_WITHIN_MS, ReconnectingSocket } from "./reconnectingSocket";
 
 let sockets: SilentSocket[];
 let waits: { action: () => void; waitMs: number }[];
-let told: string[];
+let events: string[];
 let reconnecting: ReconnectingSocket<SilentSocket>;
 
 const newest = (): SilentSocket => {
@@ -28,20 +28,20 @@ const loseAndWait = (): number => {
 beforeEach(() => {
   sockets = [];
   waits = [];
-  told = [];
+  events = [];
   reconnecting = new ReconnectingSocket<SilentSocket>({
     open: () => {
       sockets.push(new SilentSocket());
       return newest();
     },
     later: (action, waitMs) => waits.push({ action, waitMs }),
-    onOpen: () => told.push("open"),
+    onOpen: () => events.push("open"),
     onData: (data) => {
-      told.push(String(data));
+      events.push(String(data));
       if (data === "bad") reconnecting.reconnect();
       else reconnecting.markReceived();
     },
-    onLost: () => told.push("lost"),
+    onLost: () => events.push("lost"),
   });
   reconnecting.start();
 });
@@ -71,13 +71,13 @@ test("it stands from its opening on, and until it is lost", () => {
     null,
     false,
   ]);
-  expect(told).toEqual(["open", "lost"]);
+  expect(events).toEqual(["open", "lost"]);
 });
 
 test("what cannot be understood costs the line", () => {
   newest().onopen?.();
   newest().onmessage?.({ data: "bad" });
-  expect(told).toEqual(["open", "bad", "lost"]);
+  expect(events).toEqual(["open", "bad", "lost"]);
   expect(newest().closed).toBe(true);
   expect(passLastWait()).toBe(100);
   expect(sockets).toHaveLength(2);
@@ -87,11 +87,11 @@ test("a server that takes the call and never answers is left, one that answered 
   const [answer] = waits;
   expect(answer?.waitMs).toBe(ANSWER_WITHIN_MS);
   answer?.action();
-  expect(told).toEqual(["lost"]);
+  expect(events).toEqual(["lost"]);
   passLastWait();
   newest().onopen?.();
   waits.at(-1)?.action();
-  expect(told).toEqual(["lost", "open"]);
+  expect(events).toEqual(["lost", "open"]);
   // The first one's time is not the second one's.
   answer?.action();
   expect(sockets).toHaveLength(2);
@@ -102,7 +102,7 @@ test("a lost line is not heard, and is lost once", () => {
   old.onopen?.();
   reconnecting.reconnect();
   expect([old.onopen, old.onmessage, old.onclose, old.closed]).toEqual([null, null, null, true]);
-  expect(told).toEqual(["open", "lost"]);
+  expect(events).toEqual(["open", "lost"]);
 });
 
 test("a stopped line stays down, and a started one comes again", () => {
@@ -115,5 +115,5 @@ test("a stopped line stays down, and a started one comes again", () => {
   expect(sockets).toHaveLength(2);
   reconnecting.stop();
   expect(newest().closed).toBe(true);
-  expect(told).toEqual(["lost"]);
+  expect(events).toEqual(["lost"]);
 });

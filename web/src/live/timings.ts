@@ -1,6 +1,6 @@
 // How long each part of showing an image takes: on the network, decoding, drawing. Pure: times go in as numbers.
 
-/** Of one image that stands on the page. */
+/** Of one image that is displayed. */
 export interface ImageTimes {
   /** When it stood there. */
   atMs: number;

@@ -1,4 +1,4 @@
-// What the page knows of one moment, as every pane is told it.
+// What the page knows of one moment, as every pane gets it.
 import type { NumbersVerdict, VideoVerdict } from "./assess";
 import type { DrawingBudget } from "./budget";
 import type { PictureDelivery } from "./pictureDelivery";
@@ -7,7 +7,7 @@ import type { LinkState } from "./viewConnection";
 import type { LiveMessage } from "./messages";
 import type { SceneVerdict } from "./sceneAge";
 
-/** The true age of everything that stands on the page, in ms; null where nothing stands there. */
+/** The true age of everything that is displayed, in ms; null where nothing is. */
 export interface Ages {
   pictureMs: number | null;
   numbersMs: number | null;

@@ -66,7 +66,7 @@ export function MarksTools(): ReactNode {
           <Icon name="cross" /> {texts.clearAll}
         </button>
       )}
-      <p role="status" className="marks-trouble">
+      <p role="status" className="marks-problem">
         {problem !== ""
           ? problem
           : fadesAfterS === null

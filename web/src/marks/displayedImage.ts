@@ -1,11 +1,11 @@
-// Which image stands on the page, with its time and its size.
+// Which image is displayed, with its time and its size.
 import type { View } from "../live/live";
 import type { Moment } from "../room/messages";
 import type { Size } from "./place";
 
 export class DisplayedImage {
   size: Size = { width: 0, height: 0 };
-  /** Of the picture that stands on the page; null while none does. */
+  /** Of the picture that is displayed; null while none is. */
   moment: Moment | null = null;
 
   update({ video }: Pick<View, "video">): void {

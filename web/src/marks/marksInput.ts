@@ -55,7 +55,7 @@ export class MarksInput {
       this.pointedAtMs = nowMs;
       this.pending = null;
       const isSent = this.send({ point: { at_px: rests.at, ...rests.moment } });
-      // What nobody was told of is not shown here either.
+      // What was sent to nobody is not shown here either.
       this.localPointer = isSent ? { at: rests.at, goesAtMs: nowMs + POINTER_GOES_AFTER_MS } : null;
     }
     if (drawing?.shape === "pen" && nowMs - this.sentAtMs >= EXTEND_EVERY_MS) this.sendPen(drawing, nowMs);

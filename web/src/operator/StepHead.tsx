@@ -13,7 +13,7 @@ import { stateText, stepNote } from "./stepTexts";
 /** A remedy that names an address of the API is for programs: whoever is here has the page's own buttons. */
 const FOR_MACHINES = "/api/";
 
-/** What a step is for, how it stands with its numbers, and what to do next, as the server says it. */
+/** What a step is for, its state with its numbers, and what to do next, as the server says it. */
 export function StepHead({ page }: { page: OperatorPage }): ReactNode {
   const texts = useTexts().operator;
   const { data, rejection } = useProcedure();

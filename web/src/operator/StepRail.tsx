@@ -8,7 +8,7 @@ import { stateText } from "./stepTexts";
 
 type Mark = Step["state"] | "none";
 
-/** The steps, how each stands, and the way to each. */
+/** The steps, the state of each, and the way to each. */
 export function StepRail({ now }: { now: OperatorPage | null }): ReactNode {
   const texts = useTexts().operator;
   const { data } = useProcedure();

@@ -7,8 +7,8 @@ test.each([
   ["navigate", "missing", "to do"],
   ["plan", "done", "done"],
   ["check", "due", "due again"],
-] as const)("%s that the server calls %s is told as %s", (step, state, told) => {
-  expect(stateText({ step, state }, operatorEn)).toBe(told);
+] as const)("%s that the server calls %s is told as %s", (step, state, expected) => {
+  expect(stateText({ step, state }, operatorEn)).toBe(expected);
 });
 
 test.each([
@@ -18,8 +18,8 @@ test.each([
   ["plan", "done", 0, null, false],
   ["plan", "missing", 0, 3, false],
   ["register", "done", 0, 3, false],
-] as const)("%s, %s, with %s of %s landmarks", (step, state, landmarks, minLandmarks, isTold) => {
+] as const)("%s, %s, with %s of %s landmarks", (step, state, landmarks, minLandmarks, isShown) => {
   const note = stepNote({ step, state, numbers: { landmarks } }, minLandmarks, operatorEn);
-  expect(note !== "").toBe(isTold);
-  if (isTold) expect(note).toContain(`${String(landmarks)} landmarks`);
+  expect(note !== "").toBe(isShown);
+  if (isShown) expect(note).toContain(`${String(landmarks)} landmarks`);
 });

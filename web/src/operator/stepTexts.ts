@@ -1,4 +1,4 @@
-// How a step stands, in words that are true of it: navigation that may begin has not been done.
+// The state of a step, in words that are true of it: navigation that may begin has not been done.
 import type { OperatorTexts } from "../texts/operator/en";
 import { interpolate } from "../texts/interpolate";
 import type { Step } from "../app/procedure";

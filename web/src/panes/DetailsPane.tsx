@@ -11,7 +11,7 @@ import { searchTimeMs } from "./searchTime";
 
 const NONE = "—";
 
-/** Times and counts; what a server said that is gone is not told any more. */
+/** Times and counts; what a server sent that is gone is not shown any more. */
 export function DetailsPane(): ReactNode {
   const texts = useTexts();
   const { view, dashboard } = useLive();

@@ -22,7 +22,7 @@ const MARKS: Record<Status, string> = {
 export function FigureTile({ name }: { name: FigureName }): ReactNode {
   const texts = useTexts();
   return (
-    <div className="reading" data-reading={name} data-standing="none">
+    <div className="reading" data-reading={name} data-status="none">
       <p className="reading-name">
         <span>{texts.reading[name].name}</span> <small data-part="hint" />{" "}
         <span className="unit">{texts.reading[name].unit}</span>
@@ -68,7 +68,7 @@ export function paintFigure(
   setText(tile.querySelector("[data-part=value]"), figure ? formatFigure(figure.value) : REMOVED);
   setText(tile.querySelector("[data-part=limit]"), figure ? limitText(figure, name, texts) : "");
   setText(tile.querySelector("[data-part=hint]"), hintOf(reading, name, texts));
-  setData(tile, "standing", figure?.status ?? "none");
+  setData(tile, "status", figure?.status ?? "none");
   if (name === "depth") {
     const toGo = reading === null ? REMOVED : formatFigure(reading.assessment.figures.to_go.value);
     setText(tile.querySelector("[data-part=to-go]"), toGo);

@@ -1,4 +1,4 @@
-// What may still be said of the server: nothing that it told before it went.
+// What may still be said of the server: nothing that it sent before it went.
 import { isOfNow } from "../live/assess";
 import type { LinkState } from "../live/viewConnection";
 import type { View } from "../live/live";

@@ -37,7 +37,7 @@ function ServerProblem({ problem }: { problem: Problem }): ReactNode {
       className="rejection"
       role="alert"
       title={<span lang="en">{sentence(problem.message)}</span>}
-      data-testid="phone-trouble"
+      data-testid="phone-problem"
     >
       <span lang="en">{problem.remedy}</span> <code>{problem.code}</code>
     </Alert>

@@ -61,7 +61,7 @@ export function withLockedFocus(
   return { ...requestedConstraints(welcome), advanced: [lock] };
 }
 
-/** What the server is told: the size as frames have it, the rest as the track's settings say. */
+/** What the server gets: the size as frames have it, the rest as the track's settings say. */
 export function factsOf(
   label: string,
   size: { width: number; height: number },

@@ -22,7 +22,7 @@ export interface Listener {
   onSent(sent: SentImage): void;
   onNote(note: Note | null): void;
   onWakeLock(isLocked: boolean): void;
-  /** It is over: the server refused, or the browser gave no camera. */
+  /** It is over: the server rejected it, or the browser gave no camera. */
   onRejected(problem: Problem): void;
   onNoCamera(error: unknown): void;
 }
@@ -120,7 +120,7 @@ async function lockFocus(track: MediaStreamTrack, welcome: Welcome, signal: Abor
   try {
     await track.applyConstraints(constraints);
   } catch {
-    // What the camera then does is read from its settings, and told.
+    // What the camera then does is read from its settings, and sent.
   }
 }
 

@@ -94,8 +94,8 @@ test.each([
   ["NotFoundError", "none"],
   ["NotReadableError", "busy"],
   ["TypeError", "other"],
-])("%s is told as %s", (name, told) => {
-  expect(noCameraOf(Object.assign(new Error(), { name }))).toBe(told);
+])("%s is told as %s", (name, expected) => {
+  expect(noCameraOf(Object.assign(new Error(), { name }))).toBe(expected);
 });
 
 test("a rate is of the last two seconds, and none when nothing went out", () => {

@@ -16,8 +16,8 @@ class FakeSocket implements PhoneSocket {
   close(): void {
     this.closed = true;
   }
-  hear(told: ServerMessage): void {
-    this.onmessage?.({ data: JSON.stringify(told) });
+  hear(message: ServerMessage): void {
+    this.onmessage?.({ data: JSON.stringify(message) });
   }
   get texts(): unknown[] {
     return this.sent.filter((one) => typeof one === "string").map((text) => JSON.parse(text) as unknown);
@@ -58,7 +58,7 @@ const noteOf = (credit: number, ping = 0): { note: Note } => ({
 
 let sockets: FakeSocket[];
 let waits: { action: () => void; waitMs: number }[];
-let told: string[];
+let events: string[];
 let nowMs: number;
 let connection: PhoneConnection;
 
@@ -82,7 +82,7 @@ const open = (): FakeSocket => {
 beforeEach(() => {
   sockets = [];
   waits = [];
-  told = [];
+  events = [];
   nowMs = 1000;
   connection = new PhoneConnection("k", {
     open: () => {
@@ -91,10 +91,10 @@ beforeEach(() => {
     },
     later: (action, waitMs) => waits.push({ action, waitMs }),
     nowMs: () => nowMs,
-    onWelcome: () => told.push("welcome"),
-    onNote: (note) => told.push(`credit ${String(note.credit)}`),
-    onRejected: (problem) => told.push(problem.code),
-    onLost: () => told.push("lost"),
+    onWelcome: () => events.push("welcome"),
+    onNote: (note) => events.push(`credit ${String(note.credit)}`),
+    onRejected: (problem) => events.push(problem.code),
+    onLost: () => events.push("lost"),
   });
   connection.start();
 });
@@ -149,7 +149,7 @@ test("describes its camera before the first image, after a change, and on each n
   connection.describe({ ...FACTS, focus: "locked" });
   expect(first.texts.slice(1)).toEqual([{ camera: FACTS }, { camera: { ...FACTS, focus: "locked" } }]);
   first.onclose?.();
-  expect(told).toEqual(["welcome", "lost"]);
+  expect(events).toEqual(["welcome", "lost"]);
   tryAgain();
   expect(open().texts.at(-1)).toEqual({ camera: { ...FACTS, focus: "locked" } });
 });
@@ -167,7 +167,7 @@ test("a refusal is told, and not tried again", () => {
   newest().onopen?.();
   newest().hear({ rejected: { code: "PHONE_TAKEN", message: "", remedy: "" } });
   tryAgain();
-  expect(told).toEqual(["PHONE_TAKEN"]);
+  expect(events).toEqual(["PHONE_TAKEN"]);
   expect(sockets).toHaveLength(1);
   expect(newest().closed).toBe(true);
 });
@@ -184,5 +184,5 @@ test("a server that falls silent, or says what nobody understands, is left for a
   newest().onopen?.();
   newest().onmessage?.({ data: "?" });
   expect(newest().closed).toBe(true);
-  expect(told).toEqual(["welcome", "lost", "lost"]);
+  expect(events).toEqual(["welcome", "lost", "lost"]);
 });

@@ -5,7 +5,7 @@ import { answered, server } from "../rest/client";
 import { RejectionNote } from "../rest/RejectionNote";
 import { useAction } from "../rest/useAction";
 import { useTexts } from "../texts/TextsContext";
-import { isAskedUnbidden } from "./consent";
+import { isConsentPromptDue } from "./consent";
 
 interface ConsentAnswersProps {
   caseId: string;
@@ -49,7 +49,7 @@ export function ConsentAnswers({ caseId, onAnswer }: ConsentAnswersProps): React
 export function ConsentQuestion(): ReactNode {
   const texts = useTexts().recording.consent;
   const { data, refetch } = useProcedure();
-  if (data?.case_id == null || data.recording === null || !isAskedUnbidden(data.recording)) return null;
+  if (data?.case_id == null || data.recording === null || !isConsentPromptDue(data.recording)) return null;
   return (
     <section className="restart" aria-labelledby="consent-title" data-testid="consent-question">
       <div className="restart-words">

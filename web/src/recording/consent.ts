@@ -10,6 +10,6 @@ export function isConsented(consent: Consent): boolean {
 }
 
 /** Whether the page asks by itself: a recording would begin with navigation, and nobody has answered yet. */
-export function isAskedUnbidden(recording: Recording): boolean {
-  return recording.when === "navigating" && recording.consent.state === "not_asked";
+export function isConsentPromptDue(recording: Recording): boolean {
+  return recording.when === "navigating" && recording.consent.state === "not_answered";
 }

@@ -6,7 +6,7 @@ import type { QueryState } from "./useQuery";
 
 interface QueryStatusProps {
   query: Pick<QueryState<unknown>, "rejection" | "refetch">;
-  /** How a refusal is shown. */
+  /** How a rejection is shown. */
   Note?: typeof RejectionNote;
 }
 

@@ -3,7 +3,7 @@ import type { ReactNode } from "react";
 import { useTexts } from "../texts/TextsContext";
 import type { Rejection } from "./client";
 
-/** What was refused, why, and what to do; nothing where nothing was. */
+/** What was rejected, why, and what to do; nothing where nothing was. */
 export function RejectionNote({ rejection }: { rejection: Rejection | null }): ReactNode {
   const texts = useTexts();
   if (rejection === null) return null;

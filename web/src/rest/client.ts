@@ -1,4 +1,4 @@
-// Asks the server, with the types of its schema; a refusal keeps its sentence, its numbers and its remedy.
+// Asks the server, with the types of its schema; a rejection keeps its sentence, its numbers and its remedy.
 import createClient from "openapi-fetch";
 import type { components, paths } from "../schema";
 

@@ -2,7 +2,7 @@
 import { useCallback, useEffect, useEffectEvent, useState } from "react";
 import { Rejection } from "./client";
 
-/** With neither `data` nor `refusal` nothing is known yet: `QueryStatus.tsx` stands in its place, never "none". */
+/** With neither `data` nor `rejection` nothing is known yet: `QueryStatus.tsx` stands in its place, never "none". */
 export interface QueryState<Data> {
   data: Data | null;
   rejection: Rejection | null;

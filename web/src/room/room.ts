@@ -56,7 +56,7 @@ export class Room {
     };
   }
 
-  /** False where nobody is told of it. */
+  /** False where it is sent to nobody. */
   send(message: ClientMessage): boolean {
     return this.connection.send(message);
   }

@@ -28,9 +28,9 @@ export interface RoomState {
   pointers: readonly Pointer[];
   marks: readonly Mark[];
   hold: Hold | null;
-  /** How long a drawing stays, counted from the image that it was made on; null until it was told. */
+  /** How long a drawing stays, counted from the image that it was made on; null until it was received. */
   fadesAfterS: number | null;
-  /** Null where nothing is kept, or nothing was told yet. */
+  /** Null where nothing is kept, or nothing was received yet. */
   signable: readonly Signable[] | null;
 }
 
@@ -73,7 +73,7 @@ function marksAfter(marks: readonly Mark[], message: RoomMessage, nowMs: number)
   const known = new Map(marks.map((one) => [one.key, one]));
   for (const one of message.grown) {
     const before = known.get(one.key)?.points ?? [];
-    // What is told from a point on that is not here was told to another line: it cannot be drawn whole.
+    // What begins at a point that is not here was sent to another connection: it cannot be drawn whole.
     if (one.from_point > before.length) continue;
     const goesAtMs = nowMs + one.left_s * 1000;
     known.set(one.key, {

@@ -17,10 +17,10 @@ export function HoldPanel(): ReactNode {
   const mine = hold?.is_yours === true;
   const mayRelease = mine || you?.role === "operator";
   return (
-    <section className="hold" aria-label={texts.title} data-testid="hold" data-asked={query.length > 0}>
+    <section className="hold" aria-label={texts.title} data-testid="hold" data-requested={query.length > 0}>
       {query.length > 0 && (
-        <p className="hold-asked" role="status">
-          <span aria-hidden="true">▲▲</span> {texts.asked} <strong>{query.join(", ")}</strong>
+        <p className="hold-requested" role="status">
+          <span aria-hidden="true">▲▲</span> {texts.requestedBy} <strong>{query.join(", ")}</strong>
           {hold?.since != null && ` (${texts.since} ${formatTime(hold.since, all.language)})`}
         </p>
       )}

@@ -12,7 +12,7 @@ const SYMBOL: Record<Step["state"], string> = {
   failed: "✕",
 };
 
-/** How every step of the procedure stands, in the server's own sentences. */
+/** The state of every step of the procedure, in the server's own sentences. */
 export function StepsShown(): ReactNode {
   const texts = useTexts();
   const query = useProcedure();

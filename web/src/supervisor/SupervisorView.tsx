@@ -87,7 +87,7 @@ export function SupervisorView(): ReactNode {
   );
 }
 
-/** Plan and registration; the state of their signatures is told by the room, and stands there unopened. */
+/** Plan and registration; the state of their signatures comes with the room, and is shown while they are closed. */
 function Signables(): ReactNode {
   const { supervisor: own, rest } = useTexts();
   const { isConnected, firstMessage, signable } = useRoomSnapshot();

@@ -6,7 +6,7 @@ import type { Procedure } from "../app/procedure";
 
 type State = Procedure["steps"][number]["state"];
 
-function standing(check: State, checkAgeMin: number | null = 3): Procedure {
+function procedureWith(check: State, checkAgeMin: number | null = 3): Procedure {
   const step = { message: "", remedy: "", document_id: null, allowed: true, missing_cosignature: null };
   return {
     case_id: "c1",
@@ -25,13 +25,13 @@ function standing(check: State, checkAgeMin: number | null = 3): Procedure {
 
 test("says how and how long ago it was registered", () => {
   const by = snapshot({ registered_by: "points" });
-  expect(registrationText(by, standing("done"), theatreEn)?.value).toBe("by landmarks, 12 min ago");
+  expect(registrationText(by, procedureWith("done"), theatreEn)?.value).toBe("by landmarks, 12 min ago");
   expect(registrationText(by, null, theatreEn)?.value).toBe("by landmarks");
-  expect(registrationText(snapshot({ registered_by: null }), standing("done"), theatreEn)).toEqual({
+  expect(registrationText(snapshot({ registered_by: null }), procedureWith("done"), theatreEn)).toEqual({
     value: "not registered",
     mood: "bad",
   });
-  expect(registrationText(null, standing("done"), theatreEn)).toBeNull();
+  expect(registrationText(null, procedureWith("done"), theatreEn)).toBeNull();
 });
 
 test.each([
@@ -41,11 +41,11 @@ test.each([
   ["missing", "not checked", "bad"],
   ["out_of_date", "not checked", "bad"],
 ] as const)("a check that is %s is said to be so", (state, value, mood) => {
-  expect(checkText(snapshot(), standing(state), theatreEn)).toEqual({ value, mood });
+  expect(checkText(snapshot(), procedureWith(state), theatreEn)).toEqual({ value, mood });
 });
 
 test("without an open case nothing is said of a check", () => {
-  expect(checkText(snapshot(), { ...standing("missing"), case_id: null }, theatreEn)).toBeNull();
+  expect(checkText(snapshot(), { ...procedureWith("missing"), case_id: null }, theatreEn)).toBeNull();
 });
 
 test.each([

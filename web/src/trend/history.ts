@@ -18,13 +18,13 @@ export interface Sample {
 }
 
 export class TrendHistory {
-  private readonly kept: Sample[] = [];
+  private readonly buffer: Sample[] = [];
   private newest: SnapshotMessage | null = null;
   private of = "";
 
   /** From the oldest on; at most one for each bucket of the span. */
   get samples(): readonly Sample[] {
-    return this.kept;
+    return this.buffer;
   }
 
   /** Takes what the page shows now; the same image counts once. */
@@ -38,7 +38,7 @@ export class TrendHistory {
     this.newest = numbers.snapshot;
     // Figures of another plan or tool are not comparable with these.
     const of = `${numbers.reading.tool} ${JSON.stringify(numbers.snapshot.channel)}`;
-    if (of !== this.of) this.kept.length = 0;
+    if (of !== this.of) this.buffer.length = 0;
     this.of = of;
     const figures: Record<FigureName, TrendFigure> = {
       entry: figureOf(numbers.reading, "entry"),
@@ -47,26 +47,26 @@ export class TrendHistory {
       wall: figureOf(numbers.reading, "wall"),
     };
     const atMs = nowMs - numbers.ageMs;
-    const last = this.kept.at(-1);
+    const last = this.buffer.at(-1);
     if (last?.figures != null && atMs - last.atMs < BUCKET_MS) {
       const before = last.figures;
       for (const name of FIGURES) figures[name] = worseOf(name, before[name], figures[name]);
-      this.kept[this.kept.length - 1] = { atMs: last.atMs, figures };
+      this.buffer[this.buffer.length - 1] = { atMs: last.atMs, figures };
     } else {
-      this.kept.push({ atMs: Math.max(atMs, last?.atMs ?? -Infinity), figures });
+      this.buffer.push({ atMs: Math.max(atMs, last?.atMs ?? -Infinity), figures });
     }
   }
 
   private addGap(nowMs: number): void {
-    const last = this.kept.at(-1);
-    if (last !== undefined && last.figures !== null) this.kept.push({ atMs: nowMs, figures: null });
+    const last = this.buffer.at(-1);
+    if (last !== undefined && last.figures !== null) this.buffer.push({ atMs: nowMs, figures: null });
   }
 
   private drop(nowMs: number): void {
     let count = 0;
     // The one before the span is kept: its line comes in from the edge.
-    while ((this.kept[count + 1]?.atMs ?? Infinity) < nowMs - SPAN_MS) count += 1;
-    if (count > 0) this.kept.splice(0, count);
+    while ((this.buffer[count + 1]?.atMs ?? Infinity) < nowMs - SPAN_MS) count += 1;
+    if (count > 0) this.buffer.splice(0, count);
   }
 }
 

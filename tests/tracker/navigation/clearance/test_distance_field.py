@@ -162,19 +162,19 @@ def test_a_field_is_small_read_only_and_goes_through_a_pipe(solid_rod: WallDista
         pytest.param(Surface(vertices_mm=rod().vertices_mm + 300.0, faces=rod().faces), id="elsewhere"),
     ],
 )
-def test_a_surface_that_is_not_at_the_channel_is_refused(surface: Surface) -> None:
+def test_a_surface_that_is_not_at_the_channel_is_rejected(surface: Surface) -> None:
     with pytest.raises(PlanError) as caught:
         bone_distance_field(surface, ROD_CHANNEL, margin_mm=15.0)
     assert caught.value.code == "BONE_NOT_AT_CHANNEL"
 
 
-def test_a_surface_that_is_wound_inside_out_is_refused() -> None:
+def test_a_surface_that_is_wound_inside_out_is_rejected() -> None:
     with pytest.raises(PlanError) as caught:
         bone_distance_field(rod(turned_inside_out=True), ROD_CHANNEL, margin_mm=15.0)
     assert caught.value.code == "BONE_INSIDE_OUT"
 
 
-def test_a_channel_as_long_as_a_patient_is_refused() -> None:
+def test_a_channel_as_long_as_a_patient_is_rejected() -> None:
     channel = Channel(
         name="x", entry_in_vertebra_mm=np.zeros(3), target_in_vertebra_mm=np.full(3, 900.0), radius_mm=3.0
     )

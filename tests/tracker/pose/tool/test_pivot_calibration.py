@@ -1,4 +1,4 @@
-"""The tip by pivoting: against known truth, with outliers, honest covariance, refused where blind."""
+"""The tip by pivoting: against known truth, with outliers, honest covariance, rejected where blind."""
 
 import dataclasses
 
@@ -151,7 +151,7 @@ def rejected(poses: Poses) -> CalibrationError:
         pytest.param(Hand(count=9), "TOOL_TOO_FEW_POSES", id="nine-poses"),
     ],
 )
-def test_a_motion_that_leaves_the_tip_open_is_refused(hand: Hand, code: str) -> None:
+def test_a_motion_that_leaves_the_tip_open_is_rejected(hand: Hand, code: str) -> None:
     assert rejected(pivoted(hand).poses).code == code
 
 
@@ -164,7 +164,7 @@ def test_tilt_in_one_plane_is_enough_with_spin() -> None:
 
 
 @pytest.mark.parametrize("count", [0, 1, 2, 60])
-def test_the_same_pose_again_and_again_is_refused(count: int) -> None:
+def test_the_same_pose_again_and_again_is_rejected(count: int) -> None:
     poses = pivoted(Hand(count=60)).poses.of(np.zeros(count, dtype=np.int_))
     assert rejected_code(poses) == "TOOL_TOO_FEW_POSES"
 
@@ -212,7 +212,7 @@ def test_metres_are_recognised_and_nothing_is_scaled() -> None:
         pytest.param(np.zeros((6, 6)), id="zero"),
     ],
 )
-def test_a_covariance_that_is_none_is_refused(covariance: np.ndarray) -> None:
+def test_a_covariance_that_is_none_is_rejected(covariance: np.ndarray) -> None:
     pose: Rigid[Camera, Marker] = Rigid(rotation=np.eye(3), translation_mm=np.array([0.0, 0.0, 500.0]))
     with pytest.raises(InvalidInput) as caught:
         Poses.from_rigids([pose, pose], [covariance, covariance])

@@ -1,4 +1,4 @@
-"""The axis by spinning, and a tip checked in a divot: against known truth, and refused where blind."""
+"""The axis by spinning, and a tip checked in a divot: against known truth, and rejected where blind."""
 
 import numpy as np
 import pytest
@@ -47,7 +47,7 @@ def test_the_axis_lies_inside_its_ellipse_as_often_as_is_said() -> None:
         pytest.param(spun().of(np.zeros(60, dtype=np.int_)), "TOOL_TOO_FEW_POSES", id="one-pose"),
     ],
 )
-def test_a_motion_that_is_no_spin_is_refused(poses: Poses, code: str) -> None:
+def test_a_motion_that_is_no_spin_is_rejected(poses: Poses, code: str) -> None:
     with pytest.raises(CalibrationError) as caught:
         spin_calibration(poses, tip_in_marker_mm=TIP)
     assert caught.value.code == code
@@ -113,7 +113,7 @@ def test_no_pose_is_left_out_of_a_check() -> None:
         pytest.param(Hand(count=5), "TOOL_TOO_FEW_POSES", id="five-poses"),
     ],
 )
-def test_a_check_that_would_not_show_a_wrong_tip_is_refused(hand: Hand, code: str) -> None:
+def test_a_check_that_would_not_show_a_wrong_tip_is_rejected(hand: Hand, code: str) -> None:
     with pytest.raises(CalibrationError) as caught:
         check_tip(pivoted(hand).poses, TIP_MM)
     assert caught.value.code == code

@@ -66,7 +66,7 @@ def test_nothing_is_found_where_nothing_is() -> None:
 
 
 @pytest.mark.parametrize("image", [np.zeros((10, 10, 3), np.uint8), np.zeros((720, 1280, 3)), np.zeros(0)])
-def test_an_image_that_is_not_the_cameras_is_refused(image: Array) -> None:
+def test_an_image_that_is_not_the_cameras_is_rejected(image: Array) -> None:
     with pytest.raises(InvalidInput, match="720 rows"):
         detect_needles(image, CAMERA)
 

@@ -24,7 +24,7 @@ def found(entry_px: Array, head_px: Array) -> DetectedNeedle:
     return DetectedNeedle(seen=seen, score_ratio=0.8, has_head=True, complete_ratio=1.0, bend_px=0.1)
 
 
-def standing_on(points: Array) -> list[DetectedNeedle]:
+def needles_at(points: Array) -> list[DetectedNeedle]:
     pose, camera = THEATRE.camera_from_vertebra, THEATRE.camera
     out = []
     for point in points:
@@ -37,7 +37,7 @@ def standing_on(points: Array) -> list[DetectedNeedle]:
 def test_needles_are_distinguished_from_each_other_and_from_what_lies_about(seed: int) -> None:
     random = np.random.default_rng(seed)
     clutter = [found(at, at + random.normal(0.0, 50.0, 2)) for at in random.uniform(100.0, 620.0, (6, 2))]
-    candidates = [*clutter[:3], *standing_on(POINTS), *clutter[3:]]
+    candidates = [*clutter[:3], *needles_at(POINTS), *clutter[3:]]
     places = planned_at_landmarks([Landmark(name=str(n), point_lps_mm=at) for n, at in enumerate(POINTS)])
     measured = measure_by_ruler(THEATRE, POINTS.mean(axis=0), random)
     namings = rank_assignments(candidates, places, THEATRE.camera, measured)
@@ -54,14 +54,14 @@ def test_needles_that_stand_alike_are_named_in_both_ways_with_nearly_the_same_co
     points = np.stack([behind, entries[2] + np.array([32.0, -12.0, 0.0]), entries[2]])
     places = planned_at_landmarks([Landmark(name=str(n), point_lps_mm=at) for n, at in enumerate(points)])
     measured = measure_by_ruler(THEATRE, points.mean(axis=0), np.random.default_rng(1))
-    namings = rank_assignments(standing_on(points), places, THEATRE.camera, measured)
+    namings = rank_assignments(needles_at(points), places, THEATRE.camera, measured)
     assert {namings[0][1], namings[1][1]} == {(0, 1, 2), (2, 1, 0)}
     assert namings[1][0] - namings[0][0] < 6.0
 
 
 def test_more_candidates_than_there_is_time_for_keep_the_likeliest() -> None:
     points = np.vstack([POINTS, POINTS + np.array([0.0, -5.0, 20.0])])
-    candidates = [*standing_on(points), *standing_on(points + 3.0), *standing_on(points - 3.0)]
+    candidates = [*needles_at(points), *needles_at(points + 3.0), *needles_at(points - 3.0)]
     places = planned_at_landmarks([Landmark(name=str(n), point_lps_mm=at) for n, at in enumerate(points)])
     measured = measure_by_ruler(THEATRE, points.mean(axis=0), np.random.default_rng(1))
     namings = rank_assignments(candidates, places, THEATRE.camera, measured)

@@ -1,4 +1,4 @@
-"""Three needles become the registration: true within what it states, and refused where it cannot be."""
+"""Three needles become the registration: true within what it states, and rejected where it cannot be."""
 
 import dataclasses
 
@@ -90,7 +90,7 @@ def rejected(given: Seen) -> NavigationError:
     return caught.value
 
 
-def test_two_needles_marked_for_each_other_are_refused() -> None:
+def test_two_needles_marked_for_each_other_are_rejected() -> None:
     for seed in range(8):
         given = scene(seed)
         first, second, third = given.seen
@@ -143,7 +143,7 @@ def moved(given: Seen, entries: object) -> Seen:
         ),
     ],
 )
-def test_needles_that_hold_no_vertebra_are_refused_with_numbers(given: Seen, code: str) -> None:
+def test_needles_that_hold_no_vertebra_are_rejected_with_numbers(given: Seen, code: str) -> None:
     assert rejected(given).code == code
 
 
@@ -208,7 +208,7 @@ def test_the_papers_lines_alone_leave_the_depth_along_the_needles_open() -> None
         pytest.param(RulerMeasurement(vertical_mm=400, horizontal_mm=400, ruler_sd_mm=0.0), id="too-sure"),
     ],
 )
-def test_a_ruler_that_tells_no_view_is_refused(measured: RulerMeasurement) -> None:
+def test_a_ruler_that_tells_no_view_is_rejected(measured: RulerMeasurement) -> None:
     with pytest.raises(InvalidInput):
         view_prior_from_ruler(measured, CAMERA, (640.0, 360.0))
 

@@ -24,7 +24,7 @@ export function BurstProgress({ working, onReady, onEnd }: BurstProgressProps): 
   const { data } = query;
   const ready = useRef(false);
   useEffect(() => {
-    // Once a burst: what was refused is taken anew, not fitted again.
+    // Once a burst: what was rejected is taken anew, not fitted again.
     if (data?.stage === "ready" && !ready.current) {
       ready.current = true;
       onReady();

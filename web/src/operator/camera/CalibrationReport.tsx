@@ -14,23 +14,23 @@ import { reportIn, type View } from "./report";
 
 interface CalibrationReportProps {
   caseId: string;
-  kept: components["schemas"]["DocumentMessage"];
+  calibration: components["schemas"]["DocumentMessage"];
   gate: components["schemas"]["CalibrationConfig"];
   /** Names this calibration where it was just made here. */
   fresh: string | null;
 }
 
 /** The calibration that the case has: its numbers with their limits, its warnings, its pictures, its views. */
-export function CalibrationReport({ caseId, kept, gate, fresh }: CalibrationReportProps): ReactNode {
+export function CalibrationReport({ caseId, calibration, gate, fresh }: CalibrationReportProps): ReactNode {
   const all = useTexts();
   const texts = all.camera;
-  const report = reportIn(kept.content);
+  const report = reportIn(calibration.content);
   const used = report.views.filter((one) => one.used).length;
   return (
     <Card title={texts.reportTitle} testId="calibration" fresh={fresh}>
-      <DocumentValidity heading={kept.heading} documents={[]} />
+      <DocumentValidity heading={calibration.heading} documents={[]} />
       <p className="soft">
-        {formatTime(kept.heading.made_at, all.language)} · <Maker of={kept.heading} /> ·{" "}
+        {formatTime(calibration.heading.made_at, all.language)} · <Maker of={calibration.heading} /> ·{" "}
         {report.sizePx.join(" × ")} px
       </p>
       <dl className="measures">

@@ -22,14 +22,14 @@ const ASK_EVERY_MS = 2000;
 export function CameraPage(): ReactNode {
   const texts = useTexts().camera;
   const procedure = useProcedure();
-  const askedGates = useGates();
+  const gatesQuery = useGates();
   const [calibratedHere, setCalibratedHere] = useState(false);
   const [board, setBoard] = useState<Board>(startingBoard);
   const query = useQuery((signal) => answered(server.GET("/api/camera", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
   const { data, refetch } = query;
-  const gates = askedGates.data;
+  const gates = gatesQuery.data;
   const changed = (): void => {
     refetch();
     procedure.refetch();
@@ -40,7 +40,7 @@ export function CameraPage(): ReactNode {
       <div className="cards">
         <CameraTest />
         {gates === null ? (
-          <QueryStatus query={askedGates} />
+          <QueryStatus query={gatesQuery} />
         ) : (
           <Markers
             gate={gates.tracker}
@@ -74,7 +74,7 @@ export function CameraPage(): ReactNode {
             {data.calibration !== null && (
               <CalibrationReport
                 caseId={caseId}
-                kept={data.calibration}
+                calibration={data.calibration}
                 gate={gates.calibration}
                 // While views are still shown above it, it would move again.
                 fresh={calibratedHere && !data.collecting ? data.calibration.heading.id : null}

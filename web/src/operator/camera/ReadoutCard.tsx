@@ -70,7 +70,7 @@ export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
   return (
     <Card title={texts.title} testId="readout">
       <p>{texts.lead}</p>
-      <p data-testid="readout-kept">
+      <p data-testid="readout-stored">
         {readoutText(data, texts)}
         {data.found_by === "measured" &&
           ` ${interpolate(texts.spread, { sd: formatNumber(data.sd_ms ?? NaN) })}`}

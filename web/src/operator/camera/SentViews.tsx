@@ -13,7 +13,7 @@ interface Rejected {
   rejection: Rejection;
 }
 
-/** Views from pictures that were taken before, one after the other; each that is refused says why. */
+/** Views from pictures that were taken before, one after the other; each that is rejected says why. */
 export function SentViews({ disabled, onAdded }: { disabled: boolean; onAdded: () => void }): ReactNode {
   const texts = useTexts().camera;
   const transfer = useTransfer();

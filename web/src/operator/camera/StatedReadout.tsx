@@ -12,7 +12,7 @@ interface StatedReadoutProps {
 }
 
 /** A readout out of the data sheet; an empty field is one that is not known. */
-export function StatedReadout({ readoutMs, onStored: onKept }: StatedReadoutProps): ReactNode {
+export function StatedReadout({ readoutMs, onStored }: StatedReadoutProps): ReactNode {
   const texts = useTexts().camera.readout;
   const madeBy = useMaker();
   const keeping = useAction();
@@ -23,7 +23,7 @@ export function StatedReadout({ readoutMs, onStored: onKept }: StatedReadoutProp
       .run(async () => {
         await answered(server.PUT("/api/camera/readout", { body: { readout_ms, made_by: madeBy } }));
       })
-      .then(onKept);
+      .then(onStored);
   };
   return (
     <>

@@ -26,7 +26,7 @@ export function boardOf(pattern: Pattern): Board {
 
 export const startingBoard = boardOf("dots");
 
-/** Whether the numbers can be those of a board; what remains to be refused, the server refuses. */
+/** Whether the numbers can be those of a board; what remains to be rejected, the server rejects. */
 export function isBoard(board: Board): boolean {
   const counts = [board.columns, board.rows].every((n) => Number.isInteger(n) && n >= 2 && n <= 200);
   const side = board.pattern === "dots" ? board.pitch_mm : board.square_mm;

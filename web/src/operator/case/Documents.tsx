@@ -51,7 +51,7 @@ export function Documents({ caseId }: { caseId: string }): ReactNode {
             <Table.Thead>
               <Table.Tr>
                 <Table.Th scope="col">{texts.document}</Table.Th>
-                <Table.Th scope="col">{texts.standing}</Table.Th>
+                <Table.Th scope="col">{texts.validity}</Table.Th>
                 <Table.Th scope="col">{texts.made}</Table.Th>
               </Table.Tr>
             </Table.Thead>
@@ -72,7 +72,7 @@ function DocumentRow({ heading }: { heading: Heading }): ReactNode {
   const { current, withdrawn, out_of_date: why } = heading;
   const state = withdrawn !== null ? "withdrawn" : current ? "current" : "outOfDate";
   return (
-    <Table.Tr data-standing={state}>
+    <Table.Tr data-validity={state}>
       <Table.Th scope="row">
         {documentTitle(heading, texts.case)}{" "}
         <span className="soft">
@@ -81,7 +81,7 @@ function DocumentRow({ heading }: { heading: Heading }): ReactNode {
       </Table.Th>
       <Table.Td>
         <Badge size="lg" variant="light" color={current ? "teal" : "yellow"}>
-          {current ? "✓" : "!"} {texts.case.standings[state]}
+          {current ? "✓" : "!"} {texts.case.validities[state]}
         </Badge>
         {why !== null && <p className="soft">{sentence(why)}</p>}
         {withdrawn !== null && (

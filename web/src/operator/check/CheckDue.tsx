@@ -13,7 +13,7 @@ interface CheckDueProps {
   fresh: string | null;
 }
 
-/** How the last check stands, and when the next is due. */
+/** The result of the last check, and when the next is due. */
 export function CheckDue({ rule, fresh }: CheckDueProps): ReactNode {
   const texts = useTexts().check;
   const step = useProcedure().data?.steps.find((one) => one.step === "check");

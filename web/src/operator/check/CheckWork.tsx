@@ -24,7 +24,7 @@ interface CheckWorkProps {
 }
 
 /** The tip held on the landmark until it is taken; then its distance, and what to do with it. */
-export function CheckWork({ onOver, onStored: onKept }: CheckWorkProps): ReactNode {
+export function CheckWork({ onOver, onStored }: CheckWorkProps): ReactNode {
   const texts = useTexts().check;
   const procedure = useProcedure();
   const madeBy = useMadeBy();
@@ -66,7 +66,7 @@ export function CheckWork({ onOver, onStored: onKept }: CheckWorkProps): ReactNo
               (done) => {
                 procedure.refetch();
                 onOver();
-                if (done) onKept();
+                if (done) onStored();
                 if (done && passed) navigate("/operator/navigate");
               },
             );

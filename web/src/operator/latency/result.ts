@@ -1,4 +1,4 @@
-// A measured latency, as the server tells it.
+// A measured latency, as the server sends it.
 import type { components } from "../../schema";
 
 export type Result = components["schemas"]["LatencyResultMessage"];

@@ -25,10 +25,10 @@ export function DocumentValidity({
   return (
     <p className="soft">
       <span className={heading.current ? "good" : "bad"}>
-        {heading.current ? `✓ ${texts.standings.current}` : `! ${texts.standings.outOfDate}`}
+        {heading.current ? `✓ ${texts.validities.current}` : `! ${texts.validities.outOfDate}`}
       </span>
       {heading.out_of_date !== null && ` · ${sentence(heading.out_of_date)}`}
-      {bases.length > 0 && ` · ${texts.standsOn} ${bases.join("; ")}`}
+      {bases.length > 0 && ` · ${texts.dependsOn} ${bases.join("; ")}`}
     </p>
   );
 }

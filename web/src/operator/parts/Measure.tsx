@@ -12,7 +12,7 @@ interface MeasureProps {
   value: number | null;
   unit: string;
   decimals?: number;
-  /** What it is held against; without one it is only told. */
+  /** Its limit; without one it is only shown. */
   limit?: Limit;
   /** The limit lets it pass by a bar as well: how far it is on its way. */
   bar?: boolean;

@@ -2,8 +2,8 @@ import { expect, test } from "vitest";
 import { problemIn } from "./problem";
 
 test("a refusal keeps its code, sentence and remedy", () => {
-  const told = { code: "STORE_FULL", message: "the disk is full", remedy: "Make room.", context: {} };
-  expect(problemIn(JSON.stringify(told), 507)).toEqual(told);
+  const problem = { code: "STORE_FULL", message: "the disk is full", remedy: "Make room.", context: {} };
+  expect(problemIn(JSON.stringify(problem), 507)).toEqual(problem);
 });
 
 test.each(["", "<html>", "null", '"text"', '{"detail": 1}'])(

@@ -1,6 +1,6 @@
 import type { Problem } from "../../rest/client";
 
-/** What a refusal's body says; the page has its own words for one that says nothing. */
+/** What a rejection's body says; the page has its own words for one that says nothing. */
 export function problemIn(text: string, status: number): Problem {
   const body = parsed(text);
   if (typeof body === "object" && body !== null && "code" in body && "message" in body)

@@ -4,7 +4,7 @@ import type { components } from "../../schema";
 
 export type Gates = components["schemas"]["GatesMessage"];
 
-/** What each step is held against. */
+/** The limits of each step. */
 export function useGates(): QueryState<Gates> {
   return useQuery((signal) => answered(server.GET("/api/gates", { signal })));
 }

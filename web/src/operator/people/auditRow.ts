@@ -12,7 +12,7 @@ export interface AuditRow {
   written: string;
   changes: string[];
   result: string;
-  /** Why it was refused, as the server names it. */
+  /** Why it was rejected, as the server names it. */
   code: string;
 }
 
@@ -22,7 +22,7 @@ type Kind = components["schemas"]["DocumentKind"];
 const REJECTED = 400;
 const FAILED = 500;
 /** Names in an address that people know; the others are long numbers. */
-const TOLD = ["name", "side", "series", "plane"] as const;
+const SHOWN_NAMES = ["name", "side", "series", "plane"] as const;
 
 /** What cannot be read in a line is empty: a damaged one is shown as what is left of it. */
 export function auditRow(line: Line, texts: Texts): AuditRow {
@@ -59,7 +59,7 @@ function actionText(line: Line, { audit }: Texts): string {
 function ofText(value: unknown, { registration }: Texts): string[] {
   const of = isRecord(value) ? value : {};
   const sides: Partial<Record<string, string>> = registration.side;
-  return TOLD.map((name) => sides[text(of[name])] ?? text(of[name])).filter(Boolean);
+  return SHOWN_NAMES.map((name) => sides[text(of[name])] ?? text(of[name])).filter(Boolean);
 }
 
 function changeText(change: Line, texts: Texts): string {

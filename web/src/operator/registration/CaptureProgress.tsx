@@ -13,12 +13,12 @@ interface CaptureProgressProps {
   maxSpreadMm: number;
 }
 
-/** How far the tip at rest has been seen, how still it was, or why it was refused. */
+/** How far the tip at rest has been seen, how still it was, or why it was rejected. */
 export function CaptureProgress({ capture, maxSpreadMm }: CaptureProgressProps): ReactNode {
   const texts = useTexts().registration.capture;
   if (capture.state === "rejected" && capture.problem !== null)
     return (
-      <div data-testid="capture-refused">
+      <div data-testid="capture-rejected">
         <p>
           ▲ <strong>{capture.landmark}</strong>: {texts.rejected}
         </p>

@@ -22,13 +22,13 @@ interface LiveStageProps {
   onFreeze?: (isFrozen: boolean) => void;
 }
 
-/** The live video with something laid over it; it can be held, and then says loudly that it is. */
+/** The live video with something laid over it; it can be frozen, and is then marked as such. */
 export function LiveStage({
   children,
   stage,
   picture,
   isFrozen = false,
-  onFreeze: onHeld,
+  onFreeze,
 }: LiveStageProps): ReactNode {
   const texts = useTexts();
   const { live, view } = useLive();
@@ -68,7 +68,7 @@ export function LiveStage({
     if (isFrozen) {
       setText(
         stamp.current,
-        interpolate(texts.registration.held.stamp, {
+        interpolate(texts.registration.frozen.stamp, {
           clock: frozenClock,
           age: formatNumber((nowMs - frozenAt.current) / 1000, 0),
         }),
@@ -84,8 +84,8 @@ export function LiveStage({
     if (!video.live && canvas.current) clearBitmap(canvas.current);
   });
 
-  const hold = (): void => {
-    if (canvas.current === null || still.current === null || onHeld === undefined) return;
+  const toggle = (): void => {
+    if (canvas.current === null || still.current === null || onFreeze === undefined) return;
     if (!isFrozen) {
       still.current.width = canvas.current.width;
       still.current.height = canvas.current.height;
@@ -93,23 +93,23 @@ export function LiveStage({
       frozenAt.current = performance.now();
       setFrozenClock(formatClock(new Date().toISOString(), texts.language));
     }
-    onHeld(!isFrozen);
+    onFreeze(!isFrozen);
   };
 
   const cause = view.video.live ? "old" : view.video.cause;
   return (
-    <div className="live-stage" data-held={isFrozen}>
+    <div className="live-stage" data-frozen={isFrozen}>
       <div className="live-stage-head">
         <p className="stamp" ref={stamp} data-testid="stage-stamp" />
-        {onHeld !== undefined && (
+        {onFreeze !== undefined && (
           <Button
             size="md"
             variant={isFrozen ? "filled" : "default"}
             color="yellow"
             aria-pressed={isFrozen}
-            onClick={hold}
+            onClick={toggle}
           >
-            {isFrozen ? texts.registration.held.release : texts.registration.held.hold}
+            {isFrozen ? texts.registration.frozen.release : texts.registration.frozen.freeze}
           </Button>
         )}
       </div>

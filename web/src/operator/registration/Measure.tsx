@@ -12,13 +12,13 @@ interface MeasureProps {
   hint?: string;
 }
 
-/** One number with its unit, and its limit where it has one: kept or not in a word, a mark and a colour. */
+/** One number with its unit, and its limit where it has one: whether it is within it, in a word, a mark and a colour. */
 export function Measure({ name, value, unit, max, digits = 2, hint }: MeasureProps): ReactNode {
   const texts = useTexts().registration.measure;
   const limited = max !== undefined && max !== null;
   const isWithinLimit = value === null || !limited ? null : value <= max;
   return (
-    <div className="limit" data-kept={isWithinLimit ?? undefined}>
+    <div className="limit" data-within={isWithinLimit ?? undefined}>
       <dt>
         {name}
         {hint !== undefined && <small>{hint}</small>}
@@ -32,7 +32,7 @@ export function Measure({ name, value, unit, max, digits = 2, hint }: MeasurePro
             {isWithinLimit !== null && (
               <b>
                 <span aria-hidden="true">{isWithinLimit ? "✓" : "▲"}</span>{" "}
-                {isWithinLimit ? texts.kept : texts.over} ·{" "}
+                {isWithinLimit ? texts.within : texts.over} ·{" "}
               </b>
             )}
             {texts.allowed} {formatNumber(max, digits)} {unit}

@@ -3,7 +3,7 @@ import { Rejection } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useTexts } from "../../texts/TextsContext";
 
-/** A refusal with what to do on this page, where the server can only name its own doors. */
+/** A rejection with what to do on this page, where the server can only name its own doors. */
 export function RegistrationRejection({ rejection }: { rejection: Rejection | null }): ReactNode {
   const texts = useTexts().registration.remedies;
   if (rejection === null) return null;

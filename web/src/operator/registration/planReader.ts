@@ -1,4 +1,4 @@
-// What these pages need of the plan, which the server tells as one large document.
+// What these pages need of the plan, which the server sends as one large document.
 
 export interface PlannedLandmark {
   name: string;

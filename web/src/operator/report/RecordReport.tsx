@@ -37,7 +37,7 @@ export function RecordReport({ entries, contents, readAt }: RecordReportProps): 
                 <Table.Th scope="col">{texts.report.says}</Table.Th>
                 <Table.Th scope="col">{texts.report.by}</Table.Th>
                 <Table.Th scope="col">
-                  {interpolate(texts.report.heldAt, { time: formatTime(readAt, texts.language) })}
+                  {interpolate(texts.report.validityAt, { time: formatTime(readAt, texts.language) })}
                 </Table.Th>
               </Table.Tr>
             </Table.Thead>
@@ -115,10 +115,10 @@ function FactLine({ fact }: { fact: Fact }): ReactNode {
 function Validity({ heading }: { heading: Heading }): ReactNode {
   const texts = useTexts().case;
   const { current, withdrawn, out_of_date: why } = heading;
-  if (current) return `✓ ${texts.standings.current}`;
+  if (current) return `✓ ${texts.validities.current}`;
   return (
     <>
-      ! {withdrawn === null ? texts.standings.outOfDate : texts.standings.withdrawn}
+      ! {withdrawn === null ? texts.validities.outOfDate : texts.validities.withdrawn}
       <p className="soft">
         {withdrawn === null ? sentence(why ?? "") : `${sentence(withdrawn.reason)} (${withdrawn.by})`}
       </p>

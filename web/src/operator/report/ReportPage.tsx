@@ -42,7 +42,7 @@ function Report({ caseId }: { caseId: string }): ReactNode {
   const query = useQuery(
     async (signal) => {
       const params = { path: { case_id: caseId } };
-      const [kept, { documents }, procedure] = await Promise.all([
+      const [storedCase, { documents }, procedure] = await Promise.all([
         answered(server.GET("/api/cases/{case_id}", { signal, params })),
         answered(server.GET("/api/cases/{case_id}/documents", { signal, params })),
         answered(server.GET("/api/procedure", { signal })),
@@ -50,13 +50,13 @@ function Report({ caseId }: { caseId: string }): ReactNode {
       const entries = recordOf(documents);
       const telling = entries.map((one) => one.last).filter(isTelling);
       const contents = await contentsOf(caseId, telling, signal);
-      return { kept, documents, entries, contents, procedure, readAt: new Date().toISOString() };
+      return { storedCase, documents, entries, contents, procedure, readAt: new Date().toISOString() };
     },
     { key: caseId },
   );
   const { data, refetch } = query;
   if (data === null) return <QueryStatus query={query} />;
-  const { kept, documents, entries, contents, procedure, readAt } = data;
+  const { storedCase, documents, entries, contents, procedure, readAt } = data;
   const plan = newestOf(documents).find((one) => one.kind === "plan" && one.name === "main") ?? null;
   return (
     <div className="cards">
@@ -77,12 +77,12 @@ function Report({ caseId }: { caseId: string }): ReactNode {
       <article className="card report" data-testid="report">
         <header className="stack">
           <h3>
-            {texts.title}: {kept.name}
+            {texts.title}: {storedCase.name}
           </h3>
           <p className="report-notice">{all.notice}</p>
           <p className="soft">
             {texts.made} {formatTime(readAt, all.language)} · {all.case.madeAt}{" "}
-            {formatTime(kept.created_at, all.language)} · {texts.caseId} {kept.id}
+            {formatTime(storedCase.created_at, all.language)} · {texts.caseId} {storedCase.id}
           </p>
           <p className="soft">{texts.identity}</p>
         </header>
@@ -96,7 +96,7 @@ function Report({ caseId }: { caseId: string }): ReactNode {
   );
 }
 
-/** The plan's own content is told by its channels. */
+/** The plan's own content is shown by its channels. */
 function isTelling({ kind, name }: Heading): boolean {
   return TELLING.has(kind) && !(kind === "plan" && name === "main");
 }

@@ -18,12 +18,12 @@ function made(kind: Heading["kind"], name: string, version: number, by = "Ito"):
   };
 }
 
-const told = (documents: Heading[]): string[] =>
+const idsOf = (documents: Heading[]): string[] =>
   recordOf(documents).map(({ first, last }) => (first === last ? first.id : `${first.id} to ${last.id}`));
 
 test("every version of what was made is told, also what holds no more", () => {
   const lost = { ...made("registration", "L3", 1), current: false, out_of_date: "it was replaced" };
-  expect(told([made("camera", "main", 1), lost, made("registration", "L3", 2)])).toEqual([
+  expect(idsOf([made("camera", "main", 1), lost, made("registration", "L3", 2)])).toEqual([
     "camera-main-1",
     "registration-L3-1",
     "registration-L3-2",
@@ -32,15 +32,15 @@ test("every version of what was made is told, also what holds no more", () => {
 
 test("a plan under one hand is one entry; another hand, or other work between, begins the next", () => {
   const plan = (version: number, by?: string): Heading => made("plan", "main", version, by);
-  expect(told([plan(1), plan(2), plan(3), plan(4, "Berg"), made("check", "L3", 1), plan(5, "Berg")])).toEqual(
-    ["plan-main-1 to plan-main-3", "plan-main-4", "check-L3-1", "plan-main-5"],
-  );
+  expect(
+    idsOf([plan(1), plan(2), plan(3), plan(4, "Berg"), made("check", "L3", 1), plan(5, "Berg")]),
+  ).toEqual(["plan-main-1 to plan-main-3", "plan-main-4", "check-L3-1", "plan-main-5"]);
 });
 
 test("two checks of one landmark are never told as one", () => {
-  expect(told([made("check", "L3", 1), made("check", "L3", 2)])).toHaveLength(2);
+  expect(idsOf([made("check", "L3", 1), made("check", "L3", 2)])).toHaveLength(2);
 });
 
 test("alarms stand in a table of their own", () => {
-  expect(told([made("alarm", "log", 1), made("ct", "main", 1)])).toEqual(["ct-main-1"]);
+  expect(idsOf([made("alarm", "log", 1), made("ct", "main", 1)])).toEqual(["ct-main-1"]);
 });

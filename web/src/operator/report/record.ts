@@ -3,7 +3,7 @@ import type { components } from "../../schema";
 
 export type Heading = components["schemas"]["HeadingMessage"];
 
-/** One entry of the record; a plan is kept with every touch, and is told as one entry from first to last. */
+/** One entry of the record; a plan is kept with every touch, and is shown as one entry from first to last. */
 export interface Entry {
   first: Heading;
   last: Heading;

@@ -45,7 +45,7 @@ export function PoseCollection({ tools, gate, onOver }: PoseCollectionProps): Re
   };
   if (data === null) return <QueryStatus query={query} />;
   const known = tools.find((tool) => tool.name === data.tool) ?? null;
-  const before = known?.kept == null ? null : toolRecordFrom(known.kept.content);
+  const before = known?.calibration == null ? null : toolRecordFrom(known.calibration.content);
   const needsShape = data.purpose === "pivot" && (before?.radiusMm ?? known?.radius_mm ?? null) === null;
   const given = isShape(shape);
   const enough = data.missing.length === 0;

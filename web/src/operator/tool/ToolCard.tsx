@@ -32,19 +32,21 @@ interface ToolCardProps {
 export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCardProps): ReactNode {
   const all = useTexts();
   const texts = all.tool;
-  const stored = tool.kept === null ? null : toolRecordFrom(tool.kept.content);
+  const stored = tool.calibration === null ? null : toolRecordFrom(tool.calibration.content);
   const radiusMm = stored?.radiusMm ?? tool.radius_mm;
   const next = nextPurpose(tool);
-  const canPivotOnly = tool.kept?.heading.current !== true;
+  const canPivotOnly = tool.calibration?.heading.current !== true;
   return (
     <Card title={tool.name} testId={`tool-${tool.name}`} fresh={fresh}>
-      {tool.kept === null && <p className="soft">{tool.from_settings ? texts.ofSettings : texts.nothing}</p>}
-      {tool.kept !== null && (
+      {tool.calibration === null && (
+        <p className="soft">{tool.from_settings ? texts.ofSettings : texts.nothing}</p>
+      )}
+      {tool.calibration !== null && (
         <>
-          <DocumentValidity heading={tool.kept.heading} documents={documents} />
+          <DocumentValidity heading={tool.calibration.heading} documents={documents} />
           <p className="soft">
-            {texts.made} {formatTime(tool.kept.heading.made_at, all.language)} ·{" "}
-            <Maker of={tool.kept.heading} />
+            {texts.made} {formatTime(tool.calibration.heading.made_at, all.language)} ·{" "}
+            <Maker of={tool.calibration.heading} />
           </p>
         </>
       )}
@@ -110,7 +112,7 @@ export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCa
               onBegin(tool.name, purpose, null);
             }}
           >
-            {purpose === "pivot" && tool.kept !== null ? texts.pivotAnew : texts.begin[purpose]}
+            {purpose === "pivot" && tool.calibration !== null ? texts.pivotAnew : texts.begin[purpose]}
           </Button>
         ))}
       </div>

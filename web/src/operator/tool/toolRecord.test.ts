@@ -5,14 +5,14 @@ const PIVOT = { rms_3d_mm: 0.21, used: 38, tilt_range_deg: 31 };
 const CONTENT = { marker: "drill", side_mm: 25, radius_mm: 2, length_mm: 118, pivot: PIVOT, spin: null };
 
 function tool(content: Record<string, unknown> | null, current = true): KnownTool {
-  const heading = { current } as NonNullable<KnownTool["kept"]>["heading"];
+  const heading = { current } as NonNullable<KnownTool["calibration"]>["heading"];
   return {
     name: "drill",
     from_settings: false,
     marker: null,
     radius_mm: null,
     length_mm: null,
-    kept: content === null ? null : { heading, content },
+    calibration: content === null ? null : { heading, content },
     check: null,
   };
 }

@@ -41,8 +41,8 @@ export function toolRecordFrom(content: Record<string, unknown>): ToolRecord {
 
 /** What is best done with this tool next. */
 export function nextPurpose(tool: KnownTool): Purpose {
-  if (tool.kept?.heading.current !== true) return "pivot";
-  return toolRecordFrom(tool.kept.content).hasAxis ? "tip_check" : "spin";
+  if (tool.calibration?.heading.current !== true) return "pivot";
+  return toolRecordFrom(tool.calibration.content).hasAxis ? "tip_check" : "spin";
 }
 
 export function number(value: unknown): number | null {

@@ -37,7 +37,7 @@ export function InstantView({ shown, images }: { shown: ShownInstant; images: nu
             const figure = assessment?.kind === "assessment" ? assessment.figures[name] : null;
             const { name: title, unit } = texts.reading[name];
             return (
-              <div key={name} className="review-figure" data-standing={figure?.status ?? "none"}>
+              <div key={name} className="review-figure" data-status={figure?.status ?? "none"}>
                 <dt>
                   {title} <span className="unit">{unit}</span>
                 </dt>

@@ -98,7 +98,7 @@ export const auditDe: AuditTexts = {
     "GET /api/audit/export": "Hat dieses Protokoll mitgenommen",
     start: "Der Server wurde gestartet",
     store: "Der Server hat von sich aus etwas festgehalten",
-    "more was refused in this minute than is written down":
+    "more was rejected in this minute than is logged":
       "In dieser Minute wurde mehr abgelehnt, als hier steht",
   },
   looked: "Wollte etwas ansehen",

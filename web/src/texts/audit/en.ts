@@ -97,8 +97,7 @@ export const auditEn = {
     "GET /api/audit/export": "Took this log along",
     start: "The server was started",
     store: "The server kept something by itself",
-    "more was refused in this minute than is written down":
-      "More was refused in this minute than is written down",
+    "more was rejected in this minute than is logged": "More was rejected in this minute than is logged",
   } as Record<string, string>,
   looked: "Tried to look at something",
   other: "Did something for which this page has no words",

@@ -7,7 +7,7 @@ export const readoutEn = {
   keep: "Keep this readout",
   measure: "Measure it with the board",
   versionHint:
-    "It is kept as a new version of the calibration: tools and registrations that stand on the one before are to be made again.",
+    "It is kept as a new version of the calibration: tools and registrations that depend on the previous one are to be made again.",
   notKnown: "Not known: what the settings say is used.",
   global: { measured: "Measured: no rolling shutter is seen.", stated: "Stated: a global shutter." },
   rolling: {

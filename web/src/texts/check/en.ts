@@ -25,7 +25,7 @@ export const checkEn = {
   feet: "to the feet",
   sure: "Known to ±{sd} mm, from {images} images.",
   failedRemedy: "Touch again if the tip slipped. Otherwise register again; nobody navigates by this one.",
-  every: "Asked for every {minutes} min, and at most {max} mm.",
+  every: "Required every {minutes} min, at most {max} mm.",
   dueIn: "The next check is due in {minutes} min.",
   lastFailed: "The last check did not pass: nobody navigates until one does.",
   dueNow: "The check is due again. Navigation goes on meanwhile.",

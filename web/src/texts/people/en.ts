@@ -2,7 +2,7 @@ export const peopleEn = {
   title: "People",
   invite: "Invite somebody",
   name: "Name",
-  nameHint: "As it stands in the log: Dr. Ito, screen in theatre 3",
+  nameHint: "As shown in the log: Dr. Ito, screen in theatre 3",
   role: "Role",
   lets: {
     operator: "Does everything that you do.",

@@ -66,7 +66,8 @@ export const phoneEn = {
     shutter:
       "Most phones read their sensor row by row, and do not say how fast: what moves is measured wrongly.",
     steady: "Image stabilisation shifts the picture. Switch it off where the device allows it.",
-    other: "Another phone, or another lens, is not told from the one that was calibrated: calibrate anew.",
+    other:
+      "Another phone, or another lens, cannot be distinguished from the one that was calibrated: calibrate anew.",
     turn: "Turned from upright to lying, images have another size, and the calibration does not fit.",
   },
   dashboard: "To the dashboard",

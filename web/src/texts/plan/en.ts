@@ -33,7 +33,7 @@ export const planEn = {
     },
     conflict: {
       title: "Somebody changed the plan at the same time",
-      by: "Their change stands:",
+      by: "Their change was stored:",
       sentence: "Yours was not kept. Look at the plan as it is now, and do it again if it is still right.",
     },
   },
@@ -103,7 +103,7 @@ export const planEn = {
   },
   screw: {
     title: "Screw",
-    notMeasured: "A screw is held against the pedicle's walls: measure it first.",
+    notMeasured: "A screw is compared with the pedicle's walls: measure it first.",
     propose: "Take the proposed screw",
     diameter: "Diameter",
     length: "Length",

@@ -15,7 +15,7 @@ export const slicesEn = {
     second: {
       title: "Another CT puts the work on this one out of date",
       sentence:
-        "The plan, the surface and every registration that stand on the CT of now cannot be used any more, and a running navigation stops. They stay in the case and can be looked at. The plan can be taken over afterwards.",
+        "The plan, the surface and every registration that depend on the present CT cannot be used any more, and a running navigation stops. They stay in the case and can be looked at. The plan can be taken over afterwards.",
       agree: "I know. Send another CT",
     },
     series: {

@@ -75,9 +75,9 @@ export const registrationDe: RegistrationTexts = {
     movedDeg: "Dadurch gedreht",
     weakest: "Unsicherste Richtung",
   },
-  measure: { allowed: "erlaubt", kept: "eingehalten", over: "überschritten" },
-  held: {
-    hold: "Bild anhalten",
+  measure: { allowed: "erlaubt", within: "eingehalten", over: "überschritten" },
+  frozen: {
+    freeze: "Bild anhalten",
     release: "Zurück zum Live-Bild",
     stamp: "ANGEHALTEN um {clock} · {age} s alt · nicht live",
   },
@@ -146,7 +146,7 @@ export const registrationDe: RegistrationTexts = {
     take: "Spitze ist am Knochen: weiter",
     fit: "Auf den Knochen legen",
     fitting: "Die Punkte werden auf den Knochen gelegt. Das dauert einige Sekunden.",
-    minHeld: "Am wenigsten gehalten",
+    weakest: "Unsicherste Richtung",
     ways: {
       "to the left or right": "nach links oder rechts",
       "to the front or back": "nach vorn oder hinten",

@@ -37,7 +37,8 @@ export const registrationEn = {
     surface: {
       does: "Sweep the tip over bare bone. Makes a registration by points better.",
       sees: "The shape of the bone, against the surface from the CT.",
-      misses: "Directions in which the sweep slides on smooth bone: it says which, and refuses.",
+      misses:
+        "Directions in which the sweep slides on smooth bone: they are named, and the sweep is rejected.",
     },
   },
   now: {
@@ -72,13 +73,13 @@ export const registrationEn = {
     rmsHint: "RMS distance",
     movedMm: "Moved by the sweep",
     movedDeg: "Turned by the sweep",
-    weakest: "Least held direction",
+    weakest: "Least certain direction",
   },
-  measure: { allowed: "allowed", kept: "within", over: "over" },
-  held: {
-    hold: "Hold the picture",
+  measure: { allowed: "allowed", within: "within", over: "over" },
+  frozen: {
+    freeze: "Freeze the picture",
     release: "Back to live",
-    stamp: "HELD at {clock} · {age} s old · not live",
+    stamp: "FROZEN at {clock} · {age} s old · not live",
   },
   tool: {
     touches: "The tip that touches",
@@ -145,7 +146,7 @@ export const registrationEn = {
     take: "The tip is on the bone: go on",
     fit: "Lay it on the bone",
     fitting: "The sweep is being laid on the bone. This takes some seconds.",
-    minHeld: "Held least",
+    weakest: "Least certain direction",
     ways: {
       "to the left or right": "to the left or right",
       "to the front or back": "to the front or back",

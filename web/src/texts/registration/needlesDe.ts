@@ -15,7 +15,7 @@ export const needlesDe: NeedlesTexts = {
     sliceAlt: "Referenzschicht des CT, über das Video gelegt",
     linesAlt: "Geplante Linien der Nadeln",
     marksAlt: "Nadeln im Bild",
-    heldNoFit:
+    frozenNoFit:
       "Das Bild ist angehalten. Registriert wird im Live-Bild: Gehen Sie dorthin zurück und sehen Sie nach.",
     fitsLive: "Registriert wird im neuesten Live-Bild.",
   },
@@ -27,7 +27,7 @@ export const needlesDe: NeedlesTexts = {
     vertical: "Über dem Wirbel (V)",
     horizontal: "Daneben (H)",
     azimuth: "Zur linken Seite des Patienten gedreht",
-    standing: "Die Kamera blickt von",
+    viewedFrom: "Die Kamera blickt von",
     feet: "den Füßen",
     head: "dem Kopf",
     said: "Angenommen auf ±10 mm und ±5° genau; wie flach der Patient liegt, auf ±5°.",

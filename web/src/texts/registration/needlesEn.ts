@@ -1,7 +1,7 @@
 // Registration by needles: the slice laid over the picture, needles found or marked.
 export const needlesEn = {
   needles: {
-    intro: "Needles seen in one image need a ruler for what the image cannot tell.",
+    intro: "Needles seen in one image need a ruler for what the image cannot show.",
     noVertebra: "No channel is chosen to be drilled. Choose one in the plan.",
     how: "How the needles are found",
     overlay: "Lay the slice",
@@ -14,7 +14,7 @@ export const needlesEn = {
     sliceAlt: "Reference slice of the CT, laid over the video",
     linesAlt: "Planned lines of the needles",
     marksAlt: "Needles in the picture",
-    heldNoFit: "The picture is held. The fit is made in the live picture: go back to it and look again.",
+    frozenNoFit: "The picture is frozen. The fit is made in the live picture: go back to it and look again.",
     fitsLive: "The fit is made in the newest live image.",
   },
   line: { middle: "middle", left: "left", right: "right" },
@@ -25,7 +25,7 @@ export const needlesEn = {
     vertical: "Above the vertebra (V)",
     horizontal: "Beside it (H)",
     azimuth: "Turned to the patient's left",
-    standing: "The camera looks from",
+    viewedFrom: "The camera looks from",
     feet: "the feet",
     head: "the head",
     said: "Taken as known to ±10 mm and ±5°; how flat the patient lies, to ±5°.",
@@ -58,7 +58,7 @@ export const needlesEn = {
     exact: "Drawn exactly as it would be taken",
     following: "Following your hand",
     blind:
-      "The size of the slice tells its depth, and badly: a tenth too large is a tenth too near. How sure it is stands beside the result.",
+      "The size of the slice gives its depth, and badly: a tenth too large is a tenth too near. The uncertainty is shown beside the result.",
     conclude: "Register as it lies",
   },
   proposal: {

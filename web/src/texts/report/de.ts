@@ -29,7 +29,7 @@ export const reportDe: ReportTexts = {
   says: "Was es aussagt",
   until: "bis",
   versions: "Fassungen {first} bis {last}",
-  heldAt: "Am {time}",
+  validityAt: "Am {time}",
   passed: "bestanden",
   notPassed: "nicht bestanden",
   allowed: "erlaubt",

@@ -2,7 +2,7 @@ export const signInEn = {
   needed: {
     title: "Sign in",
     sentence:
-      "Open the link of your invitation, or scan its code. The operator's first link stands in the window in which the server was started.",
+      "Open the link of your invitation, or scan its code. The operator's first link is shown in the window in which the server was started.",
   },
   expired: {
     title: "Your session is over",
@@ -65,7 +65,7 @@ export const signInEn = {
   leaveSentence: "This device shows nothing more after that. To come back you need a new invitation.",
   onlyTitle: "You are the only operator",
   onlySentence:
-    "Nobody else can set up, register or confirm after that. A new link for an operator is printed only when the server is stopped and started again, and navigation stands still meanwhile.",
+    "Nobody else can set up, register or confirm after that. A new link for an operator is printed only when the server is stopped and started again, and navigation is interrupted meanwhile.",
   onlyInvite: "Invite another operator first",
   leaveAnyway: "Sign out all the same",
   leave: "Sign out",

@@ -20,7 +20,7 @@ export const supervisorDe: SupervisorTexts = {
     ask: "Um Innehalten bitten",
     sure: "Ja, sie sollen innehalten",
     hint: "Löst im Saal einen Alarm aus. Von selbst hält dadurch nichts an.",
-    asked: "Um Innehalten bittet",
+    requestedBy: "Um Innehalten bittet",
     since: "seit",
     release: "Bitte zurücknehmen",
     releaseAll: "Bitte für alle zurücknehmen",

@@ -52,7 +52,7 @@ export const theatreDe: TheatreTexts = {
     requestCt: "CT laden",
     noAnswer: "Der Server hat es nicht geschickt.",
     unreadable: "Was der Server geschickt hat, ist nicht lesbar",
-    askedAgain: "Alle 10 s wird wieder danach gefragt; bleibt es so, die Seite neu laden.",
+    requestedAgain: "Alle 10 s wird wieder danach gefragt; bleibt es so, die Seite neu laden.",
     noVolume: {
       none: "Der Kanal wurde ohne CT geplant.",
       loading: "Es wird geladen.",

@@ -50,7 +50,7 @@ export const theatreEn = {
     requestCt: "Load the CT",
     noAnswer: "The server did not send it.",
     unreadable: "What the server sent cannot be read",
-    askedAgain: "It is asked for again every 10 s; reload the page if this stays.",
+    requestedAgain: "The page requests it again every 10 s; reload the page if this persists.",
     noVolume: {
       none: "The channel was planned without one.",
       loading: "It is being loaded.",

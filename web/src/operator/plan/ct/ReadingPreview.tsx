@@ -9,7 +9,7 @@ export function ReadingPreview({ uploadId, of }: { uploadId: string; of: Job }):
   const texts = useTexts().plan.ct;
   const [isThere, setThere] = useState(false);
   // Asked again as the reading goes on, until it is there.
-  const round = isThere ? "kept" : String(Math.floor(of.progress_ratio / TRIES_EVERY_RATIO));
+  const round = isThere ? "last" : String(Math.floor(of.progress_ratio / TRIES_EVERY_RATIO));
   const [stored, setStored] = useState("");
   const source = stored !== "" ? stored : `/api/ct/uploads/${uploadId}/preview.png?round=${round}`;
   // Before anything is read there is surely none, and in the end it goes.

@@ -4,7 +4,7 @@ import { formatNumber } from "../../../live/rounding";
 import type { Job } from "../../../rest/useJob";
 import { useTexts } from "../../../texts/TextsContext";
 
-/** What is told of a series before it is read. */
+/** What is known of a series before it is read. */
 export interface Series {
   series: string;
   modality: string;
@@ -42,7 +42,7 @@ export function SeriesChoice({ series, busy, onChoose }: SeriesChoiceProps): Rea
       <p>{texts.hint}</p>
       <ul className="series">
         {series.map((one) => (
-          <li key={one.series} data-trouble={one.problem !== "" || undefined}>
+          <li key={one.series} data-problem={one.problem !== "" || undefined}>
             <div>
               <strong>
                 {one.number > 0 && `${one.number} · `}

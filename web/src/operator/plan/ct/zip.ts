@@ -31,7 +31,7 @@ interface Entry {
  * A zip of these files.
  *
  * @param files - each is read once, for its sum; the zip holds the file itself and no copy.
- * @param onRead - is told how many are done.
+ * @param onRead - is called with how many are done.
  * @param stop - ends it with an AbortError.
  */
 export async function zipFiles(

@@ -95,7 +95,7 @@ function DraftDrawing({ plane, projection }: { plane: PlaneName; projection: Pro
   const { entry, target } = channel;
   const [ex, ey] = projection.at(entry);
   const [tx, ty] = projection.at(target);
-  const isHeld = plane === large && (isFlat(plane) || plane === "along");
+  const isEditable = plane === large && (isFlat(plane) || plane === "along");
   const put = (changed: Partial<typeof channel>): void => {
     setDraft({ of, channel: { ...channel, ...changed } });
   };
@@ -108,7 +108,7 @@ function DraftDrawing({ plane, projection }: { plane: PlaneName; projection: Pro
         radiusMm={channel.diameterMm / 2}
         look="draft"
       />
-      {isHeld && (
+      {isEditable && (
         <>
           <Handle
             projection={projection}

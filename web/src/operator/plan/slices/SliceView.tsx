@@ -127,14 +127,14 @@ export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNod
         />
       )}
       {problem instanceof OtherCt && (
-        <Alert className="consequence slice-trouble" title={texts.otherCt}>
+        <Alert className="consequence slice-problem" title={texts.otherCt}>
           <Button size="lg" data-testid="look-at-other-ct" onClick={lookAnew}>
             {texts.lookAtOther}
           </Button>
         </Alert>
       )}
       {problem instanceof Rejection && (
-        <div className="slice-trouble">
+        <div className="slice-problem">
           <RejectionNote rejection={problem} />
           <Button size="lg" onClick={retry}>
             {texts.again}

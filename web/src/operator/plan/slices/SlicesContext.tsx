@@ -34,7 +34,7 @@ interface SlicesValue {
   scroll: (plane: PlaneName, steps: number) => void;
   setGreys: (greys: Greys) => void;
   setWay: (way: Way | null) => void;
-  /** Where the large picture lies that stands there now; told by it, read when somebody touches something. */
+  /** Where the displayed large picture lies; set by it, read when somebody touches something. */
   largePlace: () => Place | null;
   setLargePlace: (place: Place | null) => void;
 }
@@ -131,7 +131,7 @@ export function SlicesProvider({ ct, lookAnew, children }: SlicesProviderProps):
 
 export function useSlices(): SlicesValue {
   const value = use(SlicesContext);
-  if (value === null) throw new Error("useSlices stands outside SlicesProvider");
+  if (value === null) throw new Error("useSlices must be used inside SlicesProvider");
   return value;
 }
 

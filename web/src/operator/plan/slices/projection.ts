@@ -7,7 +7,7 @@ export interface Projection {
   place: Place;
   pxPerMm: number;
   stage: Stage;
-  /** Where a point (the foot of its perpendicular) stands on the page, from the stage's top left. */
+  /** Where a point (the foot of its perpendicular) lies on the page, from the stage's top left. */
   at: (point: Vec3) => Vec2;
   /** The point of the slice under this pixel. */
   lpsAt: (px: Vec2) => Vec3;

@@ -25,7 +25,7 @@ interface PlanValue {
   side: Side;
   busy: boolean;
   rejection: Rejection | null;
-  /** Who changed the plan in between, after a change here was refused for it. */
+  /** Who changed the plan in between, after a change here was rejected for it. */
   conflict: PlanAnswer["heading"] | null;
   setVertebra: (name: string) => void;
   setSide: (side: Side) => void;
@@ -141,6 +141,6 @@ async function contentOf(
 
 export function usePlanning(): PlanValue {
   const value = use(PlanContext);
-  if (value === null) throw new Error("usePlanning stands outside PlanProvider");
+  if (value === null) throw new Error("usePlanning must be used inside PlanProvider");
   return value;
 }

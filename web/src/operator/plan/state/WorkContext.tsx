@@ -39,6 +39,6 @@ export function WorkProvider({ children }: { children: ReactNode }): ReactNode {
 
 export function useWork(): WorkValue {
   const value = use(WorkContext);
-  if (value === null) throw new Error("useWork stands outside WorkProvider");
+  if (value === null) throw new Error("useWork must be used inside WorkProvider");
   return value;
 }

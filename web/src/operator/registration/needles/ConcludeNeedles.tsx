@@ -27,7 +27,7 @@ interface ConcludeNeedlesProps {
   children: ReactNode;
 }
 
-/** Registers by what was laid, picked or marked: always by the newest live image, never by a held one. */
+/** Registers by what was laid, picked or marked: always by the newest live image, never by a frozen one. */
 export function ConcludeNeedles({
   order,
   overlay = null,
@@ -50,10 +50,10 @@ export function ConcludeNeedles({
       <RegistrationRejection rejection={doing.rejection} />
       {isFrozen ? (
         <>
-          <p className="warning">▲ {texts.needles.heldNoFit}</p>
+          <p className="warning">▲ {texts.needles.frozenNoFit}</p>
           {onRelease !== undefined && (
             <Button size="lg" color="yellow" onClick={onRelease}>
-              {texts.held.release}
+              {texts.frozen.release}
             </Button>
           )}
         </>

@@ -11,15 +11,15 @@ interface LineLayerProps {
 }
 
 /** The needles' planned lines, from the bone outwards, on which the needles shall lie. */
-export function LineLayer({ controller: desk, names }: LineLayerProps): ReactNode {
+export function LineLayer({ controller, names }: LineLayerProps): ReactNode {
   const texts = useTexts().registration.needles;
   const nameOf = useNeedleNames();
   const { widthPx, heightPx } = useImageSize();
   const group = useRef<SVGGElement>(null);
   useEffect(
     () =>
-      desk.onPaint(() => {
-        const { newest, sinceAnswer } = desk;
+      controller.onPaint(() => {
+        const { newest, sinceAnswer } = controller;
         if (group.current === null || newest === null || sinceAnswer === null) return;
         newest.laid.needles.forEach((needle, index) => {
           const points = needle.line_px.map(([x = 0, y = 0]) => applyMatrix(sinceAnswer, [x, y]));
@@ -27,7 +27,7 @@ export function LineLayer({ controller: desk, names }: LineLayerProps): ReactNod
         });
       }),
     // The lines are drawn anew when there are others.
-    [desk, names.length],
+    [controller, names.length],
   );
   return (
     <svg

@@ -23,7 +23,7 @@ interface OverlayPanelProps {
 
 /** Small steps for what fingers do roughly: move, turn, scale; fade, undo, and at last register. */
 export function OverlayPanel({
-  controller: desk,
+  controller,
   state,
   order,
   isFrozen,
@@ -63,7 +63,7 @@ export function OverlayPanel({
           value={100 * (hand?.fade_ratio ?? 0.5)}
           disabled={hand === null}
           onChange={(percent) => {
-            desk.change((now) => fadeOverlay(now, percent / 100));
+            controller.change((now) => fadeOverlay(now, percent / 100));
           }}
         />
       </label>
@@ -76,7 +76,7 @@ export function OverlayPanel({
             aria-label={name}
             disabled={hand === null}
             onClick={() => {
-              desk.step(next);
+              controller.step(next);
             }}
           >
             {symbol}
@@ -102,7 +102,7 @@ export function OverlayPanel({
           disabled={!state.canUndo}
           data-testid="overlay-undo"
           onClick={() => {
-            desk.undo();
+            controller.undo();
           }}
         >
           <Icon name="undo" /> {texts.undo}
@@ -112,7 +112,7 @@ export function OverlayPanel({
           variant="default"
           data-testid="overlay-reset"
           onClick={() => {
-            desk.reset();
+            controller.reset();
           }}
         >
           {texts.reset}

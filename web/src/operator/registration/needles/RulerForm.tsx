@@ -56,10 +56,10 @@ export function RulerForm({ view, onView, middleMm, done, onDone }: RulerFormPro
           />
         ))}
       </div>
-      <p>{texts.standing}</p>
+      <p>{texts.viewedFrom}</p>
       <SegmentedControl
         size="lg"
-        aria-label={texts.standing}
+        aria-label={texts.viewedFrom}
         value={view.patient_end}
         data={[
           { value: "feet", label: texts.feet },

@@ -10,19 +10,19 @@ interface SliceLayerProps {
 }
 
 /** The plan's picture of the reference slice, translucent over the live picture, where the server lays it. */
-export function SliceLayer({ controller: desk, slice, vertebra }: SliceLayerProps): ReactNode {
+export function SliceLayer({ controller, slice, vertebra }: SliceLayerProps): ReactNode {
   const texts = useTexts().registration.needles;
   const image = useRef<HTMLImageElement>(null);
   useEffect(
     () =>
-      desk.onPaint(() => {
-        const { newest, sinceAnswer } = desk;
+      controller.onPaint(() => {
+        const { newest, sinceAnswer } = controller;
         const place = newest?.laid.slice;
         if (image.current === null || newest === null || sinceAnswer === null || !place) return;
         image.current.style.transform = cssMatrix(multiply(sinceAnswer, place.image_from_slice.flat()));
         image.current.style.opacity = String(newest.hand.fade_ratio);
       }),
-    [desk],
+    [controller],
   );
   return (
     <img

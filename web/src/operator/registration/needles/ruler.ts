@@ -1,4 +1,4 @@
-// What a ruler beside the table tells of the camera, and where it is remembered.
+// What a ruler beside the table measures of the camera, and where it is remembered.
 import type { components } from "../../../schema";
 
 export type RuledView = components["schemas"]["ViewMessage"];

@@ -6,7 +6,7 @@ interface Touchable {
 }
 
 /**
- * The one that somebody has picked, else the one whose capture runs or was refused, else the first that was
+ * The one that somebody has picked, else the one whose capture runs or was rejected, else the first that was
  * not touched, but for the last of all: the check needs one that was not used.
  */
 export function nextLandmark({ landmarks, capture }: Touchable, picked: string | null): string | null {

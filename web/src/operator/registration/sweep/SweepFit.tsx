@@ -5,17 +5,17 @@ import { useTexts } from "../../../texts/TextsContext";
 import { RegistrationRejection } from "../RegistrationRejection";
 import { RegistrationNumbers } from "../RegistrationNumbers";
 
-/** What the sweep gives, which way it holds the bone least, and what keeps it from being kept. */
+/** The fit of the sweep, its least certain direction, and why it cannot be stored. */
 export function SweepFit({ fit }: { fit: components["schemas"]["SweepFitMessage"] }): ReactNode {
   const texts = useTexts().registration.sweep;
   const way = Object.hasOwn(texts.ways, fit.weakest)
     ? texts.ways[fit.weakest as keyof typeof texts.ways]
     : fit.weakest;
   return (
-    <section className="card" data-testid="sweep-fit-told" aria-live="polite">
+    <section className="card" data-testid="sweep-fit-result" aria-live="polite">
       <RegistrationNumbers method="surface" numbers={fit.numbers} />
       <p>
-        {texts.minHeld}: <strong>{way}</strong>
+        {texts.weakest}: <strong>{way}</strong>
       </p>
       {fit.remarks.map((remark) => (
         <p className="warning" key={remark.code}>
