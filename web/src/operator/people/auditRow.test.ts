@@ -30,10 +30,7 @@ test("a line is told with who, what, and from which version to which, in words",
 });
 
 test.each([
-  [
-    { what: "PUT /api/something/{new}", of: { id: "7f3a" } },
-    "Other action",
-  ],
+  [{ what: "PUT /api/something/{new}", of: { id: "7f3a" } }, "Other action"],
   [{ what: "GET /api/people" }, "Tried to look at something"],
   [{ what: "constructor" }, "Other action"],
 ])("%j has no words of its own", (line, what) => {
