@@ -30,12 +30,9 @@ test("a line is told with who, what, and from which version to which, in words",
 });
 
 test.each([
-  [
-    { what: "PUT /api/something/{new}", of: { id: "7f3a" } },
-    "Did something for which this page has no words",
-  ],
+  [{ what: "PUT /api/something/{new}", of: { id: "7f3a" } }, "Other action"],
   [{ what: "GET /api/people" }, "Tried to look at something"],
-  [{ what: "constructor" }, "Did something for which this page has no words"],
+  [{ what: "constructor" }, "Other action"],
 ])("%j has no words of its own", (line, what) => {
   expect(auditRow(line, en).what).toBe(what);
 });

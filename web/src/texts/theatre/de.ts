@@ -73,7 +73,7 @@ export const theatreDe: TheatreTexts = {
     needles: "mit Nadeln",
     points: "an Landmarken",
     surface: "an der Oberfläche",
-    rehearsal: "aus dem Probebetrieb",
+    rehearsal: "simuliert",
   },
   notRegistered: "nicht registriert",
   check: "Prüfung",
