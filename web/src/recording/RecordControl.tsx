@@ -62,6 +62,11 @@ export function RecordControl(): ReactNode {
           size="lg"
           centered
           withCloseButton={false}
+          // An alarm stays bright, and can be acknowledged, while the question is open.
+          withOverlay={false}
+          trapFocus={false}
+          lockScroll={false}
+          closeOnClickOutside={false}
         >
           <p>{texts.consent.sentence}</p>
           <ConsentAnswers
