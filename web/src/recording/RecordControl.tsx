@@ -60,8 +60,10 @@ export function RecordControl(): ReactNode {
           }}
           title={<strong className="consent-title">{texts.consent.title}</strong>}
           size="lg"
-          centered
           withCloseButton={false}
+          // At the lower border, below alarm, verdict and figures.
+          classNames={{ inner: "consent-place", content: "consent-card" }}
+          transitionProps={{ duration: 0 }}
           // An alarm stays bright, and can be acknowledged, while the question is open.
           withOverlay={false}
           trapFocus={false}
