@@ -208,6 +208,18 @@ def test_a_recording_is_exported_as_csv(door: Door) -> None:
     assert door.ask("GET", f"/{name}/export/images.csv", 422)["code"] == "REQUEST_INVALID"
 
 
+def test_a_damaged_result_costs_its_own_rows_only(door: Door) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    case = door.store.get_open_case()
+    assert case is not None
+    path = door.store.home.cases / case.id / "recordings" / name
+    path.write_bytes(path.read_bytes().replace(b'"image_number":1000,', b'"image?number":1000,'))
+    answer = door.client.get(f"/api/recordings/{name}/export/poses.csv")
+    images = {int(row["image"]) for row in csv.DictReader(answer.text.splitlines())}
+    assert images == set(range(1, len(DRILLED)))
+
+
 def made(door: Door, name: str, what: str, body: object) -> dict[str, Any]:
     """Wait for a video or piece of a recording, and return its job."""
     job = door.ask("POST", f"/{name}/{what}", 202, body)
