@@ -95,6 +95,22 @@ class CutRequest(Message):
     to_s: Annotated[float, Field(ge=0.0, le=1e7, allow_inf_nan=False)]
 
 
+class ExportMessage(Message):
+    """A video or a piece of a recording."""
+
+    file: str
+    """Its name, to be downloaded by."""
+    size_bytes: int
+
+
+class ExportsMessage(Message):
+    """What was made from a recording, and is being made."""
+
+    files: list[ExportMessage]
+    job: JobMessage | None
+    """The newest for this recording; null if the server remembers none."""
+
+
 class ProtectionMessage(Message):
     """Whether a recording is protected from deletion."""
 
@@ -197,6 +213,15 @@ def recording_exports_router(exports: RecordingExports) -> APIRouter:
         `images`; `file` is to be downloaded.
         """
         return job_message(exports.start_cut(name, requested.from_s, requested.to_s))
+
+    @router.get("/exports", responses=rejections(404, 409, 503))
+    def made(name: str) -> ExportsMessage:
+        """Return the video and the piece that were made from a recording, and the newest job for one."""
+        found = exports.exports(name)
+        return ExportsMessage(
+            files=[ExportMessage.model_validate(one, from_attributes=True) for one in found.files],
+            job=None if found.job is None else job_message(found.job),
+        )
 
     @router.get("/exports/{file}", response_class=FileResponse, responses=rejections(404, 409, 503))
     def download(name: str, file: str) -> FileResponse:

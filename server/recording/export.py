@@ -64,20 +64,22 @@ def _lines(recording: Path, locations: MessageLocations, table: Table) -> Iterat
                 begin_s = location.unix_s if begin_s is None else begin_s
             if location.topic is not wanted:
                 continue
-            try:
-                content = json.loads(read_content(file, location.offset, location.length))
-            except ValueError:
-                # Damaged, and counted all the same.
-                continue
             time_s = location.unix_s - (location.unix_s if begin_s is None else begin_s)
             when = (round(time_s, 6), round(location.unix_s, 6))
-            if table is Table.ALARMS:
-                rows = ((*when, *row) for row in _alarms(content))
-            else:
-                of_image = (image, content["image_number"], *when)
-                rows = ((*of_image, *row) for row in ROWS[table](content))
+            try:
+                content = json.loads(read_content(file, location.offset, location.length))
+                rows = _rows(table, content, image, when)
+            except (ValueError, LookupError, TypeError, AttributeError):
+                # Damaged, and counted all the same.
+                continue
             for row in rows:
                 yield _line(row)
+
+
+def _rows(table: Table, content: Json, image: int, when: Row) -> list[Row]:
+    if table is Table.ALARMS:
+        return [(*when, *row) for row in _alarms(content)]
+    return [(image, content["image_number"], *when, *row) for row in ROWS[table](content)]
 
 
 def _poses(snapshot: Json) -> Iterator[Row]:

@@ -3,7 +3,9 @@
 A new video takes the place of the one before, and a new piece of the one before it.
 """
 
-from dataclasses import asdict
+import threading
+from contextlib import suppress
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -13,10 +15,31 @@ from server.recording.service import RecordingService, exports_folder
 from server.recording.video import write_video
 from server.recording_file.topics import SUFFIX
 from server.store import Home, NotFound
-from server.store.home import PRIVATE, sync_folder
+from server.store.home import PRIVATE
 from server.texts import Language
 
 VIDEO_SUFFIX = ".mp4"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ExportedFile:
+    """A video or a piece of a recording."""
+
+    file: str
+    size_bytes: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Exports:
+    """What was made from a recording.
+
+    Attributes:
+        files: stored beside it, by name.
+        job: the newest for this recording; None if the server remembers none.
+    """
+
+    files: tuple[ExportedFile, ...]
+    job: Job | None
 
 
 class RecordingExports:
@@ -32,6 +55,8 @@ class RecordingExports:
         self._recordings = recordings
         self._jobs = jobs
         self._home = home
+        self._lock = threading.Lock()
+        self._newest: dict[Path, str] = {}
 
     def start_video(self, name: str, language: Language) -> Job:
         """Start to write a recording as a video; the result of the job has the name of the file.
@@ -51,6 +76,24 @@ class RecordingExports:
         """
         file = f"{Path(name).stem}-{from_s:.1f}-{to_s:.1f}s{SUFFIX}"
         return self._start("piece of a recording", make_piece, name, file, {"from_s": from_s, "to_s": to_s})
+
+    def exports(self, name: str) -> Exports:
+        """Return what was made from a recording, and is being made.
+
+        Raises:
+            NotFound: RECORDING_UNKNOWN.
+            SetupOrderError: NO_CASE_OPEN.
+        """
+        recording = self._recordings.path(name)
+        # Before the files: a job that ends meanwhile is stated as running, and asked for again.
+        with self._lock:
+            newest = self._newest.get(recording)
+        job = next((one for one in self._jobs.list() if one.id == newest), None)
+        folder, files = exports_folder(recording), []
+        for path in sorted(folder.iterdir()) if folder.is_dir() else []:
+            with suppress(FileNotFoundError):
+                files.append(ExportedFile(file=path.name, size_bytes=path.stat().st_size))
+        return Exports(files=tuple(files), job=job)
 
     def path(self, name: str, file: str) -> Path:
         """Return a file that was made from a recording.
@@ -75,13 +118,21 @@ class RecordingExports:
         self._recordings.require_space()
         folder = self._home.new_temporary(".export")
         folder.mkdir(mode=PRIVATE, parents=True)
-        return self._jobs.start(
+        job = self._jobs.start(
             title,
             work,
             {"recording": str(recording), "folder": str(folder), "file": file, **arguments},
             folder=folder,
-            conclude=lambda result: _stored(recording, folder / file, result),
+            conclude=lambda result: self._stored(recording, folder / file, result),
         )
+        with self._lock:
+            self._newest[recording] = job.id
+        return job
+
+    def _stored(self, recording: Path, made: Path, result: Any) -> dict[str, object]:  # noqa: ANN401
+        """Move the file beside its recording, and return its name and size with what the job said."""
+        stored = self._recordings.put_export(recording, made)
+        return {"file": stored.name, "size_bytes": stored.stat().st_size, **result}
 
 
 def make_video(report: Report, *, recording: str, folder: str, file: str, language: Language) -> object:
@@ -96,20 +147,3 @@ def make_piece(
     return asdict(
         cut_recording(Path(recording), Path(folder) / file, from_s=from_s, to_s=to_s, report=report)
     )
-
-
-def _stored(recording: Path, made: Path, result: Any) -> dict[str, object]:  # noqa: ANN401
-    """Move the file beside its recording, and return its name and size with what the job said."""
-    if not recording.exists():
-        raise NotFound(
-            "RECORDING_UNKNOWN",
-            f"{recording.name} was deleted meanwhile",
-            "Load the list of recordings again.",
-        )
-    folder = exports_folder(recording)
-    folder.mkdir(mode=PRIVATE, exist_ok=True)
-    for earlier in folder.glob(f"*{made.suffix}"):
-        earlier.unlink(missing_ok=True)
-    stored = made.replace(folder / made.name)
-    sync_folder(folder)
-    return {"file": stored.name, "size_bytes": stored.stat().st_size, **result}

@@ -38,7 +38,7 @@ from server.recording_file import Topic, WriterLimits
 from server.recording_file.locations import read_duration_s
 from server.recording_file.topics import SUFFIX
 from server.store import Case, CaseStore, Current, DocumentKind, NotFound, StoreError
-from server.store.home import PRIVATE, RECORDINGS, sync_folder
+from server.store.home import PRIVATE, RECORDINGS, sync_file, sync_folder
 
 NAME = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{4}\.mcap")
 TIME_FORMAT = "%Y%m%dT%H%M%SZ"
@@ -350,9 +350,37 @@ class RecordingService:
                 )
             path.unlink()
             self._durations.pop(path, None)
-            index_path(path).unlink(missing_ok=True)
+            # With what a killed job left of it.
+            for index in path.parent.glob(f"{index_path(path).name}*"):
+                index.unlink(missing_ok=True)
             shutil.rmtree(exports_folder(path), ignore_errors=True)
             sync_folder(path.parent)
+
+    def put_export(self, recording: Path, made: Path) -> Path:
+        """Move a file beside the recording that it was made from, in place of the one of its kind; return it.
+
+        Raises:
+            NotFound: RECORDING_UNKNOWN: it was deleted meanwhile.
+            OSError: the file cannot be stored.
+        """
+        # Before it has its name, so that a power failure leaves no part of it.
+        with made.open("rb") as file:
+            sync_file(file.fileno())
+        with self._lock:
+            if not recording.exists():
+                raise NotFound(
+                    "RECORDING_UNKNOWN",
+                    f"{recording.name} was deleted meanwhile",
+                    "Load the list of recordings again.",
+                )
+            folder = exports_folder(recording)
+            folder.mkdir(mode=PRIVATE, exist_ok=True)
+            stored = made.replace(folder / made.name)
+            for earlier in folder.glob(f"*{made.suffix}"):
+                if earlier != stored:
+                    earlier.unlink(missing_ok=True)
+            sync_folder(folder)
+            return stored
 
     def put_mark(self, text: str) -> None:
         """Record what a supervisor marked, as JSON. Returns at once."""

@@ -20,6 +20,8 @@ from server.recording_file.topics import PROFILE, ZSTD_JSON, Topic
 NANOSECONDS = 1e9
 MAX_RECORD_BYTES = 256 * 2**20
 MAX_VALUE_BYTES = 512 * 2**20
+# What a read raises for a length that is damaged.
+TOO_LONG = (MemoryError, OverflowError)
 TOPICS = {one.value: one for one in Topic}
 
 
@@ -98,7 +100,7 @@ class RecordingReader:
         ).records
         try:
             header = next(self._records, None)
-        except (McapError, ValueError, EOFError, struct.error) as error:
+        except (McapError, ValueError, EOFError, struct.error, *TOO_LONG) as error:
             self._file.close()
             raise _not_readable(path, "it does not begin like an MCAP file") from error
         if not isinstance(header, Header) or header.profile != PROFILE:
@@ -122,7 +124,7 @@ class RecordingReader:
                     self.is_whole = True
         except CRCValidationError:
             self.is_damaged, self.why_cut = True, "a checksum is wrong"
-        except (McapError, ValueError, EOFError, struct.error, KeyError, IndexError):
+        except (McapError, ValueError, EOFError, struct.error, LookupError, *TOO_LONG):
             self.why_cut = "it ends in the middle of a chunk"
         else:
             self.why_cut = "" if self.is_whole else "it has no end"

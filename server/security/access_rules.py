@@ -69,6 +69,7 @@ GET     /api/recordings/{name}/export/{table}.csv
 GET     /api/recordings/{name}/timeline
 GET     /api/recordings/{name}/images/{number}.jpg
 GET     /api/recordings/{name}/instants/{number}
+GET     /api/recordings/{name}/exports
 GET     /api/recordings/{name}/exports/{file}
 GET     /api/cases
 GET     /api/cases/{case_id}

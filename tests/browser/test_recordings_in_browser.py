@@ -173,8 +173,13 @@ def test_a_piece_and_a_video_are_saved_and_an_instant_is_commented(
         f"{len(DRILLED)} images, 0 with their overlay. The others say why they have none."
     )
     picture(page, "exports")
+    # What was made is found again after the review was closed.
+    page.locator(row).get_by_test_id("review-open").click()
+    page.locator(row).get_by_test_id("review-open").click()
+    downloads = page.get_by_test_id("review-export-download")
+    expect(downloads).to_have_count(2)
     with page.expect_download() as film:
-        page.get_by_test_id("review-export-download").click()
+        downloads.filter(has_text=".mp4").click()
     film.value.save_as(tmp_path / "case.mp4")
     with av.open(str(tmp_path / "case.mp4")) as video:
         assert sum(1 for _ in video.decode(video=0)) == len(DRILLED)

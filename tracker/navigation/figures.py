@@ -22,6 +22,8 @@ MAX_BESIDE_MM = 30.0
 NORMAL_95 = 1.96
 # 0.3 is stored as 0.29999999999999998: an error of the last binary digit must not cost a tenth.
 ROUNDING_ERROR = 1e-9
+# Larger floats have hardly a decimal.
+MAX_ROUNDED = 1e15
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -187,7 +189,8 @@ def rounded_up(value: float, *, decimals: int = 1) -> float:
 
 
 def _quantised(value: float, decimals: int, rounding: str) -> float:
-    if not isfinite(value):
+    # Decimal raises for more digits than its context has.
+    if not isfinite(value) or abs(value) > MAX_ROUNDED:
         return value
     # Plus zero: a rounded -0.04 is 0, not -0.
     return float(Decimal(value).quantize(Decimal(1).scaleb(-decimals), rounding=rounding)) + 0.0

@@ -19,6 +19,7 @@ from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
 from server.logs import LogSettings
+from server.recording.service import RecordingService
 from server.store import CaseStore, DocumentKind, Home
 from tests.server.recording.no_recorder import recordings_without_process
 from tests.server.recording.reviewed import DRILLED, HEIGHT, WIDTH, drawn, write_drilling
@@ -207,6 +208,18 @@ def test_a_recording_is_exported_as_csv(door: Door) -> None:
     assert door.ask("GET", f"/{name}/export/images.csv", 422)["code"] == "REQUEST_INVALID"
 
 
+def test_a_damaged_result_costs_its_own_rows_only(door: Door) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    case = door.store.get_open_case()
+    assert case is not None
+    path = door.store.home.cases / case.id / "recordings" / name
+    path.write_bytes(path.read_bytes().replace(b'"image_number":1000,', b'"image?number":1000,'))
+    answer = door.client.get(f"/api/recordings/{name}/export/poses.csv")
+    images = {int(row["image"]) for row in csv.DictReader(answer.text.splitlines())}
+    assert images == set(range(1, len(DRILLED)))
+
+
 def made(door: Door, name: str, what: str, body: object) -> dict[str, Any]:
     """Wait for a video or piece of a recording, and return its job."""
     job = door.ask("POST", f"/{name}/{what}", 202, body)
@@ -256,6 +269,43 @@ def test_a_piece_is_made_by_a_job_and_deleted_with_its_recording(door: Door) -> 
     case = door.store.get_open_case()
     assert case is not None
     assert list((door.store.home.cases / case.id / "recordings").iterdir()) == []
+
+
+def test_what_was_made_from_a_recording_is_listed(door: Door) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    assert door.ask("GET", f"/{name}/exports", 200) == {"files": [], "job": None}
+    piece = made(door, name, "cut", {"from_s": 1.75, "to_s": 2.55})["result"]
+    job = made(door, name, "cut", {"from_s": 9, "to_s": 10})
+    assert job["state"] == "failed"
+    file = {"file": piece["file"], "size_bytes": piece["size_bytes"]}
+    assert door.ask("GET", f"/{name}/exports", 200) == {"files": [file], "job": job}
+    job = made(door, name, "cut", {"from_s": 0, "to_s": 1})
+    file = {"file": job["result"]["file"], "size_bytes": job["result"]["size_bytes"]}
+    assert door.ask("GET", f"/{name}/exports", 200) == {"files": [file], "job": job}
+    assert door.ask("GET", f"/{name.replace('-0', '-1')}/exports", 404)["code"] == "RECORDING_UNKNOWN"
+
+
+def test_nothing_is_stored_of_a_recording_that_was_deleted_meanwhile(
+    door: Door, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    case = door.store.get_open_case()
+    assert case is not None
+    folder = door.store.home.cases / case.id / "recordings"
+    # Of a job that was killed.
+    (folder / f"{name}.index.npz.77").write_bytes(b"half")
+    put_export = RecordingService.put_export
+
+    def after_deletion(service: RecordingService, recording: Path, file: Path) -> Path:
+        service.delete(name)
+        return put_export(service, recording, file)
+
+    monkeypatch.setattr(RecordingService, "put_export", after_deletion)
+    job = made(door, name, "cut", {"from_s": 0, "to_s": 1})
+    assert (job["state"], job["problem"]["code"]) == ("failed", "RECORDING_UNKNOWN")
+    assert list(folder.iterdir()) == []
 
 
 def test_nothing_is_made_from_a_recording_that_runs_or_on_a_full_disk(

@@ -1,12 +1,15 @@
 """Reading a recording, also where it was cut or damaged."""
 
 import random
+import struct
 from pathlib import Path
 
 import pytest
+from mcap.opcode import Opcode
 
 from server.errors import RecordingError
 from server.recording_file import RecordedMessage, RecordingReader, Topic
+from server.recording_file.locations import MAGIC, RECORD
 from tests.server.recording_file.written import OFFSET_S, write_recording
 
 
@@ -69,3 +72,23 @@ def test_another_file_is_rejected(content: bytes, tmp_path: Path) -> None:
     assert rejected.value.code == "RECORDING_NOT_READABLE"
     with pytest.raises(RecordingError, match="no such file"):
         RecordingReader(tmp_path / "missing.mcap")
+
+
+@pytest.mark.parametrize("length", [2**40, 2**63], ids=["more-than-memory", "no-index"])
+def test_a_damaged_length_ends_the_reading(tmp_path: Path, length: int) -> None:
+    path = write_recording(tmp_path / "a.mcap")
+    content = bytearray(path.read_bytes())
+    # Of the first chunk, behind opcode, length, times, size, checksum and the empty name of a compression.
+    at = _first_record(content, Opcode.CHUNK) + struct.calcsize("<BQQQQII")
+    content[at : at + 8] = struct.pack("<Q", length)
+    path.write_bytes(content)
+    messages, reader = read(path)
+    assert (messages, reader.is_whole) == ([], False)
+    assert reader.why_cut
+
+
+def _first_record(content: bytearray, opcode: Opcode) -> int:
+    at = len(MAGIC)
+    while content[at] != opcode:
+        at += RECORD.size + RECORD.unpack_from(content, at)[1]
+    return at

@@ -22,7 +22,7 @@ from tracker.navigation import (
 )
 from tracker.navigation.clearance.outline_field import channel_distance_field
 from tracker.navigation.directions import channel_directions
-from tracker.navigation.uncertainty import PedicleTolerance, UncertainPose
+from tracker.navigation.uncertainty import PedicleTolerance, UncertainPose, radius_95
 from tracker.plan import Channel
 from tracker.pose import Seen, ToolModel
 from tracker.registration import AnchoredTo, Method, Registration
@@ -238,3 +238,17 @@ def test_what_navigation_states_of_a_drill_on_its_channel_is_never_less() -> Non
             assert isinstance(assessment, Assessment)
             assert assessment.figures[FigureName.ERROR].value >= min_mm
             assert assessment.verdict in (Verdict.SETUP_INSUFFICIENT, Verdict.BREACH_LIKELY)
+
+
+@pytest.mark.parametrize("value", [np.nan, 1e100, 1e300])
+@pytest.mark.parametrize("axis", range(3))
+def test_an_error_that_is_not_a_usual_number_never_suffices(value: float, axis: int) -> None:
+    covariance = shift(0.1)
+    covariance[axis, axis] = value
+    found = check_registration(UncertainPose(pose=POSE, covariance=covariance), CHANNEL, tolerance(2.0))
+    assert not found.suffices
+
+
+@pytest.mark.parametrize("sds_mm", [(np.nan, 0.1), (0.1, np.nan), (np.nan, np.nan), (np.inf, 0.1)])
+def test_the_radius_of_an_unknown_error_is_infinite(sds_mm: tuple[float, float]) -> None:
+    assert radius_95(*sds_mm) == np.inf

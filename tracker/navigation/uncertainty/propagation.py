@@ -102,16 +102,19 @@ def crossing_covariance_mm2(
 
 
 def radius_95(larger_sd: float, smaller_sd: float) -> float:
-    """Return the radius of the circle that contains 95 % of a bivariate normal distribution."""
-    if not larger_sd > 0.0:
-        return 0.0
-    if not np.isfinite(larger_sd):
+    """Return the radius of the circle that contains 95 % of a bivariate normal distribution.
+
+    Infinite where a standard deviation is not finite.
+    """
+    if not (np.isfinite(larger_sd) and np.isfinite(smaller_sd)):
         return np.inf
+    if larger_sd <= 0.0:
+        return 0.0
     return float(larger_sd * np.interp(smaller_sd / larger_sd, RATIOS, RADII_95))
 
 
 def _plane_sds(covariance: Array) -> tuple[float, float]:
-    if not np.isfinite(covariance[0, 0]):
+    if not np.isfinite(covariance).all():
         return np.inf, np.inf
     a, b, c = float(covariance[0, 0]), float(covariance[0, 1]), float(covariance[1, 1])
     middle, half = 0.5 * (a + c), float(np.hypot(0.5 * (a - c), b))

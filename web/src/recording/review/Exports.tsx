@@ -1,10 +1,12 @@
 import { Button } from "@mantine/core";
-import { useState, type ReactNode } from "react";
+import { useEffect, useEffectEvent, useState, type ReactNode } from "react";
+import { formatBytes } from "../../operator/parts/format";
 import { answered, server } from "../../rest/client";
 import { JobProgress } from "../../rest/JobProgress";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import { isOver, useJob, type Job } from "../../rest/useJob";
+import { useQuery } from "../../rest/useQuery";
 import { interpolate } from "../../texts/interpolate";
 import { useTexts } from "../../texts/TextsContext";
 import { clockTenths } from "../recordingText";
@@ -25,15 +27,29 @@ export function Exports({ name, atS, durationS, piece, onPiece }: ExportsProps):
   const own = texts.recording.review.exports;
   const [made, setMade] = useState<RecordingExport | null>(null);
   const doing = useAction();
-  const followed = useJob((job) => {
-    setMade(exportOf(job));
-  });
-  const isBusy = doing.busy || (followed.job !== null && !isOver(followed.job));
   const path = { name };
+  const { data, rejection, refetch } = useQuery(
+    (signal) => answered(server.GET("/api/recordings/{name}/exports", { params: { path }, signal })),
+    { key: name },
+  );
+  const { follow, ...followed } = useJob((job) => {
+    setMade(exportOf(job));
+    refetch();
+  });
+  // A job goes on while nobody looks.
+  const [found, setFound] = useState<Job | null>(null);
+  if (found === null && data?.job != null) setFound(data.job);
+  const onFound = useEffectEvent((job: Job) => {
+    if (followed.job === null) follow(job);
+  });
+  useEffect(() => {
+    if (found !== null) onFound(found);
+  }, [found]);
+  const isBusy = doing.busy || (followed.job !== null && !isOver(followed.job));
   const start = (ask: () => Promise<Job>) => () => {
     setMade(null);
     void doing.run(async () => {
-      followed.follow(await ask());
+      follow(await ask());
     });
   };
   const cut = start(() =>
@@ -88,23 +104,23 @@ export function Exports({ name, atS, durationS, piece, onPiece }: ExportsProps):
           {own.saveVideo}
         </Button>
       </div>
-      <RejectionNote rejection={doing.rejection} />
-      <JobProgress followed={followed} />
-      {made !== null && (
-        <div className="row" role="status">
+      <RejectionNote rejection={doing.rejection ?? rejection} />
+      <JobProgress followed={{ follow, ...followed }} />
+      {(data?.files ?? []).map((one) => (
+        <div className="row" role="status" key={one.file}>
           <Button
             size="lg"
             variant="default"
             component="a"
-            href={`/api/recordings/${name}/exports/${made.file}`}
-            download={made.file}
+            href={`/api/recordings/${name}/exports/${one.file}`}
+            download={one.file}
             data-testid="review-export-download"
           >
-            {interpolate(own.download, { file: made.file })}
+            {interpolate(own.download, { file: one.file })}
           </Button>
-          <p>{exportText(made, texts)}</p>
+          <p>{one.file === made?.file ? exportText(made, texts) : formatBytes(one.size_bytes)}</p>
         </div>
-      )}
+      ))}
     </section>
   );
 }
