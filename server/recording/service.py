@@ -258,14 +258,15 @@ class RecordingService:
         folder, running = self._folder(require_open_case(self._store)), self.state.name
         found = []
         for path in sorted(folder.glob(f"*{SUFFIX}")) if folder.is_dir() else []:
-            if not NAME.fullmatch(path.name):
+            began_at = _began_at(path.name)
+            if began_at is None or not path.is_file():
                 continue
             # It may be deleted meanwhile.
             with suppress(FileNotFoundError):
                 found.append(
                     StoredRecording(
                         name=path.name,
-                        began_at=_began_at(path.name),
+                        began_at=began_at,
                         duration_s=None if path.name == running else self._duration_s(path),
                         size_bytes=path.stat().st_size,
                         is_protected=_protection(path).exists(),
@@ -579,8 +580,14 @@ class RecordingService:
         return self._store.home.cases / case.id / RECORDINGS
 
 
-def _began_at(name: str) -> str:
-    return utc_text(datetime.strptime(name.partition("-")[0], TIME_FORMAT).replace(tzinfo=UTC))
+def _began_at(name: str) -> str | None:
+    """Return when a recording began; None for the name of another file."""
+    if not NAME.fullmatch(name):
+        return None
+    try:
+        return utc_text(datetime.strptime(name.partition("-")[0], TIME_FORMAT).replace(tzinfo=UTC))
+    except ValueError:
+        return None
 
 
 def exports_folder(recording: Path) -> Path:
