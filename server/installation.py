@@ -26,7 +26,10 @@ def file_candidates(packaged: str, in_checkout: str) -> tuple[Path, Path]:
 
 def service_unit(executable: Path) -> str:
     """Return a systemd unit that starts this `coaxial`."""
-    return (PACKAGE / "coaxial.service").read_text(encoding="utf-8").replace(UNIT_EXECUTABLE, str(executable))
+    # Systemd splits at spaces, and replaces what follows a per cent sign.
+    quoted = str(executable).replace("%", "%%")
+    quoted = f'"{quoted}"' if " " in quoted else quoted
+    return (PACKAGE / "coaxial.service").read_text(encoding="utf-8").replace(UNIT_EXECUTABLE, quoted)
 
 
 def default_settings() -> str:

@@ -1,5 +1,6 @@
 """`coaxial recording`: a recording as CSV and as video, and a piece of it."""
 
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -21,11 +22,14 @@ def recording() -> None:
 def export(
     file: Annotated[Path, typer.Argument(help="A recording of Coaxial (.mcap).", metavar="FILE")],
     to: Annotated[
-        Path | None, typer.Option("--to", help="Folder of the CSV files; made if needed.", metavar="DIR")
+        Path | None,
+        typer.Option("--to", help="Folder of the CSV files; made if needed.", metavar="DIR", file_okay=False),
     ] = None,
     video: Annotated[
         Path | None,
-        typer.Option("--video", help="Video (MP4) with the overlay; needs PyAV.", metavar="FILE"),
+        typer.Option(
+            "--video", help="Video (MP4) with the overlay; needs PyAV.", metavar="FILE", dir_okay=False
+        ),
     ] = None,
     language: Annotated[
         Literal["en", "de"], typer.Option("--language", help="Of the words in the video.")
@@ -38,6 +42,8 @@ def export(
     """
     if to is None and video is None:
         raise typer.BadParameter("Name a folder for CSV (--to), a video (--video), or both.")
+    if video is not None:
+        _reject_same(file, video)
     if to is not None:
         _write_tables(file, to)
     if video is not None:
@@ -47,7 +53,7 @@ def export(
 @recording_app.command()
 def cut(
     file: Annotated[Path, typer.Argument(help="A recording of Coaxial (.mcap).", metavar="FILE")],
-    target: Annotated[Path, typer.Argument(help="The piece (.mcap).", metavar="OUT")],
+    target: Annotated[Path, typer.Argument(help="The piece (.mcap).", metavar="OUT", dir_okay=False)],
     from_s: Annotated[
         float, typer.Option("--from", min=0.0, help="Begin, in s since the first image.", metavar="S")
     ],
@@ -61,8 +67,7 @@ def cut(
     from server.cli.progress import shown_ratio  # noqa: PLC0415  loaded when needed
     from server.recording.cut import cut_recording  # noqa: PLC0415
 
-    if target.exists() and target.samefile(file):
-        raise typer.BadParameter("OUT is FILE itself.")
+    _reject_same(file, target)
     with shown_ratio("cutting") as report:
         summary = cut_recording(file, target, from_s=from_s, to_s=to_s, report=lambda ratio, _: report(ratio))
     typer.echo(str(target))
@@ -75,15 +80,33 @@ def cut(
         typer.echo(f"it begins at {summary.from_s:.2f} s, where a state of tracking is stored")
 
 
+def _reject_same(file: Path, target: Path) -> None:
+    if file.exists() and target.exists() and target.samefile(file):
+        raise typer.BadParameter("The output is the recording itself.")
+
+
 def _write_tables(file: Path, folder: Path) -> None:
-    from server.recording.export import Table, csv_lines  # noqa: PLC0415  loaded when needed
+    from server.errors import RecordingError  # noqa: PLC0415  loaded when needed
+    from server.recording.export import Table, csv_lines  # noqa: PLC0415
 
     tables = {table: csv_lines(file, table) for table in Table}
-    folder.mkdir(parents=True, exist_ok=True)
     for table, lines in tables.items():
         target = folder / f"{table}.csv"
-        with target.open("w", encoding="utf-8", newline="") as written:
-            written.writelines(lines)
+        unfinished = folder / f"{table}.csv.part"
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            with unfinished.open("w", encoding="utf-8", newline="") as written:
+                written.writelines(lines)
+            unfinished.replace(target)
+        except OSError as error:
+            raise RecordingError(
+                "TABLE_NOT_WRITTEN",
+                f"{target} cannot be written: {(error.strerror or str(error)).lower()}",
+                "Check the folder and the space on its disk, then export again.",
+            ) from error
+        finally:
+            with suppress(OSError):
+                unfinished.unlink()
         typer.echo(str(target))
 
 

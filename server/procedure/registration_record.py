@@ -1,6 +1,6 @@
 """Records of a registration and of its check on anatomy, as stored in a case."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Annotated
 
@@ -210,6 +210,24 @@ def registration_from_document(document: Document, *, reference: str) -> Registr
             {"registered": record.reference, "reference": reference},
         )
     return record
+
+
+def with_tip_in_common(
+    record: RegistrationRecord, document: Document, tools: Iterable[Document]
+) -> RegistrationRecord:
+    """Return the record, without its tool if the case has calibrated that one otherwise since.
+
+    The tip's error cancels only with the calibration that registered. A registration with a tool of the
+    settings depends on none of the case, and stays valid when the case calibrates a tool of that name.
+
+    Args:
+        record: the registration.
+        document: that has it.
+        tools: valid calibrations of the case.
+    """
+    if all(one.name != record.tool or one.id in document.depends_on for one in tools):
+        return record
+    return record.model_copy(update={"tool": ""})
 
 
 def check_from_document(document: Document) -> CheckRecord:

@@ -16,7 +16,11 @@ import structlog
 from server.procedure.drill_reference import PlannedPedicle, planned_pedicle
 from server.procedure.plan import active_channel_document
 from server.procedure.registration.points import LANDMARK_SD_MM, MORE_LANDMARKS
-from server.procedure.registration_record import RegistrationRecord, registration_from_document
+from server.procedure.registration_record import (
+    RegistrationRecord,
+    registration_from_document,
+    with_tip_in_common,
+)
 from server.procedure.state import SetupDefaults
 from server.procedure.surface import MAIN_SURFACE
 from server.procedure.tool import tool_from_document
@@ -162,6 +166,7 @@ class SetupChecker:
                 landmarks_mm = self._landmarks_mm(active, planned)
                 return check_of_landmarks(planned, landmarks_mm, self._catalogue, has_surface=has_surface)
             record = registration_from_document(registered, reference=self._defaults.reference)
+            record = with_tip_in_common(record, registered, tools)
             return check_of_registration(
                 planned, record, self._known(tools), self._catalogue, has_surface=has_surface
             )

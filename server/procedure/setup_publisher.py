@@ -27,6 +27,7 @@ from server.procedure.registration_record import (
     check_from_document,
     check_name,
     registration_from_document,
+    with_tip_in_common,
 )
 from server.procedure.state import Procedure, SetupDefaults
 from server.procedure.tool import tool_from_document
@@ -150,7 +151,11 @@ class SetupPublisher:
                     channel = active_channel_from_document(document).channel
                     ct_id = planned_ct_id(self._store, document)
                 elif document.kind is DocumentKind.REGISTRATION:
-                    registered = registration_from_document(document, reference=self._defaults.reference)
+                    registered = with_tip_in_common(
+                        registration_from_document(document, reference=self._defaults.reference),
+                        document,
+                        [one for one in documents if one.kind is DocumentKind.TOOL],
+                    )
                 elif document.kind is DocumentKind.CHECK:
                     check = check_from_document(document)
                 elif document.kind is DocumentKind.TOOL:

@@ -7,6 +7,7 @@ image.
 """
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from math import inf
 from pathlib import Path
@@ -107,7 +108,8 @@ def cut_recording(
         ) from error
     finally:
         reader.close()
-        unfinished.unlink(missing_ok=True)
+        with suppress(OSError):
+            unfinished.unlink()
     return CutSummary(
         images=piece.images,
         missing_images=piece.missing_images,

@@ -103,15 +103,15 @@ class RecordingExports:
             SetupOrderError: NO_CASE_OPEN.
         """
         folder = exports_folder(self._recordings.path(name))
-        found = folder / file
-        if found.parent != folder or not found.is_file():
+        # Compared, because it comes from outside.
+        if not folder.is_dir() or file not in {one.name for one in folder.iterdir()}:
             raise NotFound(
                 "EXPORT_UNKNOWN",
                 f"nothing of this name was made from {name}",
                 "Make it again; a later video or piece takes the place of the one before.",
                 {"name": name},
             )
-        return found
+        return folder / file
 
     def _start(self, title: str, work: Any, name: str, file: str, arguments: dict[str, object]) -> Job:  # noqa: ANN401
         recording = self._recordings.ended_path(name)

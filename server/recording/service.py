@@ -145,6 +145,8 @@ class RecordingService:
         self._make_recorder = make_recorder
         self._lock = threading.RLock()
         self._running: _Running | None = None
+        # Names of recordings whose processes still write what is left.
+        self._closing: set[str] = set()
         self._last: RecordingStatus | None = None
         self._problem: Problem | None = None
         self._documents: tuple[str, ...] = ()
@@ -255,21 +257,24 @@ class RecordingService:
         Raises:
             SetupOrderError: NO_CASE_OPEN.
         """
-        folder, running = self._folder(require_open_case(self._store)), self.state.name
+        folder = self._folder(require_open_case(self._store))
+        with self._lock:
+            written = {*self._closing, self.state.name}
         found = []
         for path in sorted(folder.glob(f"*{SUFFIX}")) if folder.is_dir() else []:
-            if not NAME.fullmatch(path.name):
+            began_at = _began_at(path.name)
+            if began_at is None or not path.is_file():
                 continue
             # It may be deleted meanwhile.
             with suppress(FileNotFoundError):
                 found.append(
                     StoredRecording(
                         name=path.name,
-                        began_at=_began_at(path.name),
-                        duration_s=None if path.name == running else self._duration_s(path),
+                        began_at=began_at,
+                        duration_s=None if path.name in written else self._duration_s(path),
                         size_bytes=path.stat().st_size,
                         is_protected=_protection(path).exists(),
-                        is_running=path.name == running,
+                        is_running=path.name in written,
                     )
                 )
         return found
@@ -300,8 +305,8 @@ class RecordingService:
             SetupOrderError: NO_CASE_OPEN.
         """
         path = self.path(name)
-        if self.state.name == name:
-            raise _runs(name)
+        with self._lock:
+            self._reject_running(name)
         return path
 
     def require_space(self) -> None:
@@ -339,8 +344,7 @@ class RecordingService:
         """
         with self._lock:
             path = self.path(name)
-            if self._running is not None and self._running.name == name:
-                raise _runs(name)
+            self._reject_running(name)
             if _protection(path).exists():
                 raise RecordingError(
                     "RECORDING_PROTECTED",
@@ -387,6 +391,12 @@ class RecordingService:
         running = self._running
         if running is not None:
             running.recorder.put_text(Topic.MARKS, text)
+
+    def _reject_running(self, name: str) -> None:
+        if name in self._closing or (self._running is not None and self._running.name == name):
+            raise RecordingError(
+                "RECORDING_RUNS", f"{name} is being written", "Stop the recording first.", {"name": name}
+            )
 
     def _begin(self) -> None:
         settings = self._config.recording
@@ -451,9 +461,14 @@ class RecordingService:
     def _end(self, reason: str) -> None:
         with self._lock:
             running, self._running = self._running, None
-        if running is None:
-            return
-        self._last = running.recorder.stop(reason)
+            if running is None:
+                return
+            self._closing.add(running.name)
+        try:
+            self._last = running.recorder.stop(reason)
+        finally:
+            with self._lock:
+                self._closing.discard(running.name)
         path = self._folder(running.case) / running.name
         # A recording that could not begin has no file.
         with suppress(FileNotFoundError):
@@ -579,19 +594,19 @@ class RecordingService:
         return self._store.home.cases / case.id / RECORDINGS
 
 
-def _began_at(name: str) -> str:
-    return utc_text(datetime.strptime(name.partition("-")[0], TIME_FORMAT).replace(tzinfo=UTC))
+def _began_at(name: str) -> str | None:
+    """Return when a recording began; None for the name of another file."""
+    if not NAME.fullmatch(name):
+        return None
+    try:
+        return utc_text(datetime.strptime(name.partition("-")[0], TIME_FORMAT).replace(tzinfo=UTC))
+    except ValueError:
+        return None
 
 
 def exports_folder(recording: Path) -> Path:
     """Return the folder of what was made from a recording, which is deleted with it."""
     return recording.with_name(recording.name + EXPORTS)
-
-
-def _runs(name: str) -> RecordingError:
-    return RecordingError(
-        "RECORDING_RUNS", f"{name} is being written", "Stop the recording first.", {"name": name}
-    )
 
 
 def _protection(path: Path) -> Path:

@@ -9,6 +9,7 @@ PyAV is an optional dependency: its wheels hold x264 and x265, which are under t
 """
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from fractions import Fraction
@@ -92,7 +93,7 @@ def write_video(
 
     Args:
         recording: of the recording.
-        target: of the video; overwritten.
+        target: of the video; overwritten when it is complete.
         language: of all words.
         report: called with the share that is done, and what is being done.
 
@@ -107,11 +108,19 @@ def write_video(
         )
     pictures = _Pictures(recording, index, language)
     images = gaps = 0
-    with _Encoder(target) as encoder:
-        for picture in pictures:
-            encoder.add(picture.image, picture.at_s)
-            images, gaps = images + (not picture.is_gap), gaps + picture.is_gap
-            report(images / len(index), "writing the video")
+    unfinished = target.with_name(f"{target.name}.part")
+    try:
+        with _Encoder(unfinished) as encoder:
+            for picture in pictures:
+                encoder.add(picture.image, picture.at_s)
+                images, gaps = images + (not picture.is_gap), gaps + picture.is_gap
+                report(images / len(index), "writing the video")
+        unfinished.replace(target)
+    except OSError as error:
+        raise _not_written(target, error) from error
+    finally:
+        with suppress(OSError):
+            unfinished.unlink()
     return VideoSummary(
         images=images,
         gaps=gaps,
@@ -247,7 +256,7 @@ class _Encoder:
     """Encodes pictures of one size at their times; others are fitted into it.
 
     Raises:
-        RecordingError: VIDEO_NOT_WRITTEN.
+        OSError: the file cannot be written.
     """
 
     def __init__(self, target: Path) -> None:
@@ -265,8 +274,6 @@ class _Encoder:
         try:
             if kind is None and self._stream is not None:
                 self._container.mux(self._stream.encode(None))
-        except OSError as error:
-            raise _not_written(self._target, error) from error
         finally:
             self._container.close()
 
@@ -274,18 +281,15 @@ class _Encoder:
         """Encode a picture that is shown from `at_s` on."""
         import av  # noqa: PLC0415  optional
 
-        try:
-            if self._container is None or self._stream is None:
-                self._container, self._stream = _opened(self._target, image)
-            size_wh_px = (self._stream.width, self._stream.height)
-            frame = av.VideoFrame.from_ndarray(_fitted(image, size_wh_px), format="bgr24")
-            frame = frame.reformat(format="yuv420p", dst_colorspace="ITU709")
-            # Strictly increasing: two images may have come within a tick.
-            self._pts = max(round(at_s / TIME_BASE), self._pts + 1)
-            frame.pts, frame.time_base = self._pts, TIME_BASE
-            self._container.mux(self._stream.encode(frame))
-        except OSError as error:
-            raise _not_written(self._target, error) from error
+        if self._container is None or self._stream is None:
+            self._container, self._stream = _opened(self._target, image)
+        size_wh_px = (self._stream.width, self._stream.height)
+        frame = av.VideoFrame.from_ndarray(_fitted(image, size_wh_px), format="bgr24")
+        frame = frame.reformat(format="yuv420p", dst_colorspace="ITU709")
+        # Strictly increasing: two images may have come within a tick.
+        self._pts = max(round(at_s / TIME_BASE), self._pts + 1)
+        frame.pts, frame.time_base = self._pts, TIME_BASE
+        self._container.mux(self._stream.encode(frame))
 
 
 def _opened(target: Path, image: Image) -> "tuple[OutputContainer, VideoStream]":

@@ -144,7 +144,10 @@ def read_duration_s(path: Path) -> float | None:
             file.seek(at)
             opcode, length = RECORD.unpack(file.read(RECORD.size))
             if opcode == Opcode.STATISTICS:
-                *_, first_ns, last_ns = STATISTICS.unpack(file.read(STATISTICS.size))
+                content = file.read(STATISTICS.size)
+                if len(content) < STATISTICS.size:
+                    return None
+                *_, first_ns, last_ns = STATISTICS.unpack(content)
                 return float((last_ns - first_ns) / NANOSECONDS)
             at += RECORD.size + length
     return None

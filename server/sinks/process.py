@@ -3,6 +3,7 @@
 In a thread of the server it could hold the interpreter, or end it. Its process has a low priority.
 """
 
+import textwrap
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 
@@ -11,6 +12,8 @@ from server.loop.parent import die_with_parent
 from server.plugins import SINKS, load_plugin
 from server.priority import lower_process_priority
 from tracker.errors import NavigationError
+
+MAX_ERROR_LENGTH = 300
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,4 +58,4 @@ def run_sink(name: str, connection: Connection, settings: LogSettings) -> None:
 
 
 def _text(error: Exception) -> str:
-    return f"{type(error).__name__}: {error}"
+    return textwrap.shorten(f"{type(error).__name__}: {error}", MAX_ERROR_LENGTH)

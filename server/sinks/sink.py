@@ -22,6 +22,7 @@ POLL_S = 0.1
 SLOW_AFTER_S = 2.0
 RESTART_AFTER_S = 5.0
 STOP_TIMEOUT_S = 2.0
+LOG_AGAIN_AFTER_S = 60.0
 REMEDY = (
     "Navigation goes on. Correct or update the plug-in, or take it out of plugins.sinks, and start again."
 )
@@ -77,6 +78,7 @@ class Sink:
         self._stop = threading.Event()
         self._lock = threading.Lock()
         self._problem: Problem | None = None
+        self._logged_code, self._logged_at_s = "", 0.0
         self._messages = self._skipped = 0
         self._sequence: int | None = None
         self._process: BaseProcess | None = None
@@ -186,17 +188,26 @@ class Sink:
             self._sequence = sequence
 
     def _report(self, code: str, what: str | None) -> None:
-        """Show and log a problem, or with None that there is none any more; each once."""
+        """Show a problem, or with None that there is none any more.
+
+        It is logged once, and logged again only after it was good for a message `LOG_AGAIN_AFTER_S` later: a
+        sink may fail at every other image, each time with other words.
+        """
         problem = None
         if what is not None:
             message = f"the sink {self.name} does not work: {what}"
             problem = Problem(code=code, message=message, remedy=REMEDY, context={"sink": self.name})
         with self._lock:
-            before, self._problem = self._problem, problem
-        if problem is not None and problem != before:
+            self._problem = problem
+        if problem is not None and code != self._logged_code:
+            self._logged_code, self._logged_at_s = code, time.monotonic()
             log.warning(problem.message, code=code, sink=self.name, remedy=REMEDY)
-        elif problem is None and before is not None:
+        elif problem is None and self._logged_code and self._logs_again():
+            self._logged_code = ""
             log.info("a sink works again", sink=self.name)
+
+    def _logs_again(self) -> bool:
+        return time.monotonic() - self._logged_at_s >= LOG_AGAIN_AFTER_S
 
     def _end_process(self, process: BaseProcess) -> None:
         if process.pid is None:

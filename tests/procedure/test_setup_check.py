@@ -160,3 +160,28 @@ def test_another_plan_is_checked_anew_and_an_unchanged_one_is_not(
     activate(server)
     assert checked(server) is None
     assert computed == ["again"]
+
+
+def test_a_tip_that_was_calibrated_since_the_registration_cancels_nothing(server: Server) -> None:
+    case_id = planned(server)
+    Patient(server=server).register()
+    before_mm = checked(server)["found"]["error_95_mm"]
+    before = server.adopted[-1].registration
+    assert before is not None
+    assert before.tool == "drill"
+    store = server.store
+    registered = store.latest(case_id, DocumentKind.REGISTRATION, "L3")
+    tool = store.latest(case_id, DocumentKind.TOOL, "drill")
+    assert registered is not None
+    assert tool is not None
+    # As with a tool of the settings, of which the case had no calibration then.
+    depends_on = [one for one in registered.depends_on if one != tool.id]
+    assert len(depends_on) < len(registered.depends_on)
+    store.put(
+        case_id, DocumentKind.REGISTRATION, "L3", registered.content, made_by="test", depends_on=depends_on
+    )
+    assert checked(server)["found"]["error_95_mm"] > before_mm
+    # So it is in navigation.
+    adopted = server.adopted[-1].registration
+    assert adopted is not None
+    assert adopted.tool == ""

@@ -263,7 +263,8 @@ def test_a_piece_is_made_by_a_job_and_deleted_with_its_recording(door: Door) -> 
     # It is no recording of the case.
     assert [one["name"] for one in door.ask("GET", "", 200)["recordings"]] == [name]
     assert made(door, name, "cut", {"from_s": 9, "to_s": 10})["problem"]["code"] == "CUT_EMPTY"
-    assert door.ask("GET", f"/{name}/exports/..", 404)["code"]
+    for other in ("..", 300 * "a", "a%00b"):
+        assert door.ask("GET", f"/{name}/exports/{other}", 404)["code"]
     assert list(door.store.home.temporary.iterdir()) == []
     door.ask("DELETE", f"/{name}", 204)
     case = door.store.get_open_case()
@@ -357,6 +358,18 @@ def test_a_comment_is_stored_in_the_case_and_is_in_the_timeline(door: Door) -> N
     # It is the case's, and stays when the recording goes.
     door.ask("DELETE", f"/{name}", 204)
     assert len(door.store.all(case.id, DocumentKind.COMMENT)) == 1
+
+
+def test_what_is_no_recording_is_not_listed(door: Door) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    case = door.store.get_open_case()
+    assert case is not None
+    folder = door.store.home.cases / case.id / "recordings"
+    (folder / "20269999T999999Z-0001.mcap").write_bytes(b"of no day")
+    (folder / "20260101T000000Z-0002.mcap").mkdir()
+    (folder / "copy.mcap").touch()
+    assert [one["name"] for one in door.ask("GET", "", 200)["recordings"]] == [name]
 
 
 def test_the_list_opens_no_file_a_second_time(door: Door, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,6 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from server.cli.commands import app
+from server.errors import RecordingError
 from server.recording_file import RecordingReader, Topic
 from tests.server.recording.reviewed import DRILLED, write_drilling
 
@@ -84,3 +85,37 @@ def test_without_a_target_nothing_is_exported(drilling: Path) -> None:
     result = CliRunner().invoke(app, ["recording", "export", str(drilling)])
     assert result.exit_code == 2
     assert "--video" in result.output
+
+
+@pytest.mark.parametrize(
+    "options",
+    [("cut", "--from=0", "--to=1", "{}", "{}"), ("export", "{}", "--video", "{}")],
+    ids=lambda one: one[0],
+)
+def test_a_recording_is_not_written_over_by_what_is_made_from_it(
+    drilling: Path, tmp_path: Path, options: tuple[str, ...]
+) -> None:
+    recording = tmp_path / "case.mcap"
+    recording.write_bytes(drilling.read_bytes())
+    given = [one.format(recording) for one in options]
+    result = CliRunner().invoke(app, ["recording", *given])
+    assert result.exit_code == 2
+    assert "is the recording itself" in result.output
+    assert recording.read_bytes() == drilling.read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("options", "code"),
+    [
+        (("export", "{}", "--to", "{}/made"), "TABLE_NOT_WRITTEN"),
+        (("export", "{}", "--video", "{}/a.mp4"), "VIDEO_NOT_WRITTEN"),
+        (("cut", "--from=0", "--to=1", "{}", "{}/a.mcap"), "CUT_NOT_WRITTEN"),
+    ],
+    ids=["tables", "video", "piece"],
+)
+def test_what_cannot_be_written_is_named(drilling: Path, options: tuple[str, ...], code: str) -> None:
+    # A file is no folder.
+    given = [one.format(drilling) for one in options]
+    result = CliRunner().invoke(app, ["recording", *given])
+    assert isinstance(result.exception, RecordingError)
+    assert result.exception.code == code

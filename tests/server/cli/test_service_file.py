@@ -63,6 +63,19 @@ def test_systemd_accepts_it(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(ANALYZE is None, reason="systemd-analyze is not installed")
+def test_systemd_accepts_a_folder_with_spaces_and_per_cent_signs(tmp_path: Path) -> None:
+    executable = tmp_path / "100 %h" / "coaxial"
+    executable.parent.mkdir()
+    executable.symlink_to(sys.executable)
+    file = tmp_path / "coaxial.service"
+    file.write_text(service_unit(executable))
+    verified = subprocess.run(
+        [str(ANALYZE), "verify", str(file)], check=False, capture_output=True, text=True
+    )
+    assert (verified.returncode, verified.stderr) == (0, "")
+
+
+@pytest.mark.skipif(ANALYZE is None, reason="systemd-analyze is not installed")
 def test_systemd_finds_it_contained(tmp_path: Path) -> None:
     file = tmp_path / "coaxial.service"
     file.write_text(service_unit(Path(sys.executable)))

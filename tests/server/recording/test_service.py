@@ -11,6 +11,7 @@ from server.errors import RecordingError, SetupOrderError
 from server.live import Problem
 from server.logs import LogSettings
 from server.recording.consent import ConsentState
+from server.recording.process import RecordingStatus
 from server.recording.recorder import Recorder
 from server.recording.service import RecordingService
 from server.recording_file import Topic
@@ -232,3 +233,25 @@ def test_consent_is_of_one_case(store: CaseStore) -> None:
     assert theatre.service.consent.state is ConsentState.NOT_ANSWERED
     with pytest.raises(SetupOrderError, match="another case"):
         theatre.service.answer_consent(first, is_given=True, made_by="Anna")
+
+
+def test_a_recording_is_neither_read_nor_deleted_before_its_file_is_closed(
+    store: CaseStore, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    theatre = made(store, when="manual")
+    theatre.open_a_case()
+    name = theatre.service.start().name
+    stop = NoRecorder.stop
+    codes: list[str] = []
+
+    def stop_slowly(recorder: NoRecorder, reason: str = "") -> RecordingStatus:
+        for act in (theatre.service.ended_path, theatre.service.delete):
+            with pytest.raises(RecordingError) as caught:
+                act(name)
+            codes.append(caught.value.code)
+        return stop(recorder, reason)
+
+    monkeypatch.setattr(NoRecorder, "stop", stop_slowly)
+    theatre.service.stop()
+    assert codes == ["RECORDING_RUNS"] * 2
+    assert theatre.service.ended_path(name).is_file()

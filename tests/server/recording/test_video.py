@@ -1,5 +1,6 @@
 """The video of a recording: its images with their times, and the overlay of the recorded results."""
 
+import errno
 import sys
 from collections.abc import Callable
 from dataclasses import replace
@@ -170,3 +171,18 @@ def test_errors_name_the_remedy(recorded: Path, tmp_path: Path, monkeypatch: pyt
         write_video(recorded, tmp_path / "case.mp4")
     assert missing.value.code == "VIDEO_ENCODER_MISSING"
     assert not (tmp_path / "case.mp4").exists()
+
+
+def test_a_video_that_cannot_be_completed_leaves_the_one_before(recorded: Path, tmp_path: Path) -> None:
+    target = tmp_path / "case.mp4"
+    target.write_bytes(b"before")
+
+    def report(ratio: float, _: str) -> None:
+        if ratio > 0.5:
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+    with pytest.raises(RecordingError) as caught:
+        write_video(recorded, target, report=report)
+    assert caught.value.code == "VIDEO_NOT_WRITTEN"
+    assert target.read_bytes() == b"before"
+    assert list(tmp_path.iterdir()) == [target]

@@ -9,7 +9,7 @@ from mcap.opcode import Opcode
 
 from server.errors import RecordingError
 from server.recording_file import RecordedMessage, RecordingReader, Topic
-from server.recording_file.locations import MAGIC, RECORD
+from server.recording_file.locations import MAGIC, RECORD, read_duration_s
 from tests.server.recording_file.written import OFFSET_S, write_recording
 
 
@@ -85,6 +85,13 @@ def test_a_damaged_length_ends_the_reading(tmp_path: Path, length: int) -> None:
     messages, reader = read(path)
     assert (messages, reader.is_whole) == ([], False)
     assert reader.why_cut
+
+
+def test_the_duration_of_a_file_with_damaged_statistics_is_not_known(tmp_path: Path) -> None:
+    path = tmp_path / "a.mcap"
+    footer = RECORD.pack(Opcode.FOOTER, 20) + struct.pack("<QQI", len(MAGIC), 0, 0)
+    path.write_bytes(MAGIC + RECORD.pack(Opcode.STATISTICS, 46) + footer + MAGIC)
+    assert read_duration_s(path) is None
 
 
 def _first_record(content: bytearray, opcode: Opcode) -> int:

@@ -5,9 +5,11 @@ import os
 import sys
 import time
 from collections.abc import Callable, Iterator
+from math import inf
 from pathlib import Path
 
 import pytest
+from structlog.testing import capture_logs
 
 from server.config_file import load_config
 from server.errors import ConfigError
@@ -35,6 +37,8 @@ class Sink:
             file.write(text + "\\n")
         if '"name":"raise"' in text:
             raise ValueError("the far side is gone")
+        if '"name":"long"' in text:
+            raise ValueError("begins " + 10_000 * "and goes on ")
         if '"name":"exit"' in text:
             os._exit(3)
         if '"name":"wait"' in text:
@@ -173,6 +177,32 @@ def test_a_sink_that_raises_is_named_and_receives_the_next_message(
     running.publish()
     running.until(lambda: running.problem() is None)
     assert len(received(folder)) == 2
+
+
+def test_a_sink_that_fails_at_every_other_image_does_not_fill_the_log(
+    folder: Path, theatre: Callable[..., Theatre], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("server.sinks.sink.LOG_AGAIN_AFTER_S", inf)
+    running = theatre()
+    with capture_logs() as logged:
+        for _ in range(2):
+            running.publish("raise")
+            running.until(lambda: running.problem() == "SINK_FAILED")
+            running.publish()
+            running.until(lambda: running.problem() is None)
+    assert len(received(folder)) == 4
+    assert [one.get("code") for one in logged] == ["SINK_FAILED"]
+
+
+def test_the_words_of_a_failure_are_shortened(folder: Path, theatre: Callable[..., Theatre]) -> None:
+    running = theatre()
+    running.publish("long")
+    running.until(lambda: running.problem() == "SINK_FAILED")
+    problem = running.sink.status.problem
+    assert problem is not None
+    assert "ValueError: begins" in problem.message
+    assert len(problem.message) < 500
+    assert received(folder)
 
 
 def test_a_sink_whose_process_ends_is_named_and_started_again(
