@@ -118,7 +118,7 @@ def is_right_again(page: Page) -> None:
 def first_changes(page: Page, *, live: bool) -> dict[str, float]:
     """When each pane first became so, since the record was begun anew."""
     wanted = "true" if live else "false"
-    changes = page.evaluate("kept.panes")
+    changes = page.evaluate("log.panes")
     # One that was so already, as a late picture is, changed at the latest when the record was begun.
     return {
         pane: next(
