@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.compiled import compiled
-from tracker.rehearsal.lens import NODE_PX
+from tracker.rehearsal.lens import MARGIN_NODES, NODE_PX
 
 # Between an occluding surface and what it occludes, both ways.
 OCCLUSION_MM = 1.0 / 3.0
@@ -53,14 +53,13 @@ class Axis(NamedTuple):
 
 
 @compiled
-def draw_body(layer, places, rays, margin_nodes, portrait, axis, still_mm):
+def draw_body(layer, places, rays, portrait, axis, still_mm):
     """Draw the body, without what lies behind something static, into stacked rectangles.
 
     Args:
         layer: (n * h, w, 4) uint8, zeros; BGR and coverage, premultiplied.
         places: (n, 2) x and y of each rectangle in the image, multiples of `NODE_PX`.
-        rays: (rows, columns, 3) float32, of the nodes in the centres of blocks of `NODE_PX`.
-        margin_nodes: nodes before the image's first.
+        rays: (rows, columns, 3) float32, `RayGrid.nodes`.
         portrait: `Portrait`.
         axis: `Axis`.
         still_mm: (h, w) float32, depth of the static objects in the image.
@@ -72,8 +71,8 @@ def draw_body(layer, places, rays, margin_nodes, portrait, axis, still_mm):
         left, top = places[number, 0], places[number, 1]
         _locate(
             rays,
-            top // NODE_PX + margin_nodes - 1,
-            left // NODE_PX + margin_nodes - 1,
+            top // NODE_PX + MARGIN_NODES - 1,
+            left // NODE_PX + MARGIN_NODES - 1,
             portrait,
             axis,
             located,

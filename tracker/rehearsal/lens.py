@@ -29,7 +29,6 @@ class RayGrid:
     Attributes:
         nodes: (rows, columns, 3) float32, rays (x/z, y/z, 1) of the nodes; the block of the node at row and
             column `MARGIN_NODES` starts at the top-left pixel of the image.
-        squares: (rows, columns) float32, squares of their lengths.
     """
 
     def __init__(self, camera: CameraModel) -> None:
@@ -42,7 +41,6 @@ class RayGrid:
         uu, vv = np.meshgrid(u, v)
         rays = camera.normalised_from_px(np.stack([uu.ravel(), vv.ravel()], axis=1)).reshape(*uu.shape, 2)
         self.nodes: Image32 = np.dstack([rays, np.ones(uu.shape)]).astype(np.float32)
-        self.squares: Image32 = (self.nodes**2).sum(axis=2)
 
     def block(self, x: int, y: int, width: int, height: int) -> Image32:
         """Return the nodes (height/4 + 2, width/4 + 2, 3) of a pixel rectangle with a margin of one node.

@@ -23,7 +23,7 @@ from tracker.rehearsal.events import EventKind
 from tracker.rehearsal.exposure import Exposure
 from tracker.rehearsal.lamp import TO_LAMP, lit, rod_shadow
 from tracker.rehearsal.layer_kernels import Axis, draw_body
-from tracker.rehearsal.lens import MARGIN_NODES, NODE_PX
+from tracker.rehearsal.lens import NODE_PX
 from tracker.rehearsal.placement import Room
 from tracker.rehearsal.point_spread import DEFOCUS_PX, PointSpread, point_spread
 from tracker.rehearsal.printed_plane import PrintedPlane, Sampled
@@ -151,7 +151,7 @@ class Renderer:
         drawn = strips.grown(margin_px)
         layer = drawn.blank()
         axis = Axis(camera_from_tool.translation_mm, -camera_from_tool.rotation[:, 2])
-        draw_body(layer, drawn.places, self._rays.nodes, MARGIN_NODES, self._portrait, axis, still_mm)
+        draw_body(layer, drawn.places, self._rays.nodes, self._portrait, axis, still_mm)
         exposure.lay_over(strips, layer, spread, margin_px=margin_px)
 
     def _lay_board(

@@ -7,7 +7,7 @@ import pytest
 from tracker.camera import CameraModel
 from tracker.rehearsal.drill import PROFILE_MM, RADIUS_MM, drill_portrait
 from tracker.rehearsal.layer_kernels import Axis, composite, draw_body
-from tracker.rehearsal.lens import MARGIN_NODES, RayGrid
+from tracker.rehearsal.lens import RayGrid
 
 WIDTH, HEIGHT = 160, 320
 CAMERA = CameraModel(
@@ -23,7 +23,7 @@ TIP_MM, BACK = np.array([-30.0, 75.0, 200.0]), np.array([np.cos(0.2), np.sin(0.2
 def body(still_mm: float, places: tuple[tuple[int, int], ...] = ((0, 0),)) -> npt.NDArray[np.uint8]:
     layer = np.zeros((len(places) * HEIGHT, WIDTH, 4), dtype=np.uint8)
     still = np.full((HEIGHT, WIDTH), still_mm, dtype=np.float32)
-    draw_body(layer, np.array(places), RAYS.nodes, MARGIN_NODES, drill_portrait(), Axis(TIP_MM, BACK), still)
+    draw_body(layer, np.array(places), RAYS.nodes, drill_portrait(), Axis(TIP_MM, BACK), still)
     return layer
 
 
