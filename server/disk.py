@@ -1,8 +1,10 @@
-"""Disk space: check it before large writes, and reserve it for files."""
+"""Large files: disk space before they are written, and their name only when they are complete."""
 
 import errno
 import os
 import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from tracker.errors import NavigationError
@@ -57,6 +59,22 @@ def reserve_space(path: Path) -> None:
         raise
     finally:
         os.close(descriptor)
+
+
+@contextmanager
+def named_when_complete(target: Path) -> Iterator[Path]:
+    """Yield where to write a file; it gets its name after the block, and is removed if that raises.
+
+    Raises:
+        OSError: it cannot be named.
+    """
+    unfinished = target.with_name(f"{target.name}.part")
+    try:
+        yield unfinished
+        unfinished.replace(target)
+    finally:
+        with suppress(OSError):
+            unfinished.unlink()
 
 
 def is_full(error: OSError) -> bool:

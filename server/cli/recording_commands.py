@@ -1,6 +1,5 @@
 """`coaxial recording`: a recording as CSV and as video, and a piece of it."""
 
-from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -86,27 +85,26 @@ def _reject_same(file: Path, target: Path) -> None:
 
 
 def _write_tables(file: Path, folder: Path) -> None:
-    from server.errors import RecordingError  # noqa: PLC0415  loaded when needed
+    from server.disk import named_when_complete  # noqa: PLC0415  loaded when needed
+    from server.errors import RecordingError  # noqa: PLC0415
     from server.recording.export import Table, csv_lines  # noqa: PLC0415
 
     tables = {table: csv_lines(file, table) for table in Table}
     for table, lines in tables.items():
         target = folder / f"{table}.csv"
-        unfinished = folder / f"{table}.csv.part"
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            with unfinished.open("w", encoding="utf-8", newline="") as written:
+            with (
+                named_when_complete(target) as unfinished,
+                unfinished.open("w", encoding="utf-8", newline="") as written,
+            ):
                 written.writelines(lines)
-            unfinished.replace(target)
         except OSError as error:
             raise RecordingError(
                 "TABLE_NOT_WRITTEN",
                 f"{target} cannot be written: {(error.strerror or str(error)).lower()}",
                 "Check the folder and the space on its disk, then export again.",
             ) from error
-        finally:
-            with suppress(OSError):
-                unfinished.unlink()
         typer.echo(str(target))
 
 

@@ -6,16 +6,14 @@ whole; what was in effect before (session, documents, source, alarms) comes firs
 image.
 """
 
-from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass
 from math import inf
 from pathlib import Path
-from typing import TypeAlias
 
-from server.disk import is_full
+from server.disk import is_full, named_when_complete
 from server.errors import RecordingError
 from server.recording.messages import NoteMessage
+from server.recording.timeline import Report
 from server.recording_file import RecordedMessage, RecordingReader, Topic
 from server.recording_file.copy import RecordingCopy
 from server.recording_file.locations import Location, MessageLocations
@@ -26,8 +24,6 @@ LASTING = (Topic.DOCUMENTS, Topic.SOURCE, Topic.ALARMS)
 MAX_DISORDER_S = 5.0
 # Times of images that are handed back: Unix time has a quarter of a microsecond in a float.
 ROUNDING_S = 1e-6
-
-Report: TypeAlias = Callable[[float, str], None]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,9 +78,8 @@ def cut_recording(
     first_s, begin = _begin(recording, from_s, to_s)
     end_s = first_s + to_s + ROUNDING_S
     reader = RecordingReader(recording)
-    unfinished = target.with_name(f"{target.name}.part")
     try:
-        with RecordingCopy(unfinished, reader) as copy:
+        with named_when_complete(target) as unfinished, RecordingCopy(unfinished, reader) as copy:
             piece = _Piece(copy, begin, end_s)
             for message in reader.messages():
                 if message.topic is Topic.IMAGE and message.unix_s > end_s + MAX_DISORDER_S:
@@ -98,7 +93,6 @@ def cut_recording(
                     "Choose a part before the damage, or take the recording from another copy.",
                 )
             piece.end(recording.name, first_s=first_s, from_s=from_s, to_s=to_s)
-        unfinished.replace(target)
     except OSError as error:
         what = "the disk is full" if is_full(error) else (error.strerror or str(error)).lower()
         raise RecordingError(
@@ -108,8 +102,6 @@ def cut_recording(
         ) from error
     finally:
         reader.close()
-        with suppress(OSError):
-            unfinished.unlink()
     return CutSummary(
         images=piece.images,
         missing_images=piece.missing_images,

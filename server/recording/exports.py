@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from server.jobs import Job, Jobs
-from server.recording.cut import Report, cut_recording
+from server.recording.cut import cut_recording
 from server.recording.service import RecordingService, exports_folder
+from server.recording.timeline import Report
 from server.recording.video import write_video
 from server.recording_file.topics import SUFFIX
 from server.store import Home, NotFound

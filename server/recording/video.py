@@ -8,24 +8,24 @@ with its old figures.
 PyAV is an optional dependency: its wheels hold x264 and x265, which are under the GPL. Neither is used.
 """
 
-from collections.abc import Callable, Iterator
-from contextlib import suppress
+from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias, cast
+from typing import TYPE_CHECKING, cast
 
 import cv2
 import numpy as np
 from pydantic import ValidationError
 
 from server.clock import utc_text
+from server.disk import named_when_complete
 from server.errors import RecordingError
 from server.loop.tracking_state import TrackingState
 from server.overlay import draw_card, draw_overlay, with_strip
 from server.recording.recorded_results import alarms_of, belongs_to, setup_of, snapshot_of
-from server.recording.timeline import RecordingIndex, make_index, stored_index
+from server.recording.timeline import RecordingIndex, Report, make_index, stored_index
 from server.recording_file import CodecError, RecordedMessage, RecordingReader, Topic, decoded_value
 from server.recording_file.locations import read_content
 from server.recording_file.packing import Image
@@ -59,8 +59,6 @@ NOT_DECODED: Text = {"en": "IMAGE DAMAGED", "de": "BILD BESCHÄDIGT"}
 NO_IMAGE: Text = {"en": "NO IMAGE", "de": "KEIN BILD"}
 GAP: Text = {"en": "No image came for {} s.", "de": "{} s lang kam kein Bild."}
 IMAGE: Text = {"en": "image", "de": "Bild"}
-
-Report: TypeAlias = Callable[[float, str], None]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -108,19 +106,14 @@ def write_video(
         )
     pictures = _Pictures(recording, index, language)
     images = gaps = 0
-    unfinished = target.with_name(f"{target.name}.part")
     try:
-        with _Encoder(unfinished) as encoder:
+        with named_when_complete(target) as unfinished, _Encoder(unfinished) as encoder:
             for picture in pictures:
                 encoder.add(picture.image, picture.at_s)
                 images, gaps = images + (not picture.is_gap), gaps + picture.is_gap
                 report(images / len(index), "writing the video")
-        unfinished.replace(target)
     except OSError as error:
         raise _not_written(target, error) from error
-    finally:
-        with suppress(OSError):
-            unfinished.unlink()
     return VideoSummary(
         images=images,
         gaps=gaps,
