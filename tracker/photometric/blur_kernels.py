@@ -10,7 +10,8 @@ import numpy as np
 from tracker.camera.blur_kernels import MAX_GAUSSIAN_SAMPLES, gaussian_on_level, mapped, motion_blur_of
 from tracker.compiled import compiled
 
-# Up to this ratio of extra variance along one direction, no kernel samples are needed.
+# Below this ratio of extra variance along one direction, the first-order term suffices without kernel
+# samples.
 FIRST_ORDER_RATIO = 0.1
 # Spacing of kernel samples in sd of the texture's blur: farther apart, they become visible separately.
 SAMPLE_SPACING_SDS = 1.25
@@ -48,7 +49,7 @@ def kernel_samples_of(plane_per_px, blur, blurs, kernel_samples):
         length = np.sqrt(12.0 * motion)
         lines = int(np.ceil(length * np.sqrt(px * px + py * py) / (SAMPLE_SPACING_SDS * blurs[level])))
         lines = min(max(lines, 3), MAX_LINE_SAMPLES)
-        # So far apart that the variance is the line's.
+        # This spacing gives the discrete samples the variance of the continuous line.
         gap = length / np.sqrt(lines * lines - 1.0)
     count = 0
     for j in range(lines):

@@ -26,10 +26,10 @@ from tracker.photometric.response_kernels import (
 )
 
 PLANAR_COUNT = ILLUMINATION + PLANAR_PARAMETERS
-# A camera's response is bent by so much; gamma 2.2 is half.
+# Prior sd of the response parameter; gamma 2.2 corresponds to half of it.
 RESPONSE_SD = 0.3
 MIN_SCALE_GREY = 0.3
-# What lies beyond the paper is unknown: a whole contrast brighter or darker.
+# The background beyond the paper is unknown: its sd is one marker contrast.
 BEYOND_CONTRAST = 1.0
 # Maximum number of parameters that affect one pixel under spline illumination, and about half of it.
 MAX_ROW_PARAMETERS, HALF_ROW = ILLUMINATION + MAX_SPLINE_PARAMETERS, 12
@@ -200,7 +200,7 @@ def _add_outer_products(four, weights, count, products):
     for m in range(count):
         w0, w1, w2, w3 = weights[0] * r0[m], weights[1] * r1[m], weights[2] * r2[m], weights[3] * r3[m]
         line = products[m]
-        # As many each time, so that the machine takes all of a row in few steps.
+        # Fixed loop counts, so that the compiler vectorises them.
         for k in range(HALF_ROW):
             line[k] += w0 * r0[k] + w1 * r1[k] + w2 * r2[k] + w3 * r3[k]
         if m >= HALF_ROW:

@@ -10,10 +10,10 @@ from tracker.photometric.samples import Samples
 PIXEL_PX2, MIN_BLUR_PX2 = 1.0 / 12.0, 0.07
 MAX_ITERATIONS = 14
 MAX_MOVE_PX = 0.7
-# Residuals beyond this many sd lose their weight.
+# Scale of the Geman-McClure weight, in sd of the residuals.
 CUTOFF_SDS = 4.0
-# A fit is at its end when a step promises less, in units of the residuals' variance. From near its end, by
-# some of the pixels, a longer straight step may end it.
+# A fit has converged when the predicted decrease of chi-square is below this. A refit that starts from the
+# converged fit of a subset may stop earlier.
 CONVERGED_CHI2, CONVERGED_REFIT_CHI2 = 0.04, 5.0
 
 
@@ -55,7 +55,7 @@ def fit_pose(
         parameters: start values of blur, response and illumination, as `refine_pose` orders them.
         illumination: kind of illumination model, and spline nodes per side.
         residual_sd_grey: sd of the residuals if known; 0 estimates planar illumination and the sd first.
-        min_gain_chi2: the fit ends with a step that promises a smaller decrease of chi-square.
+        min_gain_chi2: the fit ends with a step whose predicted decrease of chi-square is smaller.
         max_iterations: limit of Gauss-Newton iterations.
     """
     rotation, translation_mm, parameters = rotation.copy(), translation_mm.copy(), parameters.copy()

@@ -39,10 +39,10 @@ from tracker.photometric.samples import Samples, subsample
 SPLINE_NODES = 10
 # Residuals under planar illumination, in units of noise and of contrast, above which a spline is tried.
 PLANAR_RESIDUAL_NOISES, PLANAR_RESIDUAL_CONTRAST_RATIO = 1.4, 0.02
-# Noise, compression blocks and background have a pattern under 30; a shadow that takes half of the light, or
-# a highlight of half its height, over 150.
+# Noise, compression blocks and background give a chi-square below 30; a shadow that halves the illumination,
+# or a highlight of half the contrast, above 150.
 MIN_PATTERN_CHI2 = 80.0
-# Two splines explain what one does, and by chance a little more.
+# Penalty on the model with two splines, which always fits at least as well as the nested model with one.
 FREE_PENALTY_CHI2 = 50.0
 # Pixels and iterations of the model selection; a model that then costs this much more is dropped.
 TEST_PIXELS, TEST_ROUNDS, DROP_CHI2 = 600, 2, 60.0
@@ -52,12 +52,12 @@ MAX_IMAGES, MAX_RESIDUAL_GROWTH = 10, 1.15
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class KnownIllumination:
-    """Spline illumination that explained an earlier image.
+    """Spline illumination fitted to an earlier image.
 
     Attributes:
         illumination: kind, and spline nodes per side.
         parameters: blur, response and illumination, as `refine_pose` orders them.
-        residual_sd_grey: sd of the residuals that it left.
+        residual_sd_grey: sd of the residuals of that fit.
         images: number of images it has been reused for.
     """
 
@@ -101,7 +101,7 @@ def fit_in_known_illumination(
 
 
 def has_large_residuals(fits: list[FitResult], noise_grey: float) -> bool:
-    """Return whether the best fit under planar illumination leaves more than noise."""
+    """Return whether the residuals of the best fit under planar illumination exceed the noise level."""
     best = min(fits, key=lambda one: one.residual_sd_grey)
     contrast = float(typical_contrast(best.parameters, best.illumination))
     return best.residual_sd_grey > max(
@@ -119,7 +119,7 @@ def has_illumination_pattern(samples: Samples, even: list[FitResult]) -> bool:
 
 
 def select_illumination(samples: Samples, even: list[FitResult], noise_grey: float) -> list[FitResult]:
-    """Refit the poses under the simplest illumination that explains the pixels; unchanged where none does."""
+    """Refit the poses under the simplest adequate illumination model; return them unchanged if none fits."""
     subset = subsample(samples, TEST_PIXELS)
     first = _best_illumination(samples, subset, even[0], noise_grey)
     if first is None:
@@ -138,7 +138,7 @@ def _best_illumination(
     begun = [_start_in_illumination(subset, even, kind) for kind in (MULTIPLICATIVE, ADDITIVE)]
     plausible = plausible_fits(subset, [one for one in begun if one is not None], DROP_CHI2)
     fits = refit_all(samples, plausible)
-    # Residuals at the noise level leave nothing to explain.
+    # A model whose residuals are at the noise level needs no extension.
     if not fits or min(one.residual_sd_grey for one in fits) > noise_grey:
         fits += _fit_subset_to_all(
             samples, subset, [_start_in_illumination(subset, even, FREE, max_iterations=MAX_ITERATIONS)]

@@ -4,11 +4,13 @@
 adds the same to both (additive). Each needs one spline grid instead of two, which leaves more of the data
 for the pose. A Cauchy prior on the curvature allows a sharp bend at an edge and little elsewhere.
 
-The spline is used wherever the residuals under planar illumination look like illumination, however small they
-are: under the edge of a shadow tip errors are 2.9 times the Cramer-Rao bound without it and 1.7 times with it
-(shadow0.5, camera A). Where all fits end at one planar solution, the other is fitted under that illumination
-too: both starts may have converged to one before the illumination was known, with tip errors of 20 mm at a
-stated 1 mm.
+The spline is used wherever the lack-of-fit test finds smooth illumination in the residuals of the planar
+model,
+however small they are: under the edge of a shadow tip errors are 2.9 times the Cramer-Rao bound without it
+and 1.7 times with it (shadow0.5, camera A). Where all fits converge to one solution of the planar pose
+ambiguity,
+the other is fitted under that illumination too: both starts may have converged to one before the illumination
+was known, with tip errors of 20 mm at a stated sd of 1 mm.
 """
 
 import numpy as np
@@ -17,19 +19,19 @@ from tracker.compiled import compiled
 from tracker.geometry.geometry_kernels import NO_BAND
 from tracker.photometric.response_kernels import ILLUMINATION, PLANAR_PARAMETERS
 
-# Kinds of illumination and their parameters from ILLUMINATION on. Planar: dark and contrast, each with its
-# slopes. Multiplicative: spline of the contrast, dark by contrast, dark without light. Additive: spline of
-# the dark, contrast with its slopes. Free: a spline of each.
+# Kinds of illumination and their parameters from ILLUMINATION on. Planar: dark level and contrast, each with
+# its slopes. Multiplicative: spline of the contrast, ratio of dark level to contrast, dark level without
+# light. Additive: spline of the dark level, contrast with its slopes. Free: a spline of each.
 PLANAR, MULTIPLICATIVE, ADDITIVE, FREE = 0, 1, 2, 3
-# The fields reach over the square and a quarter of half a side beyond.
+# Half width of the spline grid in half sides: it extends a quarter of a half side beyond the square.
 GRID_EXTENT = 1.25
-# A point is lit by three nodes each way.
+# A quadratic B-spline has three nonzero weights in each direction.
 SPLINE_SUPPORT = 9
-# Sd of the change from node to node, and of the slope, by the contrast.
+# Prior sd of the difference of adjacent nodes, and of the slope, as a ratio of the contrast.
 NODE_STEP_RATIO, SLOPE_RATIO = 0.6, 0.5
-# ... and bends by so much, mostly.
+# Scale of the Cauchy prior on the second difference, as a ratio of the contrast.
 BEND_RATIO = 0.07
-# Grey level without any light, by the contrast.
+# Prior sd of the grey level without light, as a ratio of the contrast.
 NO_LIGHT_RATIO = 0.05
 MAX_SPLINE_PARAMETERS = 2 * SPLINE_SUPPORT
 
@@ -179,7 +181,7 @@ def spline_indices(x, y, illumination, where):
 
 @compiled
 def spline_derivatives(x, y, signal, contrast, parameters, illumination, weight, share):
-    """Write the derivatives of a pixel's grey level by those parameters into `share`.
+    """Write the derivatives of a pixel's grey level by the parameters of `spline_indices` into `share`.
 
     `signal`: rendered value after the camera response, 0..1. `weight` (9,): workspace.
     """

@@ -1,12 +1,12 @@
 """Separate fit of the marker's inner region, for outlines that are trimmed, framed or occluded along a side.
 
-A marker cut out too closely, or under a frame, has a smaller outline than its print: a fit that includes the
-outline treats the inside as occluded and is off in depth by 3 to 12 % with a tenth of that stated. The pixels
-clear of the outline then leave only noise where all pixels leave several times as much, so their pose is
-used. A badly printed inside in a true outline looks the same up to a scale; the pose by all pixels therefore
-remains an alternative and the covariance spans both. A strip along a side tilts a small marker by tens of
-degrees; there the inner region keeps the mirrored planar solution possible. `tests/tracker/test_rims.py`
-covers it.
+A marker that is trimmed too closely, or lies under a frame, has a smaller outline than its print. A fit that
+includes the outline treats the inside as occluded, and its depth is wrong by 3 to 12 % at a tenth of that as
+stated sd. The inner pixels alone then fit to the noise level, while the residuals of all pixels are several
+times larger, so the pose of the inner pixels is used. An inner pattern printed at a wrong scale inside a true
+outline gives the same residuals. The pose of all pixels therefore remains an alternative, and the covariance
+includes both. An occluding strip along a side rotates the pose of a small marker by tens of degrees; there
+the inner region keeps the mirrored planar solution. `tests/tracker/test_rims.py` tests it.
 """
 
 from dataclasses import dataclass, replace
@@ -21,12 +21,12 @@ from tracker.photometric.response_kernels import BLUR
 from tracker.photometric.samples import Samples, subsample
 
 # The inner region is fitted where the residuals of all pixels exceed these multiples of noise and contrast,
-# or where the inlier ratio is so low that something must occlude it. Noise alone gives 0.88.
+# or where the inlier ratio indicates occlusion. Noise alone gives 0.88.
 RESIDUAL_NOISES, RESIDUAL_CONTRAST_RATIO, MIN_INLIER_RATIO = 1.4, 0.04, 0.86
-# The outline reaches so many blurs inwards; what was cut off or lies over it, at least so much of a half
-# side. Where it reaches farther than the most, the inside constrains the pose too little.
+# Width of the excluded rim: this many sd of the blur, and at least this ratio of a half side, for a trimmed
+# or covered outline. Beyond the maximum the remaining pixels constrain the pose too little.
 BLURS, MIN_RIM_RATIO, MAX_RIM_RATIO = 3.0, 0.14, 0.3
-# Number of pixels that decide whether it contradicts.
+# Minimum number of inner pixels, and the number used by the test.
 MIN_PIXELS, TEST_PIXELS = 100, 600
 # The inner fit must leave a smaller residual by this ratio, or a larger inlier ratio, and the pose of all
 # pixels must cost this much more there.
@@ -37,7 +37,7 @@ UNDECIDED_CHI2 = 18.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InnerRegionFit:
-    """Result of the inner region where the outline is not reliable.
+    """Fit of the inner region of a marker whose outline is not reliable.
 
     Attributes:
         samples: the pixels to use from here on.
@@ -57,14 +57,14 @@ def fit_inner_region(
 ) -> InnerRegionFit | None:
     """Fit the pixels clear of the outline where the fit of all pixels leaves large residuals.
 
-    Where they contradict the fit of all pixels and are explained by themselves, they replace it, and the pose
-    by all pixels becomes the alternative: either outline or inside may be false. Where they leave the
-    mirrored planar solution open that the outline alone ruled out, the fit stays and that solution is the
-    alternative. Else None.
+    Where the inner pixels fit well alone and contradict the fit of all pixels, their fit replaces it, and the
+    pose of all pixels becomes the alternative, because either the outline or the inner pattern may be wrong.
+    Where only the outline excluded the mirrored planar solution, the fit of all pixels remains and the
+    mirrored solution is the alternative. Returns None otherwise.
 
     Args:
         samples: all pixels of the marker.
-        fits: of one pose and perhaps its mirrored solution, to them.
+        fits: fits of all pixels: one pose and possibly its mirrored solution.
         starts: rotations (3, 3) of the starts.
         side_px: approximate width of the marker.
         noise_grey: sd of the image noise.
@@ -99,7 +99,7 @@ def fit_inner_region(
 
 
 def _contradicts(inside: Samples, whole: FitResult, alone: FitResult) -> bool:
-    """Return whether the inner pixels are better explained `alone`, and reject the pose by all pixels."""
+    """Return whether the inner pixels fit better `alone` and contradict the pose of all pixels."""
     fits_better = (
         alone.residual_sd_grey < MAX_RESIDUAL_RATIO * whole.residual_sd_grey
         or alone.inlier_ratio > whole.inlier_ratio + MIN_INLIER_GAIN_RATIO
@@ -117,7 +117,7 @@ def _has_large_residuals(one: FitResult, noise_grey: float) -> bool:
 
 
 def _clear_of_outline(samples: Samples, one: FitResult, side_px: float) -> Samples | None:
-    """Return the pixels that the blurred outline does not reach; None where there are too few.
+    """Return the pixels inside the blurred outline; None where there are too few.
 
     `side_px`: in averaged pixels.
     """

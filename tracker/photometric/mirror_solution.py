@@ -1,10 +1,11 @@
 """Start the mirrored planar solution again where every fit has converged to the other one.
 
-A single remaining solution is no evidence for it. While blur is unknown both starts can converge to one
-solution, which then stands alone with an infinite cost difference: a nearly frontal marker in motion was off
-by 11 degrees with half a degree stated in 8 of 1,000 scenes. The mirrored pose is therefore fitted again from
-a few pixels, and from more where blur is wide. Tracking by edges treats an infinite difference as undecided.
-`tests/tracker/test_tilt_uncertainty.py` covers it. Cost: a hundredth of a search.
+A single remaining solution is no evidence that the other is wrong. While blur is unknown both starts can
+converge to the same solution, and the delta chi-square is then infinite: the rotation of a nearly frontal
+marker in motion was wrong by 11 degrees at a stated sd of half a degree in 8 of 1,000 scenes. The mirrored
+pose is therefore fitted again to a few pixels, and to more where blur is wide. Tracking by edges treats an
+infinite difference as undecided. `tests/tracker/test_tilt_uncertainty.py` tests it. It takes a hundredth of
+the time of a search.
 """
 
 import numpy as np
@@ -14,16 +15,16 @@ from tracker.geometry.geometry_kernels import mirror, rotation_angle_between
 from tracker.photometric.fit import FitResult, fit_pose, robust_chi2_of
 from tracker.photometric.samples import Samples
 
-# Nearer to each other, the two are one.
+# Below this angle the two solutions are identical.
 MIN_APART_RAD = float(np.radians(0.5))
 
 
 def with_mirror_solution(samples: Samples, fits: list[FitResult], starts: list[Array]) -> list[FitResult]:
-    """Return the fits, plus one from the mirrored best pose where a start was there and no fit is.
+    """Return the fits, plus one that starts from the mirrored best pose if a start but no fit was near it.
 
     Args:
         samples: the pixels.
-        fits: in the illumination that explains them.
+        fits: fits of the pixels under the selected illumination model.
         starts: rotations (3, 3) of the starts.
     """
     scale = min(one.residual_sd_grey for one in fits)

@@ -6,7 +6,7 @@ from tracker.compiled import compiled
 from tracker.geometry.geometry_kernels import add_products, solve_positive
 from tracker.photometric.response_kernels import apply_response
 
-# Planar terms on dark and bright, and quadratic and cubic terms on each.
+# Number of planar terms, and of all terms up to cubic, of dark level and contrast together.
 EVEN_ROWS, ROWS = 6, 20
 # Maximum number of pixels of the test.
 MAX_TEST_PIXELS = 800
@@ -14,7 +14,7 @@ MAX_TEST_PIXELS = 800
 
 @compiled
 def _chi2_decrease(a, g, count):
-    """Return the decrease of chi-square by the first `count` parameters; 0 where the system is singular."""
+    """Return the decrease of chi-square by fitting the first `count` parameters; 0 for a singular system."""
     some, out = np.ascontiguousarray(a[:count, :count]), np.zeros(count)
     sides = g[:count].copy()
     if not solve_positive(some, sides, out):
@@ -27,10 +27,10 @@ def _chi2_decrease(a, g, count):
 
 @compiled
 def illumination_pattern_chi2(values, prediction, response, scale, cutoff):
-    """Return the chi-square that quadratic and cubic illumination terms take out of the residuals.
+    """Return the decrease of chi-square when quadratic and cubic illumination terms are added.
 
-    `prediction`: of `refine_pose` under planar illumination. White noise gives 14 on average; compression
-    blocks give no more, because they are not smooth.
+    `prediction`: of `refine_pose` under planar illumination. White noise gives 14 on average, as expected for
+    14 added parameters; compression blocks give no more, because they are not smooth.
     """
     picture, at, dark_contrast, reliability = prediction[0][0], prediction[1], prediction[2], prediction[3]
     every = len(values) // MAX_TEST_PIXELS + 1

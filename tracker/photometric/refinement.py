@@ -1,12 +1,12 @@
 """Photometric pose refinement: pose, blur, camera response and illumination fitted to all pixels of a marker.
 
-A few pixels bring the pose near, all of them finish the fit. The covariance is computed from the residuals,
-clustered in blocks of the marker, because in shadow and in compressed images errors of neighbouring pixels
-are correlated: white noise alone gives too small a covariance, and a constant factor that covers it is four
-times too wide in plain light. There are seven blocks a side, and five where blur is wide or the marker is
-partly occluded, since neighbouring blocks of seven are still correlated there. Further factors stand for
-errors of the marker model under spline illumination and out of focus. Errors common to the whole marker are
-not detected.
+The fit runs coarse to fine: first on a subset of the pixels, then on all. The covariance is a cluster-robust
+(sandwich) estimate from the residuals, clustered in blocks of the marker, because in shadow and in compressed
+images errors of neighbouring pixels are correlated: a covariance under white noise is too small, and a
+constant inflation factor that is large enough is four times too large under plain illumination. There are
+seven blocks per side, and five where blur is wide or the marker is partly occluded, because neighbouring
+blocks of seven are still correlated there. Further factors account for errors of the marker model under
+spline illumination and out of focus. Errors common to the whole marker are not detected.
 """
 
 from collections.abc import Callable
@@ -49,19 +49,20 @@ from tracker.photometric.response_kernels import BLUR, RESPONSE
 from tracker.photometric.samples import OccludedAt, Samples, sample_pixels, subsample
 from tracker.photometric.texture import Textures
 
-# Wider markers are averaged first: their edges are sharper than the sharpest picture, and pixels abound.
+# Wider markers are averaged first: their edges are sharper than the sharpest texture level.
 WIDEST_PX = 110.0
 # sd 0.6 px: a camera in focus.
 FOCUS_PX2 = 0.36
-# Above this ratio to the blur of a camera in focus, pixels are selected anew.
+# Above this ratio to the blur of a camera in focus, the pixels are selected again.
 WIDE_BLUR_RATIO = 4.0
-# So many pixels bring a pose near, some more nearer; all of them then make it exact.
+# Numbers of pixels of the coarse and of the medium fit, before the fit on all pixels.
 COARSE_PIXELS, MEDIUM_PIXELS = 200, 800
-# The mirrored solution is dropped at this chi-square difference on the few pixels.
+# The mirrored solution is dropped above this delta chi-square in the coarse fit.
 MAX_DELTA_CHI2 = 60.0
-# Blocks per side within which errors are taken as correlated; larger for wide blur and beside an occluder.
+# Blocks per side within which errors are assumed correlated; larger blocks for wide blur and partial
+# occlusion.
 BLOCKS, LARGE_BLOCKS = 7, 5
-# Factor on the covariance for what the spline cannot follow, measured on rendered scenes with known truth.
+# Factor on the covariance for illumination that the spline cannot represent, measured on rendered scenes.
 NONUNIFORM_FACTOR = 1.4
 # Factor for background mixed in by wide defocus; motion blur keeps sharp edges along its direction.
 OUT_OF_FOCUS_FACTOR = 1.5
@@ -69,16 +70,16 @@ OUT_OF_FOCUS_FACTOR = 1.5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RefinedPose:
-    """A pose that explains the pixels.
+    """A refined pose with its covariance and the quality of its fit.
 
     Attributes:
         camera_from_marker: the pose.
         covariance: (6, 6) [mm, rad] from the residuals: translation, then rotation, left-multiplied.
         variance_inflation: variance over that of independent pixel errors, at least 1.
         residual_sd_grey: sd of the residuals in grey levels.
-        contrast_grey: bright less dark at the marker's centre.
+        contrast_grey: bright minus dark level at the marker's centre.
         inlier_ratio: mean robust weight of the pixels, 0..1; occluded pixels have none.
-        response: bend of the camera response, 0 where grey levels are proportional to light.
+        response: parameter of the camera response, 0 where grey levels are proportional to irradiance.
         robust_chi2: robust chi-square in units of the smaller residual sd of all fits; 0 for a single fit.
         motion_blur_px: length of motion blur during the exposure; 0 where there is none.
         illumination: the spline illumination of the fit; None where it is planar.
@@ -120,12 +121,12 @@ def refine_poses(
     Args:
         image: the whole grey image (h, w).
         lens: `CameraModel.lens`.
-        textures: of the marker.
-        starts: poses, the likeliest first; the pixels are selected by it.
+        textures: the prerendered textures of the marker.
+        starts: start poses, the most likely first; it determines the selected pixels.
         side_mm: side of the marker.
-        side_px: its approximate width in the image.
+        side_px: approximate side of the marker in the image.
         noise_grey: sd of the image noise.
-        occluded_at: which points of the marker are occluded, if any.
+        occluded_at: tests which points of the marker are occluded; None for no occlusion.
         known: spline illumination of the previous image, if known.
     """
 
@@ -199,14 +200,15 @@ def _fit_from_scratch(
         near = refit_all(few, near)
         if not near:
             return samples, []
-    # With large residuals, the two solutions cannot be compared yet.
+    # With large residuals, the chi-squares of the two solutions cannot be compared yet.
     if not (much := has_large_residuals(near, noise_grey)):
         near = plausible_fits(few, with_mirror_solution(few, near, rotations), MAX_DELTA_CHI2)
     done = _fit_all_pixels(samples, near, noise_grey, much)
     if done and done[0].illumination[0] != PLANAR:
         done = with_mirror_solution(samples, done, rotations)
     elif done and blur is not None:
-        # The coarse fits may have diverged while the blur was unknown; a medium number of pixels decides.
+        # The coarse fits may have diverged while the blur was unknown, so compare the solutions on more
+        # pixels.
         subset = subsample(samples, MEDIUM_PIXELS)
         plausible = plausible_fits(subset, with_mirror_solution(subset, done, rotations), MAX_DELTA_CHI2)
         known = {id(one) for one in done}
@@ -215,13 +217,13 @@ def _fit_from_scratch(
 
 
 def _wide(parameters: Array, focus_px2: Array) -> Array | None:
-    """Return the blur (3,) of a fit if it is wide; None near that of a camera in focus."""
+    """Return the blur (3,) of a fit, in px^2, if it is wider than that of a camera in focus; else None."""
     blur = parameters[BLUR : BLUR + 3]
     return blur if float(blur[:2].sum()) > WIDE_BLUR_RATIO * float(focus_px2[:2].sum()) else None
 
 
 def _coarse_fit(few: Samples, start: Rigid[Camera, Marker], blur_px2: Array) -> FitResult | None:
-    """Fit the pose near a start under planar illumination, on few pixels."""
+    """Fit the pose near a start to a subset of the pixels under planar illumination."""
     parameters = np.zeros(PLANAR_COUNT)
     parameters[BLUR : BLUR + 3] = blur_px2
     return fit_pose(few, start.rotation, start.translation_mm, parameters, illumination=(PLANAR, 0))
@@ -230,7 +232,7 @@ def _coarse_fit(few: Samples, start: Rigid[Camera, Marker], blur_px2: Array) -> 
 def _fit_all_pixels(
     samples: Samples, near: list[FitResult], noise_grey: float, much: bool
 ) -> list[FitResult]:
-    """Continue the fits on all pixels, and select the illumination where `much` residual remains."""
+    """Continue the fits on all pixels; with large residuals (`much`), select the illumination model."""
     subset = subsample(samples, MEDIUM_PIXELS)
     done = refit_all(subset, near)
     if not (much and done and has_illumination_pattern(subset, done)):
@@ -248,11 +250,11 @@ def _refined_pose(
     is_covered: bool,
     known: KnownIllumination | None,
 ) -> RefinedPose | None:
-    """Build the record of a fit; None where the pose is not determined.
+    """Return the refined pose of a fit; None where the normal matrix does not determine the pose.
 
     `is_wide`: whether blur is wide; `known`: the illumination that the fit started from.
     """
-    # What is known beforehand is in the matrix: it needs no ridge.
+    # The priors already regularise the matrix: it needs no ridge.
     rows, is_determined = pose_rows(
         one.matrix, illumination_first(one.illumination), bandwidth_of(one.illumination), 0.0
     )

@@ -33,10 +33,11 @@ from tracker.photometric.response_kernels import (
     fit_planar_illumination,
 )
 
-# A step that lowered the cost by less was within a standard deviation, and the next is within a tenth.
+# A step that lowers the cost by less moves the pose by less than one standard deviation; the next one, by
+# quadratic convergence, by less than a tenth.
 CONVERGED_COST_CHI2 = 0.3
 MIN_CURVATURE_RATIO = 0.3
-# In one step the blur's variance grows to no more than so many times what it was.
+# Maximum growth of the blur's variance in one step.
 MAX_WIDENED = 4.0
 
 
@@ -62,7 +63,7 @@ def corner_motion_px(rotation, translation, lens, side_mm, step):
 
 @compiled
 def _apply_step(rotation, translation, parameters, step, share, min_blur):
-    """Apply a share of a step in place; return False where the marker would face away from the camera."""
+    """Apply a fraction of a step in place; return False where the marker would face away from the camera."""
     blur = parameters[BLUR : BLUR + 3]
     max_blur = MAX_WIDENED * max(blur[0], blur[1])
     for k in range(3):
@@ -80,10 +81,10 @@ def _apply_step(rotation, translation, parameters, step, share, min_blur):
 
 @compiled
 def _damped_step(a, g, damping, order, band, step, rotation, translation, lens, side_mm, max_px):
-    """Solve for the Levenberg-damped step.
+    """Solve for the Levenberg-Marquardt step.
 
-    Returns the predicted decrease of the cost in squared grey levels and the allowed share of the step; 0: no
-    step. The unknowns are permuted by `order` so that the banded part of the matrix is exploited.
+    Returns the predicted decrease of the cost in squared grey levels and the allowed fraction of the step; 0
+    for none. The unknowns are permuted by `order` so that the banded part of the matrix is exploited.
     """
     n = len(g)
     damped, sides, solved = np.empty((n, n)), np.empty(n), np.empty(n)
@@ -131,8 +132,8 @@ def refine_pose(
     """Fit pose, blur, response and illumination to pixels in place, by damped Gauss-Newton.
 
     `parameters` holds blur, response and illumination, in and out. `scale` is the sd of the residuals in grey
-    levels; where it is 0, planar illumination and the sd are estimated first. A step that promises to lower
-    the chi-square by less than `min_gain_chi2` is the last. Returns the normal matrix with the priors, the
+    levels; where it is 0, planar illumination and the sd are estimated first. The iteration ends when the
+    predicted decrease of chi-square is below `min_gain_chi2`. Returns the normal matrix with the priors, the
     scale, the mean robust weight, whether the fit is valid, and the last prediction: `rows`, `at`,
     `dark_contrast` and `reliability`.
     """
@@ -184,7 +185,7 @@ def refine_pose(
         fallen = (cost - new_cost) / (scale * scale)
         if not fallen >= 0.0:
             rotation[:, :], translation[:], parameters[:] = old_rotation, old_translation, old
-            # As low as the picture's first order allows, or else a step too far.
+            # Converged within the linearisation error of the texture; otherwise the step was too long.
             if fallen > -CONVERGED_COST_CHI2 or damping > 1.0:
                 break
             damping = max(100.0 * damping, 1e-2)
@@ -211,7 +212,7 @@ def robust_cost(
 ):
     """Return the robust chi-square of a fit in units of `scale`, priors included; inf where not visible.
 
-    Of two poses with equal residuals, the one with the less usual illumination costs more.
+    The priors separate poses with equal residuals: less probable illumination costs more.
     """
     n = len(values)
     rows, at, dark_contrast, reliability = np.empty((10, n)), np.empty((n, 2)), np.empty((n, 2)), np.ones(n)
@@ -231,9 +232,9 @@ def clustered_covariance(values, seen, parameters, illumination, scale, cutoff, 
     """Return the cluster-robust (sandwich) covariance (6, 6) of the pose.
 
     Scores are summed in blocks x blocks parts of the marker before their outer products are added, so
-    correlated errors within a block are counted (Liang and Zeger 1986). Errors of different blocks are taken
-    as independent. `seen`: the prediction of `refine_pose`. `inverse`: (6, parameters), the pose rows of the
-    inverse normal matrix.
+    correlated errors within a block are included (Liang and Zeger 1986). Errors of different blocks are
+    assumed independent. `seen`: the prediction of `refine_pose`. `inverse`: (6, parameters), the pose rows of
+    the inverse normal matrix.
     """
     rows, at, dark_contrast, reliability = seen
     n = len(values)
@@ -272,6 +273,6 @@ def clustered_covariance(values, seen, parameters, illumination, scale, cutoff, 
         for m in range(6):
             for k in range(6):
                 spread[m, k] += moved[block, m] * moved[block, k]
-    # The fit's matrix counts weights; how the scores answer to a change of the pose is less.
+    # The normal matrix contains the weights, but the derivative of the robust score by the pose is smaller.
     answer = weights / max(stiffness, MIN_CURVATURE_RATIO * weights)
     return spread * (answer**2 * count / max(count - 6.0, 1.0))

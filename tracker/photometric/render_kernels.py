@@ -11,9 +11,9 @@ from tracker.marker.model import PAPER_RATIO
 from tracker.photometric.blur_kernels import MAX_KERNEL_SAMPLES, kernel_samples_of
 from tracker.photometric.texture_kernels import add_texture_samples
 
-# What lies beyond the paper, so many sd of the blur away, is not mixed in.
+# Beyond this many sd of the blur, the background does not contribute to a pixel.
 FAR_SDS = 4.0
-# So many pixels side by side, so that the machine works on several at once and all stay at hand.
+# Pixels are processed in batches of this size, so that loops vectorise and the data stay in the cache.
 BATCH = 256
 
 

@@ -8,7 +8,7 @@ from tracker.geometry.geometry_kernels import add_products, solve_positive
 # Parameters of a fit: translation 3, rotation 3, blur 3 (variances along u, v, covariance), response 1,
 # illumination.
 BLUR, RESPONSE, ILLUMINATION = 6, 9, 10
-# Fitted to powers of 1 to 3 and their inverses, where ink sends a tenth of what paper does.
+# Fitted to gamma curves with exponents of 1 to 3 and their inverses, where ink reflects a tenth of paper.
 RESPONSE_ASYMMETRY = 0.93
 # Planar illumination: dark level and contrast, each with its slopes to the right and upwards.
 PLANAR_PARAMETERS = 6
@@ -18,7 +18,7 @@ PLANAR_PARAMETERS = 6
 def apply_response(s, response):
     """Apply the camera response to a linear value 0..1.
 
-    Like a gamma curve it bends dark values more than bright ones, and the asymmetry grows with the bend.
+    Like a gamma curve it changes dark values more than bright ones; `response` 0 is linear.
     """
     return s + response * s * (1.0 - s) * (1.0 + RESPONSE_ASYMMETRY * abs(response) * (1.0 - 2.0 * s))
 

@@ -15,12 +15,13 @@ from tracker.photometric.texture import Textures
 # Half width of the sampled area, in sides: the outer half of the blurred outline lies on white paper, and
 # background beyond the paper is excluded.
 REACH_RATIO = 0.6
-# Below this ratio to the steepest slope a pixel constrains the pose little: few are enough. Where pixels are
-# averaged, edges cover few of them, and all of those are taken.
+# Pixels below this ratio to the steepest slope constrain the pose little: one in `FLAT_STRIDE` is taken.
+# Where pixels are averaged, fewer lie on edges, and the ratio is lower.
 MIN_SLOPE_RATIO, MIN_SLOPE_RATIO_AVERAGED, FLAT_STRIDE = 0.25, 0.12, 10
 MAX_PIXELS = 30_000
 
-# Which points (n, 2) of a marker's plane, in sides from its centre to the right and upwards, are occluded.
+# Maps points (n, 2) of a marker's plane, in sides from its centre to the right and upwards, to whether they
+# are occluded (n,).
 OccludedAt = Callable[[Array], npt.NDArray[np.bool_]]
 
 
@@ -50,7 +51,7 @@ def sample_pixels(
     blur_px2: Array,
     occluded_at: OccludedAt | None = None,
 ) -> Samples:
-    """Select the pixels that constrain the pose near a start at this blur (3,), occluded ones excluded."""
+    """Select the pixels that constrain the pose near a start at this blur (3,), without occluded ones."""
     rays, values = np.empty((MAX_PIXELS, 2)), np.empty(MAX_PIXELS)
     count = select_pixels(
         image,
@@ -71,7 +72,7 @@ def sample_pixels(
     if occluded_at is not None:
         at = np.empty_like(rays)
         rays_to_plane(rays, 0, count, start.rotation, start.translation_mm, side_mm, at)
-        # That is in half sides.
+        # `at` is in half sides.
         seen = ~occluded_at(0.5 * at)
         rays, values = np.ascontiguousarray(rays[seen]), values[seen]
     return Samples(rays=rays, values=values, lens=lens, textures=textures, side_mm=side_mm, step=step)

@@ -9,9 +9,9 @@ from tracker.photometric.render_kernels import footprint
 from tracker.photometric.texture import STEEPNESS
 
 SATURATED_GREY = 254
-# Rays are made so far apart, and those between them by three.
+# Spacing of exactly undistorted pixels; rays between them are interpolated quadratically.
 APART_PX = 8
-# Lens distortion bends the sides of the sampled area by less than this.
+# Lens distortion moves the sides of the sampled area by less than this.
 OUTLINE_MARGIN_PX = 3.0
 
 
@@ -109,7 +109,7 @@ def _row_of_rays(r, c0, count, step, lens, here, rays):
     v = step * r + half
     xs, ys = rays[0], rays[1]
     if lens[25] > 0.0:
-        # There is no lens.
+        # Without distortion the rays are exact.
         for k in range(count):
             xs[k], ys[k] = (step * (c0 + k) + half - lens[2]) / lens[0], (v - lens[3]) / lens[1]
         return
@@ -123,7 +123,7 @@ def _row_of_rays(r, c0, count, step, lens, here, rays):
             _solve_ray(step * (c0 + first + APART_PX) + half, v, lens, middle, 1, workspace)
         ahead[:] = 2.0 * middle - start
         _solve_ray(step * (c0 + first + 2 * APART_PX) + half, v, lens, ahead, 1, workspace)
-        # Over so few pixels a lens bends as a parabola does.
+        # Over this distance the distortion is quadratic.
         dx, dy = 0.5 * (ahead[0] - start[0]), 0.5 * (ahead[1] - start[1])
         ddx, ddy = 0.5 * (ahead[0] + start[0]) - middle[0], 0.5 * (ahead[1] + start[1]) - middle[1]
         for k in range(min(2 * APART_PX, count - first)):
@@ -140,7 +140,7 @@ def _row_on_plane(count, rotation, translation, side_mm, rays, at):
     r01, r11, r21 = rotation[0, 1] / side_mm, rotation[1, 1] / side_mm, rotation[2, 1] / side_mm
     nx, ny, nz = rotation[0, 2], rotation[1, 2], rotation[2, 2]
     t0, t1, t2 = translation[0], translation[1], translation[2]
-    # The plane that the marker lies in: normal . point = distance.
+    # The marker's plane: normal . point = distance.
     distance = nx * t0 + ny * t1 + nz * t2
     us, vs = at[0], at[1]
     for k in range(count):
@@ -183,7 +183,7 @@ def select_pixels(
             continue
         _row_of_rays(r, begin, count, step, lens, here, row_rays)
         _row_on_plane(count, rotation, translation, side_mm, row_rays, row_at)
-        # Three floats are a texel.
+        # A texel has three floats.
         _texels_under(row_at, count, starts[level] // 3, size, texel, under)
         for k in range(count):
             if abs(row_at[0, k]) > reach_ratio or abs(row_at[1, k]) > reach_ratio:

@@ -9,17 +9,18 @@ import numpy.typing as npt
 
 from tracker.geometry import Array
 
-# Sharpest picture, in sides: a marker 110 px wide in a camera in focus. Sharper ones are averaged first.
+# Blur of the sharpest level, in sides: a marker 110 px wide in a camera in focus. Larger ones are averaged
+# first.
 SHARPEST_RATIO = 0.0062
-# Between two pictures the blur is made up to first order, which holds for such steps.
+# Ratio of the blurs of adjacent levels, small enough to interpolate between them to first order.
 STEP = 1.15
 COARSEST_RATIO = 0.16
-# The picture is halved as soon as its texels are this much finer than its blur.
+# The level is halved in size as soon as its blur exceeds this many texels.
 FINEST_BLURS = 7.0
 WORKING_SIDE = 480
-# Half of the picture's width in sides: the square and white paper around it.
+# Half width of the texture in sides: the square and the white paper around it.
 REACH_RATIO = 0.8
-# A texel is this part of the blur, so that straight lines between texels are the picture.
+# Width of a texel in sd of the blur, small enough for bilinear interpolation.
 TEXEL_BLURS = 0.45
 # Quantisation of the steepness: it fits a byte, and thresholds are multiples of it.
 STEEPNESS = 200.0
@@ -49,7 +50,7 @@ class Textures:
 
     @cached_property
     def arrays(self) -> tuple[np.ndarray, ...]:
-        """The arrays in the order that the compiled functions expect."""
+        """Return the arrays in the order that the compiled functions expect."""
         return self.texels, self.starts, self.sizes, self.blurs_ratio, self.texels_ratio, self.steepness
 
 
@@ -63,7 +64,8 @@ def textures_of(square: npt.NDArray[np.uint8]) -> Textures:
         while blur > FINEST_BLURS * texel:
             half = (picture.shape[1] // 2, picture.shape[0] // 2)
             picture = np.asarray(cv2.resize(picture, half, interpolation=cv2.INTER_AREA), np.float32)
-            # The mean of two texels is one more box: the variance of its width less that of theirs.
+            # Averaging pairs of texels is a box filter: the variance increases by the difference of two
+            # boxes.
             has, texel = float(np.sqrt(has**2 + 3.0 * texel**2 / 12.0)), 2.0 * texel
         more = float(np.sqrt(blur**2 - has**2)) / texel
         picture = np.asarray(
@@ -84,25 +86,25 @@ def textures_of(square: npt.NDArray[np.uint8]) -> Textures:
 
 
 def _steepness_of(part: Texels) -> npt.NDArray[np.uint8]:
-    """How steep each of some texels (n, n, 3) is (n * n,), as in `Textures`."""
+    """Return the quantised slope (n * n,) of texels (n, n, 3), as in `Textures`."""
     slope = np.hypot(part[..., 1], part[..., 2]).ravel()
     return np.asarray(np.ceil(slope * (STEEPNESS / slope.max())), dtype=np.uint8)
 
 
 def _on_paper(square: npt.NDArray[np.uint8]) -> tuple[Texels, float, float]:
-    """The square on white paper, finely: the picture, its texel and the blur that it has, in sides."""
+    """Return the square on white paper at high resolution, its texel width and its blur, in sides."""
     low, high = (float(v) for v in np.percentile(square, (2, 98)))
     mode = cv2.INTER_AREA if square.shape[0] > WORKING_SIDE else cv2.INTER_LINEAR
     seen = cv2.resize(square, (WORKING_SIDE, WORKING_SIDE), interpolation=mode).astype(np.float32)
     seen = np.clip((seen - low) / (high - low), 0.0, 1.0)
     margin = int((REACH_RATIO + 0.05 - 0.5) * WORKING_SIDE) // 16 * 16
     paper = cv2.copyMakeBorder(seen, margin, margin, margin, margin, cv2.BORDER_CONSTANT, value=(1.0,))
-    # Each texel is the mean over its area: a box, whose variance is a twelfth.
+    # Each texel is the mean over its area: a box filter, whose variance is 1/12 of its squared width.
     return np.asarray(paper, np.float32), 1.0 / WORKING_SIDE, 1.0 / (WORKING_SIDE * np.sqrt(12.0))
 
 
 def _with_slopes(picture: Texels, texel: float, wanted: float) -> Texels:
-    """Texels (n, n, 3) of another width: the picture, its slopes to the right and upwards, by one side."""
+    """Resample to another texel width (n, n, 3): value, slopes to the right and upwards per side."""
     half = int(np.ceil(REACH_RATIO / wanted))
     at = (np.arange(-half, half + 1) * (wanted / texel) + (picture.shape[0] - 1) / 2.0).astype(np.float32)
     x, y = np.meshgrid(at, at)

@@ -19,7 +19,7 @@ def add_texture_samples(texels, start, size, texel, at, begin, count, right, up,
         part[0, k], part[1, k] = x - c, y - r
         index[k] = start + 3 * (r * size + c)
     row = 3 * size
-    # Loads alone, so that all else is done for many points at once.
+    # Gather first, so that the interpolation vectorises.
     for k in range(count):
         upper, lower = texels[index[k] : index[k] + 6], texels[index[k] + row : index[k] + row + 6]
         for m in range(6):
@@ -41,13 +41,13 @@ def _interpolate(found, part, count, texel, weight, out):
         a, b, d, e = gx * gy, fx * gy, gx * fy, fx * fy
         right[k] += weight * (a * r0[k] + b * r1[k] + d * r2[k] + e * r3[k])
         up[k] += weight * (a * u0[k] + b * u1[k] + d * u2[k] + e * u3[k])
-        # Slopes are by one side to the right and upwards; rows go down.
+        # Slopes are per side to the right and upwards; rows run downwards.
         xx = gy * (r1[k] - r0[k]) + fy * (r3[k] - r2[k])
         yy = gx * (u0[k] - u2[k]) + fx * (u1[k] - u3[k])
         xy = gx * (r0[k] - r2[k]) + fx * (r1[k] - r3[k])
         xx_out[k] += scale * xx
         yy_out[k] += scale * yy
         xy_out[k] += scale * xy
-        # Straight lines between texels cut the bends off; the curvature puts them back.
+        # Second-order correction of the bilinear interpolation, which underestimates curvature.
         bends = response_row * (fx * gx * xx + fy * gy * yy)
         value[k] += weight * (a * v0[k] + b * v1[k] + d * v2[k] + e * v3[k] - bends)
