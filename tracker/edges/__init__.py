@@ -1,4 +1,4 @@
-"""Edges: gradient, edgels placed to sub-pixel, chains and their straight pieces."""
+"""Edges: gradient, edgels with sub-pixel position, chains and their straight segments."""
 
 from tracker.edges.chains import Chains, chains_of, joined_segments, segments_of, straight_pieces
 from tracker.edges.edgels import Edgels, edgels_of

@@ -8,12 +8,12 @@ import numpy.typing as npt
 from tracker.edges.edge_kernels import join_collinear, link_edgels, split_straight, trace_chains
 from tracker.edges.edgels import Edgels, Float32, Int32
 
-# Walked along a chain, the dark side is on the right hand. So the outline of a dark square is walked
-# clockwise as seen on the screen, and two outlines of opposite polarity are never joined.
+# Chains have the dark side on the right. The outline of a dark square is therefore clockwise on the screen,
+# and edges of opposite polarity are never linked.
 
 MIN_CHAIN_EDGELS = 5
-# Half of the distance by which an edge that is straight in the world bends in an image: lens, blur at the
-# corners, noise.
+# Half of the deviation of an edge that is straight in the world from a line in the image: lens distortion,
+# blur at the corners, noise.
 STRAIGHT_TOLERANCE_PX = 0.9
 JOIN_GAP_PX, JOIN_OFF_PX, JOIN_COS = 8.0, 1.2, 0.97
 
@@ -62,7 +62,7 @@ def straight_pieces(
 
 
 def joined_segments(segments: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:
-    """Join collinear segments that a speck or a faint edge separates; return the joined ones (j, 4)."""
+    """Join collinear segments across gaps from specks or faint edges; return the joined segments (j, 4)."""
     if len(segments) < 2:
         return np.empty((0, 4), np.float32)
     return np.asarray(

@@ -6,8 +6,8 @@ from tracker.compiled import compiled
 
 MAX_STEPS = 64
 DIAGONAL = np.float32(1.4142135)
-# A peak at the end of the reach must be this much stronger than one in the middle to be preferred: of two
-# edges side by side the expected one is the nearer.
+# Weight of a peak at the end of the search range relative to one in its middle, because of two adjacent edges
+# the nearer one is the expected one.
 END_WEIGHT = 0.6
 
 
@@ -40,8 +40,8 @@ def find_edgels(gx, gy, threshold):
             abs_a, abs_b = abs(a), abs(b)
             if abs_a + abs_b < minimum:
                 continue
-            # Compared along the axis that the gradient is nearer to: one edgel for each row of a steep
-            # edge, for each column of a flat one, so that chains have neither gaps nor doubles.
+            # Suppression along the dominant axis of the gradient gives one edgel per row of a steep edge and
+            # one per column of a flat edge, so that chains have neither gaps nor duplicates.
             if abs_a >= abs_b:
                 sign = 1 if a > 0 else -1
                 before, here, after = sign * gx[v, u - 1], sign * a, sign * gx[v, u + 1]
@@ -89,11 +89,12 @@ def link_edgels(nx, ny, strength, at):
                     far = DIAGONAL if du != 0 and dv != 0 else np.float32(1.0)
                     ahead = (np.float32(du) * dx + np.float32(dv) * dy) / far
                     cos_angle = nx[i] * nx[j] + ny[i] * ny[j]
-                    # Within 67 degrees ahead, and turning by at most 53: a chain may round a blurred
-                    # corner, but never jumps to the other side of a line.
+                    # Within 67 degrees ahead, and rotated by at most 53: a chain may follow a blurred corner,
+                    # but never jumps to the other side of a line.
                     if ahead < 0.38 or cos_angle < 0.6:
                         continue
-                    # A chain does not leave an edge for the faint halo beside it.
+                    # Similar strengths are preferred, so that a chain does not leave an edge for a faint
+                    # halo.
                     even = min(strength[i], strength[j]) / max(strength[i], strength[j])
                     if even < 0.3:
                         continue
@@ -119,14 +120,14 @@ def trace_chains(successor, predecessor, x, y, minimum):
     visited = np.zeros(count, np.bool_)
     n, c = 0, 0
     starts[0] = 0
-    for pass_index in range(2):  # first the open chains from their starts, then what is left: the closed ones
+    for pass_index in range(2):  # first the open chains from their starts, then the closed ones
         for i in range(count):
             if visited[i] or (pass_index == 0 and predecessor[i] >= 0):
                 continue
             first = i
             if pass_index == 1:
-                # A closed chain starts at the edgel farthest from any one of it: that is a corner, so that
-                # no side is cut in two.
+                # A closed chain starts at the edgel farthest from an arbitrary one, usually a corner, so that
+                # no side is split.
                 far, j = np.float32(-1.0), i
                 while True:
                     d = (x[j] - x[i]) ** 2 + (y[j] - y[i]) ** 2
@@ -153,7 +154,7 @@ def trace_chains(successor, predecessor, x, y, minimum):
 @compiled
 def _fit_line(x, y, order, a, b, out):
     """Fit a least-squares line to the edgels a..b of a chain; write its ends to `out`, return its length."""
-    # The edgels next to a corner are pulled round it by blur; where there are enough, leave them out.
+    # Blur displaces the edgels next to a corner, so they are excluded if there are enough.
     trim = min(2, (b - a) // 6)
     lo, hi = a + trim, b - trim
     m = hi - lo + 1
@@ -220,7 +221,7 @@ def _slope(gx, gy, x, y, nx, ny):
     """Return the bilinear derivative along (nx, ny) at a point (x, y) of the window."""
     iu, iv = int(x), int(y)
     fu, fv = x - iu, y - iv
-    # Unsigned: a signed index is checked for negative values each time.
+    # Unsigned, because Numba checks signed indices for negative values.
     c, r, one = np.uint64(iu), np.uint64(iv), np.uint64(1)
     upper = (1.0 - fu) * (nx * gx[r, c] + ny * gy[r, c]) + fu * (nx * gx[r, c + one] + ny * gy[r, c + one])
     r += one
@@ -237,7 +238,7 @@ def crossing(gx, gy, u, v, nx, ny, reach):
     """
     height, width = gx.shape
     steps = min(int(np.ceil(reach)) + 1, MAX_STEPS)
-    # A little more, so that rounding cannot take the last sample over the border.
+    # Margin for rounding, so that the last sample stays inside the image.
     far_u, far_v = steps * abs(nx) + 1e-6, steps * abs(ny) + 1e-6
     inside = far_u <= u < width - 1.0 - far_u and far_v <= v < height - 1.0 - far_v
     best, best_rank_score, best_k = np.float64(0.0), np.float64(0.0), -1000
@@ -248,7 +249,7 @@ def crossing(gx, gy, u, v, nx, ny, reach):
         after = np.float64(0.0)
         if inside or (0.0 <= x < width - 1.0 and 0.0 <= y < height - 1.0):
             after = _slope(gx, gy, x, y, nx, ny)
-        # The peak is at the sample before this one.
+        # `here` is the previous sample, k - 1.
         if k > 1 - steps and here > 0.0 and here >= before and here >= after:
             rank_score = here * (1.0 - (1.0 - END_WEIGHT) * abs(k - 1) / steps)
             if rank_score > best_rank_score:
@@ -290,7 +291,7 @@ def _continues(a, b, max_gap, max_off, min_cos):
 
 @compiled
 def join_collinear(segments, max_gap, max_off, min_cos):
-    """Join segments that continue one another on one line."""
+    """Join collinear segments that continue one another."""
     n = len(segments)
     columns = int(segments.max() / max_gap) + 3
     head = np.full(columns * columns, -1, np.int32)

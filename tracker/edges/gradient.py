@@ -15,8 +15,8 @@ GradientImage: TypeAlias = npt.NDArray[np.int16]
 
 # A step of h grey levels gives a Sobel response of up to 4 h.
 SOBEL_GAIN = 4.0
-# The magnitude of pure noise is Rayleigh distributed: its median is 1.18 sd. Three medians let one noise
-# pixel in 500 pass, and non-maximum suppression and chaining take those out.
+# The gradient magnitude of pure noise has a Rayleigh distribution with median 1.18 sd. One noise pixel in 500
+# exceeds three medians; non-maximum suppression and chaining remove those.
 NOISE_MEDIANS = 3.0
 # Contrasts under 3 grey levels are indistinguishable from 8-bit quantisation; texture must not raise the
 # threshold above a dimly lit marker.
@@ -33,7 +33,7 @@ class Gradient:
         y: (h, w), derivative downwards.
         left_px: column of the image at which the window starts.
         top_px: row of the image at which it starts.
-        threshold: magnitude under which a response is taken for noise.
+        threshold: gradient magnitude below which a response counts as noise.
     """
 
     x: GradientImage
@@ -51,7 +51,7 @@ def gradient_of(image: GreyImage, *, left_px: int = 0, top_px: int = 0) -> Gradi
 
 
 def noise_threshold(x: GradientImage, y: GradientImage) -> float:
-    """Return the magnitude that noise rarely exceeds, from the median over a sparse grid."""
+    """Return the gradient magnitude that noise rarely exceeds, from the median over a sparse grid."""
     median = float(median_magnitude(x, y, SAMPLE_STRIDE))
     if isnan(median):
         return MIN_THRESHOLD

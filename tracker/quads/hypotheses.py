@@ -17,14 +17,14 @@ Quads: TypeAlias = npt.NDArray[np.float32]
 
 MIN_CORNER_SIDE_PX = 8.0
 MIN_SQUASH_RATIO = 0.4
-# Off a side, so far that an edge in focus is past.
+# Distance from a side at which the blur of an edge in focus has ended.
 BESIDE_PX = 2.0
-# A length error of a tenth is within reach of the template match.
+# Ratio of successive lengths: the template match tolerates a length error of a tenth.
 LENGTH_GROWTH = 1.25
-# The visible part of a motion-blurred side may be a quarter too short or too long.
+# The visible part of a motion-blurred side may be too short or too long by a quarter.
 MAX_PAIR_RATIO = 2.0
 PAIR_LENGTHS, PAIR_SHIFTS = np.array([0.8, 1.0, 1.25]), np.array([-0.12, 0.0, 0.12])
-# Of stripes and noise, the longest: each is held against all that run the other way.
+# Only the longest segments are paired, because the number of pairs grows with the square of their number.
 MAX_PAIRED = 5000
 
 

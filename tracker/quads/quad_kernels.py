@@ -10,7 +10,7 @@ MAX_CORNER_QUADS = 12000
 CELL_PX = 16
 MAX_GAP_PX = 30.0
 MAX_PAIR_QUADS = 40000
-# Sides that face each other run in opposite directions, but for a sixth of a radian that perspective adds.
+# Opposite sides have opposite directions, up to a sixth of a radian by perspective.
 DIRECTIONS, MAX_PAIR_COSINE = 36, 0.985
 MAX_APART_LENGTHS = 3.0
 
@@ -107,7 +107,7 @@ def _is_dark_corner(image, p, ax, ay, bx, by, beside, min_step):
     for side in range(2):
         dx, dy = (ax, ay) if side == 0 else (bx, by)
         length = np.sqrt(dx * dx + dy * dy)
-        # Inwards is the part of the other side's direction that is square to this one.
+        # The inward normal: the component of the other side's direction perpendicular to this side.
         nx, ny = -dy / length, dx / length
         if (nx * bx + ny * by if side == 0 else nx * ax + ny * ay) < 0.0:
             nx, ny = -nx, -ny
@@ -130,8 +130,8 @@ def _is_dark_corner(image, p, ax, ay, bx, by, beside, min_step):
 def corner_quads(image, segments, successors, counts, min_side, min_squash, beside, min_step, growth):
     """Return quads (q, 4, 2) of two sides that meet at a corner, of unknown length.
 
-    Each side is taken as complete in turn, and the length of the other is varied from its visible part to
-    what tilt allows.
+    Each side in turn is assumed complete, and the length of the other varies from its visible part to the
+    limit of plausible foreshortening.
     """
     n = len(segments)
     quads = np.empty((MAX_CORNER_QUADS, 4, 2), np.float32)
@@ -217,10 +217,10 @@ def _opposite_sides(length, along, middle, i, j, min_side, max_ratio, d):
 
 @compiled
 def pair_quads(segments, min_side, min_squash, max_ratio, lengths, shifts):
-    """Return quads (q, 4, 2) of pairs of opposite sides, of a length ratio of at most `max_ratio`.
+    """Return quads (q, 4, 2) of pairs of opposite sides whose length ratio is at most `max_ratio`.
 
-    Their ends are varied: `lengths`, by the longer one's, and `shifts` along them, by that length. The first
-    side is along one of the two.
+    The side length is varied by the factors `lengths` on the longer side, and the position along it by
+    `shifts` as ratios of that length. The first side of a quad lies along the first of the pair.
     """
     n, q = len(segments), 0
     quads = np.empty((MAX_PAIR_QUADS, 4, 2), np.float32)
@@ -237,7 +237,7 @@ def pair_quads(segments, min_side, min_squash, max_ratio, lengths, shifts):
             j = head[(own[i] + DIRECTIONS // 2 + near) % DIRECTIONS]
             while j >= 0:
                 other, j = j, after[j]
-                # Each pair once.
+                # Visit each pair once.
                 if other < i:
                     continue
                 apart, beyond = _opposite_sides(length, along, middle, i, other, min_side, max_ratio, d)
@@ -245,7 +245,8 @@ def pair_quads(segments, min_side, min_squash, max_ratio, lengths, shifts):
                     continue
                 across[0], across[1] = -d[1] * apart, d[0] * apart
                 for m in range(2 * len(lengths)):
-                    # What is seen of both may end alike, or where tilt lets them end.
+                    # Hypotheses: a rectangle, or a parallelogram whose sides are offset as the visible parts
+                    # are.
                     side, slant = lengths[m // 2] * max(length[i], length[other]), (m % 2) * beyond
                     squares = side * side + apart * apart + slant * slant
                     if not is_plausible_foreshortening(squares, (side * apart) ** 2, min_squash):

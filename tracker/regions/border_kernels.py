@@ -17,7 +17,7 @@ def _follow(mask, walked, u0, v0, u, v):
         u[n], v[n] = at_u, at_v
         n += 1
         at_u, at_v = at_u + du, at_v + dv
-        # The pixels ahead, on the left hand and on the right.
+        # The pixels ahead to the left and to the right.
         lu, lv = at_u + (du + dv - 1) // 2, at_v + (dv - du - 1) // 2
         ru, rv = at_u + (du - dv - 1) // 2, at_v + (dv + du - 1) // 2
         if 0 <= lu < width and 0 <= lv < height and mask[lv, lu] != 0:
@@ -32,8 +32,9 @@ def _follow(mask, walked, u0, v0, u, v):
 def trace_borders(mask, row, first, minimum, maximum):
     """Trace the region borders, dark on the right: x, y (n,) along them, and the start of each.
 
-    A border runs between pixels; a point is the middle of two of its steps. Borders of fewer than `least` or
-    of `most` steps are dropped. Each starts at a point far from the others, so that no side is split.
+    A border runs between pixels; each point smooths two of its steps. Borders of fewer than `minimum` steps,
+    or of `maximum` or more, are dropped. Each starts at a point far from others, usually a corner, so that no
+    side is split.
     """
     height, width = mask.shape
     walked = np.zeros((height, width), np.bool_)
@@ -54,7 +55,8 @@ def trace_borders(mask, row, first, minimum, maximum):
             d = (u[k] - u[0]) ** 2 + (v[k] - v[0]) ** 2
             if d > far:
                 far, begin = d, k
-        # The middle of two steps is a quarter of the way round their three corners; pixels have theirs at 0.
+        # Midpoint of two step midpoints, hence weights 1/4, 1/2, 1/4; -0.5 because pixel centres are
+        # integers.
         j, k = begin, begin + 1 if begin + 1 < m else 0
         for _ in range(m):
             after = k + 1 if k + 1 < m else 0

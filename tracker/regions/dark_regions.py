@@ -12,17 +12,17 @@ from tracker.regions.region_kernels import find_runs, median_difference, region_
 
 Int32 = npt.NDArray[np.int32]
 
-# Minimum side and squash of a square: at 70 degrees of tilt it is a third as high as wide.
+# Minimum side and foreshortening of a square: at 70 degrees of tilt it is a third as high as wide.
 MIN_SIDE_PX = 5.0
 MIN_EXTENT_PX = 9
 MIN_SQUASH_RATIO = 0.3
-# The borders that are followed: of what is no speck, and no endless maze.
+# Length limits of the followed borders: shorter ones are specks, longer ones texture.
 MIN_BORDER_PX, MAX_BORDER_PX = 24, 20_000
-# A border runs from pixel to pixel: a straight one is off by half of one, and noise adds some.
+# The border of a straight edge deviates by half a pixel from the line, and more with noise.
 BORDER_OFF_PX, MIN_PIECE_PX = 1.2, 6.0
 SAMPLE_STRIDE = 5
 MIN_LIGHT_GREY = 8.0
-# Median of absolute differences of two pixels, for noise of 1 grey level.
+# The median absolute difference of two pixels is 0.954 times the sd of Gaussian noise.
 NOISE_PER_DIFFERENCE = 1.0 / 0.954
 
 
@@ -32,7 +32,7 @@ class Regions:
 
     Attributes:
         mask: (h, w), 255 inside, else 0.
-        row, first, last: (n,), of each run.
+        row, first, last: (n,), row, first and last column of each run.
         parent: (n,), first run of the region of each run.
     """
 
@@ -53,7 +53,7 @@ def dark_mask(image: GreyImage, *, window_px: int, darker_grey: float) -> npt.ND
 
     `darker_grey` is at least 1.
     """
-    # cv2.adaptiveThreshold looks each pixel up in a table; step by step it takes two thirds of its time.
+    # cv2.adaptiveThreshold uses a lookup table per pixel; these steps take two thirds of its time.
     mean = cv2.blur(image, (window_px, window_px), borderType=cv2.BORDER_REPLICATE)
     darker = cv2.subtract(mean, image)
     _, mask = cv2.threshold(darker, np.floor(darker_grey) - 1.0, 255, cv2.THRESH_BINARY)
@@ -62,7 +62,7 @@ def dark_mask(image: GreyImage, *, window_px: int, darker_grey: float) -> npt.ND
 
 def normalise_illumination(image: GreyImage, *, window_px: int, noise_grey: float) -> GreyImage:
     """Divide the image (h, w) by its local mean: 128 where it equals the mean of the window."""
-    # In the dark the noise must not be taken for a picture.
+    # The offset prevents the amplification of noise in dark areas.
     floor = max(3.0 * noise_grey, MIN_LIGHT_GREY)
     around = cv2.convertScaleAbs(cv2.blur(image, (window_px, window_px)), beta=floor)
     own = cv2.convertScaleAbs(image, beta=floor)
@@ -89,7 +89,7 @@ def quads_of(regions: Regions) -> npt.NDArray[np.float32]:
 def border_segments(regions: Regions) -> npt.NDArray[np.float32]:
     """Return straight segments (s, 4) of the region borders, px: from x, y to x, y, dark on the right.
 
-    They are found where edges are too faint or too blurred to be linked.
+    Border segments also exist where edges are too faint or too blurred to be linked into chains.
     """
     x, y, starts = trace_borders(regions.mask, regions.row, regions.first, MIN_BORDER_PX, MAX_BORDER_PX)
     return straight_pieces(x, y, starts, off_px=BORDER_OFF_PX, min_length_px=MIN_PIECE_PX)

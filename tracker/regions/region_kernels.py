@@ -5,11 +5,12 @@ import numpy as np
 from tracker.compiled import compiled
 from tracker.geometry.geometry_kernels import is_plausible_foreshortening
 
-# Of a side, the part that blur at the corners leaves straight.
+# Part of a side that is straight despite the blur at the corners.
 STRAIGHT_FROM, STRAIGHT_TO = 0.14, 0.86
-# How far a region's outline may run off its own four sides, beside a pixel.
+# Maximum distance of a region's outline from its four sides, in addition to one pixel.
 MAX_OFF_SIDE_RATIO = 0.14
-# A parallelogram's hull is itself, an ellipse's is 1.57 times its largest quadrilateral.
+# Maximum ratio of the area of the convex hull to that of the largest inscribed quadrilateral: 1 for a
+# parallelogram, 1.57 for an ellipse.
 MAX_ROUND = 1.4
 MIN_FILLED = 0.62
 
@@ -26,7 +27,7 @@ def median_difference(image, rows_apart, columns_apart):
     half = 0.5 * counts.sum()
     if half == 0.0:
         return 0.0
-    # The median of whole numbers, to a fraction: it stands within its own level by the share below it.
+    # The median of integers, interpolated within its level.
     level, below = 0, 0
     while below + counts[level] < half:
         below += counts[level]
@@ -54,7 +55,8 @@ def find_runs(mask):
     for v in range(height):
         begin, line = n, mask[v]
         k = above
-        # Every column is written and few are kept: a branch for each would be guessed wrong too often.
+        # Branchless: each column is written but the counter advances only at changes, because a branch would
+        # be mispredicted too often.
         count, before = 0, np.uint8(0)
         for u in range(width):
             changes[count] = u
@@ -64,7 +66,7 @@ def find_runs(mask):
         for c in range(0, count, 2):
             start, u = changes[c], changes[c + 1]
             row[n], first[n], last[n], parent[n] = v, start, u - 1, n
-            # Eight neighbours: a run above joins when it reaches over the diagonal.
+            # 8-connectivity: a run above is connected if it touches diagonally.
             while k < above_end and last[k] < start - 1:
                 k += 1
             j = k

@@ -21,7 +21,8 @@ QUANTITIES = {"entry": "mm", "angle": "deg", "depth": "mm", "tip": "mm"}
 class Share:
     """A proportion with its 95 % confidence interval.
 
-    Images of one theatre share its registration: the interval counts them as at most one sample.
+    Images of one theatre share its registration, so the effective sample size is at most the number of
+    theatres.
     """
 
     count: int
@@ -44,7 +45,7 @@ class QuantityFigures:
         unit: mm or deg.
         median, p95, max_error: of its error.
         stated_sd: median of the stated sd, the root of the covariance's trace.
-        covered: how often the truth lies within the stated 95 % region.
+        covered: share of images in which the stated 95 % region contains the true value.
     """
 
     unit: str
@@ -60,18 +61,18 @@ class VariantFigures:
     """Statistics of one variant over all theatres.
 
     Attributes:
-        variant: what was verified.
-        theatres: in which it was registered.
+        variant: the verified configuration.
+        theatres: number of theatres with a registration.
         observations: number of counting images.
-        shown: of these, those with values.
-        absent: reasons of the others.
-        quantities: by name.
-        noticed_s: for each theatre whose camera was moved, how long after the move values were displayed that
-            apply to the old camera pose; empty with a reference.
-        wrong_before: images until then with an error outside the stated 95 % region.
+        shown: number of these with displayed values.
+        absent: number of the others by reason.
+        quantities: statistics by name.
+        noticed_s: for each theatre whose camera was moved, time after the move during which values for the
+            old camera pose were displayed; empty with a reference.
+        wrong_before: number of images in that time with an error outside the stated 95 % region.
         shown_wrong: the same after the detection limit; must be 0.
-        through: number of images with the true drill through the wall.
-        through_expected: expected number by the stated probabilities.
+        through: number of images in which the true drill perforates the wall.
+        through_expected: expected number from the stated probabilities.
     """
 
     variant: Variant
@@ -92,9 +93,9 @@ class RegistrationFigures:
     """Statistics of one registration method over all theatres.
 
     Attributes:
-        method, anchored_to: how it was registered.
+        method, anchored_to: the registration method, and camera or reference.
         theatres: number of theatres.
-        rejected: counts by error code.
+        rejected: number of rejections by error code.
         check_passed: number of registrations that passed the anatomical check.
         check_median_mm: median distance of that check.
     """

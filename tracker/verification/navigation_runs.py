@@ -18,7 +18,7 @@ from tracker.verification.rows import ImageRow, Variant
 from tracker.verification.settings import VerificationSettings
 from tracker.verification.tool_errors import ToolErrors, tool_errors
 
-# The drill is in view and near the bone.
+# Interval in which the drill is in view and near the bone.
 FROM_S, TO_S = 1.5, 30.0
 BEFORE_MOVE_S = (0.5, 0.9)
 MOVE_MM, MOVE_DEG = (3.0, 20.0), (0.5, 3.0)
@@ -31,7 +31,7 @@ class Operation:
     Attributes:
         observations: all images.
         counting_s: times of the images that enter the statistics.
-        moves_at_s: when the camera is moved; infinite for never.
+        moves_at_s: time at which the camera is moved; infinite without a move.
     """
 
     observations: tuple[Observation, ...]
@@ -63,7 +63,7 @@ def operation_with_camera_move(
     counting = _spread_over(
         at_s + settings.observed_after_move_s + 0.5, TO_S, settings.observations // 2, random
     )
-    # Images come at intervals: the move must fall at a random time between two.
+    # The phase of the move relative to the image interval must be random.
     from_s = at_s - random.uniform(*BEFORE_MOVE_S)
     around = np.arange(from_s, at_s + settings.observed_after_move_s, 1.0 / settings.image_hz).tolist()
     times = [*before, *around, *_bursts(counting, settings)]

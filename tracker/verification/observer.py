@@ -18,12 +18,12 @@ class Observation:
     """Sightings and ground truth of one image.
 
     Attributes:
-        at_s: on the theatre's clock.
-        sightings: by marker, as the tracker has them.
-        watched: what the images before add to it, without and with the reference.
-        vertebra_from_tool: the truth.
-        phase: likewise.
-        touched: the landmark on which the tip rests; empty if it rests on none.
+        at_s: time on the theatre's clock.
+        sightings: result of the tracker by marker name.
+        motion: state of the motion monitors, without and with the reference.
+        vertebra_from_tool: true pose of the tool.
+        phase: true phase of the operation.
+        touched: landmark on which the tip rests; empty for none.
     """
 
     at_s: float
@@ -43,14 +43,14 @@ class Observation:
 class TheatreObserver:
     """One camera in one theatre, over several scenes; tracker and motion monitors keep their state.
 
-    The same images are watched as if there was no reference, and with it.
+    Two motion monitors process the same images, one without and one with the reference.
     """
 
     def __init__(self, seed: int) -> None:
         self._settings = TheatreSettings(seed=seed, reference=True)
         self.theatre = Theatre(self._settings)
         if self.theatre.reference is None:
-            raise RuntimeError("a theatre with a reference has none")
+            raise RuntimeError("the theatre was created with a reference, but has none")
         self.models = (self.theatre.marker, self.theatre.reference)
         self._renderer = self.theatre.renderer()
         self._at_s = 0.0
@@ -74,7 +74,7 @@ class TheatreObserver:
         """Return the observations of a scene at these increasing times."""
         renderer = theatre.renderer(after=self._renderer)
         self._renderer = renderer
-        # Scenes follow each other; each has a clock of its own.
+        # Each scene has its own clock, but the tracker requires increasing times.
         since_s = self._at_s + 1.0 - times_s[0]
         found = []
         for time_s in times_s:

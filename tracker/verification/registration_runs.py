@@ -24,10 +24,10 @@ from tracker.verification.observer import Observation, TheatreObserver
 from tracker.verification.settings import VerificationSettings
 from tracker.verification.user_errors import mark_needle, mark_on_ct, measure_by_ruler, needle_entries
 
-# From when a hand is at rest after it has come down on a landmark.
+# Time from contact with a landmark until the hand is at rest.
 SETTLED_S = 0.3
 SEARCH_STEP_S = 0.02
-# In the scene of the operation: the drill is out of the picture.
+# Time in the operation scene at which the drill is outside the image.
 NEEDLES_VISIBLE_S = 33.5
 
 Captures = Mapping[str, Sequence[Observation]]
@@ -128,10 +128,10 @@ def captured_point(
 
 
 def reference_beside_needles(observer: TheatreObserver) -> Seen:
-    """Return the reference as seen in the image of the needles, not occluded by the drill.
+    """Return the reference detected in the image of the needles, where the drill does not occlude it.
 
     Raises:
-        RegistrationError: it is not seen.
+        RegistrationError: the reference is not detected.
     """
     [observation] = observer.observations(observer.scene(Scene.OPERATION), [NEEDLES_VISIBLE_S])
     reference = observation.sightings["reference"]

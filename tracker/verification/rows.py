@@ -9,7 +9,7 @@ from tracker.verification.tool_errors import ToolErrors
 
 
 class RegistrationMethod(StrEnum):
-    """How the vertebra was registered."""
+    """Registration method."""
 
     POINTS = "points"
     NEEDLES = "needles"  # and the ruler, as in the paper
@@ -21,9 +21,9 @@ class Variant:
     """One verified configuration.
 
     Attributes:
-        method: how the vertebra was registered.
-        anchored_to: with or without the patient reference.
-        camera_moves: whether the camera is moved in the middle.
+        method: registration method.
+        anchored_to: camera, or patient reference.
+        camera_moves: whether the camera is moved during the operation.
     """
 
     method: RegistrationMethod
@@ -36,16 +36,16 @@ class ImageRow:
     """Result of one image.
 
     Attributes:
-        seed: of the theatre.
-        variant: what was verified.
-        at_s: on the operation's clock.
-        phase: what the hand did.
+        seed: seed of the theatre.
+        variant: the verified configuration.
+        at_s: time on the operation's clock.
+        phase: true phase of the operation.
         counts: whether it enters the statistics.
         since_move_s: time since the camera was moved; negative before, and without a move.
         absent: reason why nothing is displayed; empty otherwise.
         tool_errors: errors of the displayed values; None without any.
-        is_through: whether the true drill is through the wall.
-        through_ratio: stated probability of that.
+        is_through: whether the true drill perforates the wall.
+        through_ratio: stated probability of a perforation.
     """
 
     seed: int
@@ -65,8 +65,8 @@ class RegistrationRow:
     """Result of one registration.
 
     Attributes:
-        seed: of the theatre.
-        method: how it was registered.
+        seed: seed of the theatre.
+        method: registration method.
         anchored_to: camera or reference.
         rejected: error code; empty if it was accepted.
         check_mm: distance of the anatomical check; NaN without a check.

@@ -8,20 +8,20 @@ class VerificationSettings:
     """Standard deviations of the simulated errors, equal to what the software assumes, and sampling times.
 
     Attributes:
-        tip_sd_mm: of the tool's calibrated tip, along each axis.
-        axis_sd_deg: of its calibrated axis, to each of two sides.
-        marking_sd_mm: how well a landmark is marked on the CT, along each axis: half a voxel and more.
-            Registration takes no landmark for surer than 0.5 mm in all, whatever the residuals say; below
-            that it would state too much here.
-        placing_sd_mm: how well a needle is put on its landmark, along each axis.
-        click_sd_px: how well a needle is marked in the image.
-        image_hz: how fast images come.
-        capture_images: with the tip on one landmark.
+        tip_sd_mm: sd of the tool's calibrated tip along each axis.
+        axis_sd_deg: sd of its calibrated axis in each of two directions.
+        marking_sd_mm: sd of marking a landmark on the CT along each axis, at least half a voxel. Registration
+            assumes a landmark sd of at least 0.5 mm in total, whatever the residuals; a smaller value here
+            would make the stated uncertainty too large.
+        placing_sd_mm: sd of placing a needle on its landmark along each axis.
+        click_sd_px: sd of marking a needle in the image.
+        image_hz: image rate.
+        capture_images: number of images with the tip on one landmark.
         observations: number of observations of the operation, spread over its duration.
         burst_images: consecutive images of each observation; the last one counts.
-        moves_at_s: when the camera is moved.
-        observed_after_move_s: for how long after that every image is looked at.
-        noticed_within_s: a move must be noticed within this.
+        moves_at_s: time at which the camera is moved.
+        observed_after_move_s: time after the move in which every image is evaluated.
+        noticed_within_s: time limit for the detection of the move.
     """
 
     tip_sd_mm: float = 0.15

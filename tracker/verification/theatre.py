@@ -29,7 +29,7 @@ from tracker.verification.rows import ImageRow, RegistrationMethod, Registration
 from tracker.verification.settings import VerificationSettings
 from tracker.verification.user_errors import calibrated_tool, mark_on_ct
 
-# Far apart, on both sides.
+# Indices of two landmarks far apart, on both sides.
 CAPTURED_WITH_NEEDLES = (0, 3)
 
 Registrations = dict[tuple[RegistrationMethod, AnchoredTo], Registration]
@@ -41,7 +41,7 @@ def theatre_seeds(seed: int, count: int) -> tuple[int, ...]:
 
 
 def verify_theatre(seed: int, settings: VerificationSettings | None = None) -> TheatreRows:
-    """Return all results of one seed; deterministic across processes."""
+    """Return all results of one seed. The result is deterministic, also across processes."""
     settings = settings or VerificationSettings()
     random = np.random.default_rng([seed, 0x56455249])
     observer = TheatreObserver(seed)
@@ -122,7 +122,7 @@ def _registered(
         (RegistrationMethod.NEEDLES, ()),
         (RegistrationMethod.NEEDLES_TOUCHED, CAPTURED_WITH_NEEDLES),
     ):
-        # The same needles for both, so that they can be compared.
+        # Both methods use the same needles, so that they can be compared.
         state = random.bit_generator.state
 
         def needles(chosen: tuple[int, ...] = beside) -> Registration:
@@ -159,7 +159,7 @@ def _row(
             result = check_registration(registered[key], check[place.name], place, tool, plan)
             distance_mm, passed = result.distance_mm, result.passed
         except NavigationError:
-            # The tip was not seen on it: nothing is let on, and nothing was measured.
+            # Without an accepted capture there is no distance, and navigation is not permitted.
             passed = False
     return RegistrationRow(
         seed=seed,
@@ -173,6 +173,6 @@ def _row(
 
 @lru_cache(maxsize=1)
 def _guide() -> DrillReference:
-    """Return the guide along the left channel; the bone is the same in all theatres."""
+    """Return the drill reference along the left channel; the bone is the same in all theatres."""
     [channel, _] = pedicle_channels()
     return DrillReference(wall=bone_distance_field(vertebra_surface(), channel))

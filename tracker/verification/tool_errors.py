@@ -19,10 +19,11 @@ class ErrorSample:
     """The error of one displayed quantity against the truth.
 
     Attributes:
-        error: norm of the error: mm, or degrees.
+        error: norm of the error in mm or degrees.
         stated_sd: root of the trace of its covariance, in the same unit.
-        mahalanobis_squared: squared Mahalanobis distance of the error; chi-square if the covariance is true.
-        dof: its number of components.
+        mahalanobis_squared: squared Mahalanobis distance; chi-square distributed if the covariance is
+            correct.
+        dof: number of components of the error.
     """
 
     error: float
@@ -41,10 +42,10 @@ class ToolErrors:
     """The errors of one displayed tool pose.
 
     Attributes:
-        entry: where its line meets the entry plane, mm (two numbers).
-        angle: its direction, deg (two).
-        depth: of its tip along the channel, mm (one).
-        tip: in the vertebra's frame, mm (three).
+        entry: intersection of the drill axis with the entry plane, mm (two components).
+        angle: direction of the drill axis, deg (two).
+        depth: depth of the tip along the channel, mm (one).
+        tip: tip in the vertebra's frame, mm (three).
     """
 
     entry: ErrorSample
@@ -62,7 +63,7 @@ def tool_errors(
     covariance = shown.covariance[:3, :3]
     onto = np.stack([across.medial, across.cranial])
     entry_off = onto @ (_crossing(true, channel) - _crossing(shown.pose, channel))
-    # Along the displayed drill's x and y; first order, as the stated covariance is.
+    # In the displayed drill's x and y, to first order like the stated covariance.
     turn = shown.pose.rotation[:, :2].T @ true.rotation[:, 2]
     return ToolErrors(
         entry=_error_sample(entry_off, crossing_covariance_mm2(shown, channel, depth_mm=0.0)),

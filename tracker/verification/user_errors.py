@@ -41,7 +41,7 @@ def mark_on_ct(points_mm: Array, sd_mm: float, random: np.random.Generator) -> A
 
 
 def measure_by_ruler(theatre: Theatre, middle_mm: Array, random: np.random.Generator) -> RulerMeasurement:
-    """Return V, H and azimuth to the needles' centre (3,); the simulated patient is not quite level."""
+    """Return V, H and azimuth to the needles' centre (3,) with errors; the patient is not exactly level."""
     stated_sd = RulerMeasurement(vertical_mm=1.0, horizontal_mm=1.0)
     lying = rotation_from_vector(random.normal(0.0, np.radians(stated_sd.prone_sd_deg), 3))
     to_camera = lying @ (theatre.camera_from_vertebra.inverse.translation_mm - middle_mm)
@@ -71,7 +71,7 @@ def mark_needle(
 
 
 def needle_entries(needles: Sequence[Needle]) -> Array:
-    """Return where needles leave the bone (n, 3)."""
+    """Return the points (n, 3) at which needles exit the bone."""
     tips = np.stack([needle.tip_in_vertebra_mm for needle in needles])
     ways = np.stack([needle.head_in_vertebra_mm for needle in needles]) - tips
     return surface_exits(tips, ways / np.linalg.norm(ways, axis=1, keepdims=True))
@@ -83,7 +83,8 @@ def occluded_by_bone_mm(theatre: Theatre, entry_mm: Array, way: Array) -> float:
     points = entry_mm + along_mm[:, None] * way
     sights = theatre.camera_from_vertebra.inverse.translation_mm - points
     sights /= np.linalg.norm(sights, axis=1, keepdims=True)
-    # Not the bone that the needle goes into itself: that is where it is seen to go in.
+    # The first steps along the line of sight are left out: the bone at the needle's own entry does not
+    # occlude it.
     before = points[:, None] + SIGHT_STEPS_MM[None, :, None] * sights[:, None]
     behind = (bone_field(before) < 0.0).any(axis=1)
     return float(along_mm[behind].max(initial=0.0))
