@@ -1,8 +1,9 @@
 """Accept or reject a fitted occurrence by its edges, its pixels, and photometric verification.
 
-The photometric model of illumination and occlusion may fit only nearly. Such an occurrence is accepted from a
-search only where it is large and nearly unoccluded, otherwise only in tracking: false squares that pass are
-all small or half occluded, while bent paper, the usual cause of a near fit, is mostly large in the image.
+An occurrence that the photometric model of illumination and occlusion fits only approximately is accepted in
+a search only where it is large and nearly unoccluded, otherwise only in tracking. All false squares that pass
+are small or half occluded, while bent paper, the usual cause of an approximate fit, is mostly large in the
+image.
 """
 
 from dataclasses import dataclass, replace
@@ -26,19 +27,19 @@ from tracker.pose.planar import flipped_pose, pose_from_corners
 from tracker.pose.pose_ambiguity import flip_covariance
 from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
 
-# In empty scenes other squares reach a correlation of 0.86 in even illumination, and once in hundreds of
-# images 0.9 to 0.93 where they are small or wide. The marker itself has 0.97; below, it is verified
-# photometrically.
+# In scenes without a marker other squares reach a correlation of 0.86 under even illumination, and once in
+# hundreds of images 0.9 to 0.93 where they are small or wide. The marker itself has 0.97. An occurrence below
+# these limits is verified photometrically.
 PLAIN_SIDES_PX, PLAIN_CORRELATION = (20.0, 24.0, 30.0, 40.0), (0.95, 0.92, 0.92, 0.95)
 # Weak edges are verified photometrically only above this correlation before the fit.
 MIN_VERIFICATION_CORRELATION = 0.45
 # Beyond this error of the edges, the photometric refinement does not converge from their pose.
 MAX_EDGE_ERROR_PX = 0.6
-# On bent paper a part of the shape may be displaced. In a search that is accepted only where the occurrence
-# is large and nearly complete; in tracking, where no shape mismatch is found, from lower correlations.
+# On bent paper a part of the shape may be displaced. A search accepts that only where the occurrence is large
+# and nearly complete; tracking accepts lower correlations if no shape mismatch is found.
 WIDE_PX, FULL_COVERAGE_RATIO, KNOWN_CORRELATION = 36.0, 0.85, 0.85
 NEAR_CORRELATION, NEAR_INNER_CORRELATION = 0.93, 0.9
-# Under saturation, a track is kept if it has hardly moved and has no edges but the model's.
+# Under saturation, a track is accepted if it has hardly moved and has no edges other than the model's.
 SATURATED_TARGET_COVERAGE_RATIO, SATURATED_MOVE_PX, SATURATED_MOVE_SIDE_RATIO = 0.9, 3.0, 0.1
 
 
@@ -47,10 +48,10 @@ class OccurrenceContext:
     """Image, model and settings that an occurrence is verified with.
 
     Attributes:
-        camera: of the image.
-        model: of the marker.
-        pixels: the whole image.
-        window: the part of it (h, w) of which `gradient` is the gradient.
+        camera: the camera model.
+        model: the marker model.
+        pixels: the whole image with its noise and the textures.
+        window: region of the image (h, w) of `gradient`.
         gradient: image gradient of the window.
         settings: acceptance thresholds.
         expected: predicted pose; None in a search.
@@ -78,8 +79,8 @@ class OccurrenceContext:
 def verify_occurrence(scene: OccurrenceContext, found: Occurrence) -> Sighting:
     """Return `Seen` with the photometrically refined pose if the occurrence is the marker, else `Unseen`.
 
-    The edges are tested first, because they cost least; then the correlation of the inside, assuming even
-    illumination; last, the photometric model with blur, shadows, highlights and occlusion.
+    The tests run in order of their cost: the edges; then the correlation of the inside, assuming even
+    illumination; then the photometric model with blur, shadows, highlights and occlusion.
     """
     settings, agreement = scene.settings, found.agreement
     score, target = agreement.score_ratio(settings), agreement.target_score_ratio(settings)
@@ -125,14 +126,14 @@ def verify_occurrence(scene: OccurrenceContext, found: Occurrence) -> Sighting:
 
 
 def _min_plain(corners_px: Array) -> float:
-    """Return the correlation sufficient in even illumination for a square with these corners (4, 2)."""
+    """Return the correlation required under even illumination for a square with these corners (4, 2)."""
     return float(np.interp(side_px_of(corners_px), PLAIN_SIDES_PX, PLAIN_CORRELATION))
 
 
 def _plain_correlation(scene: OccurrenceContext, found: Occurrence) -> tuple[float, float]:
-    """Return the correlation of the inside in even illumination (-1 on a shape mismatch), and regardless."""
+    """Return the correlation under even illumination, once as -1 on a shape mismatch, once regardless."""
     correlation, maximum = -1.0, -1.0
-    # Bent paper deviates from its flat pose. Another shape mismatches at either set of corners.
+    # Bent paper deviates from its flat pose, while another shape mismatches at both sets of corners.
     for corners in (found.corners_px, found.seen_corners_px):
         look = shape_mismatch_of(
             scene.window, scene.model.square, corners - scene.corner_px, side_px=side_px_of(corners)
@@ -148,9 +149,9 @@ def _plain_correlation(scene: OccurrenceContext, found: Occurrence) -> tuple[flo
 def _photometrically_verified(
     scene: OccurrenceContext, found: Occurrence, seen: Seen, *, plain: float
 ) -> tuple[Seen, OccludedAt | None] | None:
-    """Return the sighting if the photometric model fits, or nearly fits one that correlates in even light.
+    """Return the sighting if the photometric model fits, or fits approximately and the correlation is high.
 
-    Also return the occlusion of the marker where it is known. None where the sighting is rejected.
+    Also returns the occlusion of the marker where it is known. The sighting is None where it is rejected.
     """
     fit = photometric_fit_of(
         scene.window,
@@ -182,7 +183,7 @@ def _photometrically_verified(
 
 
 def _is_saturated_track(scene: OccurrenceContext, found: Occurrence) -> bool:
-    """Whether the occurrence is at its predicted pose and matches the model under saturation (glare)."""
+    """Return whether the occurrence is at its predicted pose and matches the model under saturation."""
     enough = found.agreement.target_coverage_ratio >= SATURATED_TARGET_COVERAGE_RATIO
     if not (enough and _is_where_expected(scene, found)):
         return False
@@ -201,7 +202,7 @@ def _is_where_expected(scene: OccurrenceContext, found: Occurrence) -> bool:
 
 
 def _moved(scene: OccurrenceContext, found: Occurrence, seen: Seen, corners_px: Array) -> Seen:
-    """Return the sighting at corners (4, 2) from the pixels, with their pose where the edges deviate."""
+    """Return the sighting with corners (4, 2) from the pixels, and their pose where the edges deviate."""
     seen = replace(seen, corners_px=corners_px)
     moved = float(np.abs(corners_px - found.corners_px).max())
     if moved <= MAX_EDGE_ERROR_PX:
@@ -212,7 +213,7 @@ def _moved(scene: OccurrenceContext, found: Occurrence, seen: Seen, corners_px: 
     before = found.fit.camera_from_marker.rotation
     both = (pose, flipped_pose(pose))
     nearer, farther = sorted(both, key=lambda one: -float(np.sum(one.rotation * before)))
-    # Edges with that error do not decide between the two planar solutions.
+    # With that error the edges cannot resolve the planar pose ambiguity.
     spread = flip_covariance(nearer, farther, delta_chi2=0.0, expected=scene.expected)
     return replace(
         seen,

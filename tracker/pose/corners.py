@@ -7,10 +7,10 @@ from tracker.geometry import Array
 from tracker.marker import ActiveEdges, edge_crossings
 from tracker.marker.score_kernels import shift_corners
 
-# Part of each side, next to a corner, whose edgels locate the corner: short enough for bent paper to be
-# straight, long enough to average.
+# Part of each side, next to a corner, whose edgels locate the corner: short enough to be straight on bent
+# paper, long enough to average noise.
 NEAR_SIDE_RATIO = 0.35
-# Beyond this distance from the projected edge, the edgel is not the marker's own.
+# Beyond this distance from the projected edge, an edgel belongs to something else.
 MAX_OFF_PX, MAX_OFF_SIDE_RATIO = 1.5, 0.04
 
 
@@ -25,17 +25,17 @@ def measured_corners_px(
 ) -> Array:
     """Return corners (4, 2), top-left, top-right, bottom-right, bottom-left, measured on the adjacent sides.
 
-    The pose assumes a flat square with unshifted edges; bent paper and the camera response move the imaged
-    corners. A corner with too few edgels next to it (occluded, or outside the image) keeps its projected
-    position.
+    The pose assumes a flat square with unshifted edges, but bent paper and the camera response displace the
+    corners in the image. A corner with too few edgels next to it (occluded, or outside the image) is returned
+    at its projected position.
 
     Args:
-        gradient: of the image around the marker.
+        gradient: gradient of the image around the marker.
         active: the model's active edges.
-        points_px: (n, 2), the active edges at the pose.
+        points_px: (n, 2), the active edges projected at the pose.
         normals_px: (n, 2), their unit normals, dark to bright.
-        corners_px: (4, 2), at the pose.
-        contrast: gradient of a free edge of this occurrence.
+        corners_px: (4, 2), the corners projected at the pose.
+        contrast: gradient magnitude of an unoccluded edge of this occurrence.
     """
     half = active.half_mm
     c = corners_px.tolist()

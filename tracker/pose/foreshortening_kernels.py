@@ -7,11 +7,11 @@ from tracker.compiled import compiled
 
 @compiled
 def pose_from_foreshortening(homography, rotation, translation):
-    """Write a pose whose image is, to first order, that of a homography (3, 3) from the plane in mm.
+    """Write the pose whose projection equals a homography (3, 3) from the plane in mm to first order.
 
-    False where there is none. In a frame whose z is the line of sight, the image's derivative is the upper
-    left block of the rotation divided by the distance; the missing part of each column is its component
-    along that line.
+    Returns False where there is none. In a frame whose z is the line of sight, the Jacobian of the projection
+    is the upper left block of the rotation divided by the distance; the unit norm of each column gives its
+    component along the line of sight.
     """
     unit = 1.0 / homography[2, 2]
     x, y = unit * homography[0, 2], unit * homography[1, 2]
@@ -32,7 +32,7 @@ def pose_from_foreshortening(homography, rotation, translation):
         p = unit * (homography[0, k] - x * homography[2, k])
         q = unit * (homography[1, k] - y * homography[2, k])
         seen[0, k], seen[1, k] = (d * p - b * q) / det, (a * q - c * p) / det
-    # The larger singular value is the one that the tilt does not shorten.
+    # The tilt shortens one singular value; the larger one is the scale.
     squares = (seen * seen).sum()
     area = seen[0, 0] * seen[1, 1] - seen[0, 1] * seen[1, 0]
     scale = np.sqrt(0.5 * (squares + np.sqrt(max(squares * squares - 4.0 * area * area, 0.0))))

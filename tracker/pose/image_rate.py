@@ -1,6 +1,6 @@
 """Image period from capture times, and the longest gap allowed between two images.
 
-A low image rate is no fault, so a gap is defined in image periods.
+A low image rate is allowed, so a gap is defined in image periods.
 """
 
 from collections.abc import Sequence
@@ -12,8 +12,8 @@ import numpy as np
 def image_period_s(times_s: Sequence[float], *, min_intervals: int = 1) -> float | None:
     """Return the median time between two images [s]; None with fewer than `min_intervals` intervals.
 
-    Of two middle intervals the shorter one is returned, so that a single gap between few images is not taken
-    for the period. Times that do not increase are ignored.
+    For an even number of intervals this is the lower median, so that a single gap among few images does not
+    determine the period. Times that do not increase are ignored.
     """
     intervals = np.sort(np.diff(np.asarray(times_s, dtype=np.float64)))
     intervals = intervals[intervals > 0.0]

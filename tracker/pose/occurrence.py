@@ -19,9 +19,9 @@ from tracker.marker import (
 from tracker.pose.corners import measured_corners_px
 from tracker.pose.refinement import EdgeFit, fit_pose_to_edges, projected_edges
 
-# Before the fit, corners may be off by a pixel or two and edges therefore out of reach.
+# Before the fit, corners may be wrong by a pixel or two, and some edges are then outside the search range.
 MIN_FIT_COVERAGE = 0.3
-# The fit must end near its start: a candidate that moves by over half its side is not the marker.
+# A candidate that moves by more than half its side during the fit is not the marker.
 MAX_DRAG_SIDE_RATIO = 0.5
 
 
@@ -30,13 +30,14 @@ class Occurrence:
     """A marker model fitted to the edges of an image.
 
     Attributes:
-        camera: of the image.
-        fit: the pose.
-        corners_px: (4, 2), of the black square projected at that pose, with lens distortion.
-        seen_corners_px: (4, 2), measured on the sides next to each corner.
+        camera: the camera model.
+        fit: the fitted pose.
+        corners_px: (4, 2), corners of the black square projected at that pose, with lens distortion.
+        seen_corners_px: (4, 2), corners measured on the sides next to each corner.
         agreement: agreement of the model's edges with the image.
         active: the fitted active edges of the model.
-        points_px: (n, 2), the active edges projected at that pose; `normals_px` (n, 2) their unit normals.
+        points_px: (n, 2), the active edges projected at that pose.
+        normals_px: (n, 2), their unit normals.
     """
 
     camera: CameraModel
@@ -70,7 +71,7 @@ def occurrence_near(
     first_reach_px: float,
     expected: Rigid[Camera, Marker] | None = None,
 ) -> Occurrence | None:
-    """Return the model fitted to the edges around a pose; None when too few of its edges are near."""
+    """Return the model fitted to the edges around a pose; None when too few of its edges are found."""
     corners = corners_px_at(camera, model, start)
     side = side_px_of(corners)
     active = model.level_for(side)
@@ -122,7 +123,7 @@ def occurrence_near(
 def with_target_coverage(
     camera: CameraModel, model: MarkerModel, gradient: Gradient, edgels: Edgels, found: Occurrence
 ) -> Occurrence:
-    """Return the occurrence with its target coverage: how many of the image's edges the model has."""
+    """Return the occurrence with its target coverage: the share of the image's edges that the model has."""
     side = side_px_of(found.corners_px)
     active = model.level_for(side)
     projected: tuple[Array, Array] | None = (found.points_px, found.normals_px)

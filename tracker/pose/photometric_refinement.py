@@ -1,17 +1,18 @@
-"""Photometric (direct) pose refinement of a pose from edges.
+"""Photometric (direct) refinement of a pose from edges.
 
-Edges use the position of a gradient peak, pixels its whole profile. So the pose from edges is refined on all
-pixels, with blur, camera response and illumination. Where the photometric model does not fit, the pose from
-edges stays. Cost: 1 to 3 ms.
+The edge fit uses only the position of a gradient peak, the photometric fit its whole profile. The pose from
+edges is therefore refined on all pixels, with blur, camera response and illumination. Where the photometric
+model does not fit, the pose from edges is returned. It takes 1 to 3 ms.
 
-The photometric cost chooses among all fits. Edges of a motion-blurred marker lie at either end of the motion
+The photometric cost selects among all fits. Edges of a motion-blurred marker lie at either end of the motion
 and often fit the wrong planar solution; a distance limit without half of the motion blur would reject the
-right one, and state half a degree for a tip error of decimetres (7 of 41 hard scenes of camera B). Where the
-best fit ends elsewhere and leaves residuals, the pose from edges stays and the covariance spans both: with an
-occlusion along one side the edges are wrong and the pixels right. `tests/tracker/test_limits.py` tests that
-no error exceeds ten stated standard deviations.
+right one, and the stated sd would be half a degree for a tip error of decimetres (7 of 41 hard scenes of
+camera B). Where the best fit converges elsewhere with large residuals, the pose from edges is returned with
+the
+covariance of a mixture of both: with an occlusion along one side the edges are wrong and the pixels right.
+`tests/tracker/test_limits.py` tests that no error exceeds ten stated standard deviations.
 
-Occluded pixels have zero weight: a round finger resembles a shadow, and with a third of the marker under it
+Occluded pixels have zero weight: a round finger resembles a shadow, and if it occludes a third of the marker
 (cover30, camera A) the tip error would be 1.37 mm instead of 0.37 mm.
 """
 
@@ -39,31 +40,31 @@ from tracker.pose.pose_ambiguity import (
 from tracker.pose.second_order import second_order_covariance
 from tracker.pose.sighting import Seen
 
-# Edges locate a pose to a fraction of a pixel: a photometric fit that ends farther away fits something else.
+# Edges determine a pose to a fraction of a pixel, so a photometric fit that converges farther away is wrong.
 MAX_APART_PX, MAX_APART_SIDE_RATIO = 1.2, 0.04
 MIN_CONTRAST_GREY = 4.0
 # With larger residuals, in units of the noise and of the contrast, or fewer inlier pixels, the pose from
-# edges is the more accurate one. With an inlier ratio of 0.6 a wrong tilt passes in interlaced images.
+# edges is more accurate. An inlier ratio of 0.6 would accept a wrong tilt in interlaced images.
 MAX_RESIDUAL_NOISES, MAX_RESIDUAL_CONTRAST_RATIO, MIN_ACCEPTED_INLIER_RATIO = 2.2, 0.055, 0.72
-# Model errors are correlated with the pose, so residuals show them only in part. The variance grows by this
-# factor times the share that is not image noise (as from compression), at least a share of the contrast.
-# Measured on rendered scenes with ground truth.
+# Model errors are correlated with the pose, so residuals contain only a part of them. The variance is
+# increased by this factor times the residual variance that is not image noise (as from compression), at least
+# a ratio of the contrast. Measured on rendered scenes with ground truth.
 UNMODELLED_FACTOR, UNMODELLED_CONTRAST_RATIO = 0.6, 0.02
-# Costs assume independent pixel errors; with model errors about half of the difference remains.
+# The delta chi-square assumes independent pixel errors; with model errors about half of it remains.
 COST_SHARE = 0.5
 # The noise estimate is accurate to a fifth. Residuals beyond that are not noise.
 MAX_NOISE_RATIO = 1.2
-# Where edges and the images before agree on one solution by this difference, the flipped one is not refined.
-# Edges alone may be wrong, because motion blur shifts them.
+# Where edges and previous images favour the same solution by this delta chi-square, the flipped one is not
+# refined. Edges alone may be wrong, because motion blur displaces them.
 CLEAR_DELTA_CHI2 = 100.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ImageContext:
-    """The whole image with what the photometric refinement needs.
+    """The whole image with its noise and the textures, for the photometric refinement.
 
     Attributes:
-        image: grey (h, w).
+        image: grey image (h, w).
         noise_grey: standard deviation of its noise.
         textures: marker textures by name.
     """
@@ -104,7 +105,7 @@ def refine_photometrically(
     )
     if not fits:
         return seen
-    # Correlated residuals, as under motion blur that deviates from the model, reduce the weight of squares.
+    # Correlated residuals, for example from motion blur that deviates from the model, reduce the information.
     share = COST_SHARE / max(one.variance_inflation for one in fits)
     costs = [share * one.robust_chi2 + mahalanobis_squared(one.camera_from_marker, expected) for one in fits]
     first, *others = np.argsort(costs, kind="stable")
@@ -138,8 +139,8 @@ def refine_photometrically(
 
 
 def _is_clear(seen: Seen, other: Rigid[Camera, Marker], expected: Rigid[Camera, Marker] | None) -> bool:
-    """Whether edges and the images before decide so clearly that the flipped solution is not refined."""
-    # Where no other solution fits the edges, both fits may have converged to one: infinity is not clear.
+    """Return whether edges and previous images resolve the ambiguity, so that the flip is not refined."""
+    # An infinite difference is no evidence: both fits may have converged to the same solution.
     if not isinstance(expected, PosePrediction) or not CLEAR_DELTA_CHI2 <= seen.delta_chi2 < np.inf:
         return False
     was_sure = expected.delta_chi2 >= DECIDED_COST
@@ -147,7 +148,7 @@ def _is_clear(seen: Seen, other: Rigid[Camera, Marker], expected: Rigid[Camera, 
 
 
 def _mixture_of_both(seen: Seen, by_pixels: RefinedPose) -> Seen:
-    """Return a mixture of both poses where pixels contradict edges: an occluded side can mislead either."""
+    """Return the mixture of both poses where pixels contradict edges: an occluded side can bias either."""
     mixture = mixture_covariance(seen.camera_from_marker, by_pixels.camera_from_marker, delta_chi2=0.0)
     if by_pixels.inlier_ratio < MIN_INLIER_RATIO:
         return replace(seen, pose_covariance=seen.pose_covariance + mixture, delta_chi2=0.0)
@@ -176,14 +177,14 @@ def _unexplained(one: RefinedPose, noise_grey: float) -> float:
 
 
 def _with_unmodelled_error(one: RefinedPose, noise_grey: float) -> Array:
-    """Return the covariance (6, 6) with the model errors that the residuals do not show."""
+    """Return the covariance (6, 6) increased by the model errors that the residuals do not contain."""
     left = one.residual_sd_grey**2
     untold = max((UNMODELLED_CONTRAST_RATIO * one.contrast_grey) ** 2, left - noise_grey**2)
     return (1.0 + UNMODELLED_FACTOR * untold / max(left, untold)) * one.covariance
 
 
 def _is_near(camera: CameraModel, model: MarkerModel, one: RefinedPose, found: Rigid[Camera, Marker]) -> bool:
-    """Whether a fit ended at the edges. Edges of a motion-blurred marker lie at either end of the motion."""
+    """Return whether a fit lies near the pose from edges, with half of the motion blur as tolerance."""
     here, there = (corners_px_at(camera, model, pose) for pose in (found, one.camera_from_marker))
     reach = max(MAX_APART_PX, MAX_APART_SIDE_RATIO * side_px_of(here)) + 0.5 * one.motion_blur_px
     return float(np.abs(there - here).max()) < reach

@@ -11,19 +11,19 @@ from tracker.geometry.geometry_kernels import mirror
 from tracker.pose.foreshortening_kernels import pose_from_foreshortening
 from tracker.pose.pose_kernels import fit_square
 
-# The closed form is accurate to a few pixels; each Gauss-Newton step squares the error.
+# The closed form is accurate to a few pixels, and Gauss-Newton converges quadratically.
 FIT_ROUNDS = 6
 
 
 def pose_from_corners(
     camera: CameraModel, corners_px: Array, *, side_mm: float
 ) -> Rigid[Camera, Marker] | None:
-    """Return the pose of a square with these corners (4, 2) in px; None when no pose in front fits.
+    """Return the pose of a square with these corners (4, 2) in px; None when no pose before the camera fits.
 
-    Corners in the order top-left, top-right, bottom-right, bottom-left of the printed face. A small square
-    shows nearly no perspective: the perspective in its corners is mostly noise, so the last row of the
-    homography does not measure the tilt. The tilt is estimated from the foreshortening at the centre, and
-    both poses with that foreshortening are fitted to the corners.
+    Corners are in the order top-left, top-right, bottom-right, bottom-left of the printed face. The
+    perspective of a small square is mostly noise, so the last row of the homography does not determine the
+    tilt. The tilt is estimated from the foreshortening at the centre, and both poses with that foreshortening
+    are fitted to the corners.
     """
     h = side_mm / 2.0
     plane = np.array([[-h, h], [h, h], [h, -h], [-h, -h]], dtype=np.float32)
@@ -57,16 +57,16 @@ class SquareFit:
 
 
 def fit_square_pose(corners: Array, start: Rigid[Camera, Marker], *, side_mm: float) -> SquareFit | None:
-    """Return the pose near `start` that fits corners (4, 2) on the plane z = 1; None where there is none."""
+    """Return the pose near `start` fitted to corners (4, 2) on the plane z = 1; None where the fit fails."""
     rotation, translation = start.rotation.copy(), start.translation_mm.copy()
     left = float(fit_square(corners, side_mm / 2.0, rotation, translation, FIT_ROUNDS))
-    # The printed face looks at the camera, and the camera looks at the marker.
+    # The printed face is towards the camera, and the marker is in front of it.
     facing = translation[2] > 0.0 and float(rotation[:, 2] @ translation) < 0.0
     return SquareFit(rotation, translation, left) if facing and np.isfinite(left) else None
 
 
 def _foreshortening_start(homography: Array) -> Rigid[Camera, Marker] | None:
-    """Return a pose whose image is, to first order, that of a homography (3, 3) from mm; None without one."""
+    """Return the pose whose projection equals a homography (3, 3) from mm to first order, or None."""
     rotation, translation = np.empty((3, 3)), np.empty(3)
     if not pose_from_foreshortening(homography, rotation, translation):
         return None
@@ -74,10 +74,10 @@ def _foreshortening_start(homography: Array) -> Rigid[Camera, Marker] | None:
 
 
 def flipped_pose(pose: Rigid[Camera, Marker]) -> Rigid[Camera, Marker]:
-    """Return the other planar solution: the pose with the same image but for perspective, tilted oppositely.
+    """Return the other planar solution, with the opposite tilt and the same image under weak perspective.
 
-    Far away, the image of a plane depends on the amount and the axis of its tilt, not on which half is
-    nearer. In a frame whose z is the line of sight that is the reflection D R D, D = diag(1, 1, -1).
+    In a frame whose z is the line of sight it is the reflection D R D, D = diag(1, 1, -1): under weak
+    perspective, the image depends on the amount and the axis of the tilt, but not on its sign.
     """
     rotation = np.empty((3, 3))
     mirror(pose.rotation, pose.translation_mm, rotation)

@@ -1,12 +1,12 @@
-"""Planar pose ambiguity: choose between the two solutions for a square from this image and those before.
+"""Planar pose ambiguity: choose between the two solutions for a square from this and previous images.
 
-One image of a small marker in noise does not separate the two solutions; several images do. Both are tracked
-with the difference of their chi-squares. A wrong first choice is corrected within a few images, and until
-then the covariance spans both. The difference is bounded, so that later images can reverse it.
+A single noisy image of a small marker does not resolve the ambiguity; several images do. Both solutions are
+tracked with their delta chi-square. A wrong first choice is corrected within a few images, and until then the
+covariance is that of a mixture of both. The delta chi-square is bounded, so that later images can reverse it.
 
-Edges that contradict the prediction do not decide, however large their difference: a strip along a side gives
-a difference over 100 for the wrong solution, and a tip error of 33 mm. Where the flipped solution is nearer
-to the predicted pose, or the images before were undecided, both are refined photometrically.
+Edges that contradict the prediction do not decide, however large their delta chi-square: a strip along a side
+gives more than 100 in favour of the wrong solution, and a tip error of 33 mm. Where the flipped solution is
+nearer to the predicted pose, or previous images were undecided, both are refined photometrically.
 """
 
 from dataclasses import dataclass
@@ -18,10 +18,10 @@ from tracker.geometry.geometry_kernels import rotation_angle_between
 from tracker.photometric import KnownIllumination
 from tracker.pose.second_order import TOOL_REACH_MM
 
-# A difference of chi-square this large decides: the odds of the worse solution are under 1 in 10,000.
+# At this delta chi-square the ambiguity is resolved: the odds of the worse solution are below 1 in 8,000.
 DECIDED_COST = 18.0
 UNDECIDED_COST = 2.0
-# Solutions nearer than this are the same solution.
+# Solutions that differ by less are the same solution.
 MIN_ROTATION_RAD, ONE_SOLUTION_RAD = 1e-3, float(np.radians(1.0))
 EXPECTED_ROTATION_SD_DEG = 4.0
 SMALL_PROBABILITY = 0.05
@@ -31,11 +31,11 @@ FAR_ROTATION_DEG, NEAR_ROTATION_DEG = 20.0, 10.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PosePrediction(Rigid[Camera, Marker]):
-    """The pose predicted from the images before, and its flipped planar solution.
+    """The pose predicted from previous images, and its flipped planar solution.
 
     Attributes:
         flipped: the other planar solution, predicted with the same motion.
-        delta_chi2: chi-square of the flipped solution minus that of this pose, over the images before.
+        delta_chi2: chi-square of the flipped solution minus that of this pose, over previous images.
         illumination: the uneven illumination of the last image; None where it was even.
     """
 
@@ -47,9 +47,9 @@ class PosePrediction(Rigid[Camera, Marker]):
 def mahalanobis_squared(pose: Rigid[Camera, Marker], expected: Rigid[Camera, Marker] | None) -> float:
     """Return the squared Mahalanobis distance of a pose from the prediction, in rotation; 0 without one.
 
-    The smaller of two: the squared angle from the predicted pose over the variance of a hand's rotation; and
-    the same from the flipped prediction, plus its `delta_chi2`. So both solutions stay available until the
-    images together decide.
+    The smaller of two values: the squared angle from the predicted pose divided by the variance of a hand's
+    rotation, and the same from the flipped prediction plus its `delta_chi2`. Both solutions therefore remain
+    possible until the images together decide.
     """
     if expected is None:
         return 0.0
@@ -79,9 +79,9 @@ def flip_covariance(
     delta_chi2: float,
     expected: Rigid[Camera, Marker] | None,
 ) -> Array:
-    """Return the addition to a pose's covariance (6, 6) in case the flipped solution is true.
+    """Return the term (6, 6) added to a pose's covariance for the probability of the flipped solution.
 
-    `delta_chi2` is the difference of the chi-squares of `worse` and `better`.
+    `delta_chi2` is the chi-square of `worse` minus that of `better`.
     """
     if delta_chi2 > DECIDED_COST and (
         expected is None or _rotation_rad(better, expected) < np.radians(FAR_ROTATION_DEG)
@@ -98,7 +98,7 @@ def flip_covariance(
 def mixture_covariance(
     claimed: Rigid[Camera, Marker], other: Rigid[Camera, Marker], *, delta_chi2: float
 ) -> Array:
-    """Return the addition to a pose's covariance (6, 6) in case another pose is true.
+    """Return the term (6, 6) added to a pose's covariance for the probability of another pose.
 
     `delta_chi2` as in `flip_covariance`; at 0 both are equally probable.
     """
@@ -113,15 +113,15 @@ def _probability_of_worse(delta_chi2: float) -> float:
 def is_nearer_in_rotation(
     one: Rigid[Camera, Marker], to: Rigid[Camera, Marker], than: Rigid[Camera, Marker]
 ) -> bool:
-    """Whether a pose is nearer in rotation to the first than to the second."""
+    """Return whether a pose is nearer in rotation to the first than to the second."""
     return _rotation_rad(one, to) < _rotation_rad(one, than)
 
 
 def _spread(apart: Array, probability: float) -> Array:
     """Return the mixture covariance (6, 6) for another pose at `apart` (6,) with this probability."""
     spread = np.outer(apart, apart)
-    # A rotation moves points on an arc, a covariance on its tangent. The deviation shortens the lever to the
-    # tip, which first-order propagation leaves out; a small probability needs less of it.
+    # A rotation moves points on an arc, first-order propagation on its tangent. The deviation shortens the
+    # lever to the tip; its term vanishes for a small probability.
     beside = float(1.0 - np.cos(np.linalg.norm(apart[3:])))
     spread[3:, 3:] += beside**2 * np.eye(3)
     spread[:3, :3] += (
@@ -142,7 +142,7 @@ def _rotation_sd2(pose: Rigid[Camera, Marker], other: Rigid[Camera, Marker]) -> 
 def _is_flip_of_expected(
     better: Rigid[Camera, Marker], worse: Rigid[Camera, Marker], expected: Rigid[Camera, Marker]
 ) -> bool:
-    """Whether the better pose is out of a hand's reach from the prediction, and the worse one within it."""
+    """Return whether a hand cannot reach the better pose from the prediction, but can reach the worse one."""
     is_far = _rotation_rad(better, expected) > np.radians(FAR_ROTATION_DEG)
     return bool(is_far and _rotation_rad(worse, expected) < np.radians(NEAR_ROTATION_DEG))
 

@@ -9,11 +9,11 @@ from tracker.geometry.geometry_kernels import mirror, rotate_by, solve_positive
 
 PARAMETERS = 7  # translation, rotation, and one shift common to all edges
 MIN_EDGES = 12
-# Converged when no edge moves by more than the first; below the second the last search reach is used.
+# Convergence limit of the edge motion; below the second value the smallest search range is used.
 MIN_MOVE_PX, NEAR_MOVE_PX = 0.004, 0.3
-# A parabola through samples a pixel apart underestimates the offset of a near peak by a fifth.
+# Parabola interpolation of samples one pixel apart underestimates the offset of a near peak by a fifth.
 OVER_RELAXATION = 1.25
-# A fit that moves less than this at a far higher cost will not become the better one.
+# A fit that moves less than this at a much higher cost cannot become the better one.
 EARLY_STOP_MOVE_PX = 0.1
 
 
@@ -70,7 +70,7 @@ def project_edges(rotation, translation, lens, points, normals):
 
 @compiled
 def _residuals(gx, gy, left, top, pixels, directions, strength, minimum, reach, found, offset):
-    """Write the offsets of the image's edges from the projected ones; return how many are found."""
+    """Write the offsets of the image edges from the projected edges; return the number of edges found."""
     n = 0
     for i in range(len(pixels)):
         o, response = crossing(
@@ -94,7 +94,7 @@ def _normal_equations(rotation, points, toward, found, offset, weight, shift, sh
         if not found[i]:
             continue
         r = offset[i] - shift
-        # Tukey's biweight: an offset far off belongs to another edge and has zero weight.
+        # Tukey's biweight: large offsets belong to other edges and have zero weight.
         z = r / (4.685 * scale)
         if abs(z) >= 1.0:
             continue
@@ -115,7 +115,7 @@ def _normal_equations(rotation, points, toward, found, offset, weight, shift, sh
     for m in range(PARAMETERS):
         for k in range(m):
             a[k, m] = a[m, k]
-    # The shift is not free: a camera's response or the printer's ink moves all edges by tenths of a pixel.
+    # Prior on the shift: the camera response or the printer's ink moves all edges by tenths of a pixel.
     prior = (scale / shift_sd) ** 2
     a[6, 6] += prior
     g[6] -= prior * shift
@@ -135,11 +135,11 @@ def _normalised_mad(values, shift, found, sizes):
 
 @compiled
 def _apply_step(rotation, translation, step):
-    """Apply a step to the pose in place; False where the face then points away or lies behind the camera."""
+    """Apply a step to the pose in place; return False where the face then points away or is not in front."""
     angle = np.sqrt(step[3] ** 2 + step[4] ** 2 + step[5] ** 2)
     if not np.isfinite(angle):
         return False
-    # A step over half a radian leaves the linear range: shorten it as a whole.
+    # A step over half a radian is outside the linear range: scale the whole step.
     short = 0.5 / angle if angle > 0.5 else 1.0
     for k in range(3):
         translation[k] += short * step[k]
@@ -192,7 +192,8 @@ def _refine(
     """Refine the pose by Gauss-Newton on the edge offsets, searched again within each of `reaches` px.
 
     Changes the pose, rotation (3, 3) and translation (3,), in place; `a` (7, 7) and `statistics` are those of
-    `fit_both_solutions`. Stops early where the cost stays over `max_cost_px2` px^2. False when it failed.
+    `fit_both_solutions`. Stops early where the cost remains above `max_cost_px2` px^2. Returns False when the
+    fit failed.
     """
     rotation, translation = pose
     n = len(points)
@@ -205,7 +206,7 @@ def _refine(
         moved = _project(rotation, translation, lens, points, normals, pixels, directions, toward)
         if moved < 0.0:
             return False
-        # One more search than steps, so that the statistics belong to the returned pose.
+        # One more edge search than steps, so that the statistics belong to the returned pose.
         ends = iteration > last or (iteration > 0 and moved < MIN_MOVE_PX and reaches[at] == reaches[last])
         if iteration > 0:
             at = last if moved < NEAR_MOVE_PX else min(at + 1, last)
@@ -292,10 +293,10 @@ def fit_both_solutions(
 ):  # fmt: skip
     """Refine both planar solutions around a pose.
 
-    A fit that has not converged costs more than the wrong solution well fitted, and its flipped pose is no
-    solution. So a fit is accepted only after the fit from its own flipped pose has a higher cost, or after
-    `max_fits` fits. Costs that differ by `decided` variances of an edge (at least `min_px2`) need no
-    converged loser.
+    A fit that has not converged can cost more than a converged fit of the wrong solution, and its flipped
+    pose is no solution. A fit is therefore accepted only after the fit from its own flipped pose has a higher
+    cost, or after `max_fits` fits. If the costs differ by `decided` variances of an edge (at least
+    `min_px2`), the worse fit need not converge.
 
     Returns:
         rotations (3, 3, 3), translations (3, 3), matrices (3, 7, 7) and statistics (3, 5) of three fits:

@@ -1,13 +1,13 @@
 """Prediction of a marker's pose from the last images.
 
-A repeated image adds no evidence: 25 copies from a frozen camera would make an ambiguous pose certain, and a
-capture card that repeats each image of a slower camera would show a marker at rest and then at twice its
-speed. An image whose pixels around the marker equal the last ones is ignored. Two alternating images are
-not noticed.
+A repeated image adds no evidence: 25 copies from a frozen camera would seem to resolve an ambiguous pose, and
+with a capture card that repeats each image of a slower camera a marker would alternate between rest and twice
+its speed. An image whose pixels around the marker equal those of the last image is ignored. Two alternating
+images are not detected.
 
-A systematic residual (`Seen.systematic_residual_ratio`), as from a drop on the marker or from doubled rows,
-repeats in every image and would make the wrong tilt certain within a few. So images that agree count as
-fewer by that share; tilts of small markers in poor video stay uncertain for longer.
+A systematic residual (`Seen.systematic_residual_ratio`), for example from a drop on the marker or from
+doubled rows, repeats in every image and would favour the wrong tilt within a few images. Images that agree
+therefore count as fewer by that ratio, and tilts of small markers in poor video remain uncertain for longer.
 """
 
 from dataclasses import dataclass
@@ -21,16 +21,17 @@ from tracker.pose.planar import flipped_pose
 from tracker.pose.pose_ambiguity import PosePrediction, is_nearer_in_rotation
 from tracker.pose.sighting import Seen, Sighting
 
-# A hand changes direction within a tenth of a second, so linear extrapolation does not hold for longer.
+# Maximum extrapolation time of the linear motion model.
 MAX_PREDICTION_S = 0.25
-# A highlight or a hand may occlude a marker for some images; its last pose is kept for so long.
+# Maximum time without a sighting, as under a highlight or a hand, after which the last pose is discarded.
 MAX_UNSEEN_S = 0.07
 # Two poses nearer in time than this do not determine a speed.
 MIN_INTERVAL_S = 1e-3
 MAX_SPEED_MM_S = 1500.0
 MAX_ROTATION_RAD = float(np.radians(15.0))
-# Evidence for one planar solution is correlated between images: bent paper, illumination and blur stay. So
-# old images are forgotten exponentially and the sum is bounded; a few images can always reverse the choice.
+# Evidence for one planar solution is correlated between images, because bent paper, illumination and blur
+# persist. The sum is therefore exponentially weighted and bounded, so that a few images can reverse the
+# choice.
 FORGETTING_RATIO, MAX_DELTA_CHI2 = 0.9, 25.0
 # The effective number of images in the exponential sum.
 EFFECTIVE_IMAGES = 1.0 / (1.0 - FORGETTING_RATIO)
@@ -41,8 +42,8 @@ class Prior:
     """A marker's last pose with its `delta_chi2`, illumination and motion. Mutable.
 
     `delta_chi2_before` is the value before the last image. `at_s` is the time of the last new image,
-    `repeated_at_s` that of its last repetition. `rates` (6,) [mm/s, rad/s] are the motion, None while it is
-    unknown, and `rates_before` those one image earlier.
+    `repeated_at_s` that of its last repetition. `rates` (6,) [mm/s, rad/s] is the velocity, None while it is
+    unknown, and `rates_before` that of one image earlier.
     """
 
     pose: Rigid[Camera, Marker] | None = None
@@ -57,8 +58,8 @@ class Prior:
     def predict(self, at_s: float, *, is_repeated: bool = False) -> PosePrediction | None:
         """Return the predicted pose at this time; None when the last pose is too old.
 
-        `is_repeated`: the image is a copy of the last one. Its own evidence is left out, and nothing has
-        moved.
+        `is_repeated`: the image is a copy of the last one. Its own evidence is excluded, and no motion is
+        extrapolated.
         """
         if self.pose is None or not 0.0 < at_s - self.repeated_at_s <= MAX_PREDICTION_S:
             return None
@@ -79,9 +80,9 @@ class Prior:
         )
 
     def update(self, sighting: Sighting, at_s: float, *, is_repeated: bool = False) -> None:
-        """Update the prior with a sighting; forget a marker that was not seen for a while.
+        """Update the prior with a sighting; discard the pose of a marker that was unseen for too long.
 
-        A repeated image (`is_repeated`) adds nothing for a marker that was seen in it.
+        A repeated image (`is_repeated`) does not change the prior of a marker that was seen in it.
         """
         if is_repeated and isinstance(sighting, Seen) and self.predict(at_s, is_repeated=True) is not None:
             self.repeated_at_s = at_s
@@ -102,7 +103,7 @@ class Prior:
             return None
         rates = np.zeros(6)
         velocity = (now.translation_mm - self.pose.translation_mm) / interval
-        # Faster than any hand: one of the poses was wrong, so the speed does not predict the next image.
+        # Faster than any hand means that one of the poses was wrong; the velocity must not be extrapolated.
         if float(velocity @ velocity) < MAX_SPEED_MM_S**2:
             rates[:3] = velocity
         # A flip between the planar solutions is not a rotation of the hand.
@@ -112,10 +113,10 @@ class Prior:
         return rates
 
     def _update_delta_chi2(self, seen: Seen) -> None:
-        """Add the evidence of an image for one of the two solutions, less the part that repeats.
+        """Add the evidence of an image for one of the two solutions, without the part that repeats.
 
-        Systematic residuals repeat in each image, as from a drop on the marker or from doubled rows. Their
-        share of the residuals limits how many agreeing images count as independent.
+        Systematic residuals repeat in each image. Their share of the residual variance limits the number of
+        agreeing images that count as independent.
         """
         before = 0.0 if seen.found_by == "search" or self.pose is None else self.delta_chi2
         is_against = (
@@ -126,12 +127,12 @@ class Prior:
         if gain > 0.0:
             images = min(1.0 / max(seen.systematic_residual_ratio, 1e-9), EFFECTIVE_IMAGES)
             share = (images - 1.0) / (EFFECTIVE_IMAGES - 1.0)
-            # Without independent residuals even an infinite difference adds nothing.
+            # Without independent residuals even an infinite delta chi-square adds no evidence.
             gain = gain * share if share > 0.0 else 0.0
         self.delta_chi2_before = before
         self.delta_chi2 = min(FORGETTING_RATIO * max(known + gain, 0.0), MAX_DELTA_CHI2)
 
 
 def _is_flipped(now: Rigid[Camera, Marker], before: Rigid[Camera, Marker]) -> bool:
-    """Whether a pose is nearer to the flipped solution of the one before than to that pose."""
+    """Return whether a pose is nearer to the flipped solution of the previous pose than to that pose."""
     return is_nearer_in_rotation(now, flipped_pose(before), before)

@@ -1,13 +1,13 @@
 """Edge-based pose refinement with covariance.
 
-All active edges are fitted along their normals, with the lens model inside the fit and one shift common to
-all edges, because the camera's response and the ink shift every edge alike. Four corners would use a tenth of
-the information in the pixels. Both planar solutions are refined, and the flipped pose of the accepted one is
-always tried. Cost: 1 ms per image.
+The distances of all active edges along their normals are minimised, including lens distortion and one shift
+common to all edges, because camera response and ink shift every edge equally. A fit of the four corners would
+use a tenth of the information in the pixels. Both planar solutions are refined, and the flipped pose of the
+accepted one is always tried. It takes 1 ms per image.
 
-Without the error that does not average out along a side (`SIDE_BIAS_PX`), the tip of a marker 27 px wide
-lies inside its stated 95 % ellipsoid in a third of the images only; the price is a covariance that is wider
-than necessary for large markers.
+Without the error that does not average out along a side (`SIDE_BIAS_PX`), the stated 95 % ellipsoid contains
+the tip of a marker 27 px wide in only a third of the images. In exchange, the covariance of large markers is
+larger than necessary.
 """
 
 from dataclasses import dataclass, replace
@@ -23,7 +23,7 @@ from tracker.marker.score import MIN_RESPONSE_RATIO
 from tracker.pose.pose_ambiguity import DECIDED_COST, delta_chi2_to_next, flip_covariance, mahalanobis_squared
 from tracker.pose.pose_kernels import PARAMETERS, fit_both_solutions, project_edges
 
-# Camera response, ink and blooming shift all edges towards dark or bright alike: by up to 0.25 px.
+# Camera response, ink and blooming shift all edges equally towards dark or bright, by up to 0.25 px.
 SHIFT_SD_PX = 0.25
 # Neighbouring edgels share pixels, so their errors are correlated over about three of them.
 CORRELATION_LENGTH_PX = 3.0
@@ -65,7 +65,7 @@ def fit_pose_to_edges(
 ) -> EdgeFit | None:
     """Return the better of both planar solutions around `start`; None when no pose fits.
 
-    Where neither the image nor the prediction decides between the two, the covariance spans both.
+    Where neither the image nor the prediction resolves the ambiguity, the covariance is that of the mixture.
     """
     rotations, translations, matrices, numbers, first, second = _both(
         camera, gradient, active, start, contrast, reach_px(side_px), first_reach_px
@@ -78,7 +78,8 @@ def fit_pose_to_edges(
 
     if second < 0:
         return _fit(pose_of(first), matrices[first], numbers[first], active, side_px)
-    # Variance over all edges, not over the few inliers: where most are missing, nothing is decided.
+    # Variance over all edges, not only over the inliers: where most are missing, the ambiguity is not
+    # resolved.
     mean_px2 = float(numbers[first, 0]) / active.fitted.weight
     residuals = [float(numbers[k, 2] / numbers[k, 3]) for k in (first, second)]
     variance = max(min(residuals), MIN_RESIDUAL_PX**2, mean_px2) * CORRELATION_LENGTH_PX
@@ -112,7 +113,7 @@ def _both(
     last_reach_px: float,
     first_reach_px: float,
 ) -> tuple[Array, Array, Array, Array, int, int]:
-    """Call `fit_both_solutions` around a start; see there for what it returns."""
+    """Call `fit_both_solutions` around a start, and return its result."""
     fitted, last = active.fitted, last_reach_px
     reaches = np.array(
         [first_reach_px, first_reach_px, max(last, first_reach_px / 2.0), last, last, last, last, last]
@@ -133,7 +134,7 @@ def _both(
         start.translation_mm,
         MAX_MIRRORINGS,
         MIN_RESIDUAL_PX**2,
-        # Twice the deciding difference: the cost of a fit that has not converged still falls a little.
+        # Twice the deciding difference, because the cost of a fit that has not converged still decreases.
         2.0 * DECIDED_COST * CORRELATION_LENGTH_PX,
     )
     return both
@@ -159,7 +160,7 @@ def _fit(
         cost / active.fitted.weight,
         MIN_RESIDUAL_PX**2,
     )
-    # Edgels are spaced by a pixel at small sizes and by more at large ones.
+    # Edgels are one pixel apart at small sizes and farther at large ones.
     spacing = max(active.fitted.spacing_ratio * side_px, 1e-3)
     variance *= max(CORRELATION_LENGTH_PX / spacing, 1.0)
     variance += SIDE_BIAS_PX**2 * count / INDEPENDENT_SIDES

@@ -1,11 +1,11 @@
 """Rolling shutter correction of poses.
 
-A rolling shutter reads rows one after another and shears a moving marker. A small sheared marker looks like
-another pose, with a tip error of a millimetre and more. The shift is corrected on four points of the pose,
-with the motion since the last image; the uncertainty of that motion, in a first image that of any hand, is
-added to the covariance. A correction inside the fits would need a time per pixel and change the result by a
-few hundredths of a millimetre.
-The readout time must be given (`camera.readout_ms`); nothing measures it.
+A rolling shutter reads the rows sequentially, which shears a moving marker. The image of a small sheared
+marker is nearly that of another pose, with a tip error of a millimetre and more. The displacement is
+corrected on four points of the pose with the velocity since the last image. The uncertainty of that velocity,
+in a first image that of any hand, is added to the covariance. A correction inside the fits would need a time
+per pixel and change the result by a few hundredths of a millimetre. The readout time comes from the
+configuration (`camera.readout_ms`).
 """
 
 from dataclasses import dataclass, replace
@@ -20,16 +20,16 @@ from tracker.pose.pose_ambiguity import PosePrediction, pose_difference
 from tracker.pose.prior import Prior
 from tracker.pose.sighting import Seen
 
-# Fixed-point iterations: the readout time of a corner depends on its row, and the row on the readout time.
+# Fixed-point iterations: the readout time of a point depends on its row, and the row on the readout time.
 ROUNDS = 3
-# A measured motion is the mean over an interval between images. At its end it differs by about half of the
-# change since the interval before, and at least by a hand's tremor (sd).
+# A measured velocity is the mean over the interval between two images. The velocity at its end differs by
+# about half of the change since the previous interval, and at least by a hand's tremor (sd).
 CHANGED_RATIO, MIN_SPEED_MM_S, MIN_TURNING_RAD_S = 0.5, 8.0, float(np.radians(6.0))
 # Unknown motion of a hand that holds a drill (sd).
 HAND_SPEED_MM_S, HAND_TURNING_RAD_S = 100.0, float(np.radians(40.0))
-# Four points represent the edges of the whole shape, which lie nearer to the centre than the corners: at this
-# ratio. The remaining stretch moves the centre by about a ratio of the shift; rotation bends the shape and
-# moves it by more.
+# The edges of the whole shape lie nearer to the centre than the corners; four points at this ratio of the
+# half side represent them. The remaining stretch moves the centre by the second ratio of the displacement,
+# and the nonlinear deformation under rotation by the third.
 POINTS_RATIO, STRETCHED_RATIO, BENT_RATIO = 0.8, 0.03, 0.2
 
 
@@ -38,7 +38,7 @@ class MarkerMotion:
     """Velocity of a marker in the camera frame.
 
     Attributes:
-        rates: (6,) [mm/s, rad/s], of its centre, then angular.
+        rates: (6,) [mm/s, rad/s], velocity of the marker's centre, then angular velocity.
         sd: (6,), standard deviations of `rates`.
     """
 
@@ -62,11 +62,12 @@ class MarkerMotion:
 class RollingShutter:
     """Converts between true and imaged poses. A pose refers to the time at which the marker's centre is read.
 
-    A moving marker is sheared and stretched. At its small size in the image that nearly equals another pose.
-    The tracker finds that imaged pose, and the shift of four points recovers the true one.
+    The image of a moving marker is sheared and stretched, and at a small size nearly equals that of another
+    pose. The tracker estimates this imaged pose, and the displacement of four points converts it to the true
+    one.
 
     Attributes:
-        camera: with a rolling shutter.
+        camera: model of a camera with a rolling shutter.
         seconds: readout time from the first row of an image to the last one.
     """
 
@@ -91,10 +92,10 @@ class RollingShutter:
 
         Args:
             seen: sighting in the image captured at `at_s`.
-            prior: state from the images before; None where there are none.
+            prior: state from previous images; None for a first image.
             at_s: capture time.
             side_mm: side of the marker.
-            is_repeated: the image is the last one once more.
+            is_repeated: whether the image is a copy of the last one.
         """
         imaged = seen.camera_from_marker
         delays_s = self._delays_s(imaged, side_mm)

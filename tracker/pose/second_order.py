@@ -9,11 +9,11 @@ TOOL_REACH_MM = 120.0
 
 
 def second_order_covariance(covariance: Array) -> Array:
-    """Return the covariance (6, 6) that first-order propagation of `covariance` (6, 6) to the tip leaves out.
+    """Return the second-order term (6, 6) of the propagation of `covariance` (6, 6) to the tip.
 
-    A rotated tip moves on an arc. It ends short of the tangent by half the squared angle times the lever, and
-    first-order propagation has only the tangent. For a marker that faces the camera, this is the whole
-    lateral effect of a tilt.
+    A rotated tip moves on an arc, and first-order propagation follows the tangent. The arc deviates from it
+    by half the squared angle times the lever. For a marker that faces the camera, this is the only lateral
+    effect of a tilt.
     """
     rotation = covariance[3:, 3:]
     squared = float(rotation.trace()) ** 2 + 2.0 * float((rotation * rotation).sum())

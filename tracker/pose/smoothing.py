@@ -1,11 +1,11 @@
-"""Pose smoothing: a moving average over the last images that agree, with its lag.
+"""Pose smoothing: a moving average over the last consistent poses, with its lag.
 
-Noise makes a drawn line jitter. The moving average removes most of it and lags behind by a time that is
-returned with every pose. A pose that differs from an earlier one by more than their covariances and a still
-hand allow (about a millimetre, or half a degree) is returned unchanged, and the window is cleared.
+The moving average removes most of the jitter of a drawn line, and lags by a time that is returned with every
+pose. A pose that differs from an earlier one by more than their covariances and a still hand allow (about a
+millimetre, or half a degree) is returned unchanged, and the window is cleared.
 
-A plain mean has an exact lag at any image rate; a jump or a fast hand clears the window in the same image.
-Motion is not smoothed.
+The lag of a moving average is known at any image rate. A jump or a fast motion clears the window in the same
+image, so motion is not smoothed.
 """
 
 from collections import deque
@@ -15,12 +15,12 @@ import numpy as np
 
 from tracker.geometry import Array, Camera, Marker, Rigid, rotation_from_vector, vector_from_rotation
 
-# Squared Mahalanobis distance of two poses (6 degrees of freedom): noise alone exceeds it once in a hundred
-# images. The pose is then returned unchanged, because jitter is better than lag.
+# Squared Mahalanobis distance of two poses, the 99 % point of chi-square with 6 degrees of freedom. Above it
+# the pose is returned unchanged, because jitter is better than lag.
 MAX_MAHALANOBIS_SQUARED = 16.81
-# Motion of a still hand within the lag (sd). Four times as much is a motion, and is never delayed.
+# Motion of a still hand within the lag (sd). A motion of four times as much is never delayed.
 STILL_SD_MM, STILL_SD_DEG = 0.25, 0.12
-# A covariance that spans both planar solutions allows nearly any rotation; a flip is still a jump.
+# The covariance of an ambiguous pose allows nearly any rotation, but a flip must count as a jump.
 MAX_TURN_DEG = 3.0
 MAX_IMAGES = 64
 STILL = np.diag([STILL_SD_MM**2] * 3 + [float(np.radians(STILL_SD_DEG)) ** 2] * 3)
@@ -47,10 +47,10 @@ class SmoothedPose:
 
     Attributes:
         camera_from_marker: the mean pose.
-        pose_covariance: (6, 6) [mm, rad], as in `Seen`, of this pose as an estimate of the newest one: the
+        pose_covariance: (6, 6) [mm, rad], as in `Seen`, of the mean as an estimate of the newest pose: the
             mean of the covariances, valid for any correlation between neighbouring images, plus the outer
             product of the difference from the newest pose, valid for any motion of the marker.
-        lag_ms: mean age of the averaged images; 0 where it is the newest pose itself.
+        lag_ms: mean age of the averaged images; 0 for the newest pose itself.
         noise_ratio: remaining share of noise that is independent between images, 0..1.
         images: number of averaged images.
     """
@@ -70,18 +70,18 @@ class _TimedPose:
 
 
 class PoseSmoother:
-    """Smooths the pose of one marker. Mutable: stores the poses that agree."""
+    """Smooths the pose of one marker. Mutable: stores the consistent poses."""
 
     def __init__(self, *, lag_ms: float) -> None:
         self._lag_s = lag_ms / 1000.0
         self._last: deque[_TimedPose] = deque(maxlen=MAX_IMAGES)
 
     def forget(self) -> None:
-        """Clear the window, because the marker was not seen; nothing is interpolated."""
+        """Clear the window after an image in which the marker was not seen."""
         self._last.clear()
 
     def take(self, pose: Rigid[Camera, Marker], covariance: Array, *, at_s: float) -> SmoothedPose:
-        """Return the smoothed pose at this time; `pose` itself where no earlier pose agrees with it."""
+        """Return the smoothed pose at this time; `pose` itself if no earlier pose is consistent with it."""
         if self._last and at_s <= self._last[-1].at_s:
             self.forget()
         new = _TimedPose(at_s, pose, covariance)
@@ -92,7 +92,7 @@ class PoseSmoother:
                 self._last.extend(reversed(chosen[1:]))
                 break
             age_s += at_s - old.at_s
-            # Tolerance, because equal time steps differ in their last digits.
+            # Tolerance for the rounding of equal time steps.
             if age_s / count > self._lag_s + 1e-6:
                 break
             chosen.append(old)
@@ -101,7 +101,7 @@ class PoseSmoother:
 
 
 def _agree(old: _TimedPose, new: _TimedPose) -> bool:
-    """Whether noise and a still hand can account for the difference of two poses."""
+    """Return whether noise and a still hand can explain the difference of two poses."""
     apart = _apart(old.pose, new.pose)
     if float(np.linalg.norm(apart[3:])) > np.radians(MAX_TURN_DEG):
         return False

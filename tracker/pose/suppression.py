@@ -5,12 +5,12 @@ import numpy as np
 from tracker.pose.occurrence import side_px_of
 from tracker.pose.sighting import Seen, Sighting, Unseen, UnseenReason
 
-# In side lengths: corners nearer than this are at the same position.
+# Corners nearer than this, in side lengths, are at the same position.
 SAME_PLACE_SIDES = 0.1
 
 
 def differ_by_rotation(one: Sighting, other: Sighting) -> bool:
-    """Whether both sightings lie on the same square and differ by quarter turns about its normal."""
+    """Return whether both sightings lie on the same square and differ by multiples of 90 degrees."""
     if not (isinstance(one, Seen) and isinstance(other, Seen)):
         return False
     turned = (np.abs(np.roll(other.corners_px, quarters, axis=0) - one.corners_px) for quarters in (1, 2, 3))
@@ -19,13 +19,13 @@ def differ_by_rotation(one: Sighting, other: Sighting) -> bool:
 
 
 def is_same_square(one: Seen, other: Seen) -> bool:
-    """Whether the centre of the other square is nearer than half a side of this one."""
+    """Return whether the centre of the other square is nearer than half a side of this one."""
     apart_px = np.linalg.norm(other.corners_px.mean(axis=0) - one.corners_px.mean(axis=0))
     return bool(apart_px < 0.5 * side_px_of(one.corners_px))
 
 
 def suppress_overlaps(sightings: dict[str, Sighting]) -> dict[str, Sighting]:
-    """Return the sightings by name; of two markers on one square, only the higher ranked one stays `Seen`."""
+    """Return the sightings by name; of two markers on one square, only the higher ranked remains `Seen`."""
     remaining = dict(sightings)
     if sum(isinstance(sighting, Seen) for sighting in sightings.values()) < 2:
         return remaining

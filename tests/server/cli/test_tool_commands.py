@@ -106,7 +106,7 @@ def test_a_mistake_is_one_sentence_with_its_remedy_and_status_2(
     reported = capsys.readouterr()
     assert left.value.code == 2
     assert reported.out == ""
-    assert reported.err.startswith("Error: about one direction the tool was turned by only")
+    assert reported.err.startswith("Error: about one direction the tool was tilted by only")
     assert len(reported.err.splitlines()) == 2
 
 

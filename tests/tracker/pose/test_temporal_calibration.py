@@ -208,7 +208,7 @@ def test_a_motion_that_leaves_the_offset_open_is_rejected(
             replace(FIRST, rate_hz=5.0),
             12.0,
             "TIME_OFFSET_RATE_LOW",
-            ["5.0 poses a second", "needed 8"],
+            ["5.0 poses per second", "needed 8"],
             id="slow",
         ),
         pytest.param(

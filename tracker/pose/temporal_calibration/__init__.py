@@ -1,8 +1,9 @@
-"""Temporal calibration: the constant offset between two sources' clocks, from a motion that both saw.
+"""Temporal calibration: the constant offset between two sources' clocks, from a motion that both recorded.
 
-Angular velocities are compared as vectors, at the rotation between the two frames that fits best: they are
-equal for every marker on a rigid tool, unlike the speeds of its points, and three signed components determine
-more than one magnitude. A tool that is moved without being turned needs one same point in both sources.
+The angular velocities are cross-correlated as vectors, after the best rotation between the two frames
+(Kabsch). Unlike the velocities of points, they are equal for every marker on a rigid tool, and three signed
+components contain more information than one magnitude. A motion without rotation requires the same point in
+both sources.
 """
 
 from tracker.pose.temporal_calibration.calibration import TimeOffset, calibrate_time_offset

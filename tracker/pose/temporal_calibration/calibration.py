@@ -1,4 +1,4 @@
-"""Calibrate the constant time offset between two sources that recorded one motion."""
+"""Calibrate the constant time offset between two sources that recorded the same motion."""
 
 from dataclasses import dataclass, replace
 from math import hypot
@@ -23,8 +23,8 @@ from tracker.pose.temporal_calibration.rejections import (
 )
 from tracker.pose.temporal_calibration.series import Motion, PoseSeries, RateSignal, rate_signal
 
-# Sampling of both signals. Each is shifted by half an offset, so that only the answer's sign changes where
-# the sources are swapped. The search tries every second step: six to the shortest period that passes.
+# Sampling of both signals. Each is shifted by half of the offset, so that swapping the sources only changes
+# the sign of the result. The search uses every second step, six per shortest period that passes the low-pass.
 STEP_S = 0.02
 OFFSET_TOLERANCE_S = 1e-6
 
@@ -34,18 +34,18 @@ class TimeOffset:
     """Offset between two sources' clocks.
 
     Attributes:
-        offset_s: time stamped by the first source minus time stamped by the second, of one moment. Positive:
-            the first stamps later. Add it to a time of the second to have the first's.
-        sd_s: its standard deviation, by the jackknife over blocks of time.
-        correlation_ratio: of the rates at this offset.
-        second_peak_ratio: the next best peak within the search, as a part of this correlation.
-        overlap_s: how long both sources saw the motion.
+        offset_s: time stamp of the first source minus that of the second, for the same instant. Positive: the
+            first stamps later. A time of the second source plus the offset is a time of the first.
+        sd_s: standard deviation of the offset, by the jackknife over blocks of time.
+        correlation_ratio: correlation of the rates at this offset.
+        second_peak_ratio: ratio of the second highest peak within the search to this correlation.
+        overlap_s: time for which both sources recorded the motion.
         change_s: offset of the second half minus that of the first.
-        motion: which rates were compared.
+        motion: the rates that were compared.
         variation: (2,) RMS of each source's rate about its mean, deg/s or mm/s.
-        samples: (2,) poses in use of each source.
-        segments: (2,) stretches without a gap.
-        rates_hz: (2,) of each source.
+        samples: (2,) number of poses used of each source.
+        segments: (2,) number of intervals without a gap.
+        rates_hz: (2,) pose rate of each source.
     """
 
     offset_s: float
@@ -68,10 +68,10 @@ def calibrate_time_offset(
     motion: Motion = Motion.ROTATION,
     limits: TimeOffsetLimits | None = None,
 ) -> TimeOffset:
-    """The offset between the clocks of two sources, from a motion that both recorded.
+    """Return the offset between the clocks of two sources, from a motion that both recorded.
 
     The rates of both are correlated over all offsets up to `limits.max_offset_s`, and the best one is refined
-    by least squares. Frames, sampling and, with `Motion.ROTATION`, the followed points may differ.
+    by least squares. Frames, sampling and, with `Motion.ROTATION`, the tracked points may differ.
 
     Raises:
         InvalidInput: TIME_OFFSET_NEEDS_ROTATIONS.
@@ -115,10 +115,11 @@ class _Search:
     """The correlation over the offsets of the search window.
 
     Attributes:
-        times_s: (n,) the middle between both clocks where both signals are there at the peak.
+        times_s: (n,) mean of both clocks at which both signals are defined at the peak.
         peak_s: offset of the highest peak.
         at_limit: whether that is the first or last offset of the window.
-        second_s, second_peak_ratio: the next highest peak, as a part of the first; 0 if there is none.
+        second_s, second_peak_ratio: offset of the second peak and its ratio to the highest; 0 if there is
+            none.
         rms_a, rms_b: (2,) RMS rate of each source at the peak, and RMS about its mean.
     """
 
@@ -132,7 +133,7 @@ class _Search:
 
 
 def _search(a: RateSignal, b: RateSignal, limits: TimeOffsetLimits) -> _Search:
-    """Correlation at every even number of steps within the window.
+    """Compute the correlation at every even number of steps within the window.
 
     Raises:
         CalibrationError: TIME_OFFSET_OVERLAP_SHORT.
@@ -141,13 +142,13 @@ def _search(a: RateSignal, b: RateSignal, limits: TimeOffsetLimits) -> _Search:
     reject_short_overlap(a, b, end_s - start_s, limits)
     reach = round(limits.max_offset_s / 2.0 / STEP_S)
     shifts = np.arange(-reach, reach + 1)
-    # The middle between both clocks, wherever both signals can be there at one of the offsets.
+    # Mean of both clocks, for all times at which both signals can be defined at one of the offsets.
     grid_s = np.arange(start_s - reach * STEP_S, end_s + (reach + 1) * STEP_S, STEP_S)
     wide_s = grid_s[0] + STEP_S * np.arange(-reach, len(grid_s) + reach)
     wide_a, wide_b = a.at(wide_s), b.at(wide_s)
 
     def shifted(shift: int) -> tuple[Array, Array, npt.NDArray[np.bool_]]:
-        """Both rates (n, 3) a number of steps away from the middle, and where both are there."""
+        """Return both rates (n, 3) shifted by a number of steps, and the mask where both are defined."""
         one = wide_a[reach + shift : len(wide_a) - reach + shift]
         other = wide_b[reach - shift : len(wide_b) - reach - shift]
         return one, other, np.isfinite(one[:, 0]) & np.isfinite(other[:, 0])
@@ -177,7 +178,7 @@ def _search(a: RateSignal, b: RateSignal, limits: TimeOffsetLimits) -> _Search:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Both:
-    """Both signals near one offset, at times at which both are there for all offsets of the bracket."""
+    """Both signals near one offset, at times at which both are defined for all offsets of the bracket."""
 
     a: RateSignal
     b: RateSignal
@@ -186,7 +187,7 @@ class _Both:
 
     @classmethod
     def around(cls, a: RateSignal, b: RateSignal, search: _Search) -> "_Both":
-        """Near the peak of a search."""
+        """Return the signals near the peak of a search."""
         times_s = search.times_s
         for offset_s in (search.peak_s - 3.0 * STEP_S, search.peak_s + 3.0 * STEP_S):
             shifted = np.hstack([a.at(times_s + offset_s / 2.0), b.at(times_s - offset_s / 2.0)])
@@ -194,7 +195,7 @@ class _Both:
         return cls(a=a, b=b, times_s=times_s, centre_s=search.peak_s)
 
     def change_s(self, block_s: float) -> tuple[float, float]:
-        """Offset of the second half of the time minus that of the first, and its standard deviation."""
+        """Return the offset of the second half minus that of the first, and its standard deviation."""
         halves = [replace(self, times_s=times_s) for times_s in np.array_split(self.times_s, 2)]
         offsets_s = [half.best_s() for half in halves]
         sds_s = [
@@ -203,15 +204,15 @@ class _Both:
         return offsets_s[1] - offsets_s[0], hypot(*sds_s)
 
     def rates_at(self, offset_s: float) -> tuple[Array, Array]:
-        """Rates (n, 3) of a, and of b at an offset."""
+        """Return the rates (n, 3) of a, and of b at an offset."""
         return self.a.at(self.times_s + offset_s / 2.0), self.b.at(self.times_s - offset_s / 2.0)
 
     def ratio_at(self, offset_s: float) -> float:
-        """Correlation at an offset."""
+        """Return the correlation at an offset."""
         return float(correlation_ratio(Moments.of(*self.rates_at(offset_s))))
 
     def best_s(self) -> float:
-        """The offset of the largest correlation within two steps of the search."""
+        """Return the offset of the largest correlation within two steps of the search."""
         found = scipy.optimize.minimize_scalar(
             lambda offset_s: -self.ratio_at(offset_s),
             bounds=(self.centre_s - 2.0 * STEP_S, self.centre_s + 2.0 * STEP_S),
@@ -221,9 +222,10 @@ class _Both:
         return float(found.x)
 
     def jackknife_sd_s(self, offset_s: float, block_s: float) -> float:
-        """Standard deviation of the offset: how it moves where one block of time is left out.
+        """Return the standard deviation of the offset by the delete-one-block jackknife.
 
-        Holds for errors that last no longer than a block. Infinite where the correlation has no summit.
+        Valid for errors whose correlation time is below a block. Infinite where the correlation has no
+        maximum.
         """
         blocks = max(2, round(len(self.times_s) * STEP_S / block_s))
         left, middle, right = (

@@ -8,13 +8,13 @@ from tracker.geometry import Array
 
 
 class Moments(NamedTuple):
-    """Sums over samples; the leading axes (...) are blocks or offsets, and sums add up.
+    """First and second moments as sums over samples; the leading axes (...) are blocks or offsets.
 
     Attributes:
-        samples: (...), how many.
-        a, b: (..., 3).
-        ab: (..., 3, 3), outer products.
-        aa, bb: (...), squared lengths.
+        samples: (...), number of samples.
+        a, b: (..., 3), sums of the vectors.
+        ab: (..., 3, 3), sums of the outer products.
+        aa, bb: (...), sums of the squared lengths.
     """
 
     samples: Array
@@ -45,15 +45,15 @@ class Moments(NamedTuple):
         return cls(*(np.add.reduceat(row, starts, axis=0) for row in rows))
 
     def without_each(self) -> "Moments":
-        """Over all blocks but one, for each block."""
+        """Return, for each block, the moments of all other blocks."""
         return Moments(*(part.sum(axis=0) - part for part in self))
 
     def rms_a(self) -> tuple[float, float]:
-        """RMS length of a, and of a about its mean."""
+        """Return the RMS length of a, and of a about its mean."""
         return _rms(self.samples, self.a, self.aa)
 
     def rms_b(self) -> tuple[float, float]:
-        """RMS length of b, and of b about its mean."""
+        """Return the RMS length of b, and of b about its mean."""
         return _rms(self.samples, self.b, self.bb)
 
 
@@ -64,17 +64,16 @@ def _rms(count: Array, total: Array, squares: Array) -> tuple[float, float]:
 
 
 def correlation_ratio(moments: Moments) -> Array:
-    """The correlation (...) of a and R b about their means, at the rotation R that makes it largest (Kabsch).
+    """Return the correlation (...) of a and R b about their means, maximised over the rotation R (Kabsch).
 
-    1 - its square is the share of a that no rotated and scaled b explains: the largest correlation is the
-    least-squares fit.
+    Its square is the coefficient of determination of the least-squares fit of a by a rotated and scaled b.
     """
     count = moments.samples
     cross = moments.ab - moments.a[..., :, None] * moments.b[..., None, :] / count[..., None, None]
     power_a = moments.aa - (moments.a**2).sum(axis=-1) / count
     power_b = moments.bb - (moments.b**2).sum(axis=-1) / count
     singular = np.linalg.svd(cross, compute_uv=False)
-    # Both frames are right-handed: a mirror image is no rotation.
+    # Both frames are right-handed, so reflections are excluded.
     singular[..., 2] *= np.sign(np.linalg.det(cross))
     power = np.sqrt(np.maximum(power_a * power_b, np.finfo(np.float64).tiny))
     return np.asarray(singular.sum(axis=-1) / power)

@@ -12,16 +12,16 @@ from tracker.errors import InvalidInput
 from tracker.geometry import Array
 from tracker.pose.temporal_calibration.limits import TimeOffsetLimits
 
-# Five rates, of which the splines at both ends of a stretch share one.
+# A segment of six poses has five rates.
 MIN_SEGMENT_SAMPLES = 6
 
 
 class Motion(StrEnum):
     """The rate that is compared.
 
-    ROTATION: angular velocity, deg/s. The same for all bodies that are rigidly connected, whatever the
-        marker or its place on the tool, up to the rotation between the two sources' frames.
-    TRANSLATION: velocity, mm/s. The same only for one and the same point of the tool.
+    ROTATION: angular velocity, deg/s. Equal for all markers on a rigid tool, up to the rotation between the
+        two sources' frames.
+    TRANSLATION: velocity, mm/s. Equal only for the same point of the tool.
     """
 
     ROTATION = "rotation"
@@ -30,13 +30,13 @@ class Motion(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PoseSeries:
-    """Poses of a moving body recorded by one source; times at which it was unseen are left out.
+    """Poses of a moving body recorded by one source, without the times at which it was not seen.
 
     Attributes:
-        name: how messages call this source.
-        times_s: (n,) increasing, on the source's own clock; steps may differ.
+        name: name of the source in messages.
+        times_s: (n,) increasing times on the source's own clock; steps may differ.
         translations_mm: (n, 3), a point of the body in the source's frame.
-        rotations: (n, 3, 3), source from body; None where the source gives positions only.
+        rotations: (n, 3, 3), source from body; None where the source has positions only.
     """
 
     name: str
@@ -45,7 +45,7 @@ class PoseSeries:
     rotations: Array | None = None
 
     def __post_init__(self) -> None:
-        """Check the shapes and the times.
+        """Validate the shapes and the times.
 
         Raises:
             InvalidInput: TIME_SERIES_INVALID.
@@ -57,7 +57,7 @@ class PoseSeries:
             if values is None:
                 continue
             if np.shape(values) != shape or not np.isfinite(values).all():
-                raise self._invalid(f"{field} is no array {shape} of finite numbers")
+                raise self._invalid(f"{field} is not an array {shape} of finite numbers")
         steps_s = np.diff(self.times_s)
         if (steps_s <= 0.0).any():
             at = int(np.argmax(steps_s <= 0.0))
@@ -69,12 +69,12 @@ class PoseSeries:
         return InvalidInput(
             "TIME_SERIES_INVALID",
             f"{self.name}: {what}",
-            "Give times in seconds that increase, with one pose each, and leave out what was not seen.",
+            "Give increasing times in seconds with one pose each, and omit times without a pose.",
             {"source": self.name},
         )
 
     def without_repeats(self) -> "PoseSeries":
-        """Without poses that equal the one before to the last digit: a lost tracker repeats its last one."""
+        """Return the series without exact repeats of the previous pose, as after a loss of tracking."""
         parts = [self.translations_mm]
         if self.rotations is not None:
             parts.append(self.rotations.reshape(-1, 9))
@@ -93,10 +93,10 @@ class RateSignal:
     """Rates of one source over its time, NaN in gaps and outside.
 
     Attributes:
-        name: of the source.
-        samples: poses that are in segments.
-        segments: stretches without a gap.
-        rate_hz: by the median step.
+        name: name of the source.
+        samples: number of poses in segments.
+        segments: number of intervals without a gap.
+        rate_hz: pose rate from the median step.
         curve: piecewise cubic of time in s, (3,) in deg/s or mm/s; None if there is no segment.
     """
 
@@ -107,22 +107,22 @@ class RateSignal:
     curve: "scipy.interpolate.PPoly | None"
 
     def at(self, times_s: Array) -> Array:
-        """Rates (n, 3) at times (n,)."""
+        """Return the rates (n, 3) at times (n,)."""
         if self.curve is None:
             return np.full((len(times_s), 3), np.nan)
         return np.asarray(self.curve(times_s))
 
     @property
     def span_s(self) -> tuple[float, float]:
-        """First and last time."""
+        """Return the first and the last time."""
         return (float(self.curve.x[0]), float(self.curve.x[-1])) if self.curve is not None else (0.0, 0.0)
 
 
 def rate_signal(series: PoseSeries, motion: Motion, limits: TimeOffsetLimits) -> RateSignal:
-    """Rates between successive poses, low-passed at `limits.cutoff_hz` without delay.
+    """Return the rates between successive poses, low-passed at `limits.cutoff_hz` without delay.
 
-    A step is a gap where it is longer than half a period of the cut-off, which the low-pass bridges anyway,
-    and longer than the source's jitter explains. Each stretch between gaps has a spline of its own.
+    A step is a gap if it is longer than half a period of the cut-off, up to which the low-pass interpolates
+    anyway, and longer than the source's jitter. Each segment between gaps has its own spline.
     """
     fresh = series.without_repeats()
     steps_s = np.diff(fresh.times_s)
@@ -149,14 +149,15 @@ def _curve(series: PoseSeries, part: slice, motion: Motion, cutoff_hz: float) ->
     times_s = series.times_s[part]
     steps_s = np.diff(times_s)
     if motion is Motion.ROTATION and series.rotations is not None:
-        # In the source's frame: another source's differs by the constant rotation between both frames alone.
+        # In the source's frame, the rates of two sources differ only by the constant rotation between the
+        # frames.
         orientations = scipy.spatial.transform.Rotation.from_matrix(series.rotations[part])
         moved = np.degrees((orientations[1:] * orientations[:-1].inv()).as_rotvec())
     else:
         moved = np.diff(series.translations_mm[part], axis=0)
     rates = moved / steps_s[:, None]
-    # With each rate weighted by its step, the penalty is a Butterworth low-pass of this cut-off at any
-    # sampling; it has no delay, and the same effect on both sources.
+    # With each rate weighted by its step, the smoothing spline is a zero-phase Butterworth low-pass with this
+    # cut-off at any sampling, so both sources are filtered equally.
     penalty = (2.0 * np.pi * cutoff_hz) ** -4
     middles_s = (times_s[1:] + times_s[:-1]) / 2.0
     smoothed = smoothing_spline_values(middles_s, rates, weights=steps_s, penalty=penalty)
@@ -164,10 +165,10 @@ def _curve(series: PoseSeries, part: slice, motion: Motion, cutoff_hz: float) ->
 
 
 def smoothing_spline_values(x: Array, y: Array, *, weights: Array, penalty: float) -> Array:
-    """Values (n, k) at x (n,) of the cubic smoothing splines through y (n, k), by Reinsch's equations.
+    """Return the values (n, k) at x (n,) of cubic smoothing splines of y (n, k), by Reinsch's equations.
 
-    They minimise sum(weights * (y - f)^2) + penalty * integral(f''^2). SciPy's make_smoothing_spline does the
-    same, column by column and many times slower.
+    They minimise sum(weights * (y - f)^2) + penalty * integral(f''^2). SciPy's make_smoothing_spline computes
+    the same column by column, many times slower.
     """
     steps = np.diff(x)
     count = len(x)
@@ -185,7 +186,7 @@ def smoothing_spline_values(x: Array, y: Array, *, weights: Array, penalty: floa
 
 
 def _joined(curves: "list[scipy.interpolate.PPoly]") -> "scipy.interpolate.PPoly":
-    """One curve that is NaN between its parts."""
+    """Join curves to one that is NaN between them."""
     gap = np.full((4, 1, 3), np.nan)
     coefficients: list[npt.NDArray[np.float64]] = []
     for curve in curves:

@@ -1,4 +1,4 @@
-"""Collect poses for a tool calibration: accept informative ones, and report what is missing."""
+"""Collect poses for a tool calibration: accept informative ones, and report unmet requirements."""
 
 from collections import Counter, deque
 from collections.abc import Mapping
@@ -19,7 +19,7 @@ from tracker.pose.tool.poses import Poses
 from tracker.pose.tool.spin import SpinCalibration, min_variance_direction, spin_calibration
 from tracker.pose.tool.tip_check import TipCheck, check_tip
 
-# The image rate is the median over so many images; it is unknown with fewer than three intervals.
+# Number of images for the median image period, which is unknown with fewer than three intervals.
 RATE_IMAGES = 16
 MIN_RATE_INTERVALS = 3
 
@@ -27,7 +27,7 @@ Outcome: TypeAlias = PivotCalibration | SpinCalibration | TipCheck
 
 
 class Purpose(StrEnum):
-    """The calibration that poses are collected for."""
+    """Calibration for which poses are collected."""
 
     PIVOT = "pivot"
     SPIN = "spin"
@@ -40,14 +40,14 @@ class Purpose(StrEnum):
 
 
 class Taking(StrEnum):
-    """Whether the pose of an image was accepted, or why not."""
+    """Whether the pose of an image was accepted, or the reason why it was not."""
 
     TAKEN = "taken"
-    NO_PICTURE = "no_picture"  # there is no image at all: the camera or the tracking has stopped
-    NOT_SEEN = "not_seen"  # the marker is not seen in it
-    TOO_UNCERTAIN = "too_uncertain"  # its pose is too uncertain
-    ALONE = "alone"  # no image shortly before to test the speed against
-    JUMPED = "jumped"  # farther from the last pose than a hand moves: one of the two is wrong
+    NO_PICTURE = "no_picture"  # no image arrives: the camera or the tracking has stopped
+    NOT_SEEN = "not_seen"  # the marker is not detected
+    TOO_UNCERTAIN = "too_uncertain"  # the standard deviation of the pose is above its limit
+    ALONE = "alone"  # no recent image to compute the speed from
+    JUMPED = "jumped"  # farther from the last pose than a hand can move: one of the two is wrong
     NOTHING_NEW = "nothing_new"  # the rotation is near that of an accepted pose
     FULL = "full"  # enough for any calibration
 
@@ -57,9 +57,9 @@ class Need(StrEnum):
 
     MORE_POSES = "more_poses"
     TILT_MORE = "tilt_more"  # to both sides
-    TILT_ACROSS = "tilt_across"  # at right angles to the way in which it was tilted most
+    TILT_ACROSS = "tilt_across"  # perpendicular to the main tilt
     SPIN_MORE = "spin_more"
-    BETTER_RESULT = "better_result"  # all was done, and the result is not good enough
+    BETTER_RESULT = "better_result"  # the amounts are met, but the result fails the gate
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,13 +76,13 @@ class CollectorSettings:
     """Acceptance limits of poses, and the required amounts.
 
     Attributes:
-        wanted_poses, wanted_tilt_deg, wanted_spin_deg: required amounts; above those
-            of the gate, because the tip is more certain the farther the tool was tilted.
+        wanted_poses, wanted_tilt_deg, wanted_spin_deg: required amounts; above those of the gate, because
+            more tilt reduces the uncertainty of the tip.
         max_rotation_sd_deg, max_shift_sd_mm: limits of a pose's standard deviation, in its worst direction.
         max_speed_mm_s, max_turn_rate_deg_s: limits of a hand's motion.
-        max_reach_s: upper bound of the time multiplied by these speeds. Higher: with a slow camera no wrong
-            pose is rejected.
-        gap: limit of the time to the image that a pose is compared with.
+        max_reach_s: upper bound of the time by which these speeds are multiplied. Higher: with a slow camera
+            no wrong pose is rejected.
+        gap: limit of the time to the image with which a pose is compared.
         min_new_deg: minimum rotation from each accepted pose.
         max_poses: maximum number of poses.
     """
@@ -107,7 +107,7 @@ class Progress:
     Attributes:
         taken: number of accepted poses.
         rejected_images: number of images without an accepted pose, by reason.
-        motion_range: how far the tool was tilted and spun, or the error why it is unknown.
+        motion_range: tilt and spin range of the tool, or the error that prevents it.
         outcome: the calibration from the poses so far, or the error that prevents it.
         missing: unmet requirements; empty when the calibration may end.
     """
@@ -120,7 +120,7 @@ class Progress:
 
     @property
     def is_enough(self) -> bool:
-        """Whether all requirements are met."""
+        """Return whether all requirements are met."""
         return not self.missing
 
 
@@ -131,7 +131,7 @@ class _Last:
 
 
 class PoseCollector:
-    """Collects the poses of one marker. Mutable. Times are passed in."""
+    """Collects the poses of one marker for a calibration. Mutable; times are passed in."""
 
     def __init__(
         self,
@@ -141,10 +141,12 @@ class PoseCollector:
         gate: ToolGate | None = None,
         settings: CollectorSettings | None = None,
     ) -> None:
-        """For this purpose; a tip check needs the tip, and a spin takes its sign from it."""
+        """Start a collection; a tip check requires the tip, and a spin calibration takes its sign from it."""
         if purpose is Purpose.TIP_CHECK and tip_in_marker_mm is None:
             raise CalibrationError(
-                "TOOL_TIP_MISSING", "there is no tip to check", "Calibrate the tip by pivoting first."
+                "TOOL_TIP_MISSING",
+                "there is no tip to check",
+                "Calibrate the tip by pivot calibration first.",
             )
         self._purpose = purpose
         self._tip = tip_in_marker_mm
@@ -157,14 +159,14 @@ class PoseCollector:
         self._times_s: deque[float] = deque(maxlen=RATE_IMAGES)
 
     def take(self, sighting: Sighting, *, at_s: float) -> Taking:
-        """Accept the pose of a sighting, or return why not."""
+        """Accept the pose of a sighting, or return the reason why not."""
         if not isinstance(sighting, Seen):
             self._times_s.append(at_s)
             return self._count(Taking.NOT_SEEN)
         return self.take_pose(sighting.camera_from_marker, sighting.pose_covariance, at_s=at_s)
 
     def take_pose(self, pose: Rigid[Camera, Marker], covariance: Array, *, at_s: float) -> Taking:
-        """Accept a pose with its covariance (6, 6), or return why not."""
+        """Accept a pose with its covariance (6, 6), or return the reason why not."""
         self._times_s.append(at_s)
         last, self._last = self._last, _Last(at_s, pose)
         taking = self._judged(pose, covariance, last, at_s)
@@ -183,7 +185,7 @@ class PoseCollector:
         return Poses.from_rigids(self._poses, self._covariances)
 
     def progress(self) -> Progress:
-        """Return the progress. Fits all accepted poses: too slow for every image of a fast camera."""
+        """Return the progress. This fits all accepted poses, which is too slow for every image."""
         poses = self.poses
         outcome = self._outcome(poses)
         motion_range = self._motion_range(poses, outcome)
@@ -240,7 +242,9 @@ class PoseCollector:
             return outcome.motion_range
         if len(poses) < 3:
             return CalibrationError(
-                "TOOL_TOO_FEW_POSES", f"there are {len(poses)} poses", "Move the tool, its tip in the divot."
+                "TOOL_TOO_FEW_POSES",
+                f"there are {len(poses)} poses",
+                "Tilt the tool with its tip in the divot.",
             )
         if self._purpose is Purpose.SPIN:
             # Only the direction matters; the length is arbitrary.

@@ -12,9 +12,9 @@ Mask = npt.NDArray[np.bool_]
 
 TRIALS, SAMPLE_SIZE = 300, 5
 FINALISTS, CONCENTRATIONS = 10, 10
-# Probability that an inlier is best_poses: noise alone excludes one pose in a thousand.
+# Probability that an inlier is accepted: noise alone excludes one pose in a thousand.
 INLIER_PROBABILITY = 0.999
-# Numbers in a file are rounded; a pose with a smaller residual is always an inlier.
+# A pose with a smaller residual is always an inlier, because numbers in a file are rounded.
 MIN_ALLOWED = 1e-3
 MAX_LEVERAGE = 0.95
 FREEDOM_BY_POSE = 0.6
@@ -22,7 +22,7 @@ FREEDOM_BY_POSE = 0.6
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Equations:
-    """Linear equations of n poses for k unknowns x: design @ x + offset is zero, but for noise.
+    """Linear equations of n poses for k unknowns x: residual = design @ x + offset.
 
     Attributes:
         design: (n, 3, k).
@@ -55,8 +55,8 @@ class Equations:
 def least_trimmed_squares(equations: Equations) -> Array:
     """Return the least trimmed squares estimate (k,); up to nearly half of the poses may be outliers.
 
-    FAST-LTS (Rousseeuw and Van Driessen 2006): random samples of a few poses, and concentration steps on the
-    best half for the best samples. The samples are the same in every run.
+    FAST-LTS (Rousseeuw and Van Driessen 2006): random samples of a few poses, then concentration steps on the
+    best half for the best samples. The random numbers are seeded, so the result is deterministic.
     """
     design, offset = equations.design, equations.offset
     count, unknowns = len(design), design.shape[2]
@@ -64,7 +64,7 @@ def least_trimmed_squares(equations: Equations) -> Array:
     drawn = np.argsort(random.random((TRIALS, count)), axis=1)[:, : min(SAMPLE_SIZE, count)]
     normal = np.einsum("nij,nik->njk", design, design)
     right = -np.einsum("nij,ni->nj", design, offset)
-    # Samples with an undetermined direction must not stop the others.
+    # Regularises samples with an undetermined direction.
     ridge = 1e-9 * np.eye(unknowns)
     tried = np.linalg.solve(normal[drawn].sum(axis=1) + ridge, right[drawn].sum(axis=1)[:, :, None])[:, :, 0]
     squares = ((np.einsum("nij,mj->mni", design, tried) + offset) ** 2).sum(axis=2)

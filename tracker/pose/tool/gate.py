@@ -8,11 +8,11 @@ class ToolGate:
     """Acceptance limits of pivot calibration, spin calibration and tip check.
 
     Attributes:
-        max_rms_3d_mm: 3-D RMS of the tip about the pivot, of pivot and of check alike.
-        max_tip_sd_mm: standard deviation of the tip in the direction in which it is known least.
+        max_rms_3d_mm: 3-D RMS distance of the tip from the pivot, for pivot calibration and tip check.
+        max_tip_sd_mm: standard deviation of the tip in its least certain direction.
         min_tilt_deg: rotation range about each of two directions, from end to end.
         min_poses: number of different poses.
-        min_used_ratio: share of inlier poses.
+        min_used_ratio: ratio of inlier poses.
         min_spin_deg: rotation range about the tool's axis.
         max_wobble_deg: RMS motion of the axis during the spin.
         max_axis_sd_deg: standard deviation of the axis.

@@ -14,13 +14,13 @@ class ToolModel:
     """A drill or awl: its marker, and the pose of its tip and axis relative to the marker.
 
     Attributes:
-        name: shown on the screen.
-        marker: name of the marker model that it carries.
+        name: name shown on the screen.
+        marker: name of its marker model.
         marker_from_tool: the tip (origin) and the drilling direction (+z) in the marker's frame.
         radius_mm: radius of the drill's cylinder.
         length_mm: length of the cylinder from the tip backwards.
         tip_covariance_mm2: (3, 3) of the tip in the marker's frame; 0 where the tip is known by construction.
-        axis_sd_deg: standard deviation of the drilling direction, about each of two axes across it.
+        axis_sd_deg: standard deviation of the drilling direction, about each of two perpendicular axes.
     """
 
     name: str
@@ -49,7 +49,7 @@ class ToolModel:
         tip_covariance_mm2: npt.ArrayLike | None = None,
         axis_sd_deg: float = 0.0,
     ) -> "ToolModel":
-        """From the tip (3,) in mm and the drilling direction (3,) of any length, both in the marker's frame.
+        """Return a tool with a tip (3,) in mm and a drilling direction (3,), both in the marker's frame.
 
         Raises:
             InvalidInput: TOOL_AXIS_INVALID, the direction has no length.

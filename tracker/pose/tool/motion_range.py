@@ -7,7 +7,7 @@ import numpy as np
 from tracker.geometry import Array, rotation_between
 from tracker.pose.tool.poses import Poses
 
-# The range of an even sweep, by its standard deviation.
+# Ratio of the range of a uniform distribution to its standard deviation.
 RANGE_BY_SD = float(np.sqrt(12.0))
 
 
@@ -16,12 +16,12 @@ class ToolMotionRange:
     """Rotation ranges of a tool, in degrees from end to end.
 
     Attributes:
-        tilt_range_deg: of the direction from marker to tip, along its main direction of motion.
+        tilt_range_deg: range of the direction from marker to tip, along its main direction of motion.
         tilt_range_across_deg: the same, perpendicular to that direction.
-        spin_range_deg: about the direction from marker to tip.
-        min_rotation_deg: range of a uniform sweep that would move the marker's least moved direction as
-            much. It decides whether the tip is determined: with tilts in one plane, the direction across
-            that plane does not move, and the tip is undetermined along it.
+        spin_range_deg: range about the direction from marker to tip.
+        min_rotation_deg: range of a uniform sweep with the variance of the marker direction that moves least.
+            It determines the observability of the tip: with tilts in one plane, the direction perpendicular
+            to that plane does not move, and the tip is not observable along it.
     """
 
     tilt_range_deg: float
@@ -35,14 +35,14 @@ def min_rotation_deg(poses: Poses) -> float:
     off = poses.rotations - poses.rotations.mean(axis=0)
     moved = np.einsum("nij,nik->jk", off, off) / len(poses)
     minimum = max(float(np.linalg.eigvalsh(moved)[0]), 0.0)
-    # Chord and angle are nearly equal at the deciding sizes.
+    # Chord and angle are nearly equal near the limit.
     return RANGE_BY_SD * float(np.degrees(np.sqrt(minimum)))
 
 
 def motion_range_of(poses: Poses, tip_in_marker_mm: Array) -> ToolMotionRange:
     """Return the motion range of a tool with this tip (3,) over the poses."""
     length = float(np.linalg.norm(tip_in_marker_mm))
-    # A tip at the marker's centre has no direction: the marker's normal is used instead.
+    # A tip at the marker's centre has no direction, so the marker's normal is used.
     along = tip_in_marker_mm / length if length > 1.0 else np.array([0.0, 0.0, 1.0])
     wide, narrow = tilt_ranges_deg(poses, along)
     return ToolMotionRange(
@@ -76,7 +76,7 @@ def spin_range_deg(poses: Poses, along: Array) -> float:
 
 
 def spin_angles_deg(poses: Poses, along: Array) -> Array:
-    """Return the spin angles (n,) -180..180 about a unit direction (3,) of the marker, without the tilts."""
+    """Return the spin angles (n,), -180..180, about a unit direction (3,) of the marker, without tilts."""
     directions = poses.rotations @ along
     mean = _middle(directions)
     aside = np.linalg.svd(along[None, :])[2][1]

@@ -1,8 +1,9 @@
 """Pivot calibration: estimate the tip from poses of a tool tilted about its fixed tip.
 
-Distances alone give 383 mm to the tip of a real pointer, rotations alone 394 mm: the tracker has systematic
-errors, and noise models that trust one of the two were more certain and less accurate. So residuals in mm
-have equal weight unless covariances are given, at the price of half of the error where only angles are noisy.
+For a real pointer, distances alone give 383 mm to the tip and rotations alone 394 mm. The tracker has
+systematic errors, and noise models that weight one of the two more strongly stated a smaller uncertainty and
+were less accurate. Residuals in mm therefore have equal weight unless covariances are given, although
+weighting would halve the error where only angles are noisy.
 """
 
 from dataclasses import dataclass
@@ -25,7 +26,8 @@ from tracker.pose.tool.gate import ToolGate
 from tracker.pose.tool.motion_range import ToolMotionRange, min_rotation_deg, motion_range_of
 from tracker.pose.tool.poses import Poses
 
-# A tip is no point and a divot has play: lower bound of a pose's standard deviation at the tip.
+# Lower bound of a pose's standard deviation at the tip, because the tip is not a point and the divot has
+# play.
 MIN_SD_MM = 0.1
 MAX_ROUNDS = 30
 PIVOT_REMEDY = (
@@ -35,7 +37,7 @@ PIVOT_REMEDY = (
 
 
 class RejectedReason(StrEnum):
-    """Why a pose is an outlier."""
+    """Reason why a pose is an outlier."""
 
     OFF_THE_PIVOT = "OFF_THE_PIVOT"  # its tip is farther from the pivot than noise explains
     OFF_THE_AXIS = "OFF_THE_AXIS"  # its axis points farther away from the mean than noise explains
@@ -56,15 +58,15 @@ class PivotCalibration:
     """Result of a pivot calibration.
 
     Attributes:
-        tip_in_marker_mm: (3,).
+        tip_in_marker_mm: (3,), the tip.
         pivot_in_camera_mm: (3,), the fixed position of the tip.
-        rms_3d_mm: root of the mean squared distance of the tip from the pivot, over the poses in use.
+        rms_3d_mm: RMS distance of the tip from the pivot over the inlier poses.
         rms_3d_of_all_mm: the same over all poses.
         tip_covariance_mm2: (3, 3) in the marker's frame, scaled for a chi-square 95 % ellipsoid.
         pivot_covariance_mm2: (3, 3) in the camera's frame.
         used: (n,) mask of inlier poses.
         rejected: the outliers, with the reason; `off` is the tip's distance from the pivot in mm.
-        motion_range: how far the tool was moved over the inlier poses.
+        motion_range: tilt and spin range over the inlier poses.
     """
 
     tip_in_marker_mm: Array
@@ -79,7 +81,7 @@ class PivotCalibration:
 
     @property
     def tip_sd_mm(self) -> float:
-        """Standard deviation of the tip in the direction in which it is known least."""
+        """Return the standard deviation of the tip in its least certain direction."""
         return float(np.sqrt(max(np.linalg.eigvalsh(self.tip_covariance_mm2)[-1], 0.0)))
 
     def failures(self, gate: ToolGate) -> tuple[CalibrationError, ...]:
@@ -89,9 +91,9 @@ class PivotCalibration:
             found.append(
                 CalibrationError(
                     "PIVOT_RESIDUAL_TOO_LARGE",
-                    f"the tip stays within {self.rms_3d_mm:.2f} mm of the pivot (3-D RMS), "
+                    f"the tip is {self.rms_3d_mm:.2f} mm from the pivot (3-D RMS), "
                     f"allowed {gate.max_rms_3d_mm:.2f} mm",
-                    "Keep the tip from slipping, hold the marker in good light and near the camera, "
+                    "Prevent the tip from slipping, hold the marker in good light near the camera, "
                     "and calibrate again.",
                     {"rms_3d_mm": self.rms_3d_mm, "allowed_mm": gate.max_rms_3d_mm},
                 )
@@ -100,7 +102,7 @@ class PivotCalibration:
             found.append(
                 CalibrationError(
                     "PIVOT_TIP_UNCERTAIN",
-                    f"the tip is known to {self.tip_sd_mm:.2f} mm (standard deviation), "
+                    f"the tip has a standard deviation of {self.tip_sd_mm:.2f} mm, "
                     f"allowed {gate.max_tip_sd_mm:.2f} mm",
                     "Take more poses, tilt farther to all sides, and calibrate again.",
                     {"tip_sd_mm": self.tip_sd_mm, "allowed_mm": gate.max_tip_sd_mm},
@@ -116,7 +118,7 @@ class PivotCalibration:
                     "PIVOT_POSES_DISAGREE",
                     f"only {int(self.used.sum())} of {compared} poses agree on one pivot, "
                     f"needed {gate.min_used_ratio:.0%}",
-                    "The tip slipped or was moved to another place: calibrate again in one divot.",
+                    "The tip slipped or was moved: calibrate again in one divot.",
                     {"used": int(self.used.sum()), "poses": compared},
                 )
             )
@@ -134,11 +136,11 @@ def pivot_calibration(poses: Poses, gate: ToolGate | None = None) -> PivotCalibr
     Solves rotation @ tip + translation = pivot by robust least squares; up to nearly half of the poses may be
     outliers. With covariances, poses are weighted by them (standard deviation at least `MIN_SD_MM`, used as
     relative weights). Without, residuals in mm have equal weight, as in the published method (Yaniv 2015,
-    "algebraic one-step"), because a wrong weighting of distance against angle shifts the tip when the tracker
+    "algebraic one-step"), because a wrong weighting of distance against angle biases the tip when the tracker
     has systematic errors.
 
-    Noise of the angles biases the tip by its square. Under the residual that the gate allows, the bias is a
-    small part of the stated standard deviation.
+    Noise of the angles biases the tip to second order. For residuals within the gate, the bias is a small
+    part of the stated standard deviation.
 
     Raises:
         CalibrationError: TOOL_TOO_FEW_POSES, or PIVOT_TILT_TOO_SMALL where a direction is undetermined.
@@ -181,7 +183,7 @@ def reject_too_few(different: Poses, count: int, gate: ToolGate) -> None:
         raise CalibrationError(
             "TOOL_TOO_FEW_POSES",
             f"there are {len(different)} different poses of {count}, needed {gate.min_poses}",
-            "Take more images while the tool moves; images in which it stands still say nothing new.",
+            "Take more images while the tool moves; images of a tool at rest add no information.",
             {"different": len(different), "poses": count, "needed": gate.min_poses},
         )
 
@@ -204,7 +206,7 @@ def _reject_too_little_tilt(rotation_deg: float, gate: ToolGate) -> None:
     if not rotation_deg >= gate.min_tilt_deg:
         raise CalibrationError(
             "PIVOT_TILT_TOO_SMALL",
-            f"about one direction the tool was turned by only {rotation_deg:.1f} degrees from end to end, "
+            f"about one direction the tool was tilted by only {rotation_deg:.1f} degrees from end to end, "
             f"needed {gate.min_tilt_deg:g} degrees about each of two directions",
             PIVOT_REMEDY,
             {"turned_deg": rotation_deg, "needed_deg": gate.min_tilt_deg},
@@ -250,7 +252,8 @@ def _whitening(poses: Poses, tip_in_marker_mm: Array) -> Array:
 def _least_squares(poses: Poses, plain: Equations, x: Array) -> Array:
     if poses.covariances is None:
         return plain.solved()
-    # The weights depend on the tip: kept constant, noise of the angles would bias it to the marker.
+    # The weights depend on the tip. With constant weights, noise of the angles would bias it towards the
+    # marker.
     fit = scipy.optimize.least_squares(
         lambda at: plain.whitened(_whitening(poses, at[:3])).residuals(at).ravel(),
         x,

@@ -6,12 +6,12 @@ import numpy.typing as npt
 from tracker.errors import InvalidInput
 from tracker.geometry import Array, Camera, Marker, Rigid
 
-# Three digits behind the point leave a rotation off by 1e-3 in each number; more is no rounding.
+# A rotation rounded to three decimals deviates by 1e-3 in each number; a larger deviation is not rounding.
 ROUNDING = 5e-3
 LAST_ROW = np.array([0.0, 0.0, 0.0, 1.0])
 MATRIX_REMEDY = (
-    "Each pose is a 4x4 matrix that takes the marker's points to the camera: rotation on the left, "
-    "translation in the last column, 0 0 0 1 in the last row."
+    "Each pose is a 4x4 matrix that maps points from the marker's frame to the camera's: rotation on the "
+    "left, translation in the last column, 0 0 0 1 in the last row."
 )
 
 
@@ -30,7 +30,7 @@ def rigid_from_matrix(matrix: npt.ArrayLike, *, unit_mm: float = 1.0) -> Rigid[C
         raise _invalid(f"{int((~np.isfinite(given)).sum())} of its numbers are not finite")
     if given.shape == (4, 4) and not np.allclose(given[3], LAST_ROW, atol=1e-6):
         if np.allclose(given[:, 3], LAST_ROW, atol=1e-6):
-            raise _invalid("it is transposed: its translation stands in the last row")
+            raise _invalid("it is transposed: its translation is in the last row")
         raise _invalid(f"its last row is {_numbers(given[3])}, needed 0 0 0 1")
     return Rigid(rotation=_nearest_rotation(given[:3, :3]), translation_mm=given[:3, 3] * unit_mm)
 
@@ -60,13 +60,13 @@ def rigid_from_quaternion(
 def _nearest_rotation(given: Array) -> Array:
     left, sizes, right = np.linalg.svd(given)
     if float(np.linalg.det(given)) < 0.0:
-        raise _invalid("its rotation is a mirror image (its determinant is negative)")
+        raise _invalid("its rotation is a reflection (its determinant is negative)")
     scale = float(sizes.mean())
     if float(np.ptp(sizes)) <= ROUNDING * scale < scale and abs(scale - 1.0) > ROUNDING:
         raise _invalid(f"it scales by {scale:.4g}, needed 1")
     off = float(np.abs(sizes - 1.0).max())
     if off > ROUNDING:
-        raise _invalid(f"its rotation is off orthonormal by {off:.2g}, allowed {ROUNDING:g}")
+        raise _invalid(f"its rotation deviates from orthonormal by {off:.2g}, allowed {ROUNDING:g}")
     return np.asarray(left @ right)
 
 
@@ -75,4 +75,4 @@ def _numbers(row: Array) -> str:
 
 
 def _invalid(what: str) -> InvalidInput:
-    return InvalidInput("POSE_MATRIX_INVALID", f"a pose is no rigid motion: {what}", MATRIX_REMEDY)
+    return InvalidInput("POSE_MATRIX_INVALID", f"a pose is not a rigid motion: {what}", MATRIX_REMEDY)

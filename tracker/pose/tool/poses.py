@@ -9,7 +9,7 @@ import numpy.typing as npt
 from tracker.errors import InvalidInput
 from tracker.geometry import Array, Camera, Marker, Rigid
 
-# No camera sees a whole marker from nearer than this; distances in metres are always less.
+# No camera can image a whole marker at a smaller distance, while distances in metres are always smaller.
 MIN_DISTANCE_MM = 10.0
 
 
@@ -31,7 +31,7 @@ class Poses:
     def from_rigids(
         cls, poses: Sequence[Rigid[Camera, Marker]], covariances: Sequence[npt.ArrayLike] | None = None
     ) -> "Poses":
-        """From poses, and their covariances if they are known.
+        """Return the validated poses, with their covariances if known.
 
         Raises:
             InvalidInput: POSE_COVARIANCE_INVALID, or POSE_UNIT_SUSPECT where translations seem to be metres.
@@ -87,8 +87,8 @@ def _reject_metres(translations_mm: Array) -> None:
     raise InvalidInput(
         "POSE_UNIT_SUSPECT",
         f"in {which} poses the marker is nearer than {MIN_DISTANCE_MM:g} mm to the camera (median "
-        f"{shown:.3g} mm), which no camera can see; these seem to be metres",
-        "Give all translations in one unit, and say which if it is not mm (m: --unit m).",
+        f"{shown:.3g} mm), which is impossible; these seem to be metres",
+        "Give all translations in one unit, and specify it if it is not mm (m: --unit m).",
         {"near": near, "poses": len(distances), "median_distance_mm": shown},
     )
 
@@ -98,7 +98,7 @@ def _checked(covariances: Sequence[npt.ArrayLike], count: int) -> Array:
     stated = stated if count else np.zeros((0, 6, 6))
     is_sound = stated.shape == (count, 6, 6) and bool(np.isfinite(stated).all())
     if is_sound:
-        # mm and radians differ by orders of magnitude: what is positive is seen on a unit diagonal.
+        # Normalised to a unit diagonal, because mm and radians differ by orders of magnitude.
         sd = np.sqrt(np.abs(np.diagonal(stated, axis1=1, axis2=2)))
         is_sound = bool((sd > 0.0).all())
         scaled = stated / np.where(sd > 0.0, sd, 1.0)[:, :, None] / np.where(sd > 0.0, sd, 1.0)[:, None, :]

@@ -19,12 +19,12 @@ from tracker.pose.tool.motion_range import spin_range_deg
 from tracker.pose.tool.pivot import RejectedPose, RejectedReason, reject_too_few, rejected_poses
 from tracker.pose.tool.poses import Poses
 
-# The tip lies on the axis: an axis farther off the direction to the tip belongs to another motion.
+# The tip lies on the axis, so a larger angle to the direction of the tip means another motion.
 MAX_OFF_TIP_DEG = 60.0
 MAX_ROUNDS = 30
 REWEIGHTINGS = 30
 SPIN_REMEDY = (
-    "Keep the tip in the divot and the handle still, turn the tool about its own axis by a half turn or as "
+    "Keep the tip in the divot and the handle still, rotate the tool about its axis by 180 degrees, or as "
     "far as the marker stays in view, and calibrate again."
 )
 
@@ -34,12 +34,12 @@ class SpinCalibration:
     """Result of a spin calibration: the tool's axis in its marker's frame.
 
     Attributes:
-        axis_in_marker: (3,), unit; from the marker towards the tip where the tip is known.
+        axis_in_marker: (3,), unit vector, from the marker towards the tip where the tip is known.
         points_to_tip: whether the tip determined the sign; if not, the axis may point backwards.
         axis_covariance_rad2: (3, 3) in the marker's frame, singular along the axis.
-        axis_sd_deg: standard deviation in the direction in which it is known least.
-        spin_range_deg: rotation range about it.
-        wobble_deg: RMS angle of the axis from its mean direction in the camera's frame, over poses in use.
+        axis_sd_deg: standard deviation in its least certain direction.
+        spin_range_deg: rotation range about the axis.
+        wobble_deg: RMS angle of the axis from its mean direction in the camera's frame, over inlier poses.
         used: (n,) mask of inlier poses.
         rejected: the outliers, with the reason; `off` in degrees.
     """
@@ -60,7 +60,7 @@ class SpinCalibration:
         return (
             CalibrationError(
                 "SPIN_AXIS_UNCERTAIN",
-                f"the axis is known to {self.axis_sd_deg:.2f} degrees (standard deviation), "
+                f"the axis has a standard deviation of {self.axis_sd_deg:.2f} degrees, "
                 f"allowed {gate.max_axis_sd_deg:.2f}",
                 SPIN_REMEDY,
                 {"axis_sd_deg": self.axis_sd_deg, "allowed_deg": gate.max_axis_sd_deg},
@@ -71,9 +71,9 @@ class SpinCalibration:
 def spin_calibration(
     poses: Poses, *, tip_in_marker_mm: npt.ArrayLike | None = None, gate: ToolGate | None = None
 ) -> SpinCalibration:
-    """Return the axis of a tool that was rotated about it: the direction of the marker that moved least.
+    """Return the axis of a tool that was rotated about it: the direction of the marker with minimum variance.
 
-    The tip (3,), if it is known, determines the sign: drilling goes from the marker towards the tip.
+    The tip (3,), if known, determines the sign: the drilling direction is from the marker towards the tip.
 
     Raises:
         CalibrationError: TOOL_TOO_FEW_POSES, SPIN_TOO_SMALL, SPIN_WOBBLES, or SPIN_NOT_ABOUT_TOOL.
@@ -116,7 +116,7 @@ def _fitted(poses: Poses) -> tuple[Array, Mask]:
     """Return the direction (3,) of the marker that moved least, and the inlier mask."""
     axis = _direction_of_min_variance(poses, np.ones(len(poses)))
     for _ in range(REWEIGHTINGS):
-        # Weights by the inverse distance: a geometric median, robust to outliers.
+        # Weights by the inverse distance give a geometric median, which is robust to outliers.
         off = np.linalg.norm(poses.rotations @ axis - _middle(poses.rotations @ axis), axis=1)
         axis = _direction_of_min_variance(poses, 1.0 / np.maximum(off, 1e-4))
     residuals = poses.rotations @ axis - _middle(poses.rotations @ axis)
@@ -165,15 +165,15 @@ def _towards_tip(axis: Array, tip_in_marker_mm: Array) -> Array:
     if tip_in_marker_mm.shape != (3,) or not np.isfinite(tip_in_marker_mm).all() or length < 1.0:
         raise InvalidInput(
             "TOOL_TIP_INVALID",
-            f"the tip is {tip_in_marker_mm.tolist()}, which gives no direction from the marker",
-            "Give the tip as three numbers in mm in the marker's frame, as pivot calibration says it.",
+            f"the tip is {tip_in_marker_mm.tolist()}, which determines no direction from the marker",
+            "Give the tip as three numbers in mm in the marker's frame, as pivot calibration returns it.",
         )
     off_deg = angle_between_deg(axis, tip_in_marker_mm)
     nearer_deg = min(off_deg, 180.0 - off_deg)
     if nearer_deg > MAX_OFF_TIP_DEG:
         raise CalibrationError(
             "SPIN_NOT_ABOUT_TOOL",
-            f"the axis of this motion is {nearer_deg:.0f} degrees off the direction to the tip, "
+            f"the axis of this motion is {nearer_deg:.0f} degrees from the direction to the tip, "
             f"allowed {MAX_OFF_TIP_DEG:g}: the tool was tilted, not spun",
             SPIN_REMEDY,
             {"off_deg": nearer_deg, "allowed_deg": MAX_OFF_TIP_DEG},

@@ -23,7 +23,7 @@ class TipCheck:
         max_mm: the largest distance.
         rms_by_axis_mm: (3,), along x, y, z of the camera.
         poses: number of different poses.
-        motion_range: how far the tool was tilted and spun.
+        motion_range: tilt and spin range of the tool.
     """
 
     pivot_in_camera_mm: Array
@@ -40,9 +40,9 @@ class TipCheck:
         return (
             CalibrationError(
                 "TIP_CHECK_FAILED",
-                f"the tip seems to wander by {self.rms_3d_mm:.2f} mm (3-D RMS) and by {self.max_mm:.2f} mm "
+                f"the tip moves by {self.rms_3d_mm:.2f} mm (3-D RMS) and by {self.max_mm:.2f} mm "
                 f"at most, allowed {gate.max_rms_3d_mm:.2f} mm (3-D RMS)",
-                "See that neither the tool nor its marker is bent or loose, and calibrate the tip again.",
+                "Check that neither the tool nor its marker is bent or loose, and calibrate the tip again.",
                 {"rms_3d_mm": self.rms_3d_mm, "max_mm": self.max_mm, "allowed_mm": gate.max_rms_3d_mm},
             ),
         )
@@ -51,7 +51,8 @@ class TipCheck:
 def check_tip(poses: Poses, tip_in_marker_mm: npt.ArrayLike, gate: ToolGate | None = None) -> TipCheck:
     """Return the spread of a tip (3,) over poses in which it was held in one place.
 
-    Without tilt a wrong tip stays in one place too, so a check with too little tilt is rejected.
+    A wrong tip also stays in one place if the tool is not tilted, so a check with too little tilt is
+    rejected.
 
     Raises:
         InvalidInput: TOOL_TIP_INVALID.
@@ -63,7 +64,7 @@ def check_tip(poses: Poses, tip_in_marker_mm: npt.ArrayLike, gate: ToolGate | No
         raise InvalidInput(
             "TOOL_TIP_INVALID",
             f"the tip is {tip.tolist()}, needed three numbers in mm",
-            "Give the tip in the marker's frame, as pivot calibration says it.",
+            "Give the tip in the marker's frame, as pivot calibration returns it.",
         )
     different = poses.of(~poses.repeats)
     reject_too_few(different, len(poses), gate)
@@ -71,8 +72,8 @@ def check_tip(poses: Poses, tip_in_marker_mm: npt.ArrayLike, gate: ToolGate | No
     if not motion_range.min_rotation_deg >= gate.min_tilt_deg:
         raise CalibrationError(
             "TIP_CHECK_TILT_TOO_SMALL",
-            f"about one direction the tool was turned by only {motion_range.min_rotation_deg:.1f} degrees "
-            f"from end to end, needed {gate.min_tilt_deg:g}: a wrong tip would not have shown",
+            f"about one direction the tool was tilted by only {motion_range.min_rotation_deg:.1f} degrees "
+            f"from end to end, needed {gate.min_tilt_deg:g}: a wrong tip would not be detected",
             "Keep the tip in the divot, tilt the tool to all sides, and check again.",
             {"turned_deg": motion_range.min_rotation_deg, "needed_deg": gate.min_tilt_deg},
         )
