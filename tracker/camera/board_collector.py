@@ -21,7 +21,7 @@ MIN_POINTS = 6
 
 
 class ViewVerdict(StrEnum):
-    """Whether a view of the board was accepted, or why not."""
+    """Return whether a view of the board was accepted, or why not."""
 
     TAKEN = "taken"
     TOO_FEW_POINTS = "too_few_points"  # too little of the board is seen

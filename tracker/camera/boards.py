@@ -118,7 +118,7 @@ class CheckerBoard:
 
     @property
     def has_unique_orientation(self) -> bool:
-        """Whether its colours change under a rotation by 180 degrees: odd by even corners."""
+        """Return whether its colours change under a rotation by 180 degrees: odd by even corners."""
         return (self.columns + self.rows) % 2 == 1
 
 

@@ -105,7 +105,7 @@ class CameraModel:
         return cls(matrix=matrix, distortion=distortion, size_wh_px=size_wh_px)
 
     def has_aspect_of(self, size_wh_px: tuple[int, int]) -> bool:
-        """Whether images of this size have exactly the calibrated ratio of width to height."""
+        """Return whether images of this size have exactly the calibrated ratio of width to height."""
         return self.size_wh_px[0] * size_wh_px[1] == self.size_wh_px[1] * size_wh_px[0]
 
     def scaled_to(self, size_wh_px: tuple[int, int]) -> "CameraModel":

@@ -172,7 +172,7 @@ def rotation_angle_between(a, b):
 
 @compiled
 def is_plausible_foreshortening(squares, squared_area, min_ratio):
-    """Whether two sides of a parallelogram can be a square foreshortened to at least `min_ratio`.
+    """Return whether two sides of a parallelogram can be a square foreshortened to at least `min_ratio`.
 
     `squares` is the sum of their squared lengths. The ratio of the singular values is the cosine of the tilt.
     """

@@ -12,17 +12,17 @@ from tracker.geometry import Array
 
 # Sizes of the marker in the image for which active edges are stored, a factor of 1.4 apart.
 LEVELS_PX = (12, 17, 24, 34, 48, 68, 96, 136, 192)
-# Pixels of the model for a pixel of the image: its edgels are placed to a hundredth of an image's pixel.
+# Model pixels per image pixel, so that edgels are located to a hundredth of an image pixel.
 OVERSAMPLING = 6
 # Blur of a camera in focus (0.6 px), of its pixel (0.3) and of the Sobel filter's smoothing (0.7), together.
 BLUR_PX = 1.0
 # White paper around the square, as a fraction of its side.
 MARGIN_RATIO = 0.25
-# Edges nearer to each other than about two pixels take each other's contrast away; under this part of a
-# free edge's contrast they are no longer active.
+# Edges closer than about two pixels reduce each other's contrast; below this ratio to the contrast of an
+# isolated edge they are not active.
 MIN_STRENGTH_RATIO = 0.3
 MAX_EDGELS = 360
-# An edge's direction is that of the edgels up to this many image pixels away on both sides.
+# Distance in image pixels, on both sides, of the edgels that determine an edge's direction.
 CORNER_REACH_PX = 1.6
 MAX_CORNER_TURN_COS = 0.9
 
@@ -58,7 +58,7 @@ class ActiveEdges:
         strength_ratio: (n,), contrast over that of an isolated edge, 0..1.
         inner: (n,), not part of the outline of the square.
         straight: (n,), no corner nearby: only these constrain the position.
-        fitted: the straight edges alone; derived.
+        fitted: the straight edges only; derived.
         sides: (n,), straight edges of the outline; derived.
         half_mm: largest |x| or |y| of the points; derived.
     """

@@ -13,12 +13,12 @@ from tracker.errors import InvalidInput
 from tracker.geometry import Array
 from tracker.marker.active_edges import LEVELS_PX, ActiveEdges, active_edges_at
 
-# White paper around the square, in sides, that a fit may count on; what lies beyond is unknown.
+# Width of the white paper around the square, in sides, that a fit may assume.
 PAPER_RATIO = 0.2
 MIN_SIDE_PX = 8
 SQUARE_TOLERANCE_RATIO = 0.02
 MIN_CONTRAST_GREY = 40
-# The border must be dark for all but a worn corner.
+# Minimum dark part of the border; a worn corner is allowed.
 MIN_DARK_BORDER_RATIO = 0.9
 # A shape with a quarter or half turn symmetry has no unique orientation, and one that is its own mirror image
 # cannot be distinguished from its reflection.
@@ -82,13 +82,13 @@ class MarkerModel:
 
     @property
     def corners_mm(self) -> Array:
-        """(4, 3) in the marker's frame: top-left, top-right, bottom-right, bottom-left."""
+        """Return the corners (4, 3) in the marker's frame: top-left, top-right, bottom-right, bottom-left."""
         h = self.side_mm / 2.0
         return np.array([[-h, h, 0.0], [h, h, 0.0], [h, -h, 0.0], [-h, -h, 0.0]])
 
     @property
     def own_correlation(self) -> tuple[float, float]:
-        """Largest correlation with its quarter rotations, and with its rotated mirror images, -1..1."""
+        """Return the largest correlation with its quarter rotations and with its mirror images, -1..1."""
         small = _small(self.square)
         mirrored = small[:, ::-1]
         return max(_rotation_correlations(small)), max(
@@ -102,7 +102,7 @@ class MarkerModel:
 
 
 def _problem(grey: npt.NDArray[np.generic]) -> str:
-    """Return why this image cannot be used, or an empty string."""
+    """Return the reason why this image cannot be used, or an empty string."""
     if grey.ndim != 2 or grey.dtype != np.uint8:
         return f"it is {grey.dtype} with {grey.ndim} dimensions, needed uint8 grey (h, w)"
     h, w = grey.shape
@@ -128,7 +128,7 @@ def _working_image(grey: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
         if grey.shape == wanted:
             return grey.copy()
         return np.asarray(cv2.resize(grey, wanted, interpolation=cv2.INTER_AREA), dtype=np.uint8)
-    # A picture of a few cells (8x8) is meant with hard edges; a photograph is smooth already.
+    # An image of a few cells (8x8) has sharp edges and must not be smoothed, unlike a photograph.
     hard = len(np.unique(grey)) <= 4
     mode = cv2.INTER_NEAREST if hard else cv2.INTER_CUBIC
     size = n * -(-WORKING_SIDE_PX // n)
@@ -146,7 +146,7 @@ def reject_similar(models: Sequence[MarkerModel]) -> None:
         raise InvalidInput(
             "MARKER_NAMES_NOT_UNIQUE",
             f"{len(names)} markers have {len(set(names))} names: {', '.join(sorted(names))}",
-            "Give each marker a name of its own.",
+            "Give each marker a unique name.",
         )
     small = [_small(model.square) for model in models]
     for (a, first), (b, second) in combinations(enumerate(small), 2):
@@ -156,7 +156,7 @@ def reject_similar(models: Sequence[MarkerModel]) -> None:
                 "MARKERS_TOO_SIMILAR",
                 f"markers '{names[a]}' and '{names[b]}' look the same, however they are turned: "
                 f"correlation {correlation:.3f}, allowed {MAX_SIMILARITY}",
-                "Use shapes that differ, so that none is taken for another: another seed designs another.",
+                "Use shapes that differ; 'coaxial marker design' with another seed makes another.",
                 {"names": [names[a], names[b]], "correlation": correlation},
             )
 
@@ -164,7 +164,8 @@ def reject_similar(models: Sequence[MarkerModel]) -> None:
 def reject_mirror_symmetric(models: Iterable[MarkerModel]) -> None:
     """Reject models that equal their own mirror image: a reflection of the print is detected as the marker.
 
-    The pose of the print itself is unambiguous, so a recording without reflections may be tracked with one.
+    The pose of the print itself is unambiguous, so such a marker may be tracked in images without
+    reflections.
 
     Raises:
         InvalidInput: MARKER_MIRROR_SYMMETRIC.
@@ -199,8 +200,8 @@ def _reject_symmetry(square: npt.NDArray[np.uint8], name: str) -> None:
         if correlation > MAX_SYMMETRY:
             raise InvalidInput(
                 "MARKER_SYMMETRIC",
-                f"marker '{name}' looks the same when turned by {90 * turns} degrees: "
+                f"marker '{name}' looks the same when rotated by {90 * turns} degrees: "
                 f"correlation {correlation:.3f}, allowed {MAX_SYMMETRY}",
-                "Use a shape that has one top only.",
+                "Use a shape without rotational symmetry.",
                 {"name": name, "turned_deg": 90 * turns, "correlation": correlation},
             )

@@ -41,7 +41,7 @@ def _between(image, u, v):
     """Interpolate the image bilinearly."""
     iu, iv = int(u), int(v)
     fu, fv = np.float32(u - iu), np.float32(v - iv)
-    # Unsigned: a signed index is checked for negative values each time.
+    # Unsigned, because Numba checks signed indices for negative values.
     c, r, one = np.uint64(iu), np.uint64(iv), np.uint64(1)
     a, b = np.float32(image[r, c]), np.float32(image[r, c + one])
     r += one
@@ -90,8 +90,9 @@ def sample_square(image, corners, fields, samples):
 def normalise_locally(seen, rows, half, floor_grey, floor_ratio):
     """Normalise images (q, rows * rows) locally, in place.
 
-    Each cell less the mean of the cells within `half` of it, over their sd, so that a shadow edge or glare
-    over one part leaves the rest unchanged. The result has mean 0 and length 1.
+    From each cell the mean of the cells within `half` of it is subtracted, and the result divided by their
+    sd, so that a shadow edge or glare over one part leaves the rest unchanged. The result has mean 0 and
+    length 1.
     """
     total = np.empty((rows + 1, rows + 1), np.float64)
     square = np.empty((rows + 1, rows + 1), np.float64)

@@ -10,10 +10,10 @@ from tracker.geometry import Array
 from tracker.marker.active_edges import ActiveEdges
 from tracker.marker.score_kernels import count_matched_edgels, crossings, edge_agreement
 
-# An edge counts where its gradient has this part of what its own contrast and the marker's let expect.
+# Minimum ratio of an edge's gradient to the value predicted from its strength and the marker's contrast.
 MIN_RESPONSE_RATIO = 0.35
-# Common edgels lie this near to their model edge: pixels, or this part of the marker's side if that is more
-# (paper bends).
+# Maximum distance of common edgels from their model edge: in pixels, or this ratio of the marker's side if
+# that is larger (bent paper).
 REACH_PX, REACH_SIDE_RATIO, MAX_REACH_PX = 2.0, 0.04, 5.0
 
 
@@ -26,7 +26,7 @@ class ScoreSettings:
         accept_target_score_ratio: minimum target score, 0..1.
         accept_inner_coverage_ratio: minimum coverage of the edges inside the square, 0..1: the outline is
             common to all square markers, the inside distinguishes this one.
-        verified_threshold_ratio: factor on the minimum score and minimum inner coverage where photometric
+        verified_threshold_ratio: factor on the minimum score and minimum inner coverage if photometric
             verification succeeds, 0..1; 1 keeps them.
         fit_error_weight: the paper's fit error weighing factor, here on the normalised fit error, 0..1.
     """

@@ -26,7 +26,8 @@ def edge_agreement(gx, gy, left, top, points, normals, strength, length, inner, 
     """Return model coverage, inner coverage, mean squared offset and contrast of an isolated edge.
 
     An edge is found where its response exceeds `floor` and `ratio` of what its strength (n,) and the contrast
-    predict. Offsets are taken less `shift`. Without any the mean squared offset is the squared reach.
+    predict. `shift` is subtracted from the offsets. Without any edge the mean squared offset is the squared
+    reach.
     """
     n = len(points)
     offset, response, ratios = np.empty(n), np.empty(n), np.empty(n)

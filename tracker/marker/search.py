@@ -5,10 +5,11 @@ coarser and fainter pyramid levels. Four sides find a free-standing marker in a 
 `cv2.aruco`; a corner and the side lengths that tilt allows find one of which a third is occluded. All rounds
 together cost several times as much, so an idle search runs them in turn, one in an image.
 
-Quads from a corner are off by up to a tenth of their side, where a coarse match ranks the true one hundredth
-under motion blur. Two least-squares steps cost as much as that match and rank it among the first few in nine
-of ten images. The second quad that is fitted is the best by local normalised cross-correlation: it ranks
-first or second in shadow, glare and noise, and fails under motion blur, where the first one is good.
+Quads from a corner have errors of up to a tenth of their side, and under motion blur the coarse match then
+ranks the true quad only about hundredth. Two least-squares steps take as long as that match and rank it among
+the first few in nine of ten images. The second fitted quad is the best by local normalised cross-correlation:
+it ranks the true quad first or second in shadow, glare and noise, but fails under motion blur, where the
+first score is good.
 """
 
 from collections.abc import Callable, Iterator
@@ -49,22 +50,22 @@ SAME_OUTLINE_SIDE_RATIO = 0.06
 MIN_PIECE_PX = 4.0
 NOISE_SDS, MIN_DARKER_GREY = 3.0, 3.0
 MIN_STEP_SDS, MIN_STEP_GREY = 1.5, 5.0
-# A single corner constrains the others little: two steps show which quads are worth all of them.
+# Number of Gauss-Newton steps after which quads are ranked for a complete refinement.
 FIRST_STEPS = 2
-# By so much of its side an outline of which a corner is seen may be off.
+# Maximum error of a quad from a single corner, in sides.
 MAX_BEYOND_SIDES = 0.1
-# So many models share; more cost more.
+# Maximum number of models among which the quads are shared.
 MAX_SHARES = 4
-# Of four sides, where they are is known better than of two.
+# Quads from four sides are more accurate than from two, so fewer are refined.
 MAX_REFINED_FOUR_SIDED = 8
-# The coarse match ranks the true one within these in nearly all images.
+# Number of quads among which the coarse match ranks the true one in nearly all images.
 MAX_PARALLEL = 40
 # A quad whose centre is nearer than this, in sides, to a marker that is seen lies on that marker.
 SAME_PLACE_SIDES = 0.5
-# Before refinement, a free-standing marker has 0.88 or more at half size, other dark squares up to 0.84. To
-# refine and fit those in each image would cost more than to find them.
+# Before refinement, an unoccluded marker has 0.88 or more at half size, other dark squares up to 0.84.
+# Refinement and fit of those in each image would take longer than the search.
 MIN_DISTINCT_CORRELATION = 0.86
-# Where one outline is as like as this, those that are so far behind are not it.
+# If the best quad reaches the first correlation, quads whose correlation is lower by the second are dropped.
 CERTAIN_CORRELATION, MAX_CORRELATION_GAP = 0.94, 0.08
 
 
@@ -73,13 +74,11 @@ class Effort:
     """Number of quads kept for each model after each stage.
 
     Attributes:
-        coarse: of the quads from a corner, after the coarse match. Several models share them, so that they
-        cost
-            little more than one.
-        refined: after two steps.
-        local_ncc: after all steps.
-        max_candidates: reported.
-        ranks_by_local_ncc: whether all but the first candidate are ranked by local NCC: each of the two
+        coarse: number of quads from a corner after the coarse match, shared by several models.
+        refined: number after two Gauss-Newton steps.
+        local_ncc: number after all steps.
+        max_candidates: number of returned candidates.
+        ranks_by_local_ncc: whether all candidates except the first are ranked by local NCC: each of the two
             scores is the better one in some images.
     """
 
@@ -90,14 +89,14 @@ class Effort:
     ranks_by_local_ncc: bool = True
 
     def coarse_of(self, models: int) -> int:
-        """Return the share of each of so many models."""
+        """Return the number of quads per model."""
         return self.coarse // min(models, MAX_SHARES)
 
 
 # Under shadow, highlights, motion blur and noise together only the local NCC separates the marker from other
 # shapes, and two steps rank it past the hundredth.
 STANDARD = Effort(coarse=180, refined=12, local_ncc=8, max_candidates=4)
-# Over many images each candidate is fitted once, so that their order matters little.
+# An idle search fits each candidate once over many images, so the order matters little.
 IDLE = replace(STANDARD, ranks_by_local_ncc=False)
 THOROUGH = Effort(coarse=500, refined=140, local_ncc=100, max_candidates=6)
 
@@ -116,14 +115,14 @@ class Candidate:
 
 
 def candidate_rounds(image: GreyImage, templates: Templates) -> Iterator[list[list[Candidate]]]:
-    """Yield for each model (m) its next candidates, the best first, at rising cost.
+    """Yield for each model (m) its next candidates, the best first, at increasing cost.
 
     The first round finds a free-standing marker in ordinary light; later rounds find blurred, partly
     occluded, dark or small ones. A caller that has found its marker stops iterating.
 
     Args:
         image: grey (h, w).
-        templates: as `templates_of` returns them.
+        templates: templates of the models.
     """
     return _rounds(image, templates, _match_stages, STANDARD)
 
@@ -381,7 +380,7 @@ def _thorough_match_stages(_image: GreyImage, levels: ImagePyramid, templates: T
 def _are_within(quads: Quads, image: GreyImage) -> npt.NDArray[np.bool_]:
     """Return which quads (q, 4, 2) lie in the image, up to their possible error.
 
-    Of so many quads, some cut by the border match the model as well as the marker does.
+    Among so many quads, some that the image border cuts correlate as well as the marker.
     """
     height, width = image.shape
     beyond = np.maximum(-quads, quads - np.array([width - 1, height - 1], np.float32)).max(axis=(1, 2))

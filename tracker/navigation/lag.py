@@ -47,7 +47,7 @@ class MeasuredLatency:
     image_period_ms: float
 
     def applies_to(self, size_wh_px: tuple[int, int], *, period_ms: float) -> bool:
-        """Whether it holds for images of this size and period; NaN is an unknown period.
+        """Return whether it holds for images of this size and period; NaN is an unknown period.
 
         Images of another size take another time to read, transfer, track and draw. Those that come more
         slowly are older on average when they are displayed.

@@ -23,7 +23,7 @@ from tracker.pose import (
 )
 from tracker.stage_timer import StageTimer
 
-# Corners of a quadrilateral are intersections of fitted lines: off by a pixel, two on a bent sheet.
+# Corners of a quadrilateral are intersections of fitted lines, with errors of one pixel, two on bent paper.
 SEARCH_REACH_PX = 2.5
 # A hand in theatre moves the marker by a few pixels between images; prediction removes most of it.
 TRACK_REACH_PX = 6.0
@@ -36,7 +36,7 @@ class Fitter:
     """Fits marker models to the images of one camera.
 
     Attributes:
-        stages: timer of its own stages and those of a search that uses it.
+        stages: timer of the stages of this fitter and of a search that uses it.
     """
 
     def __init__(self, *, camera: CameraModel, settings: ScoreSettings, stages: StageTimer) -> None:
@@ -97,5 +97,5 @@ class Fitter:
 
 
 def is_certain(sighting: Sighting) -> bool:
-    """Whether the search can stop at this sighting."""
+    """Return whether the search can stop at this sighting."""
     return rank_score(sighting) > CERTAIN_RANK_SCORE

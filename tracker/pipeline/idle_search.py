@@ -1,14 +1,14 @@
 """Search for markers that are out of view, at a bounded cost per image.
 
-A complete search of an image in which no marker is costs many times a step that tracks one, and that is the
-usual image while the drill is put away. So an image gets a part of a search: every other one the dark regions
-with four sides, which find a free-standing marker, and every fourth one of the costly rounds, in turn. While
-another marker is tracked, fewer images get a costly round. Of all candidates one is fitted in an image, and
-one that was rejected at the same place some images ago and matches no better now is not fitted again, so that
-a fixed background costs little.
+A complete search of an image without a marker takes many times as long as a tracking step, and such images
+are usual while the drill is put away. Each image therefore runs a part of the search: every second image the
+dark regions with four sides, which find an unoccluded marker, and every fourth image one of the costly rounds
+in turn. While another marker is tracked, costly rounds run less often. One candidate is fitted per image. A
+candidate that was rejected at the same position some images ago, and does not correlate better now, is not
+fitted again, so that a fixed background costs little.
 
-Only a complete search of the same image decides about what a part of it finds, because it also weighs what
-else may be the marker.
+A candidate found this way is confirmed only by a complete search of the same image, which also compares the
+alternatives.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -29,10 +29,10 @@ from tracker.marker import (
 from tracker.pipeline.fitter import Fitter
 from tracker.pose import ImageContext, Seen, Sighting, Unseen, UnseenReason, rank_score, side_px_of
 
-# Every how many images one gets a costly round: without another marker in view, and with one.
+# Period of the costly rounds in images, without and with another marker in view.
 IDLE_PERIOD_IMAGES, TRACKING_PERIOD_IMAGES = 4, 8
-# A rejected candidate at the same place is fitted again after so many images, or when its correlation has
-# increased by so much, as that of a marker that comes to rest.
+# A rejected candidate at the same position is fitted again after this number of images, or when its
+# correlation has increased by this amount, as that of a marker that comes to rest.
 REFIT_IMAGES, MIN_GAIN = 10, 0.02
 NO_CANDIDATE = Unseen(reason=UnseenReason.NO_CANDIDATE, best_score_ratio=None)
 
@@ -90,7 +90,8 @@ class IdleSearch:
         rank, _, k = min(fresh)
         model, candidate = models[k], candidates[k][rank]
         sighting = next(self._fitter.fit_candidates(pixels, model, [candidate], maximum=1), NO_CANDIDATE)
-        # Also if it is seen: should a complete search not confirm it, the next one has to wait.
+        # Also record a detection: if a complete search does not confirm it, it must not be searched again at
+        # once.
         unseen = NO_CANDIDATE if isinstance(sighting, Seen) else sighting
         self._rejections.append(_Rejection(model.name, self._image_number, candidate, unseen))
         return isinstance(sighting, Seen)
@@ -104,9 +105,9 @@ class IdleSearch:
         ]
 
     def unseen(self, models: Sequence[MarkerModel]) -> dict[str, Sighting]:
-        """Return why each of these markers was not seen in the last images: the reason of its best candidate.
+        """Return each of these markers as `Unseen` with the reason of its best candidate in the last images.
 
-        The score is left out, because it may be of another image.
+        The score is None, because it may be that of another image.
         """
         return {
             model.name: replace(
@@ -132,7 +133,7 @@ class IdleSearch:
         return costly_candidates(pixels.image, self._templates_of(models), index=index)
 
     def _is_rejected(self, model: MarkerModel, candidate: Candidate) -> bool:
-        """Whether a candidate at this place that matched as well was fitted some images ago."""
+        """Return whether a candidate at this place that matched as well was fitted some images ago."""
         return matches_no_better(
             candidate,
             (
@@ -144,7 +145,7 @@ class IdleSearch:
 
 
 def matches_no_better(candidate: Candidate, rejected: Iterable[Candidate]) -> bool:
-    """Whether one of the rejected candidates of its model has the same place and matched as well."""
+    """Return whether one of the rejected candidates of its model has the same place and matched as well."""
     reach_px = SAME_OUTLINE_SIDE_RATIO * side_px_of(candidate.corners_px)
     return any(
         candidate.correlation < one.correlation + MIN_GAIN

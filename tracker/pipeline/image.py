@@ -21,7 +21,7 @@ PATCH_MARGIN_RATIO = 0.2
 
 
 def is_same_image(one: npt.NDArray[np.uint8], other: npt.NDArray[np.uint8]) -> bool:
-    """Whether two images, (h, w) or (h, w, 3), have equal size and pixels."""
+    """Return whether two images, (h, w) or (h, w, 3), have equal size and pixels."""
     few = slice(None, None, COMPARISON_STRIDE)
     return np.array_equal(one[few, few], other[few, few]) and np.array_equal(one, other)
 
@@ -29,7 +29,7 @@ def is_same_image(one: npt.NDArray[np.uint8], other: npt.NDArray[np.uint8]) -> b
 class RepeatedPatch:
     """Detects that the pixels around a marker repeat those of its last sighting.
 
-    They repeat with a frozen camera, also under a running clock, and with a camera slower than its card.
+    They repeat with a frozen camera, also if its time stamps advance, and with a camera slower than its card.
     """
 
     def __init__(self) -> None:
@@ -37,7 +37,7 @@ class RepeatedPatch:
         self._grey: GreyImage | None = None
 
     def is_repeated(self, grey: GreyImage) -> bool:
-        """Whether the stored pixels equal those at the same position of this image."""
+        """Return whether the stored pixels equal those at the same position of this image."""
         return self._at is not None and self._grey is not None and np.array_equal(grey[self._at], self._grey)
 
     def store(self, grey: GreyImage, corners_px: Array) -> None:

@@ -1,11 +1,11 @@
 """Search of one image in rounds of candidates of increasing cost.
 
-A search of a single image that finds nothing runs a second time over five hundred outlines ranked part by
-part (`thorough_rounds`): in shadow, highlight, motion blur and noise together the true outline ranks below
-the hundredth in every other ranking, and first in two of three images in this one. More outlines are fitted,
-because no ranking is reliable there. The second run is skipped as soon as one marker is found with
-certainty, since the illumination is then not poor, and in `Tracker.step`, where another image follows. A
-search that finds nothing takes three times as long because of it.
+If the search of a single image finds nothing, a second search ranks five hundred quads by local NCC
+(`thorough_rounds`). Under shadow, highlight, motion blur and noise together the true quad ranks below the
+hundredth by every other score, and first in two of three images by this one. More quads are fitted, because
+no score is reliable there. The second search is omitted if one marker was found with certainty, since the
+illumination is then not poor, and in `Tracker.step`, where another image follows. It triples the time of a
+search that finds nothing.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -68,7 +68,7 @@ class Search:
         self.best[name] = best
 
     def _is_over(self, model: MarkerModel, enough: Callable[[Sighting], bool]) -> bool:
-        """Whether the search for this model is complete."""
+        """Return whether the search for this model is complete."""
         return model.name in self._undecided or enough(self.best[model.name])
 
     def run(self, *, thorough: bool = False) -> dict[str, Sighting]:

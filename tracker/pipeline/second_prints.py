@@ -1,13 +1,13 @@
-"""Second prints: two squares of one shape in view, of which nothing tells which one is the marker.
+"""Second prints: two indistinguishable squares of the same shape in view.
 
-While a marker is tracked, only the surroundings of its predicted pose are examined. So one image in 32 is
-searched at half size for dark regions with four sides, which find a free-standing second print. One in 256 is
-searched thoroughly, from single corners and at full size too, which finds a partly occluded or a small one
-and costs as much as several steps. So is the image in which a marker comes into view: there one print may be
-taken for another, while a marker that is followed stays the same one.
+Tracking only examines the region around the predicted pose. One image in 32 is therefore searched at half
+size for dark regions with four sides, which finds an unoccluded second print. One in 256 is searched
+thoroughly, also from single corners and at full size, which finds a partly occluded or small print and takes
+as long as several steps. The image in which a marker comes into view is also searched thoroughly, because
+there one print may be mistaken for another; a tracked marker cannot change to another print.
 
-While two are in view, and until one was alone for a second, the marker has no pose. Meanwhile the second one
-is tracked, and more images are searched.
+While two prints are in view, and until one was alone for a second, the marker has no pose. Meanwhile the
+second print is tracked, and more images are searched.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -22,12 +22,12 @@ from tracker.pipeline.fitter import MAX_FITS, Fitter
 from tracker.pipeline.idle_search import matches_no_better
 from tracker.pose import ImageContext, Prior, Seen, Sighting, Unseen, UnseenReason, is_same_square
 
-# Every how many images one is searched, and thoroughly: while the marker is alone, and while it is not or was
-# not for long.
+# Period of the searches and of the thorough searches in images, while the marker is alone, and of the
+# searches during and shortly after the presence of a second print.
 PERIOD_IMAGES, THOROUGH_PERIOD_IMAGES, TWICE_PERIOD_IMAGES = 32, 256, 8
-# A marker has a pose again after it was alone for so long, and in so many images: two thorough searches.
+# A marker has a pose again after it was alone for this time and this number of images.
 MIN_ALONE_S, MIN_ALONE_IMAGES = 1.0, 16
-# A rejected candidate at the same place is fitted again after so many images.
+# A rejected candidate at the same position is fitted again after this number of images.
 REFIT_IMAGES = 128
 
 
@@ -103,7 +103,7 @@ class SecondPrints:
         }
 
     def _forget(self, at_s: float) -> None:
-        """Forget second prints that are gone for long enough, and old rejections."""
+        """Remove second prints that have been absent for long enough, and old rejections."""
         self._twice = {
             name: one
             for name, one in self._twice.items()
@@ -120,7 +120,7 @@ class SecondPrints:
     def _is_tracked(
         self, pixels: ImageContext, model: MarkerModel, sightings: Mapping[str, Sighting], at_s: float
     ) -> bool:
-        """Whether the second print of this model is seen again at its predicted pose."""
+        """Return whether the second print of this model is seen again at its predicted pose."""
         twice = self._twice.get(model.name)
         expected = None if twice is None else twice.prior.predict(at_s)
         if twice is None or expected is None:
@@ -135,7 +135,7 @@ class SecondPrints:
         return True
 
     def _is_thorough_due(self, due: Sequence[MarkerModel]) -> bool:
-        """Whether this image is searched thoroughly: it is time to, or a marker comes into view."""
+        """Return whether the thorough search is due in this image, or a marker comes into view."""
         is_twice = any(model.name in self._twice for model in due)
         period = TWICE_PERIOD_IMAGES if is_twice else THOROUGH_PERIOD_IMAGES
         return self._image_number % period == 0 or any(model.name not in self._seen for model in due)
@@ -168,7 +168,7 @@ class SecondPrints:
 
 
 def _is_on_any(second: Seen, sightings: Mapping[str, Sighting]) -> bool:
-    """Whether a sighting lies on a marker that is seen."""
+    """Return whether a sighting lies on a marker that is seen."""
     return any(isinstance(one, Seen) and is_same_square(one, second) for one in sightings.values())
 
 

@@ -39,18 +39,18 @@ from tracker.pose import (
 )
 from tracker.stage_timer import StageTimer
 
-# Slower cameras give under five images a second.
+# A longer readout would mean less than five images per second.
 MAX_READOUT_S = 0.2
 # Images further apart leave time for a complete search of each.
 MAX_IDLE_INTERVAL_S = 0.25
-# A marker that does not fit at its predicted pose is searched for so far around it, in sides.
+# Search radius around the predicted pose, in sides, for a marker that does not fit there.
 NEARBY_SIDES = 1.0
 
 
 class Tracker:
     """Finds any number of markers in images of one camera.
 
-    `step` uses the state from the images before; `search` is stateless. Not thread-safe.
+    `step` uses state from previous images; `search` is stateless. Not thread-safe.
 
     Attributes:
         stage_ms: duration of each stage of the last image, by name; empty without a clock.
@@ -59,8 +59,8 @@ class Tracker:
     The first tracker of a process loads the compiled kernels, so that no image is delayed by it.
 
     Args:
-        camera: of all images.
-        models: of the markers, each with a name and a shape of its own.
+        camera: camera model of all images.
+        models: marker models with unique names and shapes.
         settings: acceptance thresholds.
         clock: returns seconds, to measure the stages.
         readout_s: time from the first row of an image to the last one; 0 for a global shutter. Poses of
@@ -124,30 +124,30 @@ class Tracker:
         full_search: bool = False,
         is_predicted: bool = False,
     ) -> dict[str, Sighting]:
-        """Return a sighting of each marker in this image, using the state from the images before.
+        """Return a sighting of each marker in this image, using state from previous images.
 
-        A marker that was seen is fitted at its predicted pose, or else searched for around it. One that is
-        out of view is searched for in a part of each image (`idle_search`), so a free-standing one is found
-        within two images, and a blurred or partly occluded one within some more. A marker whose pixels
-        repeat, as from a frozen camera, is seen again, and its certainty does not grow.
+        A marker that was seen is fitted at its predicted pose, or else searched around it. A marker out of
+        view is searched by a part of a search in each image (`idle_search`): an unoccluded one is found
+        within two images, a blurred or partly occluded one within some more. A marker whose pixels repeat, as
+        from a frozen camera, is `Seen`, but adds no evidence for one planar solution.
 
-        A marker of which a second print is in view is `Unseen` with `MARKER_TWICE`, until one of them was
-        alone in view for a second and 16 images. A free-standing second print that comes into view is
-        noticed within 32 images, a partly occluded or small one within 256 (`second_prints`).
+        A marker with a second print in view is `Unseen` with `MARKER_TWICE`, until one of them was alone in
+        view for a second and 16 images. An unoccluded second print is detected within 32 images, a partly
+        occluded or small one within 256 (`second_prints`).
 
         Args:
             image: grey (h, w) or BGR (h, w, 3), uint8, of the camera's size.
             captured_at_s: capture time; an image older than the last one clears the state.
-            full_search: search the whole image for each marker that is not seen, at any cost: for
+            full_search: search the whole image for each marker that is not seen, regardless of time: for
                 recordings, in which no image may be missed.
-            is_predicted: the image comes from video whose images are predicted from earlier ones (H.264 and
-                its like); the covariance then includes what prediction leaves out (`predicted_video`).
+            is_predicted: whether the image is from a codec with inter prediction (as H.264); the covariance
+                then includes the prediction error (`predicted_video`).
 
         Raises:
             InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
         """
         pixels = self._pixels(image)
-        # Nothing is known in the first image, or after a gap.
+        # There is no valid state in the first image, or after a gap.
         full_search |= not 0.0 <= captured_at_s - self._stepped_at_s <= MAX_IDLE_INTERVAL_S
         self._stepped_at_s = captured_at_s
         again = {name: patch.is_repeated(pixels.image) for name, patch in self._patches.items()}
@@ -287,6 +287,6 @@ def _reject_readout(readout_s: float) -> None:
         raise InvalidInput(
             "READOUT_INVALID",
             f"reading an image row by row would take {readout_s * 1e3:g} ms",
-            f"Give what its data sheet says, 0 (a global shutter) to {MAX_READOUT_S * 1e3:g} ms.",
+            f"Give the value of its data sheet, 0 (a global shutter) to {MAX_READOUT_S * 1e3:g} ms.",
             {"readout_ms": readout_s * 1e3},
         )

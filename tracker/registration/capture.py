@@ -119,7 +119,7 @@ class LandmarkCollector:
 
     @property
     def is_over(self) -> bool:
-        """Whether the capture is complete or cannot succeed any more."""
+        """Return whether the capture is complete or cannot succeed any more."""
         if not self._samples:
             return False
         unseen = isinstance(self._samples[-1], UnseenSample)
@@ -151,7 +151,7 @@ class LandmarkCollector:
 
     @property
     def _is_hopeless(self) -> bool:
-        """Whether the capture can only be rejected: too long, interrupted, or at too low a rate."""
+        """Return whether the capture can only be rejected: too long, interrupted, or at too low a rate."""
         settings = self._settings
         times_s = [sample.at_s for sample in self._samples]
         gap_s = times_s[-1] - times_s[-2] if len(times_s) > 1 else 0.0

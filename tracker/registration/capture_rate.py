@@ -44,7 +44,7 @@ class CaptureRate:
 
     @property
     def machine_is_slow(self) -> bool:
-        """Whether the camera gave far more images than were tracked."""
+        """Return whether the camera gave far more images than were tracked."""
         return self.camera_hz is not None and self.camera_hz > BUSY_RATIO * self.tracked_hz
 
     @property

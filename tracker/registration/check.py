@@ -35,7 +35,7 @@ class LandmarkCheck:
 
     @property
     def passed(self) -> bool:
-        """Whether the distance is within the limit."""
+        """Return whether the distance is within the limit."""
         return self.distance_mm <= self.max_mm
 
     def failures(self) -> tuple[RegistrationError, ...]:

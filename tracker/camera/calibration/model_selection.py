@@ -79,7 +79,7 @@ def held_out_rms_px(views: Sequence[BoardView], size_wh_px: tuple[int, int], mod
 
 
 def _is_plausible(views: Sequence[BoardView], size_wh_px: tuple[int, int]) -> bool:
-    """Whether a lens can have the 8 coefficients that fit best."""
+    """Return whether a lens can have the 8 coefficients that fit best."""
     try:
         fit = fit_camera(views, size_wh_px, 8)
     except CalibrationError:

@@ -79,7 +79,7 @@ def uncertainty(blocks: Sequence[Block], *, is_noise_correlated: bool) -> Uncert
 def noise_is_correlated(
     views: Sequence[BoardView], residuals_px: Sequence[Array], blocks: Sequence[Block]
 ) -> bool:
-    """Whether errors of neighbouring points are correlated, or the variance differs between views."""
+    """Return whether errors of neighbouring points are correlated, or the variance differs between views."""
     products, squares, pairs = 0.0, 0.0, 0
     for view, residual in zip(views, residuals_px, strict=True):
         couples = _neighbours(view)

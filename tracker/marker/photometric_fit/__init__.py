@@ -1,7 +1,7 @@
 """Photometric verification: do the pixels of a square match the model under blur, illumination and occlusion?
 
-The model is first compared as it is. Position, blur and illumination are then fitted step by step, as long as
-they may reduce the residuals.
+The model is first compared without a fit. Position, blur and illumination are then fitted in steps, while
+these can reduce the residuals.
 """
 
 from tracker.marker.photometric_fit.acceptance import PhotometricFit

@@ -1,11 +1,12 @@
 """Result of photometric verification and its acceptance limits.
 
-The required correlation depends on how closely other shapes come at that size: on a small, blurred, occluded
-or unevenly lit square they come closer.
+The minimum correlation exceeds the largest correlation of other shapes at that size, which is higher on
+small, blurred, occluded or unevenly illuminated squares.
 
-A tracked marker at its expected position may be occluded more than a new detection
-(`is_accepted_when_tracked`): a finger over three tenths with its shadow lost 3 in 100 images, which the
-search could not recover. A look-alike put under the finger in the same instant would be accepted.
+More occlusion is accepted for a tracked marker at its expected position than for a new detection
+(`is_accepted_when_tracked`). Otherwise a finger with its shadow over three tenths of the marker would lose 3
+in 100 images, which the search could not recover. A similar marker put under the finger at that moment would
+be accepted.
 """
 
 from dataclasses import dataclass
@@ -24,7 +25,7 @@ CORRELATION_SIDES_PX, MIN_CORRELATION = (18.0, 24.0, 34.0), (0.975, 0.95, 0.94)
 HIGHLIGHT_ALLOWANCE = 0.02
 OCCLUDED_MARGIN = 0.01
 OCCLUDED_RATIO, MAX_OCCLUDED_RATIO = 0.03, 0.45
-# The outline is common to all squares: enough of the inside must be visible.
+# The outline is common to all squares, so enough of the inside must be visible.
 MAX_INNER_OCCLUDED_RATIO = 0.55
 # Looser limits for a tracked marker: occluded part, and area of components inside the border.
 MIN_KNOWN_CORRELATION, MAX_KNOWN_OCCLUDED_RATIO, MAX_KNOWN_AREA_RATIO = 0.9, 0.55, 0.015
@@ -40,7 +41,7 @@ BOTH_SIDES_PX, MIN_BOTH = (20.0, 26.0), (1.93, 1.875)
 # With less blur (geometric mean of both axes, by the side) a square that is not small discriminates better:
 # of the squares that the limit above alone rejects, one of 20 px was so sharp, and 19 of 28 markers were.
 SHARP_MEAN_BLUR_SIDE_RATIOS, SHARP_SIDES_PX, MIN_BOTH_SHARP = (0.055, 0.06), (20.0, 24.0), (1.93, 1.84)
-# With more blur, or with more of it occluded or saturated, a part of the shape passes for illumination.
+# With more blur, occlusion or saturation, a part of the shape can be fitted by the illumination.
 MAX_NONUNIFORM_BLUR_SIDE_RATIO, MAX_NONUNIFORM_MOTION_BLUR_SIDE_RATIO, MAX_NONUNIFORM_OCCLUDED_RATIO = (
     0.062,
     0.105,
@@ -49,7 +50,7 @@ MAX_NONUNIFORM_BLUR_SIDE_RATIO, MAX_NONUNIFORM_MOTION_BLUR_SIDE_RATIO, MAX_NONUN
 MAX_NONUNIFORM_MEAN_BLUR_SIDE_RATIO = 0.072
 MAX_NONUNIFORM_SHIFT_PX, MAX_NONUNIFORM_SHIFT_SIDE_RATIO = 2.0, 0.06
 MAX_SHIFT_PX, MAX_SHIFT_SIDE_RATIO = 2.0, 0.04
-# The edge of an occluder attracts the fit: where there is one, the edges must have been right already.
+# The edge of an occluder biases the fit, so with an occluder the corners may hardly move.
 MAX_SHIFT_OCCLUDED_PX, MAX_SHIFT_OCCLUDED_SIDE_RATIO = 0.8, 0.02
 # Edges of a motion-blurred marker are found at either end of the motion, 1.75 sd from the middle; isotropic
 # blur moves none.
@@ -87,7 +88,7 @@ class NoiseCorrectedFit:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PhotometricFit:
-    """How well a model under blur, illumination and occlusion fits the pixels of a square.
+    """Fit of a model under blur, illumination and occlusion to the pixels of a square.
 
     Attributes:
         side_px: side of the square in the image.
@@ -123,7 +124,7 @@ class PhotometricFit:
 
     @property
     def is_occluded(self) -> bool:
-        """Whether more of the square is occluded than a fit leaves over by chance."""
+        """Return whether more of the square is occluded than noise explains."""
         return self.occluded_ratio > OCCLUDED_RATIO
 
     def occludes(self, at_ratio: Array) -> Mask:
@@ -140,7 +141,7 @@ class PhotometricFit:
 
     @property
     def is_accepted(self) -> bool:
-        """Whether the fit leaves nothing that another shape would be needed to explain."""
+        """Return whether the fit is good enough to exclude other shapes."""
         return (
             not self.is_rotation_ambiguous
             and (self._matches if self.noise_corrected is None else self._matches_beside_noise)
@@ -188,7 +189,7 @@ class PhotometricFit:
 
     @property
     def _is_motion_blurred(self) -> bool:
-        """Whether it is blurred in one direction and sharp in the other."""
+        """Return whether the square is blurred in one direction and sharp in the other."""
         return self._is_blurred and self.blur_px[0] <= SHARP_SIDE_RATIO * self.side_px
 
     @property
@@ -237,12 +238,12 @@ class PhotometricFit:
 
     @property
     def _min_both(self) -> float:
-        """Required sum of the correlations with and without noise."""
+        """Return the required sum of the correlations with and without noise."""
         soft = float(np.interp(self.side_px, BOTH_SIDES_PX, MIN_BOTH))
         sharp = min(float(np.interp(self.side_px, SHARP_SIDES_PX, MIN_BOTH_SHARP)), soft)
         return float(np.interp(self._mean_blur_ratio, SHARP_MEAN_BLUR_SIDE_RATIOS, (sharp, soft)))
 
     @property
     def _mean_blur_ratio(self) -> float:
-        """Geometric mean of the blur's sd along both axes, by the side."""
+        """Return the geometric mean of the blur's sd along both axes, as a ratio of the side."""
         return float(np.sqrt(self.blur_px[0] * self.blur_px[1])) / self.side_px

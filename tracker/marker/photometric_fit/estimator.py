@@ -108,19 +108,19 @@ class Estimator:
 
     @property
     def has_highlight_terms(self) -> bool:
-        """Whether the illumination basis contains highlights."""
+        """Return whether the illumination basis contains highlights."""
         return bool(self.offset_basis.shape[1] > MAX_SMOOTH_TERMS)
 
     @property
     def ahead(self) -> Array:
-        """Jacobian (2, 2) of grid cells by image pixels."""
+        """Return the Jacobian (2, 2) of grid cells by image pixels."""
         ahead = np.empty((2, 2))
         cells_per_px(self.to_px, self.corners, ahead)
         return ahead
 
     @property
     def state(self) -> FitState:
-        """Where the walk is, and what it sees there; to be set, too, where all is visible again."""
+        """Return the current state; setting it also marks all cells as visible."""
         return FitState(
             corners=self.corners.copy(),
             blur=self.blur.copy(),
@@ -131,7 +131,7 @@ class Estimator:
 
     @state.setter
     def state(self, state: FitState) -> None:
-        """The current state; setting it also makes all cells visible again."""
+        """Restore a state, and mark all cells as visible."""
         self.corners, self.blur, self.reference_gain = (
             state.corners.copy(),
             state.blur.copy(),
@@ -142,14 +142,14 @@ class Estimator:
 
     @property
     def picture(self) -> npt.NDArray[np.float32]:
-        """The rendered model, dark 0 to bright 1."""
+        """Return the rendered model, dark 0 to bright 1."""
         return np.asarray(self.rendered[0])
 
     def local_ncc(self) -> float:
         """Return the local normalised cross-correlation (LNCC) of image and model, -1..1.
 
         Each cell is normalised by its neighbourhood, so a shadow, highlight or occluder over one part leaves
-        the rest unchanged. Of two blurs the better one is kept.
+        the rest unchanged. The larger value of two blurs is returned.
         """
         best, of_best = -1.0, np.zeros(3)
         for blur_px in (FIRST_BLUR_PX, WIDE_BLUR_SIDES * self.side_px):
@@ -171,12 +171,12 @@ class Estimator:
 
     @property
     def blur_sd_cells(self) -> float:
-        """Root mean square sd of the blur over all directions, in cells."""
+        """Return the RMS of the blur's sd over all directions, in cells."""
         return float(np.sqrt(0.5 * (self.blur[0] + self.blur[1])))
 
     @property
     def residuals(self) -> Residuals:
-        """The residuals of the fit."""
+        """Return the residuals of the fit."""
         return Residuals(observed=self.observed, picture=self.picture, residual=self.residual, gain=self.gain)
 
 

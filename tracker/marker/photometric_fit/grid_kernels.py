@@ -1,8 +1,8 @@
 """Sampling grid of a square and its paper, and the blurred model on that grid.
 
 Motion blur is separated from defocus in image pixels. On a marker tilted by 60 degrees the defocus is twice
-as long in one direction; in marker coordinates that would pass for motion, and true markers would correlate
-at 0.93 instead of 0.98.
+as long in one direction; in marker coordinates that would be fitted as motion blur, and true markers would
+correlate at 0.93 instead of 0.98.
 """
 
 import numpy as np

@@ -15,8 +15,7 @@ MIDDLES = np.linspace(-1.2, 1.2, 7)
 ANGLES, ROUND_SDS, LONG_SDS = 4, (0.35, 0.55, 0.9), (0.9, 0.4)
 MIN_RATIO = 0.05
 STRIDE = 3  # one cell in nine is enough to find one
-# The best one is then refined by Gauss-Newton: not far away, and no narrower than this, where it could
-# replace a part of the shape.
+# Limits of the Gauss-Newton refinement of the best Gaussian; a narrower one could fit a part of the shape.
 ROUNDS, MAX_MOVED, FARTHEST, MIN_SD, MAX_SD = 4, 0.3, 1.5, 0.42, 1.5
 DAMPING = 0.02
 
@@ -26,7 +25,7 @@ def highlight_in(residual: Array, fitted_basis: Array, weight: Array) -> Array |
 
     Args:
         residual: residuals of a fit (n, n), in grey levels.
-        fitted_basis: basis of what the fit could change (cells, k).
+        fitted_basis: basis (cells, k) of the parameters that were already fitted.
         weight: weights of the cells (n, n).
     """
     few = _sparse_cells()
@@ -44,7 +43,7 @@ def highlight_in(residual: Array, fitted_basis: Array, weight: Array) -> Array |
         return np.asarray((left @ own_some) / np.sqrt(np.sum(own_some**2, axis=0) + 1e-9))
 
     along = explained_by(own(_gaussian_basis()))
-    # A highlight only adds light.
+    # A highlight is never negative.
     which = int(np.argmax(along))
     shape, maximum = _shapes()[which], float(along[which])
     if not (maximum > 0.0 and maximum**2 > MIN_RATIO * float(left @ left)):

@@ -1,7 +1,7 @@
 """Largest contrast inversion of a part of the shape that the fitted parameters could hide.
 
-Fitted illumination absorbs some of a small part that another marker has dark for bright. For each part of the
-shape the change of its contrast is estimated with all other fitted parameters free.
+Fitted illumination partly absorbs a small part that is inverted in another marker. For each part of the shape
+its change of contrast is estimated jointly with all fitted parameters.
 """
 
 from functools import cache
@@ -15,10 +15,10 @@ from tracker.marker.photometric_fit.grid_kernels import GRID_CELLS, SQUARE_CELLS
 from tracker.marker.photometric_fit.illumination import grid
 from tracker.marker.photometric_fit.occlusion import Mask
 
-# A part is a sixth of the side wide, as a disc of the same area; parts are tested at this stride of cells.
+# Width of a part, tested as a disc of the same area, and the stride of the tested parts in cells.
 PART_SIDES, STRIDE_CELLS, MARGIN_CELLS = 1.0 / 6.0, 2, 4
 MIN_SEEN_RATIO = 0.6
-# Markers that differ in one field, a sixth of the side wide, have half of its contrast there, and more.
+# Markers that differ in one field, a sixth of the side wide, reach at least this ratio there.
 MAX_INVERTED_RATIO = 0.5
 # Errors of neighbouring cells are correlated, and many parts are tested.
 NOISES = 10.0

@@ -36,7 +36,7 @@ class Residuals:
     Attributes:
         observed: grey levels of the image.
         picture: the model, dark 0 to bright 1.
-        residual: observed less predicted, in grey levels.
+        residual: observed minus predicted value, in grey levels.
         gain: the contrast, in grey levels.
     """
 
@@ -82,8 +82,8 @@ def find_occlusion(left: Residuals, *, blur_sd_cells: float) -> tuple[Mask, int]
 def _continues_occluder(piece: Mask, occluders: Mask, left: Residuals, contrast: Array) -> bool:
     """Return whether a component inside connects to an occluder, unseen because it is as dark as the ink.
 
-    It does where the convex hull over both contains nothing that clearly fits the model, the outline least of
-    all: under a mere shadow the outline is faint but present.
+    It does if the convex hull of both contains no part that clearly fits the model, in particular no outline:
+    under a shadow the outline is faint but present.
     """
     observed = left.observed
     count, labels = cv2.connectedComponents(occluders.astype(np.uint8), connectivity=8)

@@ -38,8 +38,8 @@ def residual_components(residual, contrast, ring, limit, minimum, labels):
     """Label connected components of cells (n, n) whose smoothed residual exceeds `limit` of the contrast.
 
     Fills `labels`: 0 for none, -1 for a component that reaches the `ring` cells along the border, k for the
-    k-th component inside. Components of fewer than `least` cells are dropped. Returns the areas (k,) inside,
-    in cells.
+    k-th component inside. Components of fewer than `minimum` cells are dropped. Returns the areas (k,)
+    inside, in cells.
     """
     n = len(residual)
     off = _smoothed(residual, contrast)

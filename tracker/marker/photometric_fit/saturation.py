@@ -1,7 +1,7 @@
 """Match of a saturated (washed-out) square with the marker expected there.
 
-Saturated cells show nothing, and nothing that contradicts the marker. A search must not accept that; an image
-in which the marker is expected may, if the remaining cells do not contradict.
+Saturated cells neither confirm nor contradict the marker. A search must not accept such a square; tracking
+may accept it at the predicted pose if the remaining cells do not contradict the model.
 """
 
 import numpy as np
@@ -18,7 +18,7 @@ from tracker.marker.photometric_fit.shape_masks import shape_mask
 
 # A larger saturated part of the square is a highlight.
 MIN_SATURATED_RATIO = 0.02
-# Of other squares with as many of the marker's edges 1 % pass, of washed-out markers 90 %.
+# These limits accept 1 % of other squares with as many of the marker's edges, and 90 % of washed-out markers.
 MIN_CORRELATION, MIN_LOCAL_NCC, MIN_SEEN_RATIO = 0.5, 0.5, 0.25
 LIGHT_ROUNDS = 4
 

@@ -1,12 +1,12 @@
 """Detection of a part inside the square that is dark where the model is bright, or the reverse.
 
-Two markers may differ in one small field only. Nine tenths of their edges are then equal and no threshold on
-a score separates them; the field itself does. Smooth illumination does not produce such a part, and an
-occluder reaches over the border, where the outline is missing too: only a component wholly inside an intact
-outline counts.
+Two markers may differ in one small field only. Nine tenths of their edges are then equal, and no threshold on
+a score separates them, but the residuals of that field do. Smooth illumination does not produce such a
+component, and an occluder extends over the border, where the outline is missing too. Therefore only a
+component completely inside an intact outline counts.
 
-A marker with dirt inside its square is therefore rejected (`SHAPE_DIFFERS`); what reaches over its border is
-an occlusion and does not reject it.
+A marker with dirt inside its square is rejected (`SHAPE_DIFFERS`). A component that extends over the border
+is an occlusion, and does not reject it.
 """
 
 from dataclasses import dataclass
@@ -35,11 +35,11 @@ class ShapeMismatch:
     """Difference between image and model beyond what illumination can cause.
 
     Attributes:
-        inside_ratio: area of the largest contradicting component wholly inside the square, by its area, 0..1.
-        occluded_ratio: area of the components that reach its border, by its area, 0..1.
+        inside_ratio: ratio of the area of the largest contradicting component inside the square to the
+            square's area, 0..1.
+        occluded_ratio: ratio of the area of the components that reach its border, 0..1.
         correlation: normalised cross-correlation of the visible cells with the model, illumination removed;
-        -1
-            where there is nothing of the model.
+            -1 where the model has no contrast.
         min_correlation: required at this size.
     """
 
@@ -50,7 +50,7 @@ class ShapeMismatch:
 
     @property
     def is_other_shape(self) -> bool:
-        """Whether this is another shape than the model's."""
+        """Return whether this is another shape than the model's."""
         return self.inside_ratio >= MIN_AREA_RATIO or self.correlation < self.min_correlation
 
 

@@ -1,13 +1,14 @@
 """Stepwise selection of illumination terms: a shadow edge and highlights, as long as each explains much.
 
-A spline of highlights absorbs half of the small parts of the shape, and the residuals then discriminate
-little. A few terms, each of its own form, leave the shape unchanged.
+A spline of highlights fits half of the small parts of the shape, and the residuals then discriminate little.
+A few terms of fixed form do not fit the shape.
 
-Illumination and position are fitted alternately up to three times, and each highlight takes the form that
-explains most: highlights from a fixed set leave residuals as large as noise. The outline, common to all
-squares, measures the noise; the inside must fit up to that noise. Where half of the shape is saturated, or
-blur exceeds a tenth of the side, nothing is accepted. Of two positions that both fit, the one under simple
-illumination is preferred. Some markers under strong highlights, and most of 20 px, are therefore missed.
+Illumination and position are fitted alternately up to three times. The shape of each highlight is fitted too,
+because highlights from a fixed set leave residuals as large as noise. The noise is estimated on the outline,
+which is common to all squares, and the inside must fit to that noise level. Nothing is accepted where half of
+the shape is saturated, or blur exceeds a tenth of the side. Of two positions that both fit, the one under
+simple illumination is preferred. Some markers under strong highlights, and most of 20 px, are therefore
+missed.
 """
 
 from dataclasses import dataclass
@@ -29,7 +30,7 @@ MIN_GAIN_RATIO = 0.25
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class IlluminationFit:
-    """Illumination terms of a fit, and what they leave.
+    """Illumination terms of a fit with their robust weights.
 
     Attributes:
         offset_basis: additive terms (cells, n).
@@ -67,7 +68,7 @@ def fit_illumination(fit: Estimator, weight: Array | None) -> bool:
 
 
 def _with_shadow(fit: Estimator, lit: IlluminationFit) -> IlluminationFit | None:
-    """Add a shadow edge; None where there is one already, or none explains much."""
+    """Add a shadow edge; None where one was already added, or none reduces the residuals enough."""
     if lit.gain_basis.shape[1] > contrasts().shape[1]:
         return None
     # A highlight adds light; a shadow reduces the contrast.
@@ -79,7 +80,7 @@ def _with_shadow(fit: Estimator, lit: IlluminationFit) -> IlluminationFit | None
 
 
 def _with_highlight(fit: Estimator, lit: IlluminationFit) -> IlluminationFit | None:
-    """Add one highlight; None where none explains much."""
+    """Add one highlight; None where none reduces the residuals enough."""
     fitted_basis = np.hstack([fit.offset_basis, fit.gain_basis * fit.picture.reshape(-1, 1)])
     highlight = highlight_in(fit.residual, fitted_basis, fit.weight * fit.visible)
     if highlight is None:

@@ -1,10 +1,10 @@
 """Rejection of fits that the rotated or mirrored model explains as well.
 
-A highlight fitted to a quarter turn can explain a marker that is nearly its own rotation (correlation 0.83)
-better than the highlight fitted to the right one. A marker is therefore accepted only where no other rotation
-fits as well, each with a highlight of its own, and under occlusion or highlights not where its mirror image
-fits better. Two contradicting fits at one position accept neither. This removes ten of twelve wrong rotations
-in a thousand scenes under glare.
+For a marker that is similar to its own quarter rotation (correlation 0.83), the wrong rotation with a fitted
+highlight can fit better than the right one. A marker is therefore accepted only if no other rotation with its
+own highlight fits as well, and under occlusion or highlights only if its mirror image does not fit better. If
+two fits at one position contradict each other, neither is accepted. This removes ten of twelve wrong
+rotations in a thousand scenes under glare.
 """
 
 import numpy as np
@@ -45,7 +45,7 @@ def _unexplained_cells(fit: Estimator) -> float:
 
 
 def _another_is_nearer_in_place(fit: Estimator) -> bool:
-    """Return whether another rotation leaves less in place, or too little more; or a mirror image less."""
+    """Return whether, at the same position, another rotation fits nearly as well or a mirror image better."""
     visible, fit.visible = fit.visible, np.ones((GRID_CELLS, GRID_CELLS), np.bool_)
     rendered, weight, reference_gain = fit.rendered.copy(), fit.weight.copy(), fit.reference_gain.copy()
     own, *others = (_unexplained_as(fit, quarter_turns, weight) for quarter_turns in range(4))
@@ -59,7 +59,7 @@ def _another_is_nearer_in_place(fit: Estimator) -> bool:
 def _unexplained_as(
     fit: Estimator, quarter_turns: int, weight: Array, *, mirror_of: npt.NDArray[np.float32] | None = None
 ) -> float:
-    """Return what the rotated, or also mirrored, model leaves; inf where it is nearly its own mirror."""
+    """Return the unexplained cells of the rotated or mirrored model; inf if nearly mirror-symmetric."""
     sign = 1.0 if mirror_of is None else -1.0
     blur, ahead = fit.blur * (1.0, 1.0, sign), fit.ahead * np.array([[sign], [1.0]])
     for _ in range(quarter_turns):
@@ -76,7 +76,7 @@ def _unexplained_as(
 
 
 def _unexplained_refitted(fit: Estimator, quarter_turns: int) -> float:
-    """Return what the rotated model leaves after a fit of its own."""
+    """Return the unexplained cells of the rotated model after its own fit."""
     corners_px = np.array([through(fit.to_px, a, b) for a, b in fit.corners])
     other = Estimator(fit.image, fit.pictures, np.roll(corners_px, -quarter_turns, axis=0), fit.side_px)
     other.offset_basis, other.gain_basis = (

@@ -1,9 +1,10 @@
 """Photometric verification of a square by blur, illumination and occlusion.
 
-An image that is out of focus, has a shadow edge or a highlight, or is partly occluded differs from the
-printed model. Each cause has its own form: blur spreads outline and inside alike; illumination is bright or
-dim over whole regions and never negative; an occluder is one component that comes over the border. The
-residuals after these are fitted discriminate far better between the model and other shapes.
+Defocus, a shadow edge, a highlight or partial occlusion make the image differ from the printed model. Each
+has
+its own model: blur affects outline and inside equally; illumination is smooth and never negative; an occluder
+is one component that extends over the border. The residuals of the fit with these models discriminate better
+between the marker and other shapes.
 """
 
 from dataclasses import replace
@@ -74,7 +75,7 @@ def _fit_simple_illumination(fit: Estimator) -> PhotometricFit | None:
     first = fit.state
     if not fit.solve(FIRST_ROUNDS, unoccluded_weights(fit.observed, fit.picture)):
         return None
-    # Even of a marker under an occluder or glare most is explained by now.
+    # A marker fits in most cells by now, even under an occluder or glare.
     if float(fit.weight[inside_square()].mean()) < MIN_MEAN_WEIGHT or not fit.solve(ROUNDS, fit.weight):
         return None
     start = fit.state
@@ -114,7 +115,7 @@ def _fit_stepwise_illumination(fit: Estimator) -> PhotometricFit | None:
 
 
 def _with_shadow(fit: Estimator) -> bool:
-    """Add a shadow edge to the illumination basis, if one explains much."""
+    """Add a shadow edge to the illumination basis, if it reduces the residuals enough."""
     shadow = shadow_in(fit.observed, fit.picture, fit.visible)
     if shadow is None:
         return False
@@ -174,7 +175,7 @@ def _photometric_fit(fit: Estimator, *, correct_noise: bool) -> PhotometricFit:
 
 
 def _noise_corrected(fit: Estimator, informative: Mask, shape: Mask) -> NoiseCorrectedFit:
-    """Return the correlations corrected for the noise that outline and paper show."""
+    """Return the correlations corrected for the noise measured on outline and paper."""
     left = np.abs(fit.residual[informative & ~shape])
     noise = SD_OF_MEDIAN * float(np.median(left)) if len(left) else 0.0
     ncc, inner = (

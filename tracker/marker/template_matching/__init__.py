@@ -4,10 +4,10 @@ Templates are locally normalised: each cell is compared with the cells around it
 does not change the correlation of the rest. All models share one set of quads and one sampling. A marker
 therefore needs white paper around its square.
 
-The best quads are refined by least squares until their content fits a template, blurred by defocus or motion.
-Under motion blur or with an occluded corner a true quad is off by a tenth of its side, and without refinement
-a plain dark square correlates better; refined, it ranks first in nine of ten images. The cost is 50 us a
-quad.
+The best quads are aligned by least squares (Lucas-Kanade) with a template, blurred by defocus or motion.
+Under motion blur or with an occluded corner a true quad has an error of a tenth of its side, and without
+alignment a plain dark square correlates better; after alignment, the true quad ranks first in nine of ten
+images. It takes 50 us per quad.
 """
 
 from tracker.marker.template_matching.match import coarse_match, template_match

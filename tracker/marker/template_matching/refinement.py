@@ -1,4 +1,4 @@
-"""Refinement of a quad that is off by some pixels, by alignment with the templates."""
+"""Refinement of approximate quads by alignment with the templates."""
 
 import numpy as np
 
@@ -25,7 +25,7 @@ def refine_quads(
 ) -> tuple[Quads, Float32]:
     """Align quads (q, 4, 2) with the model; return them and their correlation (q,).
 
-    A quad that is off by a tenth of its side is brought to a few hundredths, also under defocus, motion blur
+    This reduces an error of a tenth of the side to a few hundredths, also under defocus, motion blur
     or partial occlusion.
 
     Args:

@@ -6,13 +6,13 @@ from tracker.compiled import compiled
 from tracker.marker.sampling_kernels import normalise_locally, sample_quads, square_to_quad, through
 
 BLOCK = 64
-# The unknowns of a step: the picture's gain and offset, and two for each corner.
+# The unknowns of a Gauss-Newton step: gain, offset, and two coordinates of each corner.
 UNKNOWNS = 10
-# In one step a corner is moved by no more of a side.
+# Maximum motion of a corner in one step.
 MAX_STEP_SIDES = 0.12
-# A step leads nowhere where so little of the picture is seen.
+# Minimum gain of the template for a step.
 MIN_GAIN = 0.1
-# A quad is moved only where that reduces the residual to this ratio.
+# A step is accepted only if it reduces the residual to this ratio.
 MAX_RESIDUAL_RATIO = 0.95
 # Template and mask are selected again after this many steps.
 SELECT_EVERY = 3
@@ -28,7 +28,7 @@ def coarse_correlations(image, quads, cells, templates, dark, light):
     count, n = len(quads), cells + 2
     size, scale = n * n, np.float32(1.0) / (light - dark)
     out = np.empty((len(templates), count), np.float32)
-    # Quads lie side by side in a block, so that the machine works on many at once.
+    # Quads are interleaved in blocks, so that the loops vectorise.
     block = np.empty((size, BLOCK), np.float32)
     for start in range(0, count, BLOCK):
         many = min(BLOCK, count - start)
@@ -99,7 +99,7 @@ def occluded_templates(pictures, occlusion_masks):
 @compiled
 def _compare(seen, columns, left, shared, sums, squares):
     """Compute the products of observed cells (n,) with the columns, and sums and squares under each mask."""
-    # Side by side, so that the machine works on many at once.
+    # Contiguous inner loops, so that they vectorise.
     shared[:], sums[:], squares[:] = 0.0, 0.0, 0.0
     for i in range(len(seen)):
         value = seen[i]
@@ -124,8 +124,8 @@ def _best_match(seen, columns, mean, spread, left, sizes, shared, sums, squares)
             over = shared[p * count + c] - mean[p, c] * sums[c]
             if over > 0.0 and over * over > ncc * spread[p, c]:
                 ncc, like = over * over / spread[p, c], p
-        # n cells with a correlation r are as likely as n log(1 - r^2): what is left of a square must look the
-        # more like the model the less it is.
+        # The log-likelihood of n cells with correlation r is -n/2 log(1 - r^2): the fewer cells are visible,
+        # the higher their correlation must be.
         fit = -np.log(1.0 - min(ncc / own, 0.9999)) * sizes[c] / len(seen)
         if fit > best:
             best, picture, mask = fit, like, c
@@ -136,9 +136,9 @@ def _best_match(seen, columns, mean, spread, left, sizes, shared, sums, squares)
 def _cholesky_factor(basis, mask, damping, stiffness, matrix):
     """Compute the lower Cholesky factor of the damped normal matrix of the visible cells.
 
-    Departures from a parallelogram are damped more (`stiffness`), because perspective causes little of them.
-    Not `solve_positive`: damping makes it positive, and it needs no scaling, as all but two unknowns are in
-    sides.
+    Deviations from a parallelogram are damped more (`stiffness`), because perspective causes only small ones.
+    Unlike `solve_positive` it needs no scaling, because damping makes the matrix positive and all but two
+    unknowns are in sides.
     """
     matrix[:] = 0.0
     for i in range(len(basis)):
@@ -177,7 +177,7 @@ def cholesky_factors(basis, occlusion_masks, damping, stiffness):
 
 @compiled
 def _add_parallelogram_prior(quad, weight, right):
-    """Add to the right-hand side what pulls the quad towards a parallelogram."""
+    """Add the gradient of the prior for a parallelogram to the right-hand side."""
     ax, ay = 0.5 * (quad[1] - quad[0] + quad[2] - quad[3])
     bx, by = 0.5 * (quad[3] - quad[0] + quad[2] - quad[1])
     x, y = quad[0] - quad[1] + quad[2] - quad[3]
@@ -253,7 +253,7 @@ def align_to_templates(
             normalise_locally(seen, cells + 2 * ring, around, floor_grey, floor_ratio)
             if step % SELECT_EVERY == 0 or step == steps:
                 ncc, p, c = _best_match(seen[0], columns, mean, spread, left, sizes, shared, sums, squares)
-                # What fits as it is, is where it is: the pictures are coarser than the image.
+                # A quad that already fits is not moved, because the templates are coarser than the image.
                 if step == 0:
                     worst = MAX_RESIDUAL_RATIO * (1.0 - ncc * ncc)
                 if ncc > correlation[q]:
@@ -287,7 +287,7 @@ def distinct(quads, correlation, order, known, maximum, minimum, same_ratio):
         side = 0.0
         for k in range(3):
             side += np.sqrt(((quads[i, k + 1] - quads[i, k]) ** 2).sum()) / 3.0
-        # Turned outlines are not the same.
+        # Rotated quads differ.
         same = max(same_ratio * side, 1.0)
         fresh = True
         for j in range(len(known)):

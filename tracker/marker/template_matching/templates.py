@@ -15,25 +15,25 @@ from tracker.marker.template_matching.template_kernels import cholesky_factors, 
 
 Float32 = npt.NDArray[np.float32]
 
-# A square is seen as 12x12 cells and one more of its white paper all round.
+# Cells per side of the square, and the width of the white paper around it in cells.
 CELLS, RING = 12, 1
 ROWS = CELLS + 2 * RING
-# A cell is judged beside those around it: as many as see the border and the paper at once.
+# Radius of the local normalisation: the neighbourhood contains border and paper.
 NEIGHBOURHOOD_CELLS = 3
-# What differs less than this is even: noise, and folds in the paper.
+# Minimum local sd, above noise and folds of the paper.
 MIN_SD_GREY, MIN_SD_RATIO = 1.0, 0.1
-# In sides: sd of the blur of a lens, in focus and out of it, and how far a hand moves it meanwhile.
+# In sides: sd of the blur in and out of focus, and length of motion blur.
 BLURS_SIDES, MOTION_SIDES = (0.008, 0.045, 0.1), 0.3
 # Defocus levels used by the template match.
 MATCHED_BLURS = (0, 2)
 MOTIONS_DEG = (0.0, 45.0, 90.0, 135.0)
 # Cells per side of the coarse match of thousands of quads.
 COARSE_CELLS = 6
-# Points of a cell of the pictures, each way; how far a corner is moved to see what that changes, in sides.
+# Samples per cell in each direction; step of the numerical derivatives by the corners, in sides.
 FINE, SHIFT_SIDES = 4, 0.02
-# Against refinement steps that noise makes: sum of squares of a template's cells, 1, times their noise ratio.
+# Damping of the refinement steps: the sum of squares of a template's cells, 1, times their noise ratio.
 DAMPING = np.float32(1.0)
-# Against what perspective hardly does: a parallelogram becomes another shape.
+# Damping of deviations from a parallelogram, which perspective hardly causes.
 STIFFNESS = np.float32(10.0)
 # Depth of an occluding edge from the centre: 1 is the far side.
 OCCLUSION_DEPTHS = (0.55, 0.2)
@@ -44,8 +44,8 @@ class OccludedTemplates:
     """Templates (p, n) under each occlusion mask (c).
 
     Attributes:
-        columns: (n, p * c), each template where a mask leaves it, else 0.
-        mean: (p, c), of what is left.
+        columns: (n, p * c), each template under each mask, 0 where occluded.
+        mean: (p, c), mean of the visible cells.
         spread: (p, c), sum of squares about that mean.
     """
 
@@ -102,7 +102,7 @@ def _template_of(square: npt.NDArray[np.uint8]) -> Template:
     blurred = _blurred(square)
     upright = np.array([_sampled_cells(wide, np.zeros((4, 2))) for wide in blurred])
     grid = upright[list(MATCHED_BLURS)].reshape(-1, ROWS, ROWS)
-    # np.rot90 turns the picture to the left, so that its right-hand corner comes to the top left.
+    # np.rot90 rotates anticlockwise, so the top-right corner becomes the top-left one.
     rotated = np.array([[np.rot90(one, rotation).ravel() for rotation in range(4)] for one in grid])
     basis = np.array([_basis(wide, seen) for wide, seen in zip(blurred, upright, strict=True)], np.float32)
     return Template(
@@ -179,7 +179,7 @@ def _motion_blurred_picture(upright: Float32, rotation: int) -> Float32:
 
 def _coarse_picture(rotated: Float32) -> Array:
     rows, half = COARSE_CELLS + 2, CELLS // COARSE_CELLS
-    # The ring stays a ring: its cells are doubled outwards.
+    # Extend the ring outwards by repeating its cells.
     wide = np.pad(rotated.reshape(ROWS, ROWS), half - RING, mode="edge")
     small = wide.reshape(rows, half, rows, half).mean(axis=(1, 3)).ravel()
     small = small - small.mean()

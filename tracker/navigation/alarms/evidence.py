@@ -14,7 +14,7 @@ from tracker.navigation.alarms.rules import ALARM_RULES, Condition
 
 
 class Presence(StrEnum):
-    """Whether a condition is present."""
+    """Return whether a condition is present."""
 
     YES = "yes"
     NO = "no"

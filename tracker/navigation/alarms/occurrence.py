@@ -81,7 +81,7 @@ class Occurrence:
 
     @property
     def is_raised(self) -> bool:
-        """Whether the condition was raised and is not cleared."""
+        """Return whether the condition was raised and is not cleared."""
         return self.state in (AlarmState.ACTIVE, AlarmState.ACKNOWLEDGED)
 
 

@@ -39,7 +39,7 @@ class Rings:
 
     @property
     def counts(self) -> bool:
-        """Whether any point counts."""
+        """Return whether any point counts."""
         return bool(np.isfinite(self.clearance_mm).any())
 
 

@@ -40,7 +40,7 @@ class Purpose(StrEnum):
 
 
 class Taking(StrEnum):
-    """Whether the pose of an image was accepted, or the reason why it was not."""
+    """Return whether the pose of an image was accepted, or the reason why it was not."""
 
     TAKEN = "taken"
     NO_PICTURE = "no_picture"  # no image arrives: the camera or the tracking has stopped

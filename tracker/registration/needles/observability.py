@@ -29,7 +29,7 @@ class DirectionUncertainty:
 
     @property
     def is_weak(self) -> bool:
-        """Whether the image alone hardly determines it."""
+        """Return whether the image alone hardly determines it."""
         return self.not_from_image_ratio > WEAK_RATIO
 
 

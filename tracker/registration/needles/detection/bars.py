@@ -105,7 +105,7 @@ def single_edge_bars(grey: Image8, width_px: float, beside: Sequence[Bar]) -> li
 
 
 def _is_beside(bar: Bar, middle_px: Array, along: Array) -> bool:
-    """Whether an edge may be of a needle that stands beside or before another."""
+    """Return whether an edge may be of a needle that stands beside or before another."""
     off = middle_px - bar.middle_px
     reach = 0.5 * bar.length_px + BESIDE_PX
     return bool(np.hypot(off[0], off[1]) < reach) and abs(float(along @ bar.along)) > np.cos(
@@ -114,7 +114,7 @@ def _is_beside(bar: Bar, middle_px: Array, along: Array) -> bool:
 
 
 def is_collinear(bar: Bar, middle_px: Array, along: Array) -> bool:
-    """Whether a straight line through a point (2,) is that of the bar."""
+    """Return whether a straight line through a point (2,) is that of the bar."""
     beside = np.array([-bar.along[1], bar.along[0]])
     turned = abs(float(along @ beside))
     return abs(float((middle_px - bar.middle_px) @ beside)) < SAME_PX and turned < np.sin(

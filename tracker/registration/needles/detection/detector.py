@@ -256,7 +256,7 @@ def _each_once(found: list[DetectedNeedle]) -> list[DetectedNeedle]:
 
 
 def _lies_on(bar: Bar, longer: Bar) -> bool:
-    """Whether all of a bar lies on another one: it is then a piece of the same needle."""
+    """Return whether all of a bar lies on another one: it is then a piece of the same needle."""
     beside = np.array([-longer.along[1], longer.along[0]])
     half = 0.5 * bar.length_px * bar.along
     ends = np.stack([bar.middle_px - half, bar.middle_px + half]) - longer.middle_px
