@@ -11,7 +11,7 @@ from tracker.geometry import Array, nearest_rotation
 from tracker.pose.image_rate import GapLimit, image_period_s
 from tracker.registration.capture_rate import CaptureRate
 
-# From so many intervals on the image rate is known well enough to give a capture up for it.
+# Minimum number of intervals for an estimate of the image rate that can reject a capture.
 MIN_INTERVALS = 3
 
 
@@ -23,7 +23,7 @@ class CaptureSettings:
         min_images: minimum number of images.
         min_s: minimum duration, so that a hand's tremor is sampled.
         max_s: maximum duration; an image rate at which `min_images` take longer is too low.
-        gap: between two images; in a longer gap the tip could have moved unseen.
+        gap: limit of the time between two images; in a longer gap the tip could have moved.
         max_sd_mm: standard deviation of the tip along its worst axis.
         max_off_mm: maximum distance of a single image from the mean.
         max_tip_sd_mm: maximum uncertainty of the tip in an image (root of the trace).
@@ -48,7 +48,7 @@ class TipSample:
 
     Attributes:
         at_s: time of the image.
-        tip_in_anchor_mm: (3,).
+        tip_in_anchor_mm: (3,), the tip in the anchor frame.
         covariance_mm2: (3, 3), total, including the calibration of the tip.
         anchor_from_marker: (3, 3), rotation of the tool's marker.
         tip_covariance_mm2: (3, 3) of the tip's calibration, in the marker frame.
@@ -65,7 +65,7 @@ class TipSample:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UnseenSample:
-    """An image in which the tip is not known, with the reason."""
+    """An image without a position of the tip, with the reason."""
 
     at_s: float
     reason: str
@@ -82,10 +82,10 @@ class CapturedLandmark:
         anchor_from_marker: (3, 3), mean rotation of the tool's marker.
         tip_covariance_mm2: (3, 3) of the tip's calibration, in the marker frame; included in `covariance_mm2`
             and common to all landmarks captured with this tool.
-        images: their number.
+        images: number of images.
         spread_mm: (3,) standard deviation along the anchor's axes.
         max_off_mm: maximum distance of a single image from the mean.
-        lasted_s: from the first image to the last.
+        lasted_s: time from the first image to the last.
     """
 
     tip_in_anchor_mm: Array
@@ -99,10 +99,10 @@ class CapturedLandmark:
 
     @property
     def own_covariance_mm2(self) -> Array:
-        """(3, 3), covariance of this capture without the common calibration of the tip."""
+        """Return the covariance (3, 3) of this capture without the common calibration of the tip."""
         of_tip = self.anchor_from_marker @ self.tip_covariance_mm2 @ self.anchor_from_marker.T
         values, vectors = np.linalg.eigh(self.covariance_mm2 - of_tip)
-        # Turned a little from image to image, the tip's part may be larger than what is taken away here.
+        # The orientation varies between images, so the subtraction can make small eigenvalues negative.
         return np.asarray((vectors * np.maximum(values, 0.0)) @ vectors.T)
 
 
@@ -119,7 +119,7 @@ class LandmarkCollector:
 
     @property
     def is_over(self) -> bool:
-        """Return whether the capture is complete or cannot succeed any more."""
+        """Return whether the capture is complete or can no longer succeed."""
         if not self._samples:
             return False
         unseen = isinstance(self._samples[-1], UnseenSample)
@@ -127,13 +127,13 @@ class LandmarkCollector:
 
     @property
     def rate_hz(self) -> float | None:
-        """Images/s that came so far; None before the second one."""
+        """Return the image rate so far [images/s]; None before the second image."""
         rate = _rate_of(self._samples)
         return None if rate is None else rate.tracked_hz
 
     @property
     def left_s(self) -> float | None:
-        """Remaining time [s] at this rate; None before the second image."""
+        """Return the remaining time [s] at this rate; None before the second image."""
         rate = _rate_of(self._samples)
         if rate is None:
             return None
@@ -218,7 +218,7 @@ def _reject_unseen(samples: Sequence[TipSample | UnseenSample], rate: CaptureRat
             "CAPTURE_UNSEEN",
             f"the tip was known in {seen} of {len(samples)} images{_at(rate)} and not in {len(reasons)} "
             f"({reason}), needed in all",
-            "Turn the markers to the camera, keep hands off them, and touch the landmark again.",
+            "Turn the markers to the camera, do not cover them, and touch the landmark again.",
             {"seen": seen, "images": len(samples), "reason": reason, "rate_hz": _hz(rate)},
         )
 
@@ -234,7 +234,7 @@ def _reject_interrupted(
         raise RegistrationError(
             "CAPTURE_INTERRUPTED",
             f"{gap_s:.2f} s passed between two of {len(seen)} images, allowed {allowed_s:.2f} s at "
-            f"{rate.text}: the tip could have moved unseen",
+            f"{rate.text}: the tip could have moved in between",
             f"Hold the tip still, and touch the landmark again.{rate.remedy}",
             {"images": len(seen), "gap_s": gap_s, "allowed_s": allowed_s, "rate_hz": rate.tracked_hz},
         )
@@ -289,7 +289,7 @@ def _reject_uncertain(tips: Array, stated: Array, settings: CaptureSettings) -> 
     if not (np.isfinite(tips).all() and sd <= settings.max_tip_sd_mm):
         raise RegistrationError(
             "CAPTURE_UNCERTAIN",
-            f"the tip is known to {sd:.1f} mm in the worst image, allowed {settings.max_tip_sd_mm:g} mm",
+            f"the tip's uncertainty is {sd:.1f} mm in the worst image, allowed {settings.max_tip_sd_mm:g} mm",
             "Hold the marker nearer to the camera and in better light, and touch the landmark again.",
             {"tip_sd_mm": sd, "allowed_mm": settings.max_tip_sd_mm},
         )

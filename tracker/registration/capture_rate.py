@@ -7,7 +7,7 @@ from tracker.pose.image_rate import image_period_s
 
 # Below this rate an error message includes a remedy for the slow camera or machine.
 SLOW_HZ = 15.0
-# The camera gave so many times the images that were tracked: the machine is slow, not the camera.
+# Above this ratio of camera rate to tracked rate, the machine is slow and not the camera.
 BUSY_RATIO = 1.5
 
 
@@ -39,23 +39,23 @@ class CaptureRate:
 
     @property
     def tracked_hz(self) -> float:
-        """Images/s that were tracked."""
+        """Return the rate of tracked images [images/s]."""
         return 1.0 / self.period_s
 
     @property
     def machine_is_slow(self) -> bool:
-        """Return whether the camera gave far more images than were tracked."""
+        """Return whether the camera delivers far more images than are tracked."""
         return self.camera_hz is not None and self.camera_hz > BUSY_RATIO * self.tracked_hz
 
     @property
     def text(self) -> str:
-        """The rate as text, such as `5.0 images/s`."""
+        """Return the rate as text, such as `5.0 images/s`."""
         given = f" (the camera gives {self.camera_hz:.1f})" if self.machine_is_slow else ""
         return f"{self.tracked_hz:.1f} images/s{given}"
 
     @property
     def remedy(self) -> str:
-        """How to raise the rate, as a sentence with a leading space; empty at a high rate."""
+        """Return a remedy for a low rate, as a sentence with a leading space; empty at a high rate."""
         if self.tracked_hz >= SLOW_HZ:
             return ""
         if self.machine_is_slow:

@@ -11,20 +11,20 @@ from tracker.geometry import Array
 from tracker.registration.record import Registration
 
 MAX_MM = 2.0
-# Nearer to a landmark that was used, a check repeats what the fit has made small already.
+# Nearer to a landmark that was used, the distance is a residual of the fit and no independent check.
 MIN_APART_MM = 5.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LandmarkCheck:
-    """Distance of the tip from the landmark that it touches.
+    """Distance of the tip from the touched landmark.
 
     Attributes:
-        landmark: its name.
-        distance_mm: between tip and landmark.
+        landmark: name of the landmark.
+        distance_mm: distance between tip and landmark.
         off_mm: (3,) tip minus landmark, LPS.
         sd_mm: uncertainty of that distance (3-D RMS), from registration and tip.
-        max_mm: its limit.
+        max_mm: limit of the distance.
     """
 
     landmark: str
@@ -46,9 +46,9 @@ class LandmarkCheck:
         return (
             RegistrationError(
                 "LANDMARK_CHECK_FAILED",
-                f"on '{self.landmark}' the tip seems to be {self.distance_mm:.1f} mm off, allowed "
+                f"on '{self.landmark}' the tip is displayed {self.distance_mm:.1f} mm off, allowed "
                 f"{self.max_mm:g} mm (left {left:+.1f}, back {back:+.1f}, head {head:+.1f} mm)",
-                "Touch it again; if that stays, patient or reference has moved: register again.",
+                "Touch it again; if the error remains, patient or reference has moved: register again.",
                 {"landmark": self.landmark, "distance_mm": self.distance_mm, "allowed_mm": self.max_mm},
             ),
         )
@@ -84,7 +84,7 @@ def check_landmark(
         if name == landmark or apart < MIN_APART_MM:
             raise RegistrationError(
                 "LANDMARK_WAS_USED",
-                f"'{landmark}' lies {apart:.1f} mm from '{name}', which the registration was made with; "
+                f"'{landmark}' lies {apart:.1f} mm from '{name}', which was used for the registration; "
                 f"needed {MIN_APART_MM:g} mm",
                 "Check on another landmark: one that was used fits by construction.",
                 {"landmark": landmark, "used": name, "apart_mm": apart},

@@ -1,7 +1,7 @@
 """Manual adjustment of a registration in small, bounded, undoable steps along the patient's axes.
 
-A manual adjustment is not a measurement. Each one widens the stated uncertainty as if the truth were anywhere
-between the original and the adjusted registration; undoing it removes that as well.
+A manual adjustment is not a measurement. Each one increases the covariance as if the true pose were uniformly
+distributed between the original and the adjusted registration; undoing it removes that increase.
 """
 
 from dataclasses import dataclass, replace
@@ -35,11 +35,11 @@ class NudgeKind(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Nudge:
-    """One step: how the drawn vertebra moves on the patient.
+    """One step of the drawn vertebra on the patient.
 
     Attributes:
-        kind: shift or turn.
-        axis: along or about which.
+        kind: translation or rotation.
+        axis: axis along or about which it moves.
         amount: in mm or degrees, with its sign; one of the steps.
 
     Raises:
@@ -56,7 +56,7 @@ class Nudge:
             unit = "mm" if self.kind is NudgeKind.SHIFT else "deg"
             raise RegistrationError(
                 "NUDGE_STEP_INVALID",
-                f"a nudge of {self.amount:g} {unit} is no step, those are "
+                f"a nudge of {self.amount:g} {unit} is not allowed; the steps are "
                 f"{', '.join(f'{step:g}' for step in steps)} {unit}",
                 "Nudge in small steps, and register again where many would be needed.",
                 {"amount": self.amount, "allowed": list(steps)},
@@ -73,13 +73,13 @@ class NudgeLimits:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NudgedRegistration:
-    """A registration as it was made, and the nudges on it in their order.
+    """A registration and its nudges in order.
 
     Attributes:
         made: the registration without any nudge.
-        pivot_mm: (3,) on the CT, about which turns are made, such as the entry point.
-        limits: how far nudges may lead.
-        nudges: all that hold, the oldest first; the log of who made them and when is the caller's.
+        pivot_mm: (3,), centre of rotation on the CT, such as the entry point.
+        limits: maximum total translation and rotation.
+        nudges: all nudges in effect, the oldest first; the caller logs who made them and when.
     """
 
     made: Registration
@@ -92,7 +92,7 @@ class NudgedRegistration:
         if pivot.shape != (3,) or not np.isfinite(pivot).all():
             raise RegistrationError(
                 "NUDGE_PIVOT_INVALID",
-                "the point about which to turn is not three finite numbers",
+                "the centre of rotation is not three finite numbers",
                 "Give a point of the plan in mm, such as the entry point.",
             )
         pivot.setflags(write=False)
@@ -106,7 +106,7 @@ class NudgedRegistration:
         """
         after = replace(self, nudges=(*self.nudges, nudge))
         shift_mm, rotation_deg = after.shift_mm, after.rotation_deg
-        # What leads back is always let through, also where limits were made narrower meanwhile.
+        # A nudge towards the original is always accepted, even if the limits were reduced in the meantime.
         too_far = shift_mm > max(self.limits.max_mm, self.shift_mm) + ROUNDING
         too_turned = rotation_deg > max(self.limits.max_deg, self.rotation_deg) + ROUNDING
         if too_far or too_turned:
@@ -115,7 +115,7 @@ class NudgedRegistration:
                 f"with this nudge the registration would be {shift_mm:.1f} mm and {rotation_deg:.1f} deg "
                 f"from where it was made, allowed {self.limits.max_mm:g} mm and "
                 f"{self.limits.max_deg:g} deg",
-                "Undo nudges, or register again: what is this far off is no matter of nudging.",
+                "Undo nudges, or register again: an error of this size needs a new registration.",
                 {"shift_mm": shift_mm, "rotation_deg": rotation_deg},
             )
         return after
@@ -128,23 +128,23 @@ class NudgedRegistration:
         """
         if not self.nudges:
             raise RegistrationError(
-                "NUDGE_NONE", "there is no nudge to undo", "The registration stands as it was made."
+                "NUDGE_NONE", "there is no nudge to undo", "The registration is unchanged."
             )
         return replace(self, nudges=self.nudges[:-1])
 
     @property
     def shift_mm(self) -> float:
-        """Total translation of the pivot."""
+        """Return the total translation of the pivot."""
         return float(np.linalg.norm(self._moved().move_points(self.pivot_mm) - self.pivot_mm))
 
     @property
     def rotation_deg(self) -> float:
-        """Total rotation angle."""
+        """Return the total rotation angle."""
         return float(np.degrees(np.linalg.norm(vector_from_rotation(self._moved().rotation))))
 
     @property
     def registration(self) -> Registration:
-        """The adjusted registration, with a widened covariance."""
+        """Return the adjusted registration with an increased covariance."""
         if not self.nudges:
             return self.made
         moved = self._moved()
@@ -152,8 +152,8 @@ class NudgedRegistration:
         turn = self.made.anchor_from_vertebra.rotate_directions(vector_from_rotation(moved.rotation))
         was = self.made.anchor_from_vertebra.move_points(self.pivot_mm)
         shift = anchor_from_vertebra.move_points(self.pivot_mm) - was
-        # What is known is known of the pivot's surroundings; the CT's origin is far, and its arc no straight
-        # line, so that the pivot keeps its own uncertainty and gets the shift.
+        # The covariance is transformed about the pivot, because the CT's origin is far away and moves on an
+        # arc: the pivot keeps its own uncertainty plus that of the shift.
         before = skew(self.made.anchor_from_vertebra.rotate_directions(self.pivot_mm))
         after = skew(anchor_from_vertebra.rotate_directions(self.pivot_mm))
         carried = np.eye(6)
@@ -162,7 +162,7 @@ class NudgedRegistration:
         return replace(
             self.made,
             anchor_from_vertebra=anchor_from_vertebra,
-            # Anywhere between both with equal right: a third of the square.
+            # The second moment of a uniform distribution between both is a third of the square.
             covariance=carried @ self.made.covariance @ carried.T + np.outer(way, way) / 3.0,
         )
 

@@ -1,12 +1,12 @@
 """The registration: pose of the planned vertebra on the patient, and its covariance.
 
-All methods use one record. It is anchored to the camera or to the patient's reference and transformed into
-each image; the pose in an image (`VertebraPose`) belongs to the image, so video, numbers and 3-D lose it in
-the same image.
+All methods use one record. It is anchored to the camera or to the patient's reference, and is transformed for
+each image. The pose in an image (`VertebraPose`) belongs to that image, so video, numbers and 3-D lose it at
+the same time.
 
 `tip_jacobian` is stored because the same tip captures the landmarks and drills: its error cancels if the
 drill has the orientation of the captures, and doubles if it is reversed. Assuming independence, the stated 95
-% cover 88 to 100 % of the truths; with the Jacobian, 95 to 97.
+% region contains 88 to 100 % of the true values; with the Jacobian, 95 to 97 %.
 """
 
 from dataclasses import dataclass, field
@@ -23,14 +23,14 @@ class Method(StrEnum):
 
     NEEDLES = "needles"  # the paper's: three needles on three lines of the reference slice
     POINTS = "points"  # the tool's tip on landmarks of the plan
-    SURFACE = "surface"  # points swept over the bone, laid on its surface
-    REHEARSAL = "rehearsal"  # known by the theatre, which exists only in software
+    SURFACE = "surface"  # points swept over the bone, fitted to its surface
+    REHEARSAL = "rehearsal"  # ground truth of a simulated theatre
 
 
 class AnchoredTo(StrEnum):
-    """What a registration is anchored to; it is valid only while the patient does not move relative to it."""
+    """Anchor of a registration; it is valid only while the patient does not move relative to it."""
 
-    CAMERA = "camera"  # a move of patient or camera is not seen
+    CAMERA = "camera"  # the pose becomes wrong when patient or camera moves
     REFERENCE = "reference"  # the marker fixed to the patient, which both may move with
 
 
@@ -39,7 +39,7 @@ class Registration:
     """Pose of the planned vertebra on the patient.
 
     Attributes:
-        method: how it was made.
+        method: registration method.
         anchored_to: camera or reference.
         anchor_from_vertebra: from the plan's frame (LPS, mm) to that of the anchor.
         covariance: (6, 6) [mm, rad] of `anchor_from_vertebra`: translation first, then a small rotation
@@ -48,7 +48,7 @@ class Registration:
             position; if the same tool registers and drills, much of that error cancels. 0 if no tip was used.
         tool: the tool with that tip; empty if none.
         tracking_covariance_mm2: (3, 3), of the tip in the anchor frame from the poses of the markers alone,
-            at the best capture: what tracking adds in an image of a drill seen as well. 0 if not known.
+            at the best capture: the tracking error of a drill seen equally well. 0 if not known.
 
     Raises:
         RegistrationError: REGISTRATION_COVARIANCE_INVALID, the covariance is not finite or not positive

@@ -45,8 +45,8 @@ def pairs_of_touches(
 ) -> PointPairs:
     """Return landmarks (n, 3) on the CT paired with captures by one tool; separate the common tip error.
 
-    Treated as independent noise, that error would be underestimated for the registration, and counted again
-    for the drill.
+    If it was treated as independent noise, that error would be underestimated for the registration, and
+    counted twice for the drill.
     """
     return PointPairs(
         fixed_mm=np.asarray(fixed_mm, dtype=np.float64).reshape(-1, 3),

@@ -65,7 +65,7 @@ def test_an_invalid_side_is_rejected(side_mm: float) -> None:
 def test_a_rotationally_symmetric_shape_is_rejected(
     fields: tuple[tuple[int, ...], ...], turned_deg: int
 ) -> None:
-    with pytest.raises(InvalidInput, match="looks the same when turned") as caught:
+    with pytest.raises(InvalidInput, match="looks the same when rotated") as caught:
         MarkerModel.from_image(code_image(fields), side_mm=SIDE_MM, name="mine")
     assert caught.value.code == "MARKER_SYMMETRIC"
     assert caught.value.context["turned_deg"] == turned_deg

@@ -23,10 +23,10 @@ from tracker.registration.needles.view_prior import (
 
 MAX_CANDIDATES, MAX_ASSIGNMENTS, MAX_FITTED = 24, 40_000, 40
 MONTE_CARLO_SAMPLES = 1200
-# How far needles stand out of the bone: they are of one make, each driven in as deep as it goes, and what
-# crosses one before the other may hide a part.
+# Visible length of needles outside the bone: mean, common sd, sd of each and minimum. They are of one type
+# and driven in fully, and a crossing needle may occlude a part.
 OUT_MM, OUT_SD_MM, EACH_SD_MM, SHORTEST_OUT_MM = 45.0, 12.0, 10.0, 15.0
-# All needles are of one wire: their widths in the image differ by depth and noise alone.
+# All needles have the same diameter, so their widths in the image differ only by depth and noise.
 WIDTH_SD_RATIO = 0.15
 
 
@@ -38,13 +38,13 @@ def rank_assignments(
     *,
     touched: tuple[TouchedPoint, ...] = (),
 ) -> list[tuple[float, tuple[int, ...]]]:
-    """Return assignments as (cost, indices in the plan's order), the likeliest first.
+    """Return assignments as (cost, indices in the plan's order), the most likely first.
 
     All are compared with Monte Carlo samples of the view: relative entries, directions and lengths in the
     image. The best ones are compared by the cost of their fitted pose.
 
     Args:
-        candidates: detected needles, the likeliest first.
+        candidates: detected needles, the most likely first.
         places: planned needles.
         camera: calibrated.
         measured: V, H and azimuth.
@@ -79,7 +79,7 @@ def _shown_costs(
     measured: RulerMeasurement,
     choices: npt.NDArray[np.intp],
 ) -> tuple[Array, Array]:
-    """Return squared Mahalanobis distances (m) by lines, and what the lengths add to them."""
+    """Return squared Mahalanobis distances (m) of the lines, and the additional ones of the lengths."""
     ends = np.stack([[one.seen.entry_px, one.seen.head_px] for one in candidates])
     rays = np.column_stack([camera.normalised_from_px(ends.reshape(-1, 2)), np.ones(2 * len(ends))])
     seen = _features(_seen_beside(rays.reshape(-1, 2, 3), choices))
@@ -95,7 +95,7 @@ def _shown_costs(
 
 def _far(off: Array, spread: Array) -> Array:
     """Return squared Mahalanobis distances (m) of rows (m, k)."""
-    # The entries are relative to their mean, so that two of these numbers follow from the others.
+    # The entries are relative to their mean, so the covariance has rank deficiency 2.
     known = np.linalg.pinv(spread, rcond=1e-9, hermitian=True)
     return np.asarray(np.einsum("ni,ij,nj->n", off, known, off))
 
@@ -110,7 +110,7 @@ def observation_costs(candidates: Sequence[DetectedNeedle], choices: npt.NDArray
 
 
 def _features(ends: Array) -> Array:
-    """(m, 4n) of ends (m, n, 2, 2): centred entries, directions in radians, log lengths."""
+    """Return features (m, 4n) of ends (m, n, 2, 2): centred entries, directions in radians, log lengths."""
     entries = ends[:, :, 0] - ends[:, :, 0].mean(axis=1, keepdims=True)
     lines = ends[:, :, 1] - ends[:, :, 0]
     turns = np.arctan2(lines[..., 0], lines[..., 1])

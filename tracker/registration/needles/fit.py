@@ -1,9 +1,9 @@
 """Registration from three needles in one image, with its uncertainty.
 
-Image, ruler and touched points enter one fit, each with its covariance. Three needles in one image leave the
-depth to the ruler, and bone often occludes their entries: P3P took the visible rim for the entry. The rim is
-therefore an entry with an offset (3 mm, sd 4), unless a person marks the entry itself. Needles alone never
-determine the depth.
+Image, ruler and touched points are combined in one least-squares fit, weighted by their covariances. Three
+needles in one image do not determine the depth, which comes from the ruler. Bone often occludes the entries,
+so that P3P on the visible ends is biased. A visible end is therefore modelled as an entry with an offset
+along the needle (3 mm, sd 4), unless a person marks the entry itself.
 """
 
 import math
@@ -33,7 +33,7 @@ class NeedleResidual:
 
     Attributes:
         name: of the needle.
-        offset_px: from its planned position to its line in the image, or to its entry if visible.
+        offset_px: distance of its planned position from its line in the image, or from its entry if visible.
         offset_mm: the same at the needle's distance.
         lean_deg: angle to its planned direction, in the image; not limited.
     """
@@ -53,11 +53,10 @@ class NeedleFit:
         residuals: of each needle, in the plan's order.
         chi2: sum of squared whitened residuals of needles, ruler and touched points.
         freedom: degrees of freedom.
-        observability: which directions are determined, and by what.
+        observability: standard deviations by direction, and their share from the image.
         alternatives: number of other local minima.
-        order_delta_chi2: by how much chi squared is larger in any other order of the needles; if it is small,
-            the image does not identify the needles, and only the marking does. Infinite for more than four
-            needles.
+        order_delta_chi2: smallest increase of chi squared in any other order of the needles; if it is small,
+            the image does not identify the needles. Infinite for more than four needles.
     """
 
     registration: Registration
@@ -80,9 +79,9 @@ def register_needles(
 ) -> NeedleFit:
     """Fit the pose of the vertebra in the camera to needles, view prior and touched points.
 
-    One image of three needles determines position across the view and rotation in the image well; depth and
-    tilt hardly, which therefore need the ruler or touched points. The covariance includes the errors of the
-    view prior.
+    One image of three needles determines the position across the view and the rotation in the image well, but
+    depth and tilt hardly; these require the ruler or touched points. The covariance includes the errors of
+    the view prior.
 
     Args:
         places: three or more planned needles.
@@ -172,7 +171,7 @@ def _reject_disagreement(best: Solution, freedom: int, gate: NeedleLimits) -> No
         "NEEDLES_DISAGREE",
         f"needles, ruler and touched points disagree: chi squared is {best.chi2:.0f}, allowed {allowed:.0f}; "
         f"worst is {_worst(best)}",
-        "Check which needle is which, where each goes into the bone, V, H and azimuth, and what was touched.",
+        "Check the names and entries of the needles, V, H and azimuth, and the touched points.",
         {"chi2": best.chi2, "allowed_chi2": allowed},
     )
 
@@ -198,7 +197,7 @@ def _reject_offset(residuals: Sequence[NeedleResidual], gate: NeedleLimits) -> N
             "NEEDLE_OFF_ITS_PLACE",
             f"needle '{worst.name[:40]}' is {worst.offset_mm:.1f} mm ({worst.offset_px:.1f} px) off its "
             f"place, allowed {gate.max_offset_mm:g} mm",
-            "Check that each needle is on its landmark and marked where it goes into the bone.",
+            "Check that each needle is on its landmark and marked at its entry into the bone.",
             {"needle": worst.name[:40], "offset_mm": worst.offset_mm, "offset_px": worst.offset_px},
         )
 
@@ -214,7 +213,7 @@ def _reject_ambiguous_pose(found: Sequence[Solution], gate: NeedleLimits) -> Non
                 "NEEDLES_AMBIGUOUS",
                 f"two poses, {turned_deg:.0f} deg apart, fit the needles: the second is worse by "
                 f"{delta_chi2:.1f} in chi squared, needed {gate.min_delta_chi2:g}",
-                "Touch one of the needles' entries with the tool's tip, or measure the camera's tilt better.",
+                "Touch a needle's entry with the tool's tip, or measure the camera's tilt more accurately.",
                 {"delta_chi2": delta_chi2, "turned_deg": turned_deg},
             )
 

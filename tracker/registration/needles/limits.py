@@ -11,8 +11,8 @@ class NeedleLimits:
         max_offset_mm: maximum distance of a needle's line, or of its entry if visible, from its planned
             position.
         min_probability_ratio: minimum p-value of chi squared.
-        min_delta_chi2: by how much chi squared of another pose must be larger.
-        max_swap_delta_chi2: by how much needles in another order may fit better, by chance.
+        min_delta_chi2: minimum delta chi-square of another pose.
+        max_swap_delta_chi2: maximum decrease of chi-square by another order of the needles.
     """
 
     max_offset_mm: float = 3.0

@@ -1,4 +1,4 @@
-"""Which directions of a registration the image determines, and which only the measurements."""
+"""Observability of a registration by direction: from the image, or only from ruler and touch."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ import numpy as np
 from tracker.geometry import Array
 from tracker.registration.needles.pose_solver import Solution
 
-# From here on a direction is called weak: most of what is known of it does not come from the image.
+# A direction is weak if more than this ratio of its information is not from the image.
 WEAK_RATIO = 0.5
 
 
@@ -29,7 +29,7 @@ class DirectionUncertainty:
 
     @property
     def is_weak(self) -> bool:
-        """Return whether the image alone hardly determines it."""
+        """Return whether most of the information is not from the image."""
         return self.not_from_image_ratio > WEAK_RATIO
 
 
@@ -51,12 +51,12 @@ class PoseObservability:
 
     @property
     def weak(self) -> tuple[DirectionUncertainty, ...]:
-        """The directions that the image hardly determines."""
+        """Return the directions that the image hardly determines."""
         return tuple(one for one in (self.depth, self.across, self.tilt, self.turn) if one.is_weak)
 
     @property
     def summary(self) -> str:
-        """Summary for a surgeon."""
+        """Return a summary for a surgeon."""
         known = [_text(one) for one in (self.depth, self.across, self.tilt, self.turn) if not one.is_weak]
         weak = [
             f"{_text(one)} ({one.not_from_image_ratio:.0%} of it from ruler and touch)" for one in self.weak

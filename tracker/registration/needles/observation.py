@@ -9,8 +9,8 @@ from tracker.errors import InvalidInput
 from tracker.geometry import Array
 
 SHORTEST_PX = 8.0
-# What bone hides of a needle behind its own rim, where nobody sees it go in: mean and spread of needles in
-# the posterior parts, looked at from 30 to 65 degrees above the table.
+# Length of a needle that bone occludes at its entry: mean and sd for needles in the posterior elements, seen
+# from 30 to 65 degrees above the table.
 OCCLUDED_MM, OCCLUDED_SD_MM = 3.0, 4.0
 
 
@@ -23,7 +23,7 @@ class NeedleObservation:
         head_px: (2,), the far end.
         across_sd_px: standard deviation across the line, at either end.
         along_sd_px: standard deviation of the end at the bone, along the line.
-        entry_is_seen: whether `entry_px` is the entry itself and not where bone occludes it.
+        entry_is_seen: whether `entry_px` is the entry itself, and not an end that bone occludes.
         width_px: of the wire; 0 if not measured.
 
     Raises:
@@ -52,9 +52,9 @@ class NeedleObservation:
         ):
             raise InvalidInput(
                 "NEEDLE_SEEN_INVALID",
-                f"a needle in the image is {self.length_px:.1f} px long, known to {spreads.min():g} px; "
+                f"a needle is {self.length_px:.1f} px long with a spread of {spreads.min():g} px; "
                 f"needed at least {SHORTEST_PX:g} px and a spread above 0",
-                "Mark where the needle comes out of the bone, and its head.",
+                "Mark the needle's exit from the bone, and its head.",
             )
 
     @property

@@ -12,14 +12,14 @@ from tracker.registration.needles.pose_solver import Solution, solve_from_view
 from tracker.registration.needles.residuals import NeedleProblem
 from tracker.registration.needles.view_prior import ViewPrior
 
-# With more needles there are too many orders, and one swapped pair already disagrees with the rest.
+# With more needles there are too many orders, and a swapped pair already has large residuals.
 MAX_NEEDLES = 4
 
 
 def other_orders(
     places: Sequence[PlannedNeedle], seen: Sequence[NeedleObservation], camera: CameraModel, view: ViewPrior
 ) -> list[tuple[tuple[int, ...], Solution]]:
-    """Return the likeliest pose of every other order of the needles, the likeliest order first."""
+    """Return the most likely pose of every other order of the needles, the most likely order first."""
     if len(places) > MAX_NEEDLES:
         return []
     orders = list(itertools.permutations(range(len(places))))[1:]
@@ -43,8 +43,8 @@ def reject_swapped(
     swapped = [f"'{places[n].name[:40]}'" for n, at in enumerate(order) if n != at]
     raise RegistrationError(
         "NEEDLES_SWAPPED",
-        f"needles {' and '.join(swapped)} seem to be marked for one another: the other order fits better by "
+        f"needles {' and '.join(swapped)} seem to be swapped: the other order fits better by "
         f"{-delta_chi2:.1f} in chi squared, allowed {gate.max_swap_delta_chi2:g}",
-        "Mark each needle again under its own name, or touch one where it goes in with the tool's tip.",
+        "Mark each needle again under its own name, or touch the entry of one with the tool's tip.",
         {"delta_chi2": delta_chi2},
     )

@@ -1,7 +1,7 @@
-"""The paper's overlay: the slice over the video, moved until its lines cover the needles.
+"""The paper's overlay: the slice over the video, moved until its lines coincide with the needles.
 
-The paper's zoom, focus and tripod become a shift, a rotation and a scale of the slice in the image; the two
-remaining tilts come from the ruler. An overlay thus determines a pose: its scale gives the distance, its
+Instead of the paper's zoom, focus and tripod, the slice is shifted, rotated and scaled in the image; the two
+remaining tilts come from the ruler. An overlay therefore determines a pose: its scale gives the distance, its
 shift the position.
 """
 
@@ -54,9 +54,9 @@ class SliceOverlay:
         ):
             raise InvalidInput(
                 "OVERLAY_INVALID",
-                f"the slice is laid at {self.scale_px_per_mm:g} px a mm, faded to {self.fade_ratio:g}; "
-                f"allowed {MIN_SCALE:g} to {MAX_SCALE:g} px a mm and 0 to 1",
-                "Lay the slice over the needles again.",
+                f"the slice has scale {self.scale_px_per_mm:g} px/mm and opacity {self.fade_ratio:g}; "
+                f"allowed {MIN_SCALE:g} to {MAX_SCALE:g} px/mm and 0 to 1",
+                "Align the slice with the needles again.",
             )
         shift.setflags(write=False)
         object.__setattr__(self, "shift_px", shift)
@@ -125,7 +125,7 @@ def pose_of_overlay(
     x, y = camera.normalised_from_px(overlay.shift_px.reshape(1, 2))[0]
     sight = np.array([x, y, 1.0]) / np.linalg.norm([x, y, 1.0])
     distance_mm = float(np.mean(np.diag(camera.matrix)[:2])) / overlay.scale_px_per_mm
-    # A turn about +z, which looks away from the eye, is clockwise in the image.
+    # A positive rotation about +z, which points away from the camera, is clockwise in the image.
     rotation = rotation_from_vector(np.radians(overlay.rotation_deg) * sight) @ view.rotation
     pivot = np.mean([one.point_lps_mm for one in places], axis=0)
     return Rigid(rotation=rotation, translation_mm=distance_mm * sight - rotation @ pivot)
@@ -158,7 +158,7 @@ def overlay_of_pose(
 def image_from_slice(pose: Rigid[Camera, Vertebra], reference: ReferenceSlice, camera: CameraModel) -> Array:
     """Return the homography (3, 3) from slice pixels (column, row) to the image.
 
-    Exact at the ends of the outer lines; lens distortion displaces what is between.
+    Exact at the ends of the outer lines; between them lens distortion is neglected.
     """
     lines = {line.name: line for line in reference.lines}
     left, right = lines["left"], lines["right"]
@@ -192,7 +192,7 @@ def overlay_residuals(
     seen: Sequence[NeedleObservation],
     camera: CameraModel,
 ) -> tuple[OverlayResidual, ...]:
-    """Return the distance of each needle from its line; a leaning one is farther at its head."""
+    """Return the distance of each needle from its line; a tilted one has a larger distance at its head."""
     out = []
     for place, needle, line in zip(places, seen, overlay_lines_px(pose, places, camera), strict=True):
         along = (line[-1] - line[0]) / np.linalg.norm(line[-1] - line[0])
@@ -240,6 +240,6 @@ def _reject_empty(places: Sequence[PlannedNeedle]) -> None:
     if not places:
         raise InvalidInput(
             "NEEDLES_TOO_FEW",
-            "0 needles are planned, the slice is laid over 3",
+            "0 needles are planned, the slice is aligned with 3",
             "Set a landmark for each needle on the CT, or draw the three lines.",
         )

@@ -49,8 +49,8 @@ class PlannedNeedle:
         ):
             raise InvalidInput(
                 "NEEDLE_PLACE_INVALID",
-                f"the place of needle '{self.name[:40]}' has a number that cannot be; its direction may lean "
-                f"by {self.direction_sd_deg:g} deg, allowed above 0 to 90",
+                f"the place of needle '{self.name[:40]}' has an invalid number; its direction has a spread "
+                f"of {self.direction_sd_deg:g} deg, allowed above 0 to 90",
                 "Give a point and a direction in LPS, and spreads above 0.",
                 {"needle": self.name[:40]},
             )
@@ -160,8 +160,8 @@ def reject_poor_geometry(places: Sequence[PlannedNeedle]) -> None:
     if across_mm < MIN_APART_MM and not _are_lines(places):
         raise RegistrationError(
             "NEEDLES_COLLINEAR",
-            f"the needles stand within {across_mm:.1f} mm of one straight line, needed {MIN_APART_MM:g} mm",
-            "Put one needle well beside the line through the others.",
+            f"the needles are within {across_mm:.1f} mm of one straight line, needed {MIN_APART_MM:g} mm",
+            "Put one needle farther from the line through the others.",
             {"across_mm": across_mm},
         )
 
@@ -176,7 +176,7 @@ def height_mm(places: Sequence[PlannedNeedle]) -> float:
 
 
 def _are_lines(places: Sequence[PlannedNeedle]) -> bool:
-    """Return whether the needles are known as lines only: then they may be collinear, as in the paper."""
+    """Return whether only the lines of the needles are planned; these may be collinear, as in the paper."""
     return all(float(one.direction_lps @ one.covariance_mm2 @ one.direction_lps) > 10.0**2 for one in places)
 
 

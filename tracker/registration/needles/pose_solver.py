@@ -1,4 +1,4 @@
-"""Local minima of the pose over needles, view prior and touched points, the likeliest first."""
+"""Local minima of the pose over needles, view prior and touched points, the most likely first."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from tracker.geometry import Array, Camera, Rigid, Vertebra, rotation_from_vecto
 from tracker.registration.needles.residuals import NeedleProblem, NeedleResiduals
 
 ROUNDS, STEPS, SMALLEST_STEP = 4, 40, 1e-2
-# A start that the ruler contradicts by more than this many standard deviations leads nowhere.
+# Starts whose Mahalanobis distance from the ruler exceeds this are skipped.
 MAX_START_MAHALANOBIS = 5.0
 SAME_MM, SAME_DEG = 0.5, 0.5
 
@@ -20,11 +20,11 @@ class Solution:
     """One local minimum.
 
     Attributes:
-        residual_model: about the pose.
+        residual_model: the residuals linearised about the pose.
         pose: camera from vertebra.
         covariance: (6, 6) of a step, [mm, rad].
         chi2: sum of squared whitened residuals.
-        cost: chi2 plus the log determinant of the covariance; smaller is likelier.
+        cost: chi2 plus the log determinant of the covariance; smaller is more likely.
     """
 
     residual_model: NeedleResiduals
@@ -35,7 +35,7 @@ class Solution:
 
 
 def solve_poses(task: NeedleProblem) -> list[Solution]:
-    """Return the distinct poses from all starts, the likeliest first."""
+    """Return the distinct poses from all starts, the most likely first."""
     found: list[Solution] = []
     for start in _starts(task):
         one = _settled(task, start)
@@ -81,7 +81,7 @@ def _min(residual_model: NeedleResiduals, pose: Rigid[Camera, Vertebra]) -> Rigi
             pose, residuals, damping = tried, after, damping * 0.1
         else:
             damping *= 10.0
-        # A hundredth of a standard deviation changes no displayed digit.
+        # Converged: a hundredth of a standard deviation changes no displayed digit.
         if step @ square @ step < SMALLEST_STEP**2:
             break
     return pose

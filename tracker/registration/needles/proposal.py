@@ -18,13 +18,13 @@ from tracker.registration.needles.planned import PlannedNeedle, reject_poor_geom
 from tracker.registration.needles.view_prior import RulerMeasurement, TouchedPoint, view_prior_from_ruler
 
 MAX_PROPOSALS, MAX_TRIED = 3, 12
-# A naming that is so much worse than the likeliest is not worth a person's look.
+# Assignments whose cost exceeds that of the most likely one by more are not proposed.
 MAX_COST_DIFFERENCE = 16.0
-# Costs take all ends for seen where they are found; in rehearsals they are this much too far apart.
+# Costs assume exact ends of detected needles; in rehearsals their differences are too large by this factor.
 COST_SCALE = 3.0
-# Two lines that are this near at both ends are one needle.
+# Two lines whose ends are nearer than this are one needle.
 SAME_PX = 4.0
-# A person marks a needle within this many of the stated standard deviations, or has marked another one.
+# A mark farther from a detected needle, in stated standard deviations, belongs to another needle.
 MAX_MARKED_SD = 3.0
 
 
@@ -70,8 +70,8 @@ class NeedleProposal:
         fit: the registration with this assignment.
         needles: detected needles, in the plan's order.
         probability_ratio: 0..1, of this assignment among the proposed ones.
-        delta_chi2: by how much chi squared of the likeliest other assignment is larger; negative if the other
-            is likelier, infinite if there is none.
+        delta_chi2: chi-square of the most likely other assignment minus that of this one; negative if the
+            other is more likely, infinite if there is none.
     """
 
     fit: NeedleFit
@@ -102,7 +102,7 @@ def propose_needles(
         limits: of an accepted fit.
 
     Returns:
-        One to three proposals with different assignments, the likeliest first.
+        One to three proposals with different assignments, the most likely first.
 
     Raises:
         InvalidInput: IMAGE_INVALID, RULER_INVALID, VIEW_INVALID.
@@ -117,7 +117,7 @@ def propose_needles(
         raise RegistrationError(
             "NEEDLES_NOT_FOUND",
             f"{len(found)} needles were found in the image, {len(places)} are planned",
-            "Mark each needle by hand, or take the drill and other instruments out of their way.",
+            "Mark each needle by hand, or remove the drill and other instruments from the image.",
             {"found": len(found), "planned": len(places)},
         )
     fits: list[tuple[float, NeedleFit, tuple[DetectedNeedle, ...]]] = []
@@ -151,7 +151,7 @@ def _fit(
     seen = [one.seen for one in needles]
     at_px = np.mean([one.entry_px for one in seen], axis=0)
     view = view_prior_from_ruler(measured, camera, at_px, touched=touched)
-    # Other orders are proposals of their own.
+    # Other orders are separate proposals.
     return register_needles(places, seen, camera, view, limits=gate, order_is_sure=True)
 
 

@@ -17,7 +17,7 @@ LONGEST_ARM_MM = 80.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NeedleProblem:
-    """Data that a pose is fitted to, prepared once.
+    """Data of the pose fit, prepared once.
 
     Attributes:
         places: (n) planned needles.
@@ -112,7 +112,7 @@ class NeedleResiduals:
         self._spread = self._joint_spread()
         root = np.linalg.cholesky(self._spread)
         self._whiten = np.linalg.inv(root)
-        # Log determinant: a pose must not become likelier by widening the covariance.
+        # The log determinant, because a larger covariance must not make a pose more likely.
         self.log_spread = float(2.0 * np.log(np.diag(root)).sum())
         self._turn_whiten = np.linalg.cholesky(np.linalg.inv(task.view.rotation_covariance)).T
 
@@ -123,7 +123,7 @@ class NeedleResiduals:
         return Rigid(rotation=rotation, translation_mm=middle - rotation @ self.task.middle_mm)
 
     def needles_px(self, pose: Rigid[Camera, Vertebra]) -> Array:
-        """(n, 3) px: the end at the bone along and across the needle, and the head across it."""
+        """Return (n, 3) px: the end at the bone along and across the needle, and the head across it."""
         shown = self.task.project(pose.move_points(self._shown)) - self.task.entries
         entries = self.task.project(pose.move_points(self._points)) - self.task.entries
         heads = self.task.project(pose.move_points(self._far)) - self.task.heads
@@ -131,31 +131,31 @@ class NeedleResiduals:
         return np.stack([np.einsum("ij,ij->i", off, way) for off, way in rows], axis=1)
 
     def touched_mm(self, pose: Rigid[Camera, Vertebra]) -> Array:
-        """(m, 3) mm in the camera frame: predicted minus captured position of the touched points."""
+        """Return (m, 3) mm, camera frame: predicted minus captured position of the touched points."""
         touched = self.task.view.touched
         off = [pose.move_points(one.point_lps_mm) - one.point_in_camera_mm for one in touched]
         return np.array(off).reshape(-1, 3)
 
     def misfits(self, pose: Rigid[Camera, Vertebra]) -> Array:
-        """(n + m): the squared Mahalanobis distance of each needle, then of each touched point."""
+        """Return the squared Mahalanobis distance (n + m) of each needle, then of each touched point."""
         rows = np.concatenate([self.needles_px(pose), self.touched_mm(pose)])
         blocks = [self._spread[3 * i : 3 * i + 3, 3 * i : 3 * i + 3] for i in range(len(rows))]
         return np.array([row @ np.linalg.solve(block, row) for row, block in zip(rows, blocks, strict=True)])
 
     def ruler_residuals(self, pose: Rigid[Camera, Vertebra]) -> Array:
-        """(4), whitened: rotation and distance relative to the view prior."""
+        """Return the whitened residuals (4) of rotation and distance relative to the view prior."""
         view = self.task.view
         turn = vector_from_rotation(pose.rotation @ view.rotation.T)
         distance = float(np.linalg.norm(pose.move_points(self.task.middle_mm)))
         return np.append(self._turn_whiten @ turn, (distance - view.distance_mm) / view.distance_sd_mm)
 
     def residuals(self, pose: Rigid[Camera, Vertebra]) -> Array:
-        """All whitened residuals: the four of the view prior, then needles and touched points."""
+        """Return all whitened residuals: the four of the view prior, then needles and touched points."""
         rows = np.concatenate([self.needles_px(pose), self.touched_mm(pose)]).ravel()
         return np.concatenate([self.ruler_residuals(pose), self._whiten @ rows])
 
     def jacobian(self, pose: Rigid[Camera, Vertebra]) -> Array:
-        """Jacobian (4 + 3n + 3m, 6) of the residuals with respect to a step."""
+        """Return the Jacobian (4 + 3n + 3m, 6) of the residuals with respect to a step."""
         task = self.task
         middle = pose.move_points(task.middle_mm)
         ruler = np.zeros((4, 6))
@@ -180,7 +180,7 @@ class NeedleResiduals:
         return np.asarray(carry @ covariance @ carry.T)
 
     def _arms_mm(self) -> Array:
-        """Return how far along each needle the line of its head is compared."""
+        """Return the distance along each needle at which the line of its head is compared."""
         directions = self.about.rotate_directions(np.stack([one.direction_lps for one in self.task.places]))
         slope = self.task.slope(self.about.move_points(self._points))
         px_per_mm = np.linalg.norm(np.einsum("nij,nj->ni", slope, directions), axis=1)
@@ -189,7 +189,7 @@ class NeedleResiduals:
     def _joint_spread(self) -> Array:
         """Return the joint covariance (3n + 3m, 3n + 3m) of needles and touched points.
 
-        A needle placed beside its landmark is displaced in the image and under the tip alike, so both share
+        A needle placed beside its landmark is displaced equally in the image and under the tip, so both share
         that error if they have the same name.
         """
         task, touched = self.task, self.task.view.touched
@@ -220,7 +220,7 @@ class NeedleResiduals:
         px_per_mm = np.linalg.norm(np.einsum("nij,nj->ni", at_bone, task.leaning(self.about)), axis=1)
         out = []
         for n, (place, seen) in enumerate(zip(task.places, task.seen, strict=True)):
-            # Where the point is put, and where the needle then leans, move both ends.
+            # Placement and lean of the needle displace both ends.
             lean = np.radians(place.direction_sd_deg) * self._arms[n]
             beside = np.linalg.svd(place.direction_lps[None])[2][1:]
             moved = np.zeros((3, 5))

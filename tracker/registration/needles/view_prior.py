@@ -52,7 +52,7 @@ class ViewPrior:
         rotation: (3, 3), camera from vertebra.
         rotation_covariance: (3, 3) rad^2, of a small rotation multiplied from the left (camera frame).
         distance_mm: from the camera's centre to the centroid of the planned needles.
-        distance_sd_mm: of it.
+        distance_sd_mm: standard deviation of the distance.
         touched: points captured with the tool's tip; none without a tool.
     """
 
@@ -72,9 +72,9 @@ class ViewPrior:
         if not (np.isfinite(numbers).all() and (numbers > 0.0).all()):
             raise InvalidInput(
                 "VIEW_INVALID",
-                f"the camera is {self.distance_mm:g} mm away, known to {self.distance_sd_mm:g} mm; "
+                f"the camera is {self.distance_mm:g} mm away with a spread of {self.distance_sd_mm:g} mm; "
                 "needed above 0",
-                "Measure V and H from the camera to the patient, and say how well.",
+                "Measure V and H from the camera to the patient, and give their accuracy.",
                 {"distance_mm": self.distance_mm, "distance_sd_mm": self.distance_sd_mm},
             )
 
@@ -165,7 +165,7 @@ def _frame(along: Array, up: Array) -> Array:
     if length < 1e-3:
         raise InvalidInput(
             "VIEW_INVALID",
-            "the camera looks straight down, so that V and H do not determine which way is up in its image",
+            "the camera looks straight down, so V and H do not determine the up direction in its image",
             "Measure H to the vertebra again, or tilt the camera.",
         )
     right /= length

@@ -21,10 +21,10 @@ from tracker.registration.points.settings import PointSettings
 
 Orders = npt.NDArray[np.int64]
 
-# Up to here every order is tried (719 others of six); of more points swapped pairs, shifted lists and the
-# order that their distances tell.
+# Up to this number of points every order is tried (719 others of six); with more points only swapped pairs,
+# shifted lists and the order with the best matching distances.
 ALL_ORDERS_UP_TO = 6
-# Of more than this nobody touched each by hand: lists shifted by one, or turned round, are all that is tried.
+# With more points, which are not touched by hand, only shifted and reversed lists are tried.
 PAIRS_UP_TO = 60
 
 
@@ -63,8 +63,8 @@ def reject_swapped_or_mirrored(
 ) -> tuple[Remark, ...]:
     """Reject a wrong correspondence; return remarks on an ambiguous one.
 
-    The caller states the order. Points that would also fit in another order (left and right of a vertebra do)
-    are no error as long as the given order fits; a remark then states that a swap would not be detected.
+    Points that would also fit in another order (as left and right of a vertebra) are accepted if the given
+    order fits; a remark then states that a swap would not be detected.
 
     Raises:
         RegistrationError: POINTS_SWAPPED or POINTS_MIRRORED, another correspondence fits clearly better;
@@ -83,7 +83,7 @@ def reject_swapped_or_mirrored(
         raise RegistrationError(
             "POINTS_SWAPPED",
             f"{swapped} seem to be swapped: as given the points fit to {fre_mm:.2f} mm RMS, "
-            f"the other way to {alternative.fre_mm:.2f} mm",
+            f"swapped to {alternative.fre_mm:.2f} mm",
             "Touch these landmarks again, each when its name is shown, or put the rows in order.",
             {**numbers, "order": [pairs.labels[one] for one in alternative.order]},
         )
@@ -109,8 +109,8 @@ def reject_swapped_or_mirrored(
     return (
         Remark(
             code="POINTS_SWAP_UNDETECTABLE",
-            message=f"had {swapped} been swapped, it would not be detected: the points fit to "
-            f"{fre_mm:.2f} mm RMS as given and to {alternative.fre_mm:.2f} mm that way",
+            message=f"a swap of {swapped} would not be detected: the points fit to "
+            f"{fre_mm:.2f} mm RMS as given and to {alternative.fre_mm:.2f} mm swapped",
             remedy="Check on a landmark that was not used, on one side; or add one that makes the sides "
             "differ.",
             context={**numbers, "order": [pairs.labels[one] for one in alternative.order]},

@@ -1,10 +1,10 @@
-"""Gross errors of single landmarks: which the others exclude, and a covariance that spans the rest.
+"""Gross errors of single landmarks: test for outliers, and a covariance that bounds undetected ones.
 
-Residuals show a mistaken landmark only as far as the others determine where it belongs: of four landmarks
-each may be mistaken by a centimetre along some direction, and the fit follows it. Least squares knows this as
-reliability (Baarda 1968), satellite navigation as solution separation (Blanch et al. 2012). For each landmark
-that may be mistaken, the fit is repeated with that landmark's noise widened by a gross error; the covariance
-then spans the difference of the two fits, too.
+Residuals reveal an outlier only as far as the other landmarks determine its position. With four landmarks
+each may have an error of a centimetre along some direction that the fit absorbs. This is the reliability of a
+least- squares fit (Baarda 1968), or solution separation in satellite navigation (Blanch et al. 2012). For
+each landmark whose gross error is not excluded, the fit is repeated with that error added to the landmark's
+noise, and the covariance then includes the difference of the two fits.
 """
 
 from collections.abc import Collection, Mapping, Sequence
@@ -20,7 +20,7 @@ from tracker.registration.points.uncertainty import normal_matrix
 
 # A gross error is excluded if it lies farther than this from the estimated error of the landmark.
 EXCLUDED_SDS = 2.0
-# Below this share of a landmark's own weight, the other landmarks do not determine its error at all.
+# Below this ratio to a landmark's own weight, the other landmarks do not determine its error.
 MIN_INFORMATION_RATIO = 1e-6
 
 
@@ -29,8 +29,9 @@ class LeftOut:
     """A landmark against the fit of all others.
 
     Attributes:
-        distance_mm: of the landmark from where the others have it; its leave-one-out residual.
-        others_fre_mm: FRE of the others alone.
+        distance_mm: leave-one-out residual: distance of the landmark from its position by the fit of the
+            others.
+        others_fre_mm: FRE of the fit of the others.
         noise_scale: scale of the noise by the residuals of the others.
     """
 
@@ -90,7 +91,7 @@ def covariance_with_outlier(
 
 
 def covariance_spanning(covariances: Sequence[Array]) -> Array:
-    """Return a covariance that is nowhere smaller than any of these.
+    """Return an upper bound of these covariances in the Loewner order.
 
     In the basis that makes two covariances diagonal, it has the larger of their variances on each axis.
     """
@@ -121,7 +122,7 @@ def outlier_remarks(
         Remark(
             code="POINTS_OUTLIER_NOT_EXCLUDED",
             message=f"{count} landmarks do not exclude an error {extent} in {which}; the stated error "
-            f"includes one landmark that is off by {gross_error_mm:g} mm (3-D RMS)",
+            f"includes one landmark with an error of {gross_error_mm:g} mm (3-D RMS)",
             remedy="Add a landmark far from the others, and check on one that was not used.",
             context={
                 "landmarks": names,

@@ -16,7 +16,7 @@ class CommonTip:
     """The calibrated tip that all captures share, and its error.
 
     Attributes:
-        tool: its name.
+        tool: name of the tool.
         covariance_mm2: (3, 3) of the tip, in the marker frame.
         anchor_from_marker: (n, 3, 3), rotation of the marker at each capture.
     """
@@ -63,7 +63,7 @@ class PointPairs:
             raise RegistrationError(
                 "POINTS_INVALID",
                 f"{len(fixed)} points have {len(set(labels))} different names",
-                "Give each landmark a name of its own.",
+                "Give each landmark a unique name.",
             )
         object.__setattr__(self, "fixed_mm", fixed)
         object.__setattr__(self, "moving_mm", moving)
@@ -118,7 +118,7 @@ def _covariances(given: Array, count: int) -> Array:
     if not sound:
         raise RegistrationError(
             "POINTS_INVALID",
-            f"the covariances of {count} tips have shape {covariances.shape}, or are none",
+            f"the covariances of {count} tips have shape {covariances.shape}, or are not positive definite",
             "Give a symmetric positive 3x3 matrix in mm^2 for each tip, or none at all.",
         )
     covariances = 0.5 * (covariances + covariances.transpose(0, 2, 1))

@@ -48,10 +48,10 @@ from tracker.registration.points.uncertainty import (
 )
 from tracker.registration.record import AnchoredTo, Method, Registration
 
-# A scale that differs by less is no news to anybody, whatever the noise.
+# Minimum relative difference of scale for a remark.
 MIN_SCALE_DIFFERENCE = 0.02
 MIN_SCALE_SDS = 4.0
-# Each asks for a fit of its own; of hundreds, a single one decides nothing.
+# Each needs its own fit, and with more points a single one has little effect.
 MAX_LEAVE_ONE_OUT = 200
 
 
@@ -64,13 +64,13 @@ class PointRegistration:
         used: (n,) which of them were fitted.
         fixed_from_moving: from the anchor frame to the CT.
         covariance: (6, 6) of it [mm, rad], translation first, then a small left-multiplied rotation vector on
-            the CT axes. It spans each gross error of a single landmark that the others do not exclude.
+            the CT axes. It includes each gross error of a single landmark that the others do not exclude.
         covariance_without_outlier: (6, 6), the same if no landmark has a gross error.
         tip_jacobian: (6, 3), derivative with respect to the common tip; 0 if not known.
         residuals_mm: (n, 3) transformed tip minus landmark on the CT, including unused points.
         fre_rms_mm: fiducial registration error: RMS residual length of the used points.
         fle_mm: fiducial localisation error (3-D RMS) estimated from these residuals.
-        settings: of the fit.
+        settings: settings of the fit.
         leave_one_out_mm: by index, the distance of a used point from its landmark when fitted without it.
             Missing for a point without which the others are too few or collinear, and for more than 200
             points.
@@ -78,7 +78,7 @@ class PointRegistration:
         undetected_mm: by index, the largest error of a used point that the others do not exclude; infinite if
             they exclude none. Missing for more than 200 points.
         scale_ratio: size of the points on the CT relative to their size as captured.
-        remarks: such as a swap that would not be detected.
+        remarks: remarks for the user, such as a swap that would not be detected.
     """
 
     pairs: PointPairs
@@ -99,7 +99,7 @@ class PointRegistration:
 
     @property
     def distances_mm(self) -> Array:
-        """(n,) distance of each transformed tip from its landmark."""
+        """Return the distance (n,) of each transformed tip from its landmark."""
         return np.asarray(np.linalg.norm(self.residuals_mm, axis=1))
 
     def tre_expected_mm(self, target_mm: npt.ArrayLike) -> float:
@@ -125,8 +125,8 @@ class PointRegistration:
     def covariance_with_more(self, more: int) -> Array:
         """Return the expected covariance (6, 6) of `fixed_from_moving` with more landmarks.
 
-        They are spread as these, as precise, captured as these, and none has a gross error. The error of the
-        common tip does not become smaller.
+        The additional landmarks have the same spread and noise as these, and none has a gross error. The
+        error of the common tip does not decrease.
         """
         of_tip = np.zeros((6, 6))
         if self.pairs.common is not None:
@@ -144,12 +144,12 @@ class PointRegistration:
         return np.asarray((self.covariance_without_outlier - of_tip) * ratio + of_tip)
 
     def outliers(self, gate: PointGate) -> tuple[int, ...]:
-        """Return the indices of the points that may be mistaken, the likeliest first; empty if it passes.
+        """Return the indices of possible outliers, the most likely first; empty if the fit passes.
 
-        The likeliest is the point without which the others fit best: with four points, the largest
-        leave-one-out residual is another's in half of the cases, because the outlier displaces the fits
-        without its neighbours, too. The points without which the others fit almost as well (Fisher's F, 95 %)
-        may be mistaken instead.
+        The most likely is the point without which the others fit best. With four points, the largest
+        leave-one-out residual is that of another point in half of the cases, because the outlier also biases
+        the fits without its neighbours. The points without which the others fit almost as well (Fisher's F,
+        95 %) may be outliers instead.
         """
         if self.fre_rms_mm <= gate.max_fre_mm and self._max_left_out_mm <= self.settings.max_left_out_mm:
             return ()
@@ -158,7 +158,7 @@ class PointRegistration:
         order = sorted(self.fre_without_mm, key=lambda index: self.fre_without_mm[index])
         others = int(self.used.sum()) - 1
         freedom = degrees_of_freedom(others)
-        # A better fit than landmarks can be localised is chance.
+        # An FRE below the localisation error is chance.
         best_mm2 = max(
             self.fre_without_mm[order[0]] ** 2, freedom * self.settings.min_fle_mm**2 / 3.0 / others
         )
@@ -183,7 +183,7 @@ class PointRegistration:
 
     @property
     def _tracking_covariance_mm2(self) -> Array:
-        """(3, 3) covariance of the best captured tip without its calibration; 0 if none is stated."""
+        """Return the covariance (3, 3) of the best captured tip without its calibration; 0 if unknown."""
         stated = self.pairs.moving_covariances_mm2
         # Without a common tip, its calibration is part of what is stated.
         if stated is None or self.pairs.common is None:
@@ -211,7 +211,7 @@ class PointRegistration:
             found.append(
                 RegistrationError(
                     "POINT_STRAYS",
-                    f"a landmark lies {self._max_left_out_mm:.2f} mm from where all others have it, allowed "
+                    f"a landmark lies {self._max_left_out_mm:.2f} mm from the fit of all others, allowed "
                     f"{allowed_mm:.2f} mm; {self._outlier_text(outliers)}",
                     _outlier_remedy(names),
                     {"leave_one_out_mm": self._max_left_out_mm, "allowed_mm": allowed_mm, **named},
@@ -220,11 +220,11 @@ class PointRegistration:
         worst_target = max(targets_mm, key=self.tre_stated_mm, default=None)
         if worst_target is not None and not self.tre_stated_mm(worst_target) <= gate.max_tre_mm:
             stated, alone = self.tre_stated_mm(worst_target), self.tre_without_outlier_mm(worst_target)
-            spans = f", and to {alone:.2f} mm if no landmark is mistaken" if stated > alone else ""
+            spans = f", or {alone:.2f} mm if no landmark is an outlier" if stated > alone else ""
             found.append(
                 RegistrationError(
                     "POINTS_TARGET_UNCERTAIN",
-                    f"at the target the registration is known to {stated:.2f} mm (3-D RMS), "
+                    f"at the target the registration has an uncertainty of {stated:.2f} mm (3-D RMS), "
                     f"allowed {gate.max_tre_mm:.2f} mm{spans}",
                     "Add landmarks, farther apart and around the target, then register again.",
                     {
@@ -374,7 +374,7 @@ def _covariances(
     suspects: Mapping[int, LeftOut | None],
     settings: PointSettings,
 ) -> tuple[Array, Array]:
-    """Return the covariance (6, 6) without a gross error, and the one that spans those of the suspects."""
+    """Return the covariance (6, 6) without a gross error, and the one with those of possible outliers."""
     noise = _noise(used, settings)
     moved = fit.move_points(used.moving_mm)
     middle = moved.mean(axis=0)
@@ -407,7 +407,7 @@ def _tip_jacobian(used: PointPairs, fit: Rigid[Vertebra, Anchor], settings: Poin
 def _scale_remarks(used: PointPairs, fle_mm: float) -> tuple[Remark, ...]:
     ratio = scale_ratio(used)
     spread = float(np.sqrt(((used.fixed_mm - used.fixed_mm.mean(axis=0)) ** 2).sum()))
-    # The scale's share of the residuals is taken out, or it would excuse itself.
+    # The scale error is removed from the residuals, because it would increase its own tolerance.
     noise = np.sqrt(
         max(fle_mm**2 * (len(used) - 2) - ((ratio - 1.0) * spread) ** 2, 0.0) / (3 * len(used) - 6)
     )

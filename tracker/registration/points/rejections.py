@@ -9,7 +9,7 @@ from tracker.registration.points.pairs import PointPairs
 from tracker.registration.points.settings import PointSettings
 
 MIN_POINTS = 3
-# Landmarks on one vertebra do not differ by a factor of two, whatever is mistaken; units do.
+# A larger ratio of the scales means different units, not a landmark error.
 MAX_SCALE = 2.0
 SPREAD_REMEDY = "Add a landmark that lies well beside that line, such as a transverse process, and fit again."
 UNITS = ((1000.0, "metres"), (10.0, "centimetres"), (25.4, "inches"))
@@ -25,7 +25,7 @@ def reject_unfit(pairs: PointPairs, settings: PointSettings) -> None:
         raise RegistrationError(
             "POINTS_TOO_FEW",
             f"there are {len(pairs)} pairs of points, needed {MIN_POINTS}",
-            "Touch at least three landmarks that are no line; four or more show a mistake.",
+            "Touch at least three landmarks that are not collinear; four or more reveal a gross error.",
             {"points": len(pairs), "needed": MIN_POINTS},
         )
     _reject_units(pairs)
@@ -57,7 +57,7 @@ def _reject_units(pairs: PointPairs) -> None:
         "POINTS_UNIT_SUSPECT",
         f"the points spread over {fixed:.4g} mm on the CT and over {moving:.4g} mm as touched, "
         f"{maximum / minimum:.4g} times as much{guess}",
-        "Give both in millimetres, and see that both files are of the same landmarks.",
+        "Give both in millimetres, and check that both files are of the same landmarks.",
         {"fixed_spread_mm": fixed, "moving_spread_mm": moving},
     )
 
@@ -65,7 +65,7 @@ def _reject_units(pairs: PointPairs) -> None:
 def _reject_coincident(points: Array, which: str, labels: tuple[str, ...], min_mm: float) -> None:
     apart, others = scipy.spatial.cKDTree(points).query(points, k=2)
     first = int(np.argmin(apart[:, 1]))
-    # Of points in one place, either may be called the nearest.
+    # Of coincident points, either may be returned as the nearest.
     second = int(others[first, 1] if others[first, 1] != first else others[first, 0])
     first, second = min(first, second), max(first, second)
     nearest = float(np.linalg.norm(points[first] - points[second]))
@@ -78,7 +78,7 @@ def _reject_coincident(points: Array, which: str, labels: tuple[str, ...], min_m
         "POINTS_COINCIDENT",
         f"points {labels[first]} and {labels[second]} are {nearest:.2f} mm apart {which}, "
         f"needed {min_mm:g} mm{hint}",
-        "Leave one of them out, or touch it again where it belongs.",
+        "Exclude one of them, or touch it again.",
         {"points": [labels[first], labels[second]], "apart_mm": nearest, "needed_mm": min_mm},
     )
 
@@ -86,7 +86,7 @@ def _reject_coincident(points: Array, which: str, labels: tuple[str, ...], min_m
 def _reject_line(points: Array, which: str, settings: PointSettings) -> None:
     extents = np.linalg.svd(points - points.mean(axis=0), compute_uv=False) / np.sqrt(len(points))
     ratio = float(extents[1] / extents[0])
-    # Points beside their own line hold the rotation about it: the farther and the more, the better.
+    # The rotation about the line is determined by the distances of the points from it and their number.
     beside_mm = float(np.hypot(extents[1], extents[2]) * np.sqrt(len(points)))
     sd_deg = np.inf
     if beside_mm > 0.0:

@@ -19,7 +19,8 @@ class PointSettings:
         min_improvement_ratio: by which factor another order or the mirror image must fit better to be
             preferred.
         max_left_out_mm: size of a gross error. A used point with a larger leave-one-out residual prevents the
-            use of the fit. The covariance spans gross errors that the points do not exclude; infinity: none.
+            use of the fit. The covariance includes gross errors that the points do not exclude; infinity:
+            none.
     """
 
     min_fle_mm: float = 0.5

@@ -1,7 +1,7 @@
 """Covariance of a point-based fit, and the expected error at a target.
 
-Three points leave three residual degrees of freedom; with Fisher's F distribution the stated 95 % region
-contains the truth in 0.92 to 0.98 of simulated cases, which the plain formula does not reach.
+Three points have three residual degrees of freedom. With Fisher's F distribution the stated 95 % region
+contains the true pose in 0.92 to 0.98 of simulated cases; with a chi-square distribution it contains fewer.
 """
 
 import numpy as np
@@ -10,13 +10,14 @@ import scipy
 from tracker.geometry import Anchor, Array, Rigid, Vertebra, skew
 from tracker.registration.points.fit import jacobians, weights_on_ct
 
-# What is stated of tips is weighted as if estimated from so many numbers, and then corrected by the
-# residuals: landmarks are found less well than a tip is known, and that shows in the residuals alone.
+# Degrees of freedom of the stated noise, which the residuals correct: the localisation error of a landmark is
+# larger than that of the tip, and only the residuals contain it.
 PRIOR_DEGREES_OF_FREEDOM = 4.0
 # A fit better than the stated noise may be chance.
 MIN_FACTOR = 0.8
-# Residuals do not tell which way noise is longest; along a camera's depth it is, by four and more. Found by
-# simulation: inside 95 % lie 0.92 to 0.97 of the truths, with noise like a ball and like a needle.
+# Residuals do not determine the anisotropy of the noise, which is four times larger or more along the
+# camera's depth. By simulation the 95 % region contains 0.92 to 0.97 of the true values for isotropic and for
+# anisotropic noise.
 ANISOTROPY_FACTOR = 1.2
 
 
@@ -59,7 +60,7 @@ def variance_from_residuals_mm2(residuals_mm: Array, *, min_fle_mm: float) -> fl
 
 
 def variance_ratio_with_more(fre_mm: float, count: int, more: int, *, min_fle_mm: float) -> float:
-    """Return by what the covariance of an unweighted fit is expected to shrink with more landmarks.
+    """Return the expected ratio of the covariance of an unweighted fit with more landmarks to that without.
 
     The normal matrix grows with the number of landmarks, by n / (n + more) for equal spread; the variance of
     a landmark is as measured, and inflated less (`variance_from_residuals_mm2`). Not below the minimum FLE.
@@ -85,7 +86,7 @@ def variance_factor(residuals_mm: Array, weights: Array) -> float:
 
 
 def factor_ratio_with_more(residuals_mm: Array, weights: Array, more: int) -> float:
-    """Return by what the covariance of a weighted fit is expected to shrink with more landmarks.
+    """Return the expected ratio of the covariance of a weighted fit with more landmarks to that without.
 
     As `variance_ratio_with_more`, of landmarks as precise as these: their weighted squares grow with the
     degrees of freedom, and the factor (`variance_factor`) is inflated less.
@@ -134,7 +135,7 @@ def common_tip_jacobian(
 ) -> Array:
     """Return the derivative of the fit (6) with respect to the common tip (3) in the marker frame.
 
-    Captures with equal orientation shift the whole fit, which no residual shows.
+    Captures with equal orientation shift the whole fit, which the residuals do not contain.
     """
     weights = weights_on_ct(fit, noise_mm2)
     rows = jacobians(moving_mm @ fit.rotation.T)
@@ -144,5 +145,5 @@ def common_tip_jacobian(
 
 
 def small_sample_factor(freedom: float) -> float:
-    """Return the inflation of a variance estimated with so many degrees of freedom."""
+    """Return the inflation of a variance estimated with this number of degrees of freedom."""
     return float(3.0 * scipy.special.fdtri(3, freedom, 0.95) / scipy.special.chdtri(3, 0.05))

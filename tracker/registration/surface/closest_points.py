@@ -9,11 +9,11 @@ import scipy
 from tracker.geometry import Array
 from tracker.plan import Surface
 
-# Triangles are cut into pieces no longer than this, so that few candidates hold the nearest.
+# Triangles are subdivided to pieces of this length, so that few candidates contain the nearest point.
 MAX_EDGE_MM = 3.0
 MAX_PIECES = 400_000
 CANDIDATES, MORE = 20, 8
-# Over which a swept point feels the surface: bumps of a mesh narrower than this hold nothing in place.
+# Radius of the smoothed normals: narrower bumps of a mesh must not constrain the fit.
 SMOOTH_MM = 3.0
 
 

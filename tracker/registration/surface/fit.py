@@ -11,18 +11,18 @@ from tracker.registration.surface.closest_points import ClosestPointQuery
 
 MAX_ROUNDS = 60
 TOLERANCE_MM = 1e-4  # at the lever of the sweep
-# Tukey's biweight: 95 % as sharp as least squares where there are no outliers.
+# Tukey's biweight with 95 % efficiency under Gaussian noise.
 TUKEY = 4.685
 SD_FROM_MEDIAN = 1.4826
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sweep:
-    """What is fitted: swept points, and landmarks beside them.
+    """Data of the fit: swept points and landmarks.
 
     Attributes:
         points_mm: (n, 3) in the anchor's frame.
-        shares: (n,) how much of a point of its own each is; 1 where none is near.
+        shares: (n,) weight of each point against the density of points; 1 for an isolated one.
         landmarks_fixed_mm, landmarks_moving_mm: (m, 3) on the CT and as touched; m may be 0.
         landmark_weights: (m, 3, 3) the inverse covariance of each, on the CT's axes.
         min_sd_mm, tip_radius_mm: see `SurfaceSettings`.
@@ -43,11 +43,11 @@ class SweepFit:
 
     Attributes:
         fixed_from_moving: from the anchor frame to the CT.
-        off_mm: (n,) signed distances from the surface, positive outside, less the tip's radius.
+        off_mm: (n,) signed distances from the surface minus the tip's radius, positive outside.
         normals: (n, 3) of the surface at the closest points.
         nearest_mm: (n, 3) the closest points.
         weights: (n,) robust weights, 0..1.
-        sd_mm: of one point about the surface.
+        sd_mm: standard deviation of one point about the surface.
     """
 
     fixed_from_moving: Rigid[Vertebra, Anchor]
@@ -59,7 +59,7 @@ class SweepFit:
 
 
 def density_weights(points_mm: Array, correlation_length_mm: float) -> Array:
-    """Return (n,) the inverse of the number of points within a radius; a place dwelt upon counts once."""
+    """Return the inverse (n,) of the number of points within a radius, so that a long rest counts once."""
     near = scipy.spatial.cKDTree(points_mm).query_ball_point(
         points_mm, correlation_length_mm, return_length=True
     )
@@ -83,7 +83,7 @@ def fit_sweep(
         normal, right = equations(sweep, laid, middle)
         ridge = 1e-9 * np.trace(normal[:3, :3]) * np.diag([1.0] * 3 + [lever**2] * 3)
         step = np.linalg.solve(normal + ridge, right)
-        # The surface is taken as flat about each point, which holds no farther than a few mm.
+        # Limit the step, because the point-to-plane linearisation is valid only within a few mm.
         size = max(float(np.abs(step[:3]).max()), lever * float(np.abs(step[3:]).max()))
         step *= min(1.0, 5.0 / max(size, 1e-12))
         turn = rotation_from_vector(step[3:])
@@ -101,7 +101,7 @@ def evaluate(nearest: ClosestPointQuery, sweep: Sweep, fit: Rigid[Vertebra, Anch
     moved = fit.move_points(sweep.points_mm)
     at = nearest.at(moved)
     off = ((moved - at.points_mm) * at.normals).sum(axis=1)
-    # Beside an edge the way to the surface is not along the triangle's normal.
+    # Near an edge of the mesh the direction to the surface is not the triangle's normal.
     way = moved - at.points_mm
     length = np.linalg.norm(way, axis=1)
     aslant = (length > 1e-6) & (np.abs(off) < 0.999 * length)

@@ -1,8 +1,9 @@
 """Multi-start ICP: detect a second minimum with a similar cost.
 
-Fifteen starts: the facets of a mesh trap a sweep that in truth slides on the bone, so a second minimum is
-found only by starting near it. Normals are smoothed over 3 mm for the same reason. It takes half a second,
-and motion modes that only fine relief would constrain count as unobservable.
+There are fifteen starts, because the triangles of a mesh create local minima for a sweep that is free to
+slide on the bone, and a second minimum is found only from a start near it. Normals are smoothed over 3 mm for
+the same reason. It takes half a second, and motion modes that only fine relief would constrain count as
+unobservable.
 """
 
 from collections.abc import Sequence
@@ -16,7 +17,7 @@ from tracker.registration.surface.observability import description
 from tracker.registration.surface.rejections import raise_ambiguous
 from tracker.registration.surface.settings import SurfaceSettings
 
-# A second place is as good unless it is worse by this chi-square, and by this share of the best.
+# A second minimum is excluded by this delta chi-square and by this ratio to the best.
 MIN_DELTA_CHI2, MIN_DELTA_CHI2_RATIO = 12.0, 0.3
 # Enough to distinguish minima.
 COARSE_TOLERANCE_MM = 0.02
@@ -36,7 +37,7 @@ def multi_start_fit(
     ways = np.zeros((7, 6))
     ways[:3, :3] = settings.start_shift_mm * np.eye(3)
     ways[3:6, 3:] = np.radians(settings.start_rotation_deg) * np.eye(3)
-    # Along what is known least, as far as any other.
+    # Along the least observable mode, by the same distance.
     ways[6] = settings.start_shift_mm * weak_way / np.concatenate([np.ones(3), np.full(3, lever_mm)])
     fits = [first]
     for way in (*ways, *-ways):
@@ -60,7 +61,7 @@ def reject_ambiguous(
     targets_mm: Array,
     settings: SurfaceSettings,
 ) -> None:
-    """Reject a sweep that fits elsewhere about as well.
+    """Reject a sweep with a second minimum of similar cost.
 
     Raises:
         RegistrationError: SURFACE_AMBIGUOUS.

@@ -43,15 +43,15 @@ class SurfaceRegistration:
         fixed_from_moving: from the anchor frame to the CT.
         covariance: (6, 6) of it [mm, rad], translation first, then a small left-multiplied rotation vector on
             the CT axes.
-        covariance_expected: (6, 6), the same from the residuals alone: without the floor of the noise and
-            without what is added for few points.
+        covariance_expected: (6, 6), the same from the residuals alone, without the lower bound of the noise
+            and the inflation for few points.
         off_mm: (n,) signed distance of each swept point from the surface; negative inside.
         used: (n,) inliers.
-        used_ratio: their share.
+        used_ratio: ratio of inliers.
         rms_mm: RMS distance of the inliers.
         moved_mm, moved_deg: distance of the fit from its start, at the centroid of the sweep.
         weakest_mode: the motion mode that the sweep alone constrains least.
-        remarks: for the user.
+        remarks: remarks for the user.
     """
 
     fixed_from_moving: Rigid[Vertebra, Anchor]
@@ -96,8 +96,8 @@ class SurfaceRegistration:
         """Return the errors that prevent its use for these targets on the CT; empty if it passes."""
         stated = max((self.tre_stated_mm(target) for target in targets_mm), default=0.0)
         checks = (
-            ("SURFACE_FIT_TOO_LARGE", "the sweep lies on the bone to", self.rms_mm, gate.max_rms_mm),
-            ("SURFACE_TARGET_UNCERTAIN", "at the target it is known to", stated, gate.max_tre_mm),
+            ("SURFACE_FIT_TOO_LARGE", "the RMS distance from the bone is", self.rms_mm, gate.max_rms_mm),
+            ("SURFACE_TARGET_UNCERTAIN", "the uncertainty at the target is", stated, gate.max_tre_mm),
             ("SURFACE_MOVED_FAR", "the fit moved from its start by", self.moved_mm, gate.max_moved_mm),
         )
         return tuple(
@@ -209,8 +209,8 @@ def _result(
         remarks.append(
             Remark(
                 code="SURFACE_CONSTRAINED_BY_LANDMARKS",
-                message=f"{alone.description} the sweep alone would slide; only the landmarks constrain it",
-                remedy="Sweep surfaces that face other ways too, such as the flanks of the spinous process.",
+                message=f"the sweep can slide {alone.description}; only the landmarks prevent it",
+                remedy="Sweep surfaces with other normals too, such as the flanks of the spinous process.",
                 context={"direction": alone.description},
             )
         )
@@ -236,15 +236,15 @@ def _result(
 
 
 def _covariances(nearest: ClosestPointQuery, sweep: Sweep, best: SweepFit) -> tuple[Array, Array]:
-    """Return the covariance (6, 6) of the fit from residuals alone, and the one that is stated.
+    """Return the covariance (6, 6) of the fit from the residuals alone, and the stated one.
 
-    The stated one has a noise not below its floor, and is inflated for few points.
+    The stated one has a lower bound of the noise, and is inflated for few points.
     """
     fit = best.fixed_from_moving
     middle = fit.move_points(sweep.points_mm).mean(axis=0)
     say = sweep.shares * best.weights
     freedom = max(float(say.sum()) + 3.0 * len(sweep.landmarks_fixed_mm) - 6.0, 1.0)
-    # Points that lie exactly on the mesh leave no residual, and the normal matrix needs a noise.
+    # Lower bound, because points exactly on the mesh have no residual.
     residual_variance = max(float((say * best.off_mm**2).sum()) / freedom, 1e-12)
     smooth = nearest.smooth_normals(best.nearest_mm)
     by_sweep = equations(sweep, best, middle, normals=smooth, landmarks=False)[0] * best.sd_mm**2

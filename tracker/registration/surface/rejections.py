@@ -23,7 +23,7 @@ def validate_sweep(points_mm: Array) -> Array:
         raise RegistrationError(
             "SURFACE_SWEEP_INVALID",
             f"the swept points have shape {points.shape}, needed (n, 3), or a number is not finite",
-            "Give the tip's places in mm, in the anchor's frame.",
+            "Give the positions of the tip in mm, in the anchor's frame.",
         )
     return points
 
@@ -51,7 +51,7 @@ def reject_far(laid: SweepFit, settings: SurfaceSettings) -> None:
             "SURFACE_START_FAR",
             f"at the start the sweep lies {median:.1f} mm from the bone (median), "
             f"allowed {settings.max_start_off_mm:g} mm",
-            "Register by landmarks first, and see that mesh and sweep are both in mm and of this vertebra.",
+            "Register by landmarks first, and check that mesh and sweep are both in mm and of this vertebra.",
             {"median_mm": median, "allowed_mm": settings.max_start_off_mm},
         )
 
@@ -77,7 +77,7 @@ def reject_sliding(weakest_mode: MotionMode, settings: SurfaceSettings) -> None:
         "SURFACE_SLIDES",
         f"the sweep slides on the bone {weakest_mode.description}: there it is {known} at the target, "
         f"allowed {settings.max_slide_sd_mm:g} mm",
-        "Sweep surfaces that face other ways too: the flanks of the spinous process, the rims of the facets, "
+        "Sweep surfaces with other normals too: the flanks of the spinous process, the rims of the facets, "
         "the transverse processes.",
         {
             "direction": weakest_mode.description,

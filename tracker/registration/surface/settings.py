@@ -12,13 +12,13 @@ class SurfaceSettings:
         min_sd_mm: best possible agreement of tip and CT on the surface of the bone; a lower bound of the
             noise.
         correlation_length_mm: points closer than this have correlated errors and count as one.
-        landmark_sd_mm: of a landmark along each axis, if landmarks are used without covariances.
+        landmark_sd_mm: sd of a landmark along each axis, if landmarks are used without covariances.
         max_start_off_mm: maximum median distance from the surface at the start.
         min_used_ratio: minimum share of inliers.
         max_slide_sd_mm: maximum uncertainty of each motion mode, in mm at the target's lever.
         start_shift_mm, start_rotation_deg: offsets of the other starts.
         max_apart_mm: two fits closer than this at the target are the same.
-        tip_radius_mm: of a ball at the tip, whose centre is tracked.
+        tip_radius_mm: radius of a ball at the tip, whose centre is tracked.
     """
 
     min_points: int = 12

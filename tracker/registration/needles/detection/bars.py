@@ -51,7 +51,7 @@ def bars(grey: Image8, narrowest_px: float, widest_px: float) -> list[Bar]:
         low = np.maximum(np.minimum(first, second), 0.0)
         high = np.minimum(np.maximum(first, second), length[n])
         middle = 0.5 * (edges[:, :2] + edges[:, 2:])
-        # The distance where both are, so that a slight skew over a long way does not count.
+        # The distance within the overlap, so that a slight skew of long edges has no effect.
         shared = start + (0.5 * (low + high))[:, None] * way
         at = np.einsum("ij,ij->i", shared - middle, -along)
         width = (middle - at[:, None] * along - shared) @ beside
@@ -105,7 +105,6 @@ def single_edge_bars(grey: Image8, width_px: float, beside: Sequence[Bar]) -> li
 
 
 def _is_beside(bar: Bar, middle_px: Array, along: Array) -> bool:
-    """Return whether an edge may be of a needle that stands beside or before another."""
     off = middle_px - bar.middle_px
     reach = 0.5 * bar.length_px + BESIDE_PX
     return bool(np.hypot(off[0], off[1]) < reach) and abs(float(along @ bar.along)) > np.cos(

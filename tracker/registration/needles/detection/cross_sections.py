@@ -10,7 +10,7 @@ from tracker.geometry import Array
 
 Image8 = npt.NDArray[np.uint8]
 FINE_PX = 0.25
-# Levels of 255, over the whole colour: fainter sides are noise.
+# Minimum step of an edge in grey levels, over all colour channels; smaller steps are noise.
 MIN_STEP = 18.0
 MAX_WIDTH_CHANGE_RATIO = 0.3
 
@@ -59,7 +59,7 @@ def cross_sections(
         cv2.INTER_LINEAR,
         borderMode=cv2.BORDER_REPLICATE,
     )
-    # Five cuts together: a wire does not change over five pixels, noise does.
+    # Average five cross sections, because a wire does not change over five pixels.
     rows: Array = np.asarray(cv2.blur(looked_at, (1, 5)), dtype=np.float64)
     inside = np.asarray(rows[:, np.abs(across) < 0.2 * width_px].mean(axis=1), dtype=np.float64)
     sides = []

@@ -19,17 +19,17 @@ from tracker.registration.needles.view_prior import ViewPrior
 
 Image8 = npt.NDArray[np.uint8]
 LONGEST_PX = 400.0
-# A cut without a bar speaks this much stronger against a needle than one with it speaks for it.
+# Weight of a cross section without a bar, relative to one with a bar.
 MISSING_WEIGHT = 1.5
 UP_PX = (0.0, -1.0)
 MIN_LENGTH_IN_WIDTHS = 12.0
-# Bare metal has hardly a colour of its own, and a wire has one shade all along but for its shine.
+# Maximum saturation of metal, and maximum change of colour along a wire.
 MAX_COLOUR_RATIO, MAX_SHADE_CHANGE = 0.25, 45.0
 MAX_PIECES = 120
 MIN_COMPLETE_RATIO = 0.7
 MAX_BEND_PX = 0.6
-# Noise alone would make the line far surer; uneven light on a wire moves both sides alike. Another needle
-# before it, or fat as bright as it is, may end a needle early.
+# Lower bounds of the sd. Across: image noise alone gives a far smaller value, but uneven illumination of a
+# wire shifts both edges equally. Along: another needle in front, or bright fat, may end a needle early.
 MIN_ACROSS_SD_PX, ALONG_SD_PX = 0.5, 8.0
 NEAR_PX, NEAR_DEG = 12.0, 12.0
 SAME_PX, SAME_END_PX = 3.5, 20.0
@@ -49,8 +49,8 @@ class DetectedNeedle:
 
     Attributes:
         seen: the observation; its entry into the bone is not determined.
-        score_ratio: 0..1, completeness and straightness, with a head.
-        has_head: whether it ends in something wider.
+        score_ratio: 0..1, from completeness, straightness and head.
+        has_head: whether a wider head is detected at its end.
         complete_ratio: share of its length on which both sides are visible.
         bend_px: RMS deviation of its centre line from a straight line.
     """
@@ -76,7 +76,7 @@ def detect_needles(
     near: NeedleObservation | None = None,
     heads_to: npt.ArrayLike = UP_PX,
 ) -> tuple[DetectedNeedle, ...]:
-    """Return all needle candidates in the image, the likeliest first; empty if there are none.
+    """Return all needle candidates in the image, the most likely first; empty if there are none.
 
     Args:
         image: (h, w, 3) BGR or (h, w) grey, uint8.
@@ -100,7 +100,8 @@ def detect_needles(
         width_px = float(np.median([one.seen.width_px for one in headed]))
         halves = single_edge_bars(grey, width_px, [_bar_of(one) for one in headed])
         found += _grown(picture, camera, halves[:MAX_PIECES], heads, found)
-    # Of two that lie on one another the longer: what crosses a needle makes it short, and leads it astray.
+    # Of two overlapping candidates the longer one is kept, because a crossing object shortens and bends a
+    # detection.
     longest = sorted(found, key=lambda one: -one.score_ratio * one.seen.length_px)
     return tuple(sorted(_each_once(longest), key=lambda one: -one.score_ratio))
 
@@ -126,7 +127,7 @@ def _grown(
 
 
 def _needle(picture: Image8, camera: CameraModel, bar: Bar, heads_to: Array) -> DetectedNeedle | None:
-    """Return the complete needle of a piece; None if it is none."""
+    """Return the complete needle of a piece; None if the piece is not part of a needle."""
     middle, along, width = bar.middle_px, bar.along, bar.width_px
     span = (-bar.length_px, bar.length_px)
     for _ in range(3):
@@ -211,7 +212,7 @@ def _is_metal(picture: Image8, bar: Bar) -> bool:
 
 
 def _of_one_shade(sections: CrossSections) -> CrossSections:
-    """Clear sections whose colour differs from the bar's median."""
+    """Mark sections as missing whose colour differs from the bar's median."""
     if not sections.is_bar.any():
         return sections
     own = np.median(sections.inside[sections.is_bar], axis=0)

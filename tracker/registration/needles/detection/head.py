@@ -27,7 +27,7 @@ def head_length_px(picture: Image8, end_px: Array, outwards: Array, width_px: fl
         sections = cross_sections(picture, end_px, along, wide, -0.5 * width_px, 1.2 * wide + width_px)
         beyond = cross_sections(picture, end_px, along, wide, 1.4 * wide + width_px, 2.0 * wide + width_px)
         centred = sections.is_bar & (np.abs(sections.off_px) < 0.25 * wide)
-        # A head ends; a handle, or the rim of something large, goes on.
+        # A head is short, unlike a handle or the edge of a large object.
         if np.count_nonzero(centred) >= max(MIN_SECTIONS, 0.3 * wide) and beyond.is_bar.mean() < 0.5:
             best = max(best, float(np.count_nonzero(centred)))
     return best
