@@ -3,11 +3,11 @@
 Headline, figures, alarms, overlay, wire messages and log all use this assessment; the web page compares
 nothing. Presence of a condition is decided without hysteresis; only a present condition is described in the
 present tense and gets an instruction. A drill outside the planned cylinder but within all limits is therefore
-on path; a screw whose probability of breach at its end exceeds `alarms.breach_ratio` is not.
-An error over its limit is `UNCERTAIN` if a better view could mend it, and `SETUP_INSUFFICIENT` if not even
-the least error of the set-up is within the limit. The second is the same in every image: a likely breach,
-which takes the uncertainty into account, goes before it.
-`tests/server/texts/contradictions.py` states the rule; `random_drilling.py` searches for violations.
+on path; a screw whose probability of breach at its end exceeds `alarms.breach_ratio` is not. An error over
+its limit is `UNCERTAIN` if a better view could reduce it, and `SETUP_INSUFFICIENT` if even the minimum error
+of the set-up exceeds the limit. The second is constant over all images, so a likely breach, which takes the
+uncertainty into account, has precedence. `tests/server/texts/contradictions.py` states the rule;
+`random_drilling.py` searches for violations.
 """
 
 from collections.abc import Mapping
@@ -30,9 +30,9 @@ from tracker.navigation.figures import (
 from tracker.navigation.uncertainty import DrillAnalysis
 from tracker.plan import Channel
 
-# The second component of a correction is stated from this share of the first one on.
+# The second component of a correction is stated above this ratio to the first one.
 MIN_SECOND_RATIO = 0.5
-# Farther off than this a drill lies across the channel.
+# Above this angle a drill lies across the channel.
 MAX_CORRECTED_DEG = 45.0
 
 
@@ -41,10 +41,10 @@ class Verdict(StrEnum):
 
     THROUGH_WALL = "through_wall"  # a part of the drill is through the wall
     TOO_DEEP = "too_deep"  # the tip is past the planned depth
-    UNCERTAIN = "uncertain"  # the 95 % uncertainty is larger than what the pedicle leaves, in this image
+    UNCERTAIN = "uncertain"  # the 95 % uncertainty in this image exceeds the tolerance of the pedicle
     BREACH_LIKELY = "breach_likely"  # the probability of a breach, now or 2 mm further, is over its limit
-    SETUP_INSUFFICIENT = "setup_insufficient"  # so is that of this registration and tool in every image
-    NEAR_WALL = "near_wall"  # less bone is left than the warning distance
+    SETUP_INSUFFICIENT = "setup_insufficient"  # it does in every image with this registration and tool
+    NEAR_WALL = "near_wall"  # the clearance is below the warning distance
     CORRECT_ENTRY = "correct_entry"  # the entry offset is over its limit
     CORRECT_ANGLE = "correct_angle"  # the angle is over its limit
     CORRECT_END = "correct_end"  # entry and angle are within limits, and the screw would still breach
@@ -85,7 +85,7 @@ class Correction:
 
     Attributes:
         amount: mm for an offset, deg for an angle; rounded as the figures are.
-        towards: where to.
+        towards: direction of the correction.
     """
 
     amount: float
@@ -111,7 +111,7 @@ class Lag:
     def of(cls, speed_mm_s: float, latency_ms: float | None) -> "Lag":
         """Return the lag of a tip that moves at this speed."""
         known_ms = nan if latency_ms is None else latency_ms
-        # A tip at rest does not lag, however late its picture is.
+        # A tip at rest does not lag, whatever the latency.
         margin_mm = 0.0 if speed_mm_s == 0.0 else rounded_up(speed_mm_s * known_ms / 1000.0)
         return cls(speed_mm_s=rounded_up(speed_mm_s, decimals=0), latency_ms=known_ms, margin_mm=margin_mm)
 
@@ -124,14 +124,14 @@ class Assessment:
         verdict: the most severe one that the figures imply.
         figures: by name.
         corrections: for an entry offset or angle over its limit, the larger component first. For the entry:
-            where the drill's axis must move. For the angle: where the drill must point. For a wall that is
-            near or would be breached: away from it, without an amount (NaN).
+            the direction in which the drill's axis must move. For the angle: the direction to which the drill
+            must point. For a wall that is near or would be breached: away from it, without an amount (NaN).
         wall: the nearest wall; None while the drill is outside the bone.
         end_wall: the wall nearest to the screw at the planned depth; None if the screw misses the pedicle.
         against: what the wall distance was measured against; None if nothing is known.
         lag: of a moving tip; None if not computed. Independent of the verdict.
-        min_error_95_mm: the least value of the figure ERROR that registration and tool allow for a drill on
-            the channel (`check_setup`); NaN if not known.
+        min_error_95_mm: the minimum value of the figure ERROR with this registration and tool for a drill on
+            the channel (`registration_check.check_setup`); NaN if not known.
     """
 
     verdict: Verdict
@@ -145,12 +145,12 @@ class Assessment:
 
     @property
     def setup_suffices(self) -> bool:
-        """False if no image can have an error within its limit with this registration and tool."""
+        """Return False if no image can have an error within its limit with this registration and tool."""
         return not _is_out_of_reach(self.figures[FigureName.ERROR], self.min_error_95_mm)
 
     @property
     def rank(self) -> tuple[float, float]:
-        """Sort key of the drills in one image: larger is more severe; among equals, nearer to its wall."""
+        """Return the sort key of the drills in one image: more severe first, then nearer to the wall."""
         wall_mm = self.figures[FigureName.WALL].value
         return self.verdict.severity, -wall_mm if isfinite(wall_mm) else -inf
 
@@ -218,7 +218,7 @@ def _verdict(figures: Mapping[FigureName, Figure], min_error_95_mm: float) -> Ve
 
 
 def _is_out_of_reach(error: Figure, min_error_95_mm: float) -> bool:
-    # False for NaN: where the least error is not known, a better view is not excluded.
+    # False for NaN: if the minimum error is not known, a better view may reduce the error.
     return min_error_95_mm > error.limit
 
 
@@ -230,7 +230,8 @@ def _worse_of(figures: Mapping[FigureName, Figure]) -> Verdict | None:
         for verdict, figure in ((Verdict.CORRECT_ENTRY, entry), (Verdict.CORRECT_ANGLE, angle))
         if figure.status is Status.OVER
     }
-    # A drill across the channel meets its entry plane far away or never: the angle decides.
+    # The axis of a drill across the channel intersects the entry plane far away or never, so the angle
+    # decides.
     if Verdict.CORRECT_ANGLE in over and angle.value > MAX_CORRECTED_DEG:
         return Verdict.CORRECT_ANGLE
     return max(over, key=lambda verdict: over[verdict], default=None)

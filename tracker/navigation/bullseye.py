@@ -9,9 +9,9 @@ from tracker.navigation.directions import channel_directions
 from tracker.plan import Channel
 from tracker.plan.pedicle import Side
 
-# A drill across the channel (89.4 degrees) crosses its planes metres away.
+# The axis of a drill across the channel (89.4 degrees) intersects the planes metres away.
 MIN_ALONG = 0.01
-# Two degrees of freedom: chi-square of 95 in 100.
+# 95 % point of chi-square with two degrees of freedom.
 CHI_SQUARE_95 = 5.991
 
 
@@ -24,8 +24,8 @@ class BullseyeView:
 
     Attributes:
         tip_mm: (2,), the drill's tip.
-        at_entry_mm: (2,), where the drill's axis crosses the entry plane; not finite if it never does.
-        at_target_mm: (2,), where the drill's axis crosses the plane of the planned end.
+        at_entry_mm: (2,), intersection of the drill's axis with the entry plane; not finite if there is none.
+        at_target_mm: (2,), intersection of the drill's axis with the plane of the planned end.
         medial_is_right: whether medial is to the right.
         view_from_vertebra: (2, 3), rows are the unit vectors of right and up; projects other points into the
             view.

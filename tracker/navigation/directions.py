@@ -12,7 +12,7 @@ from tracker.plan.pedicle import Side
 
 # Within 10 degrees of the patient's long axis, the cranial direction across a channel is undefined.
 MIN_AXIS_SINE = 0.17
-# A wall that is met within 45 degrees of the channel's axis is the anterior one.
+# A wall within 45 degrees of the channel's axis is the anterior wall.
 AHEAD = float(np.cos(np.radians(45.0)))
 
 
@@ -58,7 +58,7 @@ class Directions:
 
 
 def side_of(channel: Channel) -> Side:
-    """Return the side of a channel whose plan states none: channels converge towards the midline.
+    """Return the side of a channel from its direction, because channels converge towards the midline.
 
     Unreliable where a channel runs nearly straight forwards, as at the lower thoracic levels.
     """

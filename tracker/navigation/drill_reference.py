@@ -1,4 +1,4 @@
-"""What a drill is measured against in one pedicle: wall distances, tolerance and screw.
+"""Reference data of one pedicle for a drill: wall distances, tolerance and screw.
 
 It is sent to the tracking process once per channel and is not part of a snapshot: the distance field takes
 one to three seconds in a job, and until it is ready the pedicle's outline is the wall. A replay therefore
@@ -33,14 +33,15 @@ class ScrewSize:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DrillReference:
-    """What is known of the pedicle besides its channel; too large to be sent with each image.
+    """Data of the pedicle in addition to its channel; too large to be sent with each image.
 
     Attributes:
         wall: distance field of the bone; if unknown, of the pedicle's outline or of the channel.
         tolerance: allowed error in this pedicle; None derives it from the radii of channel and drill.
         screw: the planned one; None if there is none.
         side: of the patient, as planned; None if not stated.
-        wall_sd_mm: standard deviation of the wall's position: of the surface as extracted, or a usual one.
+        wall_sd_mm: standard deviation of the wall's position, from the extraction of the surface or a
+            default.
     """
 
     wall: WallDistanceField
@@ -88,7 +89,7 @@ def tool_in_vertebra(
     """Return the pose of a tool in the vertebra frame, with all uncertainties propagated.
 
     `tip_jacobian`: (6, 3), derivative of `camera_from_vertebra` with respect to this tool's tip, if the
-    landmarks were captured with it: the same tip error then moves both bone and drill, and partly cancels.
+    landmarks were captured with it: the tip error then displaces both bone and drill, and partly cancels.
     """
     camera_from_tool = camera_from_marker @ marker_from_tool(tool)
     found = camera_from_vertebra.inverse @ camera_from_tool

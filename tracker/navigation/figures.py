@@ -18,11 +18,11 @@ from tracker.plan import Channel
 
 # A tip farther than this from the channel's axis is not in this pedicle, at any depth.
 MAX_BESIDE_MM = 30.0
-# Of a normal distribution within +- 1.96 standard deviations lie 95 %.
+# 95 % of a normal distribution lie within +-1.96 standard deviations.
 NORMAL_95 = 1.96
-# 0.3 is stored as 0.29999999999999998: an error of the last binary digit must not cost a tenth.
+# 0.3 is stored as 0.29999999999999998; an error of the last binary digit must not change the decimal.
 ROUNDING_ERROR = 1e-9
-# Larger floats have hardly a decimal.
+# Larger floats have no reliable decimals.
 MAX_ROUNDED = 1e15
 
 
@@ -140,7 +140,7 @@ def _wall(now: WallProximity, warning_distance_mm: float, *, sd_mm: float) -> Fi
     if not isinstance(now, NearestWall):
         return Figure(value=nan, limit=limit, status=Status.OUTSIDE)
     value = rounded_down(now.clearance_mm)
-    # NaN is not within.
+    # NaN is not WITHIN.
     status = Status.THROUGH if value < 0.0 else Status.WITHIN if value >= limit else Status.OVER
     return Figure(value=value, limit=limit, error_95=rounded_up(NORMAL_95 * sd_mm, decimals=2), status=status)
 
@@ -192,5 +192,5 @@ def _quantised(value: float, decimals: int, rounding: str) -> float:
     # Decimal raises for more digits than its context has.
     if not isfinite(value) or abs(value) > MAX_ROUNDED:
         return value
-    # Plus zero: a rounded -0.04 is 0, not -0.
+    # Adding zero turns -0.0 into 0.0.
     return float(Decimal(value).quantize(Decimal(1).scaleb(-decimals), rounding=rounding)) + 0.0

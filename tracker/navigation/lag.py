@@ -18,12 +18,12 @@ from tracker.navigation.snapshot import Absent, NavigationSnapshot
 
 # | threshold | unit | source | what breaks when it moves |
 # |---|---|---|---|
-# | WINDOW_S | s | half of a quick to-and-fro | longer: a stroke is averaged away; shorter: noise |
-# | MIN_IMAGES | 1 | 9 residuals to know the noise by | lower: noise of four images is taken for a speed |
-# | MAX_WINDOW_S | s | five images of a camera of 6 Hz | longer: speeds of slow cameras are of the past |
-# | MAX_GAP_S | s | a tool that was out of view begins anew | higher: its way in between is a speed |
+# | WINDOW_S | s | half a period of a fast oscillation | longer: a stroke is averaged out; shorter: noise |
+# | MIN_IMAGES | 1 | 9 residuals to estimate the noise | lower: noise of four images counts as a speed |
+# | MAX_WINDOW_S | s | five images of a camera of 6 Hz | longer: speeds of slow cameras are outdated |
+# | MAX_GAP_S | s | restart for a tool that was out of view | higher: its unseen motion counts as a speed |
 # | MIN_SPEED_SD | sd | F(3, 9) at 99.9 % is 13.9, x3, root | lower: a tool at rest has a margin at times |
-# | MIN_SPEED_MM_S | mm/s | 0.1 mm in 100 ms | lower: drift of a pose is a motion |
+# | MIN_SPEED_MM_S | mm/s | 0.1 mm in 100 ms | lower: drift of a pose counts as motion |
 # | MAX_PERIOD_RATIO | 1 | 10 ms at 30 images/s, a tenth of a latency | higher: the latency is understated |
 # | PERIOD_IMAGES | 1 | a second at 30 images/s | lower: a few skipped images withhold the latency |
 WINDOW_S, MAX_WINDOW_S, MAX_GAP_S = 0.2, 0.8, 0.5
@@ -34,7 +34,7 @@ MAX_PERIOD_RATIO, PERIOD_IMAGES = 1.3, 30
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeasuredLatency:
-    """A measured latency with the images that it was measured with.
+    """A measured latency, and the size and period of the images of the measurement.
 
     Attributes:
         p99_ms: 99th percentile of the delay from exposure to display.
@@ -49,8 +49,8 @@ class MeasuredLatency:
     def applies_to(self, size_wh_px: tuple[int, int], *, period_ms: float) -> bool:
         """Return whether it holds for images of this size and period; NaN is an unknown period.
 
-        Images of another size take another time to read, transfer, track and draw. Those that come more
-        slowly are older on average when they are displayed.
+        The time to read, transfer, track and draw depends on the image size. Images at a lower rate are older
+        on average when they are displayed.
         """
         is_slower = self.image_period_ms > 0.0 and period_ms > MAX_PERIOD_RATIO * self.image_period_ms
         return size_wh_px == self.size_wh_px and not is_slower

@@ -1,4 +1,4 @@
-"""By which means a motion of patient or camera can be detected."""
+"""Means by which a motion of patient or camera can be detected."""
 
 from enum import StrEnum
 
@@ -10,7 +10,7 @@ HOLDS_ON = frozenset({SceneState.STILL, SceneState.MOVED})
 
 
 class MotionDetection(StrEnum):
-    """By which means a motion of patient or camera can be detected."""
+    """Means by which a motion of patient or camera can be detected."""
 
     REFERENCE = "reference"  # motion of both, from the marker on the patient
     FIXED_SCENE = "fixed-scene"  # motion of the camera only, from the static scene; not of the patient

@@ -25,9 +25,11 @@ from tracker.navigation.snapshot import MotionState, Setup
 from tracker.pose import Seen, Sighting
 
 SCENE_PERIOD_S = 0.2
-# While the reference is displaced, only the scene shows what moved: check it sooner.
+# While the reference is displaced, only the scene can identify the moving object, so it is checked more
+# often.
 SCENE_URGENT_PERIOD_S = 0.1
-# Masked around a marker, in multiples of its side: hand and handpiece move with it.
+# Size of the masked region around a marker, in multiples of its side, because hand and handpiece move with
+# it.
 MASK_SIDES = 3.0
 
 
@@ -111,11 +113,11 @@ class MotionMonitor:
         check = self._scene.check(grey)
         self._scene_state = check.state
         if check.state is SceneState.UNSURE and check.moved_px > self._scene.max_px:
-            # Possible motion: check the next image at once, since wrong numbers may be displayed.
+            # Check the next image at once, because wrong numbers may be displayed.
             self._looked_at_s = -np.inf
         if self._scene_state is SceneState.MOVED:
             self._camera_moved_at_s = at_s
-            # Monitor the new position from here on; what depended on the old one is invalid already.
+            # Monitor the new position from here on; the old registration is already invalid.
             self._keep_scene(grey, sightings)
             # Otherwise the reference would seem to have moved in the new, static scene.
             self._reference = None
@@ -130,7 +132,7 @@ class MotionMonitor:
             self._reference_is_elsewhere = False
             self._in_place_at_s = at_s
             return
-        # Only a scene check made after the displacement can show what moved.
+        # Only a scene check after the displacement can identify the moving object.
         is_new = self._looked_at_s > self._in_place_at_s
         check = self._reference.check(
             seen.camera_from_marker, self._scene_state if is_new else SceneState.UNSURE

@@ -1,12 +1,12 @@
 """Whether a registration suffices for one screw, known before navigation.
 
-The drill is placed on the planned channel. What its error is there at best is compared with what the pedicle
-leaves: if it exceeds that, so does the error of every image with the drill on the channel.
+The drill is placed on the planned channel, and its minimum error there is compared with the tolerance of the
+pedicle: if it exceeds the tolerance, so does the error in every image with the drill on the channel.
 
-`check_registration` takes the registration alone, with an exact marker pose and an exact tip.
-`check_setup` adds the calibration of the tool and the tracking error of the best capture. Of a tip that
-registers and drills, part of the error cancels (`Registration.tip_jacobian`); how much depends on how the
-drill is held, so that the smallest error over all rotations about its axis is taken.
+`check_registration` uses the covariance of the registration only, with an exact marker pose and an exact tip.
+`check_setup` adds the calibration of the tool and the tracking error of the best capture. If the same tip
+registers and drills, part of its error cancels (`Registration.tip_jacobian`), depending on the rotation of
+the drill; the minimum over all rotations about its axis is taken.
 """
 
 from dataclasses import dataclass
@@ -30,18 +30,19 @@ from tracker.registration import Registration
 
 # Steps of the rotation about the drill's axis; between two of them the error changes by less than 1 %.
 ROTATIONS = 24
-# Depths of the tip as shares of the depth of the isthmus: an error of the axis has no lever at the tip.
+# Depths of the tip as ratios of the depth of the isthmus, because an error of the axis has no lever at the
+# tip.
 DEPTHS = (0.0, 0.5, 1.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RegistrationCheck:
-    """The registration's error on a channel and what the screw leaves, rounded as navigation rounds them.
+    """Registration error on a channel and tolerance of the screw, rounded as in navigation.
 
     Attributes:
         entry_95_mm: 95 % radius of the drill's axis at the entry, rounded up.
         isthmus_95_mm: the same at the isthmus.
-        tolerance_mm: from the screw on the planned axis to the nearest wall, rounded down.
+        tolerance_mm: distance from the screw on the planned axis to the nearest wall, rounded down.
     """
 
     entry_95_mm: float
@@ -50,20 +51,20 @@ class RegistrationCheck:
 
     @property
     def error_95_mm(self) -> float:
-        """The larger of both errors, as the navigation's figure ERROR takes it."""
+        """Return the larger of both errors, as in the navigation's figure ERROR."""
         return max(self.entry_95_mm, self.isthmus_95_mm)
 
     @property
     def suffices(self) -> bool:
-        """False if the error is over its limit in every image; True does not promise that any is within."""
+        """Return False if the error exceeds its limit in every image; True guarantees nothing."""
         return self.error_95_mm <= self.tolerance_mm
 
     @property
     def diameter_excess_mm(self) -> float | None:
-        """By how much a screw on the same axis must be thinner to leave the error; 0 if it suffices.
+        """Return by how much the diameter of the screw exceeds the error's tolerance; 0 if it suffices.
 
-        A thinner screw leaves half of the difference on each side. None if the planned screw leaves nothing:
-        by how much it breaches is not part of its tolerance.
+        A thinner screw increases the tolerance by half of the difference of the diameters. None if the
+        planned screw has no tolerance, because the amount of its breach is not known.
         """
         if self.suffices:
             return 0.0
@@ -75,7 +76,7 @@ class RegistrationCheck:
 def check_registration(
     vertebra_from_anchor: UncertainPose[Vertebra, Anchor], channel: Channel, tolerance: PedicleTolerance
 ) -> RegistrationCheck:
-    """Compare the registration's error on a channel with what the screw leaves.
+    """Compare the registration error on a channel with the tolerance of the screw.
 
     Args:
         vertebra_from_anchor: the registration with its covariance.
@@ -91,9 +92,9 @@ def check_registration(
 def check_setup(
     registration: Registration, tool: ToolModel, channel: Channel, tolerance: PedicleTolerance
 ) -> RegistrationCheck:
-    """Compare the least error of registration, tool and tracking on a channel with what the screw leaves.
+    """Compare the minimum error of registration, tool and tracking with the tolerance of the screw.
 
-    Returns the check of the rotation and depth of the drill on its planned axis with the least error.
+    Returns the check for the rotation and depth of the drill on its planned axis with the minimum error.
 
     Args:
         registration: with its covariance, and the tip that it has in common with the drill.
@@ -112,7 +113,7 @@ def check_setup(
 
 
 def min_errors_95_mm(setup: Setup, drill_reference: DrillReference) -> dict[str, float]:
-    """Return the least 95 % error on the channel of each tool of a setup; empty without a registration."""
+    """Return the minimum 95 % error on the channel by tool of a setup; empty without a registration."""
     registration, channel = setup.registration, setup.channel
     if isinstance(registration, Absent) or isinstance(channel, Absent):
         return {}
@@ -129,7 +130,7 @@ def _placed(
 ) -> UncertainPose[Vertebra, Tool]:
     """Return the tool on the channel, rotated about its axis, with the error that navigation would state."""
     anchor = registration.anchor_from_vertebra
-    # The anchor takes the place of the camera: what both see of the patient's marker cancels.
+    # The anchor is used as the camera, because the pose error of the patient's marker cancels.
     camera_from_vertebra: Rigid[Camera, Vertebra] = Rigid(
         rotation=anchor.rotation, translation_mm=anchor.translation_mm
     )

@@ -31,7 +31,7 @@ from tracker.registration import Registration
 
 
 class AbsentReason(StrEnum):
-    """Why a pose or a number is missing."""
+    """Reason why a pose or a number is missing."""
 
     MARKER_UNSEEN = "MARKER_UNSEEN"  # the marker is not seen in this image
     MARKER_TWICE = "MARKER_TWICE"  # two prints of the tool's or the patient's marker are in view
@@ -74,24 +74,24 @@ class ToolPose:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Setup:
-    """What navigation is configured with.
+    """Configuration of navigation.
 
     Attributes:
         camera: the camera model; while `camera_calibrated` is False it only serves to find the marker.
         camera_calibrated: whether poses in mm may be derived from it.
-        tools: by name; each names its marker.
+        tools: tool models by name, each with the name of its marker.
         channel: the planned channel.
         registration: of plan and patient, anchored to the camera or to the patient's reference.
         reference: name of the marker fixed to the patient; empty if there is none.
         screw: the planned one; None if there is none.
-        withheld: why no numbers are given although the rest is known; None if they are given.
+        withheld: reason why no numbers are displayed although they are known; None if they are displayed.
         max_tip_sd_mm: maximum uncertainty of a tip (root of the trace of its covariance); above it the pose
             is rejected.
-        limits: of a drill, beside those of its pedicle.
+        limits: limits of a drill in addition to those of its pedicle.
         side: of the patient, as planned; None if not stated.
         ct_id: of the CT on which the channel was planned; empty if there is none.
-        min_errors_95_mm: by tool name, the least 95 % error on the channel with this registration, see
-            `check_setup`. Tools for which it is not known are missing.
+        min_errors_95_mm: by tool name, the minimum 95 % error on the channel with this registration, see
+            `registration_check.check_setup`. Tools for which it is not known are missing.
     """
 
     camera: CameraModel
@@ -134,7 +134,7 @@ class VertebraPose:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MotionState:
-    """What follows from the images before this one; see `tracker.navigation.monitoring`.
+    """State derived from previous images; see `tracker.navigation.monitoring`.
 
     Attributes:
         jumped: markers whose pose moved faster than a hand.
@@ -167,14 +167,14 @@ class NavigationSnapshot:
         size_wh_px: of the image.
         setup: the configuration in effect.
         sightings: by marker name.
-        vertebra: pose of the planned vertebra in this image, or why it is not known.
+        vertebra: pose of the planned vertebra in this image, or the reason why it is absent.
         tools: by tool name.
         deviations: by tool name, of the tool from the channel.
         analyses: by tool name, clearance, uncertainty and breach probability; present together with the
             deviation.
         assessments: by tool name, the displayed figures with limits and verdict; present together with the
             deviation. Headline, alarms, overlay, bull's-eye, wire messages and log use them.
-        motion: what the previous images add.
+        motion: state of the motion monitors.
         stage_ms: time of each stage by its name in the code.
         skipped_images: number of images of the source that were not processed, since the start.
     """
@@ -195,7 +195,7 @@ class NavigationSnapshot:
 
     @property
     def displayed_tool(self) -> str:
-        """The tool whose figures are displayed: the one with the most severe verdict.
+        """Return the tool whose figures are displayed: the one with the most severe verdict.
 
         Among equals the first in the order of the setup. Empty if no tool has figures.
         """

@@ -31,7 +31,7 @@ def locate_tool(
     steadied: SmoothedPose | None = None,
     motion: MotionState = NO_MOTION,
 ) -> ToolPose | Absent:
-    """Return the pose of the tool in the camera frame, or why it is not known.
+    """Return the pose of the tool in the camera frame, or the reason why it is absent.
 
     A smoothed pose replaces the measured one, unless its uncertainty at the present tip is too large.
     """
@@ -44,7 +44,7 @@ def locate_tool(
     if tool.marker in motion.jumped:
         return Absent(reason=AbsentReason.POSE_JUMPED)
     own = _placed(tool, sighting.camera_from_marker, sighting.pose_covariance)
-    # This includes an ambiguous planar pose: the covariance then spans both solutions.
+    # This includes an ambiguous planar pose, whose covariance is that of the mixture of both solutions.
     if _tip_sd_mm(own) > setup.max_tip_sd_mm:
         return Absent(reason=AbsentReason.POSE_UNCERTAIN)
     if steadied is None:
@@ -54,7 +54,7 @@ def locate_tool(
 
 
 def _unseen(sighting: Sighting | None, reason: AbsentReason) -> Absent:
-    """Return this reason for a marker that is not seen, or that it is in view twice."""
+    """Return this reason for a marker that is not seen, or MARKER_TWICE."""
     return Absent(reason=AbsentReason.MARKER_TWICE if is_twice_in_view(sighting) else reason)
 
 
@@ -76,7 +76,7 @@ def _tip_sd_mm(tool: ToolPose) -> float:
 def locate_vertebra(
     setup: Setup, sightings: Mapping[str, Sighting], motion: MotionState = NO_MOTION
 ) -> VertebraPose | Absent:
-    """Return the pose of the planned vertebra in this image, or why it is not known."""
+    """Return the pose of the planned vertebra in this image, or the reason why it is absent."""
     registration = setup.registration
     if isinstance(registration, Absent):
         return registration
@@ -137,7 +137,7 @@ def _while_placed(
 def tool_deviation(
     setup: Setup, tool: ToolPose | Absent, vertebra: VertebraPose | Absent
 ) -> Deviation | Absent:
-    """Return the tool's deviation from the channel, or why it is not known."""
+    """Return the tool's deviation from the channel, or the reason why it is absent."""
     if isinstance(tool, Absent):
         return tool
     if isinstance(setup.channel, Absent):
@@ -168,7 +168,7 @@ def _analyse(
         return Absent(reason=AbsentReason.MARKER_UNSEEN)
     tool = setup.tools[name]
     pose, covariance = sighting.camera_from_marker, sighting.pose_covariance
-    # Same choice as in `locate_tool`: a steadied pose that is too unsure is not the one shown.
+    # Same choice as in `locate_tool`: a smoothed pose that is too uncertain is not displayed.
     if steadied is not None:
         steady = _placed(tool, steadied.camera_from_marker, steadied.pose_covariance)
         if _tip_sd_mm(steady) <= setup.max_tip_sd_mm:
@@ -185,7 +185,7 @@ def _analyse(
 def _assess(
     setup: Setup, name: str, deviation: Deviation | Absent, analysis: DrillAnalysis | Absent
 ) -> Assessment | Absent:
-    """Return the assessment of a tool, or why it has none."""
+    """Return the assessment of a tool, or the reason why it is absent."""
     if isinstance(deviation, Absent):
         return deviation
     if isinstance(setup.channel, Absent):

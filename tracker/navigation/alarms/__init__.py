@@ -1,7 +1,7 @@
 """Alarms: their conditions, and how they are raised, sounded, acknowledged and cleared.
 
-Pure functions of inputs and commands with their times: replaying a recording reproduces the alarms.
-Priorities, sounds and states follow what manuals quote of IEC 60601-1-8; no conformity is claimed.
+All are pure functions of inputs and commands with their times, so replaying a recording reproduces the
+alarms. Priorities, sounds and states follow IEC 60601-1-8 as quoted in manuals; no conformity is claimed.
 """
 
 from tracker.navigation.alarms.engine import AlarmEngine

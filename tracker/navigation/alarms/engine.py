@@ -2,7 +2,7 @@
 
 The publisher steps it with each image before drawing, so that picture, message and sound agree, and a
 recording reproduces the alarms. It runs in the web process and is also stepped twenty times a second without
-an image, because the tracking process cannot report its own death.
+an image, because the tracking process cannot report its own end.
 """
 
 from collections.abc import Collection
@@ -48,7 +48,7 @@ class AlarmEngine:
 
     @property
     def picture(self) -> AlarmSnapshot:
-        """The alarms after the last call."""
+        """Return the alarms after the last call."""
         return self._picture
 
     def step(self, inputs: AlarmInputs, at_s: float) -> AlarmSnapshot:
@@ -68,7 +68,7 @@ class AlarmEngine:
         plain = evaluate_condition(condition, inputs, self._limits, raised=False)
         is_watched = inputs.navigating or ALARM_RULES[condition].outside_navigation
         if ALARM_RULES[condition].latches and plain.presence is Presence.NO and _is_unseen(was, inputs):
-            # The affected drill is not seen: the state of another drill does not clear its alarm.
+            # The affected drill is not seen, and the state of another drill must not clear its alarm.
             plain = UNKNOWN
         self._presence[condition] = plain.presence if is_watched else Presence.UNKNOWN
         if not was.is_raised or plain is UNKNOWN:
@@ -82,7 +82,7 @@ class AlarmEngine:
             now = acknowledged(was, by=by)
             if self._numbers[condition] in numbers and now is not was:
                 self._occurrences[condition] = now
-                # An alarm that is over is dropped by this; the log records what it was.
+                # Acknowledging a cleared alarm removes it; the log records its last state.
                 logged = was if now.state is AlarmState.NORMAL else now
                 self._log(Change.ACKNOWLEDGED, condition, logged, by=by)
         return self._snapshot()
@@ -97,7 +97,7 @@ class AlarmEngine:
             raise InvalidInput(
                 "ALARM_PAUSE_TOO_LONG",
                 f"a pause of {seconds:g} s was requested, allowed is more than 0 and up to {MAX_PAUSE_S:g} s",
-                "Pause for a shorter time; the sound comes back by itself and can be paused again.",
+                "Pause for a shorter time; the sound resumes automatically and can be paused again.",
                 {"requested_s": seconds if isfinite(seconds) else str(seconds), "max_s": MAX_PAUSE_S},
             )
         at_s = self._forward(at_s)
@@ -167,7 +167,7 @@ class AlarmEngine:
             ),
             key=_place,
         )
-        # An alarm that is present has another text than one that is over: that is a change, too.
+        # A change of presence is a change too, because it changes the displayed text.
         shown = [(alarm.number, alarm.presence) for alarm in alarms]
         is_changed = bool(self._events) or shown != [(a.number, a.presence) for a in self._picture.alarms]
         paused = self._paused_until_s > self._at_s

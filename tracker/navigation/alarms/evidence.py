@@ -42,8 +42,8 @@ class Evidence:
 
     Attributes:
         presence: whether the condition is present.
-        measure: the value that shows it; None if there is none or it is not known.
-        severity: in the unit of the measure; larger is worse. 0 without a measure.
+        measure: the value and its limit; None if there is none or it is not known.
+        severity: severity in the unit of the measure; larger is worse. 0 without a measure.
         site: where in the bone the value was measured; None if not applicable.
         by: name of the requesting person, if any.
         control: the camera control concerned, if any.
@@ -116,7 +116,7 @@ def _breach_likely(inputs: AlarmInputs, limits: AlarmLimits, raised: bool) -> Ev
     # NaN counts as over the limit.
     if not ratio <= limit:
         return Evidence(presence=Presence.YES, measure=measure, severity=measure.value, site=inputs.risk_site)
-    # Probabilities are whole percents: with a lower threshold only 0 would clear it.
+    # Probabilities are displayed in whole percent, so with a lower threshold only 0 would clear the alarm.
     clears_at = max(limit - limits.breach_hysteresis_ratio, min(limit, MIN_CLEAR_RATIO))
     stays = raised and ratio > clears_at
     return Evidence(presence=_showing(stays), measure=measure, severity=measure.value, site=inputs.risk_site)
@@ -137,7 +137,7 @@ def _clearance_low(inputs: AlarmInputs, limits: AlarmLimits, raised: bool) -> Ev
 
 def _unseen(unseen_s: float, limit_s: float, raised: bool) -> Evidence:
     measure = Measure(value=unseen_s, limit=limit_s, unit="s")
-    # A marker that is visible again is missed in single images; these do not keep the alarm raised.
+    # Single missed images of a visible marker must not keep the alarm raised.
     shows = unseen_s > (min(MAX_UNSEEN_WHILE_CLEARING_S, limit_s) if raised else limit_s)
     return Evidence(presence=_showing(shows), measure=measure, severity=measure.value)
 
@@ -168,7 +168,7 @@ def _pose_uncertain(inputs: AlarmInputs, limits: AlarmLimits, raised: bool) -> E
         return Evidence(presence=Presence.YES)
     if isinstance(sd_mm, NotKnown) or isinstance(max_mm, NotKnown):
         return UNKNOWN
-    # No way to hold the marker mends it: another alarm of the same figure says so.
+    # A better view cannot reduce this error; SETUP_INSUFFICIENT reports it.
     return _error_over(sd_mm, max_mm, limits, raised) if inputs.setup_sufficient else SUPERSEDED
 
 
@@ -181,14 +181,14 @@ def _setup_insufficient(inputs: AlarmInputs, limits: AlarmLimits, raised: bool) 
 
 def _error_over(sd_mm: float, max_mm: float, limits: AlarmLimits, raised: bool) -> Evidence:
     measure = Measure(value=sd_mm, limit=max_mm, unit="mm")
-    # A hysteresis larger than the limit could never be cleared.
+    # With a hysteresis larger than the limit the alarm could never be cleared.
     clears_at_mm = max(max_mm - limits.hysteresis_mm, 0.8 * max_mm)
     shows = not sd_mm <= (clears_at_mm if raised else max_mm)
     return Evidence(presence=_showing(shows), measure=measure, severity=measure.value)
 
 
 def _camera_changed(inputs: AlarmInputs, limits: AlarmLimits, raised: bool) -> Evidence:
-    """Any difference counts: a focus that stepped once has moved the lens, and may step again."""
+    """Evaluate changes of camera controls: any difference counts, because one focus step moves the lens."""
     del limits, raised
     change = inputs.camera_change
     if change is None:

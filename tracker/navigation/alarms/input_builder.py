@@ -36,9 +36,9 @@ def update_history(
 ) -> AlarmInputHistory:
     """Return the history after one more image, processed at `now_s`.
 
-    Navigation starts with the first figures not older than `fresh_s`: images come late during startup. It
-    ends when channel or registration is removed, but not when a lost marker or a motion withholds the
-    figures: alarms report those.
+    Navigation starts with the first figures not older than `fresh_s`, because images are late during startup.
+    It ends when channel or registration is removed, but not when figures are absent because of a lost marker
+    or a motion, which alarms report.
     """
     setup, at_s = snapshot.setup, snapshot.captured_at_s
     if isinstance(setup.channel, Absent) or setup.registration == NOT_REGISTERED:
@@ -46,10 +46,10 @@ def update_history(
     elif any(isinstance(deviation, Deviation) for deviation in snapshot.deviations.values()):
         history = replace(history, navigating=history.navigating or now_s - at_s <= fresh_s)
     markers = {tool.marker for tool in setup.tools.values()}
-    # A marker that is in view twice is not missing: `MARKER_TWICE` reports it.
+    # A marker that is in view twice is not missing; `MARKER_TWICE` reports it.
     if any(_is_in_view(snapshot.sightings.get(marker)) for marker in markers):
         history = replace(history, drill_seen_at_s=at_s)
-    # Where there is no patient reference, nothing is missed.
+    # Without a patient reference nothing is missing.
     if snapshot.vertebra != REFERENCE_UNSEEN:
         history = replace(history, reference_seen_at_s=at_s)
     return history
@@ -71,10 +71,10 @@ def alarm_inputs(
     """Return the alarm inputs that follow from the newest image; the server adds its own.
 
     Args:
-        snapshot: of the newest image; None before the first. It stays in use until another arrives: then its
-            age counts and not its figures.
-        history: including this snapshot.
-        now_s: on the clock of the capture time.
+        snapshot: snapshot of the newest image; None before the first. When it is older than `fresh_s`, only
+            its age is used and not its figures.
+        history: history including this snapshot.
+        now_s: present time on the clock of the capture time.
         fresh_s: maximum age of an image whose figures are used.
         put_away_after_s: a drill unseen for longer was put away.
         navigating: state of the procedure; None takes it from `history`.
@@ -123,7 +123,7 @@ def _with_figures(inputs: AlarmInputs, snapshot: NavigationSnapshot) -> AlarmInp
         return inputs
     riskiest = max(limited, key=lambda name: limited[name].figures[FigureName.RISK].value)
     nearest = min(assessed, key=lambda name: _wall_mm(assessed[name]))
-    # For a drill across the channel it is infinite, which is no measure of the pose uncertainty.
+    # For a drill across the channel it is infinite, which does not measure the pose uncertainty.
     finite = [one for one in limited.values() if isfinite(one.figures[FigureName.ERROR].value)]
     if finite:
         unsure = max(finite, key=_error_excess_mm)
@@ -149,7 +149,7 @@ def _error_excess_mm(assessment: Assessment) -> float:
 
 
 def _wall_mm(assessment: Assessment) -> float:
-    """Return the clearance; a drill outside the bone has the largest one."""
+    """Return the clearance in mm; infinite for a drill outside the bone."""
     wall = assessment.figures[FigureName.WALL]
     return NOT_ENTERED_CLEARANCE_MM if wall.status in (Status.OUTSIDE, Status.UNLIMITED) else wall.value
 
@@ -174,7 +174,7 @@ def _site(snapshot: NavigationSnapshot, tool: str, *, of_wall: bool) -> Site:
 
 
 def _reasons(snapshot: NavigationSnapshot) -> frozenset[AbsentReason]:
-    """Return why no figures exist, over tools, vertebra and setup; empty if any exist."""
+    """Return the reasons why no figures exist, of tools, vertebra and setup; empty if any exist."""
     deviations = snapshot.deviations.values()
     if any(isinstance(deviation, Deviation) for deviation in deviations):
         return frozenset()

@@ -1,4 +1,4 @@
-"""Inputs of the alarm engine: values and flags of one step, whatever their source."""
+"""Inputs of the alarm engine: values and flags of one step."""
 
 from dataclasses import dataclass, field
 from typing import TypeAlias
@@ -45,16 +45,16 @@ class AlarmInputs:
         captured_at_s: of that image, on the clock of the step.
         clearance_mm: from the drill's cylinder to the pedicle's wall, negative through it.
         breach_ratio: probability of a breach, now or within the look-ahead.
-        wall_site: where that clearance was measured; None if not known.
-        risk_site: where the tool of that probability is; None if not known.
+        wall_site: site of that clearance; None if not known.
+        risk_site: site of the tool with that probability; None if not known.
         unseen_tools: tools without figures, if there are several tools.
-        past_depth_mm: of the tip past the planned end; negative before it.
-        depth_site: where the deepest tip is; None if not known.
+        past_depth_mm: depth of the tip past the planned end; negative before it.
+        depth_site: site of the deepest tip; None if not known.
         tip_sd_mm: uncertainty of the tip.
         max_tip_sd_mm: its limit in this pedicle.
         setup_sufficient: registration and tool allow an uncertainty within that limit.
-        drill_unseen_s: how long the drill was not seen, up to the newest image; 0 while it is seen.
-        drill_put_away: not seen for so long that it was put away.
+        drill_unseen_s: time since the drill was seen, up to the newest image; 0 while it is seen.
+        drill_put_away: the drill was unseen for longer than `put_away_after_s`.
         reference_unseen_s: as for the drill; 0 without a patient reference.
         markers_unique: no second print of the drill's or the patient's marker is in view.
         camera_silent_s: age of the newest image.
@@ -73,7 +73,7 @@ class AlarmInputs:
         lost_screens: number of those that disconnected without notice.
         free_disk_mb: free space on the disk of the cases.
         recording_runs: all recordings are being written.
-        hold_requested_by: who requests a hold; empty if nobody does.
+        hold_requested_by: name of the person who requests a hold; empty for none.
     """
 
     navigating: bool

@@ -1,10 +1,10 @@
-"""One condition on its way: normal, active, acknowledged, cleared but latched, and back.
+"""State machine of one alarm condition: normal, active, acknowledged, latched.
 
-    normal --shows for its time--> active --gone for its time--> normal, or latched where it latches
-    active --acknowledged--> acknowledged --gone--> normal;   acknowledged --worse--> active
-    latched --acknowledged--> normal;   latched --shows again--> active
+    normal --present for confirm_s--> active --absent for clear_s--> normal, or latched if the rule latches
+    active --acknowledged--> acknowledged --absent--> normal;   acknowledged --worse--> active
+    latched --acknowledged--> normal;   latched --present again--> active
 
-Every change is made by one of two pure functions here.
+Two pure functions make all transitions: `advanced` and `acknowledged`.
 """
 
 from dataclasses import dataclass, replace
@@ -21,8 +21,8 @@ class AlarmState(StrEnum):
     """State of an alarm."""
 
     NORMAL = "normal"  # no alarm
-    ACTIVE = "active"  # it is there, and sounds
-    ACKNOWLEDGED = "acknowledged"  # it is there, somebody knows: in sight, without sound
+    ACTIVE = "active"  # present, with sound
+    ACKNOWLEDGED = "acknowledged"  # present and acknowledged: displayed, without sound
     LATCHED = "latched"  # cleared but not acknowledged: displayed, without sound
 
 
@@ -34,7 +34,7 @@ class Peak:
         measure: its value and limit.
         severity: larger is worse.
         at_s: its time.
-        site: where in the bone; None if not applicable.
+        site: position in the bone; None if not applicable.
     """
 
     measure: Measure
@@ -49,7 +49,7 @@ class Occurrence:
 
     Attributes:
         state: of the alarm.
-        raised_at_s: when it last became active.
+        raised_at_s: time at which it last became active.
         present_since_s: start of the uninterrupted presence while not yet raised; else infinite.
         present_images: number of consecutive images since then.
         absent_since_s: start of the uninterrupted absence while not yet cleared; else infinite.
@@ -59,7 +59,7 @@ class Occurrence:
         pending_peak: the same since it is present, while not yet raised.
         earlier_peak: the most severe moment of the previous, unacknowledged occurrences.
         acknowledged_severity: severity of the peak at the acknowledgement.
-        acknowledged_by: who acknowledged; empty if nobody did.
+        acknowledged_by: name of the acknowledging person; empty for none.
         by: name of the requesting person, if any.
         control: the camera control concerned, if any.
     """
@@ -116,7 +116,7 @@ def advanced(was: Occurrence, evidence: Evidence, trait: AlarmRule, moment: Step
     now = replace(was, present_since_s=since_s, present_images=images)
     now = _with_measure(now, evidence)
     now = replace(now, pending_peak=_worse(was.pending_peak, _peak(evidence, moment)))
-    # What is superseded goes on being confirmed, and is raised when it shows itself.
+    # A superseded condition continues its confirmation, and is raised once it is not superseded.
     is_confirmed = _is_confirmed(now, trait, moment) and not evidence.superseded
     return _raised(now, moment) if is_confirmed else now
 
@@ -131,7 +131,7 @@ def acknowledged(was: Occurrence, *, by: str) -> Occurrence:
             acknowledged_severity=-inf if was.peak is None else was.peak.severity,
         )
     if was.state is AlarmState.LATCHED:
-        # What shows again, and is not yet raised, goes on being confirmed.
+        # A condition that is present again but not yet raised continues its confirmation.
         return replace(was, state=AlarmState.NORMAL, acknowledged_by="", peak=None, earlier_peak=None)
     return was
 
@@ -141,7 +141,7 @@ def _is_confirmed(now: Occurrence, trait: AlarmRule, moment: StepContext) -> boo
         return True
     if trait.confirm_images == 0:
         return False
-    # Of a slow camera, or after images that did not come, there is no time to wait for the next one.
+    # With a slow camera or missing images, the confirmation time can end before the next image.
     return now.present_images >= trait.confirm_images or (
         moment.new_image and now.present_images > 0 and moment.image_gap_s >= trait.confirm_s
     )
@@ -164,7 +164,7 @@ def _advance_raised(was: Occurrence, evidence: Evidence, trait: AlarmRule, momen
 
 def _raised(was: Occurrence, moment: StepContext) -> Occurrence:
     if not was.is_raised:
-        # One that is over and not acknowledged keeps its own worst moment beside that of the new one.
+        # A latched alarm retains its own peak in addition to that of the new occurrence.
         is_latched = was.state is AlarmState.LATCHED
         earlier = _worse(was.earlier_peak, was.peak) if is_latched else None
         was = replace(was, peak=was.pending_peak, pending_peak=None, earlier_peak=earlier)
@@ -204,7 +204,7 @@ def _with_measure(was: Occurrence, evidence: Evidence) -> Occurrence:
         return was
     now = replace(was, by=evidence.by or was.by, control=evidence.control or was.control)
     if evidence.measure is None:
-        # It shows and has no number any more: the last one is not of now.
+        # The condition is present without a value: the last value is outdated.
         return replace(now, measure=None, site=None) if evidence.presence is Presence.YES else now
     return replace(now, measure=evidence.measure, site=evidence.site)
 

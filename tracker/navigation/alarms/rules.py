@@ -1,8 +1,9 @@
 """Alarm conditions and their rules: priority, confirmation and clearing, in one table.
 
-A breach is confirmed by the second image that shows it, or after 80 ms without another image, and is thus
-raised within 250 ms (at most 175 ms from the capture with 20 to 80 ms of tracking). Missing data does not
-clear it: if the drill leaves the view, the alarm remains until it is acknowledged.
+A breach is confirmed by the second consecutive image with a breach, or after 80 ms without another image, and
+is therefore raised within 250 ms (at most 175 ms from the capture with 20 to 80 ms of tracking). Missing data
+does
+not clear it: if the drill leaves the view, the alarm remains until it is acknowledged.
 """
 
 from collections.abc import Mapping
@@ -20,7 +21,7 @@ class Priority(StrEnum):
 
     @property
     def rank(self) -> int:
-        """3 for high, 2 for medium, 1 for low."""
+        """Return 3 for high, 2 for medium, 1 for low."""
         return _RANKS[self]
 
 
@@ -45,12 +46,12 @@ class Condition(StrEnum):
     DRILL_UNSEEN = "DRILL_UNSEEN"  # the drill's marker is not seen for longer than its limit
     REFERENCE_UNSEEN = "REFERENCE_UNSEEN"  # the patient's marker is not seen for longer than its limit
     MARKER_TWICE = "MARKER_TWICE"  # two prints of the drill's or the patient's marker are in view
-    CAMERA_STALLED = "CAMERA_STALLED"  # no image came for longer than its limit
-    CAMERA_GONE = "CAMERA_GONE"  # the camera is known to give no images
+    CAMERA_STALLED = "CAMERA_STALLED"  # no image arrived for longer than its limit
+    CAMERA_GONE = "CAMERA_GONE"  # the camera is known to deliver no images
     TRACKING_STOPPED = "TRACKING_STOPPED"  # the process that tracks is known not to run
-    POSE_UNCERTAIN = "POSE_UNCERTAIN"  # the tip is less sure than this pedicle allows
-    SETUP_INSUFFICIENT = "SETUP_INSUFFICIENT"  # so it is in every image with this registration and tool
-    POSE_JUMPED = "POSE_JUMPED"  # two poses explain the image, or it moved faster than a hand
+    POSE_UNCERTAIN = "POSE_UNCERTAIN"  # the uncertainty of the tip exceeds the tolerance of the pedicle
+    SETUP_INSUFFICIENT = "SETUP_INSUFFICIENT"  # it does in every image with this registration and tool
+    POSE_JUMPED = "POSE_JUMPED"  # the pose is ambiguous, or moved faster than a hand
     CAMERA_MOVED = "CAMERA_MOVED"  # since the registration
     REFERENCE_MOVED = "REFERENCE_MOVED"  # since the registration
     CAMERA_CHANGED = "CAMERA_CHANGED"  # focus or zoom, since the calibration in use
@@ -59,28 +60,27 @@ class Condition(StrEnum):
     CHECK_DUE = "CHECK_DUE"  # the check on anatomy is older than its limit
     NO_ARMED_SCREEN = "NO_ARMED_SCREEN"  # no screen would be heard
     DISK_NEARLY_FULL = "DISK_NEARLY_FULL"
-    VIEWER_LOST = "VIEWER_LOST"  # a screen with armed sound went without saying so
+    VIEWER_LOST = "VIEWER_LOST"  # a screen with armed sound disconnected without notice
     RECORDING_STOPPED = "RECORDING_STOPPED"  # a recording, or the alarm log itself, is not written
     HOLD_REQUESTED = "HOLD_REQUESTED"  # a supervising clinician asks to hold
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AlarmRule:
-    """How a condition is raised and cleared.
+    """Rule by which a condition is raised and cleared.
 
     Attributes:
-        priority: of the alarm.
-        kind: of the alarm.
+        priority: priority of the alarm.
+        kind: category of the alarm.
         latches: once raised, the alarm stays displayed until acknowledged, even if cleared.
-        confirm_s: how long the condition must be present without interruption before it is raised; 0 raises
-            at once.
+        confirm_s: minimum uninterrupted presence before the alarm is raised; 0 raises it at once.
         confirm_images: number of consecutive images that raise it before that time; 0 uses the time only.
-        clear_s: how long the condition must be absent without interruption before it is cleared. Two alarms
-            of one condition are never closer than this.
+        clear_s: minimum uninterrupted absence before the alarm is cleared, and therefore the minimum time
+            between two alarms of one condition.
         persists_when_unknown: an unknown state does not clear the alarm. Otherwise unknown counts as absent,
             because another alarm reports it.
         outside_navigation: evaluated outside navigation too.
-        needs_current_image: only the newest image can show it; unknown while that image is old.
+        needs_current_image: the condition is evaluated on the newest image, and unknown while that is old.
     """
 
     priority: Priority
@@ -95,8 +95,8 @@ class AlarmRule:
 
 
 def _in_the_bone() -> AlarmRule:
-    # Within 250 ms of the image, and not for one image that a reflection spoilt: the second image, 33 ms
-    # later at 30 Hz, or this time when no second one comes.
+    # Raised within 250 ms of the image, but not by a single image with a reflection: by the second image, 33
+    # ms later at 30 Hz, or after this time without one.
     return AlarmRule(
         priority=Priority.HIGH,
         kind=Kind.PHYSIOLOGICAL,
@@ -108,7 +108,7 @@ def _in_the_bone() -> AlarmRule:
 
 
 def _nearly() -> AlarmRule:
-    # Half a second in a row is what noise of a good pose just over the limit does not do.
+    # Noise of a good pose near the limit does not exceed it for half a second without interruption.
     return AlarmRule(priority=Priority.MEDIUM, kind=Kind.PHYSIOLOGICAL, confirm_s=0.5, clear_s=2.0)
 
 
@@ -136,7 +136,7 @@ ALARM_RULES: Mapping[Condition, AlarmRule] = MappingProxyType(
         Condition.PAST_DEPTH: _in_the_bone(),
         Condition.BREACH_LIKELY: _nearly(),
         Condition.CLEARANCE_LOW: _nearly(),
-        # Their confirmation is the time unseen, or silent, that is their limit.
+        # No confirmation time, because the limits are themselves times.
         Condition.DRILL_UNSEEN: _of_newest_image(),
         Condition.REFERENCE_UNSEEN: _of_newest_image(),
         Condition.MARKER_TWICE: _of_newest_image(),
@@ -144,7 +144,7 @@ ALARM_RULES: Mapping[Condition, AlarmRule] = MappingProxyType(
         Condition.CAMERA_GONE: _technical(Priority.MEDIUM),
         Condition.TRACKING_STOPPED: _technical(Priority.MEDIUM),
         Condition.POSE_UNCERTAIN: _of_newest_image(confirm_s=0.5, clear_s=2.0),
-        # Known before navigation, and not mended by how the marker is held.
+        # Evaluated before navigation too, because it does not depend on the view of the marker.
         Condition.SETUP_INSUFFICIENT: _of_newest_image(confirm_s=0.5, clear_s=2.0),
         Condition.POSE_JUMPED: _of_newest_image(clear_s=2.0),
         Condition.CAMERA_MOVED: _technical(Priority.HIGH),
@@ -153,7 +153,7 @@ ALARM_RULES: Mapping[Condition, AlarmRule] = MappingProxyType(
         Condition.REGISTRATION_OUT_OF_DATE: _technical(Priority.HIGH),
         Condition.CALIBRATION_OUT_OF_DATE: _technical(Priority.HIGH),
         Condition.CHECK_DUE: _technical(Priority.LOW),
-        # Pages that are loaded again are back within this time.
+        # A page that is reloaded reconnects within this time.
         Condition.NO_ARMED_SCREEN: _technical(Priority.LOW, confirm_s=5.0),
         Condition.DISK_NEARLY_FULL: _technical(Priority.LOW, clear_s=10.0, outside_navigation=True),
         Condition.VIEWER_LOST: _technical(Priority.LOW),

@@ -20,7 +20,7 @@ class Sound(StrEnum):
 
 
 class Change(StrEnum):
-    """What can happen to an alarm or to the sound."""
+    """Change of an alarm or of the sound."""
 
     RAISED = "raised"
     WORSE = "worse"  # acknowledged, then worse: it sounds again
@@ -29,8 +29,8 @@ class Change(StrEnum):
     ACKNOWLEDGED = "acknowledged"
     PAUSED = "paused"
     RESUMED = "resumed"  # somebody ended the pause
-    PAUSE_OVER = "pause_over"  # its time was over
-    PAUSE_BROKEN = "pause_broken"  # by an alarm that it was not made for
+    PAUSE_OVER = "pause_over"  # the pause expired
+    PAUSE_BROKEN = "pause_broken"  # a new alarm ended the pause
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,17 +38,17 @@ class Alarm:
     """One displayed alarm.
 
     Attributes:
-        number: of this occurrence; increases with each raised alarm. Acknowledgements refer to it.
-        condition: that raised it.
+        number: number of this occurrence; increases with each raised alarm. Acknowledgements refer to it.
+        condition: the condition that raised it.
         state: active, acknowledged or latched.
-        raised_at_s: when.
+        raised_at_s: time at which it was raised.
         presence: whether the newest step shows the condition by its limit alone, without hysteresis. An alarm
             that is no longer present is described in the past tense.
         measure: the newest value and its limit; None without a value.
-        site: where in the bone that was.
+        site: position in the bone of that value.
         peak: the most severe moment since it was raised.
         earlier_peak: the most severe moment of the previous, unacknowledged occurrences.
-        acknowledged_by: who acknowledged; empty if nobody did.
+        acknowledged_by: name of the acknowledging person; empty for none.
         by: name of the requesting person, if any.
         control: the camera control concerned, if any.
     """
@@ -68,12 +68,12 @@ class Alarm:
 
     @property
     def priority(self) -> Priority:
-        """Priority of the condition."""
+        """Return the priority of the condition."""
         return ALARM_RULES[self.condition].priority
 
     @property
     def kind(self) -> Kind:
-        """Category of the condition."""
+        """Return the category of the condition."""
         return ALARM_RULES[self.condition].kind
 
 
@@ -82,10 +82,10 @@ class AlarmEvent:
     """One change, for the log.
 
     Attributes:
-        at_s: when.
-        change: what happened.
-        alarm: after the change; None if the change concerns all alarms.
-        by: who caused it; empty if nobody did.
+        at_s: time of the change.
+        change: kind of the change.
+        alarm: the alarm after the change; None if the change concerns all alarms.
+        by: name of the person who caused it; empty for none.
         pause_s: duration of a pause of the sound.
     """
 
@@ -128,12 +128,12 @@ class AlarmSnapshot:
 
     @property
     def top(self) -> Alarm | None:
-        """The first alarm; None if there is none."""
+        """Return the first alarm; None if there is none."""
         return self.alarms[0] if self.alarms else None
 
     @property
     def pause_left_s(self) -> float:
-        """Remaining pause of the sound, unless a new alarm ends it."""
+        """Return the remaining pause of the sound [s]; a new alarm can end it earlier."""
         return max(0.0, self.paused_until_s - self.at_s)
 
 

@@ -1,8 +1,8 @@
 """Clearance of the whole drill, from a distance field that is computed once and sampled in each image.
 
-field = select_wall(channel, surface, measure, radius_mm=...).wall    # once per channel: one to two seconds
-rings = drill_rings(pose, channel, field, ...)    # per image: tens of microseconds clearance =
-clearance_of_drill(rings, pose, channel)
+field = select_wall(channel, surface, measure, radius_mm=...).wall  # once per channel: one to two seconds
+rings = drill_rings(pose, channel, field, ...)  # per image: tens of microseconds
+clearance = clearance_of_drill(rings, pose, channel)
 """
 
 from tracker.navigation.clearance.distance_field import WallDistanceField, WallSource, bone_distance_field

@@ -28,14 +28,14 @@ from tracker.plan.surface import Surface
 
 STEP_MM = 0.5
 MARGIN_MM = 25.0
-# Holes and pores narrower than twice this do not join marrow and outside; tried one after the other, because
-# a threshold opens the thin cortex of a real CT more or less widely. A foramen is wider than twice the last.
+# Radii of the morphological closing, tried in ascending order, because thresholding opens holes in the thin
+# cortex of a real CT. A foramen is wider than twice the last.
 CLOSING_RADII_MM = (1.0, 1.5, 2.0, 3.0)
-# What 16 bits hold: 256 mm, in steps that are a hundredth of a voxel.
+# Quantisation to 16 bits: a range of 256 mm in steps of a hundredth of a voxel.
 UNIT_MM = 1.0 / 128.0
 LARGEST_TRIANGLE_MM = 4.0
 NARROW_BAND_STEPS = 2.0
-# A channel of which less than this lies in bone was planned on another surface, or in another unit.
+# A smaller ratio of the channel in bone means another surface or another unit.
 MIN_IN_BONE_RATIO = 0.8
 MAX_NODES = 40_000_000
 
@@ -50,7 +50,7 @@ class WallSource(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WallDistanceField:
-    """Signed distances to the wall on a grid, and the posterior surface, which is no wall for a drill.
+    """Signed distances to the wall on a grid, and the posterior surface, through which a drill enters.
 
     Attributes:
         against: what the wall is.
@@ -71,8 +71,8 @@ class WallDistanceField:
             array.setflags(write=False)
 
     def __reduce__(self) -> tuple[object, ...]:
-        # Made anew on the other side of a pipe, so that its arrays are read-only there too: for others, the
-        # compiled loops would be compiled again.
+        # Rebuild after unpickling, so that the arrays are read-only there too; for writable arrays Numba
+        # would compile the kernels again.
         return _field_from, (self.against, self.grid, self.values, self.posterior, self.closing_radius_mm)
 
     def distances_mm(self, points_mm: Array) -> tuple[Array, Array]:
@@ -100,7 +100,8 @@ def grid_around(channel: Channel, *, step_mm: float = STEP_MM, margin_mm: float 
     ends = np.stack([channel.entry_in_vertebra_mm, channel.target_in_vertebra_mm])
     low, high = ends.min(axis=0) - margin_mm, ends.max(axis=0) + margin_mm
     count = np.ceil((high - low) / step_mm).astype(int) + 1
-    # Off round numbers, on which the corners of voxels lie: a line along an edge meets both or neither side.
+    # An irregular offset avoids grid lines through mesh vertices at round coordinates, where crossings are
+    # ambiguous.
     origin = low + step_mm * np.array([0.137, 0.241, 0.319])
     origin.setflags(write=False)
     return Grid(origin_mm=origin, step_mm=step_mm, shape=(int(count[0]), int(count[1]), int(count[2])))
@@ -190,7 +191,7 @@ def _faces_outside(bone: Flags, grid: Grid, corners: Array) -> Flags:
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-12)
     middle = corners.mean(axis=1)
-    # One step out may still be a node on the inner side of a curved wall, two may be across a cleft.
+    # One step outwards may still be inside a curved wall, two may be across a narrow gap.
     return np.asarray(
         ~bone[grid.nearest(middle + grid.step_mm * normal)]
         | ~bone[grid.nearest(middle + 0.5 * grid.step_mm * normal)]
@@ -202,7 +203,7 @@ def _reject_inside_out(surface: Surface) -> None:
     if centred.volume_ml < 0.0:
         raise PlanError(
             "BONE_INSIDE_OUT",
-            f"the bone's surface encloses {centred.volume_ml:.1f} ml: it is wound inside out",
+            f"the bone's surface encloses {centred.volume_ml:.1f} ml: its triangles are clockwise",
             "Import the surface again: its triangles must be counter-clockwise seen from outside.",
             {"volume_ml": centred.volume_ml},
         )
@@ -238,6 +239,6 @@ def _bone_around(
         f"{100.0 * ratio:.0f} % of channel '{channel.name}' lies inside of the bone's surface, needed "
         f"{100.0 * MIN_IN_BONE_RATIO:.0f} % or more",
         "Check the unit and the coordinates of the surface (mm, LPS, of the channel's own CT); where its "
-        "cortex has holes, make it again with a lower threshold.",
+        "cortex has holes, create it again with a lower threshold.",
         {"in_bone_ratio": ratio},
     )

@@ -76,11 +76,11 @@ class DrillClearance:
 
     Attributes:
         against: what `now`, `lookahead` and `at_end` were measured against.
-        now: of the whole drill at its present pose.
-        lookahead: 2 mm deeper in the present direction.
-        at_end: of the planned screw (or the drill) at the planned depth in the present direction; its grade
-            is the expected one.
-        channel: of the drill at its present pose, against the planned cylinder.
+        now: clearance of the whole drill at its present pose.
+        lookahead: the same 2 mm deeper in the present direction.
+        at_end: clearance of the planned screw (or the drill) at the planned depth in the present direction;
+            its grade is the expected one.
+        channel: clearance of the drill at its present pose to the planned cylinder.
         past_planned_mm: of the tip past the planned depth, along the channel; negative before it.
     """
 
@@ -152,8 +152,8 @@ def _closest(rings: Rings, channel: Channel, across: Directions) -> WallProximit
     point = rings.points_mm[place].copy()
     point.setflags(write=False)
     outwards = -rings.gradient[place]
-    # Far through a wall, the nearest wall may be the next one (across the canal): the way out of the channel
-    # tells which was gone through.
+    # Far through a wall, the nearest wall may be another one (across the canal), so the perforated wall is
+    # determined by the direction from the channel.
     if clearance < 0.0 or float(np.linalg.norm(outwards)) < CLEAR_GRADIENT:
         depth = float((point - channel.entry_in_vertebra_mm) @ across.axis)
         on_axis = channel.entry_in_vertebra_mm + np.clip(depth, 0.0, channel.length_mm) * across.axis

@@ -28,8 +28,8 @@ def outline_distance_field(
 ) -> WallDistanceField:
     """Compute the distance field of the outline, extruded 3 mm before and behind the isthmus.
 
-    Beyond that, body and arch are wider by an unknown amount, so the wall recedes by 1 mm per mm. The
-    anterior wall is therefore not covered, and the entry hardly.
+    Beyond that, body and arch are wider by an unknown amount, so the outline is widened by 1 mm per mm. The
+    anterior wall is therefore not monitored, and the wall near the entry hardly.
     """
     grid = grid_around(channel, step_mm=step_mm, margin_mm=margin_mm)
     offset = _offsets(grid, measure.isthmus_lps_mm)
@@ -38,7 +38,7 @@ def outline_distance_field(
     first = np.cross(axis, helper) / np.linalg.norm(np.cross(axis, helper))
     plane = np.stack([first, np.cross(axis, first)]).astype(np.float32)
     outline = (measure.outline_lps_mm - measure.isthmus_lps_mm) @ plane.T
-    # In the plane first, finely, because the outline is the same all along.
+    # Computed in the plane at a higher resolution, because the outline is constant along the axis.
     reach = float(np.abs(outline).max()) + REACH_MM
     places = np.arange(-reach, reach, FINE_MM, dtype=np.float32)
     drawn = _signed_mm(np.stack(np.meshgrid(places, places, indexing="ij"), axis=-1), outline)
@@ -53,7 +53,7 @@ def channel_distance_field(
 ) -> WallDistanceField:
     """Compute the distance field of the planned cylinder, if nothing else is known.
 
-    There is no wall beyond its ends; there it recedes by 1 mm per mm.
+    There is no wall beyond its ends; there the outline is widened by 1 mm per mm.
     """
     grid = grid_around(channel, step_mm=step_mm, margin_mm=margin_mm)
     offset = _offsets(grid, channel.entry_in_vertebra_mm)

@@ -1,8 +1,8 @@
 """The posterior surface of the bone, through which a drill enters, as seen along the channel.
 
-Since a drill enters through it, only the other walls count. Points of the drill count from the visible
-posterior surface on, or from 7 mm past the entry if there is none. A side wall whose normal is within 75
-degrees of the view direction is therefore no wall.
+A drill enters through it, so only the other walls count for the clearance. Points of the drill count if they
+are deeper than the visible posterior surface, or than 7 mm past the entry if there is none. A side wall whose
+normal is within 75 degrees of the view direction is therefore not monitored.
 """
 
 from dataclasses import dataclass
@@ -14,17 +14,17 @@ from tracker.geometry import Array
 from tracker.navigation.clearance.voxels import Flags, Grid
 from tracker.navigation.directions import Directions
 
-# Within this of the channel's axis the drill is at its pedicle; beyond, it is nowhere near its plan.
+# Maximum distance from the channel's axis at which the drill is at this pedicle.
 REACH_MM = 20.0
 STEP_MM = 0.5
-# A drill that has met no bone so deep past the entry has slipped off it. Where the bone's own back lies
-# deeper, at the root of a transverse process, it is the plan's entry that is shallow.
+# A drill that is deeper past the entry without bone has slipped off it. If the posterior surface is deeper,
+# as at the root of a transverse process, the planned entry is too shallow.
 MAX_ENTRY_DEPTH_MM = 5.0
-# What lies further behind the entry, as the joint of the vertebra above, does not cover it.
+# Surfaces farther behind the entry, as the facet joint of the vertebra above, do not count.
 MAX_BEHIND_ENTRY_MM = 3.0
 MAX_VIEW_DEPTH_MM = 25.0
 RAY_STEP_MM = 0.25
-# A surface seen under a flatter angle (75 degrees) is a wall, not a back.
+# A surface seen at a flatter angle (75 degrees) is a wall and not the posterior surface.
 MAX_POSTERIOR_COSINE = -0.25
 SAME_MM = 1.0
 

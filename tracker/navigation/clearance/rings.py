@@ -12,7 +12,7 @@ from tracker.plan.channel import Channel
 
 ROUND = 16
 APART_MM = 1.0
-# Past the bone's back by about a cortex: before that, a drill is on the bone and not yet in it.
+# Points count from this depth past the posterior surface, about the thickness of the cortex.
 CORTEX_MM = 2.0
 # Sampled length behind the tip of a drill that lies across the channel.
 LONGEST_MM = 80.0

@@ -10,7 +10,7 @@ from tracker.geometry import Array
 from tracker.navigation.clearance.distance_kernels import add_votes, mark_ray_crossings
 
 Flags = npt.NDArray[np.bool_]
-# Of a voxel with those that share a corner with it, and a face.
+# 26-connectivity: voxels that share a corner, an edge or a face.
 CONNECTIVITY_26 = np.ones((3, 3, 3), dtype=np.bool_)
 CONNECTIVITY_6 = np.abs(np.indices((3, 3, 3)) - 1).sum(axis=0) <= 1
 
@@ -50,7 +50,7 @@ def voxelise(grid: Grid, corners: Array) -> Flags:
     for axis in range(3):
         turned = np.moveaxis(votes, axis, 0)
         marks = np.zeros((turned.shape[0] + 1, *turned.shape[1:]), np.int8)
-        # The other two axes keep their order; where that is a reflection, entering looks like leaving.
+        # This order of the axes may be a reflection, which exchanges entering and leaving.
         order = [axis, *[other for other in range(3) if other != axis]]
         mark_ray_crossings(np.ascontiguousarray(corners[:, :, order]), marks)
         add_votes(-marks if axis == 1 else marks, turned)
@@ -58,7 +58,7 @@ def voxelise(grid: Grid, corners: Array) -> Flags:
 
 
 def fill_holes(solid: Flags, *, step_mm: float, closing_radius_mm: float) -> Flags:
-    """Return the bone with marrow and pores: what a ball of this radius cannot reach from outside.
+    """Return the bone with marrow and pores: the volume that a ball of this radius cannot reach from outside.
 
     Outside is the largest free component, and each one that spans the grid from caudal to cranial: the spinal
     canal, if no gap between the vertebrae connects it to the rest.
@@ -76,8 +76,8 @@ def fill_holes(solid: Flags, *, step_mm: float, closing_radius_mm: float) -> Fla
     outside[int(sizes.argmax())] = True
     outside[0] = False
     reached = outside[spaces]
-    # Further than it was held off: into the corners that a ball does not fill. A diagonal step would pass
-    # through cortex that is one node thick.
+    # Dilate further than the closing radius, into corners that a ball does not fill. A diagonal step would
+    # pass through cortex that is one node thick.
     for _ in range(2 * rounds + 1):
         reached = scipy.ndimage.binary_dilation(reached, CONNECTIVITY_6, mask=~solid) | reached
     return np.asarray(~reached)

@@ -9,11 +9,11 @@ from tracker.geometry import Camera, Marker, Rigid, angle_between_deg, vector_fr
 
 
 class MotionKind(StrEnum):
-    """How a pose follows the previous one."""
+    """Classification of the change from the previous pose."""
 
-    PLAUSIBLE = "as-a-hand"  # as a hand moves, or the first one
-    JUMPED = "jumped"  # further than a hand can
-    FLIPPED = "turned-over"  # to the mirrored solution of a planar marker
+    PLAUSIBLE = "as-a-hand"  # within the speed of a hand, or the first pose
+    JUMPED = "jumped"  # faster than a hand can move
+    FLIPPED = "turned-over"  # flipped to the mirrored planar solution
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,8 +26,8 @@ class PoseJumpSettings:
         slack_mm: allowance for noise between two images.
         slack_deg: allowance for noise in the rotation.
         accept_after_images: number of consistent images after which a jump is accepted.
-        expires_after_s: age after which the last pose is no longer compared; a doubtful jump stays doubtful
-            as long as images come.
+        expires_after_s: age after which the last pose is no longer compared; an unconfirmed jump remains
+            unconfirmed while images arrive.
     """
 
     max_mm_s: float = 600.0
@@ -43,8 +43,8 @@ class PoseJumpCheck:
     """Result for the newest pose.
 
     Attributes:
-        moved: how it follows the last accepted pose.
-        accepted: whether it may be displayed.
+        moved: classification of the change from the last accepted pose.
+        accepted: whether the pose may be displayed.
         images: number of consecutive consistent images.
         moved_mm: from the last accepted pose; 0 for the first.
         rotated_deg: from the last accepted pose.
@@ -81,7 +81,7 @@ class PoseJumpDetector:
         if accepted is None or (self._is_old(accepted, at_s) and not in_doubt):
             return self._believe(here, MotionKind.PLAUSIBLE, 0.0, 0.0)
         moved_mm, rotated_deg = _apart(accepted.pose, here.pose)
-        # While in doubt, time alone does not bring the old pose nearer to what jumped away from it.
+        # While a jump is unconfirmed, elapsed time must not make it plausible.
         at_most_s = 2.0 * (at_s - newest.at_s) if in_doubt and newest is not None else np.inf
         if self._follows(accepted, here, at_most_s):
             return self._believe(here, MotionKind.PLAUSIBLE, moved_mm, rotated_deg)
@@ -125,7 +125,7 @@ def is_flipped(before: Rigid[Camera, Marker], after: Rigid[Camera, Marker]) -> b
     sight = after.translation_mm / max(float(np.linalg.norm(after.translation_mm)), 1e-9)
     normal, now = before.rotation[:, 2], after.rotation[:, 2]
     mirrored = 2.0 * float(normal @ sight) * sight - normal
-    # Nearer to the mirror image than to itself, by a good part of the way between both.
+    # Clearly nearer to the mirrored normal than to the previous one.
     return angle_between_deg(mirrored, now) < 0.35 * angle_between_deg(normal, now)
 
 

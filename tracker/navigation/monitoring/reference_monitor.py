@@ -1,6 +1,6 @@
 """Detect whether the patient's reference marker moved since the registration.
 
-A moving camera invalidates nothing, since everything is measured relative to the reference. A displaced
+A camera motion invalidates nothing, because all poses are measured relative to the reference. A displaced
 reference looks like a moving camera, unless the static scene shows that the camera did not move.
 """
 
@@ -16,15 +16,15 @@ from tracker.navigation.monitoring.scene_monitor import SceneState
 class ReferenceState(StrEnum):
     """State of the reference."""
 
-    IN_PLACE = "in-place"  # where it was in the camera's picture
-    WITH_CAMERA = "with-camera"  # it moved and so did all the scene: the camera was moved, nothing is lost
-    MOVED = "moved"  # it moved and the scene did not: the patient moved, or it was bumped; check on anatomy
-    UNDETERMINED = "cannot-tell"  # it moved, and the state of the scene is unknown
+    IN_PLACE = "in-place"  # at its previous pose in the camera frame
+    WITH_CAMERA = "with-camera"  # reference and scene moved together: the camera was moved
+    MOVED = "moved"  # the reference moved and the scene did not: check on anatomy
+    UNDETERMINED = "cannot-tell"  # the reference moved, and the state of the scene is unknown
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReferenceSettings:
-    """Motion of a reference explained by breathing.
+    """Limits of the motion of a reference by breathing.
 
     Attributes:
         max_mm: maximum translation.

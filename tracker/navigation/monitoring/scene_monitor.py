@@ -19,10 +19,10 @@ MAX_SIDE_PX = 480
 MAX_PATCHES = 48
 HALF_PATCH_PX = 7
 WINDOW = (15, 15)
-# Patches that correlate less are hidden, or not what they were.
+# Patches with a lower correlation are occluded or changed.
 MIN_PATCH_CORRELATION = 0.7
-# Of a camera's motion: patches move as a shift, a turn and a scale have it, within this, and within this part
-# of how far they move: what is nearer to a camera that is shifted moves more.
+# Inlier limits of the similarity transform of a camera motion: in pixels, and as a ratio of the displacement,
+# because of parallax.
 FIT_TOLERANCE_PX = 0.6
 PARALLAX_RATIO = 0.2
 MIN_PATCHES = 6
@@ -31,10 +31,10 @@ MIN_PATCHES = 6
 class SceneState(StrEnum):
     """Camera motion according to the static scene."""
 
-    STILL = "still"  # most patches are where they were
+    STILL = "still"  # most patches have not moved
     MOVED = "moved"  # most visible patches moved by a common motion
-    UNSURE = "unsure"  # too few are in sight: covered, dark, or the camera looks elsewhere
-    NO_TEXTURE = "no-texture"  # there was too little to hold on to from the beginning
+    UNSURE = "unsure"  # too few patches are found: occluded, dark, or outside the image
+    NO_TEXTURE = "no-texture"  # there were too few textured patches from the beginning
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -107,7 +107,7 @@ class SceneMonitor:
         picture = _normalised(image, self._scale)
         found, visible = self._found(picture, self._points)
         if visible.sum() < 0.5 * count:
-            # Further than patches are followed: shifted as a whole?
+            # Test for a larger common shift by phase correlation.
             shift, _ = cv2.phaseCorrelate(self._picture.astype(np.float64), picture.astype(np.float64))
             far, far_in_sight = self._found(picture, self._points + np.array(shift, dtype=np.float32))
             if far_in_sight.sum() > visible.sum():

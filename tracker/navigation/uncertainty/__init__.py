@@ -1,7 +1,7 @@
 """Propagation of uncertainty from marker, reference, registration and tool to the probability of a breach.
 
-tool = camera_from_vertebra.inverse @ (camera_from_marker @ marker_from_tool(model)) analysis =
-analyse_drill(tool, channel, field, tolerance, ...)
+tool = camera_from_vertebra.inverse @ (camera_from_marker @ marker_from_tool(model))
+analysis = analyse_drill(tool, channel, field, tolerance, ...)
 """
 
 from tracker.navigation.uncertainty.analysis import Drill, DrillAnalysis, analyse_drill

@@ -139,7 +139,7 @@ def breach_probability(min_clearance, offsets, limits, out):
                 elif low < 0.0:
                     total += _normal_cdf(t0 - low / slope) - _normal_cdf(t0)
                 elif high < 0.0:
-                    # From the other end, so that small shares keep their digits.
+                    # Use the upper tail, because the difference of values near 1 loses digits.
                     total += _normal_cdf(-(t0 - low / slope)) - _normal_cdf(-t1)
             out[m] += min(total, 1.0)
     for m in range(len(limits)):

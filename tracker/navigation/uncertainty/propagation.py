@@ -11,13 +11,13 @@ from tracker.plan.channel import Channel
 
 # Square root of the 95 % point of chi-square with three degrees of freedom.
 ELLIPSOID_95 = 2.7955
-# Radius that holds 95 % of a plane's normal distribution, in units of the larger standard deviation, by the
-# ratio of both: from a line to a circle.
+# Radius that contains 95 % of a bivariate normal distribution, in units of the larger standard deviation, by
+# the ratio of both: from a line to a circle.
 RATIOS = np.linspace(0.0, 1.0, 11)
 RADII_95 = np.array(
     [1.95996, 1.96253, 1.97041, 1.9842, 2.00514, 2.03586, 2.0813, 2.14598, 2.23029, 2.3318, 2.44775]
 )
-# A drill across the channel (over 84 degrees) meets no plane across it where it matters.
+# The axis of a drill across the channel (over 84 degrees) intersects the planes far away.
 MIN_ALONG = 0.1
 
 
@@ -95,7 +95,7 @@ def crossing_covariance_mm2(
     tip_depth = float((tool.pose.translation_mm - channel.entry_in_vertebra_mm) @ across.axis)
     ahead = (depth_mm - tip_depth) / along
     onto = np.stack([across.medial, across.cranial])
-    # Whatever moves the line along itself moves the crossing not at all.
+    # A motion of the line along itself does not move the intersection.
     onto = onto @ (np.eye(3) - np.outer(direction, across.axis) / along)
     jacobian = onto @ np.hstack([np.eye(3), -ahead * skew(direction)])
     return np.asarray(jacobian @ tool.covariance @ jacobian.T)

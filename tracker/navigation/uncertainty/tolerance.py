@@ -10,7 +10,7 @@ from tracker.navigation.uncertainty.uncertain_pose import UncertainPose
 from tracker.plan.channel import Channel
 from tracker.plan.screw import Tolerance
 
-# Where the isthmus is not known: as deep as it usually lies behind the entry.
+# Usual depth of the isthmus past the entry, if it is not known.
 USUAL_LEVER_MM = 18.0
 
 
@@ -28,7 +28,7 @@ class PedicleTolerance:
 
     @property
     def tolerance_deg(self) -> float:
-        """The angle error that reaches the wall at the isthmus, for an entry on the axis."""
+        """Return the angle error that reaches the wall at the isthmus, for an entry on the axis."""
         return float(np.degrees(np.arctan2(self.tolerance_mm, self.lever_mm)))
 
     @classmethod

@@ -42,13 +42,13 @@ class UncertainPose(Generic[To, From]):
 
     @property
     def inverse(self) -> "UncertainPose[From, To]":
-        """The inverse pose."""
+        """Return the inverse pose."""
         return UncertainPose(
             pose=self.pose.inverse, covariance=inverse_covariance(self.pose, self.covariance)
         )
 
     def __matmul__(self, other: "UncertainPose[From, Other]") -> "UncertainPose[To, Other]":
-        """`a_from_b @ b_from_c` is `a_from_c`; the errors of both are taken as independent."""
+        """Return `a_from_c` for `a_from_b @ b_from_c`; the errors of both are assumed independent."""
         return UncertainPose(
             pose=self.pose @ other.pose,
             covariance=chained_covariance(self.pose, self.covariance, other.pose, other.covariance),
