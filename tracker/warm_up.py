@@ -22,16 +22,16 @@ from tracker.pipeline.warm_up_image import WarmUpImage, warm_up_image
 from tracker.plan import Channel, Surface
 from tracker.plan.pedicle.wall_kernels import walls_around
 
-# From the marker's centre towards its right top corner, in sides.
+# Start of the occluded corner, from the marker's centre to its top right corner, in sides.
 OCCLUDED_FROM_RATIO = 0.3
 
 
 class Part(StrEnum):
-    """Groups of kernels that can be compiled separately; together they cover all kernels."""
+    """Groups of kernels that can be compiled separately; together they contain all kernels."""
 
-    SEARCH = "search"  # finds a marker and follows it
-    FIT = "fit"  # what `SEARCH` does at last: the photometric fit of a pose
-    REST = "rest"  # verification in uneven light, distances to bone, sections of a CT
+    SEARCH = "search"  # search and tracking of a marker
+    FIT = "fit"  # photometric refinement of a pose, the last step of tracking
+    REST = "rest"  # verification under uneven illumination, distances to bone, sections of a CT
 
 
 def warm_up(*parts: Part) -> None:
@@ -107,7 +107,7 @@ def _half_in_shadow(picture: WarmUpImage) -> GreyImage:
 
 
 def _verify(model: MarkerModel, picture: WarmUpImage, half_shadowed: GreyImage) -> None:
-    """Verify a square that no simple illumination explains: half in shadow, with a saturated spot."""
+    """Verify a square without a simple illumination model: half in shadow, with a saturated spot."""
     side = picture.side_px
     left, top = np.ceil(picture.corners_px[0]).astype(int).tolist()
     spotted = half_shadowed.copy()

@@ -24,7 +24,7 @@ def cylinder_silhouette_mm(
     """Return the two silhouette lines (start, end) of a cylinder seen from the frame's origin.
 
     There the surface normal n is perpendicular to the line of sight: n . (start + radius n) = 0, with n
-    across the axis. Empty when the eye is inside the cylinder (or its prolongation): no outline exists.
+    across the axis. Empty when the eye is inside the cylinder (or its extension), where no outline exists.
     """
     start, end = np.asarray(start_mm, dtype=np.float64), np.asarray(end_mm, dtype=np.float64)
     axis = (end - start) / np.linalg.norm(end - start)

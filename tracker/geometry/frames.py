@@ -39,7 +39,7 @@ class Reference:
 
 
 class Anchor:
-    """The frame that a registration is fixed to: the camera's, or the reference's where there is one."""
+    """The frame of a registration: the camera's, or the reference's if there is one."""
 
 
 class Pattern:

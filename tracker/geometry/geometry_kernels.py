@@ -160,7 +160,7 @@ def solve_positive(a, g, out):
 @compiled
 def rotation_angle_between(a, b):
     """Return the angle 0..pi [rad] between two rotations (3, 3)."""
-    # The product of a with b's transpose: its antisymmetric part is the sine, its trace the cosine.
+    # Of a times b transposed, the antisymmetric part gives the sine and the trace the cosine.
     x, y, z, trace = 0.0, 0.0, 0.0, 0.0
     for k in range(3):
         x += a[2, k] * b[1, k] - a[1, k] * b[2, k]
@@ -214,7 +214,7 @@ def pose_rows(matrix, order, band, ridge):
 def add_products(rows, weights, count, workspace, a):
     """Add the weighted Gram matrix of `rows` (m, many), over the first `count` columns, to `a` (m, m).
 
-    Row by row over many columns, so that the loops vectorise. `room` is (many,).
+    Row by row over many columns, so that the loops vectorise. `workspace` is (many,).
     """
     m = len(a)
     for i in range(m):

@@ -15,7 +15,7 @@ To = TypeVar("To")
 From = TypeVar("From")
 Other = TypeVar("Other")
 
-# A rotation read from a file with six digits deviates by 1e-6; a deviation of 0.01 is no rounding.
+# A rotation read from a file with six digits deviates by 1e-6; a deviation of 0.01 is not rounding.
 ORTHONORMAL_TOLERANCE = 1e-3
 
 
@@ -43,9 +43,9 @@ class Rigid(Generic[To, From]):
         if not all(map(isfinite, translation.tolist())) or off > ORTHONORMAL_TOLERANCE or determinant < 0.0:
             raise InvalidInput(
                 "ROTATION_INVALID",
-                f"a pose is not a rigid motion: its rotation is off orthonormal by {off:.3g}, "
+                f"a pose is not a rigid motion: its rotation deviates from orthonormal by {off:.3g}, "
                 f"allowed {ORTHONORMAL_TOLERANCE:g}, and all numbers must be finite",
-                "Check where this 4x4 matrix comes from: no scale, no mirror, row by row.",
+                "Check the source of this 4x4 matrix: no scale, no reflection, row-major order.",
                 {"off_orthonormal": off},
             )
         rotation.setflags(write=False)
@@ -74,7 +74,7 @@ class Rigid(Generic[To, From]):
 
     @property
     def matrix(self) -> Array:
-        """The homogeneous (4, 4) matrix."""
+        """Return the homogeneous matrix (4, 4)."""
         m = np.eye(4)
         m[:3, :3], m[:3, 3] = self.rotation, self.translation_mm
         return m

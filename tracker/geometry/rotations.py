@@ -45,7 +45,7 @@ def vector_from_rotation(rotation: npt.ArrayLike) -> Array:
         return w * (angle / sine)
     if cosine > 0.0:
         return w
-    # Half a turn: the antisymmetric part is gone, the axis is the column of the symmetric part.
+    # At 180 degrees the antisymmetric part vanishes, and the axis is a column of the symmetric part.
     s = (r + np.eye(3)) / 2.0
     axis = s[:, int(np.argmax(np.diag(s)))]
     axis = axis / np.linalg.norm(axis)

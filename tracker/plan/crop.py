@@ -43,7 +43,7 @@ def cropped_around(volume: Volume, points_lps_mm: npt.ArrayLike, *, max_bytes: i
             {"low_lps_mm": low.tolist(), "high_lps_mm": high.tolist()},
         )
     rows, columns = slice(first[1], end[1] + 1), slice(first[0], end[0] + 1)
-    # Slice by slice: one large copy would hold the interpreter, and with it the newest figures.
+    # Slice by slice, because one large copy would block the interpreter and delay the navigation.
     hu = np.empty((end - first + 1)[::-1], dtype=np.int16)
     for k in range(hu.shape[0]):
         hu[k] = volume.hu[first[2] + k, rows, columns]

@@ -1,8 +1,8 @@
 """Ordering of CT slices and their common affine, or an error if there is none.
 
-Slices that are uneven, missing or contradictory are rejected, neither resampled nor filled in: a pedicle
-would be measured where nothing was scanned. Deviations up to a tenth of the spacing, at most 0.2 mm, are
-accepted and reported.
+Uneven, missing or contradictory slices are rejected and neither resampled nor interpolated, because a pedicle
+would otherwise be measured where nothing was scanned. Deviations up to a tenth of the spacing, at most 0.2
+mm, are accepted and reported.
 """
 
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from tracker.geometry import Array
 
 # Two slices nearer than this lie at the same place.
 SAME_PLACE_MM = 0.01
-# How far a voxel may lie from where the affine puts it: in mm, and as a share of the spacing.
+# Maximum distance of a voxel from its position by the affine: in mm, and as a ratio of the spacing.
 MAX_JITTER_MM = 0.2
 MAX_JITTER_RATIO = 0.1
 MAX_TILT_DEG = 45.0
@@ -27,10 +27,10 @@ class Stack:
 
     Attributes:
         lps_from_ijk: (4, 4), takes column, row and slice to LPS in mm; slices run along rows x columns.
-        slices: for each slice of the volume which of the given ones lie there; more than one are duplicates.
+        slices: for each slice of the volume the indexes of the given ones; more than one are duplicates.
         spacing_mm: between neighbouring slices, along their normal.
-        tilt_deg: between the normal and the way from slice to slice; above 0 for a tilted gantry.
-        jitter_mm: how far a corner of a slice lies at most from where the affine puts it.
+        tilt_deg: angle between the normal and the direction from slice to slice; above 0 for a tilted gantry.
+        jitter_mm: maximum distance of a slice corner from its position by the affine.
     """
 
     lps_from_ijk: Array
@@ -164,7 +164,7 @@ def _check_gaps(gaps: Array) -> None:
     if np.abs(steps - 1.0).max() <= 2.0 * MAX_JITTER_RATIO:
         return
     first = int(np.argmax(np.abs(steps - 1.0) > 2.0 * MAX_JITTER_RATIO))
-    where = f"after slice {first + 1} of {len(gaps) + 1}, in the order of their places, the next is"
+    where = f"after slice {first + 1} of {len(gaps) + 1}, in the order of their positions, the next is"
     missing = int((np.rint(steps) - 1.0).sum())
     if missing > 0 and np.abs(steps - np.rint(steps)).max() <= 2.0 * MAX_JITTER_RATIO:
         raise InvalidInput(
@@ -211,7 +211,7 @@ def _check_jitter(jitter: float, gaps: Array, spacing: float) -> None:
     )
     raise InvalidInput(
         "CT_SPACING_UNEVEN" if uneven else "CT_SLICES_SHIFTED",
-        f"{how}: one lies {jitter:.3f} mm from its even place, allowed {allowed:.3f} mm",
+        f"{how}: one lies {jitter:.3f} mm from its regular position, allowed {allowed:.3f} mm",
         EXPORT_AGAIN,
         {
             "off_mm": jitter,

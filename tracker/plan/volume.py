@@ -17,7 +17,7 @@ BORDER_VOXELS = 1e-6
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Volume:
-    """A CT: one Hounsfield number for each voxel, and where each voxel's centre lies in the patient.
+    """A CT: Hounsfield units of the voxels, and the affine of the voxel centres in the patient.
 
     The array may be mapped from a file; it is never copied here.
 
@@ -64,9 +64,9 @@ class Volume:
         return float(abs(np.linalg.det(self.lps_from_ijk[:3, :3])))
 
     def in_patient_order(self) -> "Volume":
-        """The same CT with i nearest to left-right, j to front-back, k to feet-head; nothing is copied.
+        """Return the CT with i nearest to left-right, j to front-back, k to feet-head; nothing is copied.
 
-        So that "slice" means an axial one, however a file orders its axes. Their directions stay.
+        A "slice" is then axial for any order of the axes in a file. The directions of the axes are unchanged.
         """
         along = np.abs(self.lps_from_ijk[:3, :3] / self.spacing_mm)
         orders = list(itertools.permutations(range(3)))
@@ -103,7 +103,7 @@ class Volume:
         if flat.shape[0] == 0:
             return np.zeros(shape)
         size = np.array(self.hu.shape)
-        # A point on the outermost voxels is inside, whichever way its index was rounded.
+        # A point on the outermost voxels is inside, regardless of rounding.
         bordering = np.clip(flat, 0.0, size - 1.0)
         flat = np.where(np.abs(flat - bordering) <= BORDER_VOXELS, bordering, flat)
         low = np.clip(np.floor(flat.min(axis=0)).astype(np.int64), 0, size - 1)

@@ -149,7 +149,7 @@ def _error_excess_mm(assessment: Assessment) -> float:
 
 
 def _wall_mm(assessment: Assessment) -> float:
-    """Return the clearance in mm; infinite for a drill outside the bone."""
+    """Return the clearance in mm; `NOT_ENTERED_CLEARANCE_MM` for a drill outside the bone."""
     wall = assessment.figures[FigureName.WALL]
     return NOT_ENTERED_CLEARANCE_MM if wall.status in (Status.OUTSIDE, Status.UNLIMITED) else wall.value
 

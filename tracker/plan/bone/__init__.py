@@ -1,4 +1,4 @@
-"""The bone's surface out of a CT: threshold, region, triangles, smoothing, fitted walls, fewer triangles.
+"""Surface extraction of bone from a CT: threshold, region, marching cubes, smoothing, wall fit, decimation.
 
 `tracker.plan` does not import it, so that the tracking process does not load the CT libraries.
 """

@@ -9,7 +9,7 @@ from tracker.geometry import Array
 from tracker.plan.bone.region import Region
 from tracker.plan.volume import Volume
 
-# As float32 this is 100 MB, and marching cubes takes as much again.
+# 100 MB as float32, and as much again during marching cubes.
 MAX_VOXELS = 24_000_000
 
 
@@ -20,8 +20,8 @@ class Block:
     Attributes:
         hu: (slices, rows, columns) float32.
         first_ijk: (3,) index in the CT of its first voxel.
-        averaged_ijk: (3,) how many voxels of the CT along i, j and k are one of its own.
-        cut_ijk: (2, 3) bool, whether its first and its last layer along i, j, k are the CT's own ends.
+        averaged_ijk: (3,) downsampling factor along i, j and k.
+        cut_ijk: (2, 3) bool, whether its first and its last layer along i, j, k are the ends of the CT.
     """
 
     hu: npt.NDArray[np.float32]

@@ -1,10 +1,11 @@
-"""Position of the bone's outer wall, by a fit of a blurred cortex to the voxels along each normal.
+"""Position of the bone's outer wall, by a fit of a blurred cortex model to the voxels along each normal.
 
-No threshold is unbiased: a level below the half-way HU lies outside of the bone, and a cortex thinner than
-the scanner's blur never reaches its own HU, so that the half-way level of its own peak lies outside too.
-Where the HU of the cortex and the blur are known, the wall follows however thin the cortex is. These two are
-estimated once, where the cortex is thick; wall, thickness and the HU of both sides at each vertex. Where no
-cortex is thick, the usual HU of compact bone is assumed, and the standard deviation of the wall grows by it.
+Every threshold is biased: an isosurface below the half-way HU lies outside the bone, and because a cortex
+thinner than the scanner's blur does not reach its true HU, the half-way level of its peak lies outside too.
+If the HU of the cortex and the blur are known, the wall is observable for any thickness. These two are
+estimated once, where the cortex is thick; wall, thickness and the HU of both sides are then fitted at each
+vertex. If the cortex is nowhere thick, the usual HU of compact bone is assumed, and the standard deviation of
+the wall increases.
 
 Source: G. Treece, A. Gee, P. Mayhew, K. Poole, High resolution cortical bone thickness measurement from
 clinical CT data, Medical Image Analysis 14, 2010. For the HU of the cortex: G. Treece, K. Poole, A. Gee,
@@ -22,36 +23,36 @@ from tracker.geometry import Array
 # Order of the parameters: wall in mm, logarithms of thickness and of the whole blur's sigma in mm, then HU.
 WALL, THICKNESS, BLUR, CORTEX, OUTSIDE, MARROW = range(6)
 COUNT = 6
-# Of a profile: to both sides of the surface in mm, and in parts of the smallest voxel.
+# Half length of a profile in mm, and its sampling step in units of the smallest voxel side.
 REACH_MM, STEP_VOXELS = 3.5, 0.5
-# A profile ends where it rises again by this share of its contrast: there the next wall begins.
+# A profile ends where it rises again by this ratio of its contrast, because the next wall begins there.
 RISE_RATIO, RISE_NOISE = 0.12, 3.0
 # Metal is far above any bone.
 MAX_HU, AIR_HU = 1600.0, -900.0
-# How far a threshold misplaces a wall, and the largest correction.
+# Standard deviation of a wall by threshold, and the largest correction.
 WALL_SD_MM, MAX_MOVE_MM = 0.6, 1.5
 USUAL_THICKNESS_MM, THICKNESS_SD_LOG = 1.0, 0.8
 # The scanner's own blur in voxels of the slice, as for a pedicle.
 BLUR_VOXELS, BLUR_SD_LOG = 0.35, 0.4
-# Compact bone at usual tube voltages; it counts where no cortex is thick enough to show its own HU.
+# Compact bone at usual tube voltages, used where no cortex is thick enough to measure its HU.
 USUAL_CORTEX_HU, CORTEX_SD_HU = 1000.0, 250.0
 OUTSIDE_SD_HU, MARROW_SD_HU, MARROW_RATIO = 300.0, 200.0, 0.2
-# Of a cortex so many times thicker than the blur's sigma, HU and blur are observable.
+# HU and blur are observable for a cortex this many times thicker than the sigma of the blur.
 THICK_SIGMAS, MIN_THICK_RATIO = 2.5, 0.05
-# Second start of the fit that looks for thick cortex: a body without marrow; and the loss that it must save.
+# Second start of the fit for thick cortex: bone without marrow; and the required decrease of its loss.
 SOLID_MM, SOLID_GAIN = 4.0, 0.5
-# How far one place differs from all: its cortex as a share of the contrast, its blur as a logarithm.
+# Local deviation (sd): of the cortex as a ratio of the contrast, of the blur as a logarithm.
 LOCAL_CORTEX_RATIO, LOCAL_BLUR_LOG = 0.12, 0.12
-# Scale of the robust loss, as for a pedicle; residuals below this share of it count as so large.
+# Scale of the robust loss, as for a pedicle; MIN_SPREAD is the lower bound of the residuals in units of it.
 MIN_SCALE_HU, SCALE_RATIO, MIN_SPREAD = 12.0, 0.06, 0.2
 ROUNDS, CHUNK, SAMPLED = 12, 4000, 3000
-# Of one step of the fit.
+# Maximum change of each parameter in one step of the fit.
 MAX_STEP: Array = np.array([0.4, 0.5, 0.3, np.inf, np.inf, np.inf])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Profiles:
-    """HU along the outward normals of places on a surface.
+    """HU along the outward normals at points of a surface.
 
     Attributes:
         along_mm: (s,), outwards from the surface.
@@ -70,13 +71,13 @@ class Profiles:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Imaging:
-    """What all places of a scan have in common.
+    """Imaging parameters common to all points of a scan.
 
     Attributes:
         cortex_hu: HU of the cortex, not blurred.
-        cortex_sd_hu: how far one place differs from it.
+        cortex_sd_hu: standard deviation between points.
         blur_mm: standard deviation of the scanner's own blur.
-        blur_sd_log: how far one place differs, as a logarithm of the whole blur.
+        blur_sd_log: standard deviation between points of the logarithm of the total blur.
         tissue_hu: usual HU around the bone.
         noise_hu: standard deviation of a voxel's noise.
     """
@@ -95,8 +96,8 @@ class EdgeFit:
 
     Attributes:
         wall_mm: (n,), offset of the wall from the surface along the normal, positive outwards.
-        sd_mm: (n,), its standard deviation; `WALL_SD_MM` where the voxels do not show a wall.
-        imaging: what the fit of each wall was based on.
+        sd_mm: (n,), its standard deviation; `WALL_SD_MM` where no wall was fitted.
+        imaging: the imaging parameters of the fit.
     """
 
     wall_mm: Array
@@ -107,7 +108,7 @@ class EdgeFit:
 def fit_walls(
     hu: npt.NDArray[np.float32], lps_from_ijk: Array, points_mm: Array, normals: Array, *, tissue_hu: float
 ) -> EdgeFit:
-    """Fit the outer wall of the bone at each place of a surface.
+    """Fit the outer wall of the bone at each point of a surface.
 
     Args:
         hu: (slices, rows, columns), the voxels.
@@ -131,9 +132,9 @@ def fit_walls(
 def imaging_of(
     hu: npt.NDArray[np.float32], lps_from_ijk: Array, points_mm: Array, normals: Array, *, tissue_hu: float
 ) -> Imaging:
-    """Estimate the HU of the cortex and the blur from the places (n, 3) where the cortex is thick.
+    """Estimate the HU of the cortex and the blur from the points (n, 3) with thick cortex.
 
-    If there are few, the usual ones of compact bone and scanners are returned, with their wider spread.
+    If there are few, the usual values of compact bone and scanners are returned with their larger spread.
     """
     in_slice_mm = float(np.median(np.linalg.norm(lps_from_ijk[:3, :3], axis=0)))
     usual = Imaging(
@@ -146,8 +147,8 @@ def imaging_of(
     )
     profiles = profiles_of(hu, lps_from_ijk, points_mm, normals, usual.noise_hu)
     parameters, sd, loss = solve(profiles, usual)
-    # A body without marrow also looks like a softer one with a thin shell. Where there is marrow, both starts
-    # end at the same fit.
+    # Bone without marrow is also fitted by softer bone with a thin shell. If there is marrow, both starts
+    # converge to the same fit.
     solid, solid_sd, solid_loss = solve(profiles, usual, thickness_mm=SOLID_MM)
     if np.median(loss - solid_loss) > SOLID_GAIN:
         parameters, sd = solid, solid_sd
@@ -212,8 +213,7 @@ def solve(
 ) -> tuple[Array, Array, Array]:
     """Fit the model to each profile: parameters and standard deviations (n, 6), and the loss (n,).
 
-    Gauss-Newton steps with a soft L1 loss; what is expected of each place has the weight of its spread.
-    `thickness_mm` is that of the first step.
+    Gauss-Newton steps with a soft L1 loss and Gaussian priors. `thickness_mm` is the initial thickness.
     """
     mean, sd = _expected(profiles, imaging)
     parameters, precision = mean.copy(), 1.0 / sd**2
@@ -234,9 +234,9 @@ def solve(
         step = np.clip(np.linalg.solve(information, gradient[:, :, None])[:, :, 0], -MAX_STEP, MAX_STEP)
         parameters = np.clip(parameters + step, low, high)
     loss = 2.0 * (profiles.weight * (np.sqrt(1.0 + residual**2) - 1.0)).sum(axis=1)
-    # Without that of the cortex's HU: all places have it in common, so that one alone does not count it.
+    # Without the prior of the cortex's HU, because it is common to all points.
     loss += (np.delete(precision * (parameters - mean) ** 2, CORTEX, axis=1)).sum(axis=1)
-    # Samples closer than a voxel are correlated, and what the model does not follow is more than noise.
+    # Samples closer than a voxel are correlated, and residuals contain model errors besides noise.
     squared = (weight * residual**2).sum(axis=1) / np.maximum(weight.sum(axis=1), 1.0)
     inflation = np.maximum(squared, MIN_SPREAD**2) / np.minimum(profiles.step_voxels, 1.0)
     information = of_data / inflation[:, None, None]

@@ -27,14 +27,15 @@ from tracker.plan.triangles import (
 from tracker.plan.triangles.connectivity import Faces, parts_of
 from tracker.plan.volume import Volume
 
-# Marching cubes makes two triangles for each vertex; 3 million of them take about 1 GB on the way.
+# Marching cubes creates two triangles per vertex; 3 million vertices need about 1 GB during extraction.
 MAX_VERTICES = 3_000_000
 
 MIN_FITTED_FACES = 60_000
-# How far the offset of the wall from the threshold's surface differs between neighbouring vertices.
+# Sd of the difference of wall offsets between neighbouring vertices.
 NEIGHBOUR_SD_MM = 0.03
-# Real cortex is porous and its blur uneven: the model error of a wall, as a share of a voxel. On phantoms the
-# fit alone covers its errors; of single places on cadavers, thickness was off by 0.6 mm (Treece 2010).
+# Model error of a wall in voxels, because real cortex is porous and its blur uneven. On phantoms the
+# covariance of the fit is sufficient; on cadavers the thickness had errors of 0.6 mm at single points (Treece
+# 2010).
 MODEL_VOXELS = 0.25
 
 
@@ -91,7 +92,7 @@ class BoneSurface:
         averaged_ijk: downsampling factors along i, j, k; all 1 without downsampling.
         voxel_mm: (3,) spacing of the voxels after downsampling.
         smoothing_rounds: of Taubin's smoothing.
-        sd_mm: standard deviation of the wall's position, by the voxels and the cortex at hand.
+        sd_mm: standard deviation of the wall's position in this CT.
         moved_mm: median offset of the wall from the threshold's surface; negative is inwards.
         parts: number of connected components.
         faces_before: number of triangles before decimation.
@@ -117,12 +118,12 @@ class BoneSurface:
 
 
 def bone_surface(volume: Volume, settings: BoneSettings | None = None) -> BoneSurface:
-    """Extract the bone from the voxels of a region: found by a threshold, placed by a fit of its edges.
+    """Extract the bone in a region: segmented by a threshold, with walls located by an edge fit.
 
-    The threshold decides what is bone; where its wall lies is fitted (see `edge_model`), because a threshold
-    that finds thin cortex lies outside of it.
+    The threshold only segments the bone; its wall is fitted (see `edge_model`), because the isosurface of a
+    threshold that detects thin cortex lies outside the bone.
 
-    It is open where the region or the CT ends: no wall is invented there.
+    The surface is open where the region or the CT ends.
 
     Raises:
         PlanError: REGION_OUTSIDE; BONE_THRESHOLD_OUTSIDE, no voxel is brighter, or none is darker;
@@ -142,7 +143,7 @@ def bone_surface(volume: Volume, settings: BoneSettings | None = None) -> BoneSu
     vertices, faces = referenced(vertices, faces)
     faces_before = int(faces.shape[0])
     vertices = smoothed(vertices, faces, rounds=settings.smoothing_rounds)
-    # Walls are fitted on more triangles than few, whose chords are no wall, and on no more than it takes.
+    # Walls are fitted on a finer mesh than the result, because the chords of coarse triangles leave the wall.
     if settings.max_faces is not None:
         vertices, faces = decimated(vertices, faces, max_faces=max(settings.max_faces, MIN_FITTED_FACES))
     vertices, sd_mm, moved_mm = _on_edges(vertices, faces, block, volume, proposal.surroundings_hu)
@@ -195,13 +196,13 @@ def _triangles(hu: npt.NDArray[np.float32], threshold_hu: float) -> tuple[Array,
     if not low < threshold_hu <= high:
         raise PlanError(
             "BONE_THRESHOLD_OUTSIDE",
-            f"a threshold of {threshold_hu:.0f} HU separates nothing here, voxels range from {low:.0f} to "
+            f"a threshold of {threshold_hu:.0f} HU separates no voxels, which range from {low:.0f} to "
             f"{high:.0f} HU",
             "Give a threshold between them, or a region in which there is bone.",
             {"threshold_hu": threshold_hu, "lowest_hu": low, "highest_hu": high},
         )
-    # A whole number of HU is what many voxels have; half of one less makes no triangles without area, and
-    # still takes the same voxels for bone.
+    # Many voxels have exactly an integer HU, which would create degenerate triangles. Half a unit less
+    # segments the same voxels.
     level = float(np.ceil(threshold_hu)) - 0.5
     bone = hu >= level
     crossings = sum(int(np.count_nonzero(np.diff(bone, axis=axis))) for axis in range(3))
@@ -209,7 +210,7 @@ def _triangles(hu: npt.NDArray[np.float32], threshold_hu: float) -> tuple[Array,
         raise PlanError(
             "BONE_TOO_LARGE",
             f"at {threshold_hu:.0f} HU the surface has {crossings} vertices, allowed {MAX_VERTICES}",
-            "Give a region around one vertebra, or a higher threshold that does not cut through noise.",
+            "Give a region around one vertebra, or a higher threshold above the noise.",
             {"vertices": crossings, "threshold_hu": threshold_hu},
         )
     if crossings == 0:

@@ -42,7 +42,7 @@ class Region:
         ):
             raise PlanError(
                 "REGION_INVALID",
-                f"the region from {_formatted(low)} to {_formatted(high)} mm is no box, "
+                f"the region from {_formatted(low)} to {_formatted(high)} mm is not a box, "
                 "each side must be above 0 mm",
                 "Give the corner with the smallest left, posterior and superior coordinates first.",
                 {"low_lps_mm": low.tolist(), "high_lps_mm": high.tolist()},

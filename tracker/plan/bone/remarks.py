@@ -8,7 +8,7 @@ from tracker.plan.bone.threshold import ThresholdProposal
 from tracker.plan.remark import Remark
 
 ENDS = ("first column", "first row", "first slice", "last column", "last row", "last slice")
-# A threshold this far from the proposal moves the wall of a pedicle by a large part of a voxel.
+# A threshold that differs from the proposal by more moves the wall of a pedicle by a large part of a voxel.
 FAR_FROM_PROPOSAL_HU = 150.0
 
 

@@ -10,7 +10,7 @@ import skimage
 MIN_HU, MAX_HU = -1024, 1500
 # Muscle, blood and discs; contrast and scanner shift the peak.
 SOFT_TISSUE_HU = (-20, 120)
-# Smoothing width: the scale at which noise makes a histogram peak jagged.
+# Width of the smoothing, larger than the noise of the histogram.
 SMOOTHED_OVER_HU = 8.0
 SOFT_TISSUE_NEEDED_RATIO = 0.05
 MIN_ABOVE_SURROUNDINGS_HU, MAX_PROPOSED_HU = 60.0, 400.0

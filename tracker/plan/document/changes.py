@@ -211,8 +211,8 @@ def with_landmarks(
 def recomputed(plan: PlanDocument, *, volume: Volume) -> PlanDocument:
     """Return an imported plan with all dependent values recomputed.
 
-    Grades, clearances, bone, tolerances and lines are not believed but made again, from pedicles, channels
-    and the sizes of the screws, on this CT.
+    Grades, clearances, bone density, tolerances and lines are recomputed from pedicles, channels and the
+    sizes of the screws on this CT.
 
     Raises:
         PlanError: CHANNEL_OUTSIDE_CT, LANDMARK_OUTSIDE_CT, PEDICLE_MISSING, SLICE_OUTSIDE_CT, LINES_INVALID,

@@ -43,8 +43,8 @@ def plan_from_mapping(mapped: object) -> PlanDocument:
     """Return the plan of a mapping; every record validates itself.
 
     Raises:
-        PlanError: PLAN_INVALID, a key is missing, unknown or of a wrong kind; PLAN_VERSION_UNKNOWN; or what
-            a record rejects it.
+        PlanError: PLAN_INVALID, a key is missing, unknown or of a wrong type; PLAN_VERSION_UNKNOWN; or
+            an error of a record.
     """
     if isinstance(mapped, Mapping):
         mapped = _in_newest_version(mapped)
@@ -116,10 +116,10 @@ def _single(kind: Any, value: object, where: str) -> object:  # noqa: ANN401  as
                 where, f"is {repr(value)[:60]}, allowed are {', '.join(str(one.value) for one in kind)}"
             ) from error
     if kind is float and isinstance(value, int | float) and not isinstance(value, bool):
-        # A whole number of JSON may have more digits than a float holds.
+        # An integer of JSON may exceed the range of a float.
         number = float(value) if abs(value) < MAX_INTEGER else math.inf
         if not math.isfinite(number):
-            raise _invalid(where, "is no finite number")
+            raise _invalid(where, "is not a finite number")
         return number
     if isinstance(kind, type) and type(value) is kind:
         return value
@@ -154,9 +154,9 @@ def _array(value: object, where: str) -> object:
     try:
         array = np.array(_list(value, where), dtype=np.float64)
     except (TypeError, ValueError, OverflowError) as error:
-        raise _invalid(where, "is no even list of numbers") from error
+        raise _invalid(where, "is not a rectangular list of numbers") from error
     if not np.isfinite(array).all():
-        raise _invalid(where, "holds a number that is not finite")
+        raise _invalid(where, "contains a number that is not finite")
     return array
 
 

@@ -133,7 +133,7 @@ def _is_shaped(array: Array, shape: tuple[int, ...], where: str) -> Iterator[tup
     if array.shape != shape:
         yield where, f"has shape {array.shape}, needed {shape}"
     elif np.abs(array).max() > MAX_COORDINATE_MM:
-        yield where, f"holds {np.abs(array).max():g}, allowed up to {MAX_COORDINATE_MM:g}"
+        yield where, f"contains {np.abs(array).max():g}, allowed up to {MAX_COORDINATE_MM:g}"
 
 
 def _is_name(name: str, longest: int = MAX_NAME_LENGTH) -> bool:

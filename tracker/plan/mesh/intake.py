@@ -1,4 +1,4 @@
-"""Validation and clean-up of an imported mesh; rejected with what is missing."""
+"""Validation and clean-up of an imported mesh."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -64,13 +64,13 @@ def surface_from_mesh(
     Args:
         vertices: (n, 3) in the mesh's own unit.
         faces: (m, 3) indices.
-        unit: a key of `MM_FROM_UNIT`, or None where it has to show by its size that it is in mm.
+        unit: a key of `MM_FROM_UNIT`; None accepts mm if the size is plausible.
         space: of its coordinates.
 
     Raises:
-        PlanError: MESH_EMPTY, MESH_INVALID, MESH_UNIT_INVALID; MESH_UNIT_NEEDED, in mm it is neither a
-            vertebra nor several, and another unit is proposed; MESH_SIZE_IMPLAUSIBLE, it is neither in any
-            unit, or not in the one that was given.
+        PlanError: MESH_EMPTY, MESH_INVALID, MESH_UNIT_INVALID; MESH_UNIT_NEEDED, in mm its size is that of
+            neither a vertebra nor several, and another unit is proposed; MESH_SIZE_IMPLAUSIBLE, the size is
+            implausible in any unit, or in the given one.
     """
     points, corners = _checked(np.asarray(vertices, np.float64), np.asarray(faces, np.int64))
     points, corners, dropped = _cleaned(points, corners)
@@ -146,11 +146,11 @@ def _cleaned(points: Array, corners: Faces) -> tuple[Array, Faces, int]:
 
 
 def _kind(size: Array, unit: str | None) -> Kind:
-    """Return what the mesh is by its size in the given unit, or in mm."""
+    """Return the kind of the mesh by its size in the given unit, or in mm."""
     if unit is not None and unit not in MM_FROM_UNIT:
         raise PlanError(
             "MESH_UNIT_INVALID",
-            f"'{unit}' is no unit of a mesh",
+            f"'{unit}' is not a unit of a mesh",
             f"Give one of {', '.join(MM_FROM_UNIT)}.",
             {"unit": unit, "allowed": list(MM_FROM_UNIT)},
         )
@@ -169,7 +169,7 @@ def _kind(size: Array, unit: str | None) -> Kind:
         "neither a vertebra nor several"
     )
     if not fits:
-        remedy = "It fits in no unit: export one vertebra, with its unit, and nothing else."
+        remedy = "Its size is implausible in any unit: export one vertebra only, with its unit."
         raise PlanError("MESH_SIZE_IMPLAUSIBLE", message, remedy, context)
     formatted = "; ".join(_formatted(fit) for fit in fits)
     code = "MESH_UNIT_NEEDED" if unit is None else "MESH_SIZE_IMPLAUSIBLE"

@@ -8,7 +8,7 @@ from tracker.plan.mesh.units import Kind
 from tracker.plan.remark import Remark
 from tracker.plan.triangles import Connectivity
 
-SEGMENT_AGAIN = "Fill its holes where it was segmented, or use it to look at only."
+SEGMENT_AGAIN = "Fill its holes in the segmentation, or use it for display only."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,7 +37,7 @@ def _remarks(found: Findings) -> Iterator[Remark]:
         yield Remark(
             code="MESH_SEVERAL_VERTEBRAE",
             message=f"the mesh is {size} mm, the size of several vertebrae or a whole spine",
-            remedy="Register on one vertebra: take its surface alone, as vertebrae move against each other.",
+            remedy="Register on one vertebra: use its surface alone, as vertebrae move relative to each other.",
             context={"size_mm": found.size_mm.tolist()},
         )
     if connectivity.border_edges:
@@ -66,13 +66,13 @@ def _remarks(found: Findings) -> Iterator[Remark]:
         yield Remark(
             code="MESH_IN_PARTS",
             message=f"the mesh has {found.parts} parts that do not touch",
-            remedy="If one bone is wanted, export it alone.",
+            remedy="To use one bone only, export it alone.",
             context={"parts": found.parts},
         )
     if found.dropped:
         yield Remark(
             code="MESH_CLEANED",
-            message=f"{found.dropped} triangles of the mesh without area, or there twice, were left out",
+            message=f"{found.dropped} degenerate or duplicate triangles of the mesh were removed",
             remedy="Nothing needs to be done.",
             context={"dropped_faces": found.dropped},
         )

@@ -8,8 +8,8 @@ import numpy as np
 from tracker.geometry import Array
 
 MM_FROM_UNIT = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "inch": 25.4, "um": 0.001}
-# Longest, middle and shortest side of the box around it. Between a child's neck and an adult's loin, with all
-# processes; the atlas is the flattest.
+# Longest, middle and shortest side of the bounding box, from a child's cervical to an adult's lumbar vertebra
+# with all processes; the atlas is the flattest.
 VERTEBRA_LONGEST_MM = (25.0, 125.0)
 VERTEBRA_MIDDLE_MM, VERTEBRA_SHORTEST_MM, VERTEBRA_FLATTEST_RATIO = 15.0, 8.0, 5.0
 VERTEBRA_USUAL_MM = 85.0
@@ -41,7 +41,7 @@ class FittingUnit:
 
 
 def kind_of(size_mm: Array) -> Kind | None:
-    """Return what a bounding box (3,) in mm fits: a vertebra, a spine or neither."""
+    """Return the kind by a bounding box (3,) in mm: a vertebra, a spine or None."""
     shortest, middle, longest = np.sort(size_mm)
     if (
         VERTEBRA_LONGEST_MM[0] <= longest <= VERTEBRA_LONGEST_MM[1]

@@ -1,7 +1,7 @@
 """Prior of the pedicle axis from its surroundings: canal, vertebral body, and clearance to the walls.
 
-A real pedicle is hardly longer than it is wide, so that its walls hardly constrain its direction. The axis
-is then anatomical: from behind through the centre of the isthmus into the body, inside bone.
+A pedicle is hardly longer than it is wide, so its walls hardly constrain its direction. The axis is then
+determined by anatomy: from posterior through the centre of the isthmus into the body, inside bone.
 """
 
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ WALL_FROM_MM, WALL_TO_MM = -14.0, 8.0
 USUAL_DEG, USUAL_AT_MM, TURN_DEG_PER_MM = 6.0, 16.0, 2.2
 USUAL_RANGE_DEG = (0.0, 28.0)
 KNOWN_SD_DEG, UNKNOWN_SD_DEG = 6.0, 11.0
-# Lower limit of the sd: the surroundings determine the direction no better.
+# Lower bound of the sd of the direction from the surroundings.
 MIN_SD_DEG = 3.0
 ASIDE_MM = np.arange(-5.0, 5.1, 1.0)
 TRANSVERSE_DEG = np.arange(-24.0, 45.0, 3.0)
@@ -91,7 +91,7 @@ def middle_of_bone(solid: Solid, point_mm: Array, axis: Array) -> Array:
     (across,), (up,) = planes_across(axis[None])
     x, y = (grid.ravel() for grid in np.meshgrid(ASIDE_MM, ASIDE_MM))
     near_by = point_mm + x[:, None] * across + y[:, None] * up
-    # Among equal depths choose the nearest, so that the point moves only for a better one.
+    # A small penalty on the distance keeps the point in place among equal depths.
     return np.asarray(near_by[np.argmax(solid.depth_at(near_by) - 0.3 * np.hypot(x, y))])
 
 

@@ -1,8 +1,8 @@
 """Least-squares fit of the bar model to the voxels, for sub-voxel wall positions even in thick slices.
 
-A wall of 1 mm is blurred to half of its Hounsfield units, in thick slices to a third, so no threshold finds
-it; a fit that contains the voxel's box places it to a tenth of a voxel. Rays give the start only. It takes
-a second for each click.
+A wall of 1 mm is blurred to half of its Hounsfield units, in thick slices to a third, so no threshold locates
+it. A fit that models the voxel's box locates it to a tenth of a voxel. Rays provide only the initial outline.
+It takes a second per click.
 """
 
 from dataclasses import dataclass
@@ -20,10 +20,11 @@ from tracker.plan.pedicle.search import Bar
 MIN_HALF_MM, MAX_HALF_MM = 3.0, 6.0
 # Iterations that only locate the section need fewer voxels than the final fit.
 MAX_VOXELS = (900, 1200, 3500)
-# Bone that is not like the bar pulls it away in many steps: the first rounds are kept short. What is like it
-# may need so many more of the first to be explained, as where walls stand high above what is around them.
+# Maximum number of steps per round: the first rounds are short, because bone that deviates from the bar model
+# pulls the fit away over many steps. MORE_STEPS are allowed where the misfit is low, as for walls of high
+# contrast.
 MAX_STEPS, MORE_STEPS = (8, 10, 20), 80
-# If the narrowest place is still this far from the window's centre, the window is moved once more.
+# If the narrowest section is farther than this from the window's centre, the window is moved again.
 SETTLED, MORE_ROUNDS, MIN_WAIST = 0.15, 2, 0.02
 # Only with a low misfit: otherwise a moving window converges on adjacent bone.
 MAX_MISFIT_RATIO = 0.04
@@ -47,7 +48,7 @@ class FittedBar:
         parameters: (26,), see `tube_model`.
         covariance: (26, 26).
         residual_hu: robust standard deviation of the residuals.
-        misfit_ratio: residual beyond noise, relative to the contrast of bone: deviation from the bar model.
+        misfit_ratio: residual beyond noise as a ratio of the contrast of bone: deviation from the bar model.
         fitted: whether the fit converged; if not, these are the coarse values.
     """
 
@@ -66,7 +67,7 @@ class FittedBar:
 def fit_bar(near: Neighbourhood, bar: Bar, *, fixed_axis: bool = False) -> FittedBar:
     """Fit the bar around its narrowest section; iterate until window and axis are consistent.
 
-    With a fixed axis, only the place and shape of its section are fitted.
+    With a fixed axis, only position and shape of its section are fitted.
     """
     half = float(np.clip(0.8 * min(bar.behind_mm, bar.ahead_mm), MIN_HALF_MM, MAX_HALF_MM))
     origin, axis = bar.centre_mm, bar.axis
@@ -256,8 +257,9 @@ def _solve(
     def residuals(parameters: Array) -> Array:
         fit = (tube_model.model_hu(parameters, samples) - samples.hu) / scale
         off = (parameters - centre) / width
-        # The loss forgives what is far off. Of a wall thinner than the blur only dense times thick is seen,
-        # so that these two must not be forgiven: so written, the loss counts them by their square.
+        # The robust loss discounts large residuals. For a wall thinner than the blur only the product of
+        # density and thickness is observable, so this transformation makes the loss of their priors
+        # quadratic.
         off[WALL] *= np.sqrt(1.0 + 0.25 * off[WALL] ** 2)
         return np.concatenate([fit, off])
 
@@ -293,7 +295,7 @@ def _misfit_ratio(near: Neighbourhood, residual: float) -> float:
 def _expected(near: Neighbourhood, start: Array, slopes: Array) -> tuple[Array, Array]:
     """Return prior mean and standard deviation of each parameter.
 
-    `slopes` are those of the coarse line over the window, and how far the fit may leave them: left, up, sd.
+    `slopes`: slopes of the coarse line over the window and the sd of the fit about them: left, up, sd.
     """
     centre, width = np.zeros(tube_model.COUNT), np.full(tube_model.COUNT, 1e3)
     centre[tube_model.CENTRE] = [0.0, slopes[0], 0.0, 0.0, slopes[1], 0.0]

@@ -115,7 +115,7 @@ def _found_from(
 def _agreed(near: Neighbourhood, solid: Solid, seed: Array, side: Side, isthmus: Isthmus) -> Isthmus:
     """Return the isthmus with the uncertainty of a second start; reject it if that finds another place.
 
-    Of few voxels a fit states its noise, and not that another section near by would have done as well.
+    With few voxels, the covariance of a fit does not include other sections nearby that fit equally well.
     """
     again = 0.5 * (seed + isthmus.centre_mm)
     if np.linalg.norm(again - seed) < MIN_ASIDE_MM:
@@ -185,8 +185,8 @@ def _along_course(
 def _narrower(one: Isthmus, other: Isthmus) -> Isthmus:
     """Return the first section with the smaller width and height; the difference adds uncertainty.
 
-    The direction is uncertain, and a rib at the wall widens the section in one of them: an underestimate
-    costs a thinner screw, an overestimate the wall.
+    The direction is uncertain, and a rib at the wall can widen one of the sections: an underestimate
+    leads to a thinner screw, an overestimate to a breach.
     """
     return replace(
         one,
@@ -253,7 +253,7 @@ def _opens_ahead_mm(bar: Bar, isthmus: Isthmus) -> float:
 
 
 def _side_warnings(near: Neighbourhood, isthmus: Isthmus, fitted: FittedBar, side: Side) -> list[str]:
-    """Return what contradicts the given side; reject it if canal and body both do."""
+    """Return warnings if canal or body contradicts the given side; reject the side if both do."""
     expected = -1 if side == "left" else 1
     canal = canal_side(near, isthmus.centre_mm, fitted.left, 0.5 * isthmus.width_mm, fitted.up)
     body = body_side(near, isthmus.centre_mm, isthmus.axis, fitted.left)

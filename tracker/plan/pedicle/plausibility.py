@@ -1,7 +1,7 @@
 """Plausibility of a section as a pedicle, from the solid bone around it and independent of the fit.
 
-The canal lies beside a pedicle. A section around the lateral wall of the body, where a transverse process
-joins it, is as narrow and as closed as an isthmus; but beyond its medial wall is the body.
+The canal is medial to a pedicle. A section around the lateral wall of the body, where a transverse process
+joins it, is as narrow and closed as an isthmus, but medial to it is the body.
 """
 
 from dataclasses import replace

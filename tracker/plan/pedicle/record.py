@@ -41,12 +41,12 @@ class PedicleMeasure:
             to the middle.
         sagittal_deg: angle of the axis from straight forwards in the sagittal plane, positive where it runs
             to the head.
-        length_mm: along the axis from the entry to the outer side of the body's front wall; a screw keeps
-            its own margin before that.
+        length_mm: length along the axis from the entry to the outer side of the body's anterior wall; the
+            margin of a screw is not subtracted.
         isthmus_lps_mm: (3,), centre of the section.
         axis_lps: unit (3,), forwards.
-        entry_lps_mm: (3,), where the axis enters the arch from behind; of a process that it runs through
-            lengthwise, the base.
+        entry_lps_mm: (3,), where the axis enters the arch from posterior; the base of a process that it runs
+            through lengthwise.
         front_lps_mm: (3,), where it leaves the body in front.
         outline_lps_mm: (n, 3), the section's outer wall.
         seed_lps_mm: (3,), the click.

@@ -142,7 +142,7 @@ def reject_no_isthmus(near: Neighbourhood, bar: Bar, isthmus: Isthmus) -> None:
     )
     raise PlanError(
         "PEDICLE_NOT_FOUND",
-        f"the bone around the click is no pedicle: {what} (noise {near.noise_hu:.0f} HU)",
+        f"the bone around the click is not a pedicle: {what} (noise {near.noise_hu:.0f} HU)",
         CLICK,
         {"width_mm": isthmus.width_mm, "height_mm": isthmus.height_mm, "length_mm": bar.length_mm},
     )

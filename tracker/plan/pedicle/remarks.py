@@ -11,7 +11,7 @@ from tracker.plan.pedicle.solid import Solid
 
 USUAL_LENGTH_MM = (25.0, 75.0)
 FEW_VOXELS = 5.0
-# From here on a warning states that the angle follows the anatomical prior: one degree for ten.
+# Above this influence of the anatomical prior on the angle, a warning is given.
 USUAL_RATIO = 0.1
 MIN_FACED, ENDPLATE_RATIO = 0.5, 0.7
 BODY_WITHIN_MM, BODY_GROWTH = 36.0, 1.4

@@ -10,8 +10,8 @@ from tracker.plan.pedicle import tube_model
 from tracker.plan.pedicle.fit import FittedBar, narrowest
 
 ROUND_RATIO = 1.08
-# Real sections are no ellipses: how far their own axes may be turned. Where it is so likely that the other
-# axis is the one nearer to left-right, the lesser extent is called the width.
+# Sd of the roll of the principal axes, because real sections are not ellipses. Above this probability that
+# the other axis is nearer to left-right, the smaller extent is used as the width.
 ROLL_SD_DEG, EITHER_RATIO = 6.0, 0.2
 # Model error of a wall position, as a share of a voxel, independent of noise.
 MODEL_VOXELS, MODEL_DEG = 0.06, 0.08
@@ -83,7 +83,7 @@ def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
     model_deg = float(np.hypot(MODEL_DEG, min(unlike, MAX_UNLIKE_DEG)))
     other_way = _other_way_ratio(fitted, at)
     either = abs(numbers[0] - numbers[1]) * np.sqrt(other_way * (1.0 - other_way))
-    # An underestimate costs a thinner screw, an overestimate the wall.
+    # An underestimate leads to a thinner screw, an overestimate to a breach.
     wide, high = (1, 0) if other_way > EITHER_RATIO and numbers[0] > numbers[1] else (0, 1)
     return Isthmus(
         centre_mm=centre,
@@ -137,8 +137,8 @@ def _numbers(parameters: Array, at: float, half_mm: float) -> Array:
 def _extent(points: Array, direction: Array) -> float:
     """Return the extent (mm) along a direction (2,): mean of calliper width and chord through the centre.
 
-    For an ellipse both are the same. A few waves cannot follow a corner: callipers are too wide there, and
-    the chord between the corners too narrow.
+    For an ellipse both are equal. A truncated Fourier series does not follow a corner, where the calliper
+    width is too large and the chord between the corners too small.
     """
     turned = np.arctan2(points @ [-direction[1], direction[0]], points @ direction)
     order = np.argsort(turned)

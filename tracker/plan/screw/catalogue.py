@@ -12,8 +12,8 @@ class ScrewCatalogue:
     """Available diameters and lengths; every diameter is available in every length.
 
     Attributes:
-        diameters_mm: rising.
-        lengths_mm: rising.
+        diameters_mm: available diameters, ascending.
+        lengths_mm: available lengths, ascending.
 
     Raises:
         PlanError: CATALOGUE_INVALID, a list is empty or a number is not above 0.

@@ -9,7 +9,8 @@ from tracker.geometry import Array
 from tracker.plan.channel import Channel
 from tracker.plan.pedicle import PedicleMeasure
 
-# Behind, the arch is soon wider than the isthmus.
+# Length behind the isthmus to which its outline applies, because the arch is wider, and the number of
+# sections.
 HALF_LENGTH_MM, PLACES = 3.0, 7
 WALLS = ("medial", "lateral", "superior", "inferior")
 
@@ -29,7 +30,7 @@ class Clearance:
     """Distance from the screw's surface to each outer wall, in mm; negative for a breach.
 
     Attributes:
-        medial_mm: towards the canal; likewise lateral_mm, superior_mm, inferior_mm.
+        medial_mm: clearance towards the canal; likewise lateral_mm, superior_mm, inferior_mm.
         anterior_mm: from the screw's end to the front wall of the body, along the screw.
         breach_mm: the deepest breach of the pedicle's wall in any direction, 0 if there is none.
         grade: of that breach.
@@ -64,12 +65,12 @@ def clearance_of(
 ) -> Clearance:
     """Return the clearance of a screw on the channel's axis, starting at its entry.
 
-    The screw's cylinder is compared with the isthmus's outline, taken as it is from 3 mm behind it to where
-    the pedicle opens into the body; in front against the plane of the front wall, across its axis.
+    The screw's cylinder is compared with the outline of the isthmus, extruded from 3 mm behind it to where
+    the pedicle opens into the body, and anteriorly with the tangent plane of the anterior wall.
     """
     gaps = wall_gaps_mm(channel, measure) - 0.5 * diameter_mm
     towards = _towards(measure)
-    # The wall of a side is what lies within 45 degrees of its direction.
+    # Each wall is the part of the outline within 45 degrees of its direction.
     by_wall = [
         float(gaps[towards == n].min()) if (towards == n).any() else float(gaps.min()) for n in range(4)
     ]
@@ -99,8 +100,8 @@ def wall_gaps_mm(channel: Channel, measure: PedicleMeasure) -> Array:
 def gaps_along_mm(channel: Channel, measure: PedicleMeasure) -> tuple[Array, Array]:
     """Return places in the pedicle (m,), from the isthmus forwards, and distances (m, n) to the outline.
 
-    The isthmus's outline stands for each section, from 3 mm behind it to where the pedicle opens into the
-    body; each of them is wider than that.
+    The outline of the isthmus is used for each section from 3 mm behind it to where the pedicle opens into
+    the body, because all of them are wider.
     """
     places = np.linspace(-HALF_LENGTH_MM, max(measure.opens_ahead_mm, HALF_LENGTH_MM), PLACES)
     slope = float(channel.axis_in_vertebra @ measure.axis_lps)

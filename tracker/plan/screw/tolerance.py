@@ -16,15 +16,15 @@ STEPS = 16
 class Tolerance:
     """Navigation errors that keep a screw within the pedicle's walls.
 
-    Entry offset and angle use up the same room: whoever is off by `offset_mm` at the entry in the worst
-    direction has the angle of the same place in `deg_at_offset` left.
+    Entry offset and angle share the same clearance: at an entry offset of `offset_mm[i]` in the worst
+    direction, the allowed angle is `deg_at_offset[i]`.
 
     Attributes:
         offset_mm: (n,), entry offsets from 0 to the largest.
-        deg_at_offset: (n,), the angle that may come on top of it in the worst direction; falls to 0.
-        max_offset_mm: the largest offset with a true angle.
-        max_angle_deg: the largest angle with a true entry.
-        both_mm: and both_deg: half of that offset and the angle that is left, which may come together.
+        deg_at_offset: (n,), the allowed angle at that offset in the worst direction, down to 0.
+        max_offset_mm: the largest offset with zero angle error.
+        max_angle_deg: the largest angle with zero entry offset.
+        both_mm: half of the largest offset; `both_deg` is the allowed angle at it.
     """
 
     offset_mm: Array
@@ -39,8 +39,8 @@ def tolerance_of(channel: Channel, measure: PedicleMeasure, *, diameter_mm: floa
     """Return the tolerance of one pedicle for one screw; all zero if the plan itself breaches.
 
     The walls count from 3 mm behind the isthmus to where the pedicle opens into the body.
-    It turns about its entry: each place of it moves by the offset and by the lever times the tangent of the
-    angle, in the worst case both towards the nearest wall there.
+    The screw rotates about its entry: each of its points moves by the offset and by the lever times the
+    tangent of the angle, in the worst case both towards the nearest wall there.
     """
     places, gaps = gaps_along_mm(channel, measure)
     room = np.maximum(gaps.min(axis=1) - 0.5 * diameter_mm, 0.0)
@@ -48,7 +48,7 @@ def tolerance_of(channel: Channel, measure: PedicleMeasure, *, diameter_mm: floa
     lever = np.maximum(to_isthmus + places, HALF_LENGTH_MM)
     max_offset_mm = float(room.min())
     offset = np.linspace(0.0, max_offset_mm, STEPS)
-    # Which place leaves least depends on the offset: far ahead the same angle moves the screw more.
+    # The critical section depends on the offset, because the lever of the angle differs.
     angle = np.degrees(np.arctan(((room - offset[:, None]) / lever).min(axis=1)))
     both = float(np.degrees(np.arctan(((room - 0.5 * max_offset_mm) / lever).min())))
     for array in (offset, angle):

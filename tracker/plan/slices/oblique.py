@@ -65,9 +65,9 @@ def along_channel(
 ) -> Slice:
     """Return the slice that contains the channel's axis; the drilling direction points up in the image.
 
-    Without a turn the patient's left lies to the right, as nearly as the axis allows: the axial slice, tilted
-    along the channel. The turn is about the drilling direction, by the right hand; 90 degrees show what lies
-    towards head and feet.
+    Without a rotation the patient's left is on the right, as nearly as the axis allows: the axial slice,
+    tilted along the channel. The rotation is right-handed about the drilling direction; 90 degrees show the
+    direction of head and feet.
 
     Raises:
         PlanError: PLANE_INVALID, SLICE_TOO_LARGE or SLAB_INVALID.
@@ -97,7 +97,7 @@ def across_channel(
 ) -> Slice:
     """Return the slice perpendicular to the channel at a depth from its entry, seen along the drill.
 
-    The feet lie down, as nearly as the axis allows; the channel's axis is the middle of the image.
+    The feet point down, as nearly as the axis allows; the channel's axis is the centre of the image.
 
     Raises:
         PlanError: PLANE_INVALID, SLICE_TOO_LARGE or SLAB_INVALID.

@@ -54,15 +54,15 @@ def patient_slice(
 ) -> Slice:
     """Return the axial, sagittal or coronal slice at an LPS coordinate.
 
-    The scanner's own pixels are given where its slice or voxel axes lie in the plane; else they are read
-    between voxels, into square pixels.
+    The native pixels are returned if slice or voxel axes lie in the plane; otherwise the CT is resampled
+    into square pixels.
 
     Args:
         volume: the CT.
         plane: which of the three.
         at_mm: z for axial, x for sagittal, y for coronal.
-        slab_mm: how thick; the highest value through the slab is shown (maximum intensity projection).
-        pixel_mm: side of the pixels; the smallest voxel side if left out. Not used for the scanner's own.
+        slab_mm: thickness of the maximum intensity projection.
+        pixel_mm: side of the pixels; the smallest voxel side if None. Not used for native pixels.
 
     Raises:
         PlanError: SLICE_OUTSIDE, SLICE_TOO_LARGE or SLAB_INVALID.
@@ -117,7 +117,7 @@ def _native(volume: Volume, view: _View, at_mm: float) -> Slice | None:
     index = np.zeros(3)
     index[through] = place if is_upright else nearest
     hu = _read(volume.hu, through, float(index[through]))
-    # What is left has the lower of both axes (in i, j, k) last.
+    # The remaining array has the lower of both axes (in i, j, k) last.
     hu = hu if columns < rows else hu.T
     for axis, wanted, flipped in ((columns, view.right, 1), (rows, view.down, 0)):
         if axes[:, axis] @ wanted < 0.0:

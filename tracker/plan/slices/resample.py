@@ -28,7 +28,7 @@ def resampled(volume: Volume, lps_from_px: Array, size_mm: tuple[float, float]) 
     sides = np.linalg.norm(lps_from_px[:, :2], axis=0)
     if not (np.isfinite(lps_from_px).all() and np.isfinite(size_mm).all() and sides.min() > 0.0):
         raise _too_large(size_mm, float(sides.min()))
-    # A part of a pixel that only rounding asks for is not added.
+    # Tolerance, so that rounding does not add a pixel.
     columns, rows = (math.ceil(size / side - 1e-6) + 1 for size, side in zip(size_mm, sides, strict=True))
     if min(columns, rows) < 1 or max(columns, rows) > MAX_SIDE_PX:
         raise _too_large(size_mm, float(sides.min()))

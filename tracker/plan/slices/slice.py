@@ -7,9 +7,9 @@ import numpy.typing as npt
 
 from tracker.geometry import Array
 
-# Towards what the three axes of LPS point, and away from it.
+# Letters of the positive and negative directions of the three LPS axes.
 LETTERS = (("L", "R"), ("P", "A"), ("H", "F"))
-# A direction is named by a second letter from this much of it on (22.5 degrees).
+# A second letter is added above this component (22.5 degrees).
 SECOND_LETTER = 0.38
 
 

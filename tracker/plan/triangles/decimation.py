@@ -6,7 +6,7 @@ import numpy as np
 from tracker.geometry import Array
 from tracker.plan.triangles.connectivity import Faces, areas_of, referenced
 
-# The library's default: with less, edges of long triangles never become cheap enough, and too many remain.
+# The library's default; with a lower value, edges of long triangles are not collapsed and too many remain.
 AGGRESSIVENESS = 7.0
 MIN_FACES = 100
 

@@ -9,7 +9,8 @@ import scipy
 from tracker.geometry import Array
 from tracker.plan.triangles.connectivity import Faces, connectivity_of
 
-# Taubin 1995: a step in, and a slightly longer one out. What is larger than 1/PASS_BAND of an edge stays.
+# Taubin 1995: a shrinking step and a slightly larger inflating step. Wavelengths above 1/PASS_BAND edges
+# remain.
 STEP_RATIO = 0.5
 PASS_BAND = 0.1
 VALUE_ROUNDS = 30
@@ -18,7 +19,7 @@ VALUE_ROUNDS = 30
 def smoothed(vertices_mm: Array, faces: Faces, *, rounds: int) -> Array:
     """Return the vertices (n, 3) after this many rounds of a step to the neighbours' mean and back.
 
-    Vertices of a border stay where they are: they have neighbours on one side only, which would pull them in.
+    Border vertices are fixed, because their neighbours on one side only would pull them inwards.
 
     Source: G. Taubin, A signal processing approach to fair surface design, SIGGRAPH 1995.
     """
@@ -36,10 +37,10 @@ def smoothed(vertices_mm: Array, faces: Faces, *, rounds: int) -> Array:
 
 
 def smoothed_values(values: Array, sd: Array, faces: Faces, *, step_sd: float) -> Array:
-    """Return values (n,) of vertices, each weighed by its standard deviation against its neighbours.
+    """Return smoothed values (n,) of vertices, weighted by their standard deviations.
 
-    Neighbours differ by `step_sd`; a value of a large standard deviation follows them (a Gaussian Markov
-    random field, by Jacobi's iteration).
+    A Gaussian Markov random field with `step_sd` between neighbours, solved by Jacobi iteration; a value with
+    a large standard deviation follows its neighbours.
     """
     graph, neighbours = _graph(connectivity_of(faces).edges, values.size)
     own, coupling = 1.0 / sd**2, 1.0 / step_sd**2

@@ -37,7 +37,7 @@ def test_hands_move_turn_scale_and_fade_about_the_point_under_the_finger() -> No
 @pytest.mark.parametrize("wrong", [{"fade_ratio": 1.2}, {"scale_px_per_mm": 0.0}, {"rotation_deg": np.nan}])
 def test_an_overlay_that_cannot_be_is_rejected(wrong: dict[str, float]) -> None:
     values = {"rotation_deg": 0.0, "scale_px_per_mm": 2.0, **wrong}
-    with pytest.raises(InvalidInput, match="px a mm"):
+    with pytest.raises(InvalidInput, match="px/mm"):
         SliceOverlay(shift_px=np.zeros(2), **values)
 
 

@@ -1,8 +1,8 @@
-"""How far a pedicle's axis runs in bone: from the entry behind to the front wall of the body.
+"""Length of a pedicle's axis in bone: from the posterior entry to the anterior wall of the body.
 
-The length ends at outlines of the whole bone. A contrast-filled vessel that touches the body is only a
-wall's thickness away along the axis, but lies outside the body's outline; a process is more slender than the
-arch, whose back is where half of the bone around the axis ends.
+The length ends at outlines of the whole bone. Along the axis, a contrast-filled vessel that touches the body
+is separated from it only by the wall, but it lies outside the body's outline. A process is narrower than the
+arch, whose posterior surface is where half of the bone around the axis ends.
 """
 
 from tracker.plan.pedicle.length.walls import WallAhead, back_wall, front_wall

@@ -14,7 +14,7 @@ CENTRE_MM = 20.0
 REACH_DEG, TURN_DEG = 72.0, 4.0
 STEP_MM, MIN_MM, MAX_MM = 0.5, 3.0, 46.0
 EDGE_MM, LIFTS_MM = 1.5, (-1.5, 0.0, 1.5)
-# Weight of an edge, relative to the fall of a typical wall; higher with soft tissue outside.
+# Weight of an edge, relative to the decrease of HU at a typical wall; higher with soft tissue outside.
 FAINT_EDGE, MIN_EDGE, MAX_EDGE, SOFT_BONUS = 0.3, 0.5, 1.5, 0.3
 MAX_STEPS, STEP_COST = 4, 0.15
 
@@ -39,7 +39,8 @@ def outline_front(near: Neighbourhood, isthmus_mm: Array, axis: Array) -> Outlin
     """Return the anterior wall from the body's outline; None if no wall is visible on the axis.
 
     Rays run forwards and sideways from a point in the body, in the plane of the axis that is nearest to
-    axial. The outline is the path over these rays with the strongest outer edges and the smallest steps.
+    axial. The outline is the path over these rays with the strongest outer edges and the smallest steps
+    (dynamic programming).
     Where a vessel touches the body, it still follows the wall: the vessel's far side is a step of its width.
     """
     (across,), (up,) = planes_across(axis[None])

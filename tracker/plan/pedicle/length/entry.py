@@ -7,17 +7,18 @@ from tracker.geometry import Array
 from tracker.plan.pedicle.outlines import planes_across
 from tracker.plan.pedicle.solid import Solid
 
-# Disc around the axis: wider than a process, narrower than the arch.
+# Radius of the disc around the axis, between those of a process and of the arch.
 DISC_MM, GRID_MM, STEP_MM, MAX_DISTANCE_MM = 10.0, 0.5, 0.5, 34.0
 # The face lies where half of the disc is bone, independent of its tilt.
 FACE_SHARE = 0.5
 
 
 def arch_back_mm(solid: Solid, isthmus_mm: Array, axis: Array) -> float | None:
-    """Return how far behind the isthmus the bone around the axis ends, in mm; None if it does not.
+    """Return the distance in mm from the isthmus to the posterior end of the bone around the axis, or None.
 
-    Sections across the axis, within 10 mm of it, grow from the isthmus into the arch, and are half of that
-    again where the arch's back lies. A process that the axis runs into is more slender, and is left out.
+    The area of sections across the axis, within 10 mm of it, increases from the isthmus into the arch, and
+    falls to half of its maximum at the arch's posterior surface. A process around the axis is narrower, and
+    is excluded.
     """
     area = _areas_mm2(solid, isthmus_mm, axis)
     widest = int(np.argmax(area))

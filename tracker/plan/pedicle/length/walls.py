@@ -14,7 +14,7 @@ from tracker.plan.pedicle.solid import Solid
 
 # Minimum distance of the front wall from the isthmus.
 FRONT_FROM_MM, ENTRY_FROM_MM = 8.0, 2.0
-# Beyond a true outer wall most directions across the axis meet no bone nearby.
+# Beyond an outer wall, most directions across the axis contain no bone nearby.
 GAP_BEYOND_MM = 2.0
 LOOK_BEYOND_MM, LOOK_ACROSS_MM, LOOK_RAYS, ENCLOSED_RATIO = 4.0, 32.0, 16, 0.85
 # The wall is the profile fall within this distance of the end of the solid.
@@ -51,7 +51,7 @@ class WallAhead:
 def front_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array) -> WallAhead:
     """Return where the axis leaves the body anteriorly, by the outline of the whole body.
 
-    Where a vessel with contrast touches the body, the solid goes on into it, and the outline does not.
+    Where a contrast-filled vessel touches the body, the solid includes it, and the outline does not.
     """
     exit_mm = _exit_mm(solid, isthmus_mm, axis, FRONT_FROM_MM)
     outline = outline_front(near, isthmus_mm, axis)
@@ -68,8 +68,7 @@ def front_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array
 def back_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array) -> WallAhead:
     """Return where the axis, followed backwards, leaves the arch: the entry.
 
-    If the axis continues into a process, the entry lies where the arch around it ends, as a surgeon opens
-    it.
+    If the axis continues into a process, the entry is where the arch around it ends, as a surgeon opens it.
     """
     exit_mm = _exit_mm(solid, isthmus_mm, -axis, ENTRY_FROM_MM)
     wall = _wall(near, solid, isthmus_mm, -axis, ENTRY_FROM_MM, exit_mm)
@@ -97,7 +96,7 @@ def _wall(
 ) -> WallAhead:
     """Return the wall near the end of the solid, refined by the profile; else from the profile alone.
 
-    What is soft and closed in, as marrow, belongs to the solid, so that no gap within the body ends it.
+    Enclosed soft regions, as marrow, belong to the solid, so that no gap within the body ends it.
     """
     if exit_mm is not None:
         found = bool(near.contains(isthmus_mm + (exit_mm + 1.0) * direction))
@@ -105,7 +104,7 @@ def _wall(
     else:
         distance, found = _outer_wall(near, isthmus_mm, direction, from_mm)
     if not found:
-        # Ambiguous: the nearer place is the safer one for a screw.
+        # If ambiguous, the nearer wall is safer for a screw.
         profile = profile_along(near, isthmus_mm, direction)
         some = [one for one, _ in falls(near, profile, min_hu=near.min_fall_hu, behind=1)]
         distance = min([one for one in some if one >= NO_FRONT_FROM_MM], default=distance)
