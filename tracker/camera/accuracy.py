@@ -1,8 +1,9 @@
 """Measurement accuracy of a calibrated camera on known displacements on a plane (paper, 3.2).
 
-The plane is never fitted to the measured points, because a fit shares errors with its own points and would
-look better than it is. The check shows errors of the lens and the plane's tilt, not of the overall scale,
-which comes from the same board: compare `AccuracyReport.plane_distance_mm` with a tape measure for that.
+The plane is never fitted to the measured points, because the residuals of a fit at its own points
+underestimate the error. The check detects errors of the lens model and the plane's tilt, but not of the
+overall scale, which
+comes from the same board: compare `AccuracyReport.plane_distance_mm` with a tape measure.
 """
 
 from dataclasses import dataclass
@@ -18,25 +19,25 @@ from tracker.errors import CalibrationError, InvalidInput
 from tracker.geometry import Array
 
 MIN_FIT_POINTS = 4
-# Of the spread of the points along their line; less is a line and no plane.
+# Minimum ratio of the minor to the major spread of the points; below it they are collinear.
 MIN_WIDTH_RATIO = 0.02
 SAME_MM, SAME_PX = 1e-6, 1e-6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AccuracyReport:
-    """Table 2 of the paper for a camera: each displacement as it is, and as it was measured.
+    """Table 2 of the paper for a camera: known and measured displacements.
 
     Attributes:
-        displacements: what was known, and where it was seen.
+        displacements: the known displacements and their pixels.
         known_mm: (n,) Rd.
         pixel_distances_px: (n,) Pd.
         measured_mm: (n,) calculated Rd.
-        errors_mm: (n,) measured less known.
-        fit_points: how many other points the plane was fitted to; of each displacement, if they differ, the
-            fewest. 0 where the place was measured by hand.
-        fit_rms_px: how far those points are from where the fitted plane has them, RMS; 0 without a fit.
-        plane_distance_mm: from the camera to the middle of the displacements.
+        errors_mm: (n,) measured minus known.
+        fit_points: number of other points to which the plane was fitted, the minimum over the displacements;
+            0 where the pose was measured by hand.
+        fit_rms_px: RMS reprojection error of those points; 0 without a fit.
+        plane_distance_mm: distance from the camera to the centre of the displacements.
     """
 
     displacements: Displacements
@@ -50,30 +51,30 @@ class AccuracyReport:
 
     @property
     def maximum_error_mm(self) -> float:
-        """The largest error, without its sign."""
+        """Return the largest absolute error."""
         return float(np.abs(self.errors_mm).max())
 
     @property
     def rms_error_mm(self) -> float:
-        """The usual error."""
+        """Return the RMS error."""
         return float(np.sqrt(np.mean(self.errors_mm**2)))
 
     @property
     def pixels_per_mm(self) -> Array:
-        """Pd/Rd (n,)."""
+        """Return Pd/Rd (n,)."""
         return np.asarray(self.pixel_distances_px / self.known_mm)
 
 
 def accuracy_on_plane(
     camera: CameraModel, displacements: Displacements, *, fit_mm: npt.ArrayLike, fit_px: npt.ArrayLike
 ) -> AccuracyReport:
-    """The errors of displacements on a plane whose place is fitted to other points of it.
+    """Return the errors of displacements on a plane whose pose is fitted to other points of it.
 
     Args:
-        camera: the one that is checked.
-        displacements: what is measured.
+        camera: the camera to check.
+        displacements: the displacements to measure.
         fit_mm: (m, 2) points of the plane in mm, in the same axes as the displacements.
-        fit_px: (m, 2) where they were seen.
+        fit_px: (m, 2), their pixels.
 
     Raises:
         InvalidInput: ACCURACY_INVALID, ACCURACY_NOT_INDEPENDENT.
@@ -105,9 +106,9 @@ def accuracy_on_plane(
 
 
 def accuracy_left_out(camera: CameraModel, displacements: Displacements) -> AccuracyReport:
-    """The errors of displacements, each on the plane that all the others give.
+    """Return the leave-one-out errors of displacements, each on the plane fitted to all others.
 
-    Points that a displacement shares with others are left out of its fit too.
+    Points that a displacement shares with others are excluded from its fit too.
 
     Raises:
         InvalidInput: ACCURACY_INVALID.
@@ -135,7 +136,7 @@ def accuracy_left_out(camera: CameraModel, displacements: Displacements) -> Accu
 
 
 def accuracy_of_ruler(ruler: Ruler, displacements: Displacements) -> AccuracyReport:
-    """The errors of displacements measured with the paper's ruler."""
+    """Return the errors of displacements measured with the paper's ruler."""
     pixels = distances(displacements.first_px, displacements.second_px)
     return _report(
         displacements,
@@ -149,10 +150,10 @@ def accuracy_of_ruler(ruler: Ruler, displacements: Displacements) -> AccuracyRep
 def accuracy_of_grid(
     camera: CameraModel, points_mm: npt.ArrayLike, points_px: npt.ArrayLike
 ) -> AccuracyReport:
-    """The errors on a board of known points (n, 2) that was seen at pixels (n, 2).
+    """Return the errors on a board of known points (n, 2) seen at pixels (n, 2).
 
-    The plane is fitted to every other point; the rest makes the displacements, about half of the board long.
-    The image must not be one that the camera was calibrated with.
+    The plane is fitted to every second point; the others form displacements of about half of the board's
+    length. The image must not be one of the calibration.
 
     Raises: as `accuracy_on_plane`.
     """
@@ -234,7 +235,7 @@ def _distinct(points: Array) -> int:
 
 
 def _fitted(camera: CameraModel, on_plane: Array, seen: Array) -> tuple[tuple[Array, Array], float]:
-    """Rotation and translation of the plane to the camera, and the RMS of the fit in px."""
+    """Return rotation and translation from the plane to the camera, and the RMS of the fit in px."""
     count = _distinct(on_plane)
     if count < MIN_FIT_POINTS:
         raise _plane_unknown(f"it has {count} points beside those measured, needed {MIN_FIT_POINTS}")
@@ -257,12 +258,12 @@ def _fitted(camera: CameraModel, on_plane: Array, seen: Array) -> tuple[tuple[Ar
             rotation = np.asarray(cv2.Rodrigues(fine_turn)[0], dtype=np.float64)
             best = (rotation, np.asarray(fine_move, dtype=np.float64).ravel()), rms
     if best is None:
-        raise _plane_unknown("no place of the plane explains its points")
+        raise _plane_unknown("no pose of the plane fits its points")
     return best
 
 
 def _on_plane(camera: CameraModel, plane: tuple[Array, Array], px: Array) -> Array:
-    """Points (n, 2) of the plane in mm that are seen at pixels (n, 2)."""
+    """Return the points (n, 2) of the plane in mm seen at pixels (n, 2)."""
     rotation, translation = plane
     directions = camera.normalised_from_px(px)
     rays = np.concatenate([directions, np.ones((px.shape[0], 1))], axis=1) @ rotation

@@ -4,7 +4,7 @@ import numpy as np
 
 from tracker.compiled import compiled
 
-# Motion blur of less than this share of the Gaussian's variance is treated as part of the Gaussian.
+# Motion blur below this ratio to the Gaussian's variance is treated as part of the Gaussian.
 MIN_MOTION_RATIO = 0.25
 MAX_GAUSSIAN_SAMPLES = 13
 
@@ -22,7 +22,7 @@ def axes_of(along_u, along_v, between):
 
 @compiled
 def clamp_blur(blur, minimum, maximum):
-    """Clamp the eigenvalues of a blur (3,) to [least, most], in place."""
+    """Clamp the eigenvalues of a blur (3,) to [minimum, maximum], in place."""
     larger, smaller, x, y = axes_of(blur[0], blur[1], blur[2])
     larger, smaller = min(max(larger, minimum), maximum), min(max(smaller, minimum), maximum)
     blur[0] = larger * x * x + smaller * y * y
@@ -93,7 +93,7 @@ def gaussian_samples(more, has, little, gap_sds, offsets, weights):
 def gaussian_on_level(vu, vv, uv, blurs, minimum, little, gap_sds, offsets, weights):
     """Approximate an anisotropic Gaussian by samples of one of several levels, blurred by ascending sds (k,).
 
-    The smaller variance is at least `least`; the samples are those of `gaussian_samples` along the larger
+    The smaller variance is at least `minimum`; the samples are those of `gaussian_samples` along the larger
     axis. Returns the level, the number of samples, their unit direction (x, y), and the variances along and
     across it that remain for a first-order correction.
     """

@@ -1,4 +1,4 @@
-"""Select views of a moving board for a camera calibration, and report what is missing."""
+"""Select views of a moving board for a camera calibration, and report unmet requirements."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -21,7 +21,7 @@ MIN_POINTS = 6
 
 
 class ViewVerdict(StrEnum):
-    """Return whether a view of the board was accepted, or why not."""
+    """Whether a view of the board was accepted, or the reason why not."""
 
     TAKEN = "taken"
     TOO_FEW_POINTS = "too_few_points"  # too little of the board is seen
@@ -35,7 +35,8 @@ class BoardCollectorSettings:
     """Acceptance limits of views, and the required amounts.
 
     Attributes:
-        max_speed_px_s: how fast the board's points may move in an image of 1280 px; wider images allow more.
+        max_speed_px_s: maximum speed of the board's points in an image of 1280 px width; scaled with the
+            width.
         max_moved_px: maximum motion between two images.
         min_views: required number of views.
         min_coverage_ratio: required share of the image covered by the board.
@@ -119,7 +120,7 @@ class BoardCollector:
             return ViewVerdict.FIRST_SIGHT
         moved_px, since_s = moved
         wider = max(1.0, self.size_wh_px[0] / 1280.0)
-        # Two images far apart in time do not determine the speed: the board must then be where it was.
+        # Two images far apart in time do not determine the speed, so the board must not have moved.
         if moved_px > wider * min(self.settings.max_speed_px_s * since_s, self.settings.max_moved_px):
             return ViewVerdict.MOVING
         view = self._view(object_points_mm, image_points_px)
@@ -133,7 +134,7 @@ class BoardCollector:
         self._taken.append(self._view(object_points_mm, image_points_px))
 
     def reset_motion(self) -> None:
-        """Forget the last image, because the board was not seen."""
+        """Discard the last image, because the board was not seen."""
         self._before = None
 
     @property
@@ -161,7 +162,7 @@ class BoardCollector:
         moved_px = [hypot(*(px - before[1][point])) for point, px in now.items() if point in before[1]]
         if len(moved_px) < MIN_POINTS:
             return None
-        # A high quantile, because a board that is tilted in place moves at its rim only.
+        # A high quantile, because a board that is tilted in place moves only at its border.
         return float(np.quantile(moved_px, 0.9)), captured_at_s - before[0]
 
     def _view(self, object_points_mm: Array, image_points_px: Array) -> _View:

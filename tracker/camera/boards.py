@@ -1,4 +1,4 @@
-"""The boards that a camera is calibrated with: what is printed on them, in millimetres.
+"""Calibration boards and their geometry in millimetres.
 
 A board lies in its own plane z = 0: x to the right and y down on the printed face, the first point at the
 origin. Points count row by row from the top left.
@@ -42,10 +42,10 @@ class DotBoard:
     Attributes:
         columns: dots in a row.
         rows: rows of dots.
-        pitch_mm: from a dot to the next one; of an asymmetric board half the distance between two dots of a
-            row, which is also the distance between two rows (OpenCV's asymmetric grid).
+        pitch_mm: distance between adjacent dots; for an asymmetric board half the distance between two dots
+            of a row, which is also the distance between two rows (OpenCV's asymmetric grid).
         layout: symmetric or asymmetric.
-        fiducials: indexes of the larger dots, row by row from 0; empty where all are alike.
+        fiducials: indexes of the larger dots, row by row from 0; empty if all dots are equal.
 
     Raises:
         InvalidInput: BOARD_INVALID, with the number that cannot be.
@@ -71,7 +71,7 @@ class DotBoard:
 
     @property
     def object_points_mm(self) -> Array:
-        """Centres of the dots (n, 3) in mm, row by row."""
+        """Return the centres of the dots (n, 3) in mm, row by row."""
         column, row = _indexes(self.columns, self.rows)
         if self.layout is DotLayout.ASYMMETRIC:
             column = 2.0 * column + row % 2
@@ -112,7 +112,7 @@ class CheckerBoard:
 
     @property
     def object_points_mm(self) -> Array:
-        """Inner corners (n, 3) in mm, row by row."""
+        """Return the inner corners (n, 3) in mm, row by row."""
         column, row = _indexes(self.columns, self.rows)
         return _points(column * self.square_mm, row * self.square_mm)
 
@@ -124,7 +124,7 @@ class CheckerBoard:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CharucoBoard:
-    """A checkerboard with an ArUco marker in each white square; every corner is known by itself.
+    """A checkerboard with an ArUco marker in each white square, which identify every corner.
 
     Attributes:
         columns: squares in a row.
@@ -132,7 +132,7 @@ class CharucoBoard:
         square_mm: side of a square.
         marker_mm: side of a marker, black rim included.
         dictionary: OpenCV's name of the markers' dictionary, as DICT_6X6_250.
-        layout: newer or older, see `CharucoLayout`; None lets detection find out.
+        layout: newer or older, see `CharucoLayout`; None is determined by the detection.
 
     Raises:
         InvalidInput: BOARD_INVALID, with what cannot be.
@@ -162,17 +162,17 @@ class CharucoBoard:
 
     @property
     def object_points_mm(self) -> Array:
-        """Inner corners (n, 3) in mm, row by row; the board's own top left corner is the origin."""
+        """Return the inner corners (n, 3) in mm, row by row; the board's top left corner is the origin."""
         column, row = _indexes(self.columns - 1, self.rows - 1)
         return _points((column + 1.0) * self.square_mm, (row + 1.0) * self.square_mm)
 
     @property
     def opencv_dictionary(self) -> cv2.aruco.Dictionary:
-        """The dictionary as OpenCV knows it."""
+        """Return the OpenCV dictionary."""
         return cv2.aruco.getPredefinedDictionary(getattr(cv2.aruco, self.dictionary))
 
     def opencv_board(self, layout: CharucoLayout | None = None) -> cv2.aruco.CharucoBoard:
-        """The board as OpenCV knows it, in this layout or its own (newer if it has none)."""
+        """Return the OpenCV board in this layout, or in its own (newer if it has none)."""
         board = cv2.aruco.CharucoBoard(
             (self.columns, self.rows), self.square_mm, self.marker_mm, self.opencv_dictionary
         )
@@ -184,7 +184,7 @@ Board: TypeAlias = DotBoard | CheckerBoard | CharucoBoard
 
 
 def dictionaries() -> tuple[str, ...]:
-    """The names of OpenCV's dictionaries of markers."""
+    """Return the names of OpenCV's marker dictionaries."""
     return tuple(sorted(name for name in dir(cv2.aruco) if name.startswith("DICT_")))
 
 

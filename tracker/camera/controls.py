@@ -1,8 +1,8 @@
 """Camera controls, and which of them invalidate a calibration when they change.
 
-An autofocus changes the focal length by a percent, and with it every depth, without a sign in the image. So
-after a change of a geometric control no millimetres are shown. A camera whose driver reports a fluctuating
-focus shows no numbers at all.
+An autofocus changes the focal length and therefore every depth by a percent, which is not visible in the
+image. After a change of a geometric control no values in millimetres are displayed. With a driver that
+reports a fluctuating focus, no numbers are displayed at all.
 """
 
 from collections.abc import Mapping
@@ -26,7 +26,7 @@ class CameraControl(StrEnum):
 
 
 # Focus moves the lens and with it the focal length; zoom, pan and tilt, mechanical or digital, the camera
-# matrix. Exposure, gain and white balance change brightness alone, which each pose fits for itself.
+# matrix. Exposure, gain and white balance change only the brightness, which is fitted in each image.
 GEOMETRIC = (
     CameraControl.FOCUS,
     CameraControl.ZOOM,
@@ -38,10 +38,10 @@ GEOMETRIC = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ControlChange:
-    """A control that is not what it was at the calibration.
+    """A control whose value differs from that at the calibration.
 
     Attributes:
-        control: which one.
+        control: the control.
         calibrated: its value at the calibration, in the driver's own unit.
         now: its value now.
     """
@@ -54,7 +54,7 @@ class ControlChange:
 def control_changes(
     calibrated: Mapping[CameraControl, int], now: Mapping[CameraControl, int]
 ) -> tuple[ControlChange, ...]:
-    """The geometric controls whose values differ; one that is not known on either side does not count."""
+    """Return the geometric controls whose values differ; unknown values do not count."""
     return tuple(
         ControlChange(control=control, calibrated=calibrated[control], now=now[control])
         for control in GEOMETRIC

@@ -1,4 +1,4 @@
-"""Displacements that are known in millimetres, and where their ends were seen."""
+"""Known displacements in millimetres, and the pixels of their ends."""
 
 from dataclasses import dataclass
 
@@ -43,12 +43,12 @@ class Displacements:
 
     @property
     def points_mm(self) -> Array:
-        """All ends (2 n, 2)."""
+        """Return all ends (2 n, 2) in mm."""
         return np.concatenate([self.first_mm, self.second_mm])
 
     @property
     def points_px(self) -> Array:
-        """All ends (2 n, 2), in the same order."""
+        """Return all ends (2 n, 2) in px, in the same order."""
         return np.concatenate([self.first_px, self.second_px])
 
     def _problem(self) -> str:

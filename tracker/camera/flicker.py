@@ -18,7 +18,7 @@ from tracker.geometry import Array
 
 MAINS_HZ = (50, 60)
 
-# Grid of the means that are kept of an image, and how many rows and pixels of a row stand for one cell.
+# Grid of the stored mean values of an image, and the number of sampled rows and pixels per cell.
 BANDS, STRIPS, ROWS_A_BAND, PIXELS_A_STRIP = 32, 4, 2, 64
 # Parts of the image that must show the same wave: strips x row groups.
 ROW_GROUPS = 4
@@ -28,12 +28,12 @@ CELLS_A_GROUP = BANDS // ROW_GROUPS
 # |---|---|---|---|
 # | WINDOW_S | s | three segments that each tell 1.5 Hz apart | shorter: a slow motion counts as a beat |
 # | SEGMENTS | 1 | mains drift within one stays under half a turn | fewer: an off-frequency grid is missed |
-# | MIN_BEAT_HZ | Hz | main lobe of one segment's Hann window | lower: slow light is taken for a lamp |
+# | MIN_BEAT_HZ | Hz | main lobe of one segment's Hann window | lower: slow changes count as flicker |
 # | MAINS_ERROR_HZ | Hz | twice a grid's normal +-0.2 Hz, twice as fast | lower: an island grid is missed |
 # | MIN_DEPTH_RATIO | 1 | a few times an image's noise | lower: reported where nothing is to be gained |
 # | CLEARS_AT_RATIO | 1 | hysteresis of MIN_DEPTH_RATIO | higher: the advisory comes and goes |
-# | MIN_LINE_RATIO | 1 | power over the strongest neighbouring frequency | lower: motion is taken for a lamp |
-# | MIN_AGREEMENT | 1 | sum over parts as vectors / as lengths | lower: a moving hand is taken for a lamp |
+# | MIN_LINE_RATIO | 1 | power over the strongest neighbouring frequency | lower: motion counts as flicker |
+# | MIN_AGREEMENT | 1 | sum over parts as vectors / as lengths | lower: a moving hand counts as flicker |
 # | MIN_PART_RATIO, MIN_PARTS_RATIO | 1 | a part's wave / the mean; share of such parts | lower: likewise |
 # | DARK_LEVEL, FULL_LEVEL | levels | black noise; a full pixel shows no wave | - |
 WINDOW_S, SEGMENTS = 4.2, 3
@@ -60,7 +60,7 @@ class FlickerState(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LampFlicker:
-    """Light that beats with the mains.
+    """Detected lamp flicker.
 
     Attributes:
         mains_hz: 50 or 60; both where images at this rate cannot distinguish them.
@@ -95,7 +95,7 @@ def brightness_grid(image: npt.NDArray[np.uint8]) -> Array:
     height, width = image.shape[:2]
     rows, columns = BANDS * ROWS_A_BAND, STRIPS * PIXELS_A_STRIP
     row_step, column_step = max(height // rows, 1), max(width // columns, 1)
-    # Of colour the green channel: the sensor has most of it.
+    # The green channel, which has most pixels on a sensor with a Bayer pattern.
     channel = image if image.ndim == 2 else image[:, :, 1]
     sampled = channel[row_step // 2 :: row_step, column_step // 2 :: column_step][:rows, :columns]
     if sampled.shape != (rows, columns):
@@ -179,7 +179,7 @@ def _wave(
     unrolled = np.exp(-2j * np.pi * cycles[:, None] * rows[None, cells]) / len(cells)
 
     def seen_at(hz: Array) -> npt.NDArray[np.complex128]:
-        """Amplitudes (segments, frequencies, cells)."""
+        """Return the amplitudes (segments, frequencies, cells)."""
         return np.array([_amplitudes(at_s[one], levels[one], hz) for one in segments])
 
     tried_hz = light_hz + np.arange(-MAINS_ERROR_HZ, MAINS_ERROR_HZ + 0.5 * HZ_STEP, HZ_STEP)
@@ -203,7 +203,7 @@ def _wave(
 
 
 def _amplitudes(at_s: Array, levels: Array, hz: Array) -> npt.NDArray[np.complex128]:
-    """Complex amplitudes (frequencies, cells) of relative brightness, under a Hann window over time."""
+    """Return complex amplitudes (frequencies, cells) of relative brightness, with a Hann window in time."""
     place = (at_s - at_s[0]) / (at_s[-1] - at_s[0])
     window = 0.5 - 0.5 * np.cos(2.0 * np.pi * place)
     window /= window.sum()
@@ -253,7 +253,7 @@ class FlickerMonitor:
         if at_s < self._begins_at_s:
             return
         if self._times_s and not 0.0 < at_s - self._times_s[-1] < 0.5:
-            # A pause, or a clock that was set: discard the window.
+            # After a pause or a change of the clock, discard the window.
             self._times_s, self._means = [], []
         self._times_s.append(at_s)
         self._means.append(brightness_grid(image))

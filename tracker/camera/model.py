@@ -14,7 +14,7 @@ from tracker.errors import InvalidInput
 from tracker.geometry import Array
 
 DISTORTION_LENGTHS = (4, 5, 8, 12, 14)
-# A pinhole that sees 157 degrees: a focal length below is a wrong unit, whatever the distortion.
+# A pinhole camera with a field of view of 157 degrees; a shorter focal length has a wrong unit.
 MIN_FOCAL_RATIO = 0.1
 REMEDY = "Calibrate the camera again, or give OpenCV's K (3x3), distortion and image size."
 
@@ -27,9 +27,10 @@ class CameraModel:
         matrix: OpenCV's K (3, 3): focal lengths and principal point in px, no skew.
         distortion: OpenCV's coefficients, 4, 5, 8, 12 or 14 of them (k1 k2 p1 p2 k3 ...).
         size_wh_px: width and height of the images that it was calibrated on.
-        lens: the same as the compiled loops want it, see `pack_lens`; made here.
-        is_fit: The numbers are a fit to views, which may run away in corners that no view reached. Its report
-            warns of a distortion that no lens can have; what is taken into use is rejected for it.
+        lens: the same parameters packed for the compiled kernels, see `pack_lens`; derived.
+        is_fit: whether the parameters are a fit to views, which may be implausible in corners without points.
+            The calibration report warns of an implausible distortion; only a camera in use is rejected for
+            it.
 
     Raises:
         InvalidInput: CAMERA_MODEL_INVALID, with the number that cannot be.
@@ -61,7 +62,7 @@ class CameraModel:
             self.require_plausible()
 
     def require_plausible(self) -> None:
-        """Raise where no lens can be this; see `implausibility_of`.
+        """Raise if no lens can have these parameters; see `implausibility_of`.
 
         Raises:
             InvalidInput: CAMERA_MODEL_INVALID.
@@ -73,13 +74,13 @@ class CameraModel:
     def __reduce__(self) -> tuple[object, ...]:
         """Pickle so that the arrays are read-only in another process too.
 
-        For writable arrays the kernels would be compiled once more, during tracking.
+        For writable arrays the kernels would be compiled again, during tracking.
         """
         return _made, (self.matrix, self.distortion, self.size_wh_px)
 
     @classmethod
     def from_mapping(cls, values: Mapping[str, object]) -> "CameraModel":
-        """From the keys `matrix`, `distortion`, `size_wh_px` of a camera file; other keys are let be."""
+        """Return the model from a camera file's `matrix`, `distortion`, `size_wh_px`; ignore other keys."""
         missing = [key for key in ("matrix", "distortion", "size_wh_px") if key not in values]
         if missing:
             raise InvalidInput(
@@ -92,7 +93,7 @@ class CameraModel:
         try:
             matrix = np.asarray(values["matrix"], dtype=np.float64)
             distortion = np.asarray(values["distortion"], dtype=np.float64)
-            # Not as integers: 1920.5 px must be rejected, not cut.
+            # Not converted to integers, because 1920.5 px must be rejected and not truncated.
             width, height = np.asarray(values["size_wh_px"], dtype=np.float64).ravel().tolist()
             size_wh_px = cast("tuple[int, int]", (width, height))
         except (TypeError, ValueError) as error:
@@ -144,7 +145,7 @@ class CameraModel:
 
 
 def _made(matrix: Array, distortion: Array, size_wh_px: tuple[int, int]) -> CameraModel:
-    # It was judged when it was made first.
+    # Plausibility was checked when the model was created.
     return CameraModel(matrix=matrix, distortion=distortion, size_wh_px=size_wh_px, is_fit=True)
 
 
@@ -153,7 +154,7 @@ def _invalid(problem: str, remedy: str) -> InvalidInput:
 
 
 def _malformed(matrix: Array, distortion: Array, size_wh_px: Array) -> str:
-    """Return what is no camera matrix, distortion or image size, or an empty string."""
+    """Return the defect of camera matrix, distortion or image size, or an empty string."""
     if matrix.shape != (3, 3):
         return f"its matrix has shape {matrix.shape}, needed (3, 3)"
     if distortion.size not in DISTORTION_LENGTHS:

@@ -1,8 +1,9 @@
-"""Which numbers no lens can have: field of view, shape of the pixels, and what the distortion does.
+"""Plausibility of camera parameters: field of view, pixel aspect ratio, and effect of the distortion.
 
-Coefficients are judged by what they do to the image, because their values say little: k3 = 1000 moves nothing
-in a telephoto lens and folds the image of a wide one. Every limit lies beyond the lenses that are sold; what
-is outside is a wrong unit, a wrong line of a file, or a fit that ran away.
+Distortion coefficients are tested by their effect on the image, because their values alone mean little: k3 =
+1000 has no effect in a telephoto lens and folds the image of a wide-angle one. Every limit is beyond the
+lenses on the market; parameters outside have a wrong unit, are read from the wrong line of a file, or are a
+diverged fit.
 """
 
 from dataclasses import dataclass
@@ -15,7 +16,7 @@ import numpy.typing as npt
 from tracker.geometry import Array
 
 # Between opposite corners. Stereo microscopes at their largest zoom and 3000 mm (35 mm equivalent) lenses see
-# 0.8 deg; below, perspective is less than the noise of any corner, and a focal length means nothing.
+# 0.8 deg; below, perspective is smaller than the noise of a corner, and the focal length is not observable.
 MIN_FIELD_DEG = 0.5
 # From the optical axis to a corner. Action cameras see up to 150 deg between corners, rectilinear lenses 135.
 # At 80 deg, 1 deg is a tenth of the coordinate x/z: fisheye lenses need another model.
@@ -58,23 +59,23 @@ DISTORTION_REMEDY = (
 
 @dataclass(frozen=True, slots=True)
 class Implausibility:
-    """What no lens can have: a sentence with numbers (without full stop), and what to do about it."""
+    """An implausible property: message with numbers (without full stop), and remedy."""
 
     message: str
     remedy: str
 
 
 def implausibility_of(matrix: Array, distortion: Array, size_wh_px: tuple[int, int]) -> Implausibility | None:
-    """Return what no lens can have in K (3, 3) and OpenCV's coefficients; None if a lens can have them.
+    """Return the implausible property of K (3, 3) and OpenCV's coefficients; None if they are plausible.
 
-    A camera without implausibility maps directions one to one onto its image: the distortion has a positive
+    A plausible camera maps directions one to one onto its image: the distortion has a positive
     Jacobian determinant in the connected set of directions around the axis that the image shows.
     """
     coefficients = tuple(distortion.ravel().tolist())
     return _implausibility_of(tuple(matrix.ravel().tolist()), coefficients, size_wh_px)
 
 
-# It takes some 10 ms, and a case's camera is read again with each question about the procedure.
+# It takes about 10 ms, and the camera of a case is read at each request for the procedure's state.
 @lru_cache(maxsize=32)
 def _implausibility_of(
     numbers: tuple[float, ...], coefficients: tuple[float, ...], size_wh_px: tuple[int, int]
@@ -129,7 +130,7 @@ def normalised_from_px(
 def _fault_of_distortion(
     matrix: Array, distortion: Array, size: Array, border: Array
 ) -> Implausibility | None:
-    """Follow directions outwards from the axis until they leave the image, and judge each on the way."""
+    """Return the fault of the distortion along directions from the axis to the border of the image."""
     azimuths = np.arctan2(border[:, 1], border[:, 0])
     ends = np.linalg.norm(border, axis=1) / MIN_MEAN_SCALE_RATIO
     ends = np.minimum(ends, np.radians(MAX_AXIS_ANGLE_DEG))
@@ -168,7 +169,7 @@ def _fault_of_distortion(
 
 
 def _fault_of_inverse(matrix: Array, distortion: Array, size: Array) -> Implausibility | None:
-    """Compare pixels with themselves undistorted and distorted again: the iteration need not converge."""
+    """Return the fault if pixels undistorted and distorted again differ: the iteration may diverge."""
     u, v = np.meshgrid(*(np.linspace(-0.5, side - 0.5, GRID_POINTS) for side in size))
     px = np.column_stack([u.ravel(), v.ravel()])
     seen = normalised_from_px(px, matrix, distortion, max_iterations=MAX_ITERATIONS_OF_CHECK)
@@ -218,7 +219,7 @@ def _projected(angles: Array, azimuths: Array, matrix: Array, distortion: Array)
 
 
 def _local_scales(jacobian: Array, angles: Array, azimuths: Array) -> tuple[Array, Array, Array]:
-    """Return determinant, least scale by angle, and largest scale by x, y (each m, n) of Jacobians.
+    """Return determinant, minimum scale by angle, and maximum scale by x, y (each m, n) of Jacobians.
 
     The scale by angle is that of the image over steps of the direction on the unit sphere: 1 at the axis.
     """

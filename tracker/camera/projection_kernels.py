@@ -14,7 +14,7 @@ def _distort(x, y, lens, by):
     radial = upper / lower
     upper_by = lens[4] + r2 * (2.0 * lens[5] + r2 * 3.0 * lens[8])
     lower_by = lens[9] + r2 * (2.0 * lens[10] + r2 * 3.0 * lens[11])
-    # Twice the derivative by r2: that of r2 itself is 2 x and 2 y.
+    # Twice the derivative by r2, because the derivatives of r2 are 2 x and 2 y.
     radial_by = 2.0 * (upper_by - radial * lower_by) / lower
     p1, p2 = lens[6], lens[7]
     xd = x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x) + r2 * (lens[12] + r2 * lens[13])

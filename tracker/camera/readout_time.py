@@ -1,9 +1,10 @@
-"""Estimate the readout time of a rolling shutter from a board that is moved quickly before the camera.
+"""Estimate the readout time of a rolling shutter from a board that is moved quickly in front of the camera.
 
-Rows are read one after another, so a moving board is sheared or stretched by its speed times the time
-between its rows. All poses of a burst of images and one readout time are fitted together (Gauss-Newton); the
-motion of the board follows from its poses before and after. A shear partly resembles a tilt: only the
-component that no pose fits determines the readout time, and the standard deviation accounts for it.
+Rows are read sequentially, so a moving board is sheared or stretched by its velocity times the time between
+its rows. All poses of a burst of images and one readout time are fitted together (Gauss-Newton); the velocity
+of the board is computed from the poses of neighbouring images. A shear is partly equivalent to a tilt: only
+the component orthogonal to the pose derivatives determines the readout time, and the standard deviation
+accounts for it.
 """
 
 from collections.abc import Sequence
@@ -20,13 +21,13 @@ from tracker.geometry import Array, rotation_from_vector, vector_from_rotation
 
 # | threshold | unit | source | what breaks when it moves |
 # |---|---|---|---|
-# | MIN_IMAGES | 1 | a spread over images needs some | lower: a few odd images decide |
-# | MAX_GAP_S | s | a hand turns round in a quarter of a second | higher: speeds between images are guessed |
+# | MIN_IMAGES | 1 | to estimate the sd between images | lower: a few outliers decide |
+# | MAX_GAP_S | s | a hand reverses in a quarter of a second | higher: speeds between images are unreliable |
 # | MIN_SPEED_PX_S | px/s | 16 ms shift a board's far rows by 2 px | lower: the remedy is vague |
-# | MIN_WAYS | images | a bent board errs alike both ways | lower: its shape passes for a shutter |
-# | MAX_SD_MS | ms | at 100 mm/s a tip is then sure to 0.1 mm | higher: a number that helps nobody |
-# | MAX_ODD_RATIO | 1 | of the median residual | higher: a mistaken view decides; lower: blur is left out |
-# | FLOOR_MS, FLOOR_RATIO | ms, 1 | clock of a driver; speeds from five images | lower: too sure |
+# | MIN_WAYS | images | the bias of a bent board cancels both ways | lower: its shape biases the time |
+# | MAX_SD_MS | ms | 0.1 mm of a tip at 100 mm/s | higher: the correction is useless |
+# | MAX_ODD_RATIO | 1 | of the median residual | higher: an outlier view decides; lower: blur is rejected |
+# | FLOOR_MS, FLOOR_RATIO | ms, 1 | clock of a driver; speeds from five images | lower: sd too small |
 MIN_IMAGES, MIN_WAYS = 12, 4
 MAX_GAP_S = 0.14
 MIN_SPEED_PX_S, MAX_SD_MS = 150.0, 1.0
@@ -45,7 +46,7 @@ class TimedView:
     """A board in one image.
 
     Attributes:
-        at_s: when the image was captured.
+        at_s: capture time of the image.
         view: the board's points in it.
     """
 
@@ -58,8 +59,8 @@ class ReadoutEstimate:
     """A measured readout time.
 
     Attributes:
-        readout_ms: from when the first row is read to the last one; about 0 of a global shutter.
-        sd_ms: of it.
+        readout_ms: time from the readout of the first row to that of the last; about 0 for a global shutter.
+        sd_ms: standard deviation of the readout time.
         images: number of images in use.
         speed_px_s: median speed of the board in them.
         rms_px: RMS of the residuals.
@@ -139,7 +140,7 @@ def _fitted(views: Sequence[TimedView], camera: CameraModel) -> tuple[dict[int, 
     readout_s, images = 0.0, {}
     for _ in range(MAX_ROUNDS):
         motions = {index: _motion(views, placed, index, near) for index, near in around.items()}
-        # A pose without images on both sides serves the motion of others, but is not used itself.
+        # A pose without neighbours on both sides is used only for the motion of others.
         images = {
             index: _image(views[index], placed[index], motion, readout_s, camera)
             for index, motion in motions.items()
@@ -177,7 +178,7 @@ def _is_inner(index: int, near: Sequence[int]) -> bool:
 
 
 def _motion(views: Sequence[TimedView], poses: Sequence[Array], index: int, near: Sequence[int]) -> Array:
-    """Velocity and half of the acceleration (2, 6) [rad, mm by s], by the polynomial through near poses."""
+    """Return velocity and half the acceleration (2, 6) [rad, mm by s], by a polynomial fit to near poses."""
     inverse = rotation_from_vector(poses[index][:3]).T
     apart = np.array(
         [
@@ -226,7 +227,7 @@ def _image(one: TimedView, pose: Array, motion: Array, readout_s: float, camera:
 
 
 def _moved(pose: Array, step: Array) -> Array:
-    """A pose (rotation vector, translation), turned from the left by a small rotation vector and shifted."""
+    """Return a pose (rotation vector, translation) after a left-multiplied rotation and a translation."""
     turned = rotation_from_vector(step[:3]) @ rotation_from_vector(pose[:3])
     return np.concatenate([vector_from_rotation(turned), pose[3:] + step[3:]])
 
@@ -250,7 +251,7 @@ def _estimate(images: Sequence[_Image], readout_s: float) -> ReadoutEstimate:
 
 
 def _ways(images: Sequence[_Image]) -> tuple[list[_Image], list[_Image]]:
-    """Return the images with motion forth, and those with motion back, along the main direction."""
+    """Return the images with positive and those with negative motion along the main direction."""
     flows = np.array([one.flow_px_s for one in images])
     along = flows @ np.linalg.svd(flows)[2][0]
     quick = np.abs(along) > 0.25 * np.abs(along).max()
@@ -288,7 +289,7 @@ def _reject_uncertain(estimate: ReadoutEstimate) -> None:
         return
     raise CalibrationError(
         "READOUT_UNOBSERVABLE",
-        f"this motion does not show the readout well enough: {_found(estimate)}, allowed {MAX_SD_MS:.1f} ms",
+        f"this motion does not determine the readout time: {_found(estimate)}, allowed {MAX_SD_MS:.1f} ms",
         "Hold the board nearer, so that it fills half of the picture, and facing the camera. " + MOVE,
         _context(estimate),
     )
@@ -312,7 +313,7 @@ def _reject_impossible(estimate: ReadoutEstimate, period_s: float) -> None:
         return
     raise CalibrationError(
         "READOUT_IMPOSSIBLE",
-        f"{_found(estimate)}: it is never below 0 nor over the {1000.0 * period_s:.1f} ms between images",
+        f"{_found(estimate)}: it must be between 0 and the {1000.0 * period_s:.1f} ms between images",
         "Switch off whatever turns or mirrors the image; else the times of the images are wrong: try another "
         "port.",
         {"readout_ms": round(estimate.readout_ms, 2), "period_ms": round(1000.0 * period_s, 2)},

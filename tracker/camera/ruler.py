@@ -19,8 +19,8 @@ class Ruler:
     """A camera above and beside the object, and its focal length.
 
     Attributes:
-        vertical_mm: V, how far the camera is above the object.
-        horizontal_mm: H, how far it is beside it.
+        vertical_mm: V, height of the camera above the object.
+        horizontal_mm: H, horizontal distance of the camera from the object.
         focal_length_px: f, the camera constant.
 
     Raises:
@@ -37,32 +37,32 @@ class Ruler:
 
     @classmethod
     def from_displacement(cls, *, vertical_mm: float, horizontal_mm: float, pixels_per_mm: float) -> "Ruler":
-        """The ruler whose focal length follows from one known displacement (equation 5)."""
+        """Return the ruler with the focal length from one known displacement (equation 5)."""
         focal_length_px = pixels_per_mm * axial_distance_mm(vertical_mm, horizontal_mm)
         return cls(vertical_mm=vertical_mm, horizontal_mm=horizontal_mm, focal_length_px=focal_length_px)
 
     @property
     def axial_distance_mm(self) -> float:
-        """D, from the object to the camera."""
+        """Return D, the distance from the object to the camera."""
         return axial_distance_mm(self.vertical_mm, self.horizontal_mm)
 
     @property
     def angle_deg(self) -> float:
-        """Theta, between the horizontal and the camera's axis."""
+        """Return theta, the angle between the horizontal and the camera's axis."""
         return angle_deg(self.vertical_mm, self.horizontal_mm)
 
     @property
     def pixels_per_mm(self) -> float:
-        """Pd/Rd, which the distance leaves (equation 4)."""
+        """Return Pd/Rd at the distance D (equation 4)."""
         return self.focal_length_px / self.axial_distance_mm
 
     def displacement_mm(self, pixel_distance_px: npt.ArrayLike) -> Array:
-        """Calculated Rd of each Pd (...): how far something moved that moved so many pixels."""
+        """Return the calculated Rd of each Pd (...): displacement in mm from displacement in px."""
         return np.asarray(np.asarray(pixel_distance_px, dtype=np.float64) / self.pixels_per_mm)
 
 
 def axial_distance_mm(vertical_mm: float, horizontal_mm: float) -> float:
-    """D, from the object to a camera so far above and beside it.
+    """Return D, the distance from the object to a camera at V and H.
 
     Raises:
         InvalidInput: RULER_INVALID, a distance is negative or not finite.
@@ -74,19 +74,19 @@ def axial_distance_mm(vertical_mm: float, horizontal_mm: float) -> float:
 
 
 def angle_deg(vertical_mm: float, horizontal_mm: float) -> float:
-    """Theta, between the horizontal and the axis of a camera so far above and beside the object."""
+    """Return theta, the angle between the horizontal and the axis of a camera at V and H."""
     return math.degrees(math.atan2(vertical_mm, horizontal_mm))
 
 
 def distances(first: npt.ArrayLike, second: npt.ArrayLike) -> Array:
-    """Pd or Rd: how far each second point (..., 2) is from its first one, in the unit of both."""
+    """Return Pd or Rd: distance of each second point (..., 2) from its first one, in the unit of both."""
     return np.asarray(
         np.linalg.norm(np.asarray(first, dtype=np.float64) - np.asarray(second, dtype=np.float64), axis=-1)
     )
 
 
 def pixels_per_mm(pixel_distance_px: float, displacement_mm: float) -> float:
-    """Pd/Rd, how many pixels a millimetre takes (equation 3).
+    """Return Pd/Rd, pixels per millimetre (equation 3).
 
     Raises:
         InvalidInput: RULER_INVALID, the displacement or its pixels are not above 0.

@@ -14,13 +14,13 @@ class MarkerAssessment:
     """Uniqueness and precision of a marker.
 
     Attributes:
-        rotated: the best score of its edges over its own quarter turns, 27 px wide.
-        mirrored: the same over its mirror image at all turns.
+        rotated: the best score of its edges on its own rotations by multiples of 90 degrees, at 27 px.
+        mirrored: the same on its mirror image at all rotations.
         own_correlation: the best correlation with any of those, -1..1.
         nearest: the background squares with the highest scores, best first; empty without a background.
         search: result of the tracker's search in the background images.
         images: number of background images; 0 without a background.
-        precision: how well its edges determine its pose.
+        precision: Cramer-Rao bound of its pose.
     """
 
     rotated: FalseScore

@@ -11,7 +11,7 @@ QUARTER_TURNS = 4
 
 
 def rotated_rows(square: GreyImage) -> Cells32:
-    """Return a marker picture (n, n) at its four quarter turns (4, cells), mean 0, norm 1; flat rows are 0.
+    """Return a marker picture (n, n) in its four rotations (4, cells), mean 0, norm 1; flat rows are 0.
 
     Rotation k is the view in an outline whose first corner is corner k of the marker.
     """
@@ -21,7 +21,7 @@ def rotated_rows(square: GreyImage) -> Cells32:
 
 
 def own_correlation(square: GreyImage) -> float:
-    """Return the maximum correlation of a marker with its own quarter turns and its mirror image, -1..1."""
+    """Return the maximum correlation of a marker with its own rotations and its mirror image, -1..1."""
     rows, mirrored = rotated_rows(square), rotated_rows(np.ascontiguousarray(square[:, ::-1]))
     return float(max((rows[1:] @ rows[0]).max(), (mirrored @ rows[0]).max()))
 

@@ -1,8 +1,8 @@
 """Selection among proposed shapes: first by correlation, then by score and precision, then by tracker search.
 
-Correlation with all squares of a background is one matrix product for hundreds of shapes; the tracker itself
-searches only for the last twelve, so that the reported score is the tracker's own. The result is the best of
-the proposals, not an optimum: it depends on the seed.
+The correlation with all squares of a background is one matrix product for hundreds of shapes. The tracker
+searches only for the last twelve, so that the reported score is that of the tracker. The result is the best
+of the proposals and not an optimum; it depends on the seed.
 """
 
 from collections.abc import Sequence
@@ -83,5 +83,5 @@ def _scored(
 
 
 def _merit(one: Design) -> tuple[bool, float]:
-    """Sort key: unique markers first, then the lowest false score."""
+    """Return the sort key: unique markers first, then the lowest false score."""
     return not one.assessment.unique, one.assessment.best_false_score_ratio

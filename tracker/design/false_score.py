@@ -27,10 +27,10 @@ class FalseScore:
 
     Attributes:
         score_ratio: model coverage x (1 - weight x normalised fit error), 0..1.
-        inner_coverage_ratio: coverage of the edges inside the square alone, 0..1.
-        target_score_ratio: share of the edges in the square that are the marker's, x the same, 0..1.
+        inner_coverage_ratio: coverage of the edges inside the square only, 0..1.
+        target_score_ratio: target coverage x (1 - weight x normalised fit error), 0..1.
         accepted: whether all three reach the acceptance thresholds. The tracker may still reject an inverted
-            polarity inside; but then that test alone prevents a false detection.
+            polarity inside, but then only that test prevents a false detection.
     """
 
     score_ratio: float
@@ -44,7 +44,7 @@ class Distractor:
     """A square of the background and the marker's false score there.
 
     Attributes:
-        image_index: of the image that it is in.
+        image_index: index of its image.
         corners_px: (4, 2), top-left, top-right, bottom-right, bottom-left of the marker laid on it.
         score: its false score.
         correlation: normalised correlation of its inside with the marker, -1..1.
@@ -108,13 +108,13 @@ def _rectified_level(image: GreyImage, corners_px: Array, *, level_px: int, marg
 
 
 def _square_px(margin_px: int, side_px: int) -> Array:
-    """The corners (4, 2) of a square that is this far from the edge of a picture."""
+    """Return the corners (4, 2) of a square at this margin from the border of an image."""
     low, high = margin_px - 0.5, margin_px + side_px - 0.5
     return np.array([[low, low], [high, low], [high, high], [low, high]])
 
 
 def own_false_scores(model: MarkerModel, settings: ScoreSettings) -> tuple[FalseScore, FalseScore]:
-    """Return the best scores over the marker's own quarter turns and over its mirror image."""
+    """Return the best scores on the marker's own rotations and on its mirror image."""
     rotated = [_score_over(np.rot90(model.square, turn), model, settings) for turn in range(1, QUARTER_TURNS)]
     mirrored = [
         _score_over(np.rot90(model.square[:, ::-1], turn), model, settings) for turn in range(QUARTER_TURNS)
@@ -145,7 +145,7 @@ def _rank(place: Distractor) -> tuple[bool, float]:
 
 
 def _score_over(square: GreyImage, model: MarkerModel, settings: ScoreSettings) -> FalseScore:
-    """The score of a model over a printed square (n, n) that is `SIDE_PX` wide in the image."""
+    """Return the score of a model on a printed square (n, n) that is `SIDE_PX` wide in the image."""
     paper = int(np.percentile(model.square, 98))
     margin = SIDE_PX // 2
     small = cv2.resize(np.ascontiguousarray(square), (SIDE_PX, SIDE_PX), interpolation=cv2.INTER_AREA)

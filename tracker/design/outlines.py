@@ -1,6 +1,6 @@
 """Square candidates in an image: every quadrilateral outline that a square-marker detector has to test.
 
-High recall is all that matters here. The tracker's own search stops as soon as it has found its marker.
+They are selected for high recall, whereas the tracker's search stops once it has found its marker.
 """
 
 import cv2

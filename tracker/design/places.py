@@ -28,9 +28,9 @@ class Places:
     """Squares of a background, sampled on a common grid for correlation.
 
     Attributes:
-        image_index: (n,), of the image that each is in.
+        image_index: (n,), index of the image of each square.
         corners_px: (n, 4, 2), clockwise on the screen.
-        cells: (n, CELLS * CELLS), what is inside, mean 0 and length 1.
+        cells: (n, GRID_CELLS * GRID_CELLS), grey values, mean 0 and norm 1.
     """
 
     image_index: npt.NDArray[np.int64]
@@ -60,7 +60,7 @@ def places_in(image: GreyImage, *, image_index: int) -> Places:
 
 
 def concatenated(parts: Sequence[Places]) -> Places:
-    """The squares of several images."""
+    """Return the squares of several images as one record."""
     return Places(
         image_index=np.concatenate([np.empty(0, np.int64), *(part.image_index for part in parts)]),
         corners_px=np.concatenate([np.empty((0, 4, 2)), *(part.corners_px for part in parts)]),
@@ -71,7 +71,7 @@ def concatenated(parts: Sequence[Places]) -> Places:
 
 
 def rectified(image: GreyImage, corners_px: Array, *, side_px: int, margin_px: int = 0) -> GreyImage:
-    """What lies inside four corners (4, 2), as a square picture seen from the front, with a margin."""
+    """Return the rectified (frontal) image inside four corners (4, 2), with a margin."""
     low, high = margin_px - 0.5, margin_px + side_px - 0.5
     square = np.array([[low, low], [high, low], [high, high], [low, high]], dtype=np.float32)
     there = cv2.getPerspectiveTransform(square, corners_px.astype(np.float32))

@@ -10,8 +10,8 @@ from tracker.marker import ActiveEdges, MarkerModel
 
 # A marker at arm's length: 27 px wide, 20 of its sides away, tilted by 30 degrees in any direction.
 SIDE_PX, DISTANCE_SIDES, TILT_DEG, DIRECTIONS = 27.0, 20.0, 30.0, 12
-# Of an edge's place, for a pixel of its length: noise of 4 grey levels, contrast of 160, blur of 1 px:
-# sd = noise / contrast * sqrt(2 * sqrt(pi) * blur).
+# Sd of an edge's position per pixel of its length, for a noise of 4 grey levels, contrast of 160 and blur of
+# 1 px: sd = noise / contrast * sqrt(2 * sqrt(pi) * blur).
 EDGE_SD_PX = 4.0 / 160.0 * float(np.sqrt(2.0 * np.sqrt(np.pi)))
 # The camera response and ink spread shift all edges towards bright or dark by the same amount (sd).
 SHIFT_SD_PX = 0.25

@@ -21,9 +21,9 @@ GRID = 100
 def proposed_shapes(seed: int) -> Iterator[Shape]:
     """Yield white polygons with black holes, some with a second white polygon, without end.
 
-    The edge of a body is dark outside, that of a hole and that of the square dark inside. A shift of bright
-    against dark (camera response, ink spread) therefore moves them in opposite directions, a change of scale
-    in the same one: both polarities separate distance from blooming.
+    The outer edges of white polygons have the opposite polarity to those of holes and of the square. A shift
+    of bright against dark (camera response, ink spread) moves them in opposite directions, a change of scale
+    in the same one, so both polarities together make distance and blooming separately observable.
     """
     random = np.random.default_rng([seed, 311])
     while True:

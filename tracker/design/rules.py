@@ -10,12 +10,12 @@ from tracker.design.shape import Shape, rasterised
 MIN_PART_RATIO = 1 / 8
 RASTER_PX = 96
 PAPER_PX = 16
-# Area that an opening with a disc removes from a corner of 60 degrees, in squares of its radius. More is a
-# spike or a thin part.
+# Area that an opening with a disc removes from a corner of 60 degrees, in squares of its radius. A larger
+# area is a spike or a thin part.
 MAX_CORNER_REST = 0.85
 # Blur removes a shorter edge: a notch or a step.
 MIN_EDGE_RATIO = 0.11
-# White share of the face. A marker with little of either colour has too few edges.
+# White ratio of the face. A marker with little of either colour has too few edges.
 WHITE_SHARE = (0.2, 0.55)
 # Shares of the inner edges in four sectors of direction (45 degrees each); 0.25 for a uniform distribution.
 # Motion blur along a direction leaves only the edges along it: each direction needs some.

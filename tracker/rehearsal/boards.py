@@ -32,8 +32,8 @@ BOARD_FROM_KIND: dict[BoardKind, Board] = {
     ),
 }
 
-# Where its middle is held, in halves of the image from its middle; how far away, in its nearest distance; how
-# it leans back, is turned (left edge away) and rolled, in degrees.
+# Position of the board's centre, in half image sizes from the image centre; distance, as a ratio of its
+# minimum; tilt backwards, rotation (left edge away) and roll, in degrees.
 PLACES = np.array(
     [
         [0.0, 0.0, 1.25, 0, 0, 0],
@@ -113,9 +113,9 @@ class BoardHand:
     """A hand that presents the board in a sequence of fixed poses; the poses follow from the seed.
 
     Args:
-        printed_board: with its paper, which stays inside the image.
-        camera: that it is shown to.
-        seed: places differ a little from seed to seed.
+        printed_board: the board, whose paper remains inside the image.
+        camera: the camera that sees the board.
+        seed: varies the poses slightly.
     """
 
     def __init__(self, printed_board: PrintedBoard, camera: CameraModel, seed: int) -> None:
@@ -200,6 +200,6 @@ def _print_charuco(face: Image8, board: CharucoBoard, origin: Array) -> None:
     size = (round(board.columns * board.square_mm * PER_MM), round(board.rows * board.square_mm * PER_MM))
     picture = board.opencv_board().generateImage(size, marginSize=0)
     inked = (INK + (PAPER - INK) * (picture.astype(np.float32) / 255.0)).astype(np.uint8)
-    # OpenCV's board begins at the corner of its first square; so do its points.
+    # The origin of OpenCV's board and points is the corner of its first square.
     x, y = (round(float(v)) for v in origin)
     face[y : y + size[1], x : x + size[0]] = inked

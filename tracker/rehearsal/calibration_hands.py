@@ -5,11 +5,11 @@ import numpy as np
 from tracker.geometry import Array
 from tracker.rehearsal.motion import CYCLE_S, Phase, Pose6
 
-# Whole turns a cycle keep the motion periodic; unequal ones lead the tool to all sides.
+# Integer numbers of periods per cycle keep the motion periodic; different ones tilt the tool to all sides.
 TILT_TURNS, TILT_DEG = (4, 7), (24.0, 26.0)
 ROLL_TURNS, ROLL_DEG = 3, 10.0
 SPIN_TURNS, SPIN_DEG = 3, 52.0
-# A burr in a divot still rattles.
+# Motion of a burr within the play of a divot.
 REST_TURNS, REST_MM = np.array([311, 363, 407]), 0.015
 
 

@@ -19,11 +19,12 @@ STROKE_HEIGHT_MM, MIN_LIFT_MM = 26.0, 24.0
 LANDING_SD_MM = 0.15
 SHAKE_HZ = np.array([1.3, 8.4, 9.3, 10.6])
 SHAKE_MM = np.array([0.05, 0.06, 0.055, 0.04])
-PRESSED_RATIO = 0.45  # across the surface a tip shakes more than into it
+PRESSED_RATIO = 0.45  # tremor perpendicular to the surface, relative to that along it
 SHAKE_DEG = 0.25
 LEAN_RATIO, MAX_LEAN_DEG = 0.45, 16.0
 
-# A stroke: its ends inside the bone, the ways out to the surface there, and how far it zigzags along z.
+# A stroke: its ends inside the bone, the directions to the surface there, and the amplitude of its zigzag
+# along z.
 Stroke = tuple[
     tuple[float, float, float],
     tuple[float, float, float],
@@ -65,9 +66,9 @@ class WaypointHand:
     """A hand that cycles through a list of dwells.
 
     Args:
-        stays: in order.
-        hop_s: how long it takes from one to the next.
-        height_mm: how high it lifts its tip on the way.
+        stays: the dwells in order.
+        hop_s: time from one dwell to the next.
+        height_mm: height of the tip in between.
         rest: the drill at rest, in whose frame it is held.
         seed: of tremor.
     """
@@ -95,7 +96,7 @@ class WaypointHand:
             self._ends_s.append(count / TABLE_HZ)
         self._table = np.concatenate(rows)
         self.cycle_s = count / TABLE_HZ
-        # Whole turns a cycle keep the motion periodic.
+        # Integer numbers of periods per cycle keep the motion periodic.
         self._rates = 2.0 * np.pi * np.round(SHAKE_HZ * self.cycle_s) / self.cycle_s
         self._offsets = random.uniform(0.0, 2.0 * np.pi, (6, len(SHAKE_HZ)))
         self._sizes = np.tile(SHAKE_MM, (3, 1)) * random.uniform(0.85, 1.15, (3, 1))

@@ -11,7 +11,7 @@ from tracker.rehearsal.solids import Solid, tube
 
 Image32 = npt.NDArray[np.float32]
 
-# Where things may lie, as parts of the image's width and height: around the wound, never under the drill.
+# Positions of objects as ratios of the image's width and height: around the wound, never under the drill.
 PLACES = ((0.11, 0.80), (0.90, 0.80), (0.12, 0.42), (0.91, 0.40), (0.30, 0.13), (0.80, 0.13), (0.24, 0.95))
 STEEL = (0.66, 0.65, 0.64)
 LOOKALIKES_ABOVE = 2.0
@@ -29,7 +29,7 @@ class Sheet:
     Attributes:
         picture: (h, w, 4) float32, BGR and coverage 0..1.
         size_mm: width and height.
-        place: its centre, as shares of the image's width and height.
+        place: its centre, as ratios of the image's width and height.
         turn_rad: its rotation.
     """
 
@@ -97,7 +97,7 @@ def _bar(
     z = middle[1] + np.sin(angle) * along + np.cos(angle) * across
     radius = 1.3 + 0.9 * t if side else np.where(t < 0.45, 1.3, 3.6)
     ground = field.height_at(x[None].astype(np.float32), z[None].astype(np.float32))[0]
-    # Steel does not follow the folds of the cloth: it lies on the highest ones.
+    # Steel instruments lie on the highest folds of the cloth.
     height = np.polyval(np.polyfit(t, ground, 1), t)
     height += float(np.max(ground - height)) * 0.6 + radius
     return tube(np.stack([x, height, z], axis=1), radius, colour=STEEL, gloss=0.9)

@@ -48,7 +48,7 @@ PORTRAIT_PER_MM = 4.0
 PORTRAIT_HALF_MM = 10.0
 PORTRAIT_START_MM, PORTRAIT_END_MM = -3.0, 330.0
 
-# Only this much of the drill ever comes near the bone.
+# Length of the drill from the tip that can be near the bone.
 NEAR_BONE_MM = 78.0
 
 BOARD_HALF_MM = 17.5

@@ -64,7 +64,7 @@ def _along_the_axis() -> Array:
 
 
 def _to_the_canal(rest: Rigid[Vertebra, Tool]) -> Array:
-    """The tip leaves the axis medially; the shaft passes through the entry point."""
+    """Return keyframes in which the tip leaves the axis medially, with the shaft through the entry point."""
     times_s, depths_mm, aside_mm = np.array(BREACH).T
     entry = rest.translation_mm
     medial = rest.rotation.T @ np.array([-np.sign(entry[0]), 0.0, 0.0])

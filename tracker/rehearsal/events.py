@@ -12,13 +12,13 @@ MAX_S, MAX_MM, MAX_DEG = 1e5, 60.0, 20.0
 class EventKind(StrEnum):
     """Kind of disturbance."""
 
-    CAMERA_MOVES = "camera_moves"  # somebody bumps into it: everything in the image is elsewhere
-    PATIENT_MOVES = "patient_moves"  # bone, needles and reference move in a room that stands still
-    DRILL_JUMPS = "drill_jumps"  # from one image to the next the drill is elsewhere
+    CAMERA_MOVES = "camera_moves"  # the camera moves, and with it everything in the image
+    PATIENT_MOVES = "patient_moves"  # bone, needles and reference move in a static room
+    DRILL_JUMPS = "drill_jumps"  # the drill is displaced between two images
     DRILL_HIDDEN = "drill_occluded"  # a cloth lies over its marker
     REFERENCE_HIDDEN = "reference_occluded"  # a cloth lies over the reference marker
-    CAMERA_STOPS = "camera_stops"  # its cable is out
-    CAMERA_STALLS = "camera_stalls"  # it is open, and gives nothing
+    CAMERA_STOPS = "camera_stops"  # the camera is disconnected
+    CAMERA_STALLS = "camera_stalls"  # the camera is open, but delivers no images
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

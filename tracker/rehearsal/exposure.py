@@ -1,8 +1,8 @@
 """Composition of one image: static scenery with its noise, and moving layers over it.
 
-Only what moves is drawn for each image, which halves the cost of an image and takes a sixth for a
-calibration board. Both markers have fresh noise in each image, because the tracker measures them; the drill
-marker's edges are within 0.006 px of the truth.
+Only moving objects are drawn for each image, which halves the time per image, and takes a sixth of it for a
+calibration board. Both markers have independent noise in each image, because the tracker measures them; the
+drill marker's edges are within 0.006 px of the ground truth.
 """
 
 import cv2

@@ -58,7 +58,7 @@ def rod_shadow(
     soft = PENUMBRA_MM + PENUMBRA_PER_MM * np.maximum(s, 0.0)
     radius = np.interp(t, profile_mm, profile_radius_mm).astype(np.float32)
     covered = np.clip((radius + soft - distance) / (2.0 * soft), 0.0, 1.0)
-    # A rod thinner than its penumbra never hides the whole lamp.
+    # A rod thinner than its penumbra never occludes the whole lamp.
     strength = np.minimum(1.0, radius / soft * 1.6) * np.exp(-np.maximum(s, 0.0) / SHADOW_FADES_MM)
     ends = np.clip((t - first + soft) / soft, 0, 1) * np.clip((last - t + soft) / soft, 0, 1)
     out[near] = SHADOW_DEPTH * covered * strength * ends * (s > 0.0)

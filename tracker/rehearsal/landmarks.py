@@ -10,7 +10,7 @@ from tracker.rehearsal.anatomy import bone_field, bone_normals
 
 MAX_DISTANCE_MM, COARSE_MM, HALVINGS = 30.0, 0.5, 24
 
-# Name, a point inside the bone, the way out of it to the landmark. Left is x above 0; y points backwards.
+# Name, a point inside the bone, and the direction from it to the landmark. Left is x > 0; y is posterior.
 ANCHORS = (
     ("left transverse process, tip", (40.5, 13.3, 5.8), (0.45, 0.85, 0.0)),
     ("left superior articular process, top", (20.2, 13.5, 21.0), (0.0, 0.75, 0.66)),

@@ -1,7 +1,7 @@
 """Drawing of the drill's body, and compositing of moving layers into an image.
 
-Compiled, because most pixels around an oblique drill show nothing of it and are passed over: in whole-array
-operations these two took half of an image's time.
+Compiled, because most pixels around an oblique drill are empty and can be skipped; as array operations these
+two took half of the time per image.
 """
 
 from typing import NamedTuple
@@ -12,7 +12,7 @@ import numpy.typing as npt
 from tracker.compiled import compiled
 from tracker.rehearsal.lens import MARGIN_NODES, NODE_PX
 
-# Between an occluding surface and what it occludes, both ways.
+# Tolerance of the depth test between the body and static objects.
 OCCLUSION_MM = 1.0 / 3.0
 
 
@@ -22,9 +22,9 @@ class Portrait(NamedTuple):
     Attributes:
         picture: (h, w, 4) uint8, BGR and coverage, premultiplied; columns along the axis, rows across it.
         bulge_mm: (h, w) float32, height of the surface before the axis.
-        first_row: the first that shows anything.
-        last_row: the last that shows anything.
-        near_columns: so many from the first can be behind something.
+        first_row: first row that is not empty.
+        last_row: last row that is not empty.
+        near_columns: number of columns from the first that can be occluded.
         start_mm: distance of the first column's border from the tip.
         half_mm: distance of the first row's border from the axis.
         per_mm: pixels to a millimetre.

@@ -62,7 +62,7 @@ KEYFRAMES = np.array(
     ]
 )
 
-# Whole turns a cycle keep the motion periodic.
+# Integer numbers of periods per cycle keep the motion periodic.
 WOBBLE_TURNS = np.array([5, 9, 14, 22])
 WOBBLE_SIZE = np.array([0.10, 0.08, 0.06, 0.03])
 TREMOR_TURNS = np.array([327, 371, 411, 437])  # 8.2, 9.3, 10.3, 10.9 Hz
@@ -90,10 +90,10 @@ class Script:
 
     Attributes:
         keyframes: (n, 7), as `KEYFRAMES`.
-        phases: when each begins.
-        sway_ratio: how much it wobbles.
-        shake_ratio: how much it trembles.
-        variety_ratio: how much the way through the air differs from seed to seed.
+        phases: start time of each phase.
+        sway_ratio: amplitude of the sway.
+        shake_ratio: amplitude of the tremor.
+        variety_ratio: variation by the seed of the path through the air.
     """
 
     keyframes: Array
@@ -116,7 +116,7 @@ class Hand:
         self._table = _smooth_table(_varied(script.keyframes, random, script.variety_ratio))
         sway = WOBBLE_SIZE * random.uniform(0.7, 1.3, (6, 4)) * script.sway_ratio
         shake = TREMOR_SIZE * random.uniform(0.7, 1.3, (6, 4)) * script.shake_ratio
-        # Along its axis a hand that presses is steadier than across it; roll is the loosest.
+        # A pressing hand is steadier along the drill's axis than across it; roll is least steady.
         shake[2] *= 0.5
         sway[3:5] *= 2.5
         sway[5] *= 6.0

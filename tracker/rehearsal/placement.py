@@ -91,7 +91,7 @@ def _ways(seed: int, index: int, kind: EventKind) -> tuple[Array, Array]:
     """Return unit directions of a shift and of a rotation axis."""
     ways = np.random.default_rng([seed, 0x4D4F5645, index]).normal(0.0, 1.0, (2, 3))
     if kind is EventKind.PATIENT_MOVES:
-        # A patient slides on the table, and hardly sinks into it or rises.
+        # A patient slides on the table, with hardly any vertical motion.
         ways[0, 1] = 0.1 * abs(ways[0, 1])
     shift, turn = ways / np.linalg.norm(ways, axis=1, keepdims=True)
     return shift, turn

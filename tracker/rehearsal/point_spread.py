@@ -15,7 +15,7 @@ SHARP_PX = 0.05
 STEPS_PER_PX = 4.0
 # A kernel's xy covariance below this is invisible: that of an oblique motion by half a pixel.
 SLANT_PX2 = 0.01
-# Parts of a kernel below this share of its largest are left out.
+# Components of a kernel below this ratio of the largest are dropped.
 NEGLIGIBLE_RATIO = 0.02
 # OpenCV quantises the kernel of an 8-bit to 8-bit filter to 1/256; the quantised values must sum to 1.
 FIXED_POINT = 256.0
@@ -35,8 +35,8 @@ class PointSpread:
     """A kernel as a sum of separable kernels.
 
     Attributes:
-        along_x: (n, k) taps of each along x.
-        along_y: (n, k) taps of each along y.
+        along_x: (n, k), samples of each kernel along x.
+        along_y: (n, k), samples of each kernel along y.
     """
 
     along_x: Array

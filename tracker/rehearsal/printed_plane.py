@@ -20,7 +20,7 @@ MIN_SAMPLES, MAX_SAMPLES = 1, 4
 SOFT_PER_SAMPLE = 0.5
 SOFTER = 2.0**0.25
 OUTLINE_POINTS = 8
-# OpenCV's polygons with smooth borders are so much wider on each side than their outlines.
+# OpenCV's antialiased polygons extend beyond their outlines by this width on each side.
 FILLED_BEYOND_PX = 0.67
 
 
@@ -71,7 +71,7 @@ class PrintedPlane:
         largest, smallest = np.linalg.svd(px[1:] - px[0], compute_uv=False)
         for samples in range(fewest, MAX_SAMPLES):
             level = int(np.ceil(np.log(SOFT_PER_SAMPLE / samples / smallest) / np.log(SOFTER)))
-            # A sample between pixels of the face softens it, too: by 1/6 in the mean.
+            # Bilinear interpolation between pixels of the face adds a variance of 1/6 on average.
             face_px2 = SOFTER ** (2 * level) + 1.0 / 6.0
             drawn_px2 = float(largest * smallest * face_px2 - 1.0 / (12.0 * samples**2))
             if drawn_px2 <= blur_px2:
@@ -96,7 +96,7 @@ class PrintedPlane:
         """
         pose = camera_from_plane
         plane = np.column_stack([pose.rotation[:, :2], pose.translation_mm])
-        # From a ray to the plane, and on to the face.
+        # The map from a ray to the plane and to the face.
         face_from_plane = np.array(
             [
                 [self._per_mm, 0.0, self._middle_px[0] - 0.5],

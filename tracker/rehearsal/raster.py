@@ -42,8 +42,8 @@ def rasterise(
 ) -> RasterSamples:
     """Rasterise triangles to (height, width) pixels; pixel centres at whole numbers.
 
-    `px` (v, 2) and `depth_mm` (v,) are the projected vertices. Triangles that turn their back are left out:
-    from the front they run clockwise in an image whose y points down.
+    `px` (v, 2) and `depth_mm` (v,) are the projected vertices. Back faces are culled:
+    front faces are clockwise in an image whose y points down.
     """
     corner = px[faces].astype(np.float32)
     a, b, c = corner[:, 0], corner[:, 1], corner[:, 2]

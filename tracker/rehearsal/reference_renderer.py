@@ -26,7 +26,7 @@ Image8 = npt.NDArray[np.uint8]
 Image32 = npt.NDArray[np.float32]
 Square = TypeVar("Square")
 
-# It faces the lamp more than the drill's does; white must not burn out.
+# It faces the lamp more than the drill's board; white must not saturate.
 PAPER = 0.84
 POST_RADIUS_MM, CLAMP_RADIUS_MM = 2.2, 4.6
 POST_COLOUR, CLAMP_COLOUR = (0.72, 0.71, 0.70), (0.40, 0.36, 0.34)

@@ -42,7 +42,7 @@ STATION_MM = 8.0
 MARKER_SAMPLES = 3
 SPEED_OVER_S = 0.002
 SHADOW_GROUND_MM, SHADOW_REACH_MM = 14.0, 260.0
-# The board is wider than the body and throws most of its shadow.
+# The board is wider than the body and casts most of its shadow.
 SHADOW_PROFILE_MM = np.array([*PROFILE_MM[:17], 102, 102.5, 137.5, 138, 168])
 SHADOW_RADIUS_MM = np.array([*RADIUS_MM[:16], 8.5, 8.5, 14.0, 14.0, 8.5, 8.5])
 
@@ -50,8 +50,8 @@ SHADOW_RADIUS_MM = np.array([*RADIUS_MM[:16], 8.5, 8.5, 14.0, 14.0, 8.5, 8.5])
 class Renderer:
     """Renders the theatre's images; deterministic in time.
 
-    Building it renders the still scenery (about a second); an image then costs some milliseconds. It keeps no
-    state between images, so that they may be asked for in any order.
+    The constructor renders the static scenery (about a second); an image then takes some milliseconds. There
+    is no state between images, so they may be requested in any order.
     """
 
     def __init__(
@@ -66,7 +66,7 @@ class Renderer:
             per_mm=BOARD_PER_MM,
             middle_px=(BOARD_HALF_MM * BOARD_PER_MM,) * 2,
         )
-        # Compiles or loads what draws the body, so that no image is delayed.
+        # Compiles or loads the kernels, so that no image is delayed.
         self.image_at(0.0)
 
     def prepare(self) -> None:

@@ -89,7 +89,7 @@ def _soft_points(field: OperatingField, pose: Rigid[Camera, Room], rays: Image32
     turn = pose.rotation.astype(np.float32)
     origin = pose.inverse.translation_mm
     directions = rays @ turn
-    # Cloth and muscle are soft enough to be found on every other pixel.
+    # Cloth and muscle are smooth enough for half resolution.
     half = resized(directions, width // 2, height // 2)
     depth = resized(field.meet(origin, half), width, height)
     points = origin.astype(np.float32) + depth[..., None] * directions
@@ -113,7 +113,7 @@ def _soft_shade(points: Image32, rods: list[Rod], patient: Rigid[Room, Vertebra]
         np.float32
     )
     left[near] -= 0.62 * _bone_shadow(beside_bone, 0.4)
-    # Where soft meets bone little light gets in at all.
+    # Ambient occlusion where soft tissue meets bone.
     left[near] *= 0.55 + 0.45 * np.clip(bone_field(beside_bone) / 5.0, 0.0, 1.0)
     for rod in rods:
         left *= 1.0 - rod.shadow(half)
@@ -251,7 +251,7 @@ def _solid_colours(
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-6)
     light = lit(normals)
     for rod in rods:
-        # A rod's own surface is at its radius: it throws no shadow on itself.
+        # A rod's surface is at its radius, so it casts no shadow on itself.
         light *= 1.0 - rod.shadow(points) * bony
     side = points[:, 0] + 0.6 * points[:, 1]
     mottle = grain.clouds(side, points[:, 2] + 0.5 * points[:, 1], 60.0)

@@ -77,8 +77,9 @@ class Sensor:
     def still_noise(self, picture: Image8) -> Image8:
         """Return noise (h + 8, w + 8, 3) for this picture (h, w, 3), valid within its margin.
 
-        A picture of 8 bit and this add up modulo 256, which takes a tenth of the time of noise made for the
-        picture's levels: what is below 0 is 256 more. No sum leaves 0 to 255, in any light.
+        The picture and this noise, both 8 bit, are added modulo 256 (negative values plus 256), which takes a
+        tenth of the time of noise generated for the picture's levels. No sum leaves 0..255 under any
+        illumination.
         """
         half = STILL_SHIFT_PX // 2
         wide = cv2.copyMakeBorder(picture, half, half, half, half, cv2.BORDER_REPLICATE)

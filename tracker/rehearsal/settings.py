@@ -26,7 +26,7 @@ class Scene(StrEnum):
 class Skill(StrEnum):
     """Drilling skill of the simulated hand."""
 
-    WANDERING = "wandering"  # as a hand does, then off by millimetres and degrees, then out of the picture
+    WANDERING = "wandering"  # like a hand, then off by millimetres and degrees, then out of the image
     GOOD = "good"  # all the time along the channel's axis, within half a millimetre
     BREACHING = "breaching"  # through the pedicle's wall to the canal
 

@@ -52,7 +52,7 @@ class HandMotion(Protocol):
     """Protocol of a hand that moves the drill.
 
     Attributes:
-        cycle_s: the motion repeats after this.
+        cycle_s: period of the motion.
     """
 
     cycle_s: float
@@ -84,7 +84,7 @@ class Truth:
         reference_in_view: the same of the marker on the patient.
         corners_px: (4, 2) of the black square, top-left, top-right, bottom-right, bottom-left of the printed
             face; they may lie outside the image.
-        touched: the landmark that the tip rests on, by name; empty if it rests on none.
+        touched: name of the landmark on which the tip rests; empty for none.
     """
 
     at_s: float
@@ -116,7 +116,7 @@ class Theatre:
         needles: the three landmark needles.
         landmarks: those that are captured, in order.
         check_landmark: the one reserved for the check.
-        cycle_s: the motion repeats after this.
+        cycle_s: period of the motion.
     """
 
     def __init__(self, settings: TheatreSettings) -> None:
@@ -207,8 +207,8 @@ class Theatre:
     def camera_from_marker_at(self, at_s: float, *, late_s: float = 0.0) -> Rigid[Camera, Marker]:
         """Return the pose of the drill's marker at this time; the hand follows the patient.
 
-        With `late_s` the hand has gone on for so long, and nothing has happened in it: an event comes from
-        one image to the next, it is no motion.
+        With `late_s` only the hand moves on by this time, without events, because an event happens between
+        two images and is not a motion.
         """
         hand = self._hand.at(at_s + late_s)
         tip_mm = np.append(hand.across_mm, hand.depth_mm) + self._moves.jump_mm_at(at_s)

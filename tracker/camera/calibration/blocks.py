@@ -13,14 +13,14 @@ from tracker.geometry import Array
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Block:
-    """One view in the normal equations of the shared numbers.
+    """One view in the normal equations of the shared parameters.
 
     Attributes:
         information: (p, p), in units of 1 / px2 before scaling by the noise.
         gradient: (p,), right-hand side of the normal equations.
-        squares_px2: the sum of its squared residuals.
-        coordinates: how many numbers it measured (two a point).
-        own: how many numbers it has for itself alone.
+        squares_px2: sum of its squared residuals.
+        coordinates: number of measured coordinates (two per point).
+        own: number of parameters of this view only (its pose).
     """
 
     information: Array
@@ -31,8 +31,8 @@ class Block:
 
 
 def reduced(shared: Array, own: Array, residuals: Array) -> Block:
-    """A view's block from derivatives of its coordinates (m, p) and (m, q), and residuals (m,)."""
-    # By orthogonal projection: normal equations would lose half the digits.
+    """Return a view's block from its Jacobians (m, p) by the shared and (m, q) by its own parameters."""
+    # Orthogonal projection (QR), because normal equations would lose half the digits.
     basis, _ = np.linalg.qr(own)
     left = shared - basis @ (basis.T @ shared)
     return Block(
@@ -45,7 +45,7 @@ def reduced(shared: Array, own: Array, residuals: Array) -> Block:
 
 
 def blocks_of(fit: Fit, views: Sequence[BoardView]) -> list[Block]:
-    """The block of each view of one camera; shared are fx, fy, cx, cy and the lens."""
+    """Return the block of each view of one camera; fx, fy, cx, cy and the distortion are shared."""
     blocks = []
     for view, r, t, residuals in zip(
         views, fit.rotations_rad, fit.translations_mm, fit.residuals_px, strict=True
@@ -65,12 +65,12 @@ def derivatives(
 
 
 def total_information(blocks: Sequence[Block]) -> Array:
-    """The sum (p, p) over all views."""
+    """Return the sum of the information (p, p) over all views."""
     return np.asarray(sum(block.information for block in blocks))
 
 
 def inverse(information: Array) -> Array:
-    """The inverse of an information matrix whose units differ by powers of ten."""
+    """Return the inverse of an information matrix whose units differ by powers of ten."""
     scale = 1.0 / np.sqrt(np.maximum(np.diag(information), 1e-300))
     scaled = information * scale[:, None] * scale[None, :]
     return np.asarray(np.linalg.pinv(scaled, rcond=1e-14, hermitian=True) * scale[:, None] * scale[None, :])

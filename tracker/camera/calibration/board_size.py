@@ -1,4 +1,4 @@
-"""Detect a wrong number of columns and rows from what no view shows."""
+"""Detect a wrong number of columns and rows from the extent of the detected grids."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -15,10 +15,10 @@ MIN_EQUAL_VIEWS, MIN_EQUAL_VIEWS_RATIO = 3, 0.5
 def with_board_size_warning(
     report: CalibrationReport, views: Sequence[BoardView], board: Board
 ) -> CalibrationReport:
-    """The report, with a warning where the views of a board all end at the same smaller size.
+    """Return the report, with a warning where all views of a board end at the same smaller size.
 
-    Someone who counts squares in place of inner corners says one column and one row too many; what is seen
-    then passes as a part of the board, wherever it is put.
+    A user who counts squares instead of inner corners enters one column and one row too many; the detected
+    grid is then accepted as a part of the board at an arbitrary position.
     """
     likely = likely_size(views, board)
     if likely is None:
@@ -35,10 +35,11 @@ def with_board_size_warning(
 
 
 def likely_size(views: Sequence[BoardView], board: Board) -> tuple[int, int] | None:
-    """Columns and rows that the board seems to have, None where the views fit to what was said of it.
+    """Return the probable columns and rows of the board; None where the views agree with the given size.
 
-    Given where half of the views or more, and at least three, show one and the same whole rectangle, and none
-    shows more of the board. A ChArUco board's corners are named by their markers, so its size is not given.
+    A size is returned if half of the views or more, and at least three, contain the same complete rectangle,
+    and none contains more of the board. None for a ChArUco board, whose corners are identified by their
+    markers.
     """
     if isinstance(board, CharucoBoard) or not views:
         return None

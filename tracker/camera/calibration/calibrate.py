@@ -38,7 +38,7 @@ class CalibrationSettings:
     """Settings of a camera calibration.
 
     Attributes:
-        coefficients: 4, 5 or 8 of the lens; None takes what describes views held out best.
+        coefficients: 4, 5 or 8 distortion coefficients; None selects the number by cross-validation.
     """
 
     coefficients: int | None = None
@@ -53,7 +53,7 @@ def calibrate(
 ) -> CalibrationReport:
     """Return the camera calibrated from views of a board, with its uncertainty.
 
-    Views are rejected where their points are in a wrong order or are outliers: beyond three times the median
+    Views are rejected if their points are in a wrong order or are outliers: beyond three times the median
     error of the views.
 
     Args:
@@ -214,7 +214,7 @@ def _reject_model(settings: CalibrationSettings) -> None:
         raise InvalidInput(
             "COEFFICIENTS_INVALID",
             f"a lens with {settings.coefficients} coefficients, allowed {', '.join(map(str, MODELS))}",
-            "Leave it out, and the number that describes views held out best is taken.",
+            "Leave it out to select the number by cross-validation.",
         )
 
 
@@ -240,7 +240,7 @@ def _reject_undetermined(reports: Sequence[ViewReport], parameters: Sequence[Par
     raise CalibrationError(
         "VIEWS_ALL_PARALLEL",
         f"the board's directions differ by {widest:.1f} deg, needed {PARALLEL_DEG:g} deg, and the focal "
-        f"length is sure to {100 * unsure:.1f} %, needed {100 * MAX_FOCAL_SD_RATIO:.0f} %",
+        f"length has a standard deviation of {100 * unsure:.1f} %, allowed {100 * MAX_FOCAL_SD_RATIO:.0f} %",
         "Take 10 to 20 views with the board tilted by 20 to 45 deg to different sides, near and far.",
         {"tilt_range_deg": widest, "focal_sd_ratio": unsure},
     )
@@ -252,7 +252,7 @@ def _reject_disagreement(retained: InlierViews, usable: int) -> None:
         return
     raise CalibrationError(
         "VIEWS_DISAGREE",
-        f"{usable - left} of {usable} views do not fit to the camera of the rest, allowed is half of them",
+        f"{usable - left} of {usable} views do not fit the camera of the others, allowed is half of them",
         "Check columns, rows and layout of the board; zoom and focus must stay the same in all images.",
         {"usable": usable, "used": left},
     )

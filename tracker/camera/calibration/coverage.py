@@ -34,7 +34,7 @@ def coverage_of(points_px: Array, size_wh_px: tuple[int, int]) -> Coverage:
     for corner in np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * middle:
         along = (points_px - middle) @ corner / float(corner @ corner)
         aside = np.abs((points_px - middle) @ np.array([-corner[1], corner[0]])) / float(corner @ corner)
-        # Towards a corner counts what lies within 30 degrees of the way to it.
+        # Points within 30 degrees of the direction to a corner count for it.
         near = along[aside <= np.tan(np.pi / 6) * along]
         reach.append(float(np.clip(near.max(initial=0.0), 0.0, 1.0)))
     return Coverage(
@@ -124,7 +124,7 @@ def _unsure(parameters: Sequence[ParameterEstimate], size_wh_px: tuple[int, int]
 
 
 def widest_tilt_deg(views: Sequence[ViewReport]) -> float:
-    """The largest angle between the board's directions in two views."""
+    """Return the largest angle between the board's normals in two views."""
     if len(views) < 2:
         return 0.0
     normals = np.array([view.camera_from_pattern.rotation[:, 2] for view in views])

@@ -1,4 +1,4 @@
-"""Seen from aside, the middle of a dot's image is not the image of the dot's middle: by how much."""
+"""Bias of circular control points: the centroid of a dot's image is not the image of its centre."""
 
 import numpy as np
 
@@ -10,15 +10,15 @@ RIM_POINTS = 24
 
 
 def dot_shifts_px(fit: Fit, index: int, view: BoardView) -> Array:
-    """For each dot (n, 2): the middle of the area of its image, minus the image of its middle.
+    """Return for each dot (n, 2) the centroid of its image minus the image of its centre.
 
     Zero where points are corners. Heikkilä, "Geometric camera calibration using circular control points",
-    2000; here the rim is projected through the lens, which bends it too.
+    2000; here the rim is projected with lens distortion.
     """
     if not view.dot_radii_mm.size:
         return np.zeros_like(view.image_points_px)
     angle = 2.0 * np.pi * np.arange(RIM_POINTS) / RIM_POINTS
-    # A polygon is smaller than its circle, and has the same middle.
+    # A polygon is smaller than its circle, but has the same centroid.
     circle = np.stack([np.cos(angle), np.sin(angle), np.zeros(RIM_POINTS)], axis=1)
     rims = view.object_points_mm[:, None, :] + view.dot_radii_mm[:, None, None] * circle
     pose = fit.rotations_rad[index], fit.translations_mm[index]

@@ -1,4 +1,4 @@
-"""A camera and the pose of the board in each view, fitted to all points at once."""
+"""Joint fit of the camera parameters and the board's pose in each view."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ class Fit:
         matrix: (3, 3).
         distortion: (4,), (5,) or (8,).
         rotations_rad: (views, 3) rotation vectors, and translations_mm: (views, 3): camera from board.
-        residuals_px: for each view (n, 2), seen minus expected.
+        residuals_px: for each view (n, 2), observed minus projected.
     """
 
     matrix: Array
@@ -35,7 +35,7 @@ class Fit:
 
     @property
     def shared(self) -> Array:
-        """fx, fy, cx, cy and the lens, in the order of `NAMES`."""
+        """Return fx, fy, cx, cy and the distortion, in the order of `NAMES`."""
         k = self.matrix
         return np.concatenate([[k[0, 0], k[1, 1], k[0, 2], k[1, 2]], self.distortion])
 
@@ -46,10 +46,10 @@ class Fit:
 
 
 def fit_camera(views: Sequence[BoardView], size_wh_px: tuple[int, int], coefficients: int) -> Fit:
-    """Return the camera fitted to these views with `coefficients` of the lens.
+    """Return the camera fitted to these views with this number of distortion coefficients.
 
     Raises:
-        CalibrationError: CALIBRATION_DIVERGED, the numbers run away.
+        CalibrationError: CALIBRATION_DIVERGED.
     """
     flags = FLAGS[coefficients]
     points = [view.object_points_mm.astype(np.float32) for view in views]
@@ -88,7 +88,7 @@ def projected(
 
 
 def board_pose(view: BoardView, matrix: Array, lens: Array) -> tuple[Array, Array] | None:
-    """The board's rotation vector and translation as one known camera sees it; None where there is none."""
+    """Return the board's rotation vector and translation for a known camera; None where PnP fails."""
     points = view.object_points_mm.reshape(-1, 1, 3)
     px = view.image_points_px.reshape(-1, 1, 2)
     try:

@@ -1,8 +1,8 @@
 """Select the number of lens coefficients by cross-validation.
 
-Five coefficients are used unless four or eight describe held-out views clearly better: a coefficient that
-is left out is silently claimed to be zero, one too many only widens intervals, and eight diverge beyond the
-points. Some lenses lose the last hundredth of a pixel.
+Five coefficients are used unless four or eight have a clearly smaller error on held-out views: an omitted
+coefficient is assumed to be zero, an unnecessary one only widens the confidence intervals, and eight
+extrapolate badly beyond the points. For some lenses this costs a hundredth of a pixel.
 """
 
 from collections.abc import Sequence
@@ -19,15 +19,15 @@ from tracker.geometry import Array
 USUAL = 5
 MIN_VIEWS = 5
 MAX_FOLDS = 5
-# Fewer or more than the usual number must be better by so much: the usual one has the simple one inside, so
-# that taking it costs next to nothing, and eight run wild beyond the points where they are not needed.
+# Required relative decrease of the held-out error for fewer or more coefficients than usual. The usual model
+# contains the simpler one and costs little, while unnecessary coefficients extrapolate badly.
 SIMPLER_BY, RICHER_BY = 0.005, 0.02
-# A single bad point must not choose the model.
+# A single outlier must not select the model.
 MAX_POINT_SDS = 6.0
 
 
 def choose_model(views: Sequence[BoardView], size_wh_px: tuple[int, int]) -> ModelChoice:
-    """4, 5 or 8 coefficients; 8 only where a lens can have them, up to the corners of the image."""
+    """Return the choice of 4, 5 or 8 coefficients; 8 only if plausible up to the corners of the image."""
     if len(views) < MIN_VIEWS:
         few = 4 if len(views) < 3 else USUAL
         return ModelChoice(
@@ -58,7 +58,7 @@ def choose_model(views: Sequence[BoardView], size_wh_px: tuple[int, int]) -> Mod
 
 
 def held_out_rms_px(views: Sequence[BoardView], size_wh_px: tuple[int, int], model: int) -> float:
-    """Root mean square distance in views to which the camera was not fitted, only the board's pose."""
+    """Return the RMS error on held-out views, to which only the board's pose is fitted."""
     folds = min(MAX_FOLDS, len(views))
     squares: list[Array] = []
     for fold in range(folds):

@@ -1,8 +1,8 @@
 """Detect views of two different cameras.
 
-Two cameras of one make, or one whose zoom was changed, agree to within tenths of a pixel: they fit together
-to 0.22 px, and the result is neither of them. A bent board separates views in the same way, so this is a
-warning and not an error.
+Views of two cameras of the same model, or of one whose zoom was changed, can be fitted together to 0.22 px,
+and the result describes neither of them. A bent board separates views in the same way, so this is a warning
+and not an error.
 """
 
 from collections.abc import Sequence
@@ -16,17 +16,17 @@ from tracker.camera.calibration.fit import Fit
 from tracker.camera.calibration.report import CalibrationWarning, rms
 from tracker.geometry import Array
 
-# Focal lengths and middle; the lens stays common, or the groups would explain anything.
+# Focal lengths and principal point differ between the groups; the distortion is common, to avoid overfitting.
 OWN = 4
 MIN_VIEWS, MIN_MEMBERS = 8, 2
-# Of the squared residuals, what two cameras may leave. Of real single cameras they leave 0.88 and more, of
-# pairs of one make 0.80 and less.
+# Maximum ratio of the squared residuals with two cameras to those with one. Real single cameras have 0.88 and
+# more, pairs of the same model 0.80 and less.
 CLEAR_RATIO = 0.85
-# Or else: how much more the first split explains than any further one, above what noise does. Of single
-# cameras up to 5, of pairs in white noise 10 to 300.
+# Alternatively: minimum ratio of the decrease of chi-square by the first split to that of any further one.
+# Single cameras have up to 5, pairs under white noise 10 to 300.
 CLEAR_FACTOR, MIN_CHI2 = 8.0, 60.0
 STARTS, ROUNDS = 24, 30
-# More views are counted and not named.
+# Maximum number of views named in the message.
 NAMED = 4
 
 Members = npt.NDArray[np.bool_]
@@ -38,8 +38,8 @@ class TwoGroups:
 
     Attributes:
         smaller: indexes of the views of the smaller group.
-        difference_px: (4,) by how much its fx, fy, cx and cy differ from those of the others.
-        left_ratio: what two cameras leave of the RMS of one.
+        difference_px: (4,), its fx, fy, cx and cy minus those of the others.
+        left_ratio: RMS with two cameras as a ratio of that with one.
     """
 
     smaller: tuple[int, ...]
@@ -49,7 +49,7 @@ class TwoGroups:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Split:
-    """One way to part views: who is in the second group, what it explains, both cameras' steps."""
+    """One split of the views: members of the second group, decrease of chi-square, both cameras' steps."""
 
     second: Members
     gain_px2: float
@@ -58,10 +58,10 @@ class _Split:
 
 
 def two_groups(blocks: Sequence[Block]) -> TwoGroups | None:
-    """The two groups into which the views of a fitted camera fall, None where they are of one camera.
+    """Return the two groups into which the views of a fitted camera fall; None for a single camera.
 
-    To first order about the common camera: each view's own pull (`Block`) says which of two it prefers. A
-    bent board, too, pulls views apart, in the same ways; so this warns and never rejects.
+    To first order about the common camera, the gradient of each view (`Block`) determines its group. A bent
+    board separates views in the same way, so this is only used for a warning.
     """
     if len(blocks) < MIN_VIEWS:
         return None
@@ -89,7 +89,7 @@ def two_groups(blocks: Sequence[Block]) -> TwoGroups | None:
 def two_camera_warnings(
     fit: Fit, blocks: Sequence[Block], names: Sequence[str]
 ) -> tuple[CalibrationWarning, ...]:
-    """A warning with numbers where two cameras explain clearly better the views (of these names) of a fit."""
+    """Return a warning if two cameras fit the views (of these names) clearly better than one."""
     groups = two_groups(blocks)
     if groups is None:
         return ()
@@ -110,11 +110,11 @@ def two_camera_warnings(
 
 
 def _best_split(blocks: Sequence[Block]) -> _Split | None:
-    """The split that explains most, from many beginnings: each view goes where it fits, until none moves."""
+    """Return the best split from several starts, by reassigning views until convergence (as in k-means)."""
     count = len(blocks)
     rng = np.random.default_rng(0)
     order = np.arange(count)
-    # Files of two cameras mostly follow each other.
+    # Files of two cameras are mostly consecutive.
     starts = [order >= cut for cut in {count // 4, count // 2, 3 * count // 4}]
     starts += [rng.integers(0, 2, count).astype(bool) for _ in range(STARTS)]
     informations = np.array([block.information for block in blocks])
@@ -146,7 +146,7 @@ def _converged(second: Members, informations: Array, gradients: Array) -> _Split
 
 
 def _fitted(second: Members, informations: Array, gradients: Array) -> _Split:
-    """The steps of both groups' cameras from the common one, which share the lens."""
+    """Return the steps of both groups' cameras from the common one, with a common distortion."""
     whole, part = informations.sum(axis=0), informations[second].sum(axis=0)
     size = len(whole)
     normal = np.block([[whole, part[:, :OWN]], [part[:OWN], part[:OWN, :OWN]]])
@@ -163,7 +163,7 @@ def _costs(step: Array, informations: Array, gradients: Array) -> Array:
 
 
 def _further_gain_px2(blocks: Sequence[Block], split: _Split) -> float:
-    """The most that one more split, of either group, explains: as much as noise and a bent board do."""
+    """Return the largest gain of one more split of either group, as from noise and a bent board."""
     max_gain_px2 = 0.0
     for members, step in ((split.second, split.second_step), (~split.second, split.first_step)):
         group = [

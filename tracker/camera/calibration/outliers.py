@@ -51,7 +51,7 @@ def reject_outlier_views(
     out: dict[int, str] = {}
     fit = fit_camera([views[i] for i in retained], size_wh_px, coefficients)
     while len(retained) > MIN_VIEWS:
-        # A few bad points must not cost a good view: its median tells what the view is like.
+        # The median, because a few outlier points must not reject a good view.
         typical = np.array([_typical_px(residuals) for residuals in fit.residuals_px])
         usual = float(np.median(typical))
         worst = int(np.argmax(typical))
@@ -83,7 +83,7 @@ def reject_outlier_points(
     for turn in range(ROUNDS):
         if has_dots and turn < DOT_ROUNDS:
             moved = [_unshifted(views[i], fit, at) for at, i in enumerate(indexes)]
-            # Moved points are judged by a camera that was fitted to where they are now.
+            # Refit, because the corrected points require a camera fitted to them.
             fit = fit_camera(
                 [v.part(points[i]) for i, v in zip(indexes, moved, strict=True)], size_wh_px, coefficients
             )

@@ -16,7 +16,7 @@ class ParameterEstimate:
         name: fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6.
         value: focal lengths and principal point in px, the lens without unit.
         sd: standard deviation, of the same unit.
-        low_95, high_95: between these it lies with 95 % (Student's t with `degrees_of_freedom`).
+        low_95, high_95: 95 % confidence interval (Student's t with `degrees_of_freedom`).
         degrees_of_freedom: of the standard deviation.
     """
 
@@ -36,15 +36,14 @@ class ViewReport:
         name: as the caller named it.
         used: whether the calibration uses it.
         reason: why it is not used, with numbers, or an empty string.
-        rms_px: root mean square distance between seen and expected points; of a view that is not used, as
-            its best pose leaves it, and NaN where it has none.
-        points: that were seen.
+        rms_px: RMS reprojection error; for a view that is not used, at its best pose, and NaN without a pose.
+        points: number of detected points.
         dropped_points: number of outlier points among them.
         tilt_deg: between the board's face and the image plane.
-        distance_mm: from the camera to the middle of what is seen of the board.
+        distance_mm: distance from the camera to the centre of the detected points.
         camera_from_pattern: the board's pose; identity where there is none.
-        image_points_px: (n, 2) seen, with the bias of tilted dots taken out.
-        residuals_px: (n, 2) seen minus expected, of the inlier points.
+        image_points_px: (n, 2), detected points, corrected for the bias of tilted dots.
+        residuals_px: (n, 2), observed minus projected, of the inlier points.
     """
 
     name: str
@@ -65,10 +64,10 @@ class Coverage:
     """Image coverage of the points.
 
     Attributes:
-        cells_ratio: of the image's cells (8 x 6), those with a point.
-        hull_ratio: of the image's area, what lies between the points.
-        corner_reach_ratios: towards the top left, top right, bottom right and bottom left corner, how much of
-            the way from the middle points reach.
+        cells_ratio: ratio of the image's cells (8 x 6) that contain a point.
+        hull_ratio: area of the convex hull of the points, as a ratio of the image's area.
+        corner_reach_ratios: largest distance of points from the centre towards the top left, top right,
+            bottom right and bottom left corner, as a ratio of the corner's distance.
     """
 
     cells_ratio: float
@@ -82,7 +81,7 @@ class ModelChoice:
 
     Attributes:
         coefficients: 4, 5 or 8.
-        held_out_rms_px: by number of coefficients; empty where there were too few views to hold any out.
+        held_out_rms_px: RMS on held-out views by number of coefficients; empty with too few views.
         reason: a sentence, without full stop.
     """
 
@@ -106,7 +105,7 @@ class CalibrationReport:
 
     Attributes:
         camera: the result.
-        rms_px: root mean square distance between seen and expected points, over all views used.
+        rms_px: RMS reprojection error over all views used.
         noise_px: standard deviation of one coordinate of one point.
         is_noise_correlated: whether errors of neighbouring points, or within a view, are correlated (a bent
             board, blur); the standard deviations then come from a jackknife over the views.
@@ -115,7 +114,7 @@ class CalibrationReport:
         views: all of them, in the order given.
         coverage: of the image.
         choice: of the lens model.
-        warnings: what is not determined well.
+        warnings: poorly determined parameters.
     """
 
     camera: CameraModel
@@ -130,7 +129,7 @@ class CalibrationReport:
     warnings: tuple[CalibrationWarning, ...]
 
     def parameter(self, name: str) -> ParameterEstimate:
-        """The estimate of this name."""
+        """Return the estimate of this name."""
         return next(one for one in self.parameters if one.name == name)
 
     @property
@@ -145,5 +144,5 @@ class CalibrationReport:
 
 
 def rms(residuals_px: Array) -> float:
-    """Root mean square length of residuals (n, 2); NaN of none."""
+    """Return the RMS length of residuals (n, 2); NaN for none."""
     return float(np.sqrt((residuals_px**2).sum(axis=1).mean())) if len(residuals_px) else float("nan")

@@ -1,7 +1,8 @@
 """Uncertainty of camera parameters from the residuals.
 
-With independent errors, the residuals and Student's t cover the truth in 95 of 100 cameras. Real boards are
-bent and blurred; then a jackknife over views is used, and its intervals are never narrower.
+With independent errors, intervals from the residuals and Student's t contain the true value for 95 of 100
+cameras. With correlated errors, as of bent boards and blur, a jackknife over views is used, with intervals
+that are never narrower.
 """
 
 from collections.abc import Sequence
@@ -64,8 +65,8 @@ def uncertainty(blocks: Sequence[Block], *, is_noise_correlated: bool) -> Uncert
         )
     moved = np.array([-inverse(information - one.information) @ one.gradient for one in blocks])
     spread = (count - 1) / count * moved.T @ moved
-    # Differences of few views may come out small by chance; points that are alike never say more than
-    # independent ones.
+    # The jackknife of few views may be too small by chance, but correlated points never contain more
+    # information than independent ones.
     sds, plain_sds = np.sqrt(np.diag(spread)), np.sqrt(np.diag(plain))
     scale = np.maximum(1.0, plain_sds / np.maximum(sds, 1e-300))
     return Uncertainty(
@@ -96,7 +97,7 @@ def noise_is_correlated(
 
 
 def _neighbours(view: BoardView) -> Array:
-    """Pairs of points (m, 2) that are next to each other on the board."""
+    """Return the pairs of points (m, 2) that are adjacent on the board."""
     points = view.object_points_mm[:, :2]
     tree = scipy.spatial.cKDTree(points)
     nearest, _ = tree.query(points, k=2)

@@ -11,7 +11,8 @@ from tracker.errors import CalibrationError
 from tracker.geometry import Array
 
 MIN_POINTS = 6
-# A lens bends a board by part of a step; points in a wrong order are whole steps off.
+# Distortion displaces points by a fraction of a grid step; points in a wrong order are displaced by whole
+# steps.
 MAX_OFF_STEPS = 0.6
 MIN_SPREAD_RATIO = 0.02
 PARALLEL_DEG, SAME_PLACE_RATIO = 4.0, 0.03
@@ -77,7 +78,7 @@ def reject_one_pose(views: Sequence[BoardView], size_wh_px: tuple[int, int]) -> 
 
 
 def _rough_pose(view: BoardView, size_wh_px: tuple[int, int]) -> tuple[Array, Array]:
-    """The board's normal and place as an ordinary camera of this image size would see them."""
+    """Return the board's normal and position for a typical camera of this image size."""
     focal = 1.2 * max(size_wh_px)
     k = np.array([[focal, 0, size_wh_px[0] / 2], [0, focal, size_wh_px[1] / 2], [0, 0, 1]])
     found = plane_map(view.object_points_mm[:, :2], view.image_points_px, is_robust=False)
@@ -90,7 +91,7 @@ def _rough_pose(view: BoardView, size_wh_px: tuple[int, int]) -> tuple[Array, Ar
 
 
 def _handedness(homography: Array, at: Array) -> float:
-    """The sign of the board's area around a point, as it is seen."""
+    """Return the sign of the homography's Jacobian determinant at a point."""
     scale = float(homography[2] @ np.append(at, 1.0))
     return float(np.sign(np.linalg.det(homography) * scale**-3))
 
@@ -101,5 +102,5 @@ def _step_px(px: Array) -> float:
 
 
 def _thickness(px: Array) -> float:
-    """Spread (sd, px) of points across the line that they fit best to."""
+    """Return the sd in px of points perpendicular to their best-fitting line."""
     return float(np.linalg.svd(px - px.mean(axis=0), compute_uv=False)[-1] / np.sqrt(len(px)))

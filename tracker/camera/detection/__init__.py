@@ -1,4 +1,4 @@
-"""Finding a calibration board in an image: which of its points lie where, to a fraction of a pixel."""
+"""Detection of a calibration board in an image: identified points with sub-pixel positions."""
 
 from tracker.camera.detection.find import board_as_seen, find_board
 from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason, PlacementAmbiguity

@@ -1,4 +1,4 @@
-"""Round spots of an image, dark on light or light on dark, with their centres to a fraction of a pixel."""
+"""Blob detection: round spots with sub-pixel centres."""
 
 from dataclasses import dataclass
 
@@ -12,7 +12,7 @@ GreyImage = npt.NDArray[np.uint8]
 
 MIN_AREA_PX, MAX_AREA_RATIO = 12.0, 0.02
 MIN_AXES_RATIO = 0.25
-# How much of the ellipse with a spot's own moments the spot must fill, and how little lie outside of it.
+# Minimum overlap of a spot with the ellipse of the same moments.
 MIN_OVERLAP_RATIO = 0.8
 MIN_CONTRAST = 10.0
 # A window's size as a part of the image's height, from small dots to large ones.
@@ -26,8 +26,8 @@ class Blobs:
     Attributes:
         centres_px: (n, 2).
         areas_px2: (n,).
-        fourth_moments: (n,) of the distance from the middle, by the square of its second: 4/3 of an ellipse,
-            1.4 of a square or a parallelogram.
+        fourth_moments: (n,) normalised fourth moment of the distance from the centre: 4/3 for an ellipse,
+            1.4 for a square or a parallelogram.
     """
 
     centres_px: Array
@@ -36,7 +36,7 @@ class Blobs:
 
 
 def dark_blobs(grey: GreyImage, *, window_ratio: float) -> Blobs:
-    """Dark round spots on lighter ground; `window_ratio` is what counts as their surroundings."""
+    """Return dark round spots on a lighter background; `window_ratio`: threshold window by image height."""
     window = max(7, int(grey.shape[0] * window_ratio) // 2 * 2 + 1)
     smooth = cv2.GaussianBlur(grey, (0, 0), 0.8)
     binary = cv2.adaptiveThreshold(smooth, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, window, 5)
@@ -65,11 +65,11 @@ def dark_blobs(grey: GreyImage, *, window_ratio: float) -> Blobs:
 
 
 def _ellipse_of(patch: npt.NDArray[np.bool_]) -> tuple[Array, Array, float] | None:
-    """Centre, second moments (2, 2) and the fourth one of a spot, if it is nearly an ellipse."""
+    """Return centre, second moments (2, 2) and fourth moment of a spot; None unless nearly an ellipse."""
     y, x = np.nonzero(patch)
     centre = np.array([x.mean(), y.mean()])
     offset = np.stack([x, y]) - centre[:, None]
-    # A pixel is a square, not a point.
+    # The variance of a square pixel is added.
     moments = offset @ offset.T / x.size + np.eye(2) / 12.0
     small, large = np.sqrt(np.linalg.eigvalsh(moments))
     if small < MIN_AXES_RATIO * large:
@@ -83,7 +83,7 @@ def _ellipse_of(patch: npt.NDArray[np.bool_]) -> tuple[Array, Array, float] | No
 
 
 def _measured(grey: GreyImage, centre: Array, moments: Array) -> tuple[Array, float] | None:
-    """Centre and area by how dark each pixel is against the ground around the spot, shading taken out."""
+    """Return the intensity-weighted centre and area, relative to a planar background."""
     reach = 2.0 * np.sqrt(np.diag(moments)) * 1.6 + 3.0
     left, top = np.maximum(np.floor(centre - reach).astype(int), 0)
     right, bottom = np.ceil(centre + reach).astype(int) + 1
@@ -91,7 +91,7 @@ def _measured(grey: GreyImage, centre: Array, moments: Array) -> tuple[Array, fl
     y, x = np.mgrid[top : top + patch.shape[0], left : left + patch.shape[1]].astype(np.float64)
     dx, dy = x - centre[0], y - centre[1]
     inverse = np.linalg.inv(moments)
-    # In units of the spot's own radius, and of pixels beyond it.
+    # In units of the spot's radius, and in pixels beyond it.
     ratio = np.sqrt(inverse[0, 0] * dx * dx + 2 * inverse[0, 1] * dx * dy + inverse[1, 1] * dy * dy) / 2.0
     beyond = (ratio - 1.0) * 2.0 * float(np.sqrt(np.linalg.det(moments)) ** 0.5)
     ring = (beyond > 1.5) & (beyond < 1.5 + max(2.0, 0.5 * float(np.sqrt(np.linalg.det(moments)) ** 0.5)))

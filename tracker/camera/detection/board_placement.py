@@ -9,12 +9,12 @@ from tracker.camera.detection.lattice import Cells
 from tracker.camera.detection.view import PlacementAmbiguity
 from tracker.geometry import Array
 
-# Turns by quarters, as [x, y] @ turn; a board is never seen mirrored.
+# Rotations by 90 degrees, as [x, y] @ turn, without reflections.
 TURNS = tuple(
     np.array(turn) for turn in (((1, 0), (0, 1)), ((0, 1), (-1, 0)), ((-1, 0), (0, -1)), ((0, -1), (1, 0)))
 )
 
-# A line at the rim of a grid is no part of it when it holds so little of what an average line holds.
+# A border line of a grid is removed if it contains less than this ratio of the points of an average line.
 EMPTY_LINE_RATIO = 0.34
 
 
@@ -42,15 +42,16 @@ def place_on_board(
     *,
     quarters_swap_looks: bool = False,
 ) -> BoardPlacement | None:
-    """Return the best placement of grid cells (n, 2) on a board, or None where they fit nowhere.
+    """Return the best placement of grid cells (n, 2) on a board; None if there is none.
 
     Args:
-        cells: where each point stands in its grid, from 0.
-        px: (n, 2) its place in the image: where all places do equally well, the first row runs to the right.
-        looks: (n,) what each point looks like; -1 where that is unknown.
-        board: (rows, columns) the id of the board's point at each cell, -1 where there is none.
-        board_looks: (points,) what each point of the board looks like.
-        quarters_swap_looks: a quarter turn makes 0 of 1 and 1 of 0, as the colours around a corner do.
+        cells: grid cell of each point, from 0.
+        px: (n, 2), pixels; among equally good placements, the first row runs to the right in the image.
+        looks: (n,), label of each point; -1 if unknown.
+        board: (rows, columns), id of the board's point at each cell, -1 if there is none.
+        board_looks: (points,), label of each point of the board.
+        quarters_swap_looks: whether a rotation by 90 degrees exchanges the labels 0 and 1, as for the colours
+            around a corner.
     """
     found: list[tuple[int, float, int, npt.NDArray[np.int64], int]] = []
     for quarter, turn in enumerate(TURNS):
@@ -73,7 +74,7 @@ def place_on_board(
     if not found:
         return None
     fewest = min(one[0] for one in found)
-    # A single dot that glare made larger must not decide.
+    # A single dot that glare enlarged must not decide.
     candidates = [one for one in found if one[0] <= fewest + max(1, len(cells) // 100) * (fewest > 0)]
     best = min(candidates, key=lambda one: (one[0], round(one[1], 1), one[2], one[1]))
     return BoardPlacement(
@@ -82,7 +83,7 @@ def place_on_board(
 
 
 def trim_to_board(cells: Cells, columns: int, rows: int) -> tuple[Cells, npt.NDArray[np.bool_]]:
-    """Cells counted from 0, and which are kept: lines at the rim that hold next to nothing are no board's."""
+    """Return cells counted from 0 and the inlier mask; nearly empty lines at the border are removed."""
     maximum = sorted((columns, rows))
     retained = np.ones(len(cells), dtype=bool)
     while True:

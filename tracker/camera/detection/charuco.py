@@ -1,4 +1,4 @@
-"""ChArUco boards: markers identify every corner, so a part of the board is enough."""
+"""ChArUco boards: markers identify every corner, so a part of the board suffices."""
 
 from collections.abc import Sequence
 
@@ -14,21 +14,21 @@ from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReas
 from tracker.geometry import Array
 
 MIN_CORNERS, MIN_MARKERS = 6, 4
-# A corner farther than this from where its neighbours expect it, in sides of a square, is another one.
+# A corner farther than this, in sides of a square, from its position by its neighbours is an outlier.
 OFF_NEIGHBOURS_RATIO = 0.15
-# Of the margin between a square and the marker in it, how much is free of the blur of the marker's edge.
+# Part of the margin between a square and its marker that is free of the blur of the marker's edge.
 MARGIN_PART = 0.8
 MIN_WINDOW_PX = 3.0
 
 
 def find_charuco(grey: GreyImage, board: CharucoBoard) -> BoardView | BoardNotFound:
-    """The corners of the board in an image, or why not; the layout is estimated where it is not given."""
+    """Return the corners of the board, or why they are not found; a missing layout is estimated."""
     layout = board.layout
     ambiguity = PlacementAmbiguity.NONE
     if layout is None:
         misfits = layout_misfits(grey, board)
         layout = charuco_layout([misfits])
-        # A patch in the middle of the board looks alike in both, one square farther.
+        # A part in the middle of the board is equal in both layouts up to a shift by one square.
         if board.rows % 2 == 0 and min(misfits) > 0.5 * max(misfits):
             ambiguity = PlacementAmbiguity.PLACE
     ids, corners, max_markers = _detected(grey, board, layout)
@@ -45,7 +45,7 @@ def find_charuco(grey: GreyImage, board: CharucoBoard) -> BoardView | BoardNotFo
 
 
 def charuco_layout(misfits: list[tuple[float, float]]) -> CharucoLayout:
-    """The layout that fits the images better; `misfits` are as `layout_misfits` gives them."""
+    """Return the layout with the smaller total misfit; `misfits`: results of `layout_misfits`."""
     as_newer, as_older = (sum(one[axis] for one in misfits) for axis in (0, 1))
     return CharucoLayout.OLDER if as_older < as_newer else CharucoLayout.NEWER
 
@@ -80,12 +80,12 @@ def _misfit(corners: Sequence[object], ids: list[int], board: cv2.aruco.CharucoB
 def _detected(
     grey: GreyImage, board: CharucoBoard, layout: CharucoLayout | None
 ) -> tuple[np.ndarray[tuple[int], np.dtype[np.int64]], Array, int]:
-    """Ids, corners (n, 2) and the number of markers, for one layout."""
+    """Return ids, corners (n, 2) and the number of markers for one layout."""
     detector = cv2.aruco.CharucoDetector(board.opencv_board(layout))
     found, ids, _, marker_ids = detector.detectBoard(grey)
     markers = _count(marker_ids)
     if not _count(ids) and markers >= MIN_CORNERS:
-        # One marker that was read wrongly makes OpenCV reject all; wrong corners are taken out below.
+        # A single misread marker makes OpenCV reject all; wrong corners are removed below.
         unchecked = cv2.aruco.CharucoParameters()
         unchecked.checkMarkers = False
         detector.setCharucoParameters(unchecked)
@@ -104,9 +104,9 @@ def _detected(
 
 
 def _placed_finely(grey: GreyImage, px: Array, cells: Cells, board: CharucoBoard) -> Array:
-    """Corners (n, 2) placed anew, as OpenCV ends at a tenth of a pixel; not where squares are small.
+    """Return refined corners (n, 2), because OpenCV stops at a tenth of a pixel; unchanged for small squares.
 
-    The window ends before the markers, whose edges are no part of the corner.
+    The window excludes the edges of the markers.
     """
     window_ratio = MARGIN_PART * 0.5 * (1.0 - board.marker_mm / board.square_mm)
     sides_px, _ = step_lengths_px(px, cells)
@@ -115,7 +115,7 @@ def _placed_finely(grey: GreyImage, px: Array, cells: Cells, board: CharucoBoard
 
 
 def _count(found: object) -> int:
-    """OpenCV gives None for nothing, whatever its types say."""
+    """Return the length; OpenCV returns None for no result, contrary to its type annotations."""
     return 0 if found is None else len(np.asarray(found))
 
 

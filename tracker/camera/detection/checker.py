@@ -1,4 +1,4 @@
-"""Checkerboards: whole by OpenCV's finders, in part by their corners alone."""
+"""Checkerboards: complete boards by OpenCV's detectors, parts by their corners."""
 
 import cv2
 import numpy as np
@@ -19,12 +19,12 @@ ENLARGEMENT, MAX_ENLARGED_PX = 1.5, 2_000_000
 MIN_SIDE = 3
 MAX_GRIDS = 4
 MIN_REGULAR_RATIO, MIN_CONTRAST_RATIO = 0.75, 0.6
-# Corners of a part of a board at which the colours may be wrong, as by glare.
+# Maximum ratio of corners of a partial board with wrong colours, as by glare.
 MAX_ODD_RATIO = 0.05
 
 
 def find_checker(grey: GreyImage, board: CheckerBoard) -> BoardView | BoardNotFound:
-    """The inner corners of the board in an image, or why not."""
+    """Return the inner corners of the board in an image, or why they are not found."""
     corners = _whole(grey, board)
     if corners is not None:
         return _whole_viewed(grey, board, corners)
@@ -41,7 +41,7 @@ def _whole_viewed(grey: GreyImage, board: CheckerBoard, corners: Array) -> Board
 
 
 def _in_part(grey: GreyImage, board: CheckerBoard) -> BoardView | BoardNotFound:
-    """The largest grid of corners that can be a part of the board; others may be in view."""
+    """Return the largest grid of corners that can be a part of the board."""
     best: BoardView | None = None
     other: BoardNotFound | None = None
     max_seen = 0
@@ -68,8 +68,8 @@ def _in_part(grey: GreyImage, board: CheckerBoard) -> BoardView | BoardNotFound:
 def _part_viewed(
     grey: GreyImage, board: CheckerBoard, points: Array, cells: Cells
 ) -> BoardView | BoardNotFound:
-    """Without corners at which dark and light do not take turns, and without stray lines at the rim."""
-    # The board's own rim has corners of half the contrast, and a flat part of the image those of noise.
+    """Return the view without corners whose squares do not alternate, and without stray border lines."""
+    # Corners at the board's border have half the contrast, and those of noise hardly any.
     contrast = np.abs(_quarters(grey, points, cells))
     clear = contrast > MIN_CONTRAST_RATIO * np.percentile(contrast, 90)
     points, cells = points[clear], cells[clear]
@@ -103,9 +103,9 @@ def _whole(grey: GreyImage, board: CheckerBoard) -> Array | None:
 
 
 def _whole_enlarged(grey: GreyImage, board: CheckerBoard) -> Array | None:
-    """The corners of a small board beside others that drew all corner finders to themselves.
+    """Return the corners of a small board beside other boards, from an enlarged image.
 
-    Its squares hang together only where the gaps between them are wide enough to be opened: enlarged.
+    `cv2.findChessboardCorners` separates squares by morphology, which requires squares of some pixels.
     """
     size = (board.columns, board.rows)
     if min(size) < MIN_SIDE or grey.size > MAX_ENLARGED_PX:
@@ -114,14 +114,14 @@ def _whole_enlarged(grey: GreyImage, board: CheckerBoard) -> Array | None:
     found, corners = cv2.findChessboardCorners(larger, size, flags=QUAD_FLAGS & ~cv2.CALIB_CB_FAST_CHECK)
     if not found:
         return None
-    # The middle of the first pixel is at (0, 0) in both.
+    # The centre of the first pixel is (0, 0) in both images.
     return (np.asarray(corners, dtype=np.float64).reshape(-1, 2) + 0.5) / ENLARGEMENT - 0.5
 
 
 def _viewed(
     grey: GreyImage, board: CheckerBoard, corners_px: Array, cells: Cells, *, is_whole: bool = False
 ) -> BoardView | BoardNotFound:
-    """Corners placed to a fraction of a pixel, and the grid placed on its board by its colours."""
+    """Return the view with sub-pixel corners and the grid placed on the board by its colours."""
     sides_px, _ = step_lengths_px(corners_px, cells)
     corners = refined(grey, corners_px, sides_px)
     if _is_mirrored(cells, corners):
@@ -132,7 +132,7 @@ def _viewed(
     grid = np.arange(board.columns * board.rows).reshape(board.rows, board.columns)
     place = None
     if min(wide, high) >= min(MIN_SIDE, board.columns, board.rows):
-        # Where the shape leaves a choice, the outermost square at the first corner is taken to be dark.
+        # If the placement is ambiguous, the outermost square at the first corner is assumed dark.
         looks = _looks(grey, corners, cells)
         place = place_on_board(cells, corners, looks, grid, names, quarters_swap_looks=True)
     if place is None:
@@ -152,13 +152,13 @@ def _viewed(
         ids=place.ids,
         object_points_mm=board.object_points_mm[place.ids],
         image_points_px=corners,
-        # A corner too many or too few at the rim, and the rest is one step off.
+        # A spurious or missing line at the border shifts all ids by one step.
         ambiguity=place.ambiguity if is_whole else PlacementAmbiguity.PLACE,
     )
 
 
 def _looks(grey: GreyImage, corners: Array, cells: Cells) -> npt.NDArray[np.int64]:
-    """At each corner 0 where the square towards the next column and row is dark, 1 where it is light."""
+    """Return the label of each corner: 0 if the square towards the next column and row is dark, else 1."""
     return np.asarray(_quarters(grey, corners, cells) > 0, dtype=np.int64)
 
 

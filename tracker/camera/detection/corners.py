@@ -1,4 +1,4 @@
-"""Corners of squares: found anywhere in an image, and placed to a fraction of a pixel."""
+"""Checkerboard corners: saddle point detection and sub-pixel refinement."""
 
 import cv2
 import numpy as np
@@ -8,20 +8,20 @@ from tracker.camera.detection.blobs import GreyImage
 from tracker.geometry import Array
 
 REFINE_CRITERIA = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 100, 1e-4)
-# Half the window in which a corner is placed, as a part of the shortest side of the squares around it: the
-# next corner, and most of what a lens bends, stay outside.
+# Half size of the refinement window, as a ratio of the shortest side of the squares around a corner, small
+# enough to exclude the next corner and most of the lens distortion.
 WINDOW_RATIO = 0.3
 MIN_WINDOW_SIDE_PX, MAX_WINDOW_PX = 2, 12
 SADDLE_SMOOTHING_PX = (1.5, 3.0)
 MAX_SADDLES = 3000
-# Light on a ring around a corner, so many smoothings away, is a wave of two periods before all others.
+# Brightness on a ring around a corner has two periods; radius in smoothing widths, points, and minimum ratio.
 RING_SMOOTHINGS, RING_POINTS, MIN_CROSSED_RATIO = 2.5, 24, 0.7
 
 
 def refined(
     grey: GreyImage, corners_px: Array, sides_px: Array, *, window_ratio: float = WINDOW_RATIO
 ) -> Array:
-    """Corners (n, 2) where the edges around them point to; `sides_px` (n,) is the shortest side at each."""
+    """Return sub-pixel corners (n, 2) (`cv2.cornerSubPix`); `sides_px` (n,): the shortest side at each."""
     windows = np.clip(np.rint(window_ratio * sides_px), MIN_WINDOW_SIDE_PX, MAX_WINDOW_PX).astype(int)
     moved_corners = corners_px.copy()
     for window in np.unique(windows):
@@ -29,14 +29,14 @@ def refined(
         start = corners_px[some].astype(np.float32).reshape(-1, 1, 2)
         found = cv2.cornerSubPix(grey, start, (int(window), int(window)), (-1, -1), REFINE_CRITERIA)
         moved = np.asarray(found, dtype=np.float64).reshape(-1, 2)
-        # A corner that runs away stays where it was.
+        # A corner that moves too far is reset.
         near = np.linalg.norm(moved - corners_px[some], axis=1) < max(1.5, 0.5 * window)
         moved_corners[some] = np.where(near[:, None], moved, corners_px[some])
     return moved_corners
 
 
 def saddles(grey: GreyImage, *, smoothing_px: float) -> Array:
-    """Points (n, 2) at which two dark and two light quarters meet, strongest first."""
+    """Return saddle points (n, 2) of the image, strongest first."""
     smooth = np.asarray(cv2.GaussianBlur(grey.astype(np.float32), (0, 0), smoothing_px), dtype=np.float32)
     xx = cv2.Sobel(smooth, cv2.CV_32F, 2, 0)
     yy = cv2.Sobel(smooth, cv2.CV_32F, 0, 2)
@@ -52,20 +52,20 @@ def saddles(grey: GreyImage, *, smoothing_px: float) -> Array:
 
 
 def _crossed(smooth: npt.NDArray[np.float32], points: Array, *, radius_px: float) -> npt.NDArray[np.bool_]:
-    """At which points (n,) light goes up and down twice around, as at crossing edges and not in noise."""
+    """Return at which points (n,) the brightness on a ring has two periods, as at crossing edges."""
     if not len(points):
         return np.zeros(0, dtype=bool)
     angle = 2.0 * np.pi * np.arange(RING_POINTS) / RING_POINTS
     ring = points[:, None, :] + radius_px * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     x, y = (ring[..., axis].astype(np.float32) for axis in (0, 1))
-    # A ring that reaches out of the image is judged by what is inside.
+    # Outside the image the border is replicated.
     values = cv2.remap(smooth, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE).reshape(x.shape)
     waves = np.abs(np.fft.rfft(values, axis=1))[:, 1:] ** 2
     return np.asarray(waves[:, 1] >= MIN_CROSSED_RATIO * waves.sum(axis=1), dtype=bool)
 
 
 def quarter_signs(grey: GreyImage, corners_px: Array, a_px: Array, b_px: Array) -> Array:
-    """At each corner (n,), how much lighter the quarters along a + b and -a - b are than the other two."""
+    """Return the brightness difference (n,) of the quadrants along a + b and -a - b to the other two."""
     smooth = cv2.GaussianBlur(grey, (0, 0), 0.8).astype(np.float32)
     total = np.zeros(len(corners_px))
     for sign_a, sign_b in ((1, 1), (-1, -1), (1, -1), (-1, 1)):

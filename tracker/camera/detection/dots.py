@@ -1,4 +1,4 @@
-"""Dot grids: symmetric or asymmetric, with larger dots or without, whole or in part."""
+"""Detection of dot grids: symmetric or asymmetric, with or without larger dots, complete or partial."""
 
 import numpy as np
 import numpy.typing as npt
@@ -18,7 +18,7 @@ MIN_AREA_FOR_SHAPE_PX2 = 60.0
 
 
 def find_dots(grey: GreyImage, board: DotBoard) -> BoardView | BoardNotFound:
-    """The dots of the board in an image, or why not."""
+    """Return the dots of the board in an image, or why they are not found."""
     seen = _best_grid(grey, board)
     if seen is None:
         return BoardNotFound(reason=NotFoundReason.NO_POINTS, sentence="no dots that stand in a grid")
@@ -72,13 +72,13 @@ def find_dots(grey: GreyImage, board: DotBoard) -> BoardView | BoardNotFound:
 
 
 def larger_dots(view: BoardView) -> npt.NDArray[np.int64]:
-    """The ids of dots that are larger than most in this view."""
+    """Return the ids of dots that are larger than most in this view."""
     radii = view.dot_radii_mm
     return np.asarray(view.ids[radii > np.sqrt(LARGER_AREA_RATIO) * float(np.median(radii))])
 
 
 def _best_grid(grey: GreyImage, board: DotBoard) -> tuple[Blobs, Lattice] | None:
-    """The grid with most dots, over sizes of what surrounds a dot, dark dots before light ones."""
+    """Return the grid with most dots over several threshold windows, dark dots before light ones."""
     best: tuple[Blobs, Lattice] | None = None
     whole = board.columns * board.rows
     for image in (grey, 255 - grey):
@@ -97,7 +97,7 @@ def _best_grid(grey: GreyImage, board: DotBoard) -> tuple[Blobs, Lattice] | None
 
 
 def _on_board(cells: Cells, board: DotBoard) -> tuple[Cells, npt.NDArray[np.bool_]]:
-    """Cells in steps of the board's pitch; lines at the rim that hold next to nothing are no part of it."""
+    """Return cells in steps of the board's pitch and the inlier mask, without stray lines at the border."""
     asymmetric = board.layout is DotLayout.ASYMMETRIC
     if asymmetric:
         cells = max((_across(cells, basis) for basis in BASES), key=_fill)
@@ -105,7 +105,7 @@ def _on_board(cells: Cells, board: DotBoard) -> tuple[Cells, npt.NDArray[np.bool
 
 
 def _across(cells: Cells, basis: npt.NDArray[np.int64]) -> Cells:
-    """Cells along rows and columns of an asymmetric board, whose nearest dots are on its diagonals."""
+    """Return cells along rows and columns of an asymmetric board, whose nearest dots are on its diagonals."""
     diagonal = np.rint(cells @ np.linalg.inv(basis)).astype(np.int64)
     return np.column_stack([diagonal[:, 0] - diagonal[:, 1], diagonal[:, 0] + diagonal[:, 1]])
 
@@ -116,7 +116,7 @@ def _fill(cells: Cells) -> float:
 
 
 def _cells_of(board: DotBoard) -> npt.NDArray[np.int64]:
-    """The id of the dot at each cell, -1 where there is none."""
+    """Return the id of the dot at each cell, -1 where there is none."""
     steps = np.rint(board.object_points_mm[:, :2] / board.pitch_mm).astype(int)
     cells = np.full((steps[:, 1].max() + 1, steps[:, 0].max() + 1), -1, dtype=np.int64)
     cells[steps[:, 1], steps[:, 0]] = np.arange(len(steps))
@@ -124,7 +124,7 @@ def _cells_of(board: DotBoard) -> npt.NDArray[np.int64]:
 
 
 def _radii_mm(share: Array, larger: npt.NDArray[np.bool_], board: DotBoard) -> Array:
-    """One radius for small dots and one for larger: of a single dot it would be noise."""
+    """Return the median radius of the small and of the larger dots, because single radii are noisy."""
     asymmetric = board.layout is DotLayout.ASYMMETRIC
     cell_mm2 = (2.0 if asymmetric else 1.0) * board.pitch_mm**2
     small = float(np.median(share[~larger])) if (~larger).any() else float(np.median(share))

@@ -18,7 +18,7 @@ from tracker.errors import InvalidInput
 
 
 def find_board(image: npt.NDArray[np.uint8], board: Board) -> BoardView | BoardNotFound:
-    """The points of a board in an image (h, w) or (h, w, 3), or why they are not found.
+    """Return the points of a board in an image (h, w) or (h, w, 3), or why they are not found.
 
     Raises:
         InvalidInput: IMAGE_INVALID, the array is no image of 8 bits.
@@ -32,10 +32,10 @@ def find_board(image: npt.NDArray[np.uint8], board: Board) -> BoardView | BoardN
 
 
 def board_as_seen(images: Sequence[npt.NDArray[np.uint8]], board: Board) -> Board:
-    """The board with what its images tell of it and its description left open.
+    """Return the board with parameters that its description leaves open, estimated from images.
 
-    A ChArUco board gets its layout; a dot board its larger dots where none are named, and columns and rows
-    the other way round where the named ones are seen only so. A few images are enough.
+    For a ChArUco board the layout; for a dot board the larger dots if none are given, and exchanged columns
+    and rows if the given ones are detected only so. A few images suffice.
     """
     if isinstance(board, CharucoBoard) and board.layout is None:
         return replace(
@@ -53,7 +53,7 @@ def _dots_as_seen(greys: list[GreyImage], board: DotBoard) -> DotBoard:
             v for v in views if isinstance(v, BoardView) and v.ids.size > 0.9 * board.columns * board.rows
         ]
         last = board.columns * board.rows - 1
-        # Taken the other way up the same dots have other indexes: of the two namings the smaller one counts.
+        # A board rotated by 180 degrees has other indexes; the smaller of both is used.
         seen = [tuple(int(i) for i in larger_dots(view)) for view in whole]
         named = Counter(min(ids, tuple(sorted(last - i for i in ids))) for ids in seen if ids)
         if named and named.most_common(1)[0][1] * 2 > len(whole):

@@ -14,16 +14,16 @@ from tracker.geometry import Array
 Cells = npt.NDArray[np.int64]
 Cell = tuple[int, int]
 
-# A step is expected to be like the last one, within this part of its length.
+# Maximum difference of successive steps, as a ratio of their length.
 STEP_TOLERANCE_RATIO = 0.3
 MIN_MEMBERS = 6
 NEIGHBOURS = 9
 SEEDS = 40
 MIN_ANGLE_SINE = 0.35
-# Farther than this from a smooth map of the grid, in steps, a point is none of it.
+# Maximum distance of a point from the smooth model of the grid, in steps.
 OFF_GRID_RATIO = 0.2
 DIRECTIONS: tuple[Cell, ...] = ((1, 0), (-1, 0), (0, 1), (0, -1))
-# Other bases of the same grid: seen very obliquely, a diagonal may be shorter than a side.
+# Other bases of the same lattice, because in an oblique view a diagonal may be shorter than a side.
 BASES = tuple(
     np.array(basis)
     for basis in (((1, 0), (0, 1)), ((1, 1), (0, 1)), ((1, -1), (0, 1)), ((1, 0), (1, 1)), ((1, 0), (-1, 1)))
@@ -35,8 +35,8 @@ class Lattice:
     """Points of one regular grid.
 
     Attributes:
-        members: (n,) which of the given points.
-        cells: (n, 2) where each stands, as steps along two sides; x then y turns clockwise in the image.
+        members: (n,), indexes of the given points.
+        cells: (n, 2), steps along two sides; from x to y is clockwise in the image.
     """
 
     members: npt.NDArray[np.int64]
@@ -44,7 +44,7 @@ class Lattice:
 
 
 def lattices(points_px: Array, *, max_count: int) -> Iterator[Lattice]:
-    """Regular grids among points (n, 2), each of what the ones before it left."""
+    """Yield regular grids among points (n, 2), each among the points without the previous ones."""
     left = np.arange(len(points_px))
     for _ in range(max_count):
         found = largest_lattice(points_px[left])
@@ -55,7 +55,7 @@ def lattices(points_px: Array, *, max_count: int) -> Iterator[Lattice]:
 
 
 def largest_lattice(points_px: Array) -> Lattice:
-    """The largest regular grid among points (n, 2); a grid of no points if there is none."""
+    """Return the largest regular grid among points (n, 2); a grid without points if there is none."""
     best: dict[Cell, int] = {}
     if len(points_px) >= 5:
         tree = scipy.spatial.cKDTree(points_px)
@@ -110,7 +110,7 @@ def _seeds(points_px: Array) -> list[int]:
 
 
 def _basis_at(points_px: Array, tree: "scipy.spatial.cKDTree", seed: int) -> tuple[Array, Array] | None:
-    """Two steps that lead from this point to a neighbour, and back to another one."""
+    """Return two basis steps from a point to neighbours that also exist in the opposite direction."""
     here = points_px[seed]
     _, near = tree.query(here, k=min(NEIGHBOURS, len(points_px)))
     steps: list[Array] = []
@@ -132,7 +132,7 @@ def _basis_at(points_px: Array, tree: "scipy.spatial.cKDTree", seed: int) -> tup
 def _grown(
     points_px: Array, tree: "scipy.spatial.cKDTree", seed: int, basis: tuple[Array, Array]
 ) -> dict[Cell, int]:
-    """Cells reached from the seed, step by step, each step like those before it."""
+    """Return the cells of points reached from the seed by region growing with similar steps."""
     a, b = basis
     if a[0] * b[1] - a[1] * b[0] < 0:
         b = -b
@@ -165,7 +165,7 @@ def _grown(
 
 
 def _smooth_part(points_px: Array, lattice: Lattice) -> Lattice:
-    """Without the points that stand off a smooth map of the grid; a lens only bends it."""
+    """Return the lattice without outliers of a smooth model (homography and cubic distortion)."""
     for _ in range(3):
         count = len(lattice.members)
         if count < 12:
@@ -181,7 +181,7 @@ def _smooth_part(points_px: Array, lattice: Lattice) -> Lattice:
 
 
 def _off_smooth(px: Array, cells: Cells) -> Array:
-    """Distance of each point from a homography and a cubic bend on it, with little say for outliers."""
+    """Return the distance of each point from a robust fit of a homography with a cubic correction."""
     grid = cells.astype(np.float64)
     residual = off_plane_px(grid, px, is_robust=True)
     if residual is None:

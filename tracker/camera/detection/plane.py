@@ -9,12 +9,12 @@ from tracker.geometry import Array
 
 
 def plane_map(board: Array, px: Array, *, is_robust: bool) -> Array | None:
-    """The homography (3, 3) from board points (n, 2) to px (n, 2), or None where there is none.
+    """Return the homography (3, 3) from board points (n, 2) to px (n, 2), or None.
 
     With `is_robust`, least median of squares.
     """
     method = cv2.LMEDS if is_robust else 0
-    # OpenCV gives None for nothing, whatever its types say.
+    # OpenCV returns None for no result, contrary to its type annotations.
     found = cast("object", cv2.findHomography(board, px, method)[0])
     return None if found is None else np.asarray(found, dtype=np.float64)
 

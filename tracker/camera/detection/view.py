@@ -11,7 +11,7 @@ from tracker.geometry import Array
 
 
 class NotFoundReason(StrEnum):
-    """Why a board was not found in an image."""
+    """Reason why a board was not found in an image."""
 
     NO_POINTS = "no_points"
     """Nothing in the image looks like a dot, a corner or a marker of the board."""
@@ -41,9 +41,9 @@ class BoardNotFound:
     """No board in this image.
 
     Attributes:
-        reason: for machines.
-        sentence: with numbers, for people; no full stop.
-        seen_points: how many points hung together.
+        reason: the reason as a code.
+        sentence: the reason as text with numbers, without a full stop.
+        seen_points: number of points in the largest grid.
     """
 
     reason: NotFoundReason
@@ -57,9 +57,9 @@ class BoardView:
 
     Attributes:
         ids: (n,) which points of the board, ascending, each once.
-        object_points_mm: (n, 3) where they are on the board.
-        image_points_px: (n, 2) where they are in the image.
-        dot_radii_mm: (n,) of the dots, (0,) where points are corners.
+        object_points_mm: (n, 3), their positions on the board.
+        image_points_px: (n, 2), their positions in the image.
+        dot_radii_mm: (n,), radii of the dots; (0,) if points are corners.
         ambiguity: of the ids.
 
     Raises:

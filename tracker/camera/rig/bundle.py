@@ -1,8 +1,8 @@
 """Bundle adjustment of all cameras of a rig and all board poses.
 
-Lenses are fitted with the places of the cameras, after most pairs agree on them (`consensus`): the
-uncertainty of the lens is then part of the baseline's, and a swapped pair is reported instead of averaged
-in. `cv2.stereoCalibrate` takes two cameras only and ignores the uncertainty of earlier fits.
+Intrinsic and extrinsic parameters are fitted together, starting from a consensus over pairs (`consensus`).
+The uncertainty of the intrinsics is then part of the baseline's, and a swapped pair is rejected instead of
+averaged. `cv2.stereoCalibrate` supports only two cameras and ignores the uncertainty of earlier fits.
 """
 
 from collections.abc import Mapping, Sequence
@@ -42,7 +42,7 @@ Shots = Sequence[Mapping[str, BoardView]]
 
 
 def adjusted(start: Bundle, shots: Shots) -> Bundle:
-    """The bundle that fits best (Levenberg-Marquardt; each board's pose follows the shared numbers)."""
+    """Return the fitted bundle (Levenberg-Marquardt; the Schur complement eliminates the board poses)."""
     bundle, error, damping = start, squares_px2(start, shots), 1e-3
     for _ in range(STEPS):
         parts = [_linear(bundle, shot, index) for index, shot in enumerate(shots)]
@@ -77,7 +77,7 @@ def rig_blocks(bundle: Bundle, shots: Shots) -> list[Block]:
 
 
 def residuals_px(bundle: Bundle, index: int, name: str, view: BoardView) -> Array:
-    """Seen minus expected (n, 2)."""
+    """Return the residuals (n, 2) in px, observed minus projected."""
     pose = bundle.camera_from_first[name] @ bundle.first_from_pattern[index]
     model = bundle.models[name]
     turn = vector_from_rotation(pose.rotation)
@@ -86,7 +86,7 @@ def residuals_px(bundle: Bundle, index: int, name: str, view: BoardView) -> Arra
 
 
 def squares_px2(bundle: Bundle, shots: Shots) -> float:
-    """The sum of all squared residuals."""
+    """Return the sum of all squared residuals."""
     return sum(
         float((residuals_px(bundle, index, name, view) ** 2).sum())
         for index, shot in enumerate(shots)
@@ -110,7 +110,7 @@ def _lenses_of(bundle: Bundle) -> dict[str, slice]:
 
 
 def _linear(bundle: Bundle, shot: Mapping[str, BoardView], index: int) -> tuple[Array, Array, Array]:
-    """Derivatives by what is shared (m, p) and by the board's pose (m, 6), and residuals (m,)."""
+    """Return the Jacobians by shared parameters (m, p) and board pose (m, 6), and residuals (m,)."""
     lenses, places = _lenses_of(bundle), places_of(bundle)
     count = list(lenses.values())[-1].stop + POSE * len(places)
     shared, own, residuals = [], [], []
@@ -136,7 +136,7 @@ def _linear(bundle: Bundle, shot: Mapping[str, BoardView], index: int) -> tuple[
 
 
 def _by_motion(by_point: npt.NDArray[np.float64], turned: Array) -> Array:
-    """By a shift and a small turn (2n, 6), from the derivative by the point (n, 2, 3)."""
+    """Return the Jacobian by translation and rotation (2n, 6), from that by the point (n, 2, 3)."""
     by_turn = -np.einsum("nij,njk->nik", by_point, np.array([skew(one) for one in turned]))
     return np.concatenate([by_point, by_turn], axis=2).reshape(-1, POSE)
 

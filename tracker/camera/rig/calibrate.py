@@ -25,8 +25,8 @@ class RigCamera:
     Attributes:
         name: of the camera.
         model: fitted together with all others.
-        camera_from_first: its place; identity for the first camera.
-        covariance: (6, 6) of that, mm then rad, a small left-multiplied turn; zero for the first camera.
+        camera_from_first: its pose; identity for the first camera.
+        covariance: (6, 6) of that [mm, rad], left-multiplied rotation; zero for the first camera.
         reach_95: (6,) half of each 95 % interval, in the same order and units.
         baseline_mm: distance from the first camera.
         baseline_sd_mm: its standard deviation.
@@ -50,7 +50,7 @@ class ShotReport:
     Attributes:
         name: as the caller named it.
         used: the cameras whose views are used.
-        reason: why another is not, or an empty string.
+        reason: reason why a camera's view is not used, or an empty string.
         rms_px: over all its points; NaN where none is used.
     """
 
@@ -187,7 +187,7 @@ def _reject_outlier_points(bundle: Bundle, views: list[dict[str, BoardView]]) ->
     retained: list[dict[str, BoardView]] = [{} for _ in views]
     for index, name, residual in every:
         near = np.linalg.norm(residual, axis=1) <= MAX_POINT_SDS * sigma_px
-        # A view of which most is odd is reported by the RMS of its instant, not made smaller.
+        # A view with many outliers is kept complete, so that the RMS of its instant reveals it.
         retained[index][name] = views[index][name].part(near if near.mean() > 0.75 else np.ones_like(near))
     return retained
 

@@ -12,8 +12,8 @@ from tracker.errors import CalibrationError
 from tracker.geometry import Array, Camera, Pattern, Rigid
 
 MIN_PAIRS = 3
-# A pair is out where it places a camera farther off than this from where most pairs place it; the shift is
-# stated as a part of the board's distance.
+# Maximum deviation of a pair's relative pose from the consensus: rotation, and translation as a ratio of the
+# board's distance.
 MAX_TURN_DEG, MAX_SHIFT_RATIO = 3.0, 0.04
 MAX_OUT_RATIO = 0.34
 
@@ -43,12 +43,12 @@ class Agreement:
     reasons: tuple[str, ...]
 
 
-# Which instant, what the far camera sees, where it then stands, and how far the board is.
+# Index of the instant, view of the far camera, its relative pose, and distance of the board.
 Way = tuple[int, PosedView, Rigid[Camera, Camera], float]
 
 
 def agreement(shots: Sequence[Shot], models: Mapping[str, CameraModel]) -> Agreement:
-    """Places of all cameras to the first, each by way of the camera with which it shares most instants.
+    """Return the poses of all cameras relative to the first, chained over pairs with most common instants.
 
     Raises:
         CalibrationError: RIG_UNCONNECTED or RIG_VIEWS_DISAGREE.
@@ -106,7 +106,7 @@ def _place(
             ways.append((index, other, relation, _distance_mm(shot[near])))
     agree = [[_is_near(one[2], two[2], one[3]) for two in ways] for one in ways]
     votes = [sum(row) for row in agree]
-    # Among equal votes, the pose nearest to the others is chosen.
+    # Among equal votes, the pose nearest to the others is selected.
     middle = [
         sum(float(np.linalg.norm(one[2].translation_mm - two[2].translation_mm)) for two in _of(ways, row))
         for one, row in zip(ways, agree, strict=True)
@@ -137,7 +137,7 @@ def _posed(view: BoardView, model: CameraModel) -> PosedView | None:
 
 
 def _whole_board(retained: Sequence[Mapping[str, PosedView]]) -> tuple[Array, int]:
-    """The far corner of the board in mm, and its last id, as far as any view tells."""
+    """Return the far corner of the board in mm and its last id, over all views."""
     views = [one.view for shot in retained for one in shot.values()]
     if not views:
         return np.zeros(3), 0

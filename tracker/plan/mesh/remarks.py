@@ -37,7 +37,7 @@ def _remarks(found: Findings) -> Iterator[Remark]:
         yield Remark(
             code="MESH_SEVERAL_VERTEBRAE",
             message=f"the mesh is {size} mm, the size of several vertebrae or a whole spine",
-            remedy="Register on one vertebra: use its surface alone, as vertebrae move relative to each other.",
+            remedy="Register with the surface of one vertebra, as vertebrae are not rigidly connected.",
             context={"size_mm": found.size_mm.tolist()},
         )
     if connectivity.border_edges:

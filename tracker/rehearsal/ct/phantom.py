@@ -33,7 +33,7 @@ class VertebraPhantom:
     Attributes:
         pedicles: by side, `left` and `right`.
         bones: everything else of the vertebra.
-        neighbours: other bones, with a shell of their own.
+        neighbours: other bones, each with its own shell.
         beside: solids of constant HU: contrast, metal, lung.
         cortex_mm: thickness of the shell.
         cortex_hu: HU of the shell.
@@ -118,8 +118,8 @@ def pedicle_tube(
 ) -> EllipticTube:
     """Return a pedicle from its parameters; `waist_mm` is for the left side and mirrored for the right.
 
-    The angles are those of the axis as it shows on an axial and on a sagittal slice: positive where it runs
-    to the middle, and to the head, going forwards.
+    The angles are those of the axis projected onto an axial and a sagittal slice, positive medially and
+    cranially in the anterior direction.
     """
     mirror = 1.0 if side == "left" else -1.0
     axis = np.array([-mirror * np.tan(np.radians(transverse_deg)), -1.0, np.tan(np.radians(sagittal_deg))])

@@ -22,7 +22,7 @@ class ScanGrid:
     Attributes:
         lps_from_ijk: (4, 4) affine in mm, as in `Volume`; may be oblique or sheared.
         shape_ijk: number of columns, rows and slices.
-        thickness_ratio: thickness of a slice by the distance of slices; above 1 they overlap.
+        thickness_ratio: slice thickness as a ratio of the slice distance; above 1 they overlap.
         blur_mm: sigma of the scanner's own blur within a slice, on top of the voxel's size.
         noise_hu: standard deviation of the noise of a voxel.
         samples: points along each axis that a voxel averages where the field is not flat.
@@ -60,7 +60,7 @@ class ScanGrid:
         count = np.maximum(np.round(np.array(size_mm) / np.array(spacing_mm)).astype(int), 2)
         affine = np.eye(4)
         affine[:3, :3] = axes
-        # A fraction of a voxel off the round numbers, so that no wall lies on a voxel's border by design.
+        # A random fraction of a voxel, so that walls do not coincide with voxel borders.
         offset = np.random.default_rng(seed).uniform(-0.5, 0.5, 3)
         affine[:3, 3] = np.asarray(centre_lps_mm, dtype=np.float64) - axes @ ((count - 1) / 2.0 + offset)
         finest = np.clip(np.ceil(np.array(spacing_mm) / 0.2), 3, 9).astype(int)
@@ -78,7 +78,7 @@ class ScanGrid:
 def scan(hu_at: HuAt, grid: ScanGrid) -> Volume:
     """Return the CT of a Hounsfield field.
 
-    A voxel is the mean of the field over its own box (partial volume), blurred in the slice and made noisy.
+    A voxel is the mean of the field over its box (partial volume), with blur in the slice and noise.
 
     Args:
         hu_at: from points (n, 3) in LPS mm to HU (n,).
