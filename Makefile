@@ -1,7 +1,7 @@
-# Coaxial. `make help` lists what there is; `make run` and `make test` do all their own set-up.
-# Everything that is made lies in .venv, dist, web/node_modules, web/dist and docs/site; `make clean` takes it away again.
-# The home folder is neither read nor written; with the stamps in .venv a second start is immediate and needs no network.
-# Cases lie in .coaxial, if COAXIAL_HOME names no other folder; nothing here takes them away.
+# Coaxial. `make help` lists the targets; `make run` and `make test` do their own set-up.
+# All build output is in .venv, dist, web/node_modules, web/dist and docs/site; `make clean` deletes it.
+# The home folder is neither read nor written. With the stamps in .venv a second start needs no network.
+# Cases are in .coaxial unless COAXIAL_HOME names another folder; no target deletes them.
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
@@ -15,9 +15,9 @@ STEP := sh .make/step
 PIP := $(PYTHON_IN_VENV) -m pip
 NPM := sh .make/with-node web npm
 
-# Whatever the shell around has set, packages go into .venv and caches nowhere else.
+# Packages and caches go into .venv regardless of the settings of the calling shell.
 unexport PYTHONPATH PYTHONHOME PIP_TARGET PIP_PREFIX NODE_ENV
-# Python keeps what it compiles: packages come without it, and each process, of a server or of the tests, would do it anew.
+# Byte code is cached; otherwise each process of a server or of the tests would compile the packages again.
 unexport PYTHONDONTWRITEBYTECODE PYTHONPYCACHEPREFIX
 export PIP_USER := 0
 export PIP_NO_CACHE_DIR := 1
@@ -27,21 +27,21 @@ export npm_config_cache := $(CURDIR)/.venv/cache/npm
 export npm_config_update_notifier := false
 export npm_config_fund := false
 export npm_config_audit := false
-# The page's lock must not remember from where its packages came.
+# The page's lock must not contain registry addresses.
 export npm_config_omit_lockfile_registry_resolved := true
 
-# So many files of tests run side by side: one more than the least of cores, because some only wait for a server. Each more
-# collects all tests once more, and takes from the servers, which run in real time.
+# Number of test files in parallel: one more than the minimum number of cores, because some only wait for a server. Each
+# additional worker collects all tests again, and slows down the servers, which run in real time.
 WORKERS ?= 3
 
 TRACKER_SOURCES := $(shell find tracker -name '*.py')
-# Folders are listed too: their time changes when a file in them goes away. The schema's types are made, not written.
+# Folders are listed too, because their time changes when a file is deleted. The schema's types are generated.
 PAGE_SOURCES := $(shell find web/src web/public -not -name schema.d.ts 2>/dev/null) \
 	$(filter-out web/dist web/node_modules,$(wildcard web/*.json web/*.ts web/*.js web/*.html))
 
 GUIDE_SOURCES := docs/zensical.toml $(shell find docs/guide 2>/dev/null)
 
-# An environment that was made elsewhere, or whose Python has gone, is made again.
+# An environment from another folder, or whose Python no longer exists, is created again.
 SOUND := $(shell [ "$$(cat $(STAMPS)/place 2>/dev/null)" = "$$(pwd)" ] \
 	&& $(PYTHON_IN_VENV) -c '' 2>/dev/null && echo yes)
 
@@ -57,13 +57,13 @@ run: ready-to-run ## start Coaxial with the rehearsal theatre, and print the add
 
 .PHONY: test
 test: $(STAMPS)/project ## everything: format, lint, types, contracts, Python, web and browser tests
-	@# Compiling takes a minute of one core: so long the rest is installed, and checked as far as nothing need run.
+	@# Compiling takes a minute of one core. Meanwhile the rest is installed, and the static checks run.
 	@$(MAKE) $(STAMPS)/warm & warm=$$!; $(MAKE) --jobs=2 $(STAMPS)/page $(STAMPS)/dev && $(MAKE) --jobs=2 judged-python judged-page; \
 	checked=$$?; wait $$warm && exit $$checked
 	@$(MAKE) test-python
 
-# The core, for every commit. `make test` holds what is not in it: servers, whole scenes, CTs, calibrations, the browser,
-# the form of the page and eslint, which alone needs more than a minute; and of these folders, the slowest files.
+# The core, for every commit. Only `make test` runs servers, whole scenes, CTs, calibrations, the browser, the format of the
+# page and eslint, which takes more than a minute, and the slowest files of these folders.
 FAST_TESTS := $(addprefix tests/tracker/,geometry edges regions quads marker navigation/alarms) \
 	$(addprefix tests/server/,alarms texts)
 FAST_LEAVES_OUT := $(addprefix --ignore-glob=*/,test_candidates.py test_photometric_fit*.py test_stepwise_illumination.py \
@@ -82,20 +82,20 @@ fast-tests:
 	@$(PYTHON_IN_VENV) -m pytest -q -m "not browser" $(FAST_TESTS) $(FAST_LEAVES_OUT)
 
 .PHONY: check
-check: ## what is checked without running the program: lint and types
+check: ## static checks: lint and types
 	@$(MAKE) lint
 	@$(MAKE) types
 
 # ---------------------------------------------------------------- for developers
 
 .PHONY: format
-format: $(STAMPS)/dev $(STAMPS)/page-packages ## put all code into its form
+format: $(STAMPS)/dev $(STAMPS)/page-packages ## format all code
 	@$(PYTHON_IN_VENV) -m ruff format .
 	@$(PYTHON_IN_VENV) -m ruff check --fix .
 	@$(NPM) run --silent format
 
 .PHONY: lint
-lint: lint-python lint-page ## form, lint and import contracts
+lint: lint-python lint-page ## format, lint and import contracts
 
 .PHONY: types
 types: types-python types-page ## strict types, Python and TypeScript
@@ -119,8 +119,8 @@ types-python: $(STAMPS)/dev
 types-page: $(STAMPS)/page-packages
 	@$(NPM) run --silent types
 
-# What of the gate need not be compiled, in two parts that may run side by side. Those of the page run one after the
-# other, because each makes the schema's types anew.
+# The static checks of the gate, in two parts that may run in parallel. Those of the page run one after the other,
+# because each generates the schema's types.
 .PHONY: judged-python judged-page
 judged-python:
 	@$(MAKE) lint-python
@@ -140,7 +140,7 @@ test-python: ready $(STAMPS)/dev ## Python and browser tests alone (TESTS="tests
 	sh .make/run-tests $(PYTHON_IN_VENV) $(WORKERS) $(TESTS)
 
 .PHONY: benchmark
-benchmark: ready $(STAMPS)/dev ## how true and how fast the tracker is, beside its peers, and what got worse
+benchmark: ready $(STAMPS)/dev ## accuracy and speed of the tracker, compared with its peers, and regressions
 	@$(PYTHON_IN_VENV) -m tests.benchmarks $(ARGS)
 
 .PHONY: house
@@ -151,14 +151,14 @@ house: ready $(STAMPS)/dev ## figures on the structure: sizes, small files, circ
 docs: $(STAMPS)/guide ## build the user guide, which the server shows at /docs/
 
 .PHONY: wheel
-wheel: $(STAMPS)/page $(STAMPS)/guide ## a wheel and a source archive with page and guide inside, into dist
+wheel: $(STAMPS)/page $(STAMPS)/guide ## build a wheel and a source archive with page and guide, into dist
 	@rm -f dist/coaxial-*
 	@$(STEP) wheel "Building wheel and source archive" "Look at [tool.hatch] in pyproject.toml." \
 		$(PYTHON_IN_VENV) -m hatchling build -d dist -t sdist -t wheel
 	@ls dist/coaxial-*
 
 .PHONY: image
-image: ## the container image, with buildah, podman or docker
+image: ## build the container image with buildah, podman or docker
 	@sh .make/image
 
 .PHONY: sbom
@@ -168,24 +168,24 @@ sbom: $(STAMPS)/dev $(STAMPS)/page-packages ## the software bill of materials (C
 	@echo dist/coaxial.cdx.json
 
 .PHONY: lock
-lock: $(STAMPS)/dev ## write the locks again (UPGRADE=--upgrade takes the newest of everything)
+lock: $(STAMPS)/dev ## write the locks again (UPGRADE=--upgrade for the newest versions)
 	@UPGRADE="$(UPGRADE)" sh .make/lock
 
 .PHONY: clean
-clean: ## take away everything that was made, but no case
+clean: ## delete all build output, but no case
 	rm -rf .venv dist docs/site docs/.cache web/node_modules web/dist web/*.tsbuildinfo .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
 	find tracker server tests -name __pycache__ -type d -prune -exec rm -rf {} +
 	@if [ -e .coaxial ]; then echo "Kept: .coaxial, the folder with the cases. Remove it by hand to lose them."; fi
 
-# ---------------------------------------------------------------- what they stand on
+# ---------------------------------------------------------------- prerequisites
 
-# Side by side: packages and then the tracker's loops, the page's packages and then the page.
+# In parallel: packages and then the tracker's kernels; the page's packages and then the page.
 .PHONY: ready
 ready:
 	@$(MAKE) --jobs=3 $(STAMPS)/project $(STAMPS)/page $(STAMPS)/warm
 
-# The server shows its page, and how far the compiling is, while that goes on in the background. Not by make's own
-# jobs: it would wait for what goes on.
+# The kernels are compiled in the background while the server shows its page and the progress. This does not use make's
+# jobs, because make would wait for them.
 .PHONY: ready-to-run
 ready-to-run: $(STAMPS)/place
 	@$(MAKE) $(STAMPS)/page & page=$$!; \
@@ -196,7 +196,7 @@ ready-to-run: $(STAMPS)/place
 $(STAMPS)/place: $(if $(SOUND),,anew)
 	@python=$$(PYTHON="$(PYTHON)" sh .make/find-python) && rm -rf .venv && mkdir -p .venv/log && \
 	$(STEP) environment "Making the environment in .venv with $$python" \
-		"Look whether the disk is full or this folder may not be written." \
+		"Check whether the disk is full or this folder is not writable." \
 		"$$python" -m venv .venv && mkdir -p $(STAMPS) && pwd >$@
 
 .PHONY: anew
@@ -204,7 +204,7 @@ anew:
 
 $(STAMPS)/packages: requirements.lock requirements-build.lock requirements-installer.lock $(STAMPS)/place
 	@$(STEP) packages "Installing Python packages" \
-		"Look whether this machine reaches its package index, and whether its Python is 3.11 to 3.14." \
+		"Check whether this machine reaches its package index, and whether its Python is 3.11 to 3.14." \
 		sh .make/install requirements.lock requirements-build.lock
 	@touch $@
 
@@ -213,17 +213,17 @@ $(STAMPS)/project: pyproject.toml $(STAMPS)/packages
 		$(PIP) install --no-index --no-deps --no-build-isolation --editable .
 	@touch $@
 
-# After the project, because two installers in one environment at once would trip over each other.
+# After the project, because two installers must not modify one environment at once.
 $(STAMPS)/dev: requirements-dev.lock $(STAMPS)/project
 	@$(STEP) dev "Installing what the tests need" \
-		"Look whether this machine reaches its package index, and whether its Python is 3.11 to 3.14." \
+		"Check whether this machine reaches its package index, and whether its Python is 3.11 to 3.14." \
 		sh .make/install requirements-dev.lock
 	@touch $@
 
-# Only for `make docs`: nobody waits for the guide at a start.
+# Only for `make docs`, so that a start does not wait for the guide.
 $(STAMPS)/docs-packages: requirements-docs.lock $(STAMPS)/project
 	@$(STEP) docs-packages "Installing what builds the guide" \
-		"Look whether this machine reaches its package index, and whether its Python is 3.11 to 3.14." \
+		"Check whether this machine reaches its package index, and whether its Python is 3.11 to 3.14." \
 		sh .make/install requirements-docs.lock
 	@touch $@
 
@@ -234,7 +234,7 @@ $(STAMPS)/guide: $(GUIDE_SOURCES) $(STAMPS)/docs-packages
 
 $(STAMPS)/page-packages: web/package-lock.json requirements-node.lock $(STAMPS)/place
 	@$(STEP) page-packages "Installing the page's packages" \
-		"Look whether this machine reaches its package registry, then try again." \
+		"Check whether this machine reaches its package registry, then try again." \
 		$(NPM) ci --include=dev
 	@touch $@
 
@@ -243,7 +243,7 @@ $(STAMPS)/page: $(PAGE_SOURCES) $(STAMPS)/page-packages
 		$(NPM) run build
 	@touch $@
 
-# Numba keys its cache by the file of the called function alone: after a change of what it calls, old code would run.
+# Numba's cache key contains only the file of the called function: after a change of a callee, old code would run.
 $(STAMPS)/warm: $(TRACKER_SOURCES) $(STAMPS)/project
 	@find tracker -name "*.nb[ic]" -delete
 	@$(STEP) warm "Compiling the tracker for this machine (once)" "Look at the log." \
