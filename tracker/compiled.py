@@ -6,7 +6,7 @@ exception. Sums may be reordered (`fastmath`), so that they can be vectorised; N
 
 Kernels are untyped (Numba infers types from the calls), live in `*_kernels.py` modules, and solve their own
 small linear systems: NumPy's solver raises an exception in compiled code where a singular matrix is an
-expected case, and is slower for so few unknowns.
+expected case, and is slower for few unknowns.
 """
 
 from collections.abc import Callable

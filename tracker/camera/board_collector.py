@@ -139,7 +139,7 @@ class BoardCollector:
 
     @property
     def progress(self) -> BoardCollectorProgress:
-        """Return the progress and what is missing."""
+        """Return the progress and the unmet requirements."""
         covered = self._covered()
         tilts = np.array([view.tilt_deg for view in self._taken]).reshape(-1, 2)
         min_tilt = tilts.min(axis=0) if len(tilts) else np.zeros(2)

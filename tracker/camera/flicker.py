@@ -26,7 +26,7 @@ CELLS_A_GROUP = BANDS // ROW_GROUPS
 
 # | threshold | unit | source | what breaks when it moves |
 # |---|---|---|---|
-# | WINDOW_S | s | three segments that each tell 1.5 Hz apart | shorter: a slow motion counts as a beat |
+# | WINDOW_S | s | three segments that each resolve 1.5 Hz | shorter: a slow motion counts as a beat |
 # | SEGMENTS | 1 | mains drift within one stays under half a turn | fewer: an off-frequency grid is missed |
 # | MIN_BEAT_HZ | Hz | main lobe of one segment's Hann window | lower: slow changes count as flicker |
 # | MAINS_ERROR_HZ | Hz | twice a grid's normal +-0.2 Hz, twice as fast | lower: an island grid is missed |

@@ -136,7 +136,7 @@ def _working_image(grey: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
 
 
 def reject_similar(models: Sequence[MarkerModel]) -> None:
-    """Reject models that look alike in any quarter rotation.
+    """Reject models that are similar in any rotation by a multiple of 90 degrees.
 
     Raises:
         InvalidInput: MARKERS_TOO_SIMILAR, or MARKER_NAMES_NOT_UNIQUE.
@@ -176,7 +176,7 @@ def reject_mirror_symmetric(models: Iterable[MarkerModel]) -> None:
             raise InvalidInput(
                 "MARKER_MIRROR_SYMMETRIC",
                 f"marker '{model.name}' is its own mirror image: correlation {correlation:.3f}, allowed "
-                f"{MAX_SYMMETRY}; its reflection in steel would be taken for it, at a wrong pose",
+                f"{MAX_SYMMETRY}; its reflection in steel would be detected as the marker, at a wrong pose",
                 "Use a shape that differs from its mirror image; 'coaxial marker design' makes one.",
                 {"name": model.name, "correlation": correlation},
             )

@@ -59,7 +59,7 @@ class ImagePyramid:
         return self._made[k]
 
     def for_side(self, side_px: float) -> int:
-        """Return the level at which a side of so many px of the full image is refined."""
+        """Return the level at which a side of this size in px of the full image is refined."""
         k, minimum = 0, 2 * MIN_LEVEL_PX
         while side_px > REFINEMENT_SIDE_PX * self[k].scale and min(self[k].image.shape) >= minimum:
             k += 1

@@ -27,7 +27,7 @@ class ScoreSettings:
         accept_inner_coverage_ratio: minimum coverage of the edges inside the square, 0..1: the outline is
             common to all square markers, the inside distinguishes this one.
         verified_threshold_ratio: factor on the minimum score and minimum inner coverage if photometric
-            verification succeeds, 0..1; 1 keeps them.
+            verification succeeds, 0..1; 1 leaves them unchanged.
         fit_error_weight: the paper's fit error weighing factor, here on the normalised fit error, 0..1.
     """
 

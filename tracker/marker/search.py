@@ -71,7 +71,7 @@ CERTAIN_CORRELATION, MAX_CORRELATION_GAP = 0.94, 0.08
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Effort:
-    """Number of quads kept for each model after each stage.
+    """Number of quads retained for each model after each stage.
 
     Attributes:
         coarse: number of quads from a corner after the coarse match, shared by several models.

@@ -48,7 +48,7 @@ class Verdict(StrEnum):
     CORRECT_ENTRY = "correct_entry"  # the entry offset is over its limit
     CORRECT_ANGLE = "correct_angle"  # the angle is over its limit
     CORRECT_END = "correct_end"  # entry and angle are within limits, and the screw would still breach
-    NOT_ASSESSED = "not_assessed"  # no pedicle is known to assess the drill against
+    NOT_ASSESSED = "not_assessed"  # without a pedicle the drill cannot be assessed
     ON_PATH = "on_path"  # every figure is within its limit
 
     @property

@@ -59,7 +59,7 @@ class Status(StrEnum):
     WITHIN = "within"
     OVER = "over"  # a limit is exceeded
     THROUGH = "through"  # past the wall, or past the planned depth
-    UNLIMITED = "unlimited"  # nothing is known to compare it with
+    UNLIMITED = "unlimited"  # the limit is not known
     OUTSIDE = "outside"  # the drill is outside the bone, or beside this pedicle: the figure does not apply
 
 

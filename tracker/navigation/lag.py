@@ -1,8 +1,8 @@
 """Estimate how far the displayed tip lags behind a moving one: its speed times the measured latency.
 
-A snapshot shows the time of its capture and is displayed one latency later. A tip that keeps its speed has
-moved on by this distance. The margin is shown beside the 95 % error and does not enter a verdict: otherwise
-every approach to the bone would be "uncertain", which would hide the other verdicts.
+A snapshot shows the state at its capture and is displayed one latency later. At constant speed the tip has
+moved on by this distance. The margin is displayed beside the 95 % error and does not affect the verdict:
+otherwise every approach to the bone would be "uncertain", which would hide the other verdicts.
 """
 
 from collections import deque
@@ -47,7 +47,7 @@ class MeasuredLatency:
     image_period_ms: float
 
     def applies_to(self, size_wh_px: tuple[int, int], *, period_ms: float) -> bool:
-        """Return whether it holds for images of this size and period; NaN is an unknown period.
+        """Return whether the latency is valid for images of this size and period; NaN: unknown period.
 
         The time to read, transfer, track and draw depends on the image size. Images at a lower rate are older
         on average when they are displayed.

@@ -1,4 +1,4 @@
-"""Whether a registration suffices for one screw, known before navigation.
+"""Test, before navigation, whether a registration suffices for one screw.
 
 The drill is placed on the planned channel, and its minimum error there is compared with the tolerance of the
 pedicle: if it exceeds the tolerance, so does the error in every image with the drill on the channel.

@@ -1,8 +1,8 @@
 """Illumination over the marker: a plane, or a quadratic B-spline grid.
 
-`illumination` is (kind, nodes per side). A shadow scales dark and bright alike (multiplicative); a highlight
-adds the same to both (additive). Each needs one spline grid instead of two, which leaves more of the data
-for the pose. A Cauchy prior on the curvature allows a sharp bend at an edge and little elsewhere.
+`illumination` is (kind, nodes per side). A shadow scales dark and bright equally (multiplicative); a
+highlight adds the same to both (additive). Each needs one spline grid instead of two, which leaves more of
+the data for the pose. A Cauchy prior on the curvature allows a sharp bend at an edge and little elsewhere.
 
 The spline is used wherever the lack-of-fit test finds smooth illumination in the residuals of the planar
 model,

@@ -33,7 +33,7 @@ class Textures:
     """Textures of one marker on white paper, dark 0 and bright 1, one per blur level.
 
     Attributes:
-        texels: all levels concatenated; each texel holds value and slopes to the right and upwards, per side.
+        texels: all levels concatenated; each texel has value and slopes to the right and upwards, per side.
         starts: (k,), start of each level in `texels`, in floats.
         sizes: (k,), texels a side.
         blurs_ratio: (k,), sd of the blur in sides, ascending.

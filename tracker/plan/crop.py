@@ -16,7 +16,7 @@ MAX_BYTES = 16 * 2**20
 def cropped_around(volume: Volume, points_lps_mm: npt.ArrayLike, *, max_bytes: int = MAX_BYTES) -> Volume:
     """Return the part of a CT around points, as a copy of its voxels.
 
-    The margin is 30 mm along each patient axis, or what is left of 100 mm, but never less than 10 mm. Where
+    The margin is 30 mm along each patient axis, reduced to fit into 100 mm, but never less than 10 mm. Where
     the part needs more than `max_bytes`, pairs of neighbouring voxels are averaged along the axis with the
     smallest spacing until it does not; otherwise its voxels are those of the CT.
 

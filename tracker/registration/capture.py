@@ -38,7 +38,7 @@ class CaptureSettings:
     max_tip_sd_mm: float = 3.0
 
     def hold_s(self, period_s: float) -> float:
-        """Return how long the tip must be held [s] at an image period of `period_s`."""
+        """Return the required duration of the capture [s] at an image period of `period_s`."""
         return max(self.min_s, self.min_images * period_s)
 
 

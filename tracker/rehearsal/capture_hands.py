@@ -15,7 +15,7 @@ STROKE_S, STROKE_HOP_S = 2.6, 1.2
 # Hop height that clears the spinous process and the needles.
 HOP_HEIGHT_MM = 80.0
 STROKE_HEIGHT_MM, MIN_LIFT_MM = 26.0, 24.0
-# A hand lands beside a landmark by this much (SD in each of two directions), and trembles on it.
+# Sd of the landing error on a landmark in each of two directions, and of the tremor on it.
 LANDING_SD_MM = 0.15
 SHAKE_HZ = np.array([1.3, 8.4, 9.3, 10.6])
 SHAKE_MM = np.array([0.05, 0.06, 0.055, 0.04])

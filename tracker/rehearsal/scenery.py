@@ -104,7 +104,7 @@ def _spots(points: Image32) -> list[tuple[float, float]]:
 
 
 def _soft_shade(points: Image32, rods: list[Rod], patient: Rigid[Room, Vertebra]) -> Image32:
-    """Return the lamp light (h, w) left on the soft field beside bone, needles and instruments."""
+    """Return the fraction (h, w) of the lamp's light on the soft field, with the shadows of other objects."""
     height, width = points.shape[:2]
     half = resized(points, width // 2, height // 2).reshape(-1, 3)
     left = np.ones(len(half), dtype=np.float32)

@@ -28,7 +28,7 @@ def soft_colours(
 ) -> tuple[Image32, Image32]:
     """Return BGR 0..1 (h, w, 3) of the field at points (h, w, 3), and the light (h, w) there.
 
-    `shade` (h, w) is how much of the lamp the shadows leave.
+    `shade` (h, w) is the unshadowed fraction of the lamp's light.
     """
     x, z = np.ascontiguousarray(points[..., 0]), np.ascontiguousarray(points[..., 2])
     rho = wound_ratio(x, z)

@@ -45,7 +45,7 @@ FOCAL_OF_WIDTH = 1400.0 / 1280.0
 SQUARE_IN_MM = np.array([[-0.5, 0.5, 0], [0.5, 0.5, 0], [0.5, -0.5, 0], [-0.5, -0.5, 0]]) * MARKER_SIDE_MM
 QUIET_SQUARE_MM = SQUARE_IN_MM * (1.0 + 2.0 * QUIET_ZONE_MM / MARKER_SIDE_MM)
 VIEW_MARGIN_PX = 6.0
-MIN_VIEW_COSINE = 0.26  # 75 degrees off: nobody can read a marker from there
+MIN_VIEW_COSINE = 0.26  # a marker cannot be detected at more than 75 degrees
 
 
 class HandMotion(Protocol):

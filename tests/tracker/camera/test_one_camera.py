@@ -33,7 +33,7 @@ def test_a_second_camera_of_one_make_is_reported_with_its_images(seed: int) -> N
     names = [*(f"a{n}" for n in range(9)), *(f"b{n}" for n in range(4))]
     report = calibrate([*views_of(one, 9, rng), *views_of(other, 4, rng)], size_wh_px=size, names=names)
     (message,) = reported(report)
-    assert "4 of 13 views (b0, b1, b2, b3) are clearly better explained" in message
+    assert "4 of 13 views (b0, b1, b2, b3) fit a separate camera clearly better" in message
     # The same camera alone, with as many views.
     assert reported(calibrate(views_of(one, 13, rng), size_wh_px=size)) == []
 

@@ -113,7 +113,7 @@ def _implausible(camera: CameraModel) -> tuple[CalibrationWarning, ...]:
         return ()
     return (
         CalibrationWarning(
-            code="LENS_IMPLAUSIBLE", message=f"no lens can be this: {found.message}", remedy=found.remedy
+            code="LENS_IMPLAUSIBLE", message=f"the lens is implausible: {found.message}", remedy=found.remedy
         ),
     )
 

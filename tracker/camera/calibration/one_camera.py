@@ -100,8 +100,8 @@ def two_camera_warnings(
     return (
         CalibrationWarning(
             code="TWO_CAMERAS",
-            message=f"{len(apart)} of {len(blocks)} views ({shown}) are clearly better explained by a camera "
-            f"of their own: RMS {rms_px * groups.left_ratio:.3f} px in place of {rms_px:.3f} px, with focal "
+            message=f"{len(apart)} of {len(blocks)} views ({shown}) fit a separate camera clearly better: "
+            f"RMS {rms_px * groups.left_ratio:.3f} px instead of {rms_px:.3f} px, with focal "
             f"lengths that differ by {by[0]:+.1f} and {by[1]:+.1f} px and a middle by {by[2]:+.1f} and "
             f"{by[3]:+.1f} px",
             remedy="Give images of one camera at one zoom and focus, and of a board that is flat and stiff.",

@@ -15,7 +15,7 @@ from tracker.geometry import Array
 MAX_VIEW_RATIO = 3.0
 # Below this error a view is never an outlier, however small the errors of the others.
 GOOD_VIEW_PX = 0.3
-# A point is an outlier beyond so many standard deviations of the noise: none of 10 000 good points.
+# A point is an outlier beyond this number of standard deviations: less than one of 10 000 good points.
 MAX_POINT_SDS = 5.5
 MAX_POINTS_OUT_RATIO = 0.25
 MIN_POINTS, MIN_VIEWS = 6, 2

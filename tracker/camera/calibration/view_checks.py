@@ -31,7 +31,7 @@ def fault_of(view: BoardView, size_wh_px: tuple[int, int]) -> str:
     homography = plane_map(board, px, is_robust=False)
     residual = off_plane_px(board, px, is_robust=False)
     if homography is None or residual is None:
-        return "its points are no picture of a flat board"
+        return "its points are not the image of a flat board"
     off = float(np.sqrt((residual**2).sum(axis=1).mean())) / _step_px(px)
     if off > MAX_OFF_STEPS:
         return (

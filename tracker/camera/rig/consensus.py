@@ -166,6 +166,6 @@ def _reject_disagreement(near: str, far: str, odd: int, count: int) -> None:
         "RIG_VIEWS_DISAGREE",
         f"{odd} of {count} views place {far} elsewhere to {near} than the rest, allowed is a third of them",
         "Check that images of both cameras are of the same instant, that no camera was moved, and "
-        "that the board tells which way up it is.",
+        "that the board has a unique orientation.",
         {"views": count, "disagree": odd, "cameras": [near, far]},
     )

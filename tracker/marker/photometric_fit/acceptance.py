@@ -58,8 +58,8 @@ MAX_SHIFT_BLURS = 1.75
 # Two opposite sides constrain the position along them less; an unoccluded motion-blurred marker may therefore
 # shift farther, as nothing else comes close to it there.
 MAX_SHIFT_MOTION_BLURS = 2.6
-# With blur over this part of the side, squares look alike: it is rejected under highlights, and otherwise
-# unless nearly everything is explained. In blurred scenes other unoccluded squares of 16 px reach 0.973, of
+# Above this ratio of blur to the side, squares are similar: they are rejected under highlights, and otherwise
+# unless nearly all cells fit. In blurred scenes other unoccluded squares of 16 px reach 0.973, of
 # 24 px 0.943, occluded ones 0.98; motion blur leaves one direction sharp, and others reach 0.88 (1,500
 # scenes, five known markers; markers changed in a part reach 0.97 in either).
 BLURRED_SIDE_RATIO, SHARP_SIDE_RATIO, MAX_BLUR_SIDE_RATIO, MAX_MOTION_BLUR_SIDE_RATIO = 0.1, 0.05, 0.16, 0.2

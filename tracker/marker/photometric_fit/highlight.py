@@ -1,4 +1,4 @@
-"""Fit of one highlight: a Gaussian that explains most of the residuals."""
+"""Fit of one highlight: the Gaussian with the largest decrease of the squared residuals."""
 
 from functools import cache
 from itertools import product
@@ -21,7 +21,7 @@ DAMPING = 0.02
 
 
 def highlight_in(residual: Array, fitted_basis: Array, weight: Array) -> Array | None:
-    """Return the highlight (cells,), maximum 1, that explains most of the residuals; None where none does.
+    """Return the highlight (cells,), maximum 1, with the largest decrease of the residuals; None without one.
 
     Args:
         residual: residuals of a fit (n, n), in grey levels.

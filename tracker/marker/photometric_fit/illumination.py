@@ -50,7 +50,7 @@ def highlights() -> Array:
 def shadow_in(
     observed: Array, picture: npt.NDArray[np.float32], visible: npt.NDArray[np.bool_]
 ) -> Array | None:
-    """Return the shadow edge (cells,), 0 to 1, that explains most of the residuals; None where none does."""
+    """Return the shadow edge (cells,), 0 to 1, with the largest decrease of the residuals, or None."""
     edge = np.empty(3)
     part = shadow_edge(observed, picture, visible, SHADOW_ANGLES, SHADOW_PLACES, SHADOW_SOFT, edge)
     return np.asarray(shadow_of(edge)) if part >= MIN_GAINED_RATIO else None

@@ -1,4 +1,4 @@
-"""Connected components of residuals that illumination and model do not explain."""
+"""Connected components of large residuals after the fit of model and illumination."""
 
 import numpy as np
 
@@ -121,10 +121,10 @@ def _cost(at, observed, picture, solution, limit, near):
 
 @compiled
 def half_plane_weights(observed, picture, angles, places, limit, weight):
-    """Compute robust weights from the half plane whose illumination explains most cells.
+    """Compute robust weights from the half plane whose illumination has most inlier cells.
 
     `weight` is (GRID_CELLS, GRID_CELLS). Where a third is occluded, illumination fitted to all cells is wrong
-    everywhere. Half planes are tried, and the whole square, which is kept unless a half plane is better.
+    everywhere. Half planes are tried, and the whole square, which is used unless a half plane is better.
     """
     every = (GRID_CELLS + 1) // 2
     count = every * every

@@ -1,4 +1,4 @@
-"""Search for the straight soft shadow edge that explains most of the residuals."""
+"""Search for the straight soft shadow edge with the largest decrease of the squared residuals."""
 
 import numpy as np
 
@@ -83,7 +83,7 @@ def _gain_of(at, picture, weight, base, left, angle, place, soft):
 
 @compiled
 def shadow_edge(observed, picture, visible, angles, places, soft, edge):
-    """Find the edge that explains most of what quadratic illumination leaves of the cells.
+    """Find the edge with the largest decrease of the squared residuals of quadratic illumination.
 
     Fills `edge` (3,): angle, offset and softness, in half sides. Returns the explained fraction, 0..1. Cells
     that are not `visible` are excluded.

@@ -1,4 +1,4 @@
-"""Stepwise selection of illumination terms: a shadow edge and highlights, as long as each explains much.
+"""Stepwise selection of illumination terms: a shadow edge and highlights, while each reduces the residuals.
 
 A spline of highlights fits half of the small parts of the shape, and the residuals then discriminate little.
 A few terms of fixed form do not fit the shape.
@@ -36,7 +36,7 @@ class IlluminationFit:
         offset_basis: additive terms (cells, n).
         gain_basis: contrast terms (cells, m).
         weight: robust weights of the cells (n, n).
-        outlier_cells: number of cells, about, that are not explained.
+        outlier_cells: approximate number of outlier cells.
     """
 
     offset_basis: Array

@@ -1,4 +1,4 @@
-"""Rejection of fits that the rotated or mirrored model explains as well.
+"""Rejection of squares that the rotated or mirrored model fits as well.
 
 For a marker that is similar to its own quarter rotation (correlation 0.83), the wrong rotation with a fitted
 highlight can fit better than the right one. A marker is therefore accepted only if no other rotation with its
@@ -16,8 +16,8 @@ from tracker.marker.photometric_fit.grid_kernels import GRID_CELLS, render_model
 from tracker.marker.photometric_fit.occlusion import OUTLIER_RESIDUAL_CONTRAST, unoccluded_weights
 from tracker.marker.sampling_kernels import through
 
-# Margin, in cells, by which this rotation must explain more than the others. A highlight fitted to a wrong
-# one explains up to 5 more than the right one where the shape is nearly its own rotation.
+# Minimum difference in inlier cells to the other rotations. A highlight fitted to a wrong rotation has up to
+# 5 more than the right one if the shape is similar to its own rotation.
 MIN_MARGIN_CELLS = 8.0
 # A marker may be nearly its own mirror image.
 MAX_SIMILARITY = 0.9
@@ -39,7 +39,7 @@ def rotation_is_ambiguous(fit: Estimator) -> bool:
 
 
 def _unexplained_cells(fit: Estimator) -> float:
-    """Return the number of cells of the square that a fit leaves unexplained."""
+    """Return the number of outlier cells of the square after a fit."""
     off = fit.residual / (OUTLIER_RESIDUAL_CONTRAST * np.maximum(fit.gain, 0.25 * float(np.median(fit.gain))))
     return float(np.minimum(off**2, 1.0)[inside_square()].sum())
 

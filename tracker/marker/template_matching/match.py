@@ -44,7 +44,7 @@ def coarse_match(
         even: the illumination-normalised image (h, w), 128 where it equals the local mean, slightly smoothed.
         quads: parallelograms.
         templates: of the models.
-        maximum: number of quads to keep for each model.
+        maximum: number of quads to retain for each model.
         motion_blurred: whether motion blurs them along their first side.
     """
     pictures = np.concatenate(

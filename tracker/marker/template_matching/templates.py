@@ -140,7 +140,7 @@ def _motion_kernel(length: float, direction: float) -> Array:
 
 
 def _sampled_cells(wide: Array, off: Array) -> Float32:
-    """Return the cells (n,) of an image in a quad whose corners (4, 2) are off by so many sides."""
+    """Return the cells (n,) of an image in a quad whose corners (4, 2) are displaced by `off` sides."""
     fine = CELLS * FINE
     at = (np.arange(ROWS * FINE) + 0.5) / fine - RING / CELLS
     a, b = np.meshgrid(at, at)
@@ -171,7 +171,7 @@ def _occluded(pictures: Float32) -> OccludedTemplates:
 
 
 def _motion_blurred_picture(upright: Float32, rotation: int) -> Float32:
-    """Return the template (n,) blurred along the side that is first after so many quarter rotations."""
+    """Return the template (n,) blurred along the side that is first after `rotation` quarter rotations."""
     along = 0.0 if rotation % 2 == 0 else 90.0
     picture = upright[len(BLURS_SIDES) + MOTIONS_DEG.index(along)]
     return np.asarray(np.rot90(picture.reshape(ROWS, ROWS), rotation).ravel())

@@ -155,7 +155,7 @@ def _wall_mm(assessment: Assessment) -> float:
 
 
 def _past_mm(assessment: Assessment, snapshot: NavigationSnapshot) -> float:
-    """Return the depth past the planned end; of a tip beside the pedicle the smallest possible."""
+    """Return the depth past the planned end; the smallest possible for a tip beside the pedicle."""
     to_go, channel = assessment.figures[FigureName.TO_GO], snapshot.setup.channel
     is_beside = to_go.status is Status.OUTSIDE
     return -channel.length_mm if is_beside and isinstance(channel, Channel) else -to_go.value

@@ -1,4 +1,4 @@
-"""Select the wall to measure a drill against: the bone, if its surface agrees with the plan."""
+"""Select the wall for the drill's clearance: the bone, if its surface agrees with the plan."""
 
 from dataclasses import dataclass
 
@@ -15,11 +15,11 @@ from tracker.plan.surface import Surface
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WallSelection:
-    """The selected wall, and why no better one was used.
+    """The selected wall, with remarks on why no better one was used.
 
     Attributes:
-        wall: its distance field.
-        remarks: for the user; empty if the bone itself is the wall.
+        wall: distance field of the wall.
+        remarks: remarks for the user; empty if the bone itself is the wall.
     """
 
     wall: WallDistanceField
@@ -31,9 +31,8 @@ def select_wall(
 ) -> WallSelection:
     """Select the bone's surface; if unknown or contradictory the pedicle's outline, else the channel.
 
-    A surface contradicts the plan if the drill would be through it on the planned axis itself: in thick
-    slices a threshold removes thin walls, and alarms would then be caused by the surface and not by the
-    drill.
+    A surface contradicts the plan if a drill on the planned axis would perforate it: in thick slices a
+    threshold removes thin walls, and alarms would then be caused by the surface and not by the drill.
 
     Args:
         channel: the planned channel.

@@ -20,11 +20,11 @@ MAX_INTEGER = 1e300
 def plan_to_mapping(plan: PlanDocument) -> dict[str, Any]:
     """Return the plan as a JSON-compatible mapping; the inverse of `plan_from_mapping`."""
     mapped = plain(plan)
-    assert isinstance(mapped, dict)  # noqa: S101  a record becomes a mapping; said for the type checker
+    assert isinstance(mapped, dict)  # noqa: S101  for the type checker: a record becomes a mapping
     return mapped
 
 
-def plain(value: object) -> Any:  # noqa: ANN401  what JSON holds has no narrower type
+def plain(value: object) -> Any:  # noqa: ANN401  JSON values have no narrower type
     """Convert records to mappings, arrays and tuples to lists, enums to strings."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         return {field.name: plain(getattr(value, field.name)) for field in dataclasses.fields(value)}
@@ -49,7 +49,7 @@ def plan_from_mapping(mapped: object) -> PlanDocument:
     if isinstance(mapped, Mapping):
         mapped = _in_newest_version(mapped)
     plan = _read(PlanDocument, mapped, "plan")
-    assert isinstance(plan, PlanDocument)  # noqa: S101  what was asked for; said for the type checker
+    assert isinstance(plan, PlanDocument)  # noqa: S101  for the type checker
     return plan
 
 
@@ -73,7 +73,7 @@ def measure_from_mapping(mapped: object) -> PedicleMeasure:
         PlanError: PLAN_INVALID.
     """
     measure = _read(PedicleMeasure, mapped, "pedicle")
-    assert isinstance(measure, PedicleMeasure)  # noqa: S101  what was asked for; said for the type checker
+    assert isinstance(measure, PedicleMeasure)  # noqa: S101  for the type checker
     return measure
 
 
@@ -84,7 +84,7 @@ def channel_from_mapping(mapped: object) -> Channel:
         PlanError: PLAN_INVALID, CHANNEL_INVALID.
     """
     channel = _read(Channel, mapped, "channel")
-    assert isinstance(channel, Channel)  # noqa: S101  what was asked for; said for the type checker
+    assert isinstance(channel, Channel)  # noqa: S101  for the type checker
     return channel
 
 

@@ -16,10 +16,10 @@ OCCLUDED_MM, OCCLUDED_SD_MM = 3.0, 4.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NeedleObservation:
-    """Centre line of a needle in the image, from where it leaves the bone to its head.
+    """Centre line of a needle in the image, from its exit from the bone to its head.
 
     Attributes:
-        entry_px: (2,), where it leaves the bone, or appears from behind it.
+        entry_px: (2,), its exit from the bone, or the visible end if bone occludes that.
         head_px: (2,), the far end.
         across_sd_px: standard deviation across the line, at either end.
         along_sd_px: standard deviation of the end at the bone, along the line.
@@ -66,7 +66,7 @@ class NeedleObservation:
 def needle_from_clicks(
     entry_px: npt.ArrayLike, head_px: npt.ArrayLike, *, sd_px: float = 1.0, entry_is_seen: bool = True
 ) -> NeedleObservation:
-    """Return a needle marked by a person: where it leaves the bone, then its head.
+    """Return a needle marked by a person: its exit from the bone, then its head.
 
     Args:
         entry_px: (2,), in the image.

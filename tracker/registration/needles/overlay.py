@@ -228,7 +228,7 @@ def needles_from_overlay(
         pose: of the overlay.
         places: planned needles.
         camera: calibrated.
-        sd_px: how well a line was aligned with its needle.
+        sd_px: standard deviation of the alignment of a line with its needle.
     """
     return tuple(
         NeedleObservation(entry_px=line[0], head_px=line[-1], across_sd_px=sd_px, along_sd_px=ALONG_OPEN_PX)

@@ -62,9 +62,9 @@ def _beside_px(line: NeedleObservation, mark: NeedleObservation) -> float:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NeedleProposal:
-    """One proposed fit; several if needles look alike.
+    """One proposed fit; there are several if the assignment is ambiguous.
 
-    The covariance holds if the assignment is right, which a person confirms.
+    The covariance is valid only if the assignment is correct, which a person confirms.
 
     Attributes:
         fit: the registration with this assignment.

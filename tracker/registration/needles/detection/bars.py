@@ -83,7 +83,7 @@ def single_edge_bars(grey: Image8, width_px: float, beside: Sequence[Bar]) -> li
     Args:
         grey: (h, w).
         width_px: expected width.
-        beside: the bars near which to search.
+        beside: bars near which to search.
     """
     edges = straight_edges(grey)
     middles, lines = 0.5 * (edges[:, :2] + edges[:, 2:]), edges[:, 2:] - edges[:, :2]
