@@ -26,7 +26,7 @@ from tracker.photometric.response_kernels import (
 )
 
 PLANAR_COUNT = ILLUMINATION + PLANAR_PARAMETERS
-# Prior sd of the response parameter; gamma 2.2 corresponds to half of it.
+# Prior sd of the response parameter, which is about 0.5 for a gamma of 2.2.
 RESPONSE_SD = 0.3
 MIN_SCALE_GREY = 0.3
 # The background beyond the paper is unknown: its sd is one marker contrast.

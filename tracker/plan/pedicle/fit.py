@@ -20,9 +20,9 @@ from tracker.plan.pedicle.search import Bar
 MIN_HALF_MM, MAX_HALF_MM = 3.0, 6.0
 # Iterations that only locate the section need fewer voxels than the final fit.
 MAX_VOXELS = (900, 1200, 3500)
-# Maximum number of steps per round: the first rounds are short, because bone that deviates from the bar model
-# pulls the fit away over many steps. MORE_STEPS are allowed where the misfit is low, as for walls of high
-# contrast.
+# Maximum number of steps per round. The first rounds are short, because bone that deviates from the bar model
+# pulls the fit away over many steps. If the misfit of the first round is high, as for walls of high contrast,
+# MORE_STEPS are tried, and used if the misfit is then low.
 MAX_STEPS, MORE_STEPS = (8, 10, 20), 80
 # If the narrowest section is farther than this from the window's centre, the window is moved again.
 SETTLED, MORE_ROUNDS, MIN_WAIST = 0.15, 2, 0.02
