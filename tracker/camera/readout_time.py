@@ -314,8 +314,8 @@ def _reject_impossible(estimate: ReadoutEstimate, period_s: float) -> None:
     raise CalibrationError(
         "READOUT_IMPOSSIBLE",
         f"{_found(estimate)}: it must be between 0 and the {1000.0 * period_s:.1f} ms between images",
-        "Switch off whatever turns or mirrors the image; else the times of the images are wrong: try another "
-        "port.",
+        "Switch off rotation and mirroring of the image; otherwise the times of the images are wrong: try "
+        "another port.",
         {"readout_ms": round(estimate.readout_ms, 2), "period_ms": round(1000.0 * period_s, 2)},
     )
 
