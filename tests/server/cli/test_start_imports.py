@@ -22,6 +22,11 @@ import sys
 import server.app, server.cli.run, server.cli.storage, server.cli.web, server.procedure
 print(*sorted({".".join(name.split(".")[:2]) for name in sys.modules}))
 """
+SOURCES = """
+import linecache, sys
+import server.app, server.cli.run, server.cli.storage, server.cli.web, server.procedure
+print(*(sys.modules["server"].__path__[0] in name for name in linecache.cache))
+"""
 
 
 def test_a_start_imports_no_library_that_only_a_job_needs() -> None:
@@ -29,3 +34,8 @@ def test_a_start_imports_no_library_that_only_a_job_needs() -> None:
     loaded = set(done.stdout.split())
     assert "fastapi" in loaded
     assert loaded & NOT_AT_START == set()
+
+
+def test_a_start_reads_no_source_to_describe_fields() -> None:
+    done = subprocess.run([sys.executable, "-c", SOURCES], capture_output=True, text=True, check=True)
+    assert "True" not in done.stdout.split()
