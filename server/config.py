@@ -9,6 +9,8 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints
 
+from server.field_descriptions import FieldDescriptions
+
 Ratio: TypeAlias = Annotated[float, Field(ge=0.0, le=1.0)]
 Strength: TypeAlias = Annotated[float, Field(ge=0.0, le=10.0)]
 Millimetres: TypeAlias = Annotated[float, Field(ge=-10_000.0, le=10_000.0)]
@@ -17,12 +19,10 @@ Name: TypeAlias = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9][A-Za-z
 FilePath: TypeAlias = Annotated[Path, Field(strict=False)]
 
 
-class Section(BaseModel):
+class Section(FieldDescriptions, BaseModel):
     """Base of all settings: unknown keys are rejected, values are not converted, instances are frozen."""
 
-    model_config = ConfigDict(
-        frozen=True, extra="forbid", strict=True, allow_inf_nan=False, use_attribute_docstrings=True
-    )
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
 
 
 class TlsConfig(Section):

@@ -4,11 +4,13 @@ import math
 
 from pydantic import BaseModel, ConfigDict
 
+from server.field_descriptions import FieldDescriptions
 
-class Message(BaseModel):
+
+class Message(FieldDescriptions, BaseModel):
     """Base class of all messages: frozen, unknown fields are forbidden."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+    model_config = ConfigDict(frozen=True, extra="forbid")
 
 
 def finite(value: float) -> float | None:

@@ -11,22 +11,6 @@ NO_BAND = (0, 0)
 
 
 @compiled
-def orthonormality_error(m):
-    """Return the largest deviation of a matrix (3, 3) from orthonormal columns, and its determinant."""
-    off = 0.0
-    for i in range(3):
-        for j in range(i + 1):
-            product = m[0, i] * m[0, j] + m[1, i] * m[1, j] + m[2, i] * m[2, j] - (1.0 if i == j else 0.0)
-            # NaN counts as an infinite deviation.
-            off = max(off, abs(product)) if np.isfinite(product) else np.inf
-    return off, (
-        m[0, 0] * (m[1, 1] * m[2, 2] - m[1, 2] * m[2, 1])
-        - m[0, 1] * (m[1, 0] * m[2, 2] - m[1, 2] * m[2, 0])
-        + m[0, 2] * (m[1, 0] * m[2, 1] - m[1, 1] * m[2, 0])
-    )
-
-
-@compiled
 def mirror(rotation, translation, out):
     """Write the rotation of the flipped planar solution: mirrored across the line of sight."""
     squared = translation[0] ** 2 + translation[1] ** 2 + translation[2] ** 2
@@ -41,14 +25,13 @@ def mirror(rotation, translation, out):
 
 @compiled
 def orthonormalise(m, out):
-    """Write to `out` (3, 3) a rotation without its rounding error; return its deviation before."""
+    """Write to `out` (3, 3) a rotation without its rounding error."""
     # The first Newton step of the polar decomposition squares the deviation.
     for r in range(3):
         for c in range(3):
             out[r, c] = 1.5 * m[r, c]
             for k in range(3):
                 out[r, c] -= 0.5 * m[r, k] * (m[0, k] * m[0, c] + m[1, k] * m[1, c] + m[2, k] * m[2, c])
-    return orthonormality_error(m)[0]
 
 
 @compiled

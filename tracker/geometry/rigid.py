@@ -8,8 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.errors import InvalidInput
-from tracker.geometry.geometry_kernels import orthonormality_error
-from tracker.geometry.rotations import Array, rotation_from_vector, skew
+from tracker.geometry.rotations import Array, orthonormality_error, rotation_from_vector, skew
 
 To = TypeVar("To")
 From = TypeVar("From")

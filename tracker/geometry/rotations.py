@@ -1,6 +1,6 @@
 """Rotations as 3x3 matrices and as rotation vectors (axis times angle in radians)."""
 
-from math import atan2, hypot
+from math import atan2, hypot, inf, isfinite
 
 import numpy as np
 import numpy.typing as npt
@@ -67,11 +67,26 @@ def rotation_between(a: npt.ArrayLike, b: npt.ArrayLike) -> Array:
     return rotation_from_vector(axis / sine * np.arctan2(sine, cosine))
 
 
+def orthonormality_error(matrix: Array) -> tuple[float, float]:
+    """Return the largest deviation of a matrix (3, 3) from orthonormal columns, and its determinant.
+
+    The deviation of a matrix with a number that is not finite is infinite.
+    """
+    # Python floats: the first call of a compiled loop takes a fifth of a second, and the web server makes no
+    # other one at its start.
+    (a, b, c), (d, e, f), (g, h, i) = matrix.tolist()
+    x, y, z = a * a + d * d + g * g - 1.0, b * b + e * e + h * h - 1.0, c * c + f * f + i * i - 1.0
+    p, q, r = a * b + d * e + g * h, a * c + d * f + g * i, b * c + e * f + h * i
+    off = max(abs(x), abs(y), abs(z), abs(p), abs(q), abs(r)) if isfinite(x + y + z + p + q + r) else inf
+    return off, a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+
+
 def nearest_rotation(matrix: npt.ArrayLike) -> Array:
     """Return the rotation (3, 3) nearest to a matrix that is nearly a rotation (orthogonal Procrustes)."""
     given = np.array(matrix, dtype=np.float64, order="C")
-    straight = np.empty((3, 3))
-    if orthonormalise(given, straight) < ROUNDING:
+    if orthonormality_error(given)[0] < ROUNDING:
+        straight = np.empty((3, 3))
+        orthonormalise(given, straight)
         return straight
     u, _, vt = np.linalg.svd(given)
     return np.asarray(u @ vt)

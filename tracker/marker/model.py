@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import combinations
 from math import log
 
@@ -29,7 +30,8 @@ MAX_SIMILARITY = 0.95
 WORKING_SIDE_PX = 360
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+# Without slots, which leave no place for what is extracted at its first use.
+@dataclass(frozen=True, kw_only=True)
 class MarkerModel:
     """A printed square with a unique geometric shape.
 
@@ -38,14 +40,12 @@ class MarkerModel:
         side_mm: outer side of the black square.
         image: (h, w) grey, as given; the black square fills it edge to edge, row 0 on top.
         square: (n, n) grey, resampled to the size that the edges are extracted from.
-        levels: active edges at each size in the image, smallest first.
     """
 
     name: str
     side_mm: float
     image: npt.NDArray[np.uint8]
     square: npt.NDArray[np.uint8]
-    levels: tuple[ActiveEdges, ...]
 
     @classmethod
     def from_image(cls, image: npt.NDArray[np.uint8], *, side_mm: float, name: str) -> "MarkerModel":
@@ -72,13 +72,16 @@ class MarkerModel:
             )
         square = _working_image(grey.astype(np.uint8))
         _reject_symmetry(square, name)
-        return cls(
-            name=name,
-            side_mm=float(side_mm),
-            image=grey.copy(),
-            square=square,
-            levels=tuple(active_edges_at(square, side_mm=float(side_mm), level_px=px) for px in LEVELS_PX),
-        )
+        return cls(name=name, side_mm=float(side_mm), image=grey.copy(), square=square)
+
+    @cached_property
+    def levels(self) -> tuple[ActiveEdges, ...]:
+        """Active edges at each size in the image, smallest first.
+
+        Extracted at the first use, because the web server needs none: they and the compiled loops that it
+        would load for them take a sixth of its start.
+        """
+        return tuple(active_edges_at(self.square, side_mm=self.side_mm, level_px=px) for px in LEVELS_PX)
 
     @property
     def corners_mm(self) -> Array:

@@ -95,7 +95,8 @@ class Tracker:
         self._priors = {model.name: Prior() for model in models}
         self._patches = {model.name: RepeatedPatch() for model in models}
         for model in self.models:
-            # Cached at the first call: fill the cache now, not when a marker is first verified.
+            # Cached at the first call: fill the caches now, not when a marker is first fitted and verified.
+            _ = model.levels
             scale_space_of(model.square)
         self._stages = StageTimer(clock)
         self._fitter = Fitter(camera=camera, settings=self.settings, stages=self._stages)

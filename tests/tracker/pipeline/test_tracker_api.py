@@ -18,7 +18,7 @@ from tests.tracker.scenes import (
 )
 from tracker import InvalidInput, Seen, Tracker, Unseen, UnseenReason
 from tracker.geometry import Camera, Marker, Rigid
-from tracker.marker import ScoreSettings
+from tracker.marker import MarkerModel, ScoreSettings
 from tracker.stage_timer import StageTimer
 from tracker.warm_up import warm_up
 
@@ -196,6 +196,17 @@ def test_a_stage_that_comes_twice_is_added_up() -> None:
     assert stages.elapsed_ms == {"fit": 3000.0, "score": 500.0}
     stages.start()
     assert stages.elapsed_ms == {}
+
+
+def test_the_edges_of_every_model_are_extracted_before_the_first_image() -> None:
+    # Two: the first one's may be needed by the warm-up anyway.
+    models = [
+        MarkerModel.from_image(model.image, side_mm=model.side_mm, name=model.name)
+        for model in (MODEL, code_model(OTHER, name="other"))
+    ]
+    assert not any("levels" in vars(model) for model in models)
+    Tracker(camera=CAMERA, models=models)
+    assert all("levels" in vars(model) for model in models)
 
 
 def test_warming_up_runs_the_loops_of_a_search_and_of_a_track(monkeypatch: pytest.MonkeyPatch) -> None:
