@@ -31,6 +31,7 @@ export const checkDe: CheckTexts = {
     "Neu antasten, falls die Spitze abgerutscht ist. Sonst neu registrieren: Mit dieser Registrierung ist keine Navigation möglich.",
   every: "Erforderlich alle {minutes} min, höchstens {max} mm.",
   dueIn: "Nächste Prüfung fällig in {minutes} min.",
-  lastFailed: "Die letzte Prüfung wurde nicht bestanden: Die Navigation bleibt gesperrt, bis eine bestanden ist.",
+  lastFailed:
+    "Die letzte Prüfung wurde nicht bestanden: Die Navigation bleibt gesperrt, bis eine bestanden ist.",
   dueNow: "Die Prüfung ist wieder fällig. Die Navigation läuft weiter.",
 };

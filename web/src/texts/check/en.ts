@@ -24,7 +24,8 @@ export const checkEn = {
   head: "to the head",
   feet: "to the feet",
   sure: "Known to ±{sd} mm, from {images} images.",
-  failedRemedy: "Touch again if the tip slipped. Otherwise register again: this registration cannot be used for navigation.",
+  failedRemedy:
+    "Touch again if the tip slipped. Otherwise register again: this registration cannot be used for navigation.",
   every: "Required every {minutes} min, at most {max} mm.",
   dueIn: "The next check is due in {minutes} min.",
   lastFailed: "The last check failed: navigation stays locked until one passes.",

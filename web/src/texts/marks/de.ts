@@ -10,8 +10,7 @@ export const marksDe: MarksTexts = {
   clearAll: "Alle löschen",
   ago: "vor # s",
   seenBy: "Für alle sichtbar, die zusehen.",
-  fades:
-    "Der Zeiger verschwindet 2 s nach seiner letzten Bewegung, eine Zeichnung # s nach ihrem Bild.",
+  fades: "Der Zeiger verschwindet 2 s nach seiner letzten Bewegung, eine Zeichnung # s nach ihrem Bild.",
   lineGone: "Keine Verbindung: Niemand sieht, was Sie zeigen.",
   noPicture: "Zeichnen ist nur auf einem Live-Bild möglich.",
 };

@@ -1,5 +1,6 @@
 export const marksEn = {
-  layer: "The video. Move over it to point; to draw, choose a drawing tool and drag. The arrow keys move the pointer.",
+  layer:
+    "The video. Move over it to point; to draw, choose a drawing tool and drag. The arrow keys move the pointer.",
   tools: "Point and draw",
   tool: { point: "Point", pen: "Pen", arrow: "Arrow", circle: "Circle" },
   undo: "Undo",

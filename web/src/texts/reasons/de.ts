@@ -12,7 +12,10 @@ export const reasonsDe: Pick<Texts, "cause" | "unseen"> = {
       state: "SERVER NICHT ERREICHT",
       sentence: "Prüfen, ob dieses Gerät im Netz ist und Coaxial läuft. Neuer Versuch automatisch.",
     },
-    "server-gone": { state: "SERVER GETRENNT", sentence: "Der Server antwortet nicht. Neuer Versuch automatisch." },
+    "server-gone": {
+      state: "SERVER GETRENNT",
+      sentence: "Der Server antwortet nicht. Neuer Versuch automatisch.",
+    },
     "process-starting": {
       state: "STARTET",
       sentence: "Das Tracking wird gestartet. Das dauert einige Sekunden.",

@@ -134,7 +134,8 @@ export const registrationDe: RegistrationTexts = {
       "Die Spitze langsam über den Knochen führen, immer mit Kontakt.",
       "Einen großen Bereich abfahren: beide Laminae, beide Seiten des Dornfortsatzes, einen Gelenkfortsatz.",
     ],
-    needsPoints: "Das Abfahren verbessert eine gültige Registrierung. Registrieren Sie zuerst mit Landmarken.",
+    needsPoints:
+      "Das Abfahren verbessert eine gültige Registrierung. Registrieren Sie zuerst mit Landmarken.",
     begin: "Abfahren beginnen",
     taking: "Die Spitze wird erfasst",
     lifted: "Pause",
@@ -170,7 +171,8 @@ export const registrationDe: RegistrationTexts = {
   remedies: {
     REFERENCE_MISSING:
       "Wählen Sie in der Planung die Referenzschicht, oder geben Sie die Landmarken der Nadeln an.",
-    LANDMARKS_TOO_FEW: "Setzen Sie in der Planung weitere Landmarken im CT; eine zusätzliche dient der Prüfung.",
+    LANDMARKS_TOO_FEW:
+      "Setzen Sie in der Planung weitere Landmarken im CT; eine zusätzliche dient der Prüfung.",
     COLLECTION_MISSING: "Beginnen Sie auf dieser Seite noch einmal.",
     REGISTER_MISSING: "Registrieren Sie zuerst mit Landmarken oder Nadeln.",
     SURFACE_MISSING: "Erzeugen Sie in der Planung die Knochenoberfläche aus dem CT.",

@@ -31,14 +31,12 @@ export const registrationEn = {
     needles: {
       does: "Lay the reference slice over the live video until its lines lie on three needles in the bone.",
       sees: "Finds position and rotation across the view from one image, without a calibrated tool.",
-      misses:
-        "Depth along the view and tilt out of the slice come from the ruler, and are uncertain.",
+      misses: "Depth along the view and tilt out of the slice come from the ruler, and are uncertain.",
     },
     surface: {
       does: "Sweep the tip over bare bone. Improves a registration by landmarks.",
       sees: "Compares the shape of the bone with the surface from the CT.",
-      misses:
-        "Smooth bone leaves directions undetermined: they are named, and the sweep is rejected.",
+      misses: "Smooth bone leaves directions undetermined: they are named, and the sweep is rejected.",
     },
   },
   now: {
@@ -169,8 +167,7 @@ export const registrationEn = {
   },
   /** By the server's code: what to do on these pages. */
   remedies: {
-    REFERENCE_MISSING:
-      "Choose the reference slice in the plan, or give the landmarks of the needles.",
+    REFERENCE_MISSING: "Choose the reference slice in the plan, or give the landmarks of the needles.",
     LANDMARKS_TOO_FEW: "Set more landmarks on the CT in the plan; an additional one is for the check.",
     COLLECTION_MISSING: "Begin again on this page.",
     REGISTER_MISSING: "Register first, with landmarks or needles.",

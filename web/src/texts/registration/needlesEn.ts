@@ -14,7 +14,8 @@ export const needlesEn = {
     sliceAlt: "Reference slice of the CT, laid over the video",
     linesAlt: "Planned lines of the needles",
     marksAlt: "Needles in the picture",
-    frozenNoFit: "The picture is frozen. Registration uses the live picture: return to it and check the position.",
+    frozenNoFit:
+      "The picture is frozen. Registration uses the live picture: return to it and check the position.",
     fitsLive: "Registration uses the newest live image.",
   },
   line: { middle: "middle", left: "left", right: "right" },

@@ -3,7 +3,8 @@ import type { NudgesTexts } from "./nudgesEn";
 export const nudgesDe: NudgesTexts = {
   nudges: {
     needsRegistration: "Es gibt keine Registrierung zum Korrigieren. Registrieren Sie zuerst.",
-    checkAgain: "Jede Korrektur erzeugt eine neue Registrierung: Vor der Navigation an einer Landmarke prüfen.",
+    checkAgain:
+      "Jede Korrektur erzeugt eine neue Registrierung: Vor der Navigation an einer Landmarke prüfen.",
     kind: "Verschieben oder drehen",
     shift: "Verschieben",
     turn: "Drehen",

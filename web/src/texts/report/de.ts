@@ -23,8 +23,7 @@ export const reportDe: ReportTexts = {
   screw: "Schraube",
   byHand: "von Hand gesetzt",
   record: "Verlauf",
-  recordLead:
-    "Alle Dokumente dieses Falls in der Reihenfolge ihrer Erstellung, mit ihren damaligen Werten.",
+  recordLead: "Alle Dokumente dieses Falls in der Reihenfolge ihrer Erstellung, mit ihren damaligen Werten.",
   what: "Dokument",
   says: "Werte",
   until: "bis",

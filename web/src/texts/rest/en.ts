@@ -1,6 +1,7 @@
 export const restEn = {
   noAnswer: "The server does not answer.",
-  noAnswerRemedy: "The request may not have been executed. Check the connection to the server, then try again.",
+  noAnswerRemedy:
+    "The request may not have been executed. Check the connection to the server, then try again.",
   loading: "Loading …",
   again: "Try again",
   waiting: "waiting",

@@ -65,7 +65,8 @@ export const signInDe: SignInTexts = {
     camera: "Kamera",
   },
   leaveTitle: "Abmelden?",
-  leaveSentence: "Danach zeigt dieses Gerät nichts mehr. Für eine erneute Anmeldung brauchen Sie eine neue Einladung.",
+  leaveSentence:
+    "Danach zeigt dieses Gerät nichts mehr. Für eine erneute Anmeldung brauchen Sie eine neue Einladung.",
   onlyTitle: "Sie sind die einzige Bedienung",
   onlySentence:
     "Danach kann niemand mehr einrichten, registrieren oder bestätigen. Einen neuen Link für die Bedienung gibt der Server erst nach einem Neustart aus; solange ist die Navigation unterbrochen.",
