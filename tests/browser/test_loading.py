@@ -44,24 +44,24 @@ PAGES = [
 
 # Nothing of this is true of the server that is loaded from, so none of it may ever be seen.
 FALSE = [
-    "SERVER GONE",
+    "SERVER LOST",
     "SERVER NOT REACHED",
-    "ALARMS NOT KNOWN",
+    "ALARMS UNKNOWN",
     "NO VIDEO",
     "NO TRACKING",
     "NO NUMBERS",
     "SCENE STALE",
     "No drill to show",
-    "No tool is in use",
-    "is not seen: turn",
+    "No tool is calibrated",
+    "not visible: turn",
     "not registered",
     "No case is open",
     "no case open",
     "none chosen",
-    "Nobody knows",
-    "no numbers",
     "not known",
-    "gone, reconnecting",
+    "no numbers",
+    "unknown",
+    "lost, reconnecting",
     "There is no plan",
     "There is no registration",
     "Open a case",
@@ -197,7 +197,7 @@ def is_answered(page: Page, path: str) -> None:
     if path.startswith("operator"):
         expect(page.get_by_test_id("step-register")).to_contain_text("done")
     elif path == "supervisor":
-        expect(page.get_by_test_id("steps")).to_contain_text("Register")
+        expect(page.get_by_test_id("steps")).to_contain_text("Registration")
     expect(page.locator("main .mantine-Loader-root")).to_have_count(0)
 
 
@@ -210,7 +210,7 @@ def is_true(page: Page, path: str, within_ms: float) -> None:
     else:
         expect(page.get_by_test_id("numbers")).to_have_attribute("data-live", "true", timeout=within_ms)
         reported = page.get_by_test_id("case-name" if path == "theatre" else "steps")
-        expect(reported).to_contain_text(NAME if path == "theatre" else "Register", timeout=within_ms)
+        expect(reported).to_contain_text(NAME if path == "theatre" else "Registration", timeout=within_ms)
     bands = page.locator(
         "main .loading:visible, .alarms:is([data-priority=loading], [data-priority=unknown])"
     )

@@ -115,7 +115,7 @@ def test_any_instant_of_a_recording_is_reviewed(
     hidden = (DRILLED.index("hidden") + 3.5) / (len(DRILLED) - 1)
     page.mouse.click(box["x"] + hidden * box["width"], at_y)
     expect(page.get_by_test_id("review-wall")).to_have_text("—")
-    expect(page.get_by_test_id("review-instant")).to_contain_text("No figures at this instant.")
+    expect(page.get_by_test_id("review-instant")).to_contain_text("No numbers at this instant.")
     axis = page.locator(".review-axis")
     expect(axis).to_contain_text("0:03")
     page.mouse.move(box["x"] + 0.1 * box["width"], at_y)
@@ -170,7 +170,7 @@ def test_a_piece_and_a_video_are_saved_and_an_instant_is_commented(
 
     page.get_by_test_id("review-video-save").click()
     expect(exports).to_contain_text(
-        f"{len(DRILLED)} images, 0 with their overlay. The others say why they have none."
+        f"{len(DRILLED)} images, 0 with the overlay. The others state why the overlay is missing."
     )
     picture(page, "exports")
     # What was made is found again after the review was closed.

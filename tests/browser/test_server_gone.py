@@ -96,7 +96,7 @@ def says_gone(page: Page) -> None:
     expect(page.get_by_test_id("link-state")).to_contain_text("gone")
     for pane, words in (
         ("video-cover", "NO VIDEO"),
-        ("video-cover", "SERVER GONE"),
+        ("video-cover", "SERVER LOST"),
         ("scene-cover", "SCENE STALE"),
     ):
         expect(page.get_by_test_id(pane)).to_be_visible()

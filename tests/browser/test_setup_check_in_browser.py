@@ -53,8 +53,8 @@ def test_the_overview_names_the_figures_and_each_remedy_with_its_own(theatre: Th
     expect(note).to_contain_text("error at the isthmus at least 1.20 mm (95 %), 0.50 mm to the wall")
     expect(page.get_by_test_id("setup-remedies").get_by_role("listitem")).to_have_text(
         [
-            "9 landmarks, spread as these and none mistaken: 0.90 mm, not enough.",
-            "A surface sweep: its error is known after it.",
+            "9 landmarks, spread like these, none mistaken: 0.90 mm, not enough.",
+            "A surface sweep: the error is known only afterwards.",
             "Screw of 5.0 mm: 1.25 mm to the wall, enough at best.",
         ]
     )

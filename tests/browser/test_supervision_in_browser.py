@@ -104,7 +104,7 @@ def signature_opens_navigation(supervised: Supervised, theatre: Page, sato: Page
     reported: Any = asks(address).json()
     assert not reported["may_navigate"]
     plan = sato.get_by_test_id("fold-plan")
-    expect(plan).to_contain_text("required before anybody navigates")
+    expect(plan).to_contain_text("required before navigation")
     plan.locator("summary").click()
     expect(plan).to_contain_text("plan 'main' version 1")
     sato.get_by_test_id("cosign-plan").click()

@@ -12,7 +12,7 @@ def open_case(tablet: Tablet, name: str) -> None:
     expect(page.get_by_role("heading", name="Begin with a case")).to_be_visible()
     tablet.looked_at("case-first")
     page.get_by_label("Name of the case").fill(name)
-    page.get_by_role("button", name="Make and open").tap()
+    page.get_by_role("button", name="Create and open").tap()
     tablet.reads("opened-case", name)
     tablet.looked_at("case-open")
 
@@ -58,7 +58,7 @@ def calibrate_tool(tablet: Tablet) -> None:
     page.get_by_label("Diameter (mm)").fill("4")
     page.get_by_label("Length (mm)").fill("118")
     _keep_when_enough(tablet, named="tool-pivot")
-    tablet.reads("tool-drill", "Nobody knows yet which way it points")
+    tablet.reads("tool-drill", "The axis is not known yet")
     play(tablet, "spin")
     tablet.tap("step-tool")
     tablet.tap("begin-spin")

@@ -15,12 +15,13 @@ const FOR_MACHINES = "/api/";
 
 /** What a step is for, its state with its numbers, and what to do next, as the server says it. */
 export function StepHead({ page }: { page: OperatorPage }): ReactNode {
-  const texts = useTexts().operator;
+  const all = useTexts();
+  const texts = all.operator;
   const { data, rejection } = useProcedure();
   const gates = useGates().data;
   const head = useArrival();
   const step = data?.steps.find((one) => one.step === page.step) ?? null;
-  const note = step === null ? "" : stepNote(step, gates?.registration.min_points ?? null, texts);
+  const note = step === null ? "" : stepNote(step, gates?.registration.min_points ?? null, all);
   // Where navigation is open, its page says below that all steps hold, and by what.
   const isSaidByGates = step?.step === "navigate" && step.state === "done";
   return (

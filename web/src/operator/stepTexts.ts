@@ -1,6 +1,7 @@
 // The state of a step, in words that are true of it: navigation that may begin has not been done.
+import type { Texts } from "../texts/catalogue";
 import type { OperatorTexts } from "../texts/operator/en";
-import { interpolate } from "../texts/interpolate";
+import { pluralize } from "../texts/pluralize";
 import type { Step } from "../app/procedure";
 
 export function stateText({ step, state }: Pick<Step, "step" | "state">, texts: OperatorTexts): string {
@@ -11,7 +12,7 @@ export function stateText({ step, state }: Pick<Step, "step" | "state">, texts: 
 export function stepNote(
   { step, state, numbers }: Pick<Step, "step" | "state" | "numbers">,
   minLandmarks: number | null,
-  texts: OperatorTexts,
+  { operator: texts, language }: Pick<Texts, "operator" | "language">,
 ): string {
   const there = numbers["landmarks"];
   const isFew =
@@ -20,5 +21,5 @@ export function stepNote(
     typeof there === "number" &&
     minLandmarks !== null &&
     there < minLandmarks;
-  return isFew ? interpolate(texts.fewLandmarks, { there, min: minLandmarks }) : "";
+  return isFew ? pluralize(texts.fewLandmarks, there, language, { min: minLandmarks }) : "";
 }

@@ -14,7 +14,7 @@ test("a camera says whose clock stamps its images, and what it granted", () => {
 
 test("what is not known of a stream is left out", () => {
   expect(cameraFacts({ ...CAMERA, clock: "arrival", granted: null }, en)).toEqual([
-    ["Image time from", "its arrival", "image-clock"],
+    ["Image time from", "arrival at the server", "image-clock"],
   ]);
   expect(cameraFacts({ ...CAMERA, granted: { ...MODE, fourcc: "", rate_hz: 0 } }, en)[1]).toEqual([
     "Camera mode",

@@ -41,6 +41,6 @@ test("what was not measured is said", () => {
 
 test("a latency of images of another size or rate is not stated", () => {
   expect(latencyText({ ...measured, applies: false }, latencyEn)).toBe(
-    "measured with 1280 × 720 px at 30 images/s, other than now: measure again",
+    "measured with 1280 × 720 px at 30 images/s, the setting is now different: measure again",
   );
 });

@@ -36,5 +36,5 @@ test("what a moving tip lags by stands beside the error, and never in it", () =>
   expect(lagging({ speed_mm_s: 40, latency_ms: 95, margin_mm: 3.8 })).toBe(
     "while moving +3.8 mm (40 mm/s × 95 ms)",
   );
-  expect(lagging({ speed_mm_s: 40, latency_ms: null, margin_mm: null })).toBe("moving, latency not known");
+  expect(lagging({ speed_mm_s: 40, latency_ms: null, margin_mm: null })).toBe("moving, latency unknown");
 });

@@ -2,6 +2,7 @@
 import { formatBytes } from "../operator/parts/format";
 import type { components } from "../schema";
 import { interpolate } from "../texts/interpolate";
+import { pluralize } from "../texts/pluralize";
 import type { RecordingTexts } from "../texts/recording/en";
 
 export type Recording = components["schemas"]["RecordingStateMessage"];
@@ -19,7 +20,7 @@ export interface RecordingText {
 /** A disk that lasts no longer than this is a warning. */
 const MIN_REMAINING_S = 600;
 
-export function recordingText(recording: Recording, texts: RecordingTexts): RecordingText {
+export function recordingText(recording: Recording, texts: RecordingTexts, language: string): RecordingText {
   const { problem } = recording;
   if (!recording.is_recording) {
     if (problem === null) {
@@ -43,7 +44,7 @@ export function recordingText(recording: Recording, texts: RecordingTexts): Reco
     details: [formatBytes(recording.size_bytes), isNearlyFull ? "" : lasts].filter((one) => one !== ""),
     warnings: [
       isNearlyFull ? lasts : "",
-      missing_images > 0 ? interpolate(texts.missing, { count: missing_images }) : "",
+      missing_images > 0 ? pluralize(texts.missing, missing_images, language) : "",
     ].filter((one) => one !== ""),
     serverReason: "",
   };

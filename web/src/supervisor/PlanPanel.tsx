@@ -7,6 +7,7 @@ import type { Signable } from "../room/messages";
 import { useTexts } from "../texts/TextsContext";
 import { vertebraeOf, type ChannelShown, type VertebraShown } from "./planRecords";
 import { SignBox } from "./SignBox";
+import { pluralize } from "../texts/pluralize";
 
 /** The plan in words and pictures, and its co-signature. */
 export function PlanPanel({ signable }: { signable: Signable }): ReactNode {
@@ -44,16 +45,14 @@ export function PlanPanel({ signable }: { signable: Signable }): ReactNode {
 }
 
 function Vertebra({ vertebra, version }: { vertebra: VertebraShown; version: string }): ReactNode {
-  const texts = useTexts().supervisor.plan;
+  const { supervisor, language } = useTexts();
+  const texts = supervisor.plan;
   const picture = `/api/plan/vertebrae/${encodeURIComponent(vertebra.name)}/reference.png?version=${version}`;
   return (
     <article className="vertebra">
       <div>
         <h3>
-          {vertebra.name}{" "}
-          <small>
-            {vertebra.landmarks} {texts.landmarks}
-          </small>
+          {vertebra.name} <small>{pluralize(texts.landmarks, vertebra.landmarks, language)}</small>
         </h3>
         {vertebra.channels.map((channel) => (
           <Channel key={channel.side} channel={channel} />

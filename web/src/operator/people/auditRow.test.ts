@@ -31,7 +31,7 @@ test("a line is told with who, what, and from which version to which, in words",
 
 test.each([
   [{ what: "PUT /api/something/{new}", of: { id: "7f3a" } }, "Other action"],
-  [{ what: "GET /api/people" }, "Tried to look at something"],
+  [{ what: "GET /api/people" }, "Tried to view something"],
   [{ what: "constructor" }, "Other action"],
 ])("%j has no words of its own", (line, what) => {
   expect(auditRow(line, en).what).toBe(what);

@@ -2,7 +2,7 @@
 import { formatBytes } from "../../operator/parts/format";
 import type { Job } from "../../rest/useJob";
 import type { Texts } from "../../texts/catalogue";
-import { interpolate } from "../../texts/interpolate";
+import { pluralize } from "../../texts/pluralize";
 import { clockDuration } from "../recordingText";
 
 /** Of a piece `is_exact` and `from_s`, of a video `undrawn`. */
@@ -25,8 +25,13 @@ export function exportText(made: RecordingExport, texts: Texts): string {
   const own = texts.recording.review.exports;
   const { images, is_exact, from_s = 0, undrawn = 0, missing_images: missing = 0 } = made;
   const template = is_exact === undefined ? own.videoMade : is_exact ? own.pieceMade : own.pieceInexact;
-  const parts = [interpolate(template, { images, drawn: images - undrawn, from: clockDuration(from_s) })];
-  if (missing > 0) parts.push(interpolate(own.missing, { missing }));
+  const parts = [
+    pluralize(template, images, texts.language, {
+      drawn: images - undrawn,
+      from: clockDuration(from_s),
+    }),
+  ];
+  if (missing > 0) parts.push(pluralize(own.missing, missing, texts.language));
   else if (is_exact === true) parts.push(own.exact);
   if (undrawn > 0) parts.push(own.undrawn);
   return `${parts.join(" ")} ${formatBytes(made.size_bytes)}`;

@@ -73,7 +73,7 @@ export const cameraDe: CameraTexts = {
   throwAwaySure: "Ja, verwerfen",
   sendViews: "Bilder der Tafel hinzufügen",
   sendViewsHint: "PNG oder JPEG, mit dieser Kamera aufgenommen, weder beschnitten noch skaliert.",
-  viewsSent: "{count} Bilder wurden übernommen.",
+  viewsSent: { one: "{count} Bild wurde übernommen.", other: "{count} Bilder wurden übernommen." },
   reportTitle: "Kalibrierung dieses Falls",
   rms: "Abweichung der Punkte (RMS)",
   noise: "Rauschen eines Punktes",

@@ -72,7 +72,7 @@ export const cameraEn = {
   throwAwaySure: "Yes, discard",
   sendViews: "Add pictures of the board",
   sendViewsHint: "PNG or JPEG taken with this camera, neither cropped nor scaled.",
-  viewsSent: "{count} pictures were taken in.",
+  viewsSent: { one: "{count} picture was added.", other: "{count} pictures were added." },
   reportTitle: "Calibration of this case",
   rms: "Deviation of the points (RMS)",
   noise: "Noise of one point",

@@ -96,7 +96,7 @@ export const caseDe: CaseTexts = {
     comment: "Kommentar zu einer Aufnahme",
   },
   filesTitle: "Dateien",
-  filesCount: "{count} Dateien, {size}",
+  filesCount: { one: "{count} Datei, {size}", other: "{count} Dateien, {size}" },
   verify: "Alle Dateien prüfen",
   filesSound: "Alle Dateien sind unverändert.",
   filesDamaged: "Einige Dateien wurden seit dem Speichern verändert:",

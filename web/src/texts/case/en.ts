@@ -88,7 +88,7 @@ export const caseEn = {
     comment: "Comment on a recording",
   },
   filesTitle: "Files",
-  filesCount: "{count} files, {size}",
+  filesCount: { one: "{count} file, {size}", other: "{count} files, {size}" },
   verify: "Verify all files",
   filesSound: "All files are unchanged.",
   filesDamaged: "Some files were changed after they were saved:",

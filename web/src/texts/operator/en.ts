@@ -17,8 +17,11 @@ export const operatorEn = {
     people: "People",
   },
   ready: "ready",
-  fewLandmarks:
-    "It has {there} landmarks; registering by points needs at least {min}. Three needles need none.",
+  fewLandmarks: {
+    one: "The plan has {count} landmark. Registration with landmarks needs at least {min}; with three needles, none.",
+    other:
+      "The plan has {count} landmarks. Registration with landmarks needs at least {min}; with three needles, none.",
+  },
   state: { missing: "to do", out_of_date: "out of date", failed: "failed", due: "due again", done: "done" },
 };
 

@@ -40,7 +40,7 @@ export const peopleDe: PeopleTexts = {
   off: "Laut Einstellungen ist auf diesem Server keine Anmeldung nötig. Er ist nur von diesem Rechner aus erreichbar.",
   log: "Protokoll",
   whole: "vollständig",
-  lines: "Zeilen",
+  lines: { one: "{count} Zeile", other: "{count} Zeilen" },
   broken: "Das Protokoll ist unvollständig ab Zeile",
   brokenRemedy: "Den Ordner sichern und klären, wer Schreibzugriff darauf hatte.",
   export: "Exportieren",

@@ -38,7 +38,7 @@ export const peopleEn = {
   off: "By its settings, this server requires no sign-in. It can be reached only from this computer.",
   log: "Audit log",
   whole: "complete",
-  lines: "lines",
+  lines: { one: "{count} line", other: "{count} lines" },
   broken: "The log is incomplete from line",
   brokenRemedy: "Save a copy of the folder, and find out who had write access to it.",
   export: "Export",

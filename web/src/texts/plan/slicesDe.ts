@@ -23,7 +23,7 @@ export const slicesDe: SlicesTexts = {
       title: "Welche Serie?",
       hint: "Die Daten enthalten mehrere Serien. Dünne Schichten mit scharfem Faltungskern zeigen die Wände des Pedikels am besten.",
       unnamed: "Serie ohne Beschreibung",
-      images: "Schichten",
+      images: { one: "{count} Schicht", other: "{count} Schichten" },
       thick: "dick",
       patient: "Patient",
       choose: "Diese Serie lesen",

@@ -22,7 +22,7 @@ export const slicesEn = {
       title: "Which series?",
       hint: "The data contain several series. Thin slices with a sharp kernel show the walls of the pedicle best.",
       unnamed: "Series without a description",
-      images: "slices",
+      images: { one: "{count} slice", other: "{count} slices" },
       thick: "thick",
       patient: "patient",
       choose: "Read this one",

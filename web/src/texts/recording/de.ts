@@ -6,7 +6,7 @@ export const recordingDe: RecordingTexts = {
   stopped: "Aufnahme abgebrochen",
   unknown: "Aufnahme: unbekannt",
   lasts: "Speicherplatz für {time}",
-  missing: "{count} Bilder fehlen",
+  missing: { one: "{count} Bild fehlt", other: "{count} Bilder fehlen" },
   start: "Aufnehmen",
   stop: "Aufnahme beenden",
   consent: {
@@ -69,13 +69,22 @@ export const recordingDe: RecordingTexts = {
       savePiece: "Abschnitt speichern",
       saveVideo: "Als Video speichern",
       download: "{file} herunterladen",
-      pieceMade: "{images} Bilder ab {from}, wo ein Zustand des Trackings gespeichert ist.",
-      pieceInexact:
-        "{images} Bilder ab {from}. Vor ihnen ist kein Zustand des Trackings gespeichert: nicht wiederholbar.",
+      pieceMade: {
+        one: "{count} Bild ab {from}, wo ein Zustand des Trackings gespeichert ist.",
+        other: "{count} Bilder ab {from}, wo ein Zustand des Trackings gespeichert ist.",
+      },
+      pieceInexact: {
+        one: "{count} Bild ab {from}. Davor ist kein Zustand des Trackings gespeichert: Der Abschnitt ist nicht wiederholbar.",
+        other:
+          "{count} Bilder ab {from}. Davor ist kein Zustand des Trackings gespeichert: Der Abschnitt ist nicht wiederholbar.",
+      },
       exact: "Der Abschnitt ist exakt wiederholbar.",
-      missing:
-        "{missing} Bilder dazwischen wurden nicht aufgenommen; nach ihnen ist es ab dem nächsten gespeicherten Zustand wiederholbar.",
-      videoMade: "{images} Bilder, {drawn} mit Overlay.",
+      missing: {
+        one: "{count} Bild dazwischen wurde nicht aufgenommen; danach ist der Abschnitt ab dem nächsten gespeicherten Zustand wiederholbar.",
+        other:
+          "{count} Bilder dazwischen wurden nicht aufgenommen; danach ist der Abschnitt ab dem nächsten gespeicherten Zustand wiederholbar.",
+      },
+      videoMade: { one: "{count} Bild, {drawn} mit Overlay.", other: "{count} Bilder, {drawn} mit Overlay." },
       undrawn: "Auf den anderen steht, warum das Overlay fehlt.",
     },
     kinds: {

@@ -4,7 +4,7 @@ export const recordingEn = {
   stopped: "recording stopped",
   unknown: "recording: unknown",
   lasts: "disk space for {time}",
-  missing: "{count} images missing",
+  missing: { one: "{count} image missing", other: "{count} images missing" },
   start: "Record",
   stop: "Stop recording",
   consent: {
@@ -67,13 +67,25 @@ export const recordingEn = {
       savePiece: "Save section",
       saveVideo: "Save as video",
       download: "Download {file}",
-      pieceMade: "{images} images, from {from} on, where a state of tracking is stored.",
-      pieceInexact:
-        "{images} images, from {from} on. No state of tracking is stored before them: it cannot be replayed.",
+      pieceMade: {
+        one: "{count} image, from {from} on, where a tracking state is stored.",
+        other: "{count} images, from {from} on, where a tracking state is stored.",
+      },
+      pieceInexact: {
+        one: "{count} image, from {from} on. No tracking state is stored before it: the section cannot be replayed.",
+        other:
+          "{count} images, from {from} on. No tracking state is stored before them: the section cannot be replayed.",
+      },
       exact: "The section can be replayed exactly.",
-      missing:
-        "{missing} images between them were not recorded; after these it replays from the next stored state on.",
-      videoMade: "{images} images, {drawn} with their overlay.",
+      missing: {
+        one: "{count} image in between was not recorded; after it the section can be replayed from the next stored state on.",
+        other:
+          "{count} images in between were not recorded; after them the section can be replayed from the next stored state on.",
+      },
+      videoMade: {
+        one: "{count} image, {drawn} with the overlay.",
+        other: "{count} images, {drawn} with the overlay.",
+      },
       undrawn: "The others state why the overlay is missing.",
     },
     kinds: {

@@ -44,7 +44,7 @@ export const supervisorDe: SupervisorTexts = {
     density: "Knochendichte",
     byHand: "von Hand gesetzt",
     measured: "aus dem gemessenen Pedikel",
-    landmarks: "Landmarken",
+    landmarks: { one: "{count} Landmarke", other: "{count} Landmarken" },
     noPicture: "Für diesen Wirbel ist keine Referenzschicht gesetzt.",
     picture: "Referenzschicht mit beiden Kanälen",
     side: { left: "links", right: "rechts" },

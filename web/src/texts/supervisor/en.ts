@@ -42,7 +42,7 @@ export const supervisorEn = {
     density: "Bone density",
     byHand: "set by hand",
     measured: "from the measured pedicle",
-    landmarks: "landmarks",
+    landmarks: { one: "{count} landmark", other: "{count} landmarks" },
     noPicture: "This vertebra has no reference slice.",
     picture: "Reference slice with both channels",
     side: { left: "left", right: "right" },
