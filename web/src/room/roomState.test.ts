@@ -52,7 +52,7 @@ describe("what a page knows of the room", () => {
         [5, 6],
       ],
     ]);
-    // It stays 12 s of its 20 s: 8 s are over.
+    // It lasts 20 s, of which 8 s have passed.
     expect(second.marks[0]?.goesAtMs).toBe(13_100);
     expect(second.marks[0]?.madeAtMs).toBe(-6900);
     expect(afterMessage(second, QUIET, 1200).marks).toEqual([]);
