@@ -9,7 +9,7 @@ import { vertebraeOf, type ChannelShown, type VertebraShown } from "./planRecord
 import { SignBox } from "./SignBox";
 import { pluralize } from "../texts/pluralize";
 
-/** The plan in words and pictures, and its co-signature. */
+/** The plan in text and pictures, with its co-signature. */
 export function PlanPanel({ signable }: { signable: Signable }): ReactNode {
   const texts = useTexts().supervisor;
   const key = signable.document_id ?? "";
@@ -38,7 +38,7 @@ export function PlanPanel({ signable }: { signable: Signable }): ReactNode {
       {vertebraeOf(data.plan).map((vertebra) => (
         <Vertebra key={vertebra.name} vertebra={vertebra} version={data.heading.id} />
       ))}
-      {/* What was read is what is signed: another version has another key, and is read again first. */}
+      {/* The key is the version, so that a new version mounts a new box and must be read before it is signed. */}
       {data.heading.id === signable.document_id && <SignBox signable={signable} />}
     </>
   );

@@ -12,7 +12,7 @@ const SYMBOL: Record<Step["state"], string> = {
   failed: "✕",
 };
 
-/** The state of every step of the procedure, in the server's own sentences. */
+/** The state of each step, with the server's message. */
 export function StepsShown(): ReactNode {
   const texts = useTexts();
   const query = useProcedure();
