@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 
-/** The text of every source file of the page, by its path from here; without tests. */
+/** Text of every source file of the page except tests, by relative path. */
 const TEXTS = import.meta.glob<string>(["../**/*.{ts,tsx}", "!../**/*.test.*", "!../schema.d.ts"], {
   query: "?raw",
   import: "default",
