@@ -48,7 +48,7 @@ test.each([
   const settings = focusDistance === undefined ? {} : { focusDistance };
   const constraints = withLockedFocus({ ...WELCOME, ...request }, capabilities, settings);
   expect(constraints?.advanced?.[0] ?? null).toEqual(lock);
-  // Constraints replace each other: without its size the camera would go back to its own.
+  // Constraints replace each other: without its size the camera would return to its default.
   if (constraints !== null) expect(constraints.width).toEqual({ ideal: 1920 });
 });
 

@@ -67,7 +67,7 @@ const newest = (): FakeSocket => {
   if (!socket) throw new Error("no socket was opened");
   return socket;
 };
-/** Lets the wait before the next attempt pass, but not the patience with one. */
+/** Advances past the wait before the next attempt, but not past the timeout of an attempt. */
 const tryAgain = (): void => {
   const due = waits.filter(({ waitMs }) => waitMs <= LONGEST_WAIT_MS);
   waits = [];
