@@ -14,7 +14,7 @@ const UNREAD: NumbersVerdict = {
 const OLD: NumbersVerdict = { live: false, cause: "old", unread: null, ageMs: 400 };
 const GONE: NumbersVerdict = { live: false, cause: "server-gone", unread: null, ageMs: 900 };
 
-/** An image grabbed 40 ms ago with these figures. */
+/** An image captured 40 ms ago with these figures. */
 function image(
   nowMs: number,
   figures: { entry?: number; depth?: number; wall?: number | null },
