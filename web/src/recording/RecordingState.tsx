@@ -5,7 +5,7 @@ import { detailsLine, recordingText, type RecordingText } from "./recordingText"
 
 const SYMBOL: Record<RecordingText["state"], string> = { on: "●", off: "○", stopped: "▲" };
 
-/** Whether images and figures are being recorded, in a sign and in words; nothing where the server records nothing. */
+/** Whether images and figures are being recorded; nothing if the server does not record. */
 export function RecordingState({ testId = "recording-state" }: { testId?: string }): ReactNode {
   const { recording: texts, language } = useTexts();
   const { data, rejection } = useProcedure();
