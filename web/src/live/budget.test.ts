@@ -18,7 +18,7 @@ let nowMs: number;
 let steps: DrawingBudget[];
 let step: number;
 
-/** So many seconds of this. */
+/** Feeds this many seconds of measurements. */
 function pass(seconds: number, timings: Timings, ageLimitMs: number | null = null): void {
   for (const until = nowMs + 1000 * seconds; nowMs < until; nowMs += 50) {
     const current = steps[step];

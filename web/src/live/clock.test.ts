@@ -7,7 +7,7 @@ test("without a comparison, the stated age counts from receipt", () => {
 
 test("an image is never taken for younger than the server states", () => {
   const clock = new ServerClock();
-  clock.sample(1000, 1000, 99); // says that the image was grabbed in the future
+  clock.sample(1000, 1000, 99); // claims that the image was captured in the future
   expect(clock.capturedAtMs(1000, 20, 100)).toBe(980);
 });
 

@@ -139,10 +139,10 @@ test("what was being drawn when the line was lost is not shown on the next line"
 });
 
 test("time on the line counts as age: the clocks are compared, the stated age is not enough", async () => {
-  // Asked at 1000, answered at 1000: the server's clock stands at 100.02 s.
+  // Requested at 1000, answered at 1000: the server's clock is 100.02 s.
   live.receiveAnswer(message(), nowMs, live.currentGeneration);
   nowMs = 1400;
-  await live.receive(frame(8)); // grabbed at 100.0 s, 20 ms old when sent, 400 ms under way
+  await live.receive(frame(8)); // captured at 100.0 s, 20 ms old when sent, 400 ms in transfer
   expect(live.update().numbers).toMatchObject({ live: false, ageMs: 420 });
 });
 

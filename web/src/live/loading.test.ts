@@ -22,7 +22,7 @@ const cause = (): string => {
 };
 
 test("silence, lost lines and new ones claim nothing until the grace time is over", () => {
-  nowMs += 900; // open, and silent for longer than a server may be
+  nowMs += 900; // open, and silent for longer than the server's limit
   expect(cause()).toBe("connecting");
   live.setLink("lost");
   expect(cause()).toBe("connecting");

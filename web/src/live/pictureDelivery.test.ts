@@ -14,7 +14,7 @@ const QUICK: Timings = {
 };
 const ELSEWHERE = { largestPicture: "full", neededRatio: 1, sharesMachine: false } as const;
 
-/** So many images a second for so long; the moment of the last one. */
+/** Displays images at this rate for this long; returns the time of the last one. */
 function bring(perS: number, seconds: number, scaleRatio = 1, fromMs = 0): number {
   const count = Math.round(perS * seconds);
   for (let i = 0; i < count; i += 1) carrying.recordPicture(fromMs + (i * 1000) / perS, SIZE, scaleRatio);

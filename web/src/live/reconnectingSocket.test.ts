@@ -13,13 +13,13 @@ const newest = (): SilentSocket => {
   if (!socket) throw new Error("no socket was opened");
   return socket;
 };
-/** Lets the time pass that was asked for last; answers how long that was. */
+/** Advances past the last requested delay and returns it. */
 const passLastWait = (): number => {
   const last = waits.pop();
   last?.action();
   return last?.waitMs ?? Number.NaN;
 };
-/** The wait after a loss, and then the line is there again. */
+/** Advances past the delay after a loss and opens the next connection. */
 const loseAndWait = (): number => {
   newest().onclose?.();
   return passLastWait();
@@ -92,7 +92,7 @@ test("a server that takes the call and never answers is left, one that answered 
   newest().onopen?.();
   waits.at(-1)?.action();
   expect(events).toEqual(["lost", "open"]);
-  // The first one's time is not the second one's.
+  // The first socket's timer must not affect the second.
   answer?.action();
   expect(sockets).toHaveLength(2);
 });

@@ -52,7 +52,7 @@ test("a number of the source before a restart is not taken for a new one", () =>
   expect(scene.verdict(2001, 500).state).toBe("stale");
   scene.drawn(note(30), 2001);
   expect(scene.verdict(2001, 500).state).toBe("live");
-  scene.image(0, 2010); // the source counts anew
+  scene.image(0, 2010); // the source restarts its count
   expect(scene.verdict(2011, 500)).toMatchObject({ state: "stale", imageNumber: null });
 });
 

@@ -7,12 +7,12 @@ let scene: SceneSwitch;
 let window: TimingWindow;
 let nowMs: number;
 
-/** An image of this age is shown now. */
+/** An image of this age is displayed now. */
 function show(ageMs: number): void {
   window.image({ atMs: nowMs, networkMs: null, decodingMs: 0, drawingMs: 0, ageMs });
 }
 
-/** So many seconds at 25 images/s, every so manieth of them late. */
+/** Seconds at 25 images/s in which every n-th image is late. */
 function pass(seconds: number, lateEvery: number, limitMs: number | null = LIMIT_MS): void {
   for (let image = 0; image < 25 * seconds; image += 1) {
     nowMs += 40;

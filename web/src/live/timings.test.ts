@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import { ImageTimer } from "./imageTimer";
 import { drawingWithScreenMs, Stall, TimingWindow } from "./timings";
 
-/** Received at one time, decoded and standing at others. */
+/** An image with these times of reception, decoding and display. */
 function shownAt(stall: Stall, receivedAtMs: number, decodedAtMs: number, standsAtMs: number): ImageTimer {
   let nowMs = receivedAtMs;
   const showing = new ImageTimer(() => nowMs, stall, receivedAtMs);

@@ -18,7 +18,7 @@ const newest = (): FakeViewSocket => {
   if (!socket) throw new Error("no socket was opened");
   return socket;
 };
-/** Lets the time pass that the last wait asked for. */
+/** Advances past the last requested delay. */
 const passWait = (waitMs: number): void => {
   const due = waits.filter((wait) => wait.waitMs === waitMs);
   waits = waits.filter((wait) => wait.waitMs !== waitMs);
