@@ -13,7 +13,7 @@ interface Rejected {
   rejection: Rejection;
 }
 
-/** Views from pictures that were taken before, one after the other; each that is rejected says why. */
+/** Adds views from image files, one after another, and shows the rejected ones. */
 export function SentViews({ disabled, onAdded }: { disabled: boolean; onAdded: () => void }): ReactNode {
   const { camera: texts, language } = useTexts();
   const transfer = useTransfer();
