@@ -10,7 +10,7 @@ import { Card } from "../parts/Card";
 import { sentence, formatBytes } from "../parts/format";
 import { pluralize } from "../../texts/pluralize";
 
-/** The files of a case, read from end to end when somebody wants to know. */
+/** Verifies all files of a case on request. */
 export function Verification({ caseId }: { caseId: string }): ReactNode {
   const { case: texts, rest, language } = useTexts();
   const [found, setFound] = useState<components["schemas"]["VerificationMessage"] | null>(null);
