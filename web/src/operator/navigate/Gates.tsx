@@ -7,13 +7,13 @@ import { interpolate } from "../../texts/interpolate";
 import { stateText } from "../stepTexts";
 import { useProcedure, type Step } from "../../app/procedure";
 
-/** Every step that does not hold or is due again, why, and the way to it; or that all hold. */
+/** Steps that are not valid or due again, with reasons and links; or that all are valid. */
 export function Gates(): ReactNode {
   const texts = useTexts();
   const procedure = useProcedure();
   const { data } = procedure;
   if (data === null) return <QueryStatus query={procedure} />;
-  // The head of the page says so, and what to do.
+  // The head of the page states this already.
   if (data.case_id === null) return null;
   const open = data.steps.filter((one) => one.step !== "navigate" && one.state !== "done");
   const check = data.steps.find((one) => one.step === "check");
@@ -51,7 +51,7 @@ export function Gates(): ReactNode {
   );
 }
 
-/** Neighbours that are in one state for one reason, together: it is said once. */
+/** Groups adjacent steps with the same state and reason. */
 function groupSteps(steps: readonly Step[]): [Step, ...Step[]][] {
   const groups: [Step, ...Step[]][] = [];
   for (const step of steps) {
@@ -62,7 +62,7 @@ function groupSteps(steps: readonly Step[]): [Step, ...Step[]][] {
   return groups;
 }
 
-/** On what it was checked and how far off it was; nothing where no check says so. */
+/** Landmark and distance of the check; empty if they are missing. */
 function checkSaid(texts: string, { landmark, distance_mm, max_mm }: Step["numbers"]): string {
   if (typeof landmark !== "string" || typeof distance_mm !== "number" || typeof max_mm !== "number")
     return "";
