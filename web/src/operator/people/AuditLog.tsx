@@ -10,7 +10,7 @@ import { pluralize } from "../../texts/pluralize";
 
 const LINES = 25;
 
-/** The audit log, the newest line first, and whether it is whole. */
+/** The audit log, newest line first, and whether it is intact. */
 export function AuditLog(): ReactNode {
   const all = useTexts();
   const texts = all.people;

@@ -67,7 +67,7 @@ test("everything that the server writes down has words", () => {
       .filter((method) => ["post", "put", "patch", "delete"].includes(method))
       .map((method) => `${method.toUpperCase()} ${path}`),
   );
-  // Pages say every two seconds that they are there; nobody writes that down.
+  // Pages report their presence every two seconds; that is not logged.
   const written = changing.filter((one) => one !== "POST /api/alarms/screens");
   expect(written.filter((one) => !Object.hasOwn(auditEn.actions, one))).toEqual([]);
   expect(Object.keys(auditDe.actions)).toEqual(Object.keys(auditEn.actions));
