@@ -5,7 +5,7 @@ import type { Job } from "../../../rest/useJob";
 import { useTexts } from "../../../texts/TextsContext";
 import { pluralize } from "../../../texts/pluralize";
 
-/** What is known of a series before it is read. */
+/** Properties of a series before it is read. */
 export interface Series {
   series: string;
   modality: string;
@@ -20,7 +20,7 @@ export interface Series {
   problem: string;
 }
 
-/** The series that a job found in an upload; none where it read the CT. */
+/** Series that a job found in an upload; empty if it read the CT. */
 export function seriesOf(job: Job): Series[] {
   const result = job.result as { series?: Series[] } | null;
   return Array.isArray(result?.series) ? result.series : [];
@@ -32,7 +32,7 @@ interface SeriesChoiceProps {
   onChoose: (series: string) => void;
 }
 
-/** Several series were sent: what each is, and one to be chosen. */
+/** Choice of one of several series. */
 export function SeriesChoice({ series, busy, onChoose }: SeriesChoiceProps): ReactNode {
   const all = useTexts();
   const texts = all.plan.ct.series;

@@ -35,7 +35,7 @@ test("an oblique slice names the channel; without one there is none", () => {
 });
 
 test("scrolling goes to the scanner's own slices, and ends at the last", () => {
-  // 7 mm lies between the slices at 6 and 8 mm.
+  // 7 mm is between the slices at 6 and 8 mm.
   expect(scrolled("axial", LOOK, CT, 1).cursor).toEqual([1.25, -3, 10]);
   expect(scrolled("axial", LOOK, CT, -1).cursor).toEqual([1.25, -3, 6]);
   expect(scrolled("axial", LOOK, CT, 99).cursor[2]).toBe(30);

@@ -1,7 +1,7 @@
 import { beforeEach, describe, expect, test } from "vitest";
 import { SliceLoader, SliceRepository } from "./sliceLoader";
 
-/** A server that answers when it is told to. */
+/** A server that answers on command. */
 class Slow {
   requested: string[] = [];
   private waiting = new Map<string, { give: (slice: string) => void; reject: (why: Error) => void }>();
