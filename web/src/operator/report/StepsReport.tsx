@@ -11,7 +11,7 @@ interface StepsReportProps {
   readAt: string;
 }
 
-/** How each step of the procedure stood when the report was read. */
+/** State of each step at the time of the report. */
 export function StepsReport({ procedure, readAt }: StepsReportProps): ReactNode {
   const texts = useTexts();
   return (
@@ -32,7 +32,7 @@ export function StepsReport({ procedure, readAt }: StepsReportProps): ReactNode 
                 <Table.Th scope="row">{texts.operator.page[step.step]}</Table.Th>
                 <Table.Td>
                   <strong>{stateText(step, texts.operator)}</strong>
-                  {/* The server speaks English. */}
+                  {/* Error messages of the server are English only. */}
                   <p className="soft" lang="en">
                     {sentence(step.message)}
                   </p>
