@@ -60,7 +60,6 @@ FALSE = [
     "none chosen",
     "not known",
     "no numbers",
-    "unknown",
     "lost, reconnecting",
     "There is no plan",
     "There is no registration",

@@ -156,7 +156,7 @@ def test_a_piece_and_a_video_are_saved_and_an_instant_is_commented(
     expect(page.get_by_test_id("review-piece")).to_be_visible()
     page.get_by_test_id("review-piece-save").click()
     exports = page.locator(".review-exports")
-    expect(exports).to_contain_text("2 images, from 0:02 on. No state of tracking is stored before them")
+    expect(exports).to_contain_text("2 images, from 0:02 on. No tracking state is stored before them")
     with page.expect_download() as piece:
         page.get_by_test_id("review-export-download").click()
     assert piece.value.suggested_filename.endswith("s.mcap")

@@ -93,7 +93,7 @@ def all_live(page: Page, *, live: bool) -> None:
 
 def says_gone(page: Page) -> None:
     """Every pane says so in words that are seen, and no figure of before is left."""
-    expect(page.get_by_test_id("link-state")).to_contain_text("gone")
+    expect(page.get_by_test_id("link-state")).to_contain_text("lost")
     for pane, words in (
         ("video-cover", "NO VIDEO"),
         ("video-cover", "SERVER LOST"),

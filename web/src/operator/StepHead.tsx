@@ -10,10 +10,10 @@ import { useProcedure } from "../app/procedure";
 import { MARK_OF_STATE } from "./stepMarks";
 import { stateText, stepNote } from "./stepTexts";
 
-/** A remedy that names an address of the API is for programs: whoever is here has the page's own buttons. */
+/** A remedy with an API address is for programs; the page has its own buttons. */
 const FOR_MACHINES = "/api/";
 
-/** What a step is for, its state with its numbers, and what to do next, as the server says it. */
+/** State of a step with its reason and remedy, as stated by the server. */
 export function StepHead({ page }: { page: OperatorPage }): ReactNode {
   const all = useTexts();
   const texts = all.operator;
@@ -22,7 +22,7 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
   const head = useArrival();
   const step = data?.steps.find((one) => one.step === page.step) ?? null;
   const note = step === null ? "" : stepNote(step, gates?.registration.min_points ?? null, all);
-  // Where navigation is open, its page says below that all steps hold, and by what.
+  // While navigation is allowed, its page lists the passed gates below.
   const isSaidByGates = step?.step === "navigate" && step.state === "done";
   return (
     <header className="step-head" ref={head}>
@@ -54,7 +54,7 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
   );
 }
 
-/** Whoever goes on to another step begins at its head, wherever the last one was left. */
+/** Scrolls to the head of a step when the page changes. */
 function useArrival(): RefObject<HTMLElement | null> {
   const [path] = useLocation();
   const head = useRef<HTMLElement>(null);
@@ -67,7 +67,7 @@ function useArrival(): RefObject<HTMLElement | null> {
   return head;
 }
 
-/** The server's sentences begin small and have no full stop. */
+/** The server's messages start in lower case and have no full stop. */
 function sentence(said: string): string {
   return said === "" ? "" : `${said.charAt(0).toUpperCase()}${said.slice(1)}.`;
 }

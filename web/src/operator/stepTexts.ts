@@ -1,4 +1,4 @@
-// The state of a step, in words that are true of it: navigation that may begin has not been done.
+// Texts of a step's state. Navigation that may start is "ready", not "done".
 import type { Texts } from "../texts/catalogue";
 import type { OperatorTexts } from "../texts/operator/en";
 import { pluralize } from "../texts/pluralize";
@@ -8,7 +8,7 @@ export function stateText({ step, state }: Pick<Step, "step" | "state">, texts: 
   return step === "navigate" && state === "done" ? texts.ready : texts.state[state];
 }
 
-/** What a step that holds still does not allow; empty where it allows all. */
+/** What a valid step does not allow; empty if it allows everything. */
 export function stepNote(
   { step, state, numbers }: Pick<Step, "step" | "state" | "numbers">,
   minLandmarks: number | null,

@@ -1,4 +1,4 @@
-// Every word of the page, in one place. Another language is one more file of the same shape.
+// All texts of the page. A further language is another file of this type.
 import { alarmsEn } from "./alarmsEn";
 import { cameraEn } from "./camera/en";
 import { caseEn } from "./case/en";
@@ -107,7 +107,7 @@ export const en: Texts = {
     unseen: "not seen",
     score: "Score",
     target: "Target score",
-    unknown: "unknown",
+    unknown: "not known",
   },
   foundBy: { search: "found by search", track: "tracked" },
   header: {
@@ -125,7 +125,7 @@ export const en: Texts = {
     running: "running",
     reconnecting: "reconnecting",
     ended: "ended",
-    unknown: "unknown",
+    unknown: "not known",
   },
   imageClock: {
     driver: "the camera's driver",

@@ -1,4 +1,4 @@
-/** By what the log writes: the address as it is documented, or a word of the server’s own. */
+/** Texts by logged action: an API address, or an event of the server. */
 export const auditEn = {
   actions: {
     "POST /api/session": "Signed in",

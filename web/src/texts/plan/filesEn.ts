@@ -1,4 +1,4 @@
-// The surface and the plan as files.
+// Surface and plan files.
 export const filesEn = {
   surface: {
     title: "Bone surface",

@@ -1,4 +1,4 @@
-// Why there is no picture, no number, no marker.
+// Reasons for a missing picture, number or marker.
 import type { Texts } from "../catalogue";
 
 export const reasonsEn: Pick<Texts, "cause" | "unseen"> = {

@@ -165,7 +165,7 @@ export const registrationEn = {
     inTheAir: "The tip is in the air.",
     restsOn: "The tip is on:",
   },
-  /** By the server's code: what to do on these pages. */
+  /** Remedies on these pages, by the server's error code. */
   remedies: {
     REFERENCE_MISSING: "Choose the reference slice in the plan, or give the landmarks of the needles.",
     LANDMARKS_TOO_FEW: "Set more landmarks on the CT in the plan; an additional one is for the check.",

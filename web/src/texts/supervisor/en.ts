@@ -114,7 +114,7 @@ export const supervisorEn = {
     },
     by: "by",
   },
-  notKnown: "Unknown at present: the server does not answer.",
+  notKnown: "Not known at present: the server does not answer.",
 };
 
 export type SupervisorTexts = typeof supervisorEn;

@@ -81,7 +81,7 @@ export const theatreEn = {
   justNow: "just now",
   minutesAgo: "min ago",
   hoursAgo: "h ago",
-  unknown: "unknown",
+  unknown: "not known",
   more: "More",
 };
 
