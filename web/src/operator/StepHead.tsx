@@ -8,6 +8,7 @@ import { useGates } from "./parts/useGates";
 import { bringIntoView } from "./parts/useIntoView";
 import { useProcedure } from "../app/procedure";
 import { MARK_OF_STATE } from "./stepMarks";
+import { stepReason } from "./stepReason";
 import { stateText, stepNote } from "./stepTexts";
 
 /** A remedy with an API address is for programs; the page has its own buttons. */
@@ -22,6 +23,7 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
   const head = useArrival();
   const step = data?.steps.find((one) => one.step === page.step) ?? null;
   const note = step === null ? "" : stepNote(step, gates?.registration.min_points ?? null, all);
+  const reason = step === null || data === null ? null : stepReason(step, data, all);
   // While navigation is allowed, its page lists the passed gates below.
   const isSaidByGates = step?.step === "navigate" && step.state === "done";
   return (
@@ -31,21 +33,20 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
         <NextStep page={page} />
       </div>
       <RejectionNote rejection={rejection} />
-      {step !== null && !isSaidByGates && (
+      {step !== null && reason !== null && !isSaidByGates && (
         <p className="step-said" data-state={step.state} data-testid="step-said">
           <strong>
             <span aria-hidden="true">{MARK_OF_STATE[step.state]}</span> {stateText(step, texts)}
           </strong>{" "}
-          {/* The server speaks English. */}
-          <span lang="en">{sentence(step.message)}</span>{" "}
+          <span lang={reason.lang}>{reason.message}</span>{" "}
           {note !== "" && (
             <span className="step-remedy" data-testid="step-note">
               ▲ {note}
             </span>
           )}
-          {step.remedy !== "" && !step.remedy.includes(FOR_MACHINES) && (
-            <span className="step-remedy" lang="en">
-              {step.remedy}
+          {reason.remedy !== "" && !reason.remedy.includes(FOR_MACHINES) && (
+            <span className="step-remedy" lang={reason.lang}>
+              {reason.remedy}
             </span>
           )}
         </p>
@@ -65,9 +66,4 @@ function useArrival(): RefObject<HTMLElement | null> {
     bringIntoView(head.current);
   }, [path]);
   return head;
-}
-
-/** The server's messages start in lower case and have no full stop. */
-function sentence(said: string): string {
-  return said === "" ? "" : `${said.charAt(0).toUpperCase()}${said.slice(1)}.`;
 }
