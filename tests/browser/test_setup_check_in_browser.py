@@ -1,4 +1,4 @@
-"""A set-up that does not suffice is named before navigation with what would help, and in the headline."""
+"""An insufficient set-up is reported before navigation with remedies, and in the headline."""
 
 from collections.abc import Callable
 from typing import Any
