@@ -1,4 +1,4 @@
-"""The page can be installed as an app, from its own files, and never shows an old one."""
+"""The page can be installed as an app, from its own files, and never shows an old version."""
 
 import json
 import re
