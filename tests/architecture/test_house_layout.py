@@ -1,4 +1,4 @@
-"""The house as it stands in git: what lies where, and what it is called."""
+"""The layout of the repository: locations and names of files."""
 
 import ast
 import subprocess
@@ -20,9 +20,9 @@ CODE = (".py", ".ts", ".tsx")
 
 
 def files_in_git() -> list[Path]:
-    """What is tracked or about to be, relative to the top, as far as it exists."""
+    """Files that are tracked or about to be, relative to the top, if they exist."""
     listed = subprocess.run(
-        # The checkout may belong to somebody else than who tests it, as in a container.
+        # # The checkout may belong to another user, as in a container.
         ["git", "-c", "safe.directory=*", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
         cwd=ROOT,
         check=True,
@@ -42,14 +42,14 @@ def vaguely_named(files: Iterable[Path]) -> list[Path]:
 
 
 def of_one_test_name(files: Iterable[Path]) -> list[Path]:
-    """Test files whose name another has too: pytest imports them by it, and collects only one of the two."""
+    """Test files with equal names: pytest imports them by name and collects only one of the two."""
     tests = [file for file in files if file.name.startswith("test_") and file.suffix == ".py"]
     named = Counter(file.name for file in tests)
     return [file for file in tests if named[file.name] > 1]
 
 
 def undocumented_packages(top: Path) -> list[str]:
-    """Folders with Python in them whose __init__.py is missing or has no docstring."""
+    """Python folders whose __init__.py is missing or has no docstring."""
     silent = []
     for folder in sorted({file.parent for file in top.rglob("*.py")}):
         door = folder / "__init__.py"

@@ -1,4 +1,4 @@
-"""The steps of the set-up: what they say on a machine where something is missing."""
+"""The installation steps: their messages on a machine where something is missing."""
 
 import os
 import shutil
@@ -13,7 +13,7 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.fixture
 def bare_path(tmp_path: Path) -> Path:
-    """A folder for the path in which there is a shell's bread and butter, and no Python, Node or browser."""
+    """A folder for PATH with basic shell tools but without Python, Node or a browser."""
     folder = tmp_path / "bin"
     folder.mkdir()
     for name in ("sh", "cat", "tail", "mkdir", "date", "id", "env", "dirname", "rm", "ln", "chmod"):
@@ -51,7 +51,7 @@ def test_a_machine_without_python_is_told_what_it_needs(bare_path: Path) -> None
 
 
 def python_of_version(major: int, minor: int) -> str:
-    """A script that answers as a Python of this version would."""
+    """A script that answers like a Python of this version."""
     pretend = f"import sys; sys.version_info = ({major}, {minor}, 0, 'final', 0); exec(sys.argv[1])"
     return f'exec {sys.executable} -c "{pretend}" "$2"'
 
@@ -121,7 +121,7 @@ def test_the_machine_s_node_is_taken_only_if_it_can_build_the_page(
     put(bare_path, "node", f"echo v{version}")
     put(bare_path, "npm", "echo 11")
     said = step("with-node", ".", "cat", "/dev/null", path=bare_path, cwd=tmp_path)
-    # Without the machine's node it reaches for the environment, which this folder has not.
+    # # Without the machine's node it uses the environment, which this folder does not have.
     assert (said.returncode == 0) is taken
     assert (".venv/bin/python" in said.stderr) is not taken
 
@@ -199,7 +199,7 @@ STEPS_THAT_PASS = ("place", "packages", "project", "page-packages", "page", "dev
 
 
 def stands_ready(folder: Path, fails: str) -> None:
-    """A checkout in which all is installed and nothing compiled; what is called is written down, or fails."""
+    """A checkout with everything installed and nothing compiled; calls are recorded, or fail."""
     shutil.copy(ROOT / "Makefile", folder)
     for made in ("tracker", "web/src", ".make", ".venv/bin", ".venv/stamps"):
         (folder / made).mkdir(parents=True)
