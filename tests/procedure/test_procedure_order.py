@@ -1,4 +1,4 @@
-"""The procedure is a machine: each transition, and what is rejected before its turn."""
+"""The procedure as a state machine: each transition, and rejections of steps out of order."""
 
 from collections.abc import Callable
 from datetime import UTC, datetime, timedelta

@@ -1,4 +1,4 @@
-"""A slow camera captures landmarks, checks and calibrates a tool; a rejection names the rate."""
+"""A slow camera captures landmarks, checks, and calibrates a tool; a rejection states the rate."""
 
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -25,7 +25,7 @@ def server(tmp_path: Path, turns: ExitStack) -> Server:
 
 
 def begun(server: Server, rate_hz: float) -> Patient:
-    """Points are being touched, before a camera of this rate."""
+    """A landmark session with a camera of this rate."""
     ready(server)
     patient = Patient(server=server, rate_hz=rate_hz)
     patient.show(None)
@@ -34,7 +34,7 @@ def begun(server: Server, rate_hz: float) -> Patient:
 
 
 def sign_of_life(server: Server, state: SourceState = SourceState.RUNNING) -> None:
-    """What goes out between two images."""
+    """Time without messages between two images."""
     server.number += 1
     server.hub.publish(
         Instant(
@@ -46,7 +46,7 @@ def sign_of_life(server: Server, state: SourceState = SourceState.RUNNING) -> No
 
 
 def hold(server: Server, patient: Patient, path: str, landmark: str, images: int) -> Any:  # noqa: ANN401  JSON
-    """Hold the tip still for so many images; how far the capture has come then."""
+    """Hold the tip still for this many images; return the progress of the capture."""
     for _ in range(images):
         before = server.ask("GET", path, 200)["capture"]
         patient.show(patient.tip_on(landmark))
