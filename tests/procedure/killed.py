@@ -146,7 +146,7 @@ class Theatre:
                 yield f"the step {step} was {was}, and is {now}"
 
     def _goes_on_once_confirmed(self, one: Kill) -> str:
-        """After a complete set-up: no numbers before the confirmation, numbers after it. Return its reason."""
+        """When all is set up: no numbers before the confirmation, numbers after it; return its reason."""
         reported = self._server.ask("GET", "/api/procedure", 200)
         states = {step["step"]: step["state"] for step in reported["steps"]}
         ready = all(state in VALID_STATES for step, state in states.items() if step != "navigate")

@@ -128,8 +128,7 @@ class Patient:
         in_camera = self.camera_from_vertebra.move_points(point)
         return drill_at(in_camera + self.random.normal(0.0, 0.05, 3))
 
-    def hold(self, path: str, landmark: str, *, off_mm: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Any:
-        # noqa: ANN401  JSON
+    def hold(self, path: str, landmark: str, *, off_mm: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Any:  # noqa: ANN401  JSON
         """Hold the tip on a landmark until the running capture ends; return the session's state."""
         reported: Any = None
         for _ in range(100):
