@@ -1,4 +1,4 @@
-"""Settings: where they come from, and how every mistake in them is told."""
+"""Settings: their sources, and error messages for all mistakes."""
 
 from pathlib import Path
 

@@ -30,7 +30,7 @@ def marker(tmp_path: Path) -> Path:
 
 @pytest.fixture(autouse=True)
 def quiet(monkeypatch: pytest.MonkeyPatch) -> None:
-    """No log of the command: its stream ends with the command, the process and its other tests do not."""
+    """Disables the command's log: its stream ends with the command, but other tests continue."""
     monkeypatch.setattr("server.cli.track.configure_logging", lambda _settings: None)
 
 
@@ -43,7 +43,7 @@ def folder_of(path: Path, **sizes_wh_px: tuple[int, int]) -> Path:
 
 
 def tracked(folder: Path, marker: Path, *words: str | Path) -> tuple[int, str]:
-    """The exit status, and what stands on standard error."""
+    """Exit status and standard error."""
     typed = ("track", folder, "--marker", marker, "--side-mm", 40, *words)
     result = CliRunner().invoke(app, [str(word) for word in typed])
     if isinstance(result.exception, NavigationError):

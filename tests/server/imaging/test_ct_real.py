@@ -1,4 +1,4 @@
-"""Scanners' own files are read to the voxel and the micrometre."""
+"""Files of real scanners are read to the voxel and the micrometre."""
 
 import nibabel as nib
 import numpy as np

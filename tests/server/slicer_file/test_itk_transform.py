@@ -1,4 +1,4 @@
-"""Transforms of ITK, against SimpleITK: it is the independent reader and writer of the direction."""
+"""ITK transforms compared with SimpleITK, the independent reader and writer of their direction."""
 
 from collections.abc import Callable
 from pathlib import Path
