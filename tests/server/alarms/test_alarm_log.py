@@ -1,4 +1,4 @@
-"""The alarm log: added to, never changed, and on the disk when it was said to be."""
+"""The alarm log: append-only, and on disk when it is reported as logged."""
 
 import json
 import signal

@@ -1,4 +1,4 @@
-"""What the application answers, whole."""
+"""Complete answers of the application."""
 
 import time
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""The user guide at `/docs/`: open to all, under the page's policy but for its own inline scripts."""
+"""The user guide at `/docs/`: public, under the page's policy except for its own inline scripts."""
 
 import base64
 import hashlib

@@ -1,4 +1,4 @@
-"""The page's files have the right lifetimes, and a page that is not built says how to build it."""
+"""The page's files have the right cache lifetimes; a page that is not built states how to build it."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""What a client sends: in any pieces, in any order, damaged, too long and too often."""
+"""Client messages: in any pieces and order, damaged, too long, and too frequent."""
 
 import pytest
 

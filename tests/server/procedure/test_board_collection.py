@@ -1,4 +1,4 @@
-"""Views of a board are taken by themselves from the live images of a rehearsal."""
+"""Views of a board are captured automatically from the live images of a rehearsal."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -33,7 +33,7 @@ def images() -> tuple[np.ndarray, ...]:
 
 
 class Camera:
-    """Shows images one after the other, each when the one before was looked at."""
+    """Publishes images one after another, each when the previous one was processed."""
 
     def __init__(self, instant_of: InstantOf, snapshot_of: SnapshotOf) -> None:
         self.hub = LiveHub()

@@ -1,4 +1,4 @@
-"""What the alarms are told of the procedure."""
+"""Facts of the procedure that the alarms use."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""What a viewer may say."""
+"""Messages that a viewer may send."""
 
 import msgspec
 import pytest

@@ -1,4 +1,4 @@
-"""The scene behind a real socket: who gets in, what they get, and what they cannot do."""
+"""The scene on a real socket: who is admitted, what they receive, and what they cannot do."""
 
 import contextlib
 import os
@@ -51,7 +51,7 @@ def names_and_positions(packet: bytes | str) -> dict[str, list[float]]:
 
 
 def next_number(line: ClientConnection) -> int | None:
-    """The number in the next batch that has one; None when no image is shown."""
+    """The image number in the next batch that has one; None if no image is shown."""
     while True:
         positions = names_and_positions(line.recv(timeout=20))
         if "/image_number" in positions:
@@ -60,13 +60,13 @@ def next_number(line: ClientConnection) -> int | None:
 
 
 def reach(line: ClientConnection, image: int | None) -> None:
-    """Read on until this image is told."""
+    """Read until this image is reported."""
     while next_number(line) != image:
         pass
 
 
 def until(happened: Callable[[], bool]) -> None:
-    """Wait for what must come; the test's own time limit is the only clock."""
+    """Wait for an expected message; the test's time limit is the only clock."""
     end = monotonic() + 60
     while not happened():
         assert monotonic() < end, "it never happened"
@@ -230,7 +230,7 @@ def test_a_stalled_viewer_delays_nobody_and_is_dropped(
 ) -> None:
     monkeypatch.setattr(scene_module, "SEND_TIMEOUT_S", 0.3)
     monkeypatch.setattr(scene_module, "THINNEST_LINE_BYTES_PER_S", 1e9)
-    # A surface of 24 MB fills whatever the kernel is willing to hold for somebody who does not read.
+    # # A surface of 24 MB exceeds the kernel's buffers for a client that does not read.
     large = Theatre(
         setup=theatre.setup,
         surface=Surface(vertices_mm=np.zeros((2_000_000, 3)), faces=np.zeros((1, 3), dtype=np.int64)),

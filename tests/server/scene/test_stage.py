@@ -1,4 +1,4 @@
-"""What is drawn for an instant, read from the messages that a viewer is sent."""
+"""What is drawn for an instant, decoded from the messages to a viewer."""
 
 import asyncio
 import pickle
@@ -22,7 +22,7 @@ Batch = list[dict[str, Any]]
 
 
 class Viewer:
-    """Collects what it is sent, decoded as the client decodes it."""
+    """Collects sent messages, decoded as by the client."""
 
     def __init__(self) -> None:
         self.batches: asyncio.Queue[Batch] = asyncio.Queue()
@@ -34,7 +34,7 @@ class Viewer:
 
 
 def on_stage(theatre: Theatre, play: Callable[[Stage, Viewer], Coroutine[Any, Any, None]]) -> None:
-    """Run a play with one viewer watching from the start."""
+    """Play instants with one viewer watching from the start."""
 
     async def run() -> None:
         door = Door()
@@ -204,7 +204,7 @@ def test_the_planned_screw_lies_in_its_channel_from_the_entry_on(theatre: Theatr
 
 
 def test_a_setup_that_comes_back_stands_where_it_stood_at_first(theatre: Theatre) -> None:
-    """A name that was used before would keep its old pose in a viewer; so none is used twice."""
+    """A reused name would keep its old pose in a viewer, so names are unique."""
     before = theatre.unregistered()
 
     async def play(stage: Stage, viewer: Viewer) -> None:

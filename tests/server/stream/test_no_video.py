@@ -1,4 +1,4 @@
-"""The card for no video has the first reason, and is made once for all viewers."""
+"""The card for missing video shows the first reason, and is made once for all viewers."""
 
 from collections.abc import Callable
 from datetime import datetime

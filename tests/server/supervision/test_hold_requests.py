@@ -1,4 +1,4 @@
-"""Hold requests: over a restart, with any case open, and with any disk error."""
+"""Hold requests survive a restart, with any open case, and with any disk error."""
 
 import json
 import os
@@ -29,7 +29,7 @@ def alarms_of(service: AlarmService) -> list[tuple[str, str]]:
 
 @pytest.fixture
 def start(tmp_path: Path) -> Callable[..., tuple[HoldRequests, AlarmService]]:
-    """A start of the server: nothing is left of the one before but what lies on the disk."""
+    """A start of the server: only what is on disk survives from the previous one."""
 
     def started(at: str = "2026-11-21T14:03:00.000Z") -> tuple[HoldRequests, AlarmService]:
         service = AlarmService(Config())
@@ -46,7 +46,7 @@ def test_a_hold_stands_after_a_start_with_who_asked_and_when(start: Callable[...
     holds, service = start("2026-11-21T15:00:00.000Z")
     assert [(one.name, one.at) for one in holds.requests] == [("Dr Sato", "2026-11-21T14:03:00.000Z")]
     assert alarms_of(service) == [("HOLD_REQUESTED", "Dr Sato")]
-    # Who asks once more asks since the first time.
+    # # Repeated requests keep the time of the first.
     holds.request(SATO)
     holds.request(KIM)
     holds, service = start()
@@ -103,7 +103,7 @@ def test_it_is_on_the_disk_for_its_owner_alone_before_it_is_confirmed(
 
     monkeypatch.setattr(os, "fsync", counted_fsync)
     start()[0].request(SATO)
-    # The file, and the folder that has its name.
+    # # The file, and the folder that contains its name.
     assert len(synced) == 2
     assert (tmp_path / HOLDS_FILE).stat().st_mode & 0o777 == 0o600
 
@@ -123,7 +123,7 @@ def test_of_a_damaged_file_a_hold_stands_that_the_operator_lifts(
 
 @pytest.fixture
 def served(tmp_path: Path) -> Iterator[Callable[[], TestClient]]:
-    """The application on one home, as often as it is started."""
+    """The application in one home folder, for repeated starts."""
     with Home(tmp_path / "home") as home, CaseStore(home) as store:
 
         def client() -> TestClient:

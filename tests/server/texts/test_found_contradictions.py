@@ -1,4 +1,4 @@
-"""Contradictions that were once found by attack, each as the moment in which it was seen."""
+"""Contradictions found by earlier attacks, each as the moment in which it appeared."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -61,7 +61,7 @@ class Theatre:
     def images(
         self, seconds: float, where: Mapping[str, tuple[float, ...]], **changes: object
     ) -> AlarmSnapshot:
-        """Tools that are not named are not seen."""
+        """Tools that are not given are unseen."""
         setup = replace(self.setup, **changes)  # type: ignore[arg-type]  # any field of it
         for _ in range(round(seconds * 10)):
             self.at_s += 0.1
@@ -163,7 +163,7 @@ def test_when_tracking_dies_in_a_breach_its_number_is_at_once_of_the_past() -> N
     picture = theatre.service.observe(None, RUNS, DIED)
     assert theatre.alarm(Condition.BREACH).presence is Presence.UNKNOWN
     assert theatre.sentence(Condition.BREACH).startswith("Not tracked. Was ")
-    # Whoever publishes on a change publishes this one.
+    # # A publisher that publishes on change publishes this one.
     assert picture.revision > before.revision
 
 

@@ -1,4 +1,4 @@
-"""The headline names what is over its limit and which way to correct it, in the digits of the figures."""
+"""The headline names what exceeds its limit and the direction of the correction, with the figures' digits."""
 
 import dataclasses
 from collections.abc import Callable
