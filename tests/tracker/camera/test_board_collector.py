@@ -1,4 +1,4 @@
-"""Views of a board are taken when it holds still and shows something new; what is missing is said."""
+"""Views of a board are captured when it is still and in a new position; missing conditions are reported."""
 
 from typing import Any
 
@@ -21,8 +21,8 @@ def seen(
     at: tuple[float, float] = (0, 0),
     far_mm: float = 450.0,
 ) -> np.ndarray:
-    """Pixels of a 9x6 board whose middle lies at `at` mm beside the axis."""
-    # About x a positive angle brings the lower edge away; leaning back is the other way round.
+    """Pixels of a 9x6 board with its centre `at` mm beside the axis."""
+    # # A positive angle about x moves the lower edge away; leaning back is the opposite.
     turned = rotation_from_vector(np.radians([0.0, rotation_deg, 0.0])) @ rotation_from_vector(
         np.radians([-lean_deg, 0.0, 0.0])
     )

@@ -32,7 +32,7 @@ def navigated(
     settings: SmoothingSettings,
     tips_mm: list[tuple[float, float, float] | None],
 ) -> list[NavigationSnapshot]:
-    """Snapshots of a tool whose tip is at these points of the vertebra, unseen where there is none."""
+    """Snapshots of a tool with its tip at these points of the vertebra, unseen where None."""
     steadying = ToolSmoothing(settings)
     snapshots = []
     for k, tip in enumerate(tips_mm):
@@ -82,7 +82,7 @@ def test_away_from_the_wall_a_tool_is_steadied_and_says_by_how_much_it_is_late()
     alone = make_snapshot(tip_in_vertebra_mm=FAR).deviations["drill"]
     assert isinstance(last, Deviation)
     assert isinstance(alone, Deviation)
-    # The tremble of 0.005 mm is gone.
+    # # The tremor of 0.005 mm is removed.
     assert last.tip_offset_mm == pytest.approx(alone.tip_offset_mm, abs=1e-4)
 
 
