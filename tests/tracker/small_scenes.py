@@ -40,7 +40,7 @@ def pose_of(random: np.random.Generator, side_px: float, tilt_deg: tuple[float, 
 def judged_by_seed(
     shown: Callable[[int, Face, Trackers], Shown], seeds: Iterable[int], trackers: Trackers
 ) -> list[tuple[int, Evaluation]]:
-    """Result of each image with its scene's seed; None without a marker."""
+    """Evaluation of each image with its scene's seed; fails for a wrong claim."""
     found = []
     for seed in seeds:
         for scene, sighting in shown(seed, FACES[seed % len(FACES)], trackers):

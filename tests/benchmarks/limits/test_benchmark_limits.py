@@ -1,4 +1,4 @@
-"""Claims are judged rightly, peers are treated fairly, and the tables say what was measured."""
+"""Claims are evaluated correctly, peers are treated fairly, and the tables state what was measured."""
 
 from dataclasses import replace
 

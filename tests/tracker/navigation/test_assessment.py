@@ -64,7 +64,7 @@ OVER = {Status.OVER, Status.THROUGH}
             id="runs-too-far-to-the-feet",
         ),
         pytest.param(
-            # # Entry 1.7 of 1.8 mm and angle 2.0 of 5.7 degrees: each within its limit, both through the wall.
+            # # Entry 1.7 of 1.8 mm and angle 2.0 of 5.7 degrees: each is allowed, both are through the wall.
             {"depth_mm": 2.0, "medial_mm": 1.7, "medial_deg": 2.0},
             Verdict.CORRECT_END,
             ((math.nan, Direction.LATERAL),),

@@ -105,7 +105,7 @@ def test_the_end_of_the_plan_is_passed_by_chance_too() -> None:
 
 
 def _behind(pose: Rigid[Vertebra, Tool], sd_mm: float, sd_deg: float) -> Array:
-    """A marker some centimetres behind the tip, less certain along one axis: tip and axis errors correlate."""
+    """A marker some centimetres behind the tip, less certain along one axis: both errors correlate."""
     own = np.diag([sd_mm**2, sd_mm**2, (2.5 * sd_mm) ** 2, *[np.radians(sd_deg) ** 2] * 3])
     carry = np.eye(6)
     carry[:3, 3:] = -skew(80.0 * pose.rotation[:, 2])
