@@ -7,7 +7,7 @@ const TEXTS = import.meta.glob<string>(["../**/*.{ts,tsx}", "!../**/*.test.*", "
   eager: true,
 });
 
-test("how the procedure stands is asked for in one place, but for the report, which is of one moment", () => {
+test("the state of the procedure is requested in one place, except for the report", () => {
   const asking = Object.entries(TEXTS).filter(([, text]) => text.includes('"/api/procedure"'));
   expect(asking.map(([file]) => file)).toEqual(["./procedure.tsx", "../operator/report/ReportPage.tsx"]);
 });

@@ -65,7 +65,7 @@ test("a message without a pose of tool or vertebra, or without figures, places n
   expect(drillOf(whole, "awl")).toBeNull();
 });
 
-test("the displayed drill is that of the image whose figures stand, and none without figures", () => {
+test("the displayed drill belongs to the image of the displayed figures; none without figures", () => {
   const first = seen();
   const tools = first.tools.map((one) => ({ ...one, assessment: assessment() }));
   const numbers = (drilled: SnapshotMessage): NumbersVerdict =>

@@ -51,7 +51,7 @@ describe("in a cut along a drill in the planned axis", () => {
     near(reach(paths.shaft, entry).slice(0, 3), [-2, 2, -20]);
   });
 
-  test("a tick stands each 10 mm ahead of the tip", () => {
+  test("there is a tick every 10 mm ahead of the tip", () => {
     const { paths, labels, entry } = drawn("axial", ON_AXIS);
     const ticks = paths.ahead
       .split("M")
@@ -104,7 +104,7 @@ describe("the probe's eye", () => {
     near([right - left, bottom - top], [8, 8]);
   });
 
-  test("ahead of the planned end there is no channel, and its rings stay", () => {
+  test("beyond the planned end there is no channel, but the rings stay", () => {
     const { paths, labels } = drawn("probe", ON_AXIS, 30);
     expect(paths.channel).toBe("");
     expect(paths.rings).not.toBe("");

@@ -61,7 +61,7 @@ test("what is heard sets the wait back to its shortest; to be open is not enough
   expect(loseAndWait()).toBe(100);
 });
 
-test("it stands from its opening on, and until it is lost", () => {
+test("it is open from its opening until its loss", () => {
   expect([reconnecting.socket === newest(), reconnecting.openSocket]).toEqual([true, null]);
   newest().onopen?.();
   expect(reconnecting.openSocket).toBe(newest());
@@ -105,7 +105,7 @@ test("a lost line is not heard, and is lost once", () => {
   expect(events).toEqual(["open", "lost"]);
 });
 
-test("a stopped line stays down, and a started one comes again", () => {
+test("a stopped connection stays closed, and a started one reconnects", () => {
   newest().onclose?.();
   reconnecting.stop();
   passLastWait();

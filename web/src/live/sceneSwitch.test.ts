@@ -48,7 +48,7 @@ test("stays on where it does not take the processor of the figures", () => {
   expect(scene.isOn).toBe(true);
 });
 
-test("comes back only by a person, and is switched off again where the figures suffer again", () => {
+test("returns only on request, and is switched off again if the figures become late again", () => {
   pass(20, 2);
   pass(60, 1000);
   expect(scene.isOn).toBe(false);
@@ -59,7 +59,7 @@ test("comes back only by a person, and is switched off again where the figures s
   expect(scene.isOn).toBe(false);
 });
 
-test("a few images say nothing yet", () => {
+test("a few images are not judged", () => {
   pass(10, 1000);
   window.forget();
   for (let image = 0; image < 10; image += 1) {

@@ -25,7 +25,7 @@ const CHECK: SetupCheck = {
   remedies: [],
 };
 
-test("a registration that does not suffice says so with its figures", () => {
+test("an insufficient registration is stated with its values", () => {
   expect(setupSentence(CHECK, "left", setupCheckEn)).toBe(
     "L3 left, screw of 6.5 mm: error at the isthmus at least 1.20 mm (95 %), 0.50 mm to the wall. " +
       "The set-up is not sufficient: every image would report SET-UP INSUFFICIENT.",
@@ -61,7 +61,7 @@ test.each([
     { kind: "surface_sweep", landmarks: null, diameter_mm: null, expected: null },
     "A surface sweep: the error is known only afterwards.",
   ],
-] as const)("a remedy has the figure that it would give", (remedy, text) => {
+] as const)("a remedy states the error that it would give", (remedy, text) => {
   expect(remedyText(remedy, setupCheckEn)).toBe(text);
   expect(remedyText(remedy, setupCheckDe)).not.toMatch(/[{}]/);
 });

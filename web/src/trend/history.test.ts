@@ -79,7 +79,7 @@ test("figures of another plan are no continuation of these", () => {
   expect(history.samples).toHaveLength(1);
 });
 
-test("curves are shown while the newest image has figures or says why not, and not when it is too old", () => {
+test("curves are shown while the newest image has figures or a reason, and not when it is too old", () => {
   expect(isTrendShown(image(1000, {}))).toBe(true);
   expect(isTrendShown(UNREAD)).toBe(true);
   expect(isTrendShown(OLD)).toBe(false);

@@ -7,7 +7,7 @@ import { auditRow } from "./auditRow";
 
 const ITO = { id: "a", name: "Ito", role: "operator" };
 
-test("a line is told with who, what, and from which version to which, in words", () => {
+test("a line is shown with person, action and versions", () => {
   const line = {
     number: 7,
     at: "2026-11-21T08:00:00.000Z",
@@ -46,7 +46,7 @@ test.each([
   expect(auditRow({ what: "start", status }, en).result).toBe(result);
 });
 
-test("what the server does by itself is nobody's work", () => {
+test("automatic actions of the server have no person", () => {
   expect(auditRow({ what: "start", who: { id: "server", name: "Coaxial", role: "operator" } }, en).who).toBe(
     "Coaxial itself",
   );

@@ -40,7 +40,7 @@ test("the directory leads to each file, whole and under its own name", async () 
   expect(done).toEqual([1, 2, 3]);
 });
 
-test("it stops when it is told to", async () => {
+test("it stops on request", async () => {
   const stop = new AbortController();
   stop.abort();
   await expect(zipFiles([{ name: "a", content: new Blob(["a"]) }], undefined, stop.signal)).rejects.toThrow();

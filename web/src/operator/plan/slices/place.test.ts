@@ -71,7 +71,7 @@ describe("a pixel's place in the patient", () => {
     expect(frameOf(AXIAL)).toEqual({ x: -0.25, y: -0.375, width: 100, height: 75 });
   });
 
-  test("a point off the slice is drawn at the foot of its perpendicular, and says how far it is", () => {
+  test("a point off the slice is drawn at its projection, with its distance", () => {
     expect(pxFromLps(AXIAL, [0, 0, 99])).toEqual([80, 40]);
     expect(beyondMm(AXIAL, [3, 4, 14])).toBe(2);
     // Back is right and feet are down: the view is to the patient's right, where x decreases.

@@ -25,7 +25,7 @@ describe("the slice in the hand", () => {
     expect(translateOverlay(AT, [12, -5])).toEqual({ ...AT, shift_px: [652, 355] });
   });
 
-  test("turns clockwise about a point: what is right of it goes below it", () => {
+  test("rotates clockwise about a point: right of it moves below it", () => {
     const after = rotateOverlay(AT, 90, [540, 360]);
     near(placeOf(after), [540, 460]);
     expect(after.rotation_deg).toBe(100);

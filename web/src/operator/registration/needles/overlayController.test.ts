@@ -76,7 +76,7 @@ test("what a hand did is undone as a whole, and so is the way back to the ruler"
   expect(controller.newest?.hand).toEqual(RULER);
 });
 
-test("a refusal is kept with what the server said last, and nothing asks for ever", async () => {
+test("a rejection keeps the server's last answer and ends the requests", async () => {
   const rejection = new Rejection({ code: "NO_PICTURE", message: "no", remedy: "Wait.", context: {} });
   let count = 0;
   const controller = new OverlayController((overlay) => {
