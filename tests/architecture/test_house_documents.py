@@ -104,7 +104,7 @@ def test_a_dead_link_and_a_dead_command_are_seen() -> None:
     assert headings("# Cases, and settings\n## `/ws/view`\n") == {"cases-and-settings", "wsview"}
 
 
-def test_the_first_screen_says_what_a_stranger_must_know() -> None:
+def test_the_first_screen_has_what_a_newcomer_must_know() -> None:
     screen = "\n".join(text_of(ROOT / "README.md").splitlines()[:FIRST_SCREEN])
     assert "Research software, not a medical device" in screen
     assert "](web/dashboard.png)" in screen

@@ -69,14 +69,14 @@ def test_a_stray_file_at_the_top_is_seen() -> None:
 
 
 @pytest.mark.parametrize("room", ROOMS)
-def test_each_room_says_in_a_readme_what_it_is_for(room: str) -> None:
+def test_each_top_folder_has_a_readme_with_its_purpose(room: str) -> None:
     readme = ROOT / room / "README.md"
     assert readme.exists(), f"{room} has no README.md"
     assert readme.read_text(encoding="utf-8").startswith("# ")
 
 
 @pytest.mark.parametrize("package", PACKAGES)
-def test_each_package_says_in_a_docstring_what_it_is_for(package: str) -> None:
+def test_each_package_has_a_docstring_with_its_purpose(package: str) -> None:
     assert undocumented_packages(ROOT / package) == []
 
 
@@ -90,11 +90,11 @@ def test_a_package_without_docstring_is_seen(tmp_path: Path) -> None:
     assert [Path(name).name for name in undocumented_packages(tmp_path)] == ["bare", "mute"]
 
 
-def test_no_name_says_nothing() -> None:
+def test_no_file_has_a_meaningless_name() -> None:
     assert vaguely_named(file for file in files_in_git() if file.suffix in CODE) == []
 
 
-def test_a_name_that_says_nothing_is_seen() -> None:
+def test_a_meaningless_name_is_detected() -> None:
     files = [Path("server/utils.py"), Path("tracker/common/edge.py"), Path("tracker/data_rate.py")]
     assert vaguely_named(files) == files[:2]
 

@@ -62,7 +62,7 @@ def test_the_overview_names_the_figures_and_each_remedy_with_its_own(theatre: Th
     expect(note).to_contain_text("Fehler am Isthmus mindestens 1.20 mm (95 %), 0.50 mm bis zur Wand")
 
 
-def test_without_a_check_the_overview_says_nothing_of_it(theatre: Theatre, watch: Watch) -> None:
+def test_without_a_check_the_overview_omits_it(theatre: Theatre, watch: Watch) -> None:
     page = watch(theatre).open("operator/navigate?lang=en")
     expect(page.get_by_test_id("navigate")).to_be_visible()
     expect(page.get_by_test_id("setup-check")).to_have_count(0)

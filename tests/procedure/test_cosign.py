@@ -132,7 +132,7 @@ def test_several_sign_and_each_once(guarded: Callable[..., Server]) -> None:
     assert [one["is_yours"] for one in reported] == [True, False]
 
 
-def test_without_sign_in_a_signature_is_nobodys_second(server: Server) -> None:
+def test_without_sign_in_a_signature_is_not_a_second_persons(server: Server) -> None:
     planned(server)
     reported = sign(server, "plan", "")["signable"][0]
     assert [(one["by"], one["second_person"]) for one in reported["signatures"]] == [("this computer", False)]
@@ -206,7 +206,7 @@ def test_who_took_an_archive_in_cannot_co_sign_what_they_may_have_written_into_i
     assert signable(server, "plan")["is_cosigned"]
 
 
-def test_a_signature_says_who_invited_the_signer_and_whether_that_was_the_maker(
+def test_a_signature_states_who_invited_the_signer_and_whether_that_was_the_author(
     guarded: Callable[..., Server],
 ) -> None:
     server = guarded()

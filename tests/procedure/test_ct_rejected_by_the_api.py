@@ -189,7 +189,7 @@ def test_a_first_slice_is_there_before_the_ct(server: Server) -> None:
     server.ask("DELETE", f"/api/jobs/{begun['id']}", 200)
 
 
-def test_who_has_no_name_that_can_be_kept_is_told_before_anything_is_done(server: Server) -> None:
+def test_an_invalid_name_is_rejected_before_anything_is_done(server: Server) -> None:
     opened(server)
     for name in ("ito\nroot", "\u202eoti", " ", "\x00"):
         by = {"made_by": name}

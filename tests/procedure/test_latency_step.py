@@ -81,7 +81,7 @@ def film(server: Server, codes: list[int]) -> dict[str, Any]:
     return {"made_by": "ito", "painted": painted, "shown": shown, "comparisons": compared, "screen": SCREEN}
 
 
-def test_a_latency_is_measured_kept_and_told_to_everybody(server: Server) -> None:
+def test_a_latency_is_measured_stored_and_sent_to_all_clients(server: Server) -> None:
     assert server.ask("GET", "/api/latency", 200) == {"measuring": False, "result": None, "applies": False}
     plan = begun(server)
     assert (plan["cells"], len(plan["patterns"]), plan["codes"], plan["min_timed"]) == (4, 250, CODES, 13)
@@ -223,7 +223,7 @@ def test_a_page_that_left_ends_it(server: Server) -> None:
     measurement.stop()
 
 
-def test_nothing_is_read_while_nobody_measures(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_codes_are_read_without_a_measurement(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
     reads: list[float] = []
     read = CodeReader.read
 

@@ -186,7 +186,7 @@ def test_landmarks_are_set_go_out_and_come_back_and_odd_ones_are_rejected(server
     assert server.ask("GET", "/api/plan", 200)["heading"] == back["heading"]
 
 
-def test_another_ct_puts_the_plan_out_of_date_until_it_is_sent_anew(server: Server) -> None:
+def test_another_ct_makes_the_plan_out_of_date_until_it_is_sent_again(server: Server) -> None:
     opened(server)
     sent(server, dicom_zip())
     server.ask("POST", "/api/plan/vertebrae", 201, json={**BY, "name": "L3"})
@@ -207,7 +207,7 @@ def test_another_ct_puts_the_plan_out_of_date_until_it_is_sent_anew(server: Serv
     assert server.ask("PUT", "/api/plan", 409, json=again)["code"] == "VERSION_CONFLICT"
 
 
-def test_a_plan_goes_out_and_comes_back_and_says_who_made_it(server: Server) -> None:
+def test_a_plan_is_exported_and_imported_with_its_author(server: Server) -> None:
     plan = planned(server, dicom_zip())
     server.ask("PUT", "/api/plan/vertebrae/L3/channels/left/screw", 200, json=BY)
     file = server.ask("GET", "/api/plan/export", 200)

@@ -51,7 +51,7 @@ def _keep_calibration(server: Server, case_id: str, model: CameraModel) -> None:
     )
 
 
-def test_it_is_not_known_until_somebody_says_so_and_is_used_at_once(calibrated: Server) -> None:
+def test_it_is_unknown_until_stated_and_then_used_at_once(calibrated: Server) -> None:
     assert calibrated.ask("GET", READOUT, 200) == {
         "collecting": False,
         "readout_ms": None,

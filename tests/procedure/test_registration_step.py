@@ -158,7 +158,7 @@ def test_a_capture_is_rejected_where_the_tip_moves_or_is_not_seen(server: Server
     assert not any(one["touched"] for one in reported["landmarks"])
 
 
-def test_a_check_that_fails_is_kept_and_nobody_navigates(server: Server) -> None:
+def test_a_failed_check_is_stored_and_navigation_is_locked(server: Server) -> None:
     case_id = ready(server)
     patient = Patient(server=server)
     patient.register()
@@ -178,7 +178,7 @@ def test_a_check_that_fails_is_kept_and_nobody_navigates(server: Server) -> None
 
 
 @pytest.mark.parametrize("changed", ["camera", "tool", "plan", "ct"])
-def test_what_it_stands_on_puts_it_out_of_date(server: Server, changed: str) -> None:
+def test_a_changed_dependency_makes_it_out_of_date(server: Server, changed: str) -> None:
     case_id = ready(server)
     patient = Patient(server=server)
     patient.register()

@@ -142,7 +142,7 @@ def test_a_registration_is_judged_by_its_own_covariance_and_blocks_nothing(
     assert server.ask("GET", "/api/procedure", 200)["may_navigate"]
 
 
-def test_another_plan_is_checked_anew_and_an_unchanged_one_is_not(
+def test_another_plan_is_checked_again_and_an_unchanged_one_is_not(
     server: Server, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     case_id = planned(server)

@@ -73,7 +73,7 @@ def test_landmarks_are_captured_and_checked_with_a_slow_camera(server: Server, r
     assert withheld(server) is None
 
 
-def test_progress_says_how_long_the_tip_is_still_to_be_held(server: Server) -> None:
+def test_progress_states_the_remaining_time_to_hold_the_tip(server: Server) -> None:
     patient = begun(server, 5.0)
     server.ask("POST", f"{POINTS}/captures", 202, json={"landmark": USED[0]})
     first = hold(server, patient, POINTS, USED[0], 1)
@@ -138,7 +138,7 @@ def test_a_check_before_a_camera_that_is_too_slow_is_rejected_with_its_rate(serv
     assert "camera.rate_hz" in rejected["remedy"]
 
 
-def test_a_check_that_is_kept_too_early_says_how_long_to_hold_on(server: Server) -> None:
+def test_a_check_saved_too_early_states_the_remaining_time(server: Server) -> None:
     ready(server)
     patient = Patient(server=server)
     patient.register(USED)

@@ -152,7 +152,7 @@ def test_what_cannot_be_begun_is_rejected(
     assert server.ask("POST", "/api/tools/collection", status, json=requested)["code"] == code
 
 
-def test_shape_is_asked_for_where_nobody_knows_it(server: Server) -> None:
+def test_an_unknown_shape_is_requested(server: Server) -> None:
     calibrated(server)
     gather(server, Scene.PIVOT, "pivot")
     rejected = server.ask("POST", "/api/tools/collection/conclusion", 422, json={"made_by": "ito"})

@@ -31,7 +31,7 @@ def rejected(folder: Path, content: object) -> ConfigError:
     return caught.value
 
 
-def test_the_file_in_the_repository_says_what_is_built_in() -> None:
+def test_the_file_in_the_repository_states_the_built_in_defaults() -> None:
     assert load_config(REPOSITORY / "config.yaml", environment={}) == Config()
 
 

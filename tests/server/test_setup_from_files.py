@@ -178,7 +178,7 @@ def test_a_camera_file_for_another_size_is_rejected_with_both_sizes(tmp_path: Pa
     assert not preparation.uncalibrated_setup_for((640, 360)).camera_calibrated
 
 
-def test_a_calibration_is_scaled_only_where_somebody_says_that_it_may_be(tmp_path: Path) -> None:
+def test_a_calibration_is_scaled_only_if_allowed(tmp_path: Path) -> None:
     plain = build_setup(config(tmp_path, calibrated=True))
     with pytest.raises(CalibrationError) as caught:
         plain.setup_for((128, 96))

@@ -248,7 +248,7 @@ def test_what_people_do_is_kept_with_their_name(room: Room) -> None:
     ]
 
 
-def test_what_the_procedure_says_is_looked_at(room: Room) -> None:
+def test_facts_of_the_procedure_are_evaluated(room: Room) -> None:
     room.images(1.0)
     room.service.set_facts(ProcedureFacts(registration_current=False, checked_at_s=room.now_s - 1801.0))
     assert conditions(room.image()) == [Condition.REGISTRATION_OUT_OF_DATE, Condition.CHECK_DUE]

@@ -67,7 +67,7 @@ def test_pulses_and_gaps_are_those_of_the_table(priority: Priority, level: float
 
 
 @pytest.mark.parametrize("priority", Priority)
-def test_bursts_come_again_as_the_table_says_however_it_is_counted(priority: Priority) -> None:
+def test_bursts_repeat_as_in_the_table(priority: Priority) -> None:
     samples, rate_hz = heard(priority)
     min_s, max_s = TABLE[priority].again_s
     every_s, length_s = BURSTS[priority].repeat_every_s, len(samples) / rate_hz

@@ -144,7 +144,7 @@ def test_to_sign_in_there_is_one_time_for_all() -> None:
     assert after_s == pytest.approx(20.0)
 
 
-def test_whoever_was_heard_to_the_end_may_stay_silent() -> None:
+def test_a_client_may_be_silent_after_a_complete_request() -> None:
     """An endless picture stream ends when its viewer disconnects."""
     silent: list[Message] = []
 
@@ -179,7 +179,7 @@ def test_every_request_with_a_body_has_the_rejection_in_its_description(house: G
     assert [one[:2] for one in with_body if "408" not in one[2]["responses"]] == []
 
 
-def test_who_did_not_sign_in_in_time_is_told_and_cut_off(
+def test_a_late_sign_in_is_rejected_and_the_connection_closed(
     house: Guarded, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Over a real connection with a time limit of 0: anything not there at once is too late."""

@@ -40,7 +40,7 @@ def made(door: TestClient, name: str = "one") -> str:
     return str(door.post("/api/cases", json={"name": name}).json()["id"])
 
 
-def test_json_that_is_called_a_form_is_told_how_to_be_sent(door: TestClient) -> None:
+def test_json_with_the_media_type_of_a_form_is_rejected_with_a_remedy(door: TestClient) -> None:
     def sent_as(content_type: str, content: str) -> str:
         answer = door.post("/api/cases", content=content, headers={"content-type": content_type})
         assert answer.status_code == 422

@@ -43,7 +43,7 @@ def door(played: Played) -> TestClient:
     return TestClient(app, base_url=URL)
 
 
-def test_it_says_what_is_played_and_keeps_the_truth_to_itself(door: TestClient) -> None:
+def test_it_reports_the_scene_without_its_truth(door: TestClient) -> None:
     reported = door.get("/api/rehearsal").json()
     assert (reported["scene"], reported["seed"], reported["reference"], reported["begun"]) == (
         "operation",

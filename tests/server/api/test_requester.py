@@ -156,7 +156,7 @@ def chequered() -> bytes:
     return png_bytes(np.kron(cells, np.ones((40, 40), dtype=np.uint8)))
 
 
-def test_where_nobody_signs_in_a_name_is_needed(tmp_path_factory: pytest.TempPathFactory) -> None:
+def test_without_sign_in_a_name_is_required(tmp_path_factory: pytest.TempPathFactory) -> None:
     with guarded(tmp_path_factory.mktemp("open"), required=False) as house:
         case = house.door.post("/api/cases", json={"name": "own"}).json()
         stored = house.store.put(case["id"], DocumentKind.CT, "main", {}, made_by="abe")

@@ -111,7 +111,7 @@ def test_the_newest_image_comes_and_never_a_backlog(emulated: Callable[..., Emul
     assert third.captured_at_s > second.captured_at_s
 
 
-def test_a_camera_that_waits_for_its_trigger_says_so_until_the_pulse_comes(
+def test_a_camera_that_waits_for_its_trigger_reports_it_until_the_pulse(
     emulated: Callable[..., Emulated], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     one = emulated("software")

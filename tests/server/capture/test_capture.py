@@ -119,7 +119,7 @@ def test_a_fault_is_reported_once_however_often_it_is_tried_and_it_comes_back() 
     assert [line["event"] for line in logs].count("cable out") == 1
 
 
-def test_an_image_that_nobody_took_before_the_camera_was_lost_is_not_live() -> None:
+def test_an_image_not_taken_before_the_camera_was_lost_is_not_live() -> None:
     source, stop = ScriptedSource(), threading.Event()
     capture = Capture(source, stop=stop)
     source.reported.put(shot(0))

@@ -40,7 +40,7 @@ def test_a_crystal_that_is_off_is_followed() -> None:
 
 
 @pytest.mark.parametrize("jump_s", [-3600.0, -0.5, 1.0, 3600.0])
-def test_a_clock_that_is_set_anew_is_noticed_and_mapped_anew(jump_s: float) -> None:
+def test_a_reset_clock_is_detected_and_mapped_again(jump_s: float) -> None:
     clock = DeviceClock()
     for n in range(60):
         stamped(clock, n * PERIOD_S, 0.02)
@@ -61,7 +61,7 @@ def test_images_that_were_held_back_are_no_jump_and_are_old() -> None:
     assert clock.jumps == 0
 
 
-def test_a_clock_that_stands_still_says_nothing() -> None:
+def test_a_stopped_clock_is_ignored() -> None:
     clock = DeviceClock()
     clock.monotonic_s(7.0, arrived_s=100.0)
     assert clock.monotonic_s(7.0, arrived_s=100.1) == 0.0

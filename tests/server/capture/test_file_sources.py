@@ -83,7 +83,7 @@ def test_a_video_at_its_own_rate_is_never_early(tmp_path: Path, stop: threading.
         assert shot.captured_at_s - began_s >= shot.source_time_s - 0.002
 
 
-def test_a_cut_video_gives_what_is_there_and_says_what_is_missing(
+def test_a_truncated_video_delivers_its_images_and_reports_the_missing_ones(
     tmp_path: Path, stop: threading.Event
 ) -> None:
     source = video(cut_video(tmp_path / "cut.avi"), stop)

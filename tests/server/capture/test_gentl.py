@@ -154,7 +154,9 @@ def test_a_camera_that_is_not_there_is_reported_and_the_library_let_go(fake_libr
     assert fake_library.ended == ["reset"]
 
 
-def test_producers_are_found_where_the_variable_says(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_producers_are_found_in_the_folders_of_the_variable(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     (tmp_path / "vendor.cti").touch()
     (tmp_path / "readme.txt").touch()
     monkeypatch.setenv(PATH_VARIABLE, f"{tmp_path / 'gone'}:{tmp_path}")

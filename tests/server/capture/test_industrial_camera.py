@@ -154,7 +154,7 @@ def test_a_camera_without_a_clock_is_stamped_at_the_arrival(camera: FakeIndustri
     assert source.camera.clock is ImageClock.ARRIVAL
 
 
-def test_a_clock_that_stands_still_is_given_up_with_a_sentence(camera: FakeIndustrialCamera) -> None:
+def test_a_stopped_clock_is_abandoned_with_a_message(camera: FakeIndustrialCamera) -> None:
     source = opened(source_of(camera))
     with capture_logs() as logs:
         for _ in range(GIVEN_UP_AFTER + 2):
@@ -207,7 +207,7 @@ def test_without_a_pulse_a_triggered_camera_is_waited_for_and_a_free_one_opened_
     assert not camera.arriving
 
 
-def test_one_that_waits_for_a_pulse_ends_when_it_is_told_to(camera: FakeIndustrialCamera) -> None:
+def test_one_that_waits_for_a_pulse_ends_on_request(camera: FakeIndustrialCamera) -> None:
     stop = threading.Event()
     source = opened(source_of(camera, trigger="line1", stop=stop))
     stop.set()

@@ -105,7 +105,7 @@ def test_without_v4l2_what_the_settings_say_is_asked_and_opencv_tells_what_was_g
     assert wanted.defect is None
 
 
-def test_an_image_is_as_old_as_its_driver_says(video: FakeVideo) -> None:
+def test_an_image_has_the_age_stated_by_its_driver(video: FakeVideo) -> None:
     source = source_of(video)
     source.open()
     shot = read(source, video)

@@ -37,7 +37,7 @@ def test_the_settings_name_it_phone() -> None:
     assert (source.name, source.stalls, source.waits_for_consumer) == ("phone", True, False)
 
 
-def test_without_a_server_there_is_nobody_to_send_to() -> None:
+def test_without_a_server_no_phone_can_send() -> None:
     with pytest.raises(CaptureError) as reported:
         source_from_config(Config(camera=CameraConfig(source="phone")), stop=threading.Event())
     assert reported.value.code == "PHONE_WITHOUT_SERVER"
@@ -69,7 +69,7 @@ def test_an_image_from_before_the_source_was_opened_is_not_read() -> None:
     assert (shot.captured_at_s, shot.number) == (2.0, 1)
 
 
-def test_a_source_that_nobody_sends_to_says_how_to_begin() -> None:
+def test_a_source_without_a_sender_states_how_to_begin() -> None:
     for script in (Script(None, []), Script(GONE, []), Script(None, [GONE])):
         with pytest.raises(CaptureError) as reported:
             opened(script)
@@ -101,7 +101,7 @@ def test_a_phone_that_gives_no_image_is_reported(entries: list[PhoneUpdate | Non
     assert reported.value.remedy
 
 
-def test_the_phone_is_told_silent_before_a_camera_with_a_cable_would_be() -> None:
+def test_a_phone_counts_as_silent_earlier_than_a_wired_camera() -> None:
     script = Script(HERE, [])
     source = opened(script)
     with pytest.raises(CaptureError):

@@ -134,7 +134,7 @@ def test_a_camera_that_fails_is_closed_and_opened_again(
     assert source.read().number == 7
 
 
-def test_a_camera_that_cannot_be_opened_says_why(
+def test_a_camera_that_cannot_be_opened_gives_the_reason(
     opened: Open,
 ) -> None:
     with pytest.raises(CaptureError, match="OSError: no such device"):

@@ -106,7 +106,7 @@ def test_the_theatres_images_are_rendered_before_they_are_due(
     assert [shot.number for shot in shots] == numbers
 
 
-def test_a_theatre_whose_camera_stops_says_so_and_its_clock_goes_on() -> None:
+def test_a_theatre_whose_camera_stops_reports_it_and_its_clock_continues() -> None:
     clock = Clock()
     source = RehearsalSource(
         Numbered(),

@@ -96,7 +96,7 @@ def test_an_image_that_was_held_back_for_a_moment_is_as_old_as_it_is(
 
 # # FFmpeg treats a step back of more than a minute as a counter reset, and steps forward.
 @pytest.mark.parametrize("jump_s", [3600.0, -3600.0, -50.0])
-def test_a_clock_that_jumps_is_reported_once_and_taken_up_anew(
+def test_a_clock_that_jumps_is_reported_once_and_synchronised_again(
     serve: Callable[..., RtspServer], jump_s: float
 ) -> None:
     server = serve(images(60, lambda taken_s: taken_s + (jump_s if taken_s > 5001.0 else 0.0)))
@@ -195,7 +195,7 @@ def _lose_and_find(capture: Capture) -> None:
         capture.take(1.0)
 
 
-def test_an_rtsp_address_where_nobody_listens_is_reported(serve: Callable[..., RtspServer]) -> None:
+def test_an_rtsp_address_without_a_server_is_reported(serve: Callable[..., RtspServer]) -> None:
     server = serve(images(1))
     server.end()
     with pytest.raises(CaptureError) as caught:

@@ -138,7 +138,7 @@ def test_devices_are_listed_by_their_numbers(devices: KernelDevices) -> None:
     assert KernelDevices(Path("/nowhere")).paths() == ()
 
 
-def test_a_camera_says_who_it_is_and_what_it_offers(devices: KernelDevices) -> None:
+def test_a_camera_reports_its_identity_and_modes(devices: KernelDevices) -> None:
     with closing(devices.open(devices.paths()[0])) as camera:
         found = camera.description()
         assert (found.name, found.driver, found.bus) == ("HD Webcam", "uvcvideo", "usb-0000:00:14.0-1")

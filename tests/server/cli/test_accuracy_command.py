@@ -81,7 +81,7 @@ def test_v_and_h_alone_give_distance_and_angle() -> None:
     assert json.loads(text) == pytest.approx({"axial_distance_mm": 952.103, "angle_deg": 36.027}, abs=1e-3)
 
 
-def test_a_true_camera_passes_and_says_how_it_was_checked(tmp_path: Path, camera: Path) -> None:
+def test_a_true_camera_passes_and_states_how_it_was_checked(tmp_path: Path, camera: Path) -> None:
     status, text = typed("accuracy", grid_rows(tmp_path / "r.csv"), "--camera", camera)
     assert status == 0
     assert "Largest error 0.00 mm" in text

@@ -70,7 +70,7 @@ def test_the_report_is_readable_and_the_gate_fails_with_status_1(images: Path, t
     assert not output.exists()
 
 
-def test_without_an_output_it_says_that_no_camera_file_is_there(images: Path) -> None:
+def test_without_an_output_it_states_that_no_camera_file_was_written(images: Path) -> None:
     status, text = typed(*BOARD, images)
     assert status == 0, text
     assert "No camera file was written: name one with --output" in text
@@ -125,7 +125,7 @@ def test_bad_input_is_reported_and_nothing_is_written(images: Path, tmp_path: Pa
     assert not output.exists()
 
 
-def test_a_bad_file_is_reported_and_costs_nobody_else(images: Path, tmp_path: Path) -> None:
+def test_a_bad_file_is_reported_and_affects_no_other(images: Path, tmp_path: Path) -> None:
     folder = tmp_path / "images"
     shutil.copytree(images, folder)
     (folder / "a-text.png").write_text("no image")

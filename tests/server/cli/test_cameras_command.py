@@ -82,7 +82,7 @@ def test_the_settings_and_the_calibration_decide_which_mode_is_taken(
     assert len(requested["modes"]) == 13
 
 
-def test_a_machine_without_cameras_says_so_with_a_remedy(
+def test_a_machine_without_cameras_is_reported_with_a_remedy(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.setattr("sys.platform", "linux")

@@ -91,7 +91,7 @@ def test_tracking_again_writes_over_the_lines_only_where_that_is_said(tmp_path: 
     assert json.loads(lines.read_text(encoding="utf-8"))["image_number"] == 0
 
 
-def test_help_says_what_stands_in_a_line() -> None:
+def test_help_describes_the_content_of_a_line() -> None:
     text = " ".join(CliRunner().invoke(app, ["track", "--help"], env={"COLUMNS": "80"}).output.split())
     for reason in UnseenReason:
         assert f"{reason.value}: " in text

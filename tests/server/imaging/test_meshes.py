@@ -188,7 +188,7 @@ def test_no_message_names_the_file_which_may_name_the_patient(tmp_path: Path) ->
         assert "Doe" not in f"{reported.value} {reported.value.context}"
 
 
-def test_what_a_file_says_of_its_space_is_heeded() -> None:
+def test_the_coordinate_space_stated_by_a_file_is_applied() -> None:
     ras = mesh_from_bytes(binary_stl(header=b"3D Slicer output. SPACE=RAS"), file_format="stl")
     lps = mesh_from_bytes(binary_stl(header=b"3D Slicer output. SPACE=LPS"), file_format="stl")
     assert lps.surface.vertices_mm.min(axis=0) == pytest.approx([100.0, -50.0, 0.0])

@@ -162,7 +162,7 @@ def test_numbers_that_begin_again_are_distinguished() -> None:
     assert short.report() == long.report()
 
 
-def test_a_slow_camera_times_every_code_and_says_how_coarsely() -> None:
+def test_a_slow_camera_times_every_code_and_states_the_resolution() -> None:
     run = Run(period_ms=200.0)
     report = run.report()
     # # Except those before the first image with a code, and the last one.

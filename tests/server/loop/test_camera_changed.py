@@ -92,7 +92,7 @@ def test_a_lens_that_moved_takes_the_numbers_and_alarms_by_its_name_until_it_is_
         pytest.param(CALIBRATED, {**CALIBRATED, GAIN: 90}, id="brightness alone"),
     ],
 )
-def test_what_is_not_known_or_voids_nothing_alarms_nobody(
+def test_unknown_or_harmless_changes_raise_no_alarm(
     calibrated: Mapping[CameraControl, int], now: Mapping[CameraControl, int]
 ) -> None:
     theatre = Theatre(calibrated)

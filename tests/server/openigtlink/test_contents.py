@@ -162,7 +162,7 @@ def two_tools(snapshot: NavigationSnapshot, second: str) -> NavigationSnapshot:
         pytest.param({"camera_frame": "A", "vertebra_frame": "A"}, set(), id="one-name-for-both-frames"),
     ],
 )
-def test_no_name_stands_for_two_things(settings: dict[str, object], sent: set[str]) -> None:
+def test_names_are_unique(settings: dict[str, object], sent: set[str]) -> None:
     found = devices(two_tools(make_snapshot(judged=True), "awl"), **settings)
     assert {name.removesuffix("Tip") for name, one in found.items() if name.endswith("Tip")} == sent
     assert reason_of(found["Coaxial"]) == ("OK" if sent else "NAME_UNUSABLE")

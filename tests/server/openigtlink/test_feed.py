@@ -67,7 +67,7 @@ def test_a_reason_lasts_as_long_as_its_picture(after_s: float, reason: str) -> N
     assert {messages["STATUS", device] for _, device in LIVE} == {reason}
 
 
-def test_when_no_image_comes_any_more_the_client_is_told_at_the_limit_and_once() -> None:
+def test_when_images_stop_the_client_is_informed_once_at_the_limit() -> None:
     one = feed()
     assert one.expires_at_s == inf
     sent(one)

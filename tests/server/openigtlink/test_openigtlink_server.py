@@ -113,7 +113,7 @@ def test_each_client_gets_the_newest_instant_at_once_and_each_new_one(version: i
     played(scene, header_version=version)
 
 
-def test_when_images_stop_the_client_is_told_without_another_instant() -> None:
+def test_when_images_stop_the_client_is_informed_without_another_instant() -> None:
     async def scene(world: World) -> None:
         world.publish(3)
         reader = await world.client()
@@ -145,7 +145,7 @@ def test_between_two_images_of_a_slow_rate_no_pose_stays_valid_and_the_newest_fo
     played(scene, max_rate_hz=1.0)
 
 
-def test_a_client_that_reads_nothing_delays_nobody_and_is_disconnected(
+def test_a_client_that_reads_nothing_delays_no_other_and_is_disconnected(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(link_server, "SEND_TIMEOUT_S", 0.05)
@@ -167,7 +167,7 @@ def test_a_client_that_reads_nothing_delays_nobody_and_is_disconnected(
     played(scene, max_rate_hz=240.0)
 
 
-def test_one_client_too_many_is_told_and_the_others_stay() -> None:
+def test_a_client_above_the_limit_is_rejected_and_the_others_stay() -> None:
     async def scene(world: World) -> None:
         world.publish(3)
         reader = await world.client()
@@ -198,7 +198,7 @@ def test_one_client_too_many_is_told_and_the_others_stay() -> None:
         ),
     ],
 )
-def test_a_client_that_speaks_otherwise_is_told_and_closed(sent: bytes, name: str) -> None:
+def test_a_client_with_another_protocol_is_rejected_and_closed(sent: bytes, name: str) -> None:
     async def scene(world: World) -> None:
         reader = await world.client()
         world.writers[0].write(sent)
@@ -212,7 +212,7 @@ def test_a_client_that_speaks_otherwise_is_told_and_closed(sent: bytes, name: st
     played(scene)
 
 
-def test_requests_are_answered_and_a_damaged_one_is_told() -> None:
+def test_requests_are_answered_and_a_damaged_one_is_reported() -> None:
     async def scene(world: World) -> None:
         reader = await world.client()
         ask = wire.pack(Message(type="GET_STATUS", device="mine", timestamp_s=0.0), version=2)

@@ -221,6 +221,6 @@ def test_dots_that_touch_or_have_no_width_are_rejected(dot_mm: float, fiducials:
     assert reported.value.code == "BOARD_DOTS_UNPRINTABLE"
 
 
-def test_a_paper_that_nobody_has_is_rejected() -> None:
+def test_an_unknown_paper_size_is_rejected() -> None:
     with pytest.raises(InvalidInput, match="A4, A3, letter"):
         board_sheet(CheckerBoard(columns=4, rows=3, square_mm=10.0), paper="A0")

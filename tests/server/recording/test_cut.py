@@ -113,7 +113,7 @@ def test_a_changed_byte_is_found(two_states: Path, tmp_path: Path, monkeypatch: 
     assert sorted(one.name for one in tmp_path.iterdir()) == ["piece.mcap", "two.mcap"]
 
 
-def test_a_piece_says_how_many_images_are_missing_in_it(made: Make, tmp_path: Path) -> None:
+def test_a_section_states_its_number_of_missing_images(made: Make, tmp_path: Path) -> None:
     theatre = made("lost.mcap")
     theatre.begin()
     theatre.track(0)
@@ -125,7 +125,7 @@ def test_a_piece_says_how_many_images_are_missing_in_it(made: Make, tmp_path: Pa
     assert cut_recording(theatre.path, tmp_path / "piece.mcap", from_s=0.0, to_s=9.0).missing_images == 2
 
 
-def test_a_recording_without_a_state_is_cut_at_the_image_and_says_that_it_cannot_be_replayed(
+def test_without_a_state_a_section_starts_at_the_image_and_cannot_be_replayed(
     led: Path, tmp_path: Path
 ) -> None:
     piece = tmp_path / "piece.mcap"

@@ -141,7 +141,7 @@ def test_another_version_is_named_with_what_it_was(recorded: Path, monkeypatch: 
     assert "now 99.0" in report.changed_versions[0]
 
 
-def test_a_state_that_this_version_cannot_use_compares_nothing_and_says_why(
+def test_a_state_of_another_version_compares_nothing_and_gives_the_reason(
     recorded: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("server.recording_file.codec.PACKAGE", "of_another_version.")

@@ -121,7 +121,7 @@ def test_results_of_another_setup_are_not_drawn() -> None:
     assert not belongs_to(replace(setup, reference="patient"), message)
 
 
-def test_without_its_setup_an_image_says_that_its_results_are_not_drawn(tmp_path: Path) -> None:
+def test_without_its_setup_an_image_states_that_its_results_are_not_drawn(tmp_path: Path) -> None:
     recording = write_drilling(tmp_path / "case.mcap")
     summary = write_video(recording, tmp_path / "case.mp4", language="de")
     assert (summary.images, summary.undrawn) == (len(DRILLED), len(DRILLED))

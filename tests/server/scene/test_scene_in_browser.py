@@ -77,7 +77,7 @@ def orange_px(image: npt.NDArray[np.uint8]) -> int:
     return int(((red > 150) & (green > 70) & (green < red - 40) & (blue < green - 40)).sum())
 
 
-def test_the_drill_is_seen_told_about_and_hidden(browser: Browser, theatre: Theatre) -> None:
+def test_the_drill_is_drawn_reported_and_hidden(browser: Browser, theatre: Theatre) -> None:
     with running(theatre) as server:
         page = opened(browser, server.address)
         with fed(server, theatre, first_image=99_990):
@@ -173,7 +173,7 @@ def test_nothing_outside_is_called_and_no_control_of_viser_is_there(
     assert {verdict: count for verdict, count in counts.items() if count} == {"camera": counts["camera"]}
 
 
-def test_a_line_that_fell_silent_is_asked_for_anew(
+def test_a_silent_connection_is_reopened(
     browser: Browser, theatre: Theatre, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(scene_module, "MIN_SILENCE_MS", 1000.0)

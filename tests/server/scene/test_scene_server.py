@@ -107,7 +107,7 @@ def test_who_comes_late_gets_the_state_at_once(theatre: Theatre) -> None:
             assert next_number(late) == 41
 
 
-def test_nothing_is_drawn_for_nobody_and_nothing_old_is_left_for_the_next_viewer(
+def test_nothing_is_drawn_without_viewers_and_nothing_old_remains_for_the_next_one(
     theatre: Theatre, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shown: list[int] = []
@@ -145,7 +145,7 @@ def test_many_viewers_get_the_newest(theatre: Theatre) -> None:
         assert server.app.state.scene.viewers == 2
 
 
-def test_when_nobody_says_anything_the_image_is_taken_away(theatre: Theatre) -> None:
+def test_the_image_is_removed_when_no_message_arrives(theatre: Theatre) -> None:
     with running(theatre, stale_after_ms=200) as server, viewer(server) as line:
         server.hub.publish(theatre.instant(0, image_number=5))
         reach(line, 5)
@@ -194,7 +194,7 @@ def test_a_crowd_is_rejected(theatre: Theatre) -> None:
         assert server.app.state.scene.viewers == 1
 
 
-def test_own_page_is_let_in(theatre: Theatre) -> None:
+def test_own_page_is_admitted(theatre: Theatre) -> None:
     with running(theatre) as server, viewer(server, origin=f"http://127.0.0.1:{server.port}") as line:
         assert line.subprotocol == PROTOCOL
         assert line.recv(timeout=20)
@@ -225,7 +225,7 @@ def test_who_floods_is_thrown_out(theatre: Theatre) -> None:
         until(lambda: server.app.state.scene.viewers == 0)
 
 
-def test_a_stalled_viewer_delays_nobody_and_is_dropped(
+def test_a_stalled_viewer_delays_no_other_and_is_dropped(
     theatre: Theatre, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(scene_module, "SEND_TIMEOUT_S", 0.3)

@@ -89,7 +89,7 @@ def test_pose_visibility_and_number_of_an_image_come_in_one_batch(theatre: Theat
         pytest.param(lambda t: t.instant(2, image_number=None), id="there is no image"),
     ],
 )
-def test_a_drill_is_hidden_in_the_batch_that_says_so(
+def test_a_drill_is_hidden_in_the_batch_that_lacks_it(
     theatre: Theatre, last: Callable[[Theatre], Instant]
 ) -> None:
     async def play(stage: Stage, viewer: Viewer) -> None:
@@ -137,7 +137,7 @@ def test_silence_is_still_heard(theatre: Theatre) -> None:
     on_stage(theatre, play)
 
 
-def test_a_copy_of_the_same_setup_builds_nothing_anew(theatre: Theatre) -> None:
+def test_a_copy_of_the_same_setup_rebuilds_nothing(theatre: Theatre) -> None:
     async def play(stage: Stage, viewer: Viewer) -> None:
         await viewer.batches.get()
         stage.show(pickle.loads(pickle.dumps(theatre.instant(1, image_number=1))))  # noqa: S301 our own object
@@ -203,7 +203,7 @@ def test_the_planned_screw_lies_in_its_channel_from_the_entry_on(theatre: Theatr
     on_stage(theatre, play)
 
 
-def test_a_setup_that_comes_back_stands_where_it_stood_at_first(theatre: Theatre) -> None:
+def test_a_setup_that_returns_is_at_its_first_place(theatre: Theatre) -> None:
     """A reused name would keep its old pose in a viewer, so names are unique."""
     before = theatre.unregistered()
 

@@ -112,7 +112,7 @@ def answer_to(house: Guarded, rule: Rule, headers: dict[str, str]) -> tuple[int,
 
 
 @pytest.mark.parametrize("rule", ACCESS_RULES, ids=lambda rule: rule.name)
-def test_each_address_lets_in_whom_the_table_names_and_nobody_else(
+def test_each_address_admits_exactly_the_roles_of_the_table(
     house: Guarded, bearers: dict[Role, dict[str, str]], rule: Rule
 ) -> None:
     status, code = answer_to(house, rule, {})
@@ -129,7 +129,7 @@ def test_each_address_lets_in_whom_the_table_names_and_nobody_else(
             assert (status, code) == (403, "ROLE_REJECTED"), role
 
 
-def test_who_is_not_signed_in_is_told_one_word(house: Guarded) -> None:
+def test_without_a_session_every_address_gives_the_same_answer(house: Guarded) -> None:
     assert house.door.get("/health").json() == {
         "status": "degraded",
         "process": None,
@@ -170,7 +170,7 @@ def test_head_is_allowed_as_get_is(house: Guarded) -> None:
     assert house.door.head("/metrics", headers=house.bearer(Role.VIEWER)).status_code == 403
 
 
-def test_who_is_signed_in_is_told_what_there_is_not(house: Guarded) -> None:
+def test_with_a_session_a_missing_address_is_reported(house: Guarded) -> None:
     reported = house.door.get("/api/nothing", headers=house.bearer())
     assert (reported.status_code, reported.json()["code"]) == (404, "NOT_FOUND")
     reported = house.door.put("/api/cases", headers=house.bearer())

@@ -108,7 +108,7 @@ def test_without_its_end_beside_it_a_log_is_not_called_whole(
     assert "where the log ended is not known" in found.output
 
 
-def test_who_asks_waits_for_nobody_who_writes(log: AuditLog) -> None:
+def test_a_reader_does_not_wait_for_a_writer(log: AuditLog) -> None:
     with log._lock:
         requested = threading.Thread(
             target=lambda: reported.extend(

@@ -98,7 +98,7 @@ def test_a_cookie_alone_changes_nothing_for_another_page(house: Guarded, headers
     assert house.store.list() == ()
 
 
-def test_what_a_proxy_says_of_tls_is_believed_only_where_the_settings_do(tmp_path: Path) -> None:
+def test_a_proxys_statement_on_tls_is_trusted_only_if_configured(tmp_path: Path) -> None:
     says = {"X-Forwarded-Proto": "https", "X-Forwarded-For": "203.0.113.9"}
     with guarded(tmp_path / "a") as house:
         assert "Secure" not in enter(house, house.invited(), **says).headers["set-cookie"]
@@ -110,7 +110,7 @@ def test_what_a_proxy_says_of_tls_is_believed_only_where_the_settings_do(tmp_pat
         assert "203.0.113.9" not in house.people.audit.complete_lines().decode()
 
 
-def test_too_many_wrong_links_are_told_to_wait(house: Guarded) -> None:
+def test_too_many_wrong_links_are_rejected_with_a_wait(house: Guarded) -> None:
     for _ in range(10):
         assert enter(house, "x").json()["code"] == "INVITATION_UNKNOWN"
     reported = enter(house, "x")
@@ -149,7 +149,7 @@ def test_rejected_tries_are_written_and_opening_the_page_is_none(house: Guarded)
     assert last_line(house)["code"] == "INVITATION_UNKNOWN"
 
 
-def test_who_is_signed_in_is_who_acknowledges_whatever_the_page_says(house: Guarded) -> None:
+def test_an_acknowledgement_is_by_the_sessions_user_whatever_the_page_sends(house: Guarded) -> None:
     screen = house.bearer(Role.SCREEN)
     house.door.post("/api/alarms/pause", json={"by": "somebody else", "seconds": 10}, headers=screen)
     lines = house.door.get("/api/alarms/log", headers=house.bearer()).json()["lines"]
@@ -227,7 +227,7 @@ def test_a_socket_with_a_cookie_must_say_its_page(house: Guarded) -> None:
             assert rejected.value.response.status_code == 403
 
 
-def test_where_nobody_has_to_sign_in_all_is_open_and_written_all_the_same(tmp_path: Path) -> None:
+def test_without_sign_in_everything_is_open_and_still_logged(tmp_path: Path) -> None:
     with guarded(tmp_path / "home", required=False) as house:
         assert house.door.get("/api/session").json()["sign_in_required"] is False
         assert house.door.post("/api/cases", json={"name": "L3"}).status_code == 201

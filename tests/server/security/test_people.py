@@ -77,7 +77,7 @@ def test_one_for_many_lets_in_many_as_the_same_person_until_its_time_is_over(
     assert rejected.value.code == "INVITATION_EXPIRED"
 
 
-def test_one_that_was_taken_back_lets_nobody_in_and_leaves_who_is_in(service: PeopleService) -> None:
+def test_a_withdrawn_invitation_admits_nobody_and_keeps_its_sessions(service: PeopleService) -> None:
     link = invited(service, single_use=False)
     session, _ = service.sign_in(link, address=HERE)
     service.revoke(session.invitation_id)
@@ -302,7 +302,7 @@ def test_nobody_waits_at_the_door_while_the_disk_is_slow(
         entering.join()
 
 
-def test_a_disk_with_room_for_a_part_keeps_the_old_file_and_says_so(
+def test_a_nearly_full_disk_keeps_the_old_file_and_reports_it(
     service: PeopleService, tmp_path: Path, clock: Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     link = invited(service, single_use=False)

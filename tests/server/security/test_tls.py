@@ -83,7 +83,7 @@ def test_poses_leave_this_computer_unencrypted_only_where_the_settings_say_so_in
 
 
 @pytest.mark.parametrize("what", ["plan", "registration"])
-def test_nobody_is_a_second_person_where_nobody_signs_in(what: str) -> None:
+def test_without_sign_in_there_is_no_second_person(what: str) -> None:
     required = {"supervision": {"cosign": {what: "required"}}}
     reject_unsafe(Config.model_validate(required))
     with pytest.raises(ConfigError) as reported:
@@ -126,7 +126,7 @@ def wait_for_end(line: socket.socket) -> None:
             pass
 
 
-def test_a_self_made_one_is_made_anew_when_it_ends_or_a_name_is_missing(
+def test_a_self_signed_certificate_is_renewed_when_it_expires_or_lacks_a_name(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def pem(host: str = "192.0.2.1", **later: float) -> bytes:

@@ -134,7 +134,7 @@ def test_a_sink_receives_the_message_of_the_sockets(folder: Path, theatre: Calla
     assert (folder / "closed").exists()
 
 
-def test_a_slow_sink_is_named_skips_to_the_newest_and_delays_nobody(
+def test_a_slow_sink_is_reported_skips_to_the_newest_and_delays_no_other(
     folder: Path, theatre: Callable[..., Theatre]
 ) -> None:
     os.mkfifo(folder / "gate")

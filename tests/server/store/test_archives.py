@@ -118,9 +118,7 @@ def test_what_came_in_never_looks_as_if_somebody_here_had_made_it(
     ]
 
 
-def test_taken_in_twice_it_is_said_once_and_who_took_it_in_last_stands_for_it(
-    store: CaseStore, case: Case
-) -> None:
+def test_imported_twice_it_is_noted_once_with_the_last_importer(store: CaseStore, case: Case) -> None:
     first = store.import_archive(store.export_case(case.id).path, by="M. Ito")
     second = store.import_archive(store.export_case(first.id).path, by="Dr Sato")
     check = store.history(second.id, DocumentKind.CHECK, "tip")[0]

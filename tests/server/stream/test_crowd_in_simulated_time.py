@@ -120,7 +120,7 @@ def test_each_text_and_picture_is_made_once_for_all(crowd: Crowd) -> None:
     assert len(pictures.made) - in_full == len(smaller)
 
 
-def test_the_stalled_one_is_disconnected_after_2_s_and_nobody_else(crowd: Crowd) -> None:
+def test_only_the_stalled_viewer_is_disconnected_after_2_s(crowd: Crowd) -> None:
     viewers = crowd.view.viewers
     assert numbers_of(crowd.stalled) == [0]
     assert crowd.stalled.wire.cut_at_s == pytest.approx(2.0, abs=0.01)

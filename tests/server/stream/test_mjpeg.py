@@ -155,7 +155,7 @@ def test_when_tracking_dies_a_card_replaces_the_last_image(
     assert viewer.picture()[0] == {"image_number": None}
 
 
-def test_when_nobody_says_anything_any_more_a_card_replaces_the_last_image(
+def test_a_card_replaces_the_last_image_when_messages_stop(
     live_instant: LiveInstant, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(mjpeg, "time", LoopTime)
@@ -178,7 +178,7 @@ def test_when_nobody_says_anything_any_more_a_card_replaces_the_last_image(
     assert came == [(0.0, 1000), (pytest.approx(0.5), None), (pytest.approx(1.5), None)]
 
 
-def test_a_stalled_viewer_is_disconnected_and_delays_nobody(
+def test_a_stalled_viewer_is_disconnected_and_delays_no_other(
     hub: LiveHub, live_instant: LiveInstant, port: int, watch: Callable[[], MotionMonitor]
 ) -> None:
     noise = np.random.default_rng(1).integers(0, 255, 400_000, dtype=np.uint8).tobytes()

@@ -63,7 +63,7 @@ def test_an_image_in_parts_is_whole_with_its_last_one() -> None:
     assert 1.0 - 0.004 - 1e-6 <= received.captured_at_s <= 1.0 + 1e-6
 
 
-def test_a_page_that_knows_no_capture_time_says_so() -> None:
+def test_a_page_without_capture_times_is_reported_as_such() -> None:
     sender, jpeg = introduced(), jpeg_of(90)
     announce(sender, jpeg, captured_s=1.0, clock="presentation")
     received = sender.take_part(jpeg, 1.05)

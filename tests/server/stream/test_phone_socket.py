@@ -218,7 +218,7 @@ def test_a_page_that_misbehaves_is_reported_and_its_slot_is_free(door: TestClien
     assert newest(inbox) == PhoneUpdate(sender="")
 
 
-def test_a_server_with_another_camera_says_how_to_start_it(client: TestClient) -> None:
+def test_a_server_with_another_camera_states_how_to_start_it(client: TestClient) -> None:
     with connected(client) as socket:
         rejected = socket.receive_json()["rejected"]
     assert rejected["code"] == "PHONE_NOT_SELECTED"
@@ -265,7 +265,7 @@ def test_an_image_of_a_connection_that_was_replaced_is_not_handed_on(
         assert newest(inbox) == PhoneUpdate(sender="Dr. Ito")
 
 
-def test_a_key_alone_takes_nobodys_place(receiver: Receiver) -> None:
+def test_a_key_alone_does_not_replace_a_sender(receiver: Receiver) -> None:
     with receiver.sending(KEY, ITO), pytest.raises(PhoneTaken, match="Ito"), receiver.sending(KEY, GUEST):
         pass
 

@@ -40,7 +40,7 @@ def start(tmp_path: Path) -> Callable[..., tuple[HoldRequests, AlarmService]]:
     return started
 
 
-def test_a_hold_stands_after_a_start_with_who_asked_and_when(start: Callable[..., Any]) -> None:
+def test_a_hold_survives_a_restart_with_its_requester_and_time(start: Callable[..., Any]) -> None:
     holds, _ = start()
     holds.request(SATO)
     holds, service = start("2026-11-21T15:00:00.000Z")
@@ -57,7 +57,7 @@ def test_a_hold_stands_after_a_start_with_who_asked_and_when(start: Callable[...
     assert alarms_of(service) == [("HOLD_REQUESTED", "Dr Sato, Dr Kim")]
 
 
-def test_after_a_start_it_is_released_by_who_asked_or_by_the_operator_and_nobody_else(
+def test_after_a_restart_only_its_requester_or_the_operator_releases_it(
     start: Callable[..., Any],
 ) -> None:
     start()[0].request(SATO)
@@ -73,7 +73,7 @@ def test_after_a_start_it_is_released_by_who_asked_or_by_the_operator_and_nobody
     assert (holds.requests, alarms_of(service)) == ((), [])
 
 
-def test_theatre_hears_of_a_hold_that_cannot_be_kept_and_who_asked_is_told(tmp_path: Path) -> None:
+def test_a_hold_that_cannot_be_stored_is_shown_and_its_requester_is_informed(tmp_path: Path) -> None:
     class FullDisk(HoldRequestFile):
         def write(self, asking: object) -> None:
             del asking
@@ -109,7 +109,7 @@ def test_it_is_on_the_disk_for_its_owner_alone_before_it_is_confirmed(
 
 
 @pytest.mark.parametrize("content", [b"", b"{", b'{"form": 2}', b'{"form": 1, "asking": [{"id": "s1"}]}'])
-def test_of_a_damaged_file_a_hold_stands_that_the_operator_lifts(
+def test_a_damaged_file_counts_as_a_hold_that_the_operator_can_release(
     tmp_path: Path, start: Callable[..., Any], content: bytes
 ) -> None:
     (tmp_path / HOLDS_FILE).write_bytes(content)

@@ -113,7 +113,7 @@ def test_medial_is_medial_beside_a_channel_that_runs_straight_forwards(side: Sid
         assert along.medial_is_right == (along.tip_mm[0] > 0.0)
 
 
-def test_of_a_drill_that_is_lost_in_a_breach_another_one_says_nothing() -> None:
+def test_another_drill_does_not_speak_for_one_lost_in_a_breach() -> None:
     theatre = Theatre("drill", "awl")
     theatre.images(1.0, {"drill": BREACH, "awl": PATH})
     theatre.images(5.0, {"awl": PATH})
@@ -128,7 +128,7 @@ def test_of_a_drill_that_is_lost_in_a_breach_another_one_says_nothing() -> None:
     assert {one.condition for one in theatre.service.picture.alarms} <= {Condition.NO_ARMED_SCREEN}
 
 
-def test_what_is_over_says_nothing_of_now_where_nothing_is_measured_now() -> None:
+def test_a_past_alarm_claims_nothing_about_now_without_a_measurement() -> None:
     theatre = Theatre()
     theatre.images(1.0, {"drill": BREACH})
     theatre.images(3.0, {"drill": PATH})

@@ -65,7 +65,7 @@ def test_only_what_is_new_is_taken(second: np.ndarray, judgement: ViewVerdict) -
     assert show(collector, second, 3.0) is judgement
 
 
-def test_a_board_that_was_lost_has_to_hold_still_anew() -> None:
+def test_a_lost_board_has_to_be_still_again() -> None:
     collector = BoardCollector(SIZE)
     collector.offer(ids=IDS, object_points_mm=GRID, image_points_px=seen(), captured_at_s=1.0)
     collector.reset_motion()
@@ -91,7 +91,7 @@ def test_five_points_are_too_few() -> None:
         pytest.param({"rotation_deg": -30.0}, "right edge away", id="turned-right-edge-back"),
     ],
 )
-def test_it_says_which_tilts_are_missing(view: dict[str, Any], reached: str) -> None:
+def test_it_states_the_missing_tilts(view: dict[str, Any], reached: str) -> None:
     collector = BoardCollector(SIZE)
     show(collector, seen(**view, far_mm=250.0), 1.0)
     tilts = [sentence for sentence in collector.progress.missing if sentence.startswith("Tilt")]

@@ -65,7 +65,7 @@ def test_corners_of_large_charuco_squares_are_placed_to_a_few_hundredths_of_a_pi
     assert np.linalg.norm(view.image_points_px - truth_px, axis=1).max() < 0.1
 
 
-def test_a_grid_of_equal_dots_may_be_turned_by_half_and_says_so() -> None:
+def test_a_symmetric_dot_grid_is_reported_as_ambiguous_by_half_a_turn() -> None:
     assert found(PLAIN_DOTS, 1).ambiguity is PlacementAmbiguity.HALF_TURN
 
 

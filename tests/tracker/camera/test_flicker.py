@@ -139,7 +139,7 @@ def test_black_and_full_images_say_nothing(level: float) -> None:
     assert verdict.state is FlickerState.UNSURE
 
 
-def test_too_small_an_image_says_nothing() -> None:
+def test_too_small_an_image_gives_no_result() -> None:
     means: list[Array] = [brightness_grid(np.full((20, 20), 100, np.uint8))] * 130
     assert detect_flicker([number / 30.0 for number in range(130)], means).state is FlickerState.UNSURE
 

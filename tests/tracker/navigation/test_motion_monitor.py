@@ -73,7 +73,7 @@ class Play:
         return motion
 
 
-def test_a_camera_that_moved_is_reported_within_a_third_of_a_second_until_it_is_registered_anew(
+def test_a_moved_camera_is_reported_within_a_third_of_a_second_until_the_next_registration(
     setup: Setup, picture: npt.NDArray[np.uint8]
 ) -> None:
     play = Play(setup)

@@ -242,7 +242,7 @@ NOT_REGISTERED = Absent(reason=AbsentReason.NOT_REGISTERED)
         pytest.param(SETUP, SEEN, None, None, id="everything is there"),
     ],
 )
-def test_what_is_absent_says_why(
+def test_absent_values_have_their_reason(
     setup: Setup, sighting: Sighting, tool: str | None, deviation: str | None
 ) -> None:
     snapshot = _snapshot(setup, sighting)

@@ -67,7 +67,7 @@ def test_strict_settings_turn_the_same_occurrence_down() -> None:
         assert (sighting.best_score_ratio or 0.0) > 0.9
 
 
-def test_a_bright_field_too_many_says_that_the_shape_differs() -> None:
+def test_an_additional_bright_field_gives_shape_differs() -> None:
     """Without verification of the inside, one flipped field of nine keeps nine tenths of the edges."""
     lenient = ScoreSettings(
         accept_score_ratio=0.3, accept_target_score_ratio=0.3, accept_inner_coverage_ratio=0.0
@@ -222,7 +222,7 @@ def test_warming_up_runs_the_loops_of_a_search_and_of_a_track(monkeypatch: pytes
 
 
 @pytest.mark.parametrize("side", range(4))
-def test_what_is_inside_must_be_there_whatever_the_outline_says(side: int) -> None:
+def test_the_inside_must_match_whatever_the_outline(side: int) -> None:
     pose = pose_of(side_px=64)
     image = _fingered(pose, side=side, area_ratio=0.1, grey=185)
     strict = ScoreSettings(accept_inner_coverage_ratio=1.0, verified_threshold_ratio=1.0)

@@ -64,7 +64,7 @@ VOLUMES = {
 
 @pytest.mark.parametrize("plane", PLANES)
 @pytest.mark.parametrize("linear", VOLUMES.values(), ids=VOLUMES.keys())
-def test_every_pixel_shows_what_lies_where_it_says(linear: np.ndarray, plane: Plane) -> None:
+def test_every_pixel_shows_the_content_at_its_stated_position(linear: np.ndarray, plane: Plane) -> None:
     volume = mountains(placed(linear))
     low, high, step = reach_mm(volume, plane)
     for at_mm in (low + 0.5 * (high - low), low + 0.371 * (high - low), low + 2.0 * step):

@@ -165,7 +165,7 @@ def test_a_marker_that_is_missed_is_counted_and_the_rate_is_named() -> None:
     )
 
 
-def test_a_hold_that_was_too_short_says_how_long_it_must_be_at_this_rate() -> None:
+def test_a_capture_that_was_too_short_states_the_time_needed_at_this_rate() -> None:
     collector = LandmarkCollector()
     assert collector.left_s is None
     for tip, _ in zip(samples(steady_s(5.0)), range(5), strict=False):

@@ -91,7 +91,7 @@ def simulated(
         pytest.param(LIKE_A_NEEDLE, LIKE_A_NEEDLE, id="like-a-needle-and-stated"),
     ],
 )
-def test_the_stated_uncertainty_holds_the_truth_as_often_as_it_says(
+def test_the_stated_uncertainty_contains_the_truth_at_its_stated_rate(
     count: int, noise: np.ndarray | float, stated: np.ndarray | None
 ) -> None:
     seen = simulated(count, noise, stated)

@@ -87,7 +87,7 @@ def test_the_vertebra_is_placed_through_the_reference_as_it_is_seen_in_this_imag
     np.testing.assert_allclose(placed.camera_from_vertebra.matrix, through, atol=1e-12)
 
 
-def test_without_the_reference_nobody_knows_where_the_vertebra_is() -> None:
+def test_without_the_reference_the_vertebra_has_no_pose() -> None:
     unseen = Unseen(reason=UnseenReason.NO_CANDIDATE)
     assert concluded(SETUP, unseen).vertebra == Absent(reason=AbsentReason.REFERENCE_UNSEEN)
     twice = Unseen(reason=UnseenReason.MARKER_TWICE)

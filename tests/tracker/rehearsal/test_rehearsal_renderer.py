@@ -61,7 +61,7 @@ def edge_offsets_px(image: npt.NDArray[np.uint8], theatre: Theatre, truth: Truth
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
 @pytest.mark.parametrize("at_s", [3.3, 9.0, 17.77, 25.0], ids=["approach", "align", "drill", "drift"])
-def test_every_edge_of_the_square_lies_where_the_truth_says(seed: int, at_s: float) -> None:
+def test_every_edge_of_the_square_is_at_its_true_position(seed: int, at_s: float) -> None:
     theatre, renderer = staged(seed=seed)
     truth = theatre.truth_at(at_s)
     assert truth.marker_in_view

@@ -71,7 +71,7 @@ def test_after_a_time_out_of_sight_there_is_nothing_to_have_jumped_from() -> Non
     assert watch.take(_pose(200.0), at_s=0.7).accepted
 
 
-def test_in_doubt_and_then_out_of_sight_begins_anew() -> None:
+def test_a_doubtful_pose_that_is_lost_starts_again() -> None:
     watch = PoseJumpDetector()
     _fed(watch, [_pose(), _pose(100.0)])
     assert watch.take(_pose(300.0), at_s=5.0).accepted

@@ -125,7 +125,7 @@ CHANNEL = Channel(
 POINT = np.array([7.0, -4.0, 11.0])
 
 
-def test_a_point_of_an_uncertain_pose_is_as_uncertain_as_geometry_says() -> None:
+def test_the_uncertainty_of_a_point_agrees_with_the_geometry() -> None:
     point: Rigid[Marker, Tool] = Rigid(rotation=np.eye(3), translation_mm=POINT)
     there = placed(CAMERA_FROM_MARKER, MARKER_COVARIANCE) @ placed(point, np.zeros((6, 6)))
     expected = point_covariance_mm2(CAMERA_FROM_MARKER, MARKER_COVARIANCE, POINT)
