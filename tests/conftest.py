@@ -1,4 +1,4 @@
-"""What all tests share: one real headless browser, and the order in which they run."""
+"""Shared fixtures: one real headless browser, and the order of the tests."""
 
 import os
 import shutil
@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, sync_playwright
 
-# Before anything loads NumPy, whose threads wait for each other at full speed: workers use the cores already.
+# # Set before NumPy is loaded, whose threads spin while waiting: workers use the cores already.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 CHECKOUT = Path(__file__).resolve().parents[1]
@@ -21,18 +21,18 @@ FLAGS = (
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
-    # SwiftShader draws the scene alone; to put whole pages together, it takes five times the work of Skia.
+    # # SwiftShader renders the scene only; for composing whole pages it needs five times the work of Skia.
     "--disable-gpu-compositing",
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
-    # A camera that is made of software, for the one page that may ask for it.
+    # # A simulated camera, for the only page that may request one.
     "--use-fake-device-for-media-stream",
     "--use-fake-ui-for-media-stream",
 )
 
 
 def chromium_path() -> str:
-    """The one that `COAXIAL_CHROMIUM` names, or the first on the path."""
+    """The executable named by `COAXIAL_CHROMIUM`, or the first on the path."""
     named = os.environ.get("COAXIAL_CHROMIUM")
     path = named or next(filter(None, map(shutil.which, BROWSERS)), None)
     assert path, f"no browser: set COAXIAL_CHROMIUM, or install one of {', '.join(BROWSERS)}"
@@ -51,15 +51,16 @@ def browser() -> Iterator[Browser]:
 
 
 def pytest_configure() -> None:
-    """Cases of tests never come among those of people: who starts a server names a folder of its own."""
+    """Cases of tests are never stored among a user's: each server start names its own folder."""
     os.environ["COAXIAL_HOME"] = os.devnull
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """What needs the browser is marked so, and comes last.
+    """Mark tests that need the browser, and run them last.
 
     Playwright keeps an event loop running in the thread where other tests start theirs.
+
     """
     for item in items:
         if "browser" in getattr(item, "fixturenames", ()):

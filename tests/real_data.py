@@ -1,4 +1,4 @@
-"""Real recordings, where a folder of them lies beside the checkout or is named by `COAXIAL_DATA`."""
+"""Real recordings, from a folder beside the checkout or named by `COAXIAL_DATA`."""
 
 import os
 from pathlib import Path
@@ -7,7 +7,7 @@ import pytest
 
 
 def real_data_file(*parts: str) -> Path:
-    """The path of a recording; without it the test is skipped, or fails where recordings are required."""
+    """Path of a recording; without it the test is skipped, or fails if recordings are required."""
     beside = Path(__file__).resolve().parents[2] / "shared" / "data"
     path = Path(os.environ.get("COAXIAL_DATA") or beside).joinpath(*parts)
     if path.exists():

@@ -1,4 +1,4 @@
-"""An application served for real, on a free port, in a thread of its own."""
+"""An application served on a free port, in its own thread."""
 
 import threading
 from collections.abc import Iterator
@@ -14,7 +14,7 @@ PATIENCE_S = 30.0
 
 
 class _Announced(uvicorn.Server):
-    """A server that says when it listens."""
+    """A server that signals when it listens."""
 
     def __init__(self, config: uvicorn.Config) -> None:
         super().__init__(config)
@@ -28,7 +28,7 @@ class _Announced(uvicorn.Server):
 
 @contextmanager
 def served(app: FastAPI, *, begun: bool = False, tls: Tls | None = None) -> Iterator[int]:
-    """Serve it for the time of the block; the port. `begun`: somebody else starts and ends its parts."""
+    """Serve the application during the block; yield the port. `begun`: its parts are managed elsewhere."""
     config = uvicorn_config(app, host="127.0.0.1", port=0)
     if tls is not None:
         config.ssl_certfile, config.ssl_keyfile = str(tls.certificate), str(tls.key)

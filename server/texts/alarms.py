@@ -150,4 +150,4 @@ def _depth(site: Site | None, language: Language) -> str:
 KNOWN: Text = {"en": "Acknowledged by {by}.", "de": "Quittiert von {by}."}
 SOMEBODY: Text = {"en": "A colleague", "de": "Ein Kollege"}
 EARLIER: Text = {"en": " Earlier {value}, {time}.", "de": " Zuvor {value}, {time}."}
-LOST: Text = {"en": "Not known: no live figures.", "de": "Nicht bekannt: keine aktuellen Werte."}
+LOST: Text = {"en": "Not known: no live numbers.", "de": "Nicht bekannt: keine aktuellen Werte."}

@@ -1,4 +1,4 @@
-"""config.yaml says of each key what holds when it is left out, so it must say the truth."""
+"""Each default stated in config.yaml equals the default in the code."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The documents: what they name exists, and what a stranger needs stands on the first screen."""
+"""The documents: everything they name exists, and the first screen contains what a newcomer needs."""
 
 import re
 from pathlib import Path
@@ -31,13 +31,13 @@ def targets(makefile: str) -> set[str]:
 
 
 def links(text: str) -> list[str]:
-    """Where the document's links to files of this project point; those that begin with / are the server's."""
+    """Targets of the document's links to project files; those that begin with / belong to the server."""
     found = re.findall(r"\]\(([^)\s]+)\)", text)
     return [link.split("#")[0] for link in found if "://" not in link and not link.startswith(("#", "/"))]
 
 
 def files_named(text: str) -> list[str]:
-    """The files of this project that the document names by their whole path, `{en,de}` taken apart."""
+    """Project files that the document names by their full path, with `{en,de}` expanded."""
     named = re.findall(r"`((?:tracker|server|web|tests|docs)/[\w/.{},-]+\.\w+)`", text)
     lists = [re.split(r"[{}]", name) for name in named]
     return [
@@ -58,13 +58,13 @@ def is_source(name: str, sources: list[str]) -> bool:
 
 
 def headings(text: str) -> set[str]:
-    """The names by which links reach the document's headings."""
+    """Anchors of the document's headings."""
     named = re.findall(r"^#+ (.+)$", text, re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in named}
 
 
 def commands(text: str) -> set[str]:
-    """Every target that the document tells the reader to make, in a line of code or in a sentence."""
+    """Make targets in code lines or sentences of the document."""
     return set(re.findall(r"(?:^|`)make ([a-z][a-z-]*)", text, re.MULTILINE))
 
 
@@ -104,7 +104,7 @@ def test_a_dead_link_and_a_dead_command_are_seen() -> None:
     assert headings("# Cases, and settings\n## `/ws/view`\n") == {"cases-and-settings", "wsview"}
 
 
-def test_the_first_screen_says_what_a_stranger_must_know() -> None:
+def test_the_first_screen_has_what_a_newcomer_must_know() -> None:
     screen = "\n".join(text_of(ROOT / "README.md").splitlines()[:FIRST_SCREEN])
     assert "Research software, not a medical device" in screen
     assert "](web/dashboard.png)" in screen

@@ -1,4 +1,4 @@
-"""The user guide: what it names exists in the program, and no link of its site is dead or leads outside."""
+"""The user guide: everything it names exists in the program, and its site has no dead or external links."""
 
 import re
 import shlex
@@ -23,7 +23,7 @@ ROOT = Path(__file__).parents[2]
 PAGES = sorted((ROOT / "docs" / "guide").glob("*.md"))
 WRITTEN = [ROOT / "README.md", *PAGES]
 HERE = "https://coaxial.invalid/docs/"
-# Addresses of the server that are no part of its table: the page's views and the guide itself.
+# # Server addresses outside of its route table: the page's views and the guide itself.
 VIEWS = {"/", "/theatre", "/operator", "/operator/camera", "/supervisor", "/docs/"}
 NO_ADDRESS = {"/api/...", "/api"}
 
@@ -33,7 +33,7 @@ def text_of(path: Path) -> str:
 
 
 def typed(text: str) -> list[list[str]]:
-    """What follows `coaxial` in lines of code and in sentences, and in `make run ARGS="..."`."""
+    """Arguments of `coaxial` in code lines and sentences, and in `make run ARGS="..."`."""
     code = "\n".join(re.findall(r"```sh\n(.*?)```", text, re.DOTALL)).replace("\\\n", " ")
     lines = re.findall(r"^(?:\.venv/bin/)?coaxial (.+)", code, re.MULTILINE)
     lines += re.findall(r"`coaxial ([^`]+)`", text)
@@ -42,7 +42,7 @@ def typed(text: str) -> list[list[str]]:
 
 
 def fault_of(words: list[str]) -> str:
-    """What of a typed command does not exist; empty where all does."""
+    """Unknown parts of a command; empty if all exist."""
     command: Any = typer.main.get_command(app)
     while hasattr(command, "commands"):
         if not words or words[0] not in command.commands:
@@ -65,7 +65,7 @@ def addresses(text: str) -> set[tuple[str, str]]:
 
 
 class Links(HTMLParser):
-    """Where a page leads, what it loads, and the ids in it."""
+    """Links, resources and ids of a page."""
 
     def __init__(self, page: str) -> None:
         super().__init__()
@@ -84,7 +84,7 @@ class Links(HTMLParser):
 
 
 def dead_links(site: Path) -> list[str]:
-    """Links of a built site to pages, files or parts of pages that are not there."""
+    """Links of a built site to missing pages, files or anchors."""
     pages = {
         page.relative_to(site).as_posix().removesuffix("index.html"): Links(text_of(page))
         for page in site.rglob("*.html")

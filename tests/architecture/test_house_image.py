@@ -1,4 +1,4 @@
-"""The Dockerfile: facts that can be checked without an engine."""
+"""The Dockerfile: properties that can be checked without an engine."""
 
 import json
 import re
@@ -10,7 +10,7 @@ ROOT = Path(__file__).parents[2]
 
 
 def instructions(text: str) -> list[tuple[str, str]]:
-    """Instruction and argument in order, comments gone, continued lines joined."""
+    """Instructions and arguments in order, without comments, with continued lines joined."""
     bare = "\n".join(line for line in text.splitlines() if not line.lstrip().startswith("#"))
     lines = re.sub(r"\\\n\s*", "", bare).splitlines()
     return [(word.upper(), rest.strip()) for word, _, rest in (line.partition(" ") for line in lines if line)]
@@ -29,7 +29,7 @@ def last_stage(all_stages: list[tuple[str, str]]) -> list[tuple[str, str]]:
 
 def test_it_runs_as_a_numbered_user_who_is_not_root(last_stage: list[tuple[str, str]]) -> None:
     users = [rest for word, rest in last_stage if word == "USER"]
-    # A number, because an orchestrator that forbids root cannot look a name up.
+    # # A number, because an orchestrator that forbids root cannot resolve a name.
     assert users
     assert int(users[-1]) > 0
 

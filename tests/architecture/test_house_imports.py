@@ -1,4 +1,4 @@
-"""Who may import whom, as pyproject.toml says it."""
+"""The import contracts of pyproject.toml."""
 
 import pytest
 from importlinter.cli import lint_imports

@@ -1,4 +1,4 @@
-"""The house as it stands in git: what lies where, and what it is called."""
+"""The layout of the repository: locations and names of files."""
 
 import ast
 import subprocess
@@ -20,9 +20,9 @@ CODE = (".py", ".ts", ".tsx")
 
 
 def files_in_git() -> list[Path]:
-    """What is tracked or about to be, relative to the top, as far as it exists."""
+    """Files that are tracked or about to be, relative to the top, if they exist."""
     listed = subprocess.run(
-        # The checkout may belong to somebody else than who tests it, as in a container.
+        # # The checkout may belong to another user, as in a container.
         ["git", "-c", "safe.directory=*", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
         cwd=ROOT,
         check=True,
@@ -42,14 +42,14 @@ def vaguely_named(files: Iterable[Path]) -> list[Path]:
 
 
 def of_one_test_name(files: Iterable[Path]) -> list[Path]:
-    """Test files whose name another has too: pytest imports them by it, and collects only one of the two."""
+    """Test files with equal names: pytest imports them by name and collects only one of the two."""
     tests = [file for file in files if file.name.startswith("test_") and file.suffix == ".py"]
     named = Counter(file.name for file in tests)
     return [file for file in tests if named[file.name] > 1]
 
 
 def undocumented_packages(top: Path) -> list[str]:
-    """Folders with Python in them whose __init__.py is missing or has no docstring."""
+    """Python folders whose __init__.py is missing or has no docstring."""
     silent = []
     for folder in sorted({file.parent for file in top.rglob("*.py")}):
         door = folder / "__init__.py"
@@ -69,14 +69,14 @@ def test_a_stray_file_at_the_top_is_seen() -> None:
 
 
 @pytest.mark.parametrize("room", ROOMS)
-def test_each_room_says_in_a_readme_what_it_is_for(room: str) -> None:
+def test_each_top_folder_has_a_readme_with_its_purpose(room: str) -> None:
     readme = ROOT / room / "README.md"
     assert readme.exists(), f"{room} has no README.md"
     assert readme.read_text(encoding="utf-8").startswith("# ")
 
 
 @pytest.mark.parametrize("package", PACKAGES)
-def test_each_package_says_in_a_docstring_what_it_is_for(package: str) -> None:
+def test_each_package_has_a_docstring_with_its_purpose(package: str) -> None:
     assert undocumented_packages(ROOT / package) == []
 
 
@@ -90,11 +90,11 @@ def test_a_package_without_docstring_is_seen(tmp_path: Path) -> None:
     assert [Path(name).name for name in undocumented_packages(tmp_path)] == ["bare", "mute"]
 
 
-def test_no_name_says_nothing() -> None:
+def test_no_file_has_a_meaningless_name() -> None:
     assert vaguely_named(file for file in files_in_git() if file.suffix in CODE) == []
 
 
-def test_a_name_that_says_nothing_is_seen() -> None:
+def test_a_meaningless_name_is_detected() -> None:
     files = [Path("server/utils.py"), Path("tracker/common/edge.py"), Path("tracker/data_rate.py")]
     assert vaguely_named(files) == files[:2]
 

@@ -1,4 +1,4 @@
-"""The locks: exact, with hashes, agreeing with each other and with what is asked for, and without a place."""
+"""The locks: exact, with hashes, consistent with each other and the requirements, and without addresses."""
 
 import json
 import re
@@ -26,7 +26,7 @@ def text_of(lock: str) -> str:
 
 
 def entries(text: str) -> list[str]:
-    """One entry a package: comments gone, continued lines joined."""
+    """One entry per package, without comments, with continued lines joined."""
     bare = "\n".join(line for line in text.splitlines() if not line.lstrip().startswith("#"))
     return [line for line in bare.replace("\\\n", " ").splitlines() if line.strip()]
 
@@ -50,7 +50,7 @@ def versions(lock: str) -> dict[str, str]:
 
 
 def required_packages() -> dict[str, list[str]]:
-    """Names that pyproject.toml asks for, by the lock that must hold them."""
+    """Requirements of pyproject.toml, by the lock that must contain them."""
     project: dict[str, Any] = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     groups = project["dependency-groups"]
 

@@ -1,4 +1,4 @@
-"""The bill of materials has each package of the locks, and the table of SOUP each direct dependency."""
+"""The bill of materials contains each locked package, and the table of SOUP each direct dependency."""
 
 import base64
 import json
@@ -41,7 +41,7 @@ def bill(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
 
 
 def components(bill: dict[str, Any], ecosystem: str) -> dict[str, dict[str, Any]]:
-    """The components of this ecosystem by name and version."""
+    """Components of this ecosystem by name and version."""
     return {
         f"{one['name']} {one['version']}": one
         for one in bill["components"]
@@ -61,7 +61,7 @@ def packages_of_python() -> Iterator[tuple[str, str, set[str]]]:
 
 
 def packages_of_page() -> Iterator[tuple[str, dict[str, Any]]]:
-    """Name and entry of each package of package-lock.json that is not for development alone."""
+    """Name and entry of each package of package-lock.json that is not only for development."""
     lock = json.loads((ROOT / "web/package-lock.json").read_text(encoding="utf-8"))
     for path, entry in lock["packages"].items():
         if path and not entry.get("dev"):
@@ -82,7 +82,7 @@ def test_it_has_each_python_package_of_the_lock_and_no_other(bill: dict[str, Any
     for name, number, locked in packages:
         component = stated[f"{name} {number}"]
         assert hashes(component) == locked
-        # What this system does not need is locked and not installed, so its licence is not known.
+        # # A package that this system does not need is locked but not installed, so its licence is unknown.
         assert component.get("licenses") or not is_installed(name, number), f"{name} has no licence"
 
 
@@ -108,7 +108,7 @@ def test_it_names_what_depends_on_what_directly(bill: dict[str, Any]) -> None:
 
 def test_it_follows_the_schema_of_cyclonedx(bill: dict[str, Any]) -> None:
     folder = resources.files("cyclonedx.schema") / "_res"
-    # The first two are what the last one refers to, by their file names.
+    # # The last entry refers to the first two by their file names.
     names = [f"{name}.SNAPSHOT.schema.json" for name in ("spdx", "jsf-0.82", "bom-1.6")]
     schemas = [json.loads((folder / name).read_text(encoding="utf-8")) for name in names]
     registry = jsonschema_rs.Registry(
@@ -124,7 +124,7 @@ def test_it_names_no_registry_and_no_folder(bill: dict[str, Any]) -> None:
 
 
 def rows_of_soup() -> dict[str, list[str]]:
-    """The cells of each row of the tables in the guide by the name of its package."""
+    """Cells of each table row in the guide, by package."""
     text = (ROOT / "docs/guide/soup.md").read_text(encoding="utf-8")
     rows = [
         [cell.strip() for cell in line.strip("|").split("|")]

@@ -1,4 +1,4 @@
-"""The steps of the set-up: what they say on a machine where something is missing."""
+"""The installation steps: their messages on a machine where something is missing."""
 
 import os
 import shutil
@@ -13,7 +13,7 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.fixture
 def bare_path(tmp_path: Path) -> Path:
-    """A folder for the path in which there is a shell's bread and butter, and no Python, Node or browser."""
+    """A folder for PATH with basic shell tools but without Python, Node or a browser."""
     folder = tmp_path / "bin"
     folder.mkdir()
     for name in ("sh", "cat", "tail", "mkdir", "date", "id", "env", "dirname", "rm", "ln", "chmod"):
@@ -42,7 +42,7 @@ def step(
     )
 
 
-def test_a_machine_without_python_is_told_what_it_needs(bare_path: Path) -> None:
+def test_a_machine_without_python_gets_a_message_with_the_requirement(bare_path: Path) -> None:
     said = step("find-python", path=bare_path)
     assert said.returncode == 1
     assert said.stdout == ""
@@ -51,7 +51,7 @@ def test_a_machine_without_python_is_told_what_it_needs(bare_path: Path) -> None
 
 
 def python_of_version(major: int, minor: int) -> str:
-    """A script that answers as a Python of this version would."""
+    """A script that answers like a Python of this version."""
     pretend = f"import sys; sys.version_info = ({major}, {minor}, 0, 'final', 0); exec(sys.argv[1])"
     return f'exec {sys.executable} -c "{pretend}" "$2"'
 
@@ -64,7 +64,7 @@ def test_a_python_is_taken_from_3_11_on(bare_path: Path, minor: int, *, taken: b
     assert (f"is 3.{minor}." in said.stderr and "PYTHON=" in said.stderr) is not taken
 
 
-def test_a_python_without_venv_is_told_the_package_to_install(bare_path: Path) -> None:
+def test_a_python_without_venv_gets_a_message_with_the_package(bare_path: Path) -> None:
     real = sys.executable
     put(bare_path, "python3.12", f'case "$2" in *ensurepip*) exit 1;; *) exec {real} "$@";; esac')
     said = step("find-python", path=bare_path)
@@ -86,7 +86,7 @@ def test_a_python_that_was_named_is_the_one_that_is_taken(bare_path: Path) -> No
     assert said.stdout.strip() == sys.executable
 
 
-def test_a_machine_without_browser_is_told_how_to_name_one(bare_path: Path) -> None:
+def test_a_machine_without_browser_gets_a_message_how_to_name_one(bare_path: Path) -> None:
     said = step("find-chromium", path=bare_path)
     assert said.returncode == 1
     assert "COAXIAL_CHROMIUM=" in said.stderr
@@ -121,12 +121,12 @@ def test_the_machine_s_node_is_taken_only_if_it_can_build_the_page(
     put(bare_path, "node", f"echo v{version}")
     put(bare_path, "npm", "echo 11")
     said = step("with-node", ".", "cat", "/dev/null", path=bare_path, cwd=tmp_path)
-    # Without the machine's node it reaches for the environment, which this folder has not.
+    # # Without the machine's node it uses the environment, which this folder does not have.
     assert (said.returncode == 0) is taken
     assert (".venv/bin/python" in said.stderr) is not taken
 
 
-def test_a_machine_without_a_builder_of_images_is_told_what_to_install(bare_path: Path) -> None:
+def test_a_machine_without_a_builder_of_images_gets_a_message_what_to_install(bare_path: Path) -> None:
     said = step("image", path=bare_path)
     assert said.returncode == 1
     assert "buildah" in said.stderr
@@ -152,13 +152,13 @@ def test_the_builder_that_needs_no_root_builds_the_image(
     assert step("image", path=bare_path).stdout == f"{taken} --tag coaxial .\n"
 
 
-def test_a_step_that_works_says_one_line(bare_path: Path, tmp_path: Path) -> None:
+def test_a_successful_step_prints_one_line(bare_path: Path, tmp_path: Path) -> None:
     put(bare_path, "chatter", "echo much; echo more >&2")
     said = step("step", "talk", "Talking", "Be quiet.", "chatter", path=bare_path, cwd=tmp_path)
     assert (said.returncode, said.stdout, said.stderr) == (0, "Talking ...\n", "")
 
 
-def test_a_step_that_fails_says_why_and_what_to_do(bare_path: Path, tmp_path: Path) -> None:
+def test_a_failed_step_prints_reason_and_remedy(bare_path: Path, tmp_path: Path) -> None:
     put(bare_path, "broken", "echo the cable is out >&2; exit 7")
     said = step("step", "plug", "Plugging in", "Look at the cable.", "broken", path=bare_path, cwd=tmp_path)
     assert said.returncode == 1
@@ -185,7 +185,7 @@ def test_a_run_that_executed_nothing_is_no_pass(tmp_path: Path, suite: str, *, p
     assert (judged.returncode == 0) is passes
 
 
-def test_cleaning_takes_no_case_away_and_says_so(tmp_path: Path) -> None:
+def test_cleaning_keeps_the_cases_and_states_it(tmp_path: Path) -> None:
     shutil.copy(ROOT / "Makefile", tmp_path)
     for made in ("tracker", "server", "tests", ".venv", ".coaxial/cases/1"):
         (tmp_path / made).mkdir(parents=True)
@@ -199,7 +199,7 @@ STEPS_THAT_PASS = ("place", "packages", "project", "page-packages", "page", "dev
 
 
 def stands_ready(folder: Path, fails: str) -> None:
-    """A checkout in which all is installed and nothing compiled; what is called is written down, or fails."""
+    """A checkout with everything installed and nothing compiled; calls are recorded, or fail."""
     shutil.copy(ROOT / "Makefile", folder)
     for made in ("tracker", "web/src", ".make", ".venv/bin", ".venv/stamps"):
         (folder / made).mkdir(parents=True)

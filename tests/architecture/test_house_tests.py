@@ -1,4 +1,4 @@
-"""How the tests are run: each file once, and each part's failure is the run's."""
+"""The test run: each file runs once, and a failure of any part fails the run."""
 
 import subprocess
 from pathlib import Path
@@ -14,7 +14,7 @@ FILES = (
     "tests/server/test_page_in_browser.py",
     "tests/browser/test_dashboard.py",
 )
-# Writes down what each pytest was asked for, and fails where it is asked for what fails.
+# # Records the arguments of each pytest run, and fails for files that contain failing tests.
 PYTHON = """#!/bin/sh
 echo "$*" >>called
 case "$*" in *"$FAILS"*) exit "$WITH";; esac
@@ -22,7 +22,7 @@ case "$*" in *"$FAILS"*) exit "$WITH";; esac
 
 
 def run(folder: Path, *narrowed: str, fails: str = "nothing", code: int = 1) -> tuple[int, list[str]]:
-    """The code at which the run ends, and what each part of it was asked for."""
+    """Exit code of the run, and the arguments of each part."""
     for file in FILES:
         (folder / file).parent.mkdir(parents=True, exist_ok=True)
         (folder / file).touch()
@@ -47,12 +47,12 @@ def test_each_file_of_tests_is_run_once(tmp_path: Path) -> None:
     assert len(others) == 2
     scenes = next(requested for requested in others if "-m browser" not in requested)
     browser = next(requested for requested in others if "-m browser" in requested)
-    # The first part runs all that is found, but what needs a browser and what it is told to leave out.
+    # # The first part runs everything except browser tests and its exclusions.
     assert "-m not browser" in first
     left_out = {word.removeprefix("--ignore=") for word in first.split() if word.startswith("--ignore=")}
     assert left_out == set(FILES[:2]) == {word for word in scenes.split() if word.endswith(".py")}
     assert {"tests/browser", FILES[3]} <= set(browser.split())
-    # What is left out there comes last, when nothing else runs.
+    # # The exclusions run last, on their own.
     assert f"--ignore={ALONE}" in browser.split()
     assert alone.split()[-1] == ALONE
     assert (ROOT / ALONE).is_file()

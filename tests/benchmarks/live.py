@@ -20,7 +20,7 @@ from tracker.geometry import Rigid
 from tracker.navigation import AbsentReason
 from tracker.rehearsal import Theatre
 
-# The first images after the start wait for loading and settling, and are no steady state.
+# # The first images after the start include loading and settling.
 SETTLING_S = 2.0
 STAGES = ("waiting", *TRACKER_STAGES, "navigation", "overlay", "encode")
 
@@ -68,7 +68,7 @@ def _messages(server: RunningServer) -> Iterator[ReceivedMessage]:
 def judge_messages(
     theatre: Theatre, received: Sequence[ReceivedMessage], *, live_rate_hz: float
 ) -> list[Judgement]:
-    """Evaluate each message against the truth of the image whose number it carries."""
+    """Evaluate each message against the ground truth of its image."""
     return [
         judge(theatre, one.snapshot.image_number / live_rate_hz, claim_of_message(one.snapshot))
         for one in received

@@ -117,7 +117,7 @@ def test_few_numbers_have_no_spread_and_times_have_that_of_two_runs() -> None:
     assert plain.log_sd < 0.01 < timed.log_sd
 
 
-def test_an_interval_holds_the_true_share_as_often_as_it_says() -> None:
+def test_an_interval_contains_the_true_share_at_its_stated_rate() -> None:
     low, high = interval(24, 24, 1.96)
     assert (round(low, 2), round(high, 2)) == (0.86, 1.0)
     counts = np.random.default_rng(3).binomial(60, 0.95, 2000)

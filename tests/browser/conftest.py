@@ -1,4 +1,4 @@
-"""A server process with a feeder that does as it is told, and pages that watch it."""
+"""Fixtures: a server process with a controllable feeder, and pages that watch it."""
 
 from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
@@ -13,7 +13,7 @@ from tests.browser.theatre import CHECKOUT, PATIENCE_MS, Theatre, WatchedPage
 
 @pytest.fixture(scope="session")
 def playhouse() -> Iterator[Theatre]:
-    """A process that serves one theatre after the other."""
+    """A process that serves one theatre after another."""
     assert (CHECKOUT / "web" / "dist" / "index.html").is_file(), (
         "the page is not built: npm run build in web/"
     )
@@ -23,16 +23,16 @@ def playhouse() -> Iterator[Theatre]:
 
 @pytest.fixture
 def theatre(playhouse: Theatre) -> Iterator[Theatre]:
-    """A server that nobody has used. A test that kills its process starts one of its own."""
+    """A new server. A test that kills its process starts its own."""
     playhouse.anew()
     yield playhouse
-    # Images that nobody sees would take their part of the machine from the tests that need none of it.
+    # # Unwatched images would take processor time from tests that do not need them.
     playhouse.tell("stop")
 
 
 @pytest.fixture(scope="module")
 def shared_theatre(playhouse: Theatre) -> Iterator[Theatre]:
-    """One server for all tests of a file, none of which hurts it or takes one of its own."""
+    """One server shared by all tests of a file that do not damage it."""
     playhouse.anew()
     yield playhouse
     playhouse.tell("stop")
@@ -40,21 +40,21 @@ def shared_theatre(playhouse: Theatre) -> Iterator[Theatre]:
 
 @pytest.fixture
 def watch(browser: Browser) -> Iterator[Callable[..., WatchedPage]]:
-    """Opens a page on a screen of this size; with `strict`, a complaint of the page fails the test."""
+    """Opens a page with this screen size; with `strict`, an error logged by the page fails the test."""
     with watching(browser) as opened:
         yield opened
 
 
 @pytest.fixture(scope="module")
 def watch_for_all(browser: Browser) -> Iterator[Callable[..., WatchedPage]]:
-    """The same for a page that all tests of a file share: to load it costs more than most of them."""
+    """The same for a page shared by all tests of a file, because loading takes longer than most of them."""
     with watching(browser) as opened:
         yield opened
 
 
 @pytest.hookimpl(hookwrapper=True)
 def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, "pluggy.Result[pytest.TestReport]"]:
-    """What stood on each page when a test failed, which no later run may show again."""
+    """Save what each page displayed when a test failed."""
     report = (yield).get_result()
     browser = getattr(item, "funcargs", {}).get("browser")
     if not report.failed or browser is None:
@@ -69,7 +69,7 @@ def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, "pluggy.Resu
 
 @contextmanager
 def watching(browser: Browser) -> Iterator[Callable[..., WatchedPage]]:
-    """What opens pages, which are closed at the end, and judged."""
+    """Opens pages, closes them at the end, and checks their logs."""
     pages: list[tuple[WatchedPage, bool]] = []
 
     def opened(theatre: Theatre, width: int = 1280, height: int = 800, *, strict: bool = True) -> WatchedPage:

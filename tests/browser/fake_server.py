@@ -1,17 +1,18 @@
-"""The real web server over a theatre of two lines: instants made by hand, told by words on standard input.
+"""The real web server over a theatre of two lines: synthetic instants, selected by words on standard input.
 
-    live      instants with the marker seen (so it starts)
-    unseen    instants whose marker is not seen
-    lost      the camera is gone: no snapshot, and a trouble with its remedy
-    bare      images of a camera that is not calibrated
-    deep      the drill's tip is past the planned end, which is an alarm
-    path, entry, near, breach   a drill in a bone: on path, its entry off, near a wall, through it
-    hidden    the same drill is not seen
-    wander    the same drill is led through all of this, back and forth
-    stop      nothing is published any more, the server stays up
-    anew      the server ends; one that remembers nothing begins on another port, with instants as in live
+live      instants with the marker seen (the initial mode)
+unseen    instants whose marker is not seen
+lost      the camera is disconnected: no snapshot, and a problem with its remedy
+bare      images of a camera that is not calibrated
+deep      the tip is past the planned end, which is an alarm
+path, entry, near, breach   a drill in a bone: on path, off at its entry, near a wall, through it
+hidden    the same drill is not seen
+wander    the same drill moves through all of these, back and forth
+stop      nothing is published any more, the server keeps running
+anew      the server ends; one without memory starts on another port, with instants as in live
 
-Standard output gets the port, in a line of its own for each server. The process ends with its standard input.
+Standard output gets the port of each server on its own line. The process ends with its standard input.
+
 """
 
 import argparse
@@ -49,7 +50,7 @@ from tracker.registration import Registration
 SIZE_WH_PX = (1280, 720)
 RATE_HZ = 15.0
 SIDE_MM = 25.0
-# So long a page that still watches may keep a server that ends.
+# # How long a page that still watches may keep an ending server alive.
 FAREWELL_S = 2
 CORNERS_MM = np.array([[-0.5, 0.5, 0], [0.5, 0.5, 0], [0.5, -0.5, 0], [-0.5, -0.5, 0]]) * SIDE_MM
 CAMERA_FROM_VERTEBRA = Rigid[Camera, Vertebra].from_vector([0.9, 0.35, 0.0], [5, -10, 260])
@@ -99,7 +100,7 @@ def setup(*, calibrated: bool = True) -> Setup:
 def snapshot_at(
     number: int, now_s: float, *, seen: bool, calibrated: bool, deep: bool = False
 ) -> NavigationSnapshot:
-    """The drill on its slow way along the channel."""
+    """The drill on its slow path along the channel."""
     phase = number / RATE_HZ
     stands = setup(calibrated=calibrated)
     drill = Rigid[Vertebra, Tool].from_vector(
@@ -133,14 +134,14 @@ def snapshot_at(
 def snapshot_in_bone(mode: str, number: int, now_s: float) -> NavigationSnapshot:
     """A drill in the rod, whose walls are known."""
     if mode == "wander":
-        # Every two seconds another place, with the way between them.
+        # # A new place every two seconds, with motion in between.
         places, along = list(PLACES_IN_BONE.values()), number / RATE_HZ / 2.0
         share = along - int(along)
         first, second = (np.array(places[int(along + step) % len(places)]) for step in (0, 1))
         where = first + share * (second - first)
     else:
         where = np.array(PLACES_IN_BONE.get(mode, PLACES_IN_BONE["path"]))
-    # 95 % of 0.9 mm lie within 2.21 mm, and 1.8 mm are left.
+    # # 95 % of 0.9 mm is 2.21 mm, and 1.8 mm are left.
     stands = setup_of(registered_sd_mm=0.9 if mode == "insufficient" else 0.0)
     stands = replace(stands, min_errors_95_mm=min_errors_95_mm(stands, drill_reference()))
     sighting = UNSEEN if mode == "hidden" else seen_at(where, stands.tools["drill"])
@@ -148,7 +149,7 @@ def snapshot_in_bone(mode: str, number: int, now_s: float) -> NavigationSnapshot
 
 
 def instant_at(sequence: int, mode: str, ground: npt.NDArray[np.uint8], alarms: AlarmService) -> Instant:
-    """The instant that this mode asks for."""
+    """Return the instant of this mode."""
     process = ProcessStatus(state=ProcessState.RUNNING)
     if mode == "lost":
         away = SourceStatus(
@@ -176,12 +177,12 @@ def instant_at(sequence: int, mode: str, ground: npt.NDArray[np.uint8], alarms: 
 
 
 def backdrop() -> npt.NDArray[np.uint8]:
-    """A still picture, grey and soft as a field of operation is."""
+    """A static grey picture, as soft as an operating field."""
     noise = np.random.default_rng(1).uniform(40, 110, (9, 16, 3)).astype(np.uint8)
     return np.asarray(cv2.resize(noise, SIZE_WH_PX, interpolation=cv2.INTER_CUBIC), dtype=np.uint8)
 
 
-# On a busy machine images are older than the usual limit, and the page would switch its 3-D scene off.
+# # On a busy machine images are older than the usual limit, and the page would switch off its 3-D scene.
 LIMITS = {"pose_stale_after_ms": 700}
 
 
@@ -196,7 +197,7 @@ class Feeder(threading.Thread):
         self.mode = "live"
 
     def run(self) -> None:
-        """One instant after the other at the rate."""
+        """Publish instants at the rate."""
         ground = backdrop()
         sequence = 0
         while not self._ended.wait(1.0 / RATE_HZ):
@@ -205,7 +206,7 @@ class Feeder(threading.Thread):
                 sequence += 1
 
     def end(self) -> None:
-        """Publish nothing any more."""
+        """Stop publishing."""
         self._ended.set()
         self.join()
 
@@ -226,7 +227,7 @@ def main() -> None:
 
 
 def begun(ending: ExitStack, port: int) -> Feeder:
-    """A server with nothing behind it, which says its port, and who feeds it; both go at the end."""
+    """Start a server without a store; return its port and feeder, both stopped at the end."""
     hub = LiveHub()
     config = Config.model_validate({"limits": LIMITS})
     alarms = AlarmService(config)
@@ -251,7 +252,7 @@ def begun(ending: ExitStack, port: int) -> Feeder:
 
 
 def parts_with_store(ending: ExitStack, parts: AppParts) -> AppParts:
-    """The same with an empty folder for cases, which goes at the end."""
+    """The same with an empty store, deleted at the end."""
     home = ending.enter_context(Home(Path(ending.enter_context(TemporaryDirectory()))))
     store = ending.enter_context(CaseStore(home))
     jobs = Jobs(log=LogSettings(as_json=False))

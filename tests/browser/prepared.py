@@ -1,4 +1,4 @@
-"""A case with camera, tool, CT and plan in a folder, before a server is started there: nothing waits."""
+"""Prepares a case with camera, tool, CT and plan in a folder before a server is started there."""
 
 from pathlib import Path
 from typing import Literal
@@ -14,14 +14,14 @@ from tracker.plan.document import PlannedChannel, VertebraPlan
 from tracker.rehearsal import Theatre
 from tracker.rehearsal.ct import rehearsal_ct
 
-# Coarser than a scanner's: the pages ask where things are, not how fine.
+# # Coarser than a scanner's, since the tests need positions, not detail.
 SPACING_MM = (1.2, 1.2, 1.5)
 APART_MM = 20.0
 SIDES: tuple[Literal["left", "right"], ...] = ("left", "right")
 
 
 def prepared(home: Path, rehearsal: RehearsalConfig) -> Theatre:
-    """Keep a case that waits for registration, open, in this folder; the theatre that it is of."""
+    """Store an open case that is ready for registration in this folder; return its theatre."""
     theatre = theatre_from_config(rehearsal)
     camera = theatre.camera
     with Home(home) as folder, CaseStore(folder) as store:

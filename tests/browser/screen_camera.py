@@ -1,4 +1,4 @@
-"""A camera that looks at a page's screen: pictures of the page as MJPEG over HTTP, with a known delay."""
+"""A camera that looks at the screen of a page: pictures of it as MJPEG over HTTP, with a known delay."""
 
 import base64
 import contextlib
@@ -15,19 +15,20 @@ from playwright.sync_api import Page
 from tests.server.capture.http_image_server import ImageServer
 
 SIZE_WH_PX = (640, 400)
-# Slow enough for a busy machine to show every image.
+# # Slow enough for a busy machine to deliver every image.
 RATE_HZ = 6.0
 HEAD = b"--x\r\nContent-Type: image/jpeg\r\nContent-Length: %d\r\n\r\n"
-# So many pictures of the screen are remembered; at 60 Hz, more than any delay of a test.
+# # Number of stored pictures of the screen; at 60 Hz, more than any delay of a test.
 REMEMBERED = 240
 
 
 class ScreenCamera(ImageServer):
-    """Gives at its rate what the screen showed `delay_s` ago; grey before somebody looks at a page.
+    """Streams what the screen showed `delay_s` ago; grey before it watches a page.
 
     Attributes:
-        delay_s: from the screen to the stream; may be changed while it runs.
-        covered: whether a hand is before the lens.
+        delay_s: delay from the screen to the stream; may be changed while running.
+        covered: whether the lens is covered.
+
     """
 
     def __init__(self) -> None:
@@ -38,17 +39,17 @@ class ScreenCamera(ImageServer):
 
     @property
     def address(self) -> str:
-        """For `camera.source`."""
+        """Address for `camera.source`."""
         return f"http://127.0.0.1:{self.server_address[1]}/screen.mjpg"
 
     def look_at(self, page: Page) -> None:
-        """Take a picture of the page with each image of its screen, as the browser composes it."""
+        """Capture the page with each refresh, as composed by the browser."""
         line = page.context.new_cdp_session(page)
 
         def take(shown: dict[str, Any]) -> None:
             ago_s = time.time() - float(shown["metadata"]["timestamp"])
             self._seen.append((time.monotonic() - ago_s, base64.b64decode(shown["data"])))
-            # The last one may come while the page is closed.
+            # # The last capture may be pending while the page is closed.
             with contextlib.suppress(PlaywrightError):
                 line.send("Page.screencastFrameAck", {"sessionId": shown["sessionId"]})
 
@@ -59,7 +60,7 @@ class ScreenCamera(ImageServer):
         )
 
     def image(self, number: int) -> bytes:
-        """A JPEG of what the camera sees now; no two are equal, as of a sensor."""
+        """JPEG of the current image; no two are equal, as from a sensor."""
         seen_s = time.monotonic() - self.delay_s
         picture = next((jpeg for at_s, jpeg in reversed(self._seen.copy()) if at_s <= seen_s), None)
         image = np.full((SIZE_WH_PX[1], SIZE_WH_PX[0], 3), 90, np.uint8)

@@ -1,4 +1,4 @@
-"""The server process of `supervised_server.py`, and pages of its people."""
+"""The server process of `supervised_server.py`, and the pages of its users."""
 
 import os
 import subprocess

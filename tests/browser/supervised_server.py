@@ -1,7 +1,8 @@
-"""The real web server with a case that lacks nothing but a co-signature, people without keys, made images.
+"""The real web server with a case that lacks only a co-signature, users without keys, and synthetic images.
 
-Standard output gets one line, the port. Standard input is told what to publish, as `fake_server.py` is. The
-process ends with its standard input.
+Standard output gets the port on one line. Standard input selects what is published, as in `fake_server.py`.
+The process ends with its standard input.
+
 """
 
 import os
@@ -34,7 +35,7 @@ from tracker.plan.document import plain
 from tracker.plan.document.changes import channel_of, vertebra_named
 from tracker.registration import Registration
 
-# A busy machine brings images late, and nothing is marked on what is not live.
+# # A busy machine delays images, and marks need live images.
 PATIENT = {"pose_stale_after_ms": 10_000, "video_stale_after_ms": 10_000, "scene_stale_after_ms": 10_000}
 SUPERVISION = {"cosign": {"plan": "required"}, "drawings_fade_after_s": 600}
 RECORDING = {"min_free_gb": 0.0}
@@ -42,7 +43,7 @@ CONFIG = Config.model_validate({"supervision": SUPERVISION, "limits": PATIENT, "
 
 
 def fill(store: CaseStore, run: str) -> None:
-    """A case as it stands before somebody navigates; camera and tool are the rehearsal's."""
+    """A case ready for navigation; camera and tool are the rehearsal's."""
     case = store.create("L3, rehearsal")
     store.open(case.id)
     ct = store.put(case.id, DocumentKind.CT, "main", {}, made_by="ito")
@@ -100,7 +101,7 @@ def fill(store: CaseStore, run: str) -> None:
 
 
 def put_recording(store: CaseStore) -> None:
-    """Put a recording of an earlier day into the open case."""
+    """Add a recording of an earlier day to the open case."""
     case = store.get_open_case()
     assert case is not None
     folder = store.home.cases / case.id / "recordings"
@@ -156,7 +157,7 @@ def main() -> None:
         serving.join(10)
         jobs.close()
         log.stop()
-    # The feeder is in the middle of an image, and needs no farewell.
+    # # The feeder may be in the middle of an image and is not joined.
     os._exit(0)
 
 

@@ -1,4 +1,4 @@
-"""Everybody can use every page: axe-core finds no serious fault, and no page complains."""
+"""Accessibility: axe-core finds no serious violation on any page, and no page logs an error."""
 
 import json
 import re
@@ -17,7 +17,7 @@ WEB = CHECKOUT / "web"
 AXE = WEB / "node_modules" / "axe-core" / "axe.min.js"
 STEPS = re.findall(r'\{ name: "(\w+)",', (WEB / "src" / "operator" / "pages.ts").read_text(encoding="utf-8"))
 THEATRE, LYING, UPRIGHT, PHONE = (1920, 1080), (1280, 800), (800, 1280), (390, 844)
-# The scene's frame holds viser's own page, which is not ours to mend.
+# # The scene's frame contains viser's own page, which this project does not control.
 RUN = """options => axe
     .run(document, { iframes: false, resultTypes: ["violations"], ...options })
     .then(found => found.violations.map(({ id, impact, nodes }) =>
@@ -25,7 +25,7 @@ RUN = """options => axe
 
 
 def patient(port: int) -> dict[str, Any]:
-    """What the server says of itself, patient: a busy machine brings images late, and late numbers go."""
+    """The server's settings with long limits: a busy machine delays images, and late numbers are removed."""
     with urlopen(f"http://127.0.0.1:{port}/api/dashboard") as answer:
         said = json.load(answer)
     return {**said, "limits": {**said["limits"], "pose_stale_after_ms": 600_000}}
@@ -33,7 +33,7 @@ def patient(port: int) -> dict[str, Any]:
 
 @pytest.fixture(scope="module")
 def watched(browser: Browser, shared_theatre: Theatre) -> Iterator[WatchedPage]:
-    """The page of all these tests, with axe-core in it."""
+    """The page of these tests, with axe-core loaded."""
     said = patient(shared_theatre.port)
     context = browser.new_context(locale="en-GB")
     context.set_default_timeout(PATIENCE_MS)
@@ -45,7 +45,7 @@ def watched(browser: Browser, shared_theatre: Theatre) -> Iterator[WatchedPage]:
 
 @pytest.fixture
 def opened(watched: WatchedPage, shared_theatre: Theatre) -> Iterator[Callable[..., Page]]:
-    """Goes to an address if the page is not there; a complaint of the page fails the test."""
+    """Goes to an address if the page is not there; an error logged by the page fails the test."""
 
     def go(path: str, size: tuple[int, int] = LYING) -> Page:
         width, height = size
@@ -61,7 +61,7 @@ def opened(watched: WatchedPage, shared_theatre: Theatre) -> Iterator[Callable[.
 
 
 def faults(page: Page, **options: Any) -> list[dict[str, Any]]:  # noqa: ANN401  axe's own options
-    """What axe-core calls serious or critical."""
+    """Violations that axe-core rates serious or critical."""
     found: list[dict[str, Any]] = page.evaluate(RUN, options)
     return [fault for fault in found if fault["impact"] in ("serious", "critical")]
 
@@ -107,7 +107,7 @@ def test_the_theatre_s_view_while_nothing_is_well(
     expect(page.get_by_test_id("alert")).to_be_visible(timeout=PATIENCE_MS)
     expect(page.get_by_test_id("alarm-top")).to_be_visible(timeout=PATIENCE_MS)
     assert faults(page) == []
-    # The server's English among German words says that it is English.
+    # # The server's English sentences on a German page are marked with their language.
     expect(page.get_by_test_id("alert").locator("[lang=en]").first).to_contain_text("camera")
 
 
@@ -141,7 +141,7 @@ def test_the_supervisor_s_view_while_it_is_live(opened: Callable[..., Page]) -> 
 
 
 def small_targets(page: Page) -> list[str]:
-    """What a glove would miss: buttons and links of the shell under 48 px."""
+    """Buttons and links of the shell smaller than 48 px, which a glove would miss."""
     found: list[str] = page.evaluate(
         """() => [...document.querySelectorAll(".operator-top a, .alarms button, .rail a, .step-head a")]
             .filter(one => one.getBoundingClientRect().height < 48 || one.getBoundingClientRect().width < 48)

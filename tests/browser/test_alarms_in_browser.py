@@ -1,4 +1,4 @@
-"""Alarms as a theatre screen shows and sounds them."""
+"""Display and sound of alarms on a theatre screen."""
 
 import re
 from collections.abc import Callable
@@ -12,7 +12,7 @@ pytestmark = pytest.mark.browser
 
 Watch = Callable[..., WatchedPage]
 expect.set_options(timeout=PATIENCE_MS)
-# What the page plays, noted from outside: every source that is started, and its stop.
+# # Records from outside what the page plays: start and stop of every source.
 EARS = """window.heard = [];
 const start = AudioBufferSourceNode.prototype.start, stop = AudioBufferSourceNode.prototype.stop;
 AudioBufferSourceNode.prototype.start = function (...at) {
@@ -37,9 +37,9 @@ def test_an_alarm_is_seen_heard_paused_acknowledged_and_goes(theatre: Theatre, w
     sound = page.get_by_test_id("sound")
     expect(sound).to_have_text("SOUND NOT ARMED: touch here")
     arm(page)
-    # On a slow machine nobody armed a sound for so long that this was an alarm.
+    # # On a slow machine no sound may have been armed for so long that this was an alarm.
     band(page, "none", "normal")
-    # Its sound stops a moment after its band is gone.
+    # # Its sound stops shortly after its band disappears.
     page.wait_for_function("() => !window.heard.some(one => one.loop) || window.heard.at(-1) === 'stopped'")
     page.evaluate("window.heard = []")
     theatre.tell("deep")

@@ -1,4 +1,4 @@
-"""A theatre screen whose sound was armed: over a start of the server, a crash of its tab, and a reload."""
+"""A theatre screen with armed sound, through a server restart, a crash of its tab, and a reload."""
 
 from collections.abc import Callable
 
@@ -16,13 +16,13 @@ expect.set_options(timeout=PATIENCE_MS)
 
 
 def conditions(theatre: Theatre) -> set[str]:
-    """The alarms that the server raises now."""
+    """Alarms that the server raises at present."""
     reported = httpx2.get(f"http://127.0.0.1:{theatre.port}/api/alarms").json()
     return {one["condition"] for one in reported["alarms"]}
 
 
 def raised(page: Page, theatre: Theatre, condition: str, *, there: bool = True) -> None:
-    """Wait until the server raises this alarm; the page only passes the time."""
+    """Wait until the server raises this alarm; the page only provides the waiting."""
     for _ in range(PATIENCE_MS // 100):
         if (condition in conditions(theatre)) is there:
             return
@@ -31,7 +31,7 @@ def raised(page: Page, theatre: Theatre, condition: str, *, there: bool = True) 
 
 
 def cleared(page: Page, theatre: Theatre, condition: str) -> None:
-    """Wait until it raises it no more."""
+    """Wait until the server no longer raises it."""
     raised(page, theatre, condition, there=False)
 
 

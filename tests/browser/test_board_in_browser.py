@@ -1,4 +1,4 @@
-"""Figures, video and the CT under the drill on one screen: the supervisor's page and the operator's."""
+"""Figures, video and cuts on one screen: the pages of supervisor and operator."""
 
 from collections.abc import Callable
 
@@ -15,7 +15,7 @@ FIGURES = ("reading-entry", "reading-angle", "reading-depth", "reading-wall")
 PAGES = {"supervisor": ("hold-ask", "cut-probe"), "operator/navigate": ("cut-probe",)}
 
 
-# How many figures have a curve.
+# # Number of figures with a curve.
 CURVES = f"""() => [...document.querySelectorAll("canvas[data-trend]")].filter(
     (canvas) => {PIXELS}(canvas).some((value) => value > 0),
 ).length"""
@@ -25,7 +25,7 @@ CURVES = f"""() => [...document.querySelectorAll("canvas[data-trend]")].filter(
 def board(
     request: pytest.FixtureRequest, shared_theatre: Theatre, watch_for_all: Callable[..., WatchedPage]
 ) -> Page:
-    """One of the two pages, for all sizes."""
+    """One of the two pages, at all sizes."""
     shared_theatre.tell("path")
     page = watch_for_all(shared_theatre, 1366, 768).open(request.param)
     expect(page.get_by_test_id("cut-probe")).to_have_attribute("data-shows", "bare")
@@ -33,7 +33,7 @@ def board(
 
 
 def cut_off(page: Page, name: str) -> list[str]:
-    """What of this page is not wholly on the screen as it stands, without scrolling."""
+    """Elements of this page that are not completely visible without scrolling."""
     wanted = [*FIGURES, *PAGES[name]]
     width, height = page.evaluate("[innerWidth, innerHeight]")
     off = []
@@ -66,7 +66,7 @@ def test_curves_go_with_the_figures_when_messages_stop(board: Page, shared_theat
     shared_theatre.tell("stop")
     expect(board.get_by_test_id("numbers")).to_have_attribute("data-live", "false")
     expect(board.get_by_test_id("numbers")).to_have_attribute("data-trend", "false")
-    # Erased, and not only hidden.
+    # # Cleared, not only hidden.
     expect(board.locator("canvas[data-trend=entry]")).to_be_hidden()
     assert board.evaluate(CURVES) == 0
     shared_theatre.tell("path")

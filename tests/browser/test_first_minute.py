@@ -1,6 +1,7 @@
-"""The rehearsal where one machine without a graphics card runs server and browser, with the default limits.
+"""The rehearsal on one machine without a graphics card for server and browser, with the default limits.
 
-`python -m tests.benchmarks.first_page` measures how well it does where nothing else runs.
+`python -m tests.benchmarks.first_page` measures it on an idle machine.
+
 """
 
 from collections.abc import Iterator
@@ -16,9 +17,9 @@ from tests.benchmarks.running_server import RunningServer, running_server
 
 pytestmark = pytest.mark.browser
 
-# The aim is 99 % and 15 images/s; a slow machine reaches less. What once made the page late left 30 to 60 %.
+# # The goal is 99 % and 15 images/s; a slow machine reaches less. Earlier faults left 30 to 60 %.
 MIN_LIVE_RATIO, MIN_IMAGES_PER_S = 0.75, 8.0
-# Of a core: with more of it nothing can be said. `make test` runs this test alone.
+# # Share of a core used by others, above which nothing can be concluded. `make test` runs this test alone.
 MAX_OTHER_WORK = 0.3
 WINDOW_S, SETTLING_S, WINDOWS = 8.0, 6.0, 3
 

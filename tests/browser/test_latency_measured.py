@@ -1,4 +1,4 @@
-"""The latency is measured end to end: the camera sees the page's own screen, later by a known delay."""
+"""End-to-end latency measurement: the camera sees the page's own screen with a known delay."""
 
 import json
 import math
@@ -16,9 +16,9 @@ from tests.procedure.real_server import BUSY_MACHINE, RealServer, real_server
 
 pytestmark = pytest.mark.browser
 
-# Fewer than a person measures with; each stands for two to three image periods.
+# # Fewer codes than in use; each lasts two to three image periods.
 CODES = 24
-# Aiming, codes and the last images, on a machine that does much else.
+# # Time for aiming, codes and the last images on a busy machine.
 MEASURED_WITHIN_MS = 4 * PATIENCE_MS
 TRIES = 5
 SHORT_S, LONG_S = 0.1, 0.9
@@ -41,9 +41,9 @@ def filming(camera: ScreenCamera, tmp_path_factory: pytest.TempPathFactory) -> I
 
 @pytest.fixture
 def page(camera: ScreenCamera, filming: RealServer, watch: Callable[..., WatchedPage]) -> Page:
-    """The camera's page, with the camera before it."""
+    """The camera page, with the camera in front of it."""
     camera.delay_s, camera.covered = SHORT_S, False
-    # A measurement that is rejected is a 409, which the browser writes into its console.
+    # # A rejected measurement is a 409, which the browser logs.
     watched = watch(filming, strict=False)
     page = watched.page
 
@@ -61,7 +61,7 @@ def page(camera: ScreenCamera, filming: RealServer, watch: Callable[..., Watched
 
 
 def measured(page: Page, filming: RealServer) -> dict[str, Any]:
-    """Touch the button, and wait for the result; as it says, again where a busy machine skipped images."""
+    """Start the measurement and wait for the result; repeat it if a busy machine skipped images."""
     before = filming.ask("GET", "/api/latency", 200)["result"]
     for _ in range(TRIES):
         page.get_by_test_id("latency-begin").click()
@@ -91,7 +91,7 @@ def test_a_known_delay_before_the_camera_is_in_the_latency(
     for result, delay_s in ((short, SHORT_S), (long, LONG_S)):
         report = result["report"]
         assert report["samples"] >= CODES * MIN_TIMED_RATIO
-        # All before the stamp of the capture is the screen's and the camera's.
+        # # Everything before the capture time belongs to screen and camera.
         assert report["stage_ms"]["screen and camera"] >= 1000.0 * delay_s
         assert report["median_ms"] <= report["p99_ms"]
         assert sum(report["stage_ms"].values()) == pytest.approx(

@@ -1,7 +1,8 @@
-"""A page that is loading is calm: it claims nothing that nobody has told it yet.
+"""A loading page claims nothing before the server has answered.
 
-Answers and live messages are held back until the test lets them go, and the page's time is made: it passes
-when the test says so.
+Answers and live messages are held back until the test releases them, and the page's clock is controlled by
+the test.
+
 """
 
 import contextlib
@@ -42,32 +43,31 @@ PAGES = [
     *(("o1", f"operator{step}") for step in STEPS),
 ]
 
-# Nothing of this is true of the server that is loaded from, so none of it may ever be seen.
+# # None of this is true of the server, so it may never appear.
 FALSE = [
-    "SERVER GONE",
+    "SERVER LOST",
     "SERVER NOT REACHED",
-    "ALARMS NOT KNOWN",
+    "ALARMS UNKNOWN",
     "NO VIDEO",
     "NO TRACKING",
     "NO NUMBERS",
     "SCENE STALE",
     "No drill to show",
-    "No tool is in use",
-    "is not seen: turn",
+    "No tool is calibrated",
+    "not visible: turn",
     "not registered",
     "No case is open",
     "no case open",
     "none chosen",
-    "Nobody knows",
-    "no numbers",
     "not known",
-    "gone, reconnecting",
+    "no numbers",
+    "lost, reconnecting",
     "There is no plan",
     "There is no registration",
     "Open a case",
     "▲  ",
 ]
-# Stands in the page before its own script does, and writes down what is seen of this, and every alert.
+# # Runs before the page's own script, and records every appearance of these texts and every alert.
 RECORDER = f"""(() => {{
     if (window.parent !== window) return;
     const wrong = {FALSE!r};
@@ -86,17 +86,17 @@ RECORDER = f"""(() => {{
         for (const {{ target }} of records) look(target.nodeName === "#text" ? target.parentNode : target);
     }}).observe(document, {{ subtree: true, childList: true, characterData: true, attributes: true }});
 }})()"""
-# A page takes up to so long to load on a busy machine; a server on an open line is gone after 0.8 s.
+# # Loading may take this long on a busy machine; a silent server counts as lost after 0.8 s.
 LOADS_FOR_MS = 4000
 REACHED_WITHIN_MS = 10_000
-# The longest wait before a lost line is tried again.
+# # The longest delay before a reconnect.
 NEXT_LINE_AFTER_MS = 500
-# Shorter than the silence after which a server is gone.
+# # Shorter than the silence after which a server counts as lost.
 MOMENTS, MOMENT_MS = 10, 300
 
 
 class Loading:
-    """A page whose answers and live messages wait until they are let go, in a time that the test makes."""
+    """A page whose answers and live messages are held back, with a clock controlled by the test."""
 
     def __init__(self, watched: WatchedPage, *, rejects: bool = False) -> None:
         self.page = watched.page
@@ -110,15 +110,15 @@ class Loading:
         self.page.clock.install(time=0)
 
     def go(self, path: str) -> None:
-        """Load it, and have its time stand still."""
+        """Load the page with its clock stopped."""
         self.page.goto(path)
-        # The views come in files of their own, and are not what is waited for here.
+        # # The views are separate files, which are not held back.
         for view in sorted((CHECKOUT / "web" / "dist" / "assets").glob("*View-*.js")):
             self.page.evaluate("name => import(name)", f"/assets/{view.name}")
         self.page.clock.pause_at(600_000)
 
     def release(self, *kinds: str) -> None:
-        """Let the session, all other answers (rest), or what is live go, from now on."""
+        """Release the session, all other answers (rest), or live messages, from now on."""
         self._open.update(kinds)
         if kinds != ("session",):
             self.page.evaluate("window.isAnswered = true")
@@ -128,11 +128,11 @@ class Loading:
         if "live" in kinds:
             while self._lines:
                 self._lines.pop().close()
-            # From here on time stands still, so that no image gets old and no line silent.
+            # # From here on the clock stands still, so that no image ages and no connection is silent.
             self.pass_ms(NEXT_LINE_AFTER_MS)
 
     def shows(self, path: str) -> None:
-        """The view stands there: React shows what came late only when a moment of its time has passed."""
+        """Wait until the view is rendered: React shows late content only when its timers have run."""
         view = self.page.locator(f".{path.split('/', maxsplit=1)[0]}")
         for _ in range(20):
             self.pass_ms(50)
@@ -141,7 +141,7 @@ class Loading:
         pytest.fail(f"no view of {path}")
 
     def comes_true(self, path: str) -> None:
-        """What the server tells stands there at last: numbers that were old return only after a moment."""
+        """Wait until the server's data is shown: numbers that were old return only after a moment."""
         for _ in range(MOMENTS):
             with contextlib.suppress(AssertionError):
                 is_true(self.page, path, PATIENCE_MS / MOMENTS)
@@ -150,16 +150,16 @@ class Loading:
         is_true(self.page, path, PATIENCE_MS)
 
     def pass_ms(self, ms: int) -> None:
-        """Let so much of the page's time pass, with every timer in it."""
+        """Advance the page's clock, with all its timers."""
         self.page.clock.run_for(ms)
 
     def seen(self) -> list[str]:
-        """What was false and still seen, and every alert."""
+        """False texts and alerts that appeared."""
         return sorted(set(self.page.evaluate("seen")))
 
     def _answer(self, route: Route) -> None:
         name = route.request.url.rsplit("/api/", maxsplit=1)[-1]
-        # The limits of this server come with the session, or the first image counts as old on a busy machine.
+        # # The limits arrive with the session; otherwise the first image counts as old on a busy machine.
         kind = {"session": "session", "dashboard": "session", "live": "live"}.get(name, "rest")
         if kind in self._open:
             route.continue_()
@@ -183,7 +183,7 @@ def supervised() -> Iterator[Supervised]:
 
 
 def begun(watch: Watch, server: Supervised, person: str, path: str, *, rejects: bool = False) -> Loading:
-    # This server's CT has no slices, and the browser writes each rejection into its console.
+    # # This server's CT has no slices, and the browser logs each rejection.
     watched = watch(server, 1180, 820, strict=path != "operator/plan")
     address = f"http://127.0.0.1:{server.port}"
     watched.page.context.add_cookies([{"name": "person", "value": person, "url": address}])
@@ -193,16 +193,16 @@ def begun(watch: Watch, server: Supervised, person: str, path: str, *, rejects: 
 
 
 def is_answered(page: Page, path: str) -> None:
-    """What was asked for stands there, though nothing live has come."""
+    """The requested data is shown, although nothing live has arrived."""
     if path.startswith("operator"):
         expect(page.get_by_test_id("step-register")).to_contain_text("done")
     elif path == "supervisor":
-        expect(page.get_by_test_id("steps")).to_contain_text("Register")
+        expect(page.get_by_test_id("steps")).to_contain_text("Registration")
     expect(page.locator("main .mantine-Loader-root")).to_have_count(0)
 
 
 def is_true(page: Page, path: str, within_ms: float) -> None:
-    """What the server tells stands there."""
+    """The server's data is shown."""
     if path.startswith("operator"):
         expect(page.get_by_test_id("link-state")).to_contain_text("connected", timeout=within_ms)
         expect(page.get_by_test_id("open-case")).to_contain_text(NAME, timeout=within_ms)
@@ -210,7 +210,7 @@ def is_true(page: Page, path: str, within_ms: float) -> None:
     else:
         expect(page.get_by_test_id("numbers")).to_have_attribute("data-live", "true", timeout=within_ms)
         reported = page.get_by_test_id("case-name" if path == "theatre" else "steps")
-        expect(reported).to_contain_text(NAME if path == "theatre" else "Register", timeout=within_ms)
+        expect(reported).to_contain_text(NAME if path == "theatre" else "Registration", timeout=within_ms)
     bands = page.locator(
         "main .loading:visible, .alarms:is([data-priority=loading], [data-priority=unknown])"
     )

@@ -1,4 +1,4 @@
-"""Registration by the translucent slice, by touch, against the real program."""
+"""Registration with the slice overlay, by touch, against the real program."""
 
 import contextlib
 from collections.abc import Iterator
@@ -31,7 +31,7 @@ SETTINGS = {
     "reference": {"marker": "reference"},
 }
 OVERLAY = "JSON.parse(document.querySelector('[data-testid=overlay-state]').dataset.overlay)"
-# A slow page sees the last of a gesture late: so many images of the screen without a move are its end.
+# # A slow page processes a gesture late: it has ended after this many refreshes without movement.
 AT_REST = """() => new Promise(resolve => {
     const state = () => document.querySelector("[data-testid=overlay-state]").dataset;
     let [last, still] = ["", 0];
@@ -47,7 +47,7 @@ AT_REST = """() => new Promise(resolve => {
 
 @pytest.fixture(scope="module")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RealServer]:
-    """The program on a case that waits for registration."""
+    """The program with a case that is ready for registration."""
     folder = tmp_path_factory.mktemp("operator")
     prepared(folder / "home", Config.model_validate(SETTINGS).rehearsal)
     with real_server(folder, SETTINGS) as running:
@@ -66,7 +66,7 @@ def test_one_failed_answer_does_not_end_the_work_on_the_plan(tablet: Tablet) -> 
     page = tablet.page
     tablet.go("plan")
     tablet.tap("part-landmarks")
-    # What the catalogue brings moves the button.
+    # # The button moves when the catalogue has loaded.
     tablet.reads("landmark-count", "needed at least")
     tablet.tap("set-landmark")
     name = page.get_by_role("button", name="left transverse process", exact=True)
@@ -104,7 +104,7 @@ def test_the_slice_is_dragged_pinched_and_turned_over_the_live_picture(
         page.evaluate(AT_REST)
 
     def until_changed(field: str, *paths: tuple[tuple[float, float], tuple[float, float]]) -> None:
-        # A page that is short of time takes two fingers that come late for one; a person does it again.
+        # # A slow page may take two fingers that arrive late for one; a user would repeat the gesture.
         for _ in range(3):
             before = overlay_of(page)
             fingers(*paths)
@@ -147,7 +147,7 @@ def at(middle: tuple[float, float], by: tuple[float, float]) -> tuple[float, flo
 
 
 def gesture(page: Page, paths: list[list[tuple[float, float]]], *, steps: int = 8) -> None:
-    """As many fingers as there are paths, from their beginnings to their ends, all at once."""
+    """Move as many fingers as there are paths, simultaneously from start to end."""
     touch = page.context.new_cdp_session(page)
 
     def points(share: float) -> list[dict[str, Any]]:
@@ -168,13 +168,13 @@ def gesture(page: Page, paths: list[list[tuple[float, float]]], *, steps: int = 
 
 
 def overlay_of(page: Page) -> dict[str, Any]:
-    """Where the hand has the slice."""
+    """Position of the overlay."""
     reported: dict[str, Any] = page.evaluate(OVERLAY)
     return reported
 
 
 def same_as_the_server(server: RealServer, page: Page) -> None:
-    """Every line, and the picture of the slice, stand where the server would take them."""
+    """All lines and the slice picture are drawn where the server would use them."""
     view: dict[str, Any] = page.evaluate("JSON.parse(Object.values(localStorage)[0])")
     requested = {"view": view, "overlay": overlay_of(page)}
     laid = server.ask("POST", "/api/registration/needles/overlay", 200, json=requested)

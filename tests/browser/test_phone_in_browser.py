@@ -1,4 +1,4 @@
-"""A device as camera: a real browser with a camera made of software, and the source that reads its images."""
+"""A device as camera: a real browser with a simulated camera, and the source that reads its images."""
 
 import contextlib
 import threading
@@ -19,9 +19,9 @@ from server.stream.phone.receiver import Receiver
 from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS
 from tests.served import served
 
-# Not the size that the browser's camera takes by itself.
+# # Not the default size of the browser's camera.
 SETTINGS = CameraConfig(source="phone", width=1280, height=720)
-# Each takes half a second or so, when nothing comes.
+# # Each takes about half a second if nothing arrives.
 ATTEMPTS = 60
 UPRIGHT, LYING = (390, 844), (1180, 820)
 
@@ -58,7 +58,7 @@ def touch_start(page: Page) -> None:
 
 
 def opened_source(inbox: PhoneInbox) -> PhoneSource:
-    """The source, once somebody sends to it."""
+    """The source, after a device has connected."""
     source = PhoneSource(inbox, stop=threading.Event())
     for _ in range(ATTEMPTS):
         with contextlib.suppress(CaptureError):
@@ -68,7 +68,7 @@ def opened_source(inbox: PhoneInbox) -> PhoneSource:
 
 
 def first_read(source: PhoneSource) -> Shot:
-    """The first image: until its camera is open, a connected page is silent."""
+    """The first image: a connected page is silent until its camera is open."""
     for _ in range(ATTEMPTS):
         with contextlib.suppress(CaptureError):
             shot = source.read()
@@ -78,7 +78,7 @@ def first_read(source: PhoneSource) -> Shot:
 
 
 def failure_of(source: PhoneSource) -> str:
-    """Why it gives no more images, after those that were on their way."""
+    """Reason why the source has no more images, after pending ones."""
     for _ in range(ATTEMPTS):
         try:
             source.read()
@@ -113,7 +113,7 @@ def test_images_of_a_browsers_camera_arrive_in_their_size_and_in_order(
     expect(page.get_by_test_id("phone-server")).to_be_visible()
     page.screenshot(path=SCREENSHOTS / "phone_upright.png")
 
-    # A second device is rejected with a sentence, and the first one goes on.
+    # # A second device is rejected with a reason, and the first continues.
     second = opened(browser, port, LYING)
     second.screenshot(path=SCREENSHOTS / "phone_lying_idle.png")
     touch_start(second)
@@ -121,7 +121,7 @@ def test_images_of_a_browsers_camera_arrive_in_their_size_and_in_order(
     second.screenshot(path=SCREENSHOTS / "phone_lying_rejected.png")
     assert source.read() is not None
 
-    # Loaded anew, the first one gets its place back.
+    # # After a reload the first device gets its place back.
     page.reload()
     touch_start(page)
     expect(page.get_by_test_id("phone")).to_have_attribute("data-state", "sending")

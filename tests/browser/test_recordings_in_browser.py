@@ -1,4 +1,4 @@
-"""Recordings on the page: their state on every view, and what the operator does with them."""
+"""Recordings on the page: their state on every view, and the operator's actions."""
 
 import re
 from collections.abc import Callable, Iterator
@@ -44,10 +44,10 @@ def test_what_the_operator_records_is_said_on_every_view(supervised: Supervised,
     assert box is not None
     assert box["height"] >= 48
     button.click()
-    # Before the first recording of a case somebody answers for the patient.
+    # # Before the first recording of a case the patient's consent must be answered.
     expect(operator.get_by_role("dialog")).to_contain_text("Has the patient consented to recording?")
     picture(operator, "consent")
-    # The question covers no alarm: what is beside it stays bright and can be touched.
+    # # The question covers no alarm: everything beside it stays visible and usable.
     expect(operator.locator(".mantine-Modal-overlay")).to_have_count(0)
     button.click(trial=True)
     operator.get_by_test_id("consent-no").click()
@@ -67,7 +67,7 @@ def test_what_the_operator_records_is_said_on_every_view(supervised: Supervised,
     button.click()
     for page in pages.values():
         expect(page.get_by_test_id("recording-state")).to_have_attribute("data-state", "off")
-    # Once answered, it is not asked again.
+    # # After the answer it is not asked again.
     button.click()
     expect(operator.get_by_test_id("recording-state")).to_have_attribute("data-state", "on")
     button.click()
@@ -75,7 +75,7 @@ def test_what_the_operator_records_is_said_on_every_view(supervised: Supervised,
 
 
 def shows(page: Page, number: int) -> None:
-    """Wait until an image of the recording stands with its figures."""
+    """Wait until an image of the recording is shown with its figures."""
     expect(page.get_by_test_id("review-instant")).to_have_attribute("data-number", str(number))
     source = f"/images/{number}.jpg"
     expect(page.get_by_test_id("review-image")).to_have_attribute("src", re.compile(re.escape(source) + "$"))
@@ -94,7 +94,7 @@ def test_any_instant_of_a_recording_is_reviewed(
     shows(page, 0)
     expect(page.get_by_test_id("review-wall")).to_have_text(re.compile(r"^\d\.\d$"))
 
-    # What happened leads to its instant: image, figures and alarms of then.
+    # # An event leads to its instant: image, figures and alarms.
     page.get_by_test_id("review-events").get_by_role("button", name="Alarm · BREACH").click()
     breach = DRILLED.index("breach")
     expect(page.get_by_test_id("review-wall")).to_have_text(re.compile(r"^−\d\.\d$"))
@@ -106,7 +106,7 @@ def test_any_instant_of_a_recording_is_reviewed(
     page.get_by_test_id("review-before").click()
     shows(page, number)
 
-    # A touch on the curves, and a part of them.
+    # # A tap on the curves, and a drag over a part of them.
     plot = page.locator(".review-plot")
     plot.evaluate("plot => plot.scrollIntoView({ block: 'center' })")
     box = plot.bounding_box()
@@ -115,7 +115,7 @@ def test_any_instant_of_a_recording_is_reviewed(
     hidden = (DRILLED.index("hidden") + 3.5) / (len(DRILLED) - 1)
     page.mouse.click(box["x"] + hidden * box["width"], at_y)
     expect(page.get_by_test_id("review-wall")).to_have_text("—")
-    expect(page.get_by_test_id("review-instant")).to_contain_text("No figures at this instant.")
+    expect(page.get_by_test_id("review-instant")).to_contain_text("No numbers at this instant.")
     axis = page.locator(".review-axis")
     expect(axis).to_contain_text("0:03")
     page.mouse.move(box["x"] + 0.1 * box["width"], at_y)
@@ -156,7 +156,7 @@ def test_a_piece_and_a_video_are_saved_and_an_instant_is_commented(
     expect(page.get_by_test_id("review-piece")).to_be_visible()
     page.get_by_test_id("review-piece-save").click()
     exports = page.locator(".review-exports")
-    expect(exports).to_contain_text("2 images, from 0:02 on. No state of tracking is stored before them")
+    expect(exports).to_contain_text("2 images, from 0:02 on. No tracking state is stored before them")
     with page.expect_download() as piece:
         page.get_by_test_id("review-export-download").click()
     assert piece.value.suggested_filename.endswith("s.mcap")
@@ -170,10 +170,10 @@ def test_a_piece_and_a_video_are_saved_and_an_instant_is_commented(
 
     page.get_by_test_id("review-video-save").click()
     expect(exports).to_contain_text(
-        f"{len(DRILLED)} images, 0 with their overlay. The others say why they have none."
+        f"{len(DRILLED)} images, 0 with the overlay. The others state why the overlay is missing."
     )
     picture(page, "exports")
-    # What was made is found again after the review was closed.
+    # # Exports are listed again after the review was closed.
     page.locator(row).get_by_test_id("review-open").click()
     page.locator(row).get_by_test_id("review-open").click()
     downloads = page.get_by_test_id("review-export-download")
@@ -184,7 +184,7 @@ def test_a_piece_and_a_video_are_saved_and_an_instant_is_commented(
     with av.open(str(tmp_path / "case.mp4")) as video:
         assert sum(1 for _ in video.decode(video=0)) == len(DRILLED)
 
-    # A supervisor reads the comment and writes one, and takes nothing out.
+    # # A supervisor can read and write comments, but not export.
     page = opened(watch, supervised, "s1", "supervisor", PHONE)
     page.get_by_test_id("fold-recordings").locator("summary").click()
     page.locator(row).get_by_test_id("review-open").click()

@@ -1,7 +1,8 @@
-"""The real program in a real browser: the rehearsal, tracked, watched, hurt and back.
+"""The real program in a real browser: the rehearsal with tracking, display, failures and recovery.
 
-`COAXIAL_URL=http://127.0.0.1:8000/` lets these tests watch a server that runs already (as `make run` starts
-it) instead of one of their own; what would hurt it is then left out.
+`COAXIAL_URL=http://127.0.0.1:8000/` runs these tests against a running server (as started by `make run`)
+instead of their own; tests that would damage it are skipped.
+
 """
 
 import os
@@ -22,9 +23,9 @@ from tests.browser.theatre import CHECKOUT, SCREENSHOTS, WatchedPage, show_scene
 
 pytestmark = pytest.mark.browser
 
-# The rehearsal's drill is away from the view for nine of its forty seconds.
+# # The rehearsal's drill is out of view for nine of its forty seconds.
 ONE_CYCLE_MS = 60_000
-# A share of the picture: nobody can read it smaller, nobody wants the repository bigger.
+# # Scale of screenshots: legible, and small in the repository.
 PICTURE: ViewportSize = {"width": 1440, "height": 810}
 
 THREE_DEPTHS = """() => {
@@ -34,12 +35,12 @@ THREE_DEPTHS = """() => {
     return window.depths.size >= 3;
 }"""
 CUTS = ("axial", "sagittal", "probe")
-# Left, right, top and bottom as a radiologist sees them.
+# # Left, right, top and bottom in the radiological convention.
 ANATOMICAL_CUTS = {"anatomical-axial": "RLAP", "anatomical-coronal": "RLHF"}
 SCAN_MS = 120_000
 LETTERS = """stage => ["left", "right", "top", "bottom"]
     .map(edge => stage.querySelector(`[data-edge=${edge}]`).textContent).join("")"""
-# Every cut shows bone and soft tissue around the drill, and its image number has changed meanwhile.
+# # Every cut shows bone and soft tissue around the drill, and its image number has advanced.
 CUT_AND_MOVING = """() => {
     window.cutImages ??= new Map();
     return ["axial", "sagittal", "probe"].every((name) => {
@@ -65,7 +66,7 @@ DRILLING = """() => {
 
 
 class Rehearsal:
-    """`coaxial run` in a process of its own, or the one that `COAXIAL_URL` names."""
+    """`coaxial run` in its own process, or the server at `COAXIAL_URL`."""
 
     def __init__(self, folder: Path) -> None:
         self.process: subprocess.Popen[str] | None = None
@@ -73,7 +74,7 @@ class Rehearsal:
         if named:
             self.port = urlsplit(named).port or 80
             return
-        # A busy machine brings images late, and late ones are covered: when is for other tests to ask.
+        # # A busy machine delays images, and late ones are covered; other tests check when.
         (folder / "config.yaml").write_text(
             "limits: {pose_stale_after_ms: 4000, video_stale_after_ms: 5000, scene_stale_after_ms: 5000}\n"
             "security: {sign_in: off}\n"
@@ -92,14 +93,14 @@ class Rehearsal:
         self.port = int(address[1])
 
     def tracking_pid(self) -> int:
-        """The process that captures and tracks: the fork server's only child."""
+        """The capture and tracking process: the fork server's only child."""
         assert self.process is not None
         (forker,) = (pid for pid in children_of(self.process.pid) if children_of(pid))
         (tracking,) = children_of(forker)
         return tracking
 
     def stop(self) -> None:
-        """As Ctrl+C does."""
+        """Send SIGINT, as Ctrl+C does."""
         if self.process is None:
             return
         self.process.send_signal(signal.SIGINT)
@@ -108,7 +109,7 @@ class Rehearsal:
 
 
 def children_of(pid: int) -> list[int]:
-    """Processes whose parent this is."""
+    """Child processes of this process."""
     found = []
     for entry in Path("/proc").iterdir():
         if not entry.name.isdigit():
@@ -151,10 +152,10 @@ def test_rehearsal_is_tracked_and_seen_in_picture_numbers_and_scene(
 def cuts_follow_the_drill(page: Page) -> None:
     """Three cuts of the rehearsal's CT follow the drill, each in its own plane."""
     for name in CUTS:
-        # The rehearsal's CT is scanned after the first request, at the lowest priority.
+        # # The rehearsal's CT is simulated after the first request, at the lowest priority.
         expect(page.get_by_test_id(f"cut-{name}")).to_have_attribute("data-shows", "live", timeout=SCAN_MS)
     page.wait_for_function(CUT_AND_MOVING, timeout=ONE_CYCLE_MS)
-    # From behind a prone patient: left on the left, head on top; in line with the drill, the front on top.
+    # # Seen from behind a prone patient: left on the left, head on top; in-line cuts have anterior on top.
     assert [page.get_by_test_id(f"cut-{name}").evaluate(LETTERS) for name in CUTS] == ["RLAP", "FHAP", "LRHF"]
     page.get_by_test_id("ahead-10").click()
     page.wait_for_function(CUT_AND_MOVING, timeout=ONE_CYCLE_MS)
@@ -168,10 +169,10 @@ def cuts_follow_the_drill(page: Page) -> None:
 
 
 def picture_while_drilling(page: Page, path: Path) -> None:
-    """A screenshot in the middle of the drilling, with every pane live: the README shows one of them.
+    """Take a screenshot during drilling, with every pane live; the README shows one of them.
 
-    Taking it holds the page up on a slow machine, and what is late then goes; so one that shows that is taken
-    again.
+    On a slow machine taking it blocks the page, and late content is removed; then it is repeated.
+
     """
     for _ in range(20):
         page.wait_for_function(DRILLING, timeout=2 * ONE_CYCLE_MS)

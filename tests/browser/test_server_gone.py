@@ -1,7 +1,8 @@
-"""The server gone for 5 s: every pane says so within 1 s, and is right again within 2 s, untouched.
+"""The server is lost for 5 s: every pane reports it within 1 s and recovers within 2 s without interaction.
 
-All times are the page's own, from its own clock. A machine that other work shares stops the page itself now
-and then: its longest pause is measured beside, and allowed for. What was measured is printed (`pytest -s`).
+Times are measured by the page's own clock. A busy machine also pauses the page; its longest pause is measured
+and allowed for. The results are printed (`pytest -s`).
+
 """
 
 import itertools
@@ -24,14 +25,14 @@ pytestmark = pytest.mark.browser
 Watch = Callable[..., WatchedPage]
 PANES = ("video", "numbers", "scene")
 FIGURES = ("entry", "angle", "depth", "toGo")
-# Times hold where nothing else runs: COAXIAL_TIMES=1 asks for them, too.
+# # Time limits hold on an idle machine only: COAXIAL_TIMES=1 enables them.
 ON_A_QUIET_MACHINE = "COAXIAL_TIMES"
 MIN_TRIES = 2
 GONE_FOR_MS, SAID_WITHIN_MS, RIGHT_WITHIN_MS = 5000, 1000, 2000
 
 expect.set_options(timeout=PATIENCE_MS)
 
-# Stands in the page before its own script does, and writes down when what happened.
+# # Runs before the page's own script, and records the time of each change.
 RECORDER = """(() => {
     if (window.parent !== window) return;
     const log = window.log = { panes: [], heardAt: 0, firstHeardAt: null, tries: [], longestPause: 0 };
@@ -65,16 +66,17 @@ RECORDER = """(() => {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Absence:
-    """What the page wrote down of an absence of the server, in ms of its own clock.
+    """Recorded times of one absence of the server, in ms of the page's clock.
 
     Attributes:
-        said_ms: from the last word of the server to each pane's saying so.
-        right_ms: from the first word after it to each pane's being live again.
-        since_return_ms: the same from the moment when the server was let go on.
-        gone_for_ms: from the last word before to the first one after it.
-        tries: how often the page tried to reach it.
-        try_ms: the longest time between two attempts to reach it.
-        pause_ms: the longest pause of the page itself.
+        said_ms: from the server's last message to each pane's report.
+        right_ms: from the server's first message to each pane's recovery.
+        since_return_ms: the same from the moment when the server was resumed.
+        gone_for_ms: from the last message before to the first one after the absence.
+        tries: number of connection attempts.
+        try_ms: longest time between two attempts.
+        pause_ms: longest pause of the page itself.
+
     """
 
     said_ms: dict[str, float]
@@ -92,11 +94,11 @@ def all_live(page: Page, *, live: bool) -> None:
 
 
 def says_gone(page: Page) -> None:
-    """Every pane says so in words that are seen, and no figure of before is left."""
-    expect(page.get_by_test_id("link-state")).to_contain_text("gone")
+    """Every pane reports the loss visibly, and no old figure remains."""
+    expect(page.get_by_test_id("link-state")).to_contain_text("lost")
     for pane, words in (
         ("video-cover", "NO VIDEO"),
-        ("video-cover", "SERVER GONE"),
+        ("video-cover", "SERVER LOST"),
         ("scene-cover", "SCENE STALE"),
     ):
         expect(page.get_by_test_id(pane)).to_be_visible()
@@ -107,7 +109,7 @@ def says_gone(page: Page) -> None:
 
 
 def is_right_again(page: Page) -> None:
-    """Nothing is covered, and every figure stands there."""
+    """Nothing is covered, and every figure is shown."""
     expect(page.get_by_test_id("link-state")).to_contain_text("connected")
     for pane in ("video-cover", "scene-cover", "no-tracking"):
         expect(page.get_by_test_id(pane)).to_be_hidden()
@@ -116,10 +118,10 @@ def is_right_again(page: Page) -> None:
 
 
 def first_changes(page: Page, *, live: bool) -> dict[str, float]:
-    """When each pane first became so, since the record was begun anew."""
+    """Time of each pane's first such state since the record was reset."""
     wanted = "true" if live else "false"
     changes = page.evaluate("log.panes")
-    # One that was so already, as a late picture is, changed at the latest when the record was begun.
+    # # A pane that was already in this state counts from the reset.
     return {
         pane: next(
             (one["at"] for one in changes if one["pane"] == pane and one["live"] == wanted),
@@ -131,11 +133,11 @@ def first_changes(page: Page, *, live: bool) -> dict[str, float]:
 
 @contextmanager
 def recorded(watched: WatchedPage) -> Iterator[Page]:
-    """A page that writes down, and is live, and is not loaded anew for the time of the block."""
+    """Yield a recording page that is live and is not reloaded during the block."""
     watched.page.add_init_script(RECORDER)
     with urllib.request.urlopen(f"http://127.0.0.1:{watched.port}/api/dashboard", timeout=60) as answer:
         reported = json.load(answer)
-    # On a busy machine images are older than the usual limits, which is no matter of the server's absence.
+    # # On a busy machine images exceed the usual age limits for reasons other than the server's absence.
     reported["limits"] |= {"pose_stale_after_ms": 700, "video_stale_after_ms": 700}
     watched.page.route("**/api/dashboard", lambda route: route.fulfill(json=reported))
     page = watched.open()
@@ -147,7 +149,7 @@ def recorded(watched: WatchedPage) -> Iterator[Page]:
 
 
 def absence(page: Page, *, go: Callable[[], None], come: Callable[[], None]) -> Absence:
-    """Have the server go, and come again when it was gone for 5 s of the page's time."""
+    """Stop the server for 5 s of the page's time, and resume it."""
     page.evaluate("Object.assign(log, { panes: [], tries: [], longestPause: 0 })")
     go()
     all_live(page, live=False)
@@ -182,13 +184,13 @@ def judge(what: str, seen: Absence) -> None:
         f"after its return; tried every {seen.try_ms:.0f} ms at most; page paused {seen.pause_ms:.0f} ms\n"
     )
     assert seen.gone_for_ms > GONE_FOR_MS
-    # It went on trying by itself, said so before the server was back, and was right only by its word.
+    # # The page kept retrying, reported the loss before the server returned, and recovered by itself.
     assert seen.tries >= MIN_TRIES
     for pane in PANES:
         assert seen.said_ms[pane] < seen.gone_for_ms
         assert seen.right_ms[pane] >= 0.0
     if not os.environ.get(ON_A_QUIET_MACHINE):
-        # That every pane said so, and came back without being loaded anew, was waited for above.
+        # # Each pane's report and recovery without a reload were awaited above.
         return
     for pane in PANES:
         assert seen.said_ms[pane] <= SAID_WITHIN_MS + seen.pause_ms

@@ -1,4 +1,4 @@
-"""A set-up that does not suffice is named before navigation with what would help, and in the headline."""
+"""An insufficient set-up is reported before navigation with remedies, and in the headline."""
 
 from collections.abc import Callable
 from typing import Any
@@ -53,8 +53,8 @@ def test_the_overview_names_the_figures_and_each_remedy_with_its_own(theatre: Th
     expect(note).to_contain_text("error at the isthmus at least 1.20 mm (95 %), 0.50 mm to the wall")
     expect(page.get_by_test_id("setup-remedies").get_by_role("listitem")).to_have_text(
         [
-            "9 landmarks, spread as these and none mistaken: 0.90 mm, not enough.",
-            "A surface sweep: its error is known after it.",
+            "9 landmarks, spread like these, none mistaken: 0.90 mm, not enough.",
+            "A surface sweep: the error is known only afterwards.",
             "Screw of 5.0 mm: 1.25 mm to the wall, enough at best.",
         ]
     )
@@ -62,7 +62,7 @@ def test_the_overview_names_the_figures_and_each_remedy_with_its_own(theatre: Th
     expect(note).to_contain_text("Fehler am Isthmus mindestens 1.20 mm (95 %), 0.50 mm bis zur Wand")
 
 
-def test_without_a_check_the_overview_says_nothing_of_it(theatre: Theatre, watch: Watch) -> None:
+def test_without_a_check_the_overview_omits_it(theatre: Theatre, watch: Watch) -> None:
     page = watch(theatre).open("operator/navigate?lang=en")
     expect(page.get_by_test_id("navigate")).to_be_visible()
     expect(page.get_by_test_id("setup-check")).to_have_count(0)

@@ -1,7 +1,7 @@
-"""A device that is too slow for everything: what gives way first, and what the page says is slow.
+"""A device that is too slow: what is reduced first, and what the page reports as slow.
 
-The slowness is forced: each image takes a fixed time more than it needs here, so that the order does not
-hang on how busy the machine is.
+The slowness is forced by a fixed additional time per image, so that the order does not depend on the machine.
+
 """
 
 import json
@@ -19,7 +19,7 @@ pytestmark = pytest.mark.browser
 
 Watch = Callable[..., WatchedPage]
 
-# In the page and in the scene's frame: what is given up, in the order in which it is.
+# # In the page and in the scene's frame: records reductions in their order.
 RECORDER = """
 const given = (top.given ??= []);
 const note = (what, value) => {
@@ -69,7 +69,7 @@ ORDER = ["interval_ms", "scale", "largest"]
 
 
 def slowed(watched: WatchedPage, part: str, *, query: str = "") -> Page:
-    """The page, once everything that can has given way."""
+    """The page after all reductions."""
     watched.page.add_init_script(f"(() => {{ {RECORDER} {SLOW[part]} }})()")
     page = watched.open(f"theatre{query}")
     show_scene(page)
@@ -78,18 +78,18 @@ def slowed(watched: WatchedPage, part: str, *, query: str = "") -> Page:
 
 
 def gave_way_in_order(page: Page, words: str) -> None:
-    """First the rate, then the scene, the picture's size last; and the page says what is slow."""
+    """First the rate, then the scene, last the picture's size; and the page reports what is slow."""
     expect(page.get_by_test_id("line-note")).to_have_text(re.compile(f"{words}: .* 640x360"))
-    # The whole size is no step.
+    # # Full size is no step.
     given = [one for one in page.evaluate("given") if one != ["scale", 1]]
     assert [ORDER.index(what) for what, _ in given] == sorted(ORDER.index(what) for what, _ in given)
     assert [scale for what, scale in given if what == "scale"] == [0.7, 0.5]
     intervals_ms = [interval_ms for what, interval_ms in given if what == "interval_ms"]
     assert intervals_ms == sorted(intervals_ms)
     assert intervals_ms[-1] == 200
-    # The note says what is asked for; the first picture of that size comes after it.
+    # # The note names the requested size; the first picture of that size arrives later.
     page.wait_for_function("() => widths.has(640)")
-    # The line carries everything: the server has made nothing smaller by itself.
+    # # The connection is fast enough: the server has not reduced anything by itself.
     assert set(page.evaluate("[...widths]")) == {1280, 640}
 
 
@@ -98,13 +98,13 @@ def test_a_device_that_decodes_slowly_keeps_its_picture_longest_and_its_scene_li
 ) -> None:
     page = slowed(watch(theatre, 1280, 900), "decoding")
     gave_way_in_order(page, "Slow decoding")
-    # At its slowest and coarsest.
+    # # At its lowest rate and resolution.
     is_live(page, "scene")
     frame = page.locator(".scene-stage iframe")
     assert frame.evaluate("e => [e.clientWidth / e.parentElement.clientWidth]")[0] == pytest.approx(
         0.5, abs=0.02
     )
-    # It is shown as large as before, and nothing stands out.
+    # # It is displayed at its former size, without overflow.
     shown = frame.evaluate("e => e.getBoundingClientRect().width / e.parentElement.clientWidth")
     assert shown == pytest.approx(1.0, abs=0.02)
 
@@ -120,7 +120,7 @@ def test_a_scene_that_makes_the_figures_late_is_switched_off_until_somebody_asks
     watched = watch(theatre, 1280, 800)
     with urllib.request.urlopen(f"http://127.0.0.1:{theatre.port}/api/dashboard", timeout=60) as answer:
         dashboard = json.load(answer)
-    # Every image is late for such a limit, on any machine.
+    # # Every image exceeds such a limit, on any machine.
     dashboard["limits"]["pose_stale_after_ms"] = 1
     watched.page.route("**/api/dashboard", lambda route: route.fulfill(json=dashboard))
     page = watched.open("theatre")

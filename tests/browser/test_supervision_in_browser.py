@@ -1,4 +1,4 @@
-"""A supervisor in one browser, the theatre's screen in another: marks, a co-signature, a hold."""
+"""A supervisor in one browser and the theatre screen in another: marks, co-signature, hold."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -12,7 +12,7 @@ from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, WatchedPage
 pytestmark = pytest.mark.browser
 expect.set_options(timeout=PATIENCE_MS)
 
-# Whether anything is painted on the layer within a radius about a pixel of the image.
+# # Whether anything is painted within a radius around a pixel of the image.
 PAINTED = """(canvas, [x, y, radius]) => {
     const ratio = canvas.width / canvas.clientWidth;
     const scale = Math.min(canvas.clientWidth / 1280, canvas.clientHeight / 720);
@@ -28,14 +28,14 @@ PAINTED = """(canvas, [x, y, radius]) => {
 
 @pytest.fixture(scope="module")
 def supervised() -> Iterator[Supervised]:
-    """One server: the pages that are only looked at come before the plan is signed."""
+    """One server: read-only pages come before the plan is signed."""
     server = Supervised()
     yield server
     server.process.communicate(timeout=30)
 
 
 def on_picture(page: Page, x_px: float, y_px: float) -> tuple[float, float]:
-    """Where a pixel of the image lies on this page: the picture is shown whole, in the middle."""
+    """Page position of an image pixel: the picture is shown completely, centred."""
     box = page.get_by_test_id("marks").bounding_box()
     assert box is not None
     scale = min(box["width"] / 1280, box["height"] / 720)
@@ -62,11 +62,11 @@ def picture(page: Page, name: str) -> None:
 def marks_reach(theatre: Page, sato: Page) -> None:
     marks, own = theatre.get_by_test_id("marks"), sato.get_by_test_id("marks")
 
-    # A pointer, at the same place of a picture of another size, which goes by itself.
-    # It goes when it rests, and on a busy machine it may be gone before anybody looks.
+    # # A pointer appears at the same place of a picture of another size, and expires.
+    # # It expires when it rests, on a busy machine possibly before it is checked.
     for turn in range(1000):
         sato.mouse.move(*on_picture(sato, 900 + turn % 2, 500))
-        # Both in the same turn: who points sees it, and so does the theatre.
+        # # In the same turn: both the supervisor and theatre see it.
         if is_painted(own, 900, 500) and is_painted(marks, 900, 500):
             break
     else:
@@ -74,7 +74,7 @@ def marks_reach(theatre: Page, sato: Page) -> None:
     assert not is_painted(marks, 300, 600)
     expect(marks).to_have_attribute("data-pointers", "0")
 
-    # A circle and a line, seen from both ends.
+    # # A circle and a line, on both pages.
     sato.get_by_test_id("tool-circle").click()
     sato.mouse.move(*on_picture(sato, 640, 360))
     sato.mouse.down()
@@ -98,13 +98,13 @@ def marks_reach(theatre: Page, sato: Page) -> None:
 
 
 def signature_opens_navigation(supervised: Supervised, theatre: Page, sato: Page) -> None:
-    # What is required is not there; one look and two touches later it is, and navigation is open.
+    # # The required signature is missing; after review and two touches it exists, and navigation is allowed.
     asks = theatre.request.get
     address = f"http://127.0.0.1:{supervised.port}/api/procedure"
     reported: Any = asks(address).json()
     assert not reported["may_navigate"]
     plan = sato.get_by_test_id("fold-plan")
-    expect(plan).to_contain_text("required before anybody navigates")
+    expect(plan).to_contain_text("required before navigation")
     plan.locator("summary").click()
     expect(plan).to_contain_text("plan 'main' version 1")
     sato.get_by_test_id("cosign-plan").click()
@@ -116,7 +116,7 @@ def signature_opens_navigation(supervised: Supervised, theatre: Page, sato: Page
 
 
 def hold_is_heard(theatre: Page, sato: Page) -> None:
-    # A hold, in two touches, is an alarm in theatre under the name of who asks.
+    # # A hold, in two touches, raises an alarm in theatre with the name of its requester.
     sato.get_by_test_id("hold-ask").click()
     sato.get_by_test_id("hold-ask").click()
     expect(theatre.get_by_test_id("alarms")).to_contain_text("Dr Sato")

@@ -1,4 +1,4 @@
-"""Three people, one theatre: the whole procedure by touch, on a screen in theatre, supervised from afar."""
+"""Three users, one theatre: the complete procedure by touch, on a theatre screen, supervised remotely."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -31,10 +31,10 @@ SETTINGS = {
         "height": 540,
         "rate_hz": 10,
         "skill": "good",
-        # On a busy machine a page hears late that the tip rests, and touches late.
+        # # On a busy machine a page learns late that the tip rests, and captures late.
         "rest_s": 5.0,
     },
-    # A busy machine brings images seldom; how still a tip must be held, others ask.
+    # # A busy machine delivers few images; other tests check how still the tip must be.
     "registration": {
         "capture_images": 3,
         "capture_s": 0.8,
@@ -81,7 +81,7 @@ def test_a_procedure_by_touch_watched_and_supervised(
 
 
 def registered_checked_and_navigated(tablet: Tablet, server: RealServer, browser: Browser) -> None:
-    """From landmarks under the tip to numbers in theatre, which a second person had to sign for."""
+    """From landmarks to numbers in theatre, after a second person has signed."""
     play(tablet, "landmarks")
     tablet.tap("step-register")
     tablet.looked_at("register")
@@ -110,12 +110,12 @@ def registered_checked_and_navigated(tablet: Tablet, server: RealServer, browser
 
 
 def steps(tablet: Tablet) -> list[str]:
-    """The states of the steps, in order."""
+    """States of the steps, in order."""
     return [one["state"] for one in tablet.asks("/api/procedure")["steps"]]
 
 
 def signs_plan_and_registration(page: Page) -> None:
-    """What the second person has to have seen is opened, read and signed."""
+    """The supervisor opens, reviews and signs."""
     for what in ("plan", "registration"):
         fold = page.get_by_test_id(f"fold-{what}")
         if fold.get_attribute("open") is None:
@@ -130,7 +130,7 @@ def signs_plan_and_registration(page: Page) -> None:
 
 
 def switch_to_the_left(tablet: Tablet) -> None:
-    """The other side of the same vertebra: registration and check still hold."""
+    """The other side of the same vertebra: registration and check stay valid."""
     tablet.tap("switch-channel")
     tablet.tap("channel-L3-left")
     tablet.tap("channel-L3-left-sure")
@@ -139,7 +139,7 @@ def switch_to_the_left(tablet: Tablet) -> None:
 
 
 def in_theatre(browser: Browser, server: RealServer, tablet: Tablet, sato: WatchedPage) -> None:
-    """The screen shows the same as the tablet, who watches, and a hold that was asked for from afar."""
+    """The theatre screen shows the same as the tablet, the viewers, and a remote hold request."""
     link = invite(tablet, "Screen in theatre 3", "Theatre screen")
     screen = let_in(browser, server.port, link, SCREEN, patience_ms=PATIENCE_MS)
     page = screen.page
@@ -161,7 +161,7 @@ def in_theatre(browser: Browser, server: RealServer, tablet: Tablet, sato: Watch
 
 
 def tells_all_of_it(tablet: Tablet) -> None:
-    """Report and audit log: what was made, and by whom."""
+    """Report and audit log: documents and their authors."""
     tablet.tap("step-report")
     tablet.reads("report", "L3, right")
     tablet.looked_at("report")

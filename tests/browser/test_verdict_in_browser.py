@@ -1,4 +1,4 @@
-"""The page shows one thing: headline, figures and alarm of one image, in every state of a drilling."""
+"""Headline, figures and alarm on the page always belong to one image, in every state of drilling."""
 
 import re
 from collections.abc import Callable
@@ -14,7 +14,7 @@ Watch = Callable[..., WatchedPage]
 expect.set_options(timeout=PATIENCE_MS)
 TIME = r"\d\d:\d\d:\d\d"
 
-# With every image of the screen: what stands in headline, wall figure and alarm at that very moment.
+# # Samples headline, wall figure and alarm with every refresh.
 WITNESS = """() => {
     window.witnessed = { looks: 0, verdicts: {}, wrong: [] };
     const text = (id) => document.querySelector(`[data-testid="${id}"]`)?.textContent ?? "";
@@ -70,7 +70,7 @@ def screen(shared_theatre: Theatre, watch_for_all: Watch) -> Page:
 
 @pytest.fixture
 def page(screen: Page, shared_theatre: Theatre) -> Page:
-    """The same as each of them finds it: the drill is on its path."""
+    """The same page in its initial state: the drill is on its path."""
     shared_theatre.tell("path")
     headline(screen, re.compile("ON PATH"), re.compile("good|caution"))
     return screen
@@ -113,7 +113,7 @@ def test_a_breach_from_the_path_to_its_acknowledgement(page: Page, shared_theatr
         re.compile(rf"Was 0\.8 mm through the medial wall at 29\.0 mm depth, {TIME}\. Not through now\.")
     )
     expect(alarm).not_to_contain_text("Stop.")
-    # What is over does not flash, and is not lit.
+    # # An alarm that is over does not flash and is not lit.
     unlit = "getComputedStyle(document.querySelector('.alarms-top .alarms-state')).backgroundColor"
     assert page.evaluate(unlit) == "rgba(0, 0, 0, 0)"
     headline(page, "▲ ON PATH", "caution")

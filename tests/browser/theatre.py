@@ -1,4 +1,4 @@
-"""The server process that the browser tests talk to, and the page that they watch."""
+"""The server process of the browser tests, and the page that watches it."""
 
 import contextlib
 import os
@@ -15,12 +15,12 @@ from playwright.sync_api import ConsoleMessage, Page, Request, expect
 
 CHECKOUT = Path(__file__).resolve().parents[2]
 SCREENSHOTS = CHECKOUT / ".screenshots"
-# How long anything may take on a busy machine before it counts as not happening.
+# # Timeout of each wait on a busy machine.
 PATIENCE_MS = 30_000
 
 
 class Theatre:
-    """The server process of `fake_server.py`; its feeder is told what to publish."""
+    """The server process of `fake_server.py`; its feeder takes orders."""
 
     def __init__(self, port: int = 0) -> None:
         self._process = subprocess.Popen(
@@ -34,7 +34,7 @@ class Theatre:
         self.port = self._port()
 
     def _port(self) -> int:
-        """The one that it says next."""
+        """The port that it prints next."""
         assert self._process.stdout is not None
         line = self._process.stdout.readline().strip()
         if not line.isdigit():
@@ -43,7 +43,7 @@ class Theatre:
         return int(line)
 
     def anew(self) -> None:
-        """Another server in the same process, which remembers nothing: it costs no start of a process."""
+        """Start another server without memory in the same process, which saves a process start."""
         self.thaw()
         self.tell("anew")
         self.port = self._port()
@@ -55,15 +55,15 @@ class Theatre:
         self._process.stdin.flush()
 
     def freeze(self) -> None:
-        """Stop the process in its tracks, with its sockets open: a server that hangs."""
+        """Stop the process with its sockets open: a server that hangs."""
         self._process.send_signal(signal.SIGSTOP)
 
     def thaw(self) -> None:
-        """Let it go on."""
+        """Resume the process."""
         self._process.send_signal(signal.SIGCONT)
 
     def kill(self) -> None:
-        """End the process as a power cut would."""
+        """Kill the process, as a power failure would."""
         self._process.kill()
         self._process.wait()
         for stream in (self._process.stdin, self._process.stdout):
@@ -81,7 +81,7 @@ class Theatre:
 
 
 class WatchedPage:
-    """A page, and all that it should not do."""
+    """A page and its logged errors."""
 
     def __init__(self, page: Page, port: int) -> None:
         self.page = page
@@ -97,8 +97,8 @@ class WatchedPage:
             self._complain(message.text)
 
     def _complain(self, text: str) -> None:
-        # viser's client tries to evaluate a string, is rejected by the scene's own policy (the page's names
-        # no wasm), and goes on without.
+        # # viser's client tries to evaluate a string, which the scene's policy rejects (the page's policy
+        # # does not allow wasm), and continues without it.
         if not ("Evaluating a string as JavaScript" in text and "wasm-unsafe-eval" in text):
             self.complaints.append(text)
 
@@ -114,12 +114,12 @@ class WatchedPage:
 
 
 def show_scene(page: Page) -> None:
-    """The 3-D scene in the place of a cut, which a screen shows at first."""
+    """Show the 3-D scene in place of a cut."""
     page.get_by_test_id("tile-scene").click()
 
 
 def arm(page: Page) -> None:
-    """Touch the sound until it is armed, as its words ask for: a busy machine may have none at first."""
+    """Touch the sound until it is armed; on a busy machine it may fail at first."""
     sound = page.get_by_test_id("sound")
     for _ in range(5):
         sound.click()

@@ -1,4 +1,4 @@
-"""A server with a store, jobs and the steps of the set-up, and images that a test shows to it."""
+"""Fixtures: a server with store, jobs and the set-up steps, and images published by the test."""
 
 import dataclasses
 import math
@@ -33,7 +33,7 @@ DEADLINE_S = 120.0
 
 @dataclass(slots=True, kw_only=True)
 class Server:
-    """The server's inside, and its door."""
+    """Internals of the server, and a client of its API."""
 
     door: TestClient
     hub: LiveHub
@@ -45,13 +45,13 @@ class Server:
     number: int = field(default=0)
 
     def ask(self, method: str, path: str, status: int, **sent: Any) -> Any:  # noqa: ANN401  JSON
-        """The answer of the door, which must have this status."""
+        """Return the answer, which must have this status."""
         answer = self.door.request(method, path, **sent)
         assert answer.status_code == status, answer.text
         return answer.json() if answer.content else None
 
     def done(self, job: dict[str, Any]) -> dict[str, Any]:
-        """The job when it is over."""
+        """Wait for a job and return it."""
         self.jobs.wait_for(job["id"], timeout_s=DEADLINE_S)
         over: dict[str, Any] = self.ask("GET", f"/api/jobs/{job['id']}", 200)
         return over
@@ -67,7 +67,7 @@ class Server:
         camera: CameraStatus | None = None,
         rate_hz: float = 0.0,
     ) -> NavigationSnapshot:
-        """Publish an image, or markers seen in it, as the tracking process would; what it says."""
+        """Publish an image, or markers seen in it, as the tracking process would; return its message."""
         self.number += 1
         preparation = self.preparation.with_case(self.adopted[-1]) if self.adopted else self.preparation
         setup = preparation.setup or preparation.uncalibrated_setup_for((1280, 720))
@@ -97,7 +97,7 @@ class Server:
         return snapshot
 
     def until(self, true: Callable[[], bool]) -> None:
-        """Returns when this is true."""
+        """Wait until this is true."""
         deadline_s = time.monotonic() + DEADLINE_S
         while not true():
             assert time.monotonic() < deadline_s, "it did not become true"
@@ -106,14 +106,14 @@ class Server:
 
 @cache
 def _prepared(config: str) -> Preparation:
-    """What stands before the first image: the same for the same settings, and a third of a second's work."""
+    """State before the first image, cached because it takes a third of a second."""
     return build_setup(Config.model_validate_json(config))
 
 
 @contextmanager
 def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> Iterator[Server]:
-    """The whole inside of a server that keeps its things in this folder."""
-    # Few images to a capture: a test has no half second for each landmark.
+    """All parts of a server with this home folder."""
+    # # Few images per capture, to save half a second per landmark.
     few = {"rehearsal": {"provides_setup": False}, "registration": {"capture_images": 4, "capture_s": 0.06}}
     config = Config.model_validate({**few, **(settings or {})})
     hub, adopted, tracked_from_s = LiveHub(), list[CaseSetup](), [-math.inf]
@@ -148,7 +148,7 @@ def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> 
 
 @pytest.fixture
 def turns() -> Iterator[ExitStack]:
-    """Holds the server that runs now."""
+    """Holds the running server."""
     with ExitStack() as stack:
         yield stack
 
@@ -160,7 +160,7 @@ def server(tmp_path: Path, turns: ExitStack) -> Server:
 
 @pytest.fixture
 def restarted(tmp_path: Path, turns: ExitStack) -> Callable[[], Server]:
-    """Ends the server, and gives another one with the same folder."""
+    """Restarts the server with the same folder."""
 
     def restart() -> Server:
         turns.close()
@@ -170,7 +170,7 @@ def restarted(tmp_path: Path, turns: ExitStack) -> Callable[[], Server]:
 
 
 def sighting(theatre: Theatre, at_s: float, random: np.random.Generator) -> Seen:
-    """What a good tracker sees of the drill's marker: the truth with a hundredth of noise."""
+    """Poses of the drill's marker from a good tracker: the truth with a hundredth of the noise."""
     truth = theatre.truth_at(at_s)
     sd = np.array([0.02, 0.02, 0.1, 0.001, 0.001, 0.0004])
     noise = random.normal(0.0, sd)

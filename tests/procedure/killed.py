@@ -1,11 +1,12 @@
-"""How a whole server stands a `kill -9` in a procedure: of the web process, of tracking, of both.
+"""Kill a whole server with `kill -9` during a procedure: the web process, tracking, or both.
 
     PYTHONPATH=. python -m tests.procedure.killed --times 50 --seed 1 [--from empty] [--kills-each 10]
 
-People do the procedure on the rehearsal theatre through the server's door. After each kill it is started
-again with the same folder, and everything that it had confirmed is looked for: documents, the open case, the
-steps, the alarm log. No number may be given until a person has confirmed (or checked), and then there are
-numbers again. Odd procedures have a marker on the patient, even ones have none.
+Users do the procedure on the rehearsal through the API. After each kill the server is started again with the
+same folder, and everything that it had confirmed must exist: documents, the open case, the steps, the alarm
+log. No numbers may appear before a person has confirmed (or checked), and then they must return. Odd
+procedures have a patient marker, even ones do not.
+
 """
 
 import argparse
@@ -38,7 +39,7 @@ COLUMNS = "{:>4} {:<9} {:<4} {:<22} {:>7} {:>9} {:>7}  {}\n"
 
 @dataclass(slots=True, kw_only=True)
 class Kill:
-    """One kill, and what came of it."""
+    """One kill and its result."""
 
     target: str
     doing: str = ""
@@ -49,7 +50,7 @@ class Kill:
 
 
 class Theatre:
-    """A server that is killed and started again in one folder, and the people who use it."""
+    """A server that is repeatedly killed and restarted in one folder, and its users."""
 
     def __init__(self, folder: Path, *, reference: bool, rng: random.Random, empty: bool) -> None:
         self._folder, self._settings = folder, settings_of(reference=reference)
@@ -64,7 +65,7 @@ class Theatre:
         self._promised.observe(self._server)
 
     def kill_once(self, target: str, *, after_s: float) -> Kill:
-        """Let people work for so long, kill, start again, look, and go on."""
+        """Let users work for this long, kill, restart, and verify."""
         one, struck = Kill(target=target), list[Family]()
         before = self._promised.changes
 
@@ -103,7 +104,7 @@ class Theatre:
         return one
 
     def end(self) -> None:
-        """Kill the last one."""
+        """Kill the last server."""
         family = family_of(self._server.process.pid)
         kill(family.pids)
         self._ending.close()
@@ -124,7 +125,7 @@ class Theatre:
         self._ending.callback(self._listener.stop)
 
     def _tracking_again(self, struck: Family) -> Iterator[str]:
-        """Wait until another process tracks in the place of the one that was killed."""
+        """Wait until another process has replaced the killed tracking process."""
         self._server.killed.clear()
         self._server.until("another tracking process", lambda: self._process()["state"] == "running")
         now = family_of(self._server.process.pid)
@@ -133,19 +134,19 @@ class Theatre:
 
     def _process(self) -> dict[str, Any]:
         live: dict[str, Any] = self._server.ask("GET", "/api/live", 200)
-        # A word from before the kill was noticed is none.
+        # # A message from before the kill does not count.
         is_another = family_of(self._server.process.pid).tracking is not None and live["snapshot"] is not None
         return {**live["process"], "state": live["process"]["state"] if is_another else "none"}
 
     def _changed_steps(self, target: str) -> Iterator[str]:
-        """Yield the steps whose state changed; after a start the check of an unwatched camera is due."""
+        """Yield the steps whose state changed; after a start the check of an unmonitored camera is due."""
         allowed = {"navigate"} if target == "tracking" or self._reference else {"check", "navigate"}
         for step, (was, now) in self._promised.changed_steps(self._server).items():
             if step not in allowed:
                 yield f"the step {step} was {was}, and is {now}"
 
     def _goes_on_once_confirmed(self, one: Kill) -> str:
-        """Where all was done: no number before a person's word, and numbers after it; why it was stopped."""
+        """When all is set up: no numbers before the confirmation, numbers after it; return its reason."""
         reported = self._server.ask("GET", "/api/procedure", 200)
         states = {step["step"]: step["state"] for step in reported["steps"]}
         ready = all(state in VALID_STATES for step, state in states.items() if step != "navigate")
@@ -168,7 +169,7 @@ class Theatre:
         return str(reported["confirmation"]["because"])
 
     def _has_numbers(self, process: int) -> bool:
-        """Whether numbers are given again. On a busy machine tracking may be started once more meanwhile."""
+        """Whether numbers return. On a busy machine tracking may restart once more meanwhile."""
         if any(heard >= process for heard in self._listener.numbers):
             return True
         self._people.confirm()
@@ -176,7 +177,7 @@ class Theatre:
 
 
 def kills(times: int, *, seed: int, empty: bool, each: int, longest_s: float) -> Iterator[Kill]:
-    """So many kills, in as many procedures as that needs."""
+    """Run this many kills, in as many procedures as needed."""
     rng = random.Random(seed)
     with tempfile.TemporaryDirectory() as folder:
         for first in range(0, times, each):
@@ -191,7 +192,7 @@ def kills(times: int, *, seed: int, empty: bool, each: int, longest_s: float) ->
 
 
 def main() -> None:
-    """Kill so many times, and tell how it went."""
+    """Run the kills and print the results."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--times", type=int, default=50)
     parser.add_argument("--seed", type=int, default=1)

@@ -1,4 +1,4 @@
-"""A patient that a test registers: the truth, a case with camera, tool and plan, and the tip held on bone."""
+"""A patient for tests of registration: ground truth, a case with camera, tool and plan, the tip on bone."""
 
 from dataclasses import dataclass, field
 from typing import Any
@@ -30,7 +30,7 @@ USED = list(LANDMARKS)[:4]
 SPARE = list(LANDMARKS)[4]
 CAMERA_FROM_VERTEBRA: Rigid[Camera, Vertebra] = Rigid.from_vector([1.3, 0.2, -0.1], [12.0, -20.0, 460.0])
 SIDES: tuple[tuple[Side, float], ...] = (("left", 1.0), ("right", -1.0))
-# Facing the camera, with its tool hanging down from it.
+# # Facing the camera, with its tool below it.
 FACING = rotation_from_vector([np.pi, 0.0, 0.0])
 
 
@@ -51,7 +51,7 @@ def marker_seen(pose: Rigid[Camera, Marker]) -> Seen:
 
 
 def drill_at(tip_in_camera_mm: Array) -> Seen:
-    """The drill's marker where its tip is at this point."""
+    """Pose of the drill's marker with its tip at this point."""
     return marker_seen(Rigid(rotation=FACING, translation_mm=tip_in_camera_mm - FACING @ TIP_IN_MARKER))
 
 
@@ -108,7 +108,7 @@ def plan_content(
 
 @dataclass(slots=True, kw_only=True)
 class Patient:
-    """The patient before the camera, and the hand that holds the tip on the bone."""
+    """The patient in front of the camera, and the hand that holds the tip on the bone."""
 
     server: Server
     camera_from_vertebra: Rigid[Camera, Vertebra] = CAMERA_FROM_VERTEBRA
@@ -129,7 +129,7 @@ class Patient:
         return drill_at(in_camera + self.random.normal(0.0, 0.05, 3))
 
     def hold(self, path: str, landmark: str, *, off_mm: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Any:  # noqa: ANN401  JSON
-        """Hold the tip on a landmark until the capture that runs is over; what the path tells then."""
+        """Hold the tip on a landmark until the running capture ends; return the session's state."""
         reported: Any = None
         for _ in range(100):
             before = self.server.ask("GET", path, 200)["capture"]
@@ -148,12 +148,12 @@ class Patient:
         return reported
 
     def touch(self, landmark: str, *, off_mm: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Any:  # noqa: ANN401  JSON
-        """Capture a landmark of the session that runs."""
+        """Capture a landmark in the running session."""
         self.server.ask("POST", "/api/registration/points/captures", 202, json={"landmark": landmark})
         return self.hold("/api/registration/points", landmark, off_mm=off_mm)
 
     def register(self, landmarks: list[str] = USED) -> Any:  # noqa: ANN401  JSON
-        """A registration by points, concluded."""
+        """Register with landmarks."""
         self.show(None)
         self.server.ask("POST", "/api/registration/points", 201, json=DRILL)
         for one in landmarks:
@@ -161,7 +161,7 @@ class Patient:
         return self.server.ask("POST", "/api/registration/points/conclusion", 201, json=BY)
 
     def check(self, *, off_mm: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Any:  # noqa: ANN401  JSON
-        """A check on the spare landmark, concluded."""
+        """Check on the spare landmark."""
         self.server.ask("POST", "/api/registration/check", 201, json={**DRILL, "landmark": SPARE})
         self.hold("/api/registration/check", SPARE, off_mm=off_mm)
         return self.server.ask("POST", "/api/registration/check/conclusion", 201, json=BY)
@@ -185,7 +185,7 @@ def activate(server: Server, vertebra: str = "L3", side: str = "left") -> None:
 
 
 def ready(server: Server, *vertebrae: str) -> str:
-    """An open case with camera, tool, plan, and a channel that is to be drilled."""
+    """An open case with camera, tool, plan and an active channel."""
     case_id = calibrated(server)
     with_tool(server, case_id)
     with_plan(server, case_id, *vertebrae)
@@ -194,16 +194,16 @@ def ready(server: Server, *vertebrae: str) -> str:
 
 
 def withheld(server: Server) -> AbsentReason | None:
-    """Why the tracking process gives no numbers."""
+    """The tracking process' reason for withheld numbers."""
     return server.adopted[-1].withheld
 
 
 def registered(server: Server) -> Registration | None:
-    """What the tracking process navigates by."""
+    """The tracking process' set-up for navigation."""
     return server.adopted[-1].registration
 
 
 def states(server: Server) -> dict[str, str]:
-    """Each step's state, as the door tells it."""
+    """State of each step, from the API."""
     reported = server.ask("GET", "/api/procedure", 200)
     return {one["step"]: one["state"] for one in reported["steps"]}

@@ -1,4 +1,4 @@
-"""A server in a process of its own, as a person starts it, with the rehearsal as its camera."""
+"""A server in its own process, started as by a user, with the rehearsal as its camera."""
 
 import os
 import re
@@ -17,34 +17,34 @@ import yaml
 from websockets.sync.client import connect
 
 CHECKOUT = Path(__file__).resolve().parents[2]
-# How long anything may take on a busy machine before it counts as not happening.
+# # Timeout of each wait on a busy machine.
 PATIENCE_S = 600.0
 LOOK_AGAIN_S = 0.02
-# A busy machine brings images late: when that is an alarm, others ask. A screen is armed once and stays so.
+# # A busy machine delays images; other tests check that alarm. A screen is armed once and stays armed.
 BUSY_MACHINE: Mapping[str, object] = {
     "limits": {"pose_stale_after_ms": 10_000, "video_stale_after_ms": 10_000, "scene_stale_after_ms": 10_000},
     "alarms": {"screen_lost_after_s": 600},
 }
-# Who may do what is asked elsewhere.
+# # Access rules are tested elsewhere.
 OPEN_DOOR: Mapping[str, object] = {"security": {"sign_in": "off"}}
 
 
 @dataclass(slots=True, kw_only=True)
 class RealServer:
-    """A server that answers, and its process."""
+    """A running server and its process."""
 
     port: int
     process: "subprocess.Popen[str]"
     door: httpx2.Client
 
     def ask(self, method: str, path: str, status: int, **sent: Any) -> Any:  # noqa: ANN401  JSON
-        """The answer of the door, which must have this status."""
+        """Return the answer, which must have this status."""
         answer = self.door.request(method, path, **sent)
         assert answer.status_code == status, f"{method} {path}: {answer.status_code} {answer.text[:600]}"
         return answer.json() if answer.content else None
 
     def rejected(self, method: str, path: str, code: str, **sent: Any) -> Any:  # noqa: ANN401  JSON
-        """The rejection of a step out of its turn: its code, a sentence with what happened, what to do."""
+        """Return the rejection of a step out of order: code, message and remedy."""
         reported = self.ask(method, path, 409, **sent)
         assert reported["code"] == code, reported
         assert reported["message"]
@@ -52,7 +52,7 @@ class RealServer:
         return reported
 
     def until(self, what: str, true: Callable[[], Any]) -> Any:  # noqa: ANN401  whatever became true
-        """What this gives as soon as it is true."""
+        """Return this value as soon as it is true."""
         deadline_s = time.monotonic() + PATIENCE_S
         while not (given := true()):
             assert time.monotonic() < deadline_s, f"not within {PATIENCE_S:g} s: {what}"
@@ -60,7 +60,7 @@ class RealServer:
         return given
 
     def done(self, job: Mapping[str, Any]) -> Any:  # noqa: ANN401  JSON
-        """What came of a job."""
+        """Wait for a job and return its result."""
 
         def over() -> Any:  # noqa: ANN401  JSON
             now = self.ask("GET", f"/api/jobs/{job['id']}", 200)
@@ -72,7 +72,7 @@ class RealServer:
 
     @contextmanager
     def listening(self) -> Iterator[Iterator[dict[str, Any]]]:
-        """The messages of `/ws/live`, as a client receives them."""
+        """Messages of `/ws/live`, as a client receives them."""
         with connect(f"ws://127.0.0.1:{self.port}/ws/live", proxy=None, compression=None) as socket:
             yield (_message(socket.recv(timeout=PATIENCE_S)) for _ in iter(int, 1))
 
@@ -86,9 +86,10 @@ def _message(text: str | bytes) -> dict[str, Any]:
 def real_server(
     folder: Path, settings: Mapping[str, object], *, packages: Path | None = None
 ) -> Iterator[RealServer]:
-    """`coaxial run` with these settings and its cases in this folder, ended by its own number.
+    """`coaxial run` with these settings and its cases in this folder, ended by its own process id.
 
-    `packages`: a folder with further packages, on its import path.
+    `packages`: a folder with further packages, added to its import path.
+
     """
     with started(folder, settings, packages=packages) as process:
         try:

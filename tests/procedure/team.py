@@ -1,4 +1,4 @@
-"""The people around the table, who work through the server's door alone, and what its camera sees."""
+"""The operating team, working through the API only, and what its camera sees."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -29,24 +29,24 @@ POINTS, CHECK = "/api/registration/points", "/api/registration/check"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Heard:
-    """A live message, with what is true of its image."""
+    """A live message with the ground truth of its image."""
 
     message: dict[str, Any]
     truth: Truth
 
     @property
     def drill(self) -> dict[str, Any]:
-        """What it says of the drill."""
+        """The drill's values in this message."""
         (tool,) = self.message["snapshot"]["tools"]
         return dict(tool)
 
     @property
     def alarms(self) -> dict[str, dict[str, Any]]:
-        """Those in sight, by condition."""
+        """Visible landmarks, by condition."""
         return {one["condition"]: one for one in self.message["alarms"]["alarms"]}
 
     def deviation_from(self, channel: Channel) -> Deviation:
-        """How far the drill truly is from the channel that was planned."""
+        """True distance of the drill from the planned channel."""
         vertebra_from_tool: Rigid[Vertebra, Tool] = (
             self.truth.camera_from_vertebra.inverse @ self.truth.camera_from_tool
         )
@@ -55,7 +55,7 @@ class Heard:
 
 @dataclass(slots=True, kw_only=True)
 class Team:
-    """Does the steps of the procedure as people do, waiting for what the server says and nothing else."""
+    """Does the steps of the procedure as users do, waiting only for the server's answers."""
 
     server: RealServer
     config: Config
@@ -66,7 +66,7 @@ class Team:
         self.theatre = theatre_from_config(self.config.rehearsal)
 
     def play(self, scene: str, *, skill: str = "good", events: Sequence[RehearsalEventConfig] = ()) -> None:
-        """Have a scene played, and wait until it is before the camera."""
+        """Play a scene and wait until it is in front of the camera."""
         requested = {"scene": scene, "skill": skill, "events": [one.model_dump() for one in events]}
         changed = {**requested, "events": list(events)}
         self.theatre = theatre_from_config(self.config.rehearsal.model_copy(update=changed))
@@ -80,17 +80,17 @@ class Team:
         self.server.until(f"the scene {scene}", is_shown)
 
     def truth_of(self, snapshot: dict[str, Any]) -> Truth:
-        """What is true of the image that a message is about."""
+        """Ground truth of a message's image."""
         since_s = (snapshot["image_number"] - self.first_number) / self.config.rehearsal.rate_hz
         return self.theatre.truth_at(since_s)
 
     def touched(self) -> str:
-        """The landmark that the tip rests on now."""
+        """The landmark on which the tip rests now."""
         moment = self.server.ask("GET", "/api/rehearsal?truth=1", 200)["truth"]["moment"]
         return "" if moment is None else str(moment["touched"])
 
     def calibrate_camera(self) -> dict[str, Any]:
-        """A board is moved before the camera until there are enough views."""
+        """Collect views of a moving board until there are enough."""
         self.play("board")
         self.server.ask("POST", "/api/camera/collection", 201, json={"board": BOARD})
         self.server.until(
@@ -105,7 +105,7 @@ class Team:
         return dict(report)
 
     def calibrate_tool(self) -> dict[str, Any]:
-        """The drill is tilted about its tip; which way it points, and how thick it is, says its drawing."""
+        """Calibrate the tip by pivoting; axis and diameter come from the drawing."""
         self.play("pivot")
         self.server.ask(
             "POST", "/api/tools/collection", 201, json={**DRILL, "purpose": "pivot", "marker": "drill"}
@@ -119,7 +119,7 @@ class Team:
         return dict(self.server.ask("POST", path, 201, json={**BY, **drawing})["content"])
 
     def plan(self, vertebra: str) -> None:
-        """The CT is sent up; both pedicles are clicked on, channels laid, screws and landmarks set."""
+        """Send the CT, measure both pedicles, lay channels, set screws and landmarks."""
         ask, ct = self.server.ask, self.server.door.get("/api/rehearsal/ct").content
         self.server.done(ask("POST", "/api/ct", 202, content=ct, params=BY))
         ask("POST", "/api/plan/vertebrae", 201, json={**BY, "name": vertebra})
@@ -137,7 +137,7 @@ class Team:
         ask("PUT", f"{where}/landmarks", 200, json={**BY, "landmarks": landmarks})
 
     def choose(self, vertebra: str, side: str) -> Channel:
-        """The channel that is to be drilled, as the plan has it."""
+        """The active channel of the plan."""
         requested = {**BY, "vertebra": vertebra, "side": side}
         plan = self.server.ask("POST", "/api/plan/active-channel", 200, json=requested)
         planned = plan["active_channel"]["channel"]
@@ -149,17 +149,17 @@ class Team:
         )
 
     def touch(self, count: int) -> dict[str, Any]:
-        """So many landmarks are touched one after the other; what is missing after that."""
+        """Capture this many landmarks; return what is still missing."""
         self.play("landmarks")
         self.server.ask("POST", POINTS, 201, json=DRILL)
         return self.touch_more(count)
 
     def touch_more(self, count: int) -> dict[str, Any]:
-        """So many more."""
+        """Capture this many more."""
         return [self._captured() for _ in range(count)][-1]
 
     def _captured(self) -> dict[str, Any]:
-        """The next landmark that the tip rests on and that nobody has taken yet, taken."""
+        """Capture the next landmark on which the tip rests."""
         ask = self.server.ask
 
         def taken() -> dict[str, Any] | None:
@@ -182,7 +182,7 @@ class Team:
         return dict(self.server.until("the end of a capture", over))
 
     def check(self) -> dict[str, Any]:
-        """The tip is put on the landmark that nobody used."""
+        """Check on the unused landmark."""
         self.play("check")
         landmark = self.theatre.check_landmark.name
 
@@ -195,27 +195,27 @@ class Team:
         return dict(self.server.ask("POST", f"{CHECK}/conclusion", 201, json=BY)["content"])
 
     def steps(self) -> dict[str, str]:
-        """The state of each step."""
+        """State of each step."""
         reported = self.server.ask("GET", "/api/procedure", 200)
         return {one["step"]: one["state"] for one in reported["steps"]}
 
     def waits_for(self, step: str, code: str) -> None:
-        """The server says that this is to be done now, and rejects a registration before it."""
+        """The server names this as the next step, and rejects a registration before it."""
         assert self.server.ask("GET", "/api/procedure", 200)["next_step"] == step
         self.server.rejected("POST", POINTS, code, json=DRILL)
 
     def open_case(self, name: str) -> None:
-        """A new case, empty and open."""
+        """A new, empty, open case."""
         case = self.server.ask("POST", "/api/cases", 201, json={"name": name})
         self.server.ask("POST", f"/api/cases/{case['id']}/open", 200)
 
     def arm_a_screen(self) -> None:
-        """A screen in theatre says that its sound would be heard."""
+        """Report a theatre screen with armed sound."""
         requested = {"screen": "theatre-one", "state": "armed"}
         self.server.ask("POST", "/api/alarms/screens", 200, json=requested)
 
     def heard(self, messages: Iterator[dict[str, Any]]) -> Iterator[Heard]:
-        """The messages with an image of the scene that is played."""
+        """Messages with an image of the played scene."""
         for message in messages:
             snapshot = message["snapshot"]
             if snapshot is not None and snapshot["image_number"] >= self.first_number:

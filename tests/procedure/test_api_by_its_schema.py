@@ -1,4 +1,4 @@
-"""The whole API held against its own description: no sick answer, and none that is not written there."""
+"""The whole API against its own schema: no internal error, and no undocumented answer."""
 
 from collections import Counter
 from collections.abc import Iterator
@@ -20,7 +20,7 @@ from schemathesis.specs.openapi.checks import (
 from tests.procedure.conftest import serving
 from tests.served import served
 
-# A rejection of what the description lets through is no fault: what a case allows is in no schema.
+# # A rejection of schema-valid input is correct: what a case allows is not part of the schema.
 CHECKS = [
     not_a_server_error,
     status_code_conformance,
@@ -28,7 +28,7 @@ CHECKS = [
     response_schema_conformance,
 ]
 TRIES = 12
-# It never ends.
+# # An endless stream.
 ENDLESS = "/video/{camera}.mjpg"
 FILES = ("application/zip", "model/stl", "model/obj", "model/ply")
 
@@ -38,7 +38,7 @@ for kind in FILES:
 
 @pytest.fixture(scope="module")
 def schema(tmp_path_factory: pytest.TempPathFactory) -> Iterator[schemathesis.BaseSchema]:
-    """Of a server with an open case and a live image."""
+    """A server with an open case and a live image."""
     with serving(tmp_path_factory.mktemp("lived_in")) as server:
         case = server.ask("POST", "/api/cases", 201, json={"name": "somebody"})
         server.ask("POST", f"/api/cases/{case['id']}/open", 200)

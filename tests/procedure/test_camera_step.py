@@ -1,4 +1,4 @@
-"""A camera is calibrated through the door, from images of a board in a rehearsal whose camera is known."""
+"""Camera calibration through the API, from rehearsed images of a board with a known camera."""
 
 from functools import lru_cache
 
@@ -24,7 +24,7 @@ DOTS = {
 
 @lru_cache(maxsize=1)
 def shown() -> tuple[CameraModel, tuple[np.ndarray, ...]]:
-    """The true camera, and an image of the board in each of its places."""
+    """The true camera, and an image of the board in each position."""
     theatre = Theatre(TheatreSettings(seed=6, size_wh_px=SIZE, scene=Scene.BOARD, board=BoardKind.DOTS))
     renderer = theatre.renderer()
     times_s = [place * (HOLD_S + MOVE_S) + HOLD_S / 2.0 for place in range(len(PLACES))]
@@ -83,7 +83,7 @@ def test_a_camera_from_sent_images_is_the_true_one_and_is_used_at_once(server: S
 
 
 def check_accuracy(server: Server, image: np.ndarray) -> None:
-    """Known displacements on a board are measured in the picture of now."""
+    """Known distances on a board are measured in the newest image."""
     requested = {"board": DOTS, "made_by": "ito"}
     assert server.ask("POST", "/api/camera/accuracy", 503, json=requested)["code"] == "NO_PICTURE"
     server.show(at_s=0.0, image=np.full_like(image, 90))

@@ -1,4 +1,4 @@
-"""After a start nobody is navigated until a person has said that all stands as it did."""
+"""After a start there is no navigation until a person has confirmed that nothing has moved."""
 
 import time
 from collections.abc import Callable
@@ -31,7 +31,7 @@ ON_ENTRY = drill_at(CAMERA_FROM_VERTEBRA.move_points(np.array([15.0, 14.0, 2.0])
 
 
 def requested(server: Server) -> Any:  # noqa: ANN401  JSON
-    """What a person is asked, if anything."""
+    """The requested confirmation, if any."""
     return server.ask("GET", "/api/procedure", 200)["confirmation"]
 
 
@@ -41,7 +41,7 @@ def beside_a_reference(server: Server) -> Patient:
 
 @pytest.fixture
 def started_again(tmp_path: Path, turns: ExitStack) -> Server:
-    """A server whose open case was registered to the marker on the patient, and checked, before its start."""
+    """A server whose open case was registered to the patient marker and checked before its start."""
     server = turns.enter_context(serving(tmp_path, REFERENCE))
     ready(server)
     patient = beside_a_reference(server)
@@ -92,14 +92,14 @@ def test_a_second_word_is_no_second_document_and_holds_for_one_run(
     opened = server.store.get_open_case()
     assert opened is not None
     assert len(server.store.history(opened.id, DocumentKind.CONFIRMATION, "going on with L3")) == 1
-    # Opened by hand within the run it stays as it was said; the next start asks again.
+    # # Opened within the same run, it stays confirmed; the next start asks again.
     server.ask("POST", f"/api/cases/{opened.id}/close", 200)
     server.ask("POST", f"/api/cases/{opened.id}/open", 200)
     assert withheld(server) is None
     turns.close()
     again = turns.enter_context(serving(tmp_path, REFERENCE))
     assert withheld(again) is AbsentReason.NOT_CONFIRMED
-    # Neither does closing and opening the case take the place of a word.
+    # # Closing and opening the case does not replace a confirmation either.
     again.ask("POST", f"/api/cases/{opened.id}/close", 200)
     assert requested(again) is None
     again.ask("POST", f"/api/cases/{opened.id}/open", 200)
@@ -137,7 +137,7 @@ def test_a_new_tracking_process_did_not_watch_the_camera_before(server: Server) 
     assert needed["because"] == "tracking_started"
     assert needed["reference"] is None
     assert states(server)["navigate"] == "missing"
-    # What was adopted before is not navigated by in it, whether or not anything is told meanwhile.
+    # # A registration adopted before is not used for navigation, whatever is published meanwhile.
     before = server.adopted[-1]
     assert before.withheld is None
     assert before.tracked_from(server.tracked_from_s[-1]).withheld is AbsentReason.NOT_CONFIRMED

@@ -1,4 +1,4 @@
-"""Co-signatures: of exactly one version, by somebody else, and where required before anybody navigates."""
+"""Co-signatures: of exactly one version, by another person, and required before navigation if configured."""
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
@@ -25,7 +25,7 @@ REQUIRED = {"supervision": {"cosign": {"plan": "required", "registration": "requ
 
 @pytest.fixture
 def guarded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., Server]]:
-    """A server with people who are signed in, as the header says."""
+    """A server with users who are identified by a header."""
 
     def create(parts: AppParts) -> FastAPI:
         app = create_app(parts)
@@ -72,7 +72,7 @@ def test_required_signatures_withhold_navigation_until_a_second_person_signed(
     server = guarded(REQUIRED)
     ready(server)
     patient = Patient(server=server)
-    # The plan lacks it, and the registration goes on all the same.
+    # # The plan lacks a signature; registration is allowed nevertheless.
     assert "not signed by a second person" in step(server, "plan")["missing_cosignature"]["message"]
     patient.register()
     patient.check()
@@ -106,7 +106,7 @@ def test_a_changed_plan_is_unsigned_at_once(guarded: Callable[..., Server]) -> N
     change_plan(server, case_id)
     now = signable(server, "plan")
     assert (now["is_cosigned"], now["signatures"], now["was_signed"]) == (False, [], True)
-    # What was looked at is not what would be signed.
+    # # The reviewed version is not the one that would be signed.
     rejected = sign(server, "plan", "s2", 409, document_id=looked_at)
     assert rejected["code"] == "SIGNED_VERSION_OLD"
     assert "version 2" in rejected["message"]
@@ -132,7 +132,7 @@ def test_several_sign_and_each_once(guarded: Callable[..., Server]) -> None:
     assert [one["is_yours"] for one in reported] == [True, False]
 
 
-def test_without_sign_in_a_signature_is_nobodys_second(server: Server) -> None:
+def test_without_sign_in_a_signature_is_not_a_second_persons(server: Server) -> None:
     planned(server)
     reported = sign(server, "plan", "")["signable"][0]
     assert [(one["by"], one["second_person"]) for one in reported["signatures"]] == [("this computer", False)]
@@ -206,7 +206,7 @@ def test_who_took_an_archive_in_cannot_co_sign_what_they_may_have_written_into_i
     assert signable(server, "plan")["is_cosigned"]
 
 
-def test_a_signature_says_who_invited_the_signer_and_whether_that_was_the_maker(
+def test_a_signature_states_who_invited_the_signer_and_whether_that_was_the_author(
     guarded: Callable[..., Server],
 ) -> None:
     server = guarded()
@@ -228,7 +228,7 @@ def test_a_signature_says_who_invited_the_signer_and_whether_that_was_the_maker(
         "from": None,
         "to": "signed",
     }
-    # It counts all the same: who invites is often who plans. Of what somebody else made, nothing is said.
+    # # It counts: often the person who invites also plans. If somebody else made it, no note is added.
     assert signable(server, "plan")["is_cosigned"]
     change_plan(server, case_id, made_by="abe")
     (reported,) = sign(server, "plan", "s3")["signable"][0]["signatures"]
@@ -240,7 +240,7 @@ def test_the_room_is_informed_of_a_signature_at_once(guarded: Callable[..., Serv
     with server.door.websocket_connect("ws://127.0.0.1:8000/ws/room?view=supervisor&person=s2") as socket:
 
         def heard(true: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
-            """The plan in the first message of this socket that says so."""
+            """The plan in the first message of this socket that has one."""
             plans: list[dict[str, Any]] = []
 
             def reported() -> bool:

@@ -1,4 +1,4 @@
-"""Bad CTs through the door: each told with code, numbers and remedy, and nothing of it left anywhere."""
+"""Invalid CTs through the API: rejected with code, numbers and remedy, and nothing is stored."""
 
 import functools
 import io
@@ -122,7 +122,7 @@ def test_a_surface_from_the_ct_and_one_in_metres(server: Server) -> None:
     )
     wrong = {**requested, "region": {**region, "high_lps_mm": [-40, 0, 0]}}
     assert server.ask("POST", "/api/surface/from-ct", 409, json=wrong)["code"] == "REGION_INVALID"
-    # Another CT: what was made of the old one is out of date.
+    # # Another CT: documents based on the old one are out of date.
     sent(server, dicom_zip())
     assert not server.ask("GET", "/api/surface", 200)["heading"]["current"]
     in_metres = server.ask("POST", "/api/surface", 202, content=stl(0.05), params={**BY, "unit": "m"})
@@ -132,7 +132,7 @@ def test_a_surface_from_the_ct_and_one_in_metres(server: Server) -> None:
 
 @functools.cache
 def slow_zip() -> bytes:
-    """A CT that takes seconds to read: its slices are large, and compressed as JPEG 2000."""
+    """A CT that takes seconds to read: large slices, compressed as JPEG 2000."""
     made = made_ct(count=120, size_wh=(384, 384), spacing_mm=1.0)
     content = compressed(made.slices[0], uid.JPEG2000Lossless)
     files = io.BytesIO()
@@ -143,7 +143,7 @@ def slow_zip() -> bytes:
 
 
 def sent_and_begun(server: Server) -> Any:  # noqa: ANN401  JSON
-    """The upload of a slow CT, of which a slice is read already."""
+    """The upload of a slow CT, of which one slice has been read."""
     begun = server.ask("POST", "/api/ct", 202, content=slow_zip(), params=BY)
     address = f"/api/ct/uploads/{begun['upload_id']}/preview.png"
     server.until(lambda: server.door.get(address).status_code != 204)
@@ -189,7 +189,7 @@ def test_a_first_slice_is_there_before_the_ct(server: Server) -> None:
     server.ask("DELETE", f"/api/jobs/{begun['id']}", 200)
 
 
-def test_who_has_no_name_that_can_be_kept_is_told_before_anything_is_done(server: Server) -> None:
+def test_an_invalid_name_is_rejected_before_anything_is_done(server: Server) -> None:
     opened(server)
     for name in ("ito\nroot", "\u202eoti", " ", "\x00"):
         by = {"made_by": name}

@@ -1,4 +1,4 @@
-"""A CT through the door: sent, read, looked at, rejected, cancelled, and there again after a restart."""
+"""A CT through the API: sent, read, sliced, rejected, cancelled, and present after a restart."""
 
 import gc
 import json
@@ -137,7 +137,7 @@ def test_the_ct_is_there_again_after_a_restart(server: Server, restarted: Callab
     again = restarted()
     assert again.ask("GET", "/api/ct", 200) == before
     assert again.door.get("/api/ct/slices/coronal.png").content == shown_before.content
-    # An upload that waited for a choice is not kept over a restart.
+    # # An upload that waits for a choice does not survive a restart.
     again.ask("POST", f"/api/ct/uploads/{begun['upload_id']}/series/1.2.3.9", 404)
     assert leftovers(again) == []
 
@@ -190,7 +190,7 @@ def test_slices_that_cannot_be_shown_are_reported(viewed: Server, path: str, sta
 
 @pytest.fixture(scope="module")
 def viewed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
-    """A server with a CT that nobody changes."""
+    """A server with a CT that no test changes."""
     with serving(tmp_path_factory.mktemp("viewed")) as server:
         opened(server)
         sent(server, dicom_zip())

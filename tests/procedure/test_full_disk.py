@@ -1,4 +1,4 @@
-"""A disk that is full while people navigate: an alarm, numbers all the same, nothing confirmed is lost."""
+"""A full disk during navigation: an alarm, numbers continue, and nothing confirmed is lost."""
 
 import subprocess
 from collections.abc import Iterator
@@ -21,7 +21,7 @@ HOLD = {"by": "Dr. Sato"}
 
 @pytest.fixture
 def small_disk(tmp_path: Path) -> Iterator[Path]:
-    """A folder for a server whose cases lie on a disk of their own, a small one."""
+    """A home folder on a small disk of its own."""
     home = tmp_path / "home"
     home.mkdir()
     requested = ["mount", "-t", "tmpfs", "-o", f"size={ROOM_MB}m", "tmpfs", str(home)]
@@ -51,7 +51,7 @@ def test_a_full_disk_is_an_alarm_and_navigation_goes_on(small_disk: Path) -> Non
         assert "MB are free" in rejected["message"]
         assert rejected["context"]["free_mb"] < 1.0
         assert rejected["remedy"].startswith("Free disk space")
-        # A wish to hold is heard in theatre though it cannot be written, and whoever asked is told so.
+        # # A hold request is shown in theatre although it cannot be stored, and its requester is informed.
         assert server.ask("POST", "/api/alarms/hold", 507, json=HOLD)["code"] == "STORE_FULL"
         reported = alarms(server)
         assert {"HOLD_REQUESTED", "RECORDING_STOPPED"} <= reported.keys()
@@ -67,14 +67,14 @@ def test_a_full_disk_is_an_alarm_and_navigation_goes_on(small_disk: Path) -> Non
 
 
 def fill(file: Path) -> None:
-    """Until nothing more goes in."""
+    """Write until nothing more fits."""
     with suppress(OSError), file.open("wb", buffering=0) as full:
         while full.write(bytes(4096)):
             pass
 
 
 def until_rejected(server: RealServer) -> Any:  # noqa: ANN401  JSON
-    """What is told once the last free page of the database is used up."""
+    """The error after the last free page of the database is used."""
 
     def rejection() -> Any:  # noqa: ANN401  JSON
         answer = server.door.post("/api/cases", json={"name": "x" * 200})
@@ -90,7 +90,7 @@ def alarms(server: RealServer) -> dict[str, Any]:
 
 
 def numbers_of_new_images(server: RealServer) -> None:
-    """Images go on to come, and numbers with them."""
+    """Images keep arriving, with numbers."""
     newest = server.until("an image", lambda: server.ask("GET", "/api/live", 200)["snapshot"])
 
     def is_newer() -> bool:

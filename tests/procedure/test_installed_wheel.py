@@ -1,4 +1,4 @@
-"""The wheel that `make wheel` builds: what is in it, and that it runs outside of a checkout."""
+"""The wheel of `make wheel`: its contents, and that it runs outside of a checkout."""
 
 import email
 import os
@@ -22,7 +22,7 @@ from tests.procedure.real_server import PATIENCE_S, RealServer, port_of
 
 ROOT = Path(__file__).parents[2]
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-# What an unrelated program may have in the folder in which Coaxial is started.
+# # Files of an unrelated program in the folder in which Coaxial is started.
 DECOYS = ("server.py", "tracker.py", "numpy.py", "yaml.py", "numba.py")
 CODE_PLACES = """
 from server.installation import prepare_process
@@ -97,7 +97,7 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Built:
         "docs/zensical.toml",
     ]
     subprocess.run(guide, cwd=folder, check=True, capture_output=True)
-    # Neither a folder that git ignores nor a stray file may be taken along.
+    # # Neither ignored folders nor stray files may be included.
     (folder / "recording.mcap").touch()
     (folder / ".coaxial").mkdir()
     (folder / ".coaxial/coaxial.sqlite3").touch()

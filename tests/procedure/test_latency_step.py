@@ -1,4 +1,4 @@
-"""The latency is measured through the door: codes read in live images, timed by a page's clock, and kept."""
+"""Latency measurement through the API: codes read in live images, timed by a page's clock, and stored."""
 
 import json
 import time
@@ -23,10 +23,10 @@ MEASUREMENT = "/api/latency/measurement"
 CONCLUSION = f"{MEASUREMENT}/conclusion"
 RATE_HZ = 25.0
 PERIOD_MS = 1000.0 / RATE_HZ
-# The server's clock is behind the page's by this.
+# # Offset of the server's clock from the page's.
 BEHIND_MS = 9000.0
 CODES = 20
-# Painted so long before the image that shows it.
+# # Time from painting a code to the image that shows it.
 LATENCY_MS = 70.0
 MEASURED = MeasuredLatency(p99_ms=LATENCY_MS, size_wh_px=(1280, 720), image_period_ms=PERIOD_MS)
 SCREEN = {"width_px": 1280, "height_px": 800, "period_ms": 16.7}
@@ -52,7 +52,7 @@ def until_looked_after(server: Server, before: int) -> None:
 
 
 def film(server: Server, codes: list[int]) -> dict[str, Any]:
-    """Show an image of each code, wait until it was looked at, and say what a page would say."""
+    """Publish an image of each code, wait until it was read, and return the page's notes."""
     painted, shown = [], []
     for place, code in enumerate(codes):
         before = looked(server)
@@ -81,7 +81,7 @@ def film(server: Server, codes: list[int]) -> dict[str, Any]:
     return {"made_by": "ito", "painted": painted, "shown": shown, "comparisons": compared, "screen": SCREEN}
 
 
-def test_a_latency_is_measured_kept_and_told_to_everybody(server: Server) -> None:
+def test_a_latency_is_measured_stored_and_sent_to_all_clients(server: Server) -> None:
     assert server.ask("GET", "/api/latency", 200) == {"measuring": False, "result": None, "applies": False}
     plan = begun(server)
     assert (plan["cells"], len(plan["patterns"]), plan["codes"], plan["min_timed"]) == (4, 250, CODES, 13)
@@ -108,7 +108,7 @@ def test_a_latency_is_measured_kept_and_told_to_everybody(server: Server) -> Non
     )
     assert (result["made_by"], result["screen"]) == ("ito", SCREEN)
     assert server.ask("GET", "/api/latency", 200) == {"measuring": False, "result": result, "applies": True}
-    # What moves is told with it from the next image on, also without a case.
+    # # Included in each message from the next image on, also without a case.
     assert server.adopted[-1].latency == MEASURED
 
 
@@ -188,7 +188,7 @@ def test_a_closed_case_ends_it(server: Server, end: str) -> None:
     server.ask("POST", f"/api/cases/{case['id']}/open", 200)
     begun(server)
     said = film(server, [0, 1])
-    # What is changed in the case itself ends nothing.
+    # # Changes of the case itself end nothing.
     server.ask("PATCH", f"/api/cases/{case['id']}", 200, json={"name": "L4"})
     film(server, [2])
     if end == "close":
@@ -223,7 +223,7 @@ def test_a_page_that_left_ends_it(server: Server) -> None:
     measurement.stop()
 
 
-def test_nothing_is_read_while_nobody_measures(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_codes_are_read_without_a_measurement(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
     reads: list[float] = []
     read = CodeReader.read
 

@@ -1,4 +1,4 @@
-"""Marker, reference and camera lost before a real server: what its clients hear from then on."""
+"""Loss of marker, reference and camera on a real server: what its clients receive."""
 
 from collections import defaultdict
 from pathlib import Path
@@ -35,7 +35,7 @@ def test_what_is_lost_is_not_reported_in_any_message_and_its_alarm_comes(tmp_pat
     with real_server(tmp_path, SETTINGS) as server:
         team = Team(server=server, config=Config.model_validate(SETTINGS))
         team.arm_a_screen()
-        # Navigation has begun before anything is lost.
+        # # Navigation has started before anything is lost.
         first = server.until("an image", lambda: server.ask("GET", "/api/live", 200)["snapshot"])
         assert first["camera_calibrated"]
         team.play("operation", events=EVENTS)

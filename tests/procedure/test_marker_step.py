@@ -1,4 +1,4 @@
-"""Pictures of markers are sent through the door, looked for, replaced and taken away."""
+"""Marker pictures through the API: sent, detected, replaced and removed."""
 
 import numpy as np
 import pytest
@@ -16,14 +16,14 @@ AWL = {**BY, "name": "awl", "side_mm": 25.0}
 
 
 def picture(turn: int = 0) -> np.ndarray:
-    """Of a marker that nobody else has."""
+    """Picture of a marker that no other test has."""
     other = Theatre(TheatreSettings(reference=True)).reference
     assert other is not None
     return np.ascontiguousarray(np.rot90(other.image, turn))
 
 
 def arrow() -> np.ndarray:
-    """Of a marker that is its own mirror image."""
+    """Picture of a marker that equals its mirror image."""
     image = np.zeros((100, 100), np.uint8)
     image[15:85, 15:85] = 255
     image[25:76, 45:55] = image[25:41, 25:75] = 0
@@ -31,13 +31,13 @@ def arrow() -> np.ndarray:
 
 
 def names(server: Server) -> dict[str, bool]:
-    """The markers that are looked for, and whether the case keeps them."""
+    """The tracked markers, and whether they are stored in the case."""
     reported = server.ask("GET", "/api/markers", 200)["markers"]
     return {one["name"]: one["document_id"] is not None for one in reported}
 
 
 def of_case(server: Server) -> list[str]:
-    """The markers that the case adds to what is tracked."""
+    """The markers that the case adds to those of the settings."""
     return [model.name for model in server.adopted[-1].models]
 
 
@@ -160,5 +160,5 @@ def test_gates_are_those_of_the_settings(server: Server) -> None:
     assert reported["calibration"] == {"max_rms_px": 1.0, "max_error_mm": 0.5}
     assert reported["collecting"] == {"min_views": 12, "min_coverage_ratio": 0.75, "min_tilt_deg": 20.0}
     assert reported["tracker"]["accept_score_ratio"] == 0.7
-    # As the test's own settings have it, and not the default.
+    # # As in the test's settings, not the default.
     assert reported["registration"]["capture_images"] == 4

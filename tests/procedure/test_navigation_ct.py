@@ -1,4 +1,4 @@
-"""The CT around the navigated vertebra, through the door: its voxels, its id, and why there is none."""
+"""The CT around the navigated vertebra, through the API: voxels, id, and the reason if there is none."""
 
 import json
 from pathlib import Path
@@ -18,7 +18,7 @@ HAND = {"entry_lps_mm": [15, 14, 2], "target_lps_mm": [8, -30, 3], "diameter_mm"
 
 
 def navigated(server: Server) -> None:
-    """A case with a CT and a channel that is to be drilled."""
+    """A case with a CT and an active channel."""
     opened(server)
     assert sent(server, nifti(scanned()))["state"] == "done"
     server.ask("POST", "/api/plan/vertebrae", 201, json={**BY, "name": "L3"})
@@ -27,7 +27,7 @@ def navigated(server: Server) -> None:
 
 
 def received(server: Server) -> tuple[str, Volume]:
-    """The id of the CT, and the voxels of the answer at their places."""
+    """The id of the CT, and its voxels at their positions."""
     answer = server.door.get(DOOR)
     assert answer.status_code == 200, answer.text
     place = json.loads(answer.headers["Volume-Place"])
@@ -44,7 +44,7 @@ def test_a_case_has_its_ct_with_the_id_that_navigation_states(server: Server) ->
     # NIfTI stores its affine in single precision.
     np.testing.assert_allclose(part.sample_hu(ends), scanned().sample_hu(ends), atol=0.01)
 
-    # A browser that has it gets no voxels again, in either encoding; another CT is another answer.
+    # # A browser that has it gets no voxels again, in either encoding; another CT is another answer.
     for encoding in ("gzip", "identity"):
         first = server.door.get(DOOR, headers={"Accept-Encoding": encoding})
         known = {"Accept-Encoding": encoding, "If-None-Match": first.headers["ETag"]}
@@ -63,7 +63,7 @@ def test_without_a_case_or_a_channel_the_reason_is_said(server: Server) -> None:
 
 
 def small_scan(report: Report) -> Volume:
-    """In place of a simulated scan that takes seconds."""
+    """Replaces a simulated scan that takes seconds."""
     report(0.5, "scanning")
     return Volume(hu=np.arange(24, dtype=np.int16).reshape(2, 3, 4), lps_from_ijk=np.eye(4))
 

@@ -1,4 +1,4 @@
-"""Plan and patient are registered by needles through the door: marked, under the laid slice, or rejected."""
+"""Registration with needles through the API: by marks, by overlay, or rejected."""
 
 from typing import Any
 
@@ -42,7 +42,7 @@ ORIGIN_LPS_MM = (-50.0, -40.0, -5.0)
 
 
 def truth() -> Rigid[Camera, Vertebra]:
-    """The patient as the ruler has it."""
+    """Camera position by ruler."""
     middle_px = 0.5 * np.array(CAMERA.size_wh_px)
     view = view_prior_from_ruler(MEASURED, CAMERA, middle_px)
     x, y = CAMERA.normalised_from_px(middle_px.reshape(1, 2))[0]
@@ -56,13 +56,13 @@ def px(*points_lps_mm: Array) -> list[list[float]]:
 
 
 def marked(names: list[str]) -> list[dict[str, Any]]:
-    """Needles that stand straight up on these landmarks."""
+    """Needles perpendicular on these landmarks."""
     ends = [px(np.array(LANDMARKS[name]), LANDMARKS[name] + UP_MM) for name in names]
     return [{"entry_px": entry, "head_px": head} for entry, head in ends]
 
 
 def reference() -> ReferenceSlice:
-    """Slice number 5, which lies at z = 0."""
+    """Slice number 5, at z = 0."""
     return ReferenceSlice(
         slice_index=5,
         apart_mm=20.0,
@@ -110,7 +110,7 @@ def test_needles_that_are_marked_register_and_say_what_they_cannot_see(server: S
     assert document["content"]["method"] == "needles"
     assert numbers["needles"] == 3
     assert numbers["worst_offset_px"] < 1.0
-    # Three needles in one image hardly see how far away they are; that is stated.
+    # # Three needles in one image hardly determine their distance; the stated error includes that.
     assert numbers["depth_sd_mm"] > 2.0 * numbers["across_sd_mm"]
     assert numbers["tre_at_entry_mm"] > numbers["across_sd_mm"]
     found = registered(server)
@@ -147,7 +147,7 @@ def test_the_slice_is_laid_over_the_picture_and_taken(server: Server) -> None:
         "POST", f"{NEEDLES}/overlay", 200, json={"view": VIEW, "overlay": overlay, "marked": needles}
     )
     assert max(one["beside_px"] for one in laid["needles"]) < 2.0
-    # A page that lays the plan's picture of the slice there shows each line's ends where the lens shows them.
+    # # A page that draws the slice there shows each line's ends where the lens images them.
     assert (laid["slice"]["width_px"], laid["slice"]["height_px"]) == (100, 100)
     for line in reference().lines:
         there = np.column_stack([line.ends_px, np.ones(2)]) @ np.array(laid["slice"]["image_from_slice"]).T
@@ -158,7 +158,7 @@ def test_the_slice_is_laid_over_the_picture_and_taken(server: Server) -> None:
     assert answer.headers["content-type"] == "image/jpeg"
     drawn: Any = cv2.imdecode(np.frombuffer(answer.content, np.uint8), cv2.IMREAD_COLOR)
     assert drawn.shape == IMAGE.shape
-    # White bone is laid on the patient's left, black air on the right, each half faded.
+    # # White bone is on the patient's left, black air on the right, both at half opacity.
     (left, right) = px(np.array([30.0, 30.0, 0.0]), np.array([-30.0, 30.0, 0.0]))
     assert int(drawn[int(left[1]), int(left[0])].mean()) == pytest.approx((90 + 255) / 2, abs=4)
     assert int(drawn[int(right[1]), int(right[0])].mean()) == pytest.approx(90 / 2, abs=4)
@@ -169,7 +169,7 @@ def test_the_slice_is_laid_over_the_picture_and_taken(server: Server) -> None:
 
 
 def drawn(names: list[str]) -> Any:  # noqa: ANN401  an image
-    """Wires with heads, drawn finer than the image is."""
+    """Wires with heads, drawn finer than a pixel."""
     fine: Any = np.full((IMAGE.shape[0] * 4, IMAGE.shape[1] * 4, 3), (110, 90, 40), np.uint8)
     for one in marked(names):
         entry, head = (
@@ -194,7 +194,7 @@ def test_needles_that_the_software_finds_are_proposed_and_kept_when_a_person_has
     assert all(abs(one["offset_mm"]) < 3.0 for one in best["laid"]["needles"])
     for found, true in zip(best["marked"], marked(NEEDLE_LANDMARKS), strict=True):
         assert np.linalg.norm(np.subtract(found["entry_px"], true["entry_px"])) < 6.0
-    # Nobody has looked at it yet.
+    # # Nobody has reviewed it yet.
     assert (
         server.ask("POST", f"{NEEDLES}/conclusion", 422, json={**requested, **BY})["code"]
         == "REQUEST_INVALID"
@@ -205,7 +205,7 @@ def test_needles_that_the_software_finds_are_proposed_and_kept_when_a_person_has
     picked = {**requested, "marked": best["marked"], "picked": True, **BY}
     document = server.ask("POST", f"{NEEDLES}/conclusion", 201, json=picked)
     assert document["content"]["made_from"]["way"] == "picked"
-    # As sure as it was proposed, although a person's own mark is surer.
+    # # With the proposal's uncertainty, although a person's mark is more accurate.
     proposed, stored = best["laid"]["numbers"], document["content"]["numbers"]
     assert stored["across_sd_mm"] == pytest.approx(proposed["across_sd_mm"], rel=0.05)
     assert stored["tilt_sd_deg"] == pytest.approx(proposed["tilt_sd_deg"], rel=0.05)

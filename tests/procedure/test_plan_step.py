@@ -1,4 +1,4 @@
-"""From an empty case to a channel that is to be drilled, through the door; and what is rejected."""
+"""From an empty case to an active channel, through the API; and rejections."""
 
 import json
 from typing import Any
@@ -45,7 +45,7 @@ def test_from_an_empty_case_to_a_channel_to_be_drilled(server: Server) -> None:
     assert plan["heading"]["current"]
     assert plan["heading"]["version"] == 5
 
-    # The slice that stands for the vertebra, as proposed, with its three lines and the paths.
+    # # The proposed reference slice of the vertebra, with its three lines and the channels.
     proposal = server.ask("GET", "/api/plan/proposals/slice?vertebra=L3", 200)
     isthmus = scanned().index_from_lps(phantom().truth("left").isthmus_lps_mm)
     assert proposal["slice_index"] == pytest.approx(isthmus[2], abs=1.0)
@@ -57,7 +57,7 @@ def test_from_an_empty_case_to_a_channel_to_be_drilled(server: Server) -> None:
     coloured = (drawn.max(axis=2) - drawn.min(axis=2)) > 60
     assert 0.002 < coloured.mean() < 0.1
 
-    # A screw from the catalogue, with all that is said of it.
+    # # A screw from the catalogue, with all of its values.
     size = server.ask("GET", "/api/plan/proposals/screw?vertebra=L3&side=left", 200)
     assert 4.0 <= size["diameter_mm"] <= 8.0
     with_screw = server.ask("PUT", "/api/plan/vertebrae/L3/channels/left/screw", 200, json=BY)
@@ -68,7 +68,7 @@ def test_from_an_empty_case_to_a_channel_to_be_drilled(server: Server) -> None:
     assert screw["tolerance"]["max_offset_mm"] > 0.4
     assert screw["bone"]["mean_hu"] > 100
 
-    # The channel that is to be drilled now reaches the tracking process, and stays through other changes.
+    # # The active channel reaches the tracking process and survives other changes.
     assert server.adopted == [] or server.adopted[-1].channel is None
     now = {**BY, "vertebra": "L3", "side": "left"}
     server.ask("POST", "/api/plan/active-channel", 200, json=now)
@@ -86,7 +86,7 @@ def test_from_an_empty_case_to_a_channel_to_be_drilled(server: Server) -> None:
     channels = [case.channel for case in server.adopted[adopted_before:]]
     assert None not in (channels or [None]), "navigation has its channel at every moment of the change"
 
-    # A corrected number is used, the measured one stays, and the channel is another: it must be chosen anew.
+    # # The corrected value is used, the measured one is kept; the channel changed and must be chosen again.
     corrected = {**BY, "corrected": {"width_mm": 7.0, "transverse_deg": 12.0}}
     after = server.ask("PUT", "/api/plan/vertebrae/L3/pedicles/left/corrections", 200, json=corrected)
     record = next(
@@ -186,7 +186,7 @@ def test_landmarks_are_set_go_out_and_come_back_and_odd_ones_are_rejected(server
     assert server.ask("GET", "/api/plan", 200)["heading"] == back["heading"]
 
 
-def test_another_ct_puts_the_plan_out_of_date_until_it_is_sent_anew(server: Server) -> None:
+def test_another_ct_makes_the_plan_out_of_date_until_it_is_sent_again(server: Server) -> None:
     opened(server)
     sent(server, dicom_zip())
     server.ask("POST", "/api/plan/vertebrae", 201, json={**BY, "name": "L3"})
@@ -207,12 +207,12 @@ def test_another_ct_puts_the_plan_out_of_date_until_it_is_sent_anew(server: Serv
     assert server.ask("PUT", "/api/plan", 409, json=again)["code"] == "VERSION_CONFLICT"
 
 
-def test_a_plan_goes_out_and_comes_back_and_says_who_made_it(server: Server) -> None:
+def test_a_plan_is_exported_and_imported_with_its_author(server: Server) -> None:
     plan = planned(server, dicom_zip())
     server.ask("PUT", "/api/plan/vertebrae/L3/channels/left/screw", 200, json=BY)
     file = server.ask("GET", "/api/plan/export", 200)
     assert (file["made_by"], file["version"]) == ("M. Ito", plan["heading"]["version"] + 1)
-    # Nothing in a file is believed that follows from its other numbers.
+    # # Values in a file that follow from others are recomputed, not trusted.
     file["plan"]["vertebrae"][0]["channels"][1]["screws"][0:0] = []
     lied = json.loads(json.dumps(file))
     for planned_channel in lied["plan"]["vertebrae"][0]["channels"]:

@@ -1,4 +1,4 @@
-"""The examples of plug-ins in the guide: installed as packages, they give and receive what they say."""
+"""The plug-in examples of the guide, installed as packages, do what the guide states."""
 
 import csv
 import os
@@ -30,7 +30,7 @@ def packages(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def replace_picture(path: Path, seed: int) -> None:
-    """Put another picture to this path, whole at once, as the source expects it."""
+    """Replace the picture at this path atomically, as the source expects."""
     width, height = SIZE_WH_PX
     picture = np.random.default_rng(seed).integers(0, 255, (height, width, 3), np.uint8)
     new = path.with_name("new.png")

@@ -1,4 +1,4 @@
-"""The procedure is a machine: each transition, and what is rejected before its turn."""
+"""The procedure as a state machine: each transition, and rejections of steps out of order."""
 
 from collections.abc import Callable
 from datetime import UTC, datetime, timedelta
@@ -60,7 +60,7 @@ def found(*five: StepState) -> dict[StepName, Finding]:
         ((DONE, DONE, OLD, OLD, DONE), "plan", "camera tool plan"),
     ],
 )
-def test_a_step_waits_for_all_that_it_stands_on(five: Five, next_step: str, allowed: str) -> None:
+def test_a_step_waits_for_all_of_its_dependencies(five: Five, next_step: str, allowed: str) -> None:
     state = derive_state("case", found(*five))
     assert state.next_step == next_step
     assert [one.step for one in state.steps if one.allowed] == allowed.split()
@@ -232,7 +232,7 @@ def other_source(server: Server) -> None:
         (active, None, "REGISTER_MISSING", "done done done missing missing missing"),
     ],
 )
-def test_out_of_turn_the_door_rejects_and_says_what_to_do(
+def test_a_step_out_of_order_is_rejected_with_a_remedy(
     server: Server,
     made: Callable[[Server], None],
     register_code: str | None,

@@ -1,4 +1,4 @@
-"""The readout of the camera's rows is stated or measured through the door, and is tracked with."""
+"""The camera's readout time, stated or measured through the API, and its use in tracking."""
 
 from collections.abc import Callable
 
@@ -29,7 +29,7 @@ def used(server: Server) -> float | None:
 
 
 def _has(server: Server, key: str, value: object) -> Callable[[], bool]:
-    """Whether the burst has come so far."""
+    """Whether the burst has reached this stage."""
     return lambda: bool(server.ask("GET", f"{READOUT}/collection", 200)[key] == value)
 
 
@@ -51,7 +51,7 @@ def _keep_calibration(server: Server, case_id: str, model: CameraModel) -> None:
     )
 
 
-def test_it_is_not_known_until_somebody_says_so_and_is_used_at_once(calibrated: Server) -> None:
+def test_it_is_unknown_until_stated_and_then_used_at_once(calibrated: Server) -> None:
     assert calibrated.ask("GET", READOUT, 200) == {
         "collecting": False,
         "readout_ms": None,
@@ -78,7 +78,7 @@ def test_without_a_calibration_there_is_nothing_to_keep_it_with(server: Server) 
 
 
 def _burst(server: Server, *, readout_s: float, sideways_mm: float = 25.0) -> None:
-    """Show a board that rests and is then shaken, each image when the one before was looked at."""
+    """Show a board that rests and then moves, each image after the previous one was processed."""
     server.ask("POST", f"{READOUT}/collection", 201, json={"board": DOTS})
     motion = shaken(sideways_mm=sideways_mm)
 

@@ -1,4 +1,4 @@
-"""Whether the planned screw can be navigated, at the plan and at the registration, through the door."""
+"""Whether the planned screw can be navigated, with the plan and with the registration, through the API."""
 
 from dataclasses import replace
 from typing import Any
@@ -20,7 +20,7 @@ SCREW_MM = 6.5
 
 
 def pedicle_of(channel: Any) -> PedicleMeasure:  # noqa: ANN401  Channel
-    """A round pedicle of 7.5 mm about the channel, its isthmus 18 mm behind the entry."""
+    """A round pedicle of 7.5 mm around the channel, its isthmus 18 mm behind the entry."""
     axis = channel.axis_in_vertebra
     across = np.cross(axis, [0.0, 0.0, 1.0])
     across /= np.linalg.norm(across)
@@ -48,7 +48,7 @@ def pedicle_of(channel: Any) -> PedicleMeasure:  # noqa: ANN401  Channel
 
 
 def content(*, diameter_mm: float = SCREW_MM, landmarks: int = len(LANDMARKS)) -> dict[str, Any]:
-    """The plan of the patient, with a screw on the left."""
+    """The patient's plan with a screw on the left."""
     plan = plan_from_mapping(plan_content("L3"))
     (vertebra,) = plan.vertebrae
     left, right = vertebra.channels
@@ -70,7 +70,7 @@ def content(*, diameter_mm: float = SCREW_MM, landmarks: int = len(LANDMARKS)) -
 
 
 def planned(server: Server, **of: Any) -> str:  # noqa: ANN401  numbers
-    """An open case with camera, tool, and a plan with this screw, which is to be drilled."""
+    """An open case with camera, tool, and a plan with this screw as the active channel."""
     case_id = calibrated(server)
     with_tool(server, case_id)
     ct = server.store.put(case_id, DocumentKind.CT, "main", {}, made_by="test")
@@ -89,7 +89,7 @@ def test_before_a_registration_the_planned_landmarks_are_judged(server: Server) 
     # 7.5 mm less 6.5 mm, on each side.
     assert check["found"]["tolerance_mm"] == pytest.approx(0.5, abs=0.02)
     assert check["found"]["suffices"] is False
-    # Landmarks that are localised to 0.7 mm along each axis.
+    # # Landmarks localised to 0.7 mm along each axis.
     assert 0.9 < check["found"]["error_95_mm"] < 3.0
     more = [one for one in check["remedies"] if one["kind"] == "more_landmarks"]
     assert [one["landmarks"] for one in more] == [7, 9, 13]
@@ -142,7 +142,7 @@ def test_a_registration_is_judged_by_its_own_covariance_and_blocks_nothing(
     assert server.ask("GET", "/api/procedure", 200)["may_navigate"]
 
 
-def test_another_plan_is_checked_anew_and_an_unchanged_one_is_not(
+def test_another_plan_is_checked_again_and_an_unchanged_one_is_not(
     server: Server, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     case_id = planned(server)
@@ -174,14 +174,14 @@ def test_a_tip_that_was_calibrated_since_the_registration_cancels_nothing(server
     tool = store.latest(case_id, DocumentKind.TOOL, "drill")
     assert registered is not None
     assert tool is not None
-    # As with a tool of the settings, of which the case had no calibration then.
+    # # As with a tool of the settings that the case had not calibrated.
     depends_on = [one for one in registered.depends_on if one != tool.id]
     assert len(depends_on) < len(registered.depends_on)
     store.put(
         case_id, DocumentKind.REGISTRATION, "L3", registered.content, made_by="test", depends_on=depends_on
     )
     assert checked(server)["found"]["error_95_mm"] > before_mm
-    # So it is in navigation.
+    # # Navigation agrees.
     adopted = server.adopted[-1].registration
     assert adopted is not None
     assert adopted.tool == ""

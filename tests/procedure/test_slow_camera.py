@@ -1,4 +1,4 @@
-"""A slow camera captures landmarks, checks and calibrates a tool; a rejection names the rate."""
+"""A slow camera captures landmarks, checks, and calibrates a tool; a rejection states the rate."""
 
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -25,7 +25,7 @@ def server(tmp_path: Path, turns: ExitStack) -> Server:
 
 
 def begun(server: Server, rate_hz: float) -> Patient:
-    """Points are being touched, before a camera of this rate."""
+    """A landmark session with a camera of this rate."""
     ready(server)
     patient = Patient(server=server, rate_hz=rate_hz)
     patient.show(None)
@@ -34,7 +34,7 @@ def begun(server: Server, rate_hz: float) -> Patient:
 
 
 def sign_of_life(server: Server, state: SourceState = SourceState.RUNNING) -> None:
-    """What goes out between two images."""
+    """Time without messages between two images."""
     server.number += 1
     server.hub.publish(
         Instant(
@@ -46,7 +46,7 @@ def sign_of_life(server: Server, state: SourceState = SourceState.RUNNING) -> No
 
 
 def hold(server: Server, patient: Patient, path: str, landmark: str, images: int) -> Any:  # noqa: ANN401  JSON
-    """Hold the tip still for so many images; how far the capture has come then."""
+    """Hold the tip still for this many images; return the progress of the capture."""
     for _ in range(images):
         before = server.ask("GET", path, 200)["capture"]
         patient.show(patient.tip_on(landmark))
@@ -73,7 +73,7 @@ def test_landmarks_are_captured_and_checked_with_a_slow_camera(server: Server, r
     assert withheld(server) is None
 
 
-def test_progress_says_how_long_the_tip_is_still_to_be_held(server: Server) -> None:
+def test_progress_states_the_remaining_time_to_hold_the_tip(server: Server) -> None:
     patient = begun(server, 5.0)
     server.ask("POST", f"{POINTS}/captures", 202, json={"landmark": USED[0]})
     first = hold(server, patient, POINTS, USED[0], 1)
@@ -138,7 +138,7 @@ def test_a_check_before_a_camera_that_is_too_slow_is_rejected_with_its_rate(serv
     assert "camera.rate_hz" in rejected["remedy"]
 
 
-def test_a_check_that_is_kept_too_early_says_how_long_to_hold_on(server: Server) -> None:
+def test_a_check_saved_too_early_states_the_remaining_time(server: Server) -> None:
     ready(server)
     patient = Patient(server=server)
     patient.register(USED)

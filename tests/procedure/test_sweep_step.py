@@ -1,4 +1,4 @@
-"""A registration by points is refined by a sweep over the bone through the door, or rejected."""
+"""Refinement of a registration by a sweep over the bone, through the API, and its rejections."""
 
 from typing import Any
 
@@ -34,7 +34,7 @@ def with_bone(server: Server, case_id: str) -> None:
 
 
 def swept(server: Server, patient: Patient, points_lps_mm: Array) -> Any:  # noqa: ANN401  JSON
-    """Show the tip on each of these points, and wait until all were taken."""
+    """Show the tip at each of these points, and wait until all were captured."""
     reported = server.ask("GET", SWEEP, 200)
     for point in points_lps_mm:
         wanted = reported["points"] + 1
@@ -68,7 +68,7 @@ def test_a_sweep_makes_the_next_version_of_the_registration(server: Server) -> N
     assert server.ask("POST", f"{SWEEP}/fit", 409)["code"] == "SURFACE_SWEEP_SMALL"
     reported = swept(server, patient, on_bone(corners_from_behind(), 40))
     assert reported["reach_mm"][0] > 20.0
-    # Lifted off the bone, the tip says nothing.
+    # # A lifted tip is ignored.
     server.ask("PUT", SWEEP, 200, json={"taking": False})
     patient.show(drill_at(np.array([0.0, 0.0, 300.0])))
     fit = server.ask("POST", f"{SWEEP}/fit", 200)
@@ -85,7 +85,7 @@ def test_a_sweep_makes_the_next_version_of_the_registration(server: Server) -> N
     assert withheld(server) is AbsentReason.NOT_CHECKED
     patient.check()
     assert withheld(server) is None
-    # Another bone ends it.
+    # # Another bone surface ends it.
     with_bone(server, case_id)
     assert states(server)["register"] == "out_of_date"
 
@@ -96,7 +96,7 @@ def test_a_sweep_that_was_overtaken_or_slides_is_not_kept(server: Server) -> Non
     patient = Patient(server=server)
     patient.register()
     server.ask("POST", SWEEP, 201, json=DRILL)
-    # One small spot of bone holds next to nothing.
+    # # One small area of bone determines almost nothing.
     corners = corners_from_behind()
     near = np.argsort(np.linalg.norm(corners.mean(axis=1) - corners[0].mean(axis=0), axis=1))[:6]
     swept(server, patient, on_bone(corners[near], 14))

@@ -1,4 +1,4 @@
-"""A tool is calibrated through the door, from what a tracker sees of a rehearsed pivot and spin."""
+"""Tool calibration through the API, from rehearsed pivot and spin as seen by a tracker."""
 
 from functools import cache
 from typing import Any
@@ -13,12 +13,12 @@ from tests.procedure.test_camera_step import open_a_case
 from tracker.rehearsal import Scene, Theatre, TheatreSettings
 
 SHAPE = {"radius_mm": 2.0, "length_mm": 118.0}
-# All of a theatre follows from its settings.
+# # Everything about a theatre follows from its settings.
 theatre_from_config = cache(Theatre)
 
 
 def calibrated(server: Server) -> str:
-    """An open case that has the rehearsal's true camera."""
+    """An open case with the rehearsal's true camera."""
     case_id = open_a_case(server)
     camera = theatre_from_config(TheatreSettings()).camera
     values = {
@@ -41,7 +41,7 @@ def gather(
     marker: str = "drill",
     rate_hz: float = 10.0,
 ) -> dict[str, Any]:
-    """Show a rehearsed motion until nothing is missing; the state of the gathering."""
+    """Show a rehearsed motion until nothing is missing; return the state of the collection."""
     theatre = theatre_from_config(TheatreSettings(seed=seed, scene=scene))
     random = np.random.default_rng(5)
     server.ask(
@@ -77,7 +77,7 @@ def test_tip_and_axis_from_the_live_images_are_the_true_ones(server: Server) -> 
     stored = server.ask("POST", "/api/tools/collection/conclusion", 201, json={"made_by": "ito", **SHAPE})
     tip = stored["content"]["pivot"]["tip_in_marker_mm"]
     assert np.linalg.norm(np.array(tip) - truth.translation_mm) < 0.5
-    # Nobody knows yet which way it points.
+    # # The axis is not known yet.
     assert server.adopted[-1].tools == {}
 
     reported = gather(server, Scene.SPIN, "spin")
@@ -152,7 +152,7 @@ def test_what_cannot_be_begun_is_rejected(
     assert server.ask("POST", "/api/tools/collection", status, json=requested)["code"] == code
 
 
-def test_shape_is_asked_for_where_nobody_knows_it(server: Server) -> None:
+def test_an_unknown_shape_is_requested(server: Server) -> None:
     calibrated(server)
     gather(server, Scene.PIVOT, "pivot")
     rejected = server.ask("POST", "/api/tools/collection/conclusion", 422, json={"made_by": "ito"})

@@ -1,4 +1,4 @@
-"""The whole procedure through HTTP, from an empty case to drilling, and the alarm when it breaks through."""
+"""The whole procedure through HTTP, from an empty case to drilling, and the alarm at a breach."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,9 +19,9 @@ SETTINGS = {
     "reference": {"marker": "reference"},
 }
 CONFIG = Config.model_validate(SETTINGS)
-# Of the 13 mm drilled before the drill leaves the channel; in how many images is up to the machine.
+# # Of the 13 mm drilled before the drill leaves the channel; the number of images depends on the machine.
 MIN_WATCHED_MM = 6.0
-# In so many standard deviations each number agrees with the truth; a registration errs once, for all images.
+# # Tolerance in standard deviations; the error of a registration is common to all images.
 WITHIN_SD = 3.0
 
 
@@ -65,7 +65,7 @@ def test_from_an_empty_case_to_drilling(tmp_path: Path) -> None:
             breach = breach_in(heard)
             acknowledged(server, heard, breach)
 
-    # Another start, in the same folder: the case is open again, still registered, and nothing is forgotten.
+    # # Restarted in the same folder: the case is open and registered, and nothing is lost.
     with real_server(tmp_path, SETTINGS) as server:
         goes_on_once_confirmed(Team(server=server, config=CONFIG))
         lines = server.ask("GET", "/api/alarms/log", 200)["lines"]
@@ -79,7 +79,7 @@ STEPS = ("camera", "tool", "plan", "register", "check", "navigate")
 
 
 def goes_on_once_confirmed(team: Team) -> None:
-    """All holds, and no number is given until a person has said that nothing has moved."""
+    """Everything is valid, but there are no numbers until a person has confirmed that nothing has moved."""
     server = team.server
     assert team.steps() == {**dict.fromkeys(STEPS, "done"), "navigate": "missing"}
     assert deviation_now(server) == {"kind": "absent", "reason": "NOT_CONFIRMED"}
@@ -90,7 +90,7 @@ def goes_on_once_confirmed(team: Team) -> None:
 
 
 def register(team: Team) -> None:
-    """Landmarks are touched until they say well enough where the vertebra is; too few are rejected."""
+    """Capture landmarks until the error is acceptable; too few are rejected."""
     reported = team.touch(2)
     assert [one["code"] for one in reported["missing"]] == ["POINTS_TOO_FEW"]
     team.server.rejected("POST", f"{POINTS}/conclusion", "POINTS_TOO_FEW", json=BY)
@@ -103,7 +103,7 @@ def register(team: Team) -> None:
 
 
 def deviation_now(server: RealServer) -> Any:  # noqa: ANN401  JSON
-    """What is said against the channel as soon as the registration has reached the tracking process."""
+    """Numbers relative to the channel, as soon as the registration has reached the tracking process."""
 
     def newest() -> Any:  # noqa: ANN401  JSON
         snapshot = server.ask("GET", "/api/live", 200)["snapshot"]
@@ -114,7 +114,7 @@ def deviation_now(server: RealServer) -> Any:  # noqa: ANN401  JSON
 
 
 def drill_well(heard: Iterator[Heard], channel: Channel) -> None:
-    """While the drill goes down the channel, no alarm; each number within its stated uncertainty."""
+    """Inside the channel there is no alarm, and each number is within its stated uncertainty."""
     depths_mm = []
     for one in heard:
         if one.truth.phase is Phase.DRIFT:
@@ -157,7 +157,7 @@ def breach_in(heard: Iterator[Heard]) -> dict[str, Any]:
 
 
 def acknowledged(server: RealServer, heard: Iterator[Heard], breach: dict[str, Any]) -> None:
-    """Somebody says that it was seen, and every client hears it."""
+    """A user acknowledges it, and every client is informed."""
     requested = {"by": "M. Ito", "numbers": [breach["number"]]}
     server.ask("POST", "/api/alarms/acknowledgement", 200, json=requested)
     answered = next(one.alarms["BREACH"] for one in heard if one.alarms["BREACH"]["state"] == "acknowledged")

@@ -1,4 +1,4 @@
-"""What a test sends to the server: a phantom's CT as a zip of DICOM slices, and as NIfTI."""
+"""Uploads for tests: a phantom's CT as a zip of DICOM slices, and as NIfTI."""
 
 import copy
 import dataclasses
@@ -19,7 +19,7 @@ from tracker.rehearsal.ct.phantom import pedicle_tube, usual_bones
 
 @functools.cache
 def phantom() -> VertebraPhantom:
-    """A vertebra whose pedicles are 9 mm and 8 mm wide."""
+    """A vertebra with pedicles 9 mm and 8 mm wide."""
     return VertebraPhantom(
         pedicles={
             side: pedicle_tube(
@@ -39,11 +39,11 @@ def phantom() -> VertebraPhantom:
 
 @functools.cache
 def scanned() -> Volume:
-    """Its CT."""
+    """CT of the phantom."""
     grid = ScanGrid.around(
         (0.0, -6.0, 0.0), size_mm=(72.0, 96.0, 40.0), spacing_mm=(0.8, 0.8, 1.0), blur_mm=0.3, noise_hu=15.0
     )
-    # Few samples to a voxel, with a blur in their place: a test has no minute for it.
+    # # Few samples per voxel and a blur instead, to save time.
     return scan(phantom().hu_at, dataclasses.replace(grid, samples=(2, 2, 2)))
 
 
@@ -68,7 +68,7 @@ def dicom_slices(
 
 
 def zip_of(*series: list[Dataset], syntax: str = ExplicitVRLittleEndian) -> bytes:
-    """These series in one zip, in folders with a name that must not be told."""
+    """These series in one zip, in folders whose name must not be disclosed."""
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w") as archive:
         for n, slices in enumerate(series):
@@ -84,14 +84,14 @@ def dicom_zip() -> bytes:
 
 
 def nifti(volume: Volume) -> bytes:
-    """The volume as NIfTI, with its axes in another order: left-right is the last."""
+    """The volume as NIfTI, with permuted axes: left-right is the last."""
     ras = np.diag([-1.0, -1.0, 1.0, 1.0]) @ volume.lps_from_ijk
     # hu is (k, j, i): the file's first axis is k, its last is i.
     return nifti_of(np.ascontiguousarray(volume.hu), ras[:, [2, 1, 0, 3]])
 
 
 def zip_of_folder(folder: Path) -> bytes:
-    """What lies in a folder as one zip, or a single file as it is."""
+    """A folder as one zip, or a single file unchanged."""
     if folder.is_file():
         return folder.read_bytes()
     content = io.BytesIO()

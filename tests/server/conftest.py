@@ -1,4 +1,4 @@
-"""A small theatre with known truth, instants made from it, and a real server on a free port."""
+"""Fixtures: a small theatre with known truth, instants made from it, and a real server on a free port."""
 
 import dataclasses
 from collections.abc import Callable, Iterator
@@ -100,7 +100,7 @@ def make_snapshot(
     image_number: int = 0,
     captured_at_s: float = 0.0,
 ) -> NavigationSnapshot:
-    """The drill near a channel 40 mm long, seen by a camera whose lens bends."""
+    """The drill near a channel 40 mm long, seen through a lens with distortion."""
     place = camera_from_vertebra or Rigid[Camera, Vertebra].from_vector([0.9, 0.35, 0.0], [5, -10, 260])
     whole = _whole_setup(size_wh_px, place)
     setup = dataclasses.replace(
@@ -136,7 +136,7 @@ def make_instant(
     source: SourceStatus | None = None,
     process: ProcessStatus | None = None,
 ) -> Instant:
-    """An instant of a source and a process that run, if nothing else is said."""
+    """An instant of a running source and process, unless specified otherwise."""
     return Instant(
         sequence=sequence,
         source=source or SourceStatus(name="rehearsal", state=SourceState.RUNNING, images=sequence + 1),
@@ -158,6 +158,6 @@ def instant_of() -> Callable[..., Instant]:
 
 @pytest.fixture
 def serve() -> Iterator[Callable[[FastAPI], int]]:
-    """Serve an application for real; answers the port."""
+    """Serve an application on a real socket; return the port."""
     with ExitStack() as stack:
         yield lambda app: stack.enter_context(served(app))

@@ -1,4 +1,4 @@
-"""A camera whose own report speaks against it is warned of, with the numbers."""
+"""A camera with a bad calibration report causes a warning with its values."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Settings: where they come from, and how every mistake in them is told."""
+"""Settings: their sources, and error messages for all mistakes."""
 
 from pathlib import Path
 
@@ -31,7 +31,7 @@ def rejected(folder: Path, content: object) -> ConfigError:
     return caught.value
 
 
-def test_the_file_in_the_repository_says_what_is_built_in() -> None:
+def test_the_file_in_the_repository_states_the_built_in_defaults() -> None:
     assert load_config(REPOSITORY / "config.yaml", environment={}) == Config()
 
 

@@ -18,7 +18,7 @@ coaxial-0.1.0.dist-info/RECORD,,
 
 @pytest.fixture(autouse=True)
 def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The user's cache folder, where the data folder is another one."""
+    """The user's cache folder, if the data folder is elsewhere."""
     monkeypatch.setattr("platformdirs.user_cache_path", lambda name: tmp_path / "cache" / name)
     monkeypatch.setenv("COAXIAL_HOME", str(tmp_path / "home"))
     return tmp_path / "cache" / "coaxial"

@@ -1,4 +1,4 @@
-"""Markers that could be taken for themselves are told before the first image."""
+"""Ambiguous markers are reported before the first image."""
 
 import cv2
 import numpy as np
@@ -14,7 +14,7 @@ from tracker.marker import MarkerModel
 
 
 def marker_of(*strokes: tuple[tuple[int, int], tuple[int, int]]) -> MarkerModel:
-    """Black, with a white square inside, and black strokes (left top, right bottom) on it; 100 px wide."""
+    """Black, with a white square inside and black strokes (left top, right bottom) on it; 100 px wide."""
     picture = np.zeros((100, 100), np.uint8)
     cv2.rectangle(picture, (15, 15), (84, 84), 255, cv2.FILLED)
     for start, end in strokes:
@@ -25,9 +25,9 @@ def marker_of(*strokes: tuple[tuple[int, int], tuple[int, int]]) -> MarkerModel:
 @pytest.mark.parametrize(
     ("marker", "codes"),
     [
-        # An arrow with its head a little aside: nearly its own mirror image, and unlike itself when turned.
+        # # An arrow with its head slightly off-centre: nearly mirror-symmetric, without rotational symmetry.
         (marker_of(((45, 25), (54, 75)), ((28, 25), (77, 40))), ["MARKER_NEARLY_MIRRORED"]),
-        # Two opposite corners of nearly the same size: that, and its own mirror image about a diagonal.
+        # # Two opposite corners of nearly equal size: also its own mirror image about a diagonal.
         (
             marker_of(((25, 25), (50, 45)), ((52, 55), (74, 74))),
             ["MARKER_NEARLY_SYMMETRIC", "MARKER_NEARLY_MIRRORED"],

@@ -1,4 +1,4 @@
-"""A number looks the same wherever it is shown."""
+"""A number has the same format wherever it is shown."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Work that may wait has a lower priority than figures and alarms."""
+"""Background work has a lower priority than figures and alarms."""
 
 import os
 import sys

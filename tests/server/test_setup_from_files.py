@@ -152,7 +152,7 @@ def test_how_long_a_camera_reads_its_rows_reaches_the_tracker_and_not_the_rehear
         assert preparation.readout_s == readout_s
         assert preparation.setup is not None
         assert preparation.tracker_for(preparation.setup).readout_s == readout_s
-        # What is kept with the case's calibration comes before the settings, also a global shutter.
+        # # The case's calibration has precedence over the settings, also for a global shutter.
         for stored_ms in (21.0, 0.0):
             expected_s = 0.0 if source == "rehearsal" else stored_ms / 1000.0
             assert preparation.with_case(CaseSetup(readout_ms=stored_ms)).readout_s == expected_s
@@ -178,7 +178,7 @@ def test_a_camera_file_for_another_size_is_rejected_with_both_sizes(tmp_path: Pa
     assert not preparation.uncalibrated_setup_for((640, 360)).camera_calibrated
 
 
-def test_a_calibration_is_scaled_only_where_somebody_says_that_it_may_be(tmp_path: Path) -> None:
+def test_a_calibration_is_scaled_only_if_allowed(tmp_path: Path) -> None:
     plain = build_setup(config(tmp_path, calibrated=True))
     with pytest.raises(CalibrationError) as caught:
         plain.setup_for((128, 96))
@@ -190,7 +190,7 @@ def test_a_calibration_is_scaled_only_where_somebody_says_that_it_may_be(tmp_pat
     assert setup.camera_calibrated
     assert setup.camera.size_wh_px == (128, 96)
     assert setup.camera.matrix[0, 0] == 1000.0
-    # Of another shape it never is, and the remedy does not say that it could be.
+    # # Another aspect ratio is never possible, and the remedy does not suggest it.
     with pytest.raises(CalibrationError) as caught:
         stated.setup_for((128, 72))
     assert caught.value.code == "CAMERA_SIZE_MISMATCH"

@@ -1,4 +1,4 @@
-"""How many threads NumPy's matrices take from those who need the cores."""
+"""Number of threads of NumPy's matrix functions, which take cores from other work."""
 
 import os
 import subprocess
@@ -14,7 +14,7 @@ THREADS = "OPENBLAS_NUM_THREADS"
 
 
 def reported_by_process(**environment: str) -> list[str]:
-    """What a process says that has loaded the server, then NumPy: what is set, and its threads."""
+    """Output of a process that has loaded the server and then NumPy: the setting, and its threads."""
     stored = {name: value for name, value in os.environ.items() if name != THREADS}
     reported = subprocess.run(
         [

@@ -1,4 +1,4 @@
-"""Camera, tool and settings files that hold anything: told with their own code, and never a traceback."""
+"""Camera, tool and settings files with arbitrary content: rejected with their own code, never a traceback."""
 
 from pathlib import Path
 

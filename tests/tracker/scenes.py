@@ -1,4 +1,4 @@
-"""Pictures of flat markers whose truth is known: each pixel is the mean of many rays through the lens."""
+"""Renders flat markers with known truth: each pixel is the mean of many rays through the lens."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ RAYS = 6  # a side, in each pixel
 QUIET_RATIO = 0.2
 SIDE_MM = 25.0
 
-# A 3x3 code in the middle half of the square; white is 1. No quarter turn takes it to itself.
+# # A 3x3 code in the middle half of the square; white is 1. It has no rotational symmetry.
 CODE = ((1, 1, 0), (0, 0, 1), (1, 0, 0))
 OTHER = ((0, 1, 1), (1, 0, 0), (1, 0, 1))
 Fields = tuple[tuple[int, ...], ...]
@@ -38,7 +38,7 @@ def camera_of(
     focal_px: float = 700.0,
     distortion: Sequence[float] = LENS,
 ) -> CameraModel:
-    """A camera whose principal point is a little off the middle."""
+    """A camera with its principal point slightly off-centre."""
     width, height = size_wh_px
     matrix = [[focal_px, 0.0, width / 2 + 3.3], [0.0, focal_px * 1.002, height / 2 - 2.7], [0.0, 0.0, 1.0]]
     return CameraModel(matrix=np.array(matrix), distortion=np.array(distortion), size_wh_px=size_wh_px)
@@ -55,7 +55,7 @@ def code_image(fields: Sequence[Sequence[int]] = CODE, *, field_px: int = 20) ->
 def code_model(
     fields: Sequence[Sequence[int]] = CODE, *, name: str = "code", side_mm: float = SIDE_MM
 ) -> MarkerModel:
-    """The marker with these fields; one for all who ask, because it is a third of a second's work."""
+    """The marker with these fields; cached, because it takes a third of a second."""
     return _code_model(tuple(map(tuple, fields)), name, side_mm)
 
 
@@ -85,7 +85,7 @@ def facing_at_px(
     about_deg: float = 0.0,
     roll_deg: float = 0.0,
 ) -> Rigid[Camera, Marker]:
-    """The same where its centre is seen at a pixel, about `side_px` wide."""
+    """The same with its centre at a given pixel, about `side_px` wide."""
     depth_mm = SIDE_MM * float(camera.matrix[0, 0]) / side_px
     x, y = camera.normalised_from_px([centre_px])[0]
     return facing(
@@ -104,7 +104,7 @@ class Print:
 
 
 def corners_px_of(camera: CameraModel, pose: Rigid[Camera, Marker], side_mm: float = SIDE_MM) -> Array:
-    """Where the four corners are seen: top-left, top-right, bottom-right, bottom-left."""
+    """Image positions of the four corners: top-left, top-right, bottom-right, bottom-left."""
     square = np.array([[-0.5, 0.5, 0], [0.5, 0.5, 0], [0.5, -0.5, 0], [-0.5, -0.5, 0]]) * side_mm
     return camera.px_from_camera(pose.move_points(square))
 
@@ -160,9 +160,10 @@ def _draw(picture: npt.NDArray[np.float64], camera: CameraModel, one: Print) -> 
 
 
 def _rays(camera: CameraModel, left: int, top: int, right: int, bottom: int) -> Array:
-    """Normalised directions (n, 2) of all samples, row after row, of these pixels.
+    """Normalised directions (n, 2) of all samples of these pixels, row by row.
 
-    The lens is asked at the pixels' corners; within a pixel it is straight to a millionth of a pixel.
+    The lens is evaluated at the pixels' corners; within a pixel it is linear to a millionth of a pixel.
+
     """
     u, v = np.meshgrid(np.arange(left, right + 1) - 0.5, np.arange(top, bottom + 1) - 0.5)
     at = camera.normalised_from_px(np.stack([u, v], axis=-1).reshape(-1, 2)).reshape(*u.shape, 2)
@@ -199,7 +200,7 @@ def in_clutter(
     noise_grey: float = 1.5,
     seed: int = 0,
 ) -> tuple[Image8, Array]:
-    """The image (h, w) of one code among dark and bright things, and where its corners (4, 2) are seen."""
+    """The image (h, w) of one code in clutter, and its corners (4, 2)."""
     image = rendered(
         camera,
         [Print(picture=code_image(), pose=pose)],
@@ -212,7 +213,7 @@ def in_clutter(
 
 
 def motion_blurred(image: Image8, way_px: float, from_deg: float) -> Image8:
-    """The image, moved by so many pixels while the shutter was open."""
+    """The image with motion of this many pixels during the exposure."""
     height, width = image.shape
     reach = 0.5 * way_px * np.array([np.cos(np.radians(from_deg)), np.sin(np.radians(from_deg))])
     shifts = [np.array([[1, 0, s * reach[0]], [0, 1, s * reach[1]]]) for s in np.linspace(-1, 1, 21)]
@@ -223,7 +224,7 @@ def motion_blurred(image: Image8, way_px: float, from_deg: float) -> Image8:
 def poorly_lit(
     plain: Image8, middle_px: tuple[float, float], side_px: float, random: np.random.Generator
 ) -> Image8:
-    """Half of the light, a shadow's edge across a square, a highlight on it, a smear of 3 px, and noise."""
+    """Half the light, a shadow's edge across a square, a highlight, motion blur of 3 px, and noise."""
     height, width = plain.shape
     ways = random.uniform(0.0, 360.0, 3)
     v, u = np.mgrid[0:height, 0:width].astype(np.float64) - np.array(middle_px)[::-1, None, None]
@@ -242,7 +243,7 @@ def perfectly_seen(
     corners_px: Array | None = None,
     found_by: FoundBy = "track",
 ) -> Seen:
-    """A marker at this pose, of which all edges were found; very sure, if nothing else is said."""
+    """A sighting with this pose and all edges found; very certain by default."""
     return Seen(
         camera_from_marker=pose,
         pose_covariance=1e-6 * np.eye(6) if covariance is None else covariance,
@@ -257,6 +258,6 @@ def perfectly_seen(
 
 
 def seen(sighting: Sighting) -> Seen:
-    """The sighting, which must be one."""
+    """The sighting; fails if there is none."""
     assert isinstance(sighting, Seen), sighting
     return sighting

@@ -1,4 +1,4 @@
-"""Scenes of a small image with one marker in it, and how sure of a wrong pose the tracker is in each."""
+"""Small images with one marker, and the tracker's confidence in wrong poses."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 
@@ -26,7 +26,7 @@ def trackers_by_face() -> Trackers:
 
 
 def pose_of(random: np.random.Generator, side_px: float, tilt_deg: tuple[float, float]) -> Pose:
-    """Somewhere in the image with all its paper, about so wide."""
+    """A pose anywhere in the image with all of its paper visible, about this wide."""
     edge = 1.1 * side_px + 15.0
     at_px = random.uniform([edge, edge], np.array(RIG.size_wh_px) - edge)
     return posed(
@@ -40,7 +40,7 @@ def pose_of(random: np.random.Generator, side_px: float, tilt_deg: tuple[float, 
 def judged_by_seed(
     shown: Callable[[int, Face, Trackers], Shown], seeds: Iterable[int], trackers: Trackers
 ) -> list[tuple[int, Evaluation]]:
-    """What became of each image, with its scene's seed; nothing is claimed where no marker is."""
+    """Evaluation of each image with its scene's seed; fails for a wrong claim."""
     found = []
     for seed in seeds:
         for scene, sighting in shown(seed, FACES[seed % len(FACES)], trackers):
@@ -51,7 +51,7 @@ def judged_by_seed(
 
 
 def worst_by_seed(found: list[tuple[int, Evaluation]], *, over_sd2: float) -> dict[int, float]:
-    """The worst squared error in units of what is stated, by seed, where it is over this."""
+    """The largest squared error in units of the stated one, by seed, if it exceeds this."""
     worst: dict[int, float] = {}
     for seed, one in found:
         worst[seed] = max(worst.get(seed, 0.0), *one.mahalanobis_squared, 0.0)

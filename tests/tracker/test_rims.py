@@ -132,7 +132,7 @@ def test_what_is_stated_holds_whatever_became_of_the_outline(
     assert covered.mean(axis=0).min() >= MIN_COVERED_RATIO
 
 
-def test_a_framed_marker_is_where_its_inside_says_and_is_not_sure(trackers: Trackers) -> None:
+def test_a_framed_marker_is_placed_by_its_inside_and_uncertain(trackers: Trackers) -> None:
     off_ratios, stated_ratios = [], []
     for seed in range(60):
         for scene, sighting in framed(seed, FACES[seed % len(FACES)], trackers):

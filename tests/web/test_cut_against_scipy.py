@@ -1,4 +1,4 @@
-"""The page's cut through a volume against SciPy's, from the bytes that the server sends."""
+"""The page's cut through a volume equals SciPy's, computed from the bytes that the server sends."""
 
 import json
 import subprocess
@@ -17,10 +17,10 @@ from tracker.geometry import rotation_from_vector
 from tracker.plan import Volume
 
 CHECKOUT = Path(__file__).resolve().parents[2]
-# The machine's Node, or the one that came with the packages.
+# # The machine's Node, or the one in the packages.
 NODE = ["sh", ".make/with-node", "web", "node"]
 BONE = {"window_hu": 1800.0, "level_hu": 400.0}
-# Node runs what TypeScript leaves of the modules without their types. The plane is given, or the page's.
+# # Node runs the modules with their types stripped. The plane is given, or the page's.
 MODULES = ["cuts/cut", "cuts/planes", "operator/plan/slices/vectors"]
 PROGRAM = """
 const fs = require("node:fs");
@@ -50,7 +50,7 @@ LEFT, BACK, FEET = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), np.arra
 
 
 def oblique_volume() -> Volume:
-    """Noise in voxels that are neither cubes nor upright: every error of place shows."""
+    """Noise in voxels that are neither cubic nor axis-aligned, so that any error of position shows."""
     affine = np.eye(4)
     affine[:3, :3] = rotation_from_vector([0.2, -0.3, 0.1]) @ np.diag([0.6, -0.7, 1.3])
     affine[:3, 3] = [-20.0, 33.0, -12.0]
@@ -69,7 +69,7 @@ class Fixed(NavigationCtProvider):
 
 
 def drawn(folder: Path, sent: NavigationCt, wanted: dict[str, object]) -> npt.NDArray[np.uint8]:
-    """The page's cut, RGBA, out of the bytes that the server sends."""
+    """The page's cut as RGBA, from the bytes that the server sends."""
     app = FastAPI()
     app.include_router(navigation_ct_router(Fixed(sent)))
     answer = TestClient(app).get("/api/navigation/ct")
@@ -91,7 +91,7 @@ def drawn(folder: Path, sent: NavigationCt, wanted: dict[str, object]) -> npt.ND
 def hold_against_scipy(
     pixels: npt.NDArray[np.uint8], volume: Volume, lps_from_px: npt.NDArray[np.float64]
 ) -> None:
-    """Each pixel is SciPy's to half a grey level; what lies outside of the CT is transparent."""
+    """Each pixel equals SciPy's to half a grey level; pixels outside of the CT are transparent."""
     u, v = np.meshgrid(np.arange(WIDTH_PX), np.arange(HEIGHT_PX))
     index = volume.index_from_lps(np.stack([u, v, np.ones_like(u)], axis=-1) @ lps_from_px.T)
     hu = ndimage.map_coordinates(
@@ -130,7 +130,7 @@ def test_an_anatomical_cut_is_that_of_scipy_through_the_tip(
     tmp_path: Path, name: str, right: npt.NDArray[np.float64], down: npt.NDArray[np.float64]
 ) -> None:
     sent = NavigationCt("ct", oblique_volume())
-    # Beside the middle of the volume, between voxels.
+    # # Off the middle of the volume, between voxels.
     middle = (np.array(sent.volume.shape_ijk) - 1.0) / 2.0
     tip = sent.volume.lps_from_index(middle + np.array([1.3, -0.7, 0.4]))
     cut = {
@@ -138,7 +138,7 @@ def test_an_anatomical_cut_is_that_of_scipy_through_the_tip(
         "pose": {"tip": tip.tolist(), "axis": [-0.6, -0.8, 0.0]},
         "field": {"widthMm": WIDTH_PX * PIXEL_MM, "heightMm": HEIGHT_PX * PIXEL_MM},
     }
-    # The tip lies in the middle of the picture.
+    # # The tip is in the middle of the picture.
     corner = tip - PIXEL_MM * ((WIDTH_PX - 1) / 2.0 * right + (HEIGHT_PX - 1) / 2.0 * down)
     lps_from_px = np.column_stack([right * PIXEL_MM, down * PIXEL_MM, corner])
     hold_against_scipy(drawn(tmp_path, sent, {"cut": cut}), sent.volume, lps_from_px)

@@ -1,4 +1,4 @@
-"""The page can be installed as an app, from its own files, and never shows an old one."""
+"""The page can be installed as an app, from its own files, and never shows an old version."""
 
 import json
 import re
@@ -36,6 +36,6 @@ def test_its_colour_is_the_page_s_ground() -> None:
     assert {MANIFEST["theme_color"], MANIFEST["background_color"], ground[1]} == {reported[1]}
 
 
-def test_no_service_worker_stands_between_page_and_server() -> None:
+def test_there_is_no_service_worker_between_page_and_server() -> None:
     sources = [*(WEB / "src").rglob("*.ts"), *(WEB / "src").rglob("*.tsx"), WEB / "index.html"]
     assert [path.name for path in sources if "serviceWorker" in path.read_text(encoding="utf-8")] == []

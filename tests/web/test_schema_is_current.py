@@ -12,13 +12,13 @@ from typing import Any
 
 from tests.procedure.conftest import serving
 
-# A file to keep: its form is told by the version that it names.
+# # A file to keep; its format version is part of it.
 FREE_FORM = {"/api/plan/export", "/api/plan/markups"}
 OPENAPI_FILE = Path(__file__).resolve().parents[2] / "web" / "openapi.json"
 
 
 def schema_of_server(home: Path) -> dict[str, Any]:
-    """What a server with all of its parts says, but for its version."""
+    """The schema of a server with all of its parts, without its version."""
     with serving(home) as server:
         whole: dict[str, Any] = server.ask("GET", "/api/openapi.json", 200)
     whole["info"] = {"title": whole["info"]["title"], "version": ""}

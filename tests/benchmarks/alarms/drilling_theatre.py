@@ -22,7 +22,7 @@ from tracker.registration import AnchoredTo, Registration
 from tracker.registration.points import PointPairs, register_points
 from tracker.rehearsal import Theatre
 
-# Between these times the breaching drill goes from well inside to through the wall.
+# # Between these times the breaching drill moves from well inside to through the wall.
 BREACH_BETWEEN_S, HALVINGS = (16.0, 23.0), 20
 RUNS = SourceStatus(name="rehearsal", state=SourceState.RUNNING)
 WORKS = ProcessStatus(state=ProcessState.RUNNING)
@@ -54,11 +54,12 @@ class AlarmCounts:
 
 
 class DrillingTheatre:
-    """A theatre set up as a procedure would: its registration by points has an error.
+    """A theatre with a realistic set-up: its registration with landmarks has an error.
 
     Args:
         seed: of theatre and errors.
-        skill: how the hand drills.
+        skill: of the drilling hand.
+
     """
 
     def __init__(self, seed: int, *, skill: str = "good") -> None:
@@ -70,7 +71,7 @@ class DrillingTheatre:
         self.theatre: Theatre = exact.theatre
         self.channel = exact.channel
         self.random = np.random.default_rng([seed, 0x414C41])
-        # The wall of the rehearsed bone, which is known with the registration of the rehearsal alone.
+        # # The wall of the rehearsed bone, which is exact only in the rehearsal's registration.
         self.drill_reference = exact.drill_reference_for(exact.channel)
         registration = captured_registration(self.theatre, self.random)
         self.preparation: Preparation = replace(
@@ -112,9 +113,10 @@ class DrillingTheatre:
         )
 
     def stationary_at(self, limit_mm: float) -> Callable[[int, float], NavigationSnapshot]:
-        """Return a source of snapshots of a drill that stands still at this measured clearance.
+        """Return a source of snapshots of a drill held at this measured clearance.
 
-        The theatre's drill must go through the wall: it is held at a moment on its way.
+        The theatre's drill must go through the wall: it is stopped on its way.
+
         """
         low_s, high_s = BREACH_BETWEEN_S
         for _ in range(HALVINGS):

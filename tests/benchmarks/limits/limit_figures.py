@@ -9,12 +9,12 @@ from tests.benchmarks.limits.evaluation import COVERED, Evaluation
 from tests.benchmarks.limits.pace_tables import RETURNED_WITHIN, ratios
 from tests.benchmarks.limits.run import LimitsRun
 
-# A hand that is lost, or followed by the wrong solution, stays so for some images.
+# # A tracker that is lost, or on the wrong solution, stays so for some images.
 LOST_IN_A_ROW = 10
 
 
 def limit_figures(run: LimitsRun) -> dict[str, Figure]:
-    """Return each figure by its name; what was not measured is left out."""
+    """Return each figure by its name; unmeasured ones are omitted."""
     named = [*_of_conditions(run), *_of_hands(run), *_of_paces(run), *_of_returns(run), *_of_empty(run)]
     return {name: figure for name, figure in named if figure is not None}
 

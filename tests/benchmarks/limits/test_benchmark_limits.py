@@ -1,4 +1,4 @@
-"""Claims are judged rightly, peers are treated fairly, and the tables say what was measured."""
+"""Claims are evaluated correctly, peers are treated fairly, and the tables state what was measured."""
 
 from dataclasses import replace
 
@@ -173,7 +173,7 @@ def test_tables_say_shares_medians_and_ratios() -> None:
     assert list(empty.rows[0]) == ["A", "0 of 2", "0 of 1", "0 of 1"]
 
 
-def test_a_peer_that_is_not_installed_has_a_column_that_says_so() -> None:
+def test_a_peer_that_is_not_installed_is_marked_in_its_column() -> None:
     run = invented_run(with_apriltag=False)
     tables = [*condition_tables(run), *pace_tables(run)]
     assert sum(APRILTAG_ABSENT in cell for table in tables for row in table.rows for cell in row) > 5

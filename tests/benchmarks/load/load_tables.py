@@ -27,9 +27,9 @@ NOTE = (
 
 
 def measure_load(options: BenchmarkOptions) -> SectionResult:
-    """So many viewers as were asked for, one stretch after the other."""
+    """The requested numbers of viewers, one interval after the other."""
     seconds = USUAL_SECONDS if options.seconds == BenchmarkOptions().seconds else options.seconds
-    # A drill that stays in view: a search for one that is gone takes longer, whoever watches.
+    # # A drill that stays in view, since a search takes longer regardless of viewers.
     stays = {"skill": "good"}
     with running_server(options, seed=options.seeds[0], live_rate_hz=RATE_HZ, rehearsal=stays) as server:
         tracker_times = TrackerTimes(server)
@@ -43,7 +43,7 @@ def measure_load(options: BenchmarkOptions) -> SectionResult:
 
 
 def load_tables(alone: Sequence[LoadResult], with_load: Sequence[LoadResult]) -> list[Table]:
-    """The tables of stretches with viewers, each between two of `alone`."""
+    """Tables of the intervals with viewers, each between two of `alone`."""
     around = [[*before.tracker_ms, *after.tracker_ms] for before, after in itertools.pairwise(alone)]
     rows = list(zip(with_load, around, strict=True))
     return [
@@ -81,7 +81,7 @@ def load_tables(alone: Sequence[LoadResult], with_load: Sequence[LoadResult]) ->
 
 
 def growth(values: Sequence[float], than: Sequence[float], percent: float) -> str:
-    """By how much a percentile grew: `+12 %`."""
+    """Growth of a percentile: `+12 %`."""
     return f"{100.0 * (percentile(values, percent) / percentile(than, percent) - 1.0):+.0f} %"
 
 

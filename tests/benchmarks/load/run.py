@@ -19,7 +19,7 @@ from tests.benchmarks.running_server import CHECKOUT, PATIENCE_S, RunningServer
 from tests.benchmarks.viewer import cpu_s
 
 SETTLING_S = 3.0
-# What is not the tracker's work: waiting for the process to be scheduled, and what the web server does.
+# # Excluded from the tracker's time: waiting for the scheduler, and work of the web server.
 NOT_TRACKER = frozenset({"waiting", "overlay", "encode"})
 RESIDENT = re.compile(r"VmRSS:\s+(\d+) kB")
 DISCONNECTED = re.compile(r"^coaxial_viewer_let_go_total\{.*\} ([0-9.]+)$", re.MULTILINE)
@@ -77,7 +77,7 @@ class TrackerTimes(threading.Thread):
         self.start()
 
     def run(self) -> None:
-        """Take each image's times."""
+        """Record the times of each image."""
         try:
             for text in self._socket:
                 snapshot = json.loads(text)["snapshot"]
@@ -88,12 +88,12 @@ class TrackerTimes(threading.Thread):
             return
 
     def await_first(self) -> None:
-        """Until the tracker has tracked for a while: the first images wait for loading."""
+        """Wait until the tracker has run for a while: the first images include loading."""
         while len(self._received) < 30:
             time.sleep(0.1)
 
     def taken_during(self, seconds: float) -> list[float]:
-        """The times of all images of so many seconds from now on."""
+        """Times of all images in the next seconds."""
         before = len(self._received)
         time.sleep(seconds)
         return self._received[before:]
@@ -105,7 +105,7 @@ class TrackerTimes(threading.Thread):
 
 
 def mix(viewers: int) -> dict[str, int]:
-    """So many viewers by kind, as a theatre has them: most watch the page, some plain video, some numbers."""
+    """Viewers by kind, as in a theatre: most watch the page, some plain video, some numbers."""
     mjpeg, live = viewers // 4, viewers // 6
     return {"view": viewers - mjpeg - live, "mjpeg": mjpeg, "live": live}
 
@@ -170,7 +170,7 @@ def _results_of(process: "subprocess.Popen[str]") -> list[ViewerResult]:
 
 
 def resident_mb(pid: int) -> float:
-    """Memory of a process that is in use; not a number where the system does not tell."""
+    """Resident memory of a process; NaN if the system does not provide it."""
     status = Path(f"/proc/{pid}/status")
     found = RESIDENT.search(status.read_text(encoding="ascii")) if status.exists() else None
     return float("nan") if found is None else int(found[1]) / 1000.0

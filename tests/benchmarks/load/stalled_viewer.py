@@ -14,7 +14,8 @@ class StalledViewer:
     """Opens `/ws/view`, sends credit for one image, and never reads; a thread waits for the disconnect.
 
     Attributes:
-        disconnected_after_s: from its question to the end of its line; None while that stands.
+        disconnected_after_s: from its request to the disconnect; None before.
+
     """
 
     def __init__(self, port: int) -> None:

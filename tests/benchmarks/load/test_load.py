@@ -1,4 +1,4 @@
-"""The load command counts rightly: images, ages and sizes are read off the lines as they were sent."""
+"""The load command counts correctly: images, ages and sizes are parsed from recorded streams."""
 
 import struct
 
@@ -47,7 +47,7 @@ def test_parts_end_where_the_next_one_begins(step: int) -> None:
     sent = b"--coaxial\r\nContent-Type: image/jpeg\r\n\r\n" + part(TEXT + b"\xff" * 9000) + part(b"card")
     sent += part(TEXT)
     ended = sum(parts.read(memoryview(sent[at : at + step]), now_s=10.0) for at in range(0, len(sent), step))
-    # The first boundary ends nothing, and the card is no image.
+    # # The first boundary ends no image, and the card is none.
     assert ended == 4
     assert [round(age) for age in received.ages_ms] == [20, 20]
 

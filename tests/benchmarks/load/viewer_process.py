@@ -105,7 +105,7 @@ class Viewer(asyncio.BufferedProtocol):
 
 
 async def watch(port: int, viewers: list[Viewer], *, settling_s: float, seconds: float) -> None:
-    """Connect all, let them settle, and have them count for so long."""
+    """Connect all viewers, let them settle, and count for this long."""
     loop = asyncio.get_running_loop()
     for viewer in viewers:
         line = socket.socket()
@@ -136,7 +136,7 @@ def main() -> None:
         parser.add_argument(f"--{kind}", type=int, default=0)
     parser.add_argument("--slow", action="store_true")
     given = parser.parse_args()
-    # Real viewers run on other machines: lower priority keeps them from slowing the server.
+    # # Real viewers run on other machines: a lower priority keeps these from slowing the server.
     with contextlib.suppress(OSError):
         os.nice(NICE)
     viewers = [Viewer(kind) for kind in PATHS for _ in range(getattr(given, kind))]

@@ -82,7 +82,7 @@ def test_the_square_is_seen_where_opencv_projects_it(rig: Rig) -> None:
         assert abs(math.sqrt(found) - math.sqrt(area)) < 0.002
 
 
-def test_a_straight_edge_is_as_blurred_as_the_lens_says() -> None:
+def test_the_blur_of_a_straight_edge_agrees_with_the_lens() -> None:
     # The image of a dark half-plane: a Gaussian integrated over the pixel, its middle at the projected edge.
     scene = frontal(RIG_A)
     row = mean_of(scene)[round(float(scene.corners_px[:, 1].mean()))].astype(np.float64)

@@ -1,4 +1,4 @@
-"""Who comes in: the operator by the printed link, others by invitation, each in a browser of their own."""
+"""Users on the page: the operator signs in with the printed link, others by invitation."""
 
 import re
 
@@ -19,7 +19,7 @@ def printed_link(server: RealServer) -> str:
 
 
 def invite(tablet: Tablet, name: str, role: str) -> str:
-    """A link for somebody, made on the tablet."""
+    """Create an invitation link on the tablet."""
     page = tablet.page
     tablet.tap("step-people")
     page.get_by_label("Name", exact=True).fill(name)
@@ -31,7 +31,7 @@ def invite(tablet: Tablet, name: str, role: str) -> str:
 
 
 def let_in(browser: Browser, port: int, link: str, size: ViewportSize, *, patience_ms: float) -> WatchedPage:
-    """A browser that came in by this link."""
+    """Open a browser that signs in with this link."""
     context = browser.new_context(viewport=size, locale="en-GB")
     context.set_default_timeout(patience_ms)
     watched = WatchedPage(context.new_page(), port)
@@ -40,12 +40,12 @@ def let_in(browser: Browser, port: int, link: str, size: ViewportSize, *, patien
 
 
 def left(watched: WatchedPage) -> None:
-    """Its browser is closed; it had nothing to complain of."""
+    """Close the browser and check that its page logged no error."""
     watched.page.context.close()
     assert not watched.strangers, watched.strangers
     assert not watched.complaints, watched.complaints
 
 
 def reading(page: Page, name: str) -> str:
-    """A figure as this page shows it now."""
+    """Read a figure as displayed on this page."""
     return page.get_by_test_id(f"reading-{name}").inner_text()

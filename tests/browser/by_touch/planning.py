@@ -1,4 +1,4 @@
-"""The plan by touch on the rehearsal's CT: pedicles, channels, screws, lines and landmarks."""
+"""Planning by touch on the rehearsal's CT: pedicles, channels, screws, lines and landmarks."""
 
 import re
 from typing import Any
@@ -16,7 +16,7 @@ PX_PER_MM = """() => {
 
 
 def plan_both_pedicles(tablet: Tablet, truth: dict[str, Any]) -> None:
-    """From the CT to a channel and a screw in each pedicle, one of them chosen to be drilled."""
+    """Plan a channel and a screw in each pedicle, and choose one channel for drilling."""
     tablet.tap("rehearsal-ct")
     tablet.sees("slice-axial")
     tablet.tap("add-vertebra")
@@ -30,7 +30,7 @@ def plan_both_pedicles(tablet: Tablet, truth: dict[str, Any]) -> None:
 
 
 def moved_and_undone(tablet: Tablet) -> None:
-    """A slip of the hand: the channel is moved and kept, then taken back, and chosen anew."""
+    """Move and save a channel by mistake, undo it, and choose it again."""
 
     def entry() -> Any:  # noqa: ANN401  JSON
         (vertebra,) = _plan(tablet)["plan"]["vertebrae"]
@@ -48,7 +48,7 @@ def moved_and_undone(tablet: Tablet) -> None:
     tablet.sees("move-channel")
     assert np.array(entry()) - before == pytest.approx([1.0, 0.0, 0.0], abs=1e-6)
     assert _plan(tablet)["active_channel"] is None
-    # Its own answer: the page also says on its own, every few seconds, whether it can sound an alarm.
+    # # Only its own answer, because the page also reports every few seconds whether it can sound an alarm.
     with tablet.page.expect_response(
         lambda answer: answer.request.method == "PUT" and answer.url.endswith("/api/plan")
     ):
@@ -59,7 +59,7 @@ def moved_and_undone(tablet: Tablet) -> None:
 
 
 def with_lines(tablet: Tablet) -> None:
-    """The proposed slice, with the needles' lines 20.5 mm to each side."""
+    """Lay the proposed lines, with the needles 20.5 mm to each side."""
     tablet.tap("part-lines")
     tablet.tap("propose-slice")
     tablet.tap("apart-more")
@@ -71,10 +71,10 @@ def with_lines(tablet: Tablet) -> None:
 
 
 def with_landmarks(tablet: Tablet, truth: dict[str, Any]) -> None:
-    """One is set at the cross by its usual name; then those that the rehearsal's drill will touch."""
+    """Set one landmark at the cross by its usual name, then use those of the rehearsal."""
     tablet.tap("part-landmarks")
     cross = _cross(tablet)
-    # What the catalogue brings moves the button.
+    # # The button moves when the catalogue has loaded.
     tablet.reads("landmark-count", "needed at least")
     tablet.tap("set-landmark")
     tablet.page.get_by_role("button", name="spinous process, upper end").tap()
@@ -87,7 +87,7 @@ def with_landmarks(tablet: Tablet, truth: dict[str, Any]) -> None:
 
 
 def _measured_where_it_is(tablet: Tablet, side: str, channel: dict[str, Any]) -> None:
-    """Tap into a pedicle, measure it, lay its channel and take the proposed screw."""
+    """Tap a pedicle, measure it, lay its channel and use the proposed screw."""
     tablet.tap("part-pedicle")
     tablet.page.get_by_test_id("side").get_by_text(side.capitalize(), exact=True).tap()
     entry, target = np.array(channel["entry_lps_mm"]), np.array(channel["target_lps_mm"])
@@ -106,14 +106,14 @@ def _measured_where_it_is(tablet: Tablet, side: str, channel: dict[str, Any]) ->
 
 
 def _put_cross(tablet: Tablet, wanted: Any) -> None:  # noqa: ANN401  an array
-    """Scroll to the slice, tap on the place, and bring the cross there with the arrows."""
+    """Scroll to the slice, tap the point, and adjust the cross with the arrows."""
     page = tablet.page
     for _ in range(100):
         below = wanted[2] - _cross(tablet)[2]
         if abs(below) <= 0.5:
             break
         tablet.tap("slice-on" if below > 0 else "slice-back")
-    # A tap goes to what is seen: while an earlier slice still stands there, to that one.
+    # # A tap refers to the displayed slice, which may still be an earlier one.
     _slice_stands(tablet)
     place = page.locator(".planes-large [data-testid=cross] circle").bounding_box()
     assert place is not None
@@ -138,11 +138,11 @@ def _slice_stands(tablet: Tablet) -> None:
 
 
 def _cross(tablet: Tablet) -> Any:  # noqa: ANN401  an array
-    """Where the page says that the cross is."""
+    """Position of the cross as displayed on the page."""
     said = tablet.page.get_by_test_id("cursor").inner_text()
     return np.array([float(one) for one in re.findall(r"[xyz] (-?[\d.]+)", said)])
 
 
 def _plan(tablet: Tablet) -> Any:  # noqa: ANN401  JSON
-    """As the server has it."""
+    """Plan as stored on the server."""
     return tablet.asks("/api/plan")

@@ -1,4 +1,4 @@
-"""Registration by points, the check, and navigation by touch."""
+"""Registration with landmarks, check and navigation by touch."""
 
 from playwright.sync_api import expect
 
@@ -8,13 +8,13 @@ ENOUGH = 4
 
 
 def register_by_points(tablet: Tablet) -> None:
-    """Four landmarks, the last one twice; then the fit is kept."""
+    """Capture four landmarks, the last one twice, and register."""
     page = tablet.page
     tablet.tap("method-points")
     tablet.tap("points-begin")
     expect(page.get_by_test_id("points-conclude")).to_be_disabled()
     _touch_until_enough(tablet)
-    # A slip of the glove: the last one is thrown away, and taken again.
+    # # A slip: the last capture is discarded and repeated.
     touched = page.locator("[data-touched=true]").count()
     tablet.tap("undo-last")
     expect(page.locator("[data-touched=true]")).to_have_count(touched - 1)
@@ -27,7 +27,7 @@ def register_by_points(tablet: Tablet) -> None:
 
 
 def check_on_a_landmark(tablet: Tablet) -> None:
-    """On the one that was not touched for the registration."""
+    """Check on the landmark that was not used for the registration."""
     page = tablet.page
     landmark = tablet.asks("/api/rehearsal?truth=1")["truth"]["check_landmark"]["name"]
     tablet.tap("scene-check")
@@ -36,7 +36,7 @@ def check_on_a_landmark(tablet: Tablet) -> None:
     tablet.tap("check-begin")
     over = page.locator("[data-testid=check-outcome], [data-testid=capture-rejected]")
     over.wait_for()
-    # A hand that had just left the landmark holds the tip on it again.
+    # # If the tip has just left the landmark, it returns later.
     while page.get_by_test_id("capture-rejected").count() > 0:
         tablet.finds("tip-rests", "data-landmark", landmark)
         with page.expect_response(lambda answer: answer.url.endswith("/api/registration/check")):
@@ -55,7 +55,7 @@ def _touch_until_enough(tablet: Tablet) -> None:
 
 
 def _touch_where_the_tip_rests(tablet: Tablet) -> None:
-    """As soon as the tip rests on a landmark that is not taken yet, it is taken."""
+    """Capture each landmark as soon as the tip rests on it."""
     page = tablet.page
     rests = page.get_by_test_id("tip-rests")
     expect(rests).to_have_attribute("data-landmark", "", timeout=tablet.patience_ms)

@@ -1,4 +1,4 @@
-"""Case, camera and tool by touch, on the rehearsal's board, pivot and spin."""
+"""Case, camera and tool by touch, with the rehearsal's board, pivot and spin."""
 
 from playwright.sync_api import expect
 
@@ -6,19 +6,19 @@ from tests.browser.by_touch.tablet import Tablet
 
 
 def open_case(tablet: Tablet, name: str) -> None:
-    """From no case to an open one."""
+    """Create and open a case."""
     page = tablet.page
     tablet.tap("step-case")
     expect(page.get_by_role("heading", name="Begin with a case")).to_be_visible()
     tablet.looked_at("case-first")
     page.get_by_label("Name of the case").fill(name)
-    page.get_by_role("button", name="Make and open").tap()
+    page.get_by_role("button", name="Create and open").tap()
     tablet.reads("opened-case", name)
     tablet.looked_at("case-open")
 
 
 def play(tablet: Tablet, scene: str) -> None:
-    """Have a scene of the rehearsal played, as a person does on the page of cases."""
+    """Play a scene of the rehearsal, as on the case page."""
     tablet.tap("step-case")
     tablet.tap(f"scene-{scene}")
     tablet.finds(f"scene-{scene}", "aria-pressed", "true")
@@ -28,7 +28,7 @@ def play(tablet: Tablet, scene: str) -> None:
 
 
 def calibrate_camera(tablet: Tablet) -> None:
-    """Views of the board are taken by themselves until they are enough."""
+    """Collect views of the board, which are captured automatically, and calibrate."""
     page = tablet.page
     play(tablet, "board")
     tablet.tap("step-camera")
@@ -49,7 +49,7 @@ def calibrate_camera(tablet: Tablet) -> None:
 
 
 def calibrate_tool(tablet: Tablet) -> None:
-    """Its tip by pivoting, its direction by turning."""
+    """Calibrate the tip by pivoting and the axis by spinning."""
     page = tablet.page
     play(tablet, "pivot")
     tablet.tap("step-tool")
@@ -58,7 +58,7 @@ def calibrate_tool(tablet: Tablet) -> None:
     page.get_by_label("Diameter (mm)").fill("4")
     page.get_by_label("Length (mm)").fill("118")
     _keep_when_enough(tablet, named="tool-pivot")
-    tablet.reads("tool-drill", "Nobody knows yet which way it points")
+    tablet.reads("tool-drill", "The axis is not known yet")
     play(tablet, "spin")
     tablet.tap("step-tool")
     tablet.tap("begin-spin")

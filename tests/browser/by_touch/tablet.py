@@ -1,4 +1,4 @@
-"""A page under a gloved finger: what it taps, what it sees, and what it would miss."""
+"""A tablet page under test: taps, reads, and records targets that are too small for a glove."""
 
 import os
 from collections.abc import Iterator
@@ -14,7 +14,7 @@ LANDSCAPE: ViewportSize = {"width": 1280, "height": 800}
 UPRIGHT: ViewportSize = {"width": 800, "height": 1280}
 PHONE: ViewportSize = {"width": 390, "height": 844}
 MIN_TARGET_PX = 48.0
-# A box to be ticked is hit by its label; what is only read may be as small as it likes.
+# # A checkbox is hit by its label; text without an action may be small.
 SMALL_TARGETS = f"""() => [...document.querySelectorAll("main :is(button, a, input, select, summary)")]
     .filter(one => one.type !== "file" && one.checkVisibility())
     .map(one => [/radio|checkbox/.test(one.type) ? one.labels[0] : one, one])
@@ -29,10 +29,11 @@ class Tablet:
     """A page on a tablet.
 
     Attributes:
-        page: as the browser has it.
-        address: of the server.
-        patience_ms: how long anything may take before it counts as not happening.
-        faults: what `looked_at` did not like.
+        page: page of the browser.
+        address: address of the server.
+        patience_ms: timeout of each wait.
+        faults: problems found by `looked_at`.
+
     """
 
     page: Page
@@ -41,35 +42,35 @@ class Tablet:
     faults: list[str]
 
     def go(self, path: str) -> None:
-        """Load a step's page."""
+        """Load the page of a step."""
         self.page.goto(f"{self.address}/operator/{path}")
 
     def tap(self, name: str) -> None:
-        """Touch what has this name for tests, as soon as it can be touched."""
+        """Tap the element with this test id as soon as it can be tapped."""
         there = self.page.get_by_test_id(name)
         expect(there).to_be_enabled(timeout=self.patience_ms)
         there.tap()
 
     def sees(self, name: str) -> None:
-        """Wait until what has this name is there."""
+        """Wait until the element with this test id exists."""
         expect(self.page.get_by_test_id(name)).to_be_visible(timeout=self.patience_ms)
 
     def reads(self, name: str, text: str) -> None:
-        """Wait until it says so."""
+        """Wait until the element contains this text."""
         expect(self.page.get_by_test_id(name)).to_contain_text(text, timeout=self.patience_ms)
 
     def finds(self, name: str, attribute: str, value: str) -> None:
-        """Wait until its attribute has this value."""
+        """Wait until the attribute has this value."""
         expect(self.page.get_by_test_id(name)).to_have_attribute(attribute, value, timeout=self.patience_ms)
 
     def asks(self, path: str) -> Any:  # noqa: ANN401  JSON
-        """What the server answers to who uses this tablet."""
+        """Return the server's answer for the user of this tablet."""
         answer = self.page.request.get(f"{self.address}{path}")
         assert answer.ok, f"{path}: {answer.status} {answer.text()[:400]}"
         return answer.json()
 
     def looked_at(self, name: str) -> None:
-        """What a glove would miss and what hangs over is kept, at each size; with pictures for people."""
+        """Record small targets and overflow at each screen size, with screenshots."""
         SCREENSHOTS.mkdir(exist_ok=True)
         for size, way in ((PHONE, "phone"), (UPRIGHT, "upright"), (LANDSCAPE, "landscape")):
             self.page.set_viewport_size(size)
@@ -82,7 +83,7 @@ class Tablet:
 
 @contextmanager
 def tablet_at(browser: Browser, port: int, *, patience_ms: float) -> Iterator[Tablet]:
-    """A tablet in landscape that only its fingers move; it must look well and complain of nothing."""
+    """Yield a tablet in landscape that is operated by touch only; fail on layout faults or logged errors."""
     context = browser.new_context(viewport=LANDSCAPE, has_touch=True, locale="en-GB")
     context.set_default_timeout(patience_ms)
     expect.set_options(timeout=patience_ms)
@@ -94,7 +95,7 @@ def tablet_at(browser: Browser, port: int, *, patience_ms: float) -> Iterator[Ta
         context.close()
     assert not tablet.faults, tablet.faults
     assert not watched.strangers, watched.strangers
-    # What is gathered may end between two questions about it, and the first slice of an upload goes with it;
-    # the browser writes such rejections down.
+    # # A collection may end between two requests for it, as may the first slice of an upload;
+    # # the browser logs such rejections.
     complaints = [one for one in watched.complaints if "409 (Conflict)" not in one]
     assert not complaints, complaints

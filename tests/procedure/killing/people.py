@@ -1,4 +1,4 @@
-"""People who work through a server's door until it is killed under their hands."""
+"""Users who work through a server's API until it is killed."""
 
 import json
 import random
@@ -22,11 +22,11 @@ SERVERS_MISTAKE, MAX_REJECTED = 500, 20
 
 
 class KilledUnderUs(Exception):
-    """The server was killed while somebody waited for it."""
+    """The server was killed during a wait."""
 
 
 class Rejected(Exception):
-    """The server did not do it."""
+    """The server rejected a request."""
 
     def __init__(self, reported: str, status: int) -> None:
         super().__init__(reported)
@@ -35,13 +35,13 @@ class Rejected(Exception):
 
 @dataclass(slots=True, kw_only=True)
 class WatchedServer(RealServer):
-    """A server whose confirmations are noted, and whose end is noticed in the middle of a wait."""
+    """A client that records confirmations and notices when the server is killed during a wait."""
 
     promised: Promised
     killed: threading.Event = field(default_factory=threading.Event)
 
     def ask(self, method: str, path: str, status: int, **sent: Any) -> Any:  # noqa: ANN401  JSON
-        """As ever; a change that was confirmed is a promise from then on."""
+        """Send a request; a confirmed change is recorded as promised."""
         answer = self.door.request(method, path, **sent)
         if answer.status_code != status:
             raise Rejected(f"{method} {path}: {answer.status_code} {answer.text[:300]}", answer.status_code)
@@ -51,7 +51,7 @@ class WatchedServer(RealServer):
         return reported
 
     def until(self, what: str, true: Any) -> Any:  # noqa: ANN401  whatever became true
-        """As ever, or at once when the server was killed."""
+        """Wait as usual, or end at once when the server was killed."""
 
         def or_killed() -> Any:  # noqa: ANN401  whatever became true
             if self.killed.is_set():
@@ -63,7 +63,7 @@ class WatchedServer(RealServer):
 
 @dataclass(slots=True, kw_only=True)
 class Listener:
-    """Hears every live message, and keeps in which tracking process numbers were given."""
+    """Receives every live message and records in which tracking processes numbers were shown."""
 
     port: int
     numbers: set[int] = field(default_factory=set)
@@ -72,13 +72,13 @@ class Listener:
     _thread: threading.Thread | None = None
 
     def start(self) -> "Listener":
-        """Begin to listen."""
+        """Start receiving."""
         self._thread = threading.Thread(target=self._run, daemon=True)
         self._thread.start()
         return self
 
     def stop(self) -> None:
-        """Listen no more."""
+        """Stop receiving."""
         self._stop.set()
         if self._thread is not None:
             self._thread.join()
@@ -104,13 +104,14 @@ class Listener:
 
 
 class People:
-    """Do what is to be done next, and other things where all is done.
+    """Do the next step, or something else if all steps are done.
 
     Args:
-        team: around the table.
-        server: theirs.
-        chance: what they fancy.
-        numbers: of the changes, so that each is made by a name that nobody else has.
+        team: the users.
+        server: their server.
+        chance: source of random choices.
+        numbers: of the changes, so that each is made under a unique name.
+
     """
 
     def __init__(self, team: Team, server: WatchedServer, rng: random.Random, numbers: "count[int]") -> None:
@@ -121,7 +122,7 @@ class People:
         self.doing = ""
 
     def work(self) -> None:
-        """Go on and on."""
+        """Repeat until killed."""
         rejected = 0
         while True:
             if self._server.killed.is_set():
@@ -130,14 +131,14 @@ class People:
                 self.act()
                 rejected = 0
             except Rejected as why:
-                # A collection that lost its images is rejected; whoever was told so begins again.
+                # # A collection that lost its images is rejected and started again.
                 rejected += 1
                 if why.status == SERVERS_MISTAKE or rejected > MAX_REJECTED:
                     raise
             self._server.promised.observe(self._server)
 
     def act(self) -> None:
-        """One thing."""
+        """Do one thing."""
         reported = self._server.ask("GET", "/api/procedure", 200)
         states = {one["step"]: one["state"] for one in reported["steps"]}
         due = next((step for step, state in states.items() if state not in VALID_STATES), "")
@@ -165,7 +166,7 @@ class People:
                 self._while_navigating()
 
     def confirm(self) -> None:
-        """Nothing has moved: navigation goes on."""
+        """Confirm that nothing has moved: navigation continues."""
         needed = self._server.ask("GET", "/api/procedure", 200)["confirmation"]
         picture = self._server.until("a picture", self._snapshot)
         assert picture
@@ -182,7 +183,7 @@ class People:
         self._choose(self._probability.choice(("left", "right")))
 
     def _while_navigating(self) -> None:
-        """Any of the small things that are done meanwhile."""
+        """One of the minor actions."""
         ask, act = self._server.ask, self._probability.random()
         if act < 0.35:
             self.doing = "choosing"
@@ -203,10 +204,10 @@ class People:
             ask("POST", f"{POINTS}/conclusion", 201, json=BY)
 
     def _ask_to_hold_or_release(self) -> None:
-        """A hold is asked for and, when it is this one's turn again, released: so kills find it standing."""
+        """Ask to hold, or release this user's hold, so that kills happen while a hold is active."""
         promised, name = self._server.promised, self._name()
         requested_by = promised.holding
-        # Until it is confirmed, nobody was promised either.
+        # # Nothing is promised before it is confirmed.
         promised.holding = None
         if requested_by == "":
             self.doing = "asking to hold"

@@ -1,4 +1,4 @@
-"""The processes of a server: found by their parents, killed, and looked for afterwards."""
+"""The processes of a server: found by their parents, killed, and checked afterwards."""
 
 import os
 import signal
@@ -16,13 +16,14 @@ LOOK_AGAIN_S = 0.02
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Family:
-    """A server and everything that it started.
+    """A server and all of its processes.
 
     Attributes:
-        web: the process that answers.
-        tracking: the one that tracks; None while there is none.
-        others: the rest: who forks, who counts resources, jobs.
-        shared: names of shared memory that any of them holds.
+        web: the web process.
+        tracking: the tracking process; None if there is none.
+        others: fork server, resource tracker, jobs.
+        shared: names of shared memory that any of them uses.
+
     """
 
     web: int
@@ -32,15 +33,15 @@ class Family:
 
     @property
     def pids(self) -> tuple[int, ...]:
-        """All of them."""
+        """All process ids."""
         return (self.web, *(() if self.tracking is None else (self.tracking,)), *self.others)
 
 
 def family_of(web: int) -> Family:
-    """Who belongs to a server now."""
+    """Find the processes of a server."""
     below = tuple(_descendants(web))
     maps = {pid: _maps(pid) for pid in (web, *below)}
-    # The process that forks holds no picture; jobs hold none either.
+    # # The fork server and jobs map no images.
     tracking = next((pid for pid in below if RING in maps[pid]), None)
     shared = {line.split()[-1] for text in maps.values() for line in text.splitlines() if "/dev/shm/" in line}  # noqa: S108  it is looked at, not written
     return Family(
@@ -59,7 +60,7 @@ def kill(pids: tuple[int, ...]) -> None:
 
 
 def left_behind(family: Family) -> Iterator[str]:
-    """What of a server that was killed is still there after a while."""
+    """What remains of a killed server after a while."""
     deadline_s = time.monotonic() + GONE_WITHIN_S
     alive = family.pids
     while alive and time.monotonic() < deadline_s:
@@ -89,5 +90,5 @@ def _is_alive(pid: int) -> bool:
         state = (PROC / str(pid) / "stat").read_text().rpartition(")")[2].split()[0]
     except OSError:
         return False
-    # One that is dead and not yet counted by its parent runs no more.
+    # # A zombie that its parent has not reaped no longer runs.
     return state != "Z"

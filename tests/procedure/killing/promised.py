@@ -1,4 +1,4 @@
-"""What a server has confirmed to people, and whether it is still there after a kill."""
+"""What a server has confirmed, and whether it still exists after a kill."""
 
 import hashlib
 import json
@@ -16,13 +16,14 @@ class Promised:
     """Everything that was answered with 2xx, or read.
 
     Attributes:
-        names: of people, each of whom did one thing that was confirmed: in a document, a case or the log.
-        documents: by id, a sum of their content; empty where only the id was told.
+        names: of users, each of whom made one confirmed change: in a document, a case or the log.
+        documents: by id, a checksum of their content; empty if only the id is known.
         lines: of the alarm log of the open case, as last read.
-        opened: the open case, as last confirmed; None for none.
-        steps: states as last read, with the ids of the documents that were there.
-        holding: who asks to hold, empty for nobody, as last confirmed; None where that is not known.
-        changes: how many were confirmed.
+        opened: the open case, as last confirmed; None if none is open.
+        steps: states as last read, with the ids of the documents at that time.
+        holding: who asks to hold, empty for nobody, as last confirmed; None if unknown.
+        changes: number of confirmed changes.
+
     """
 
     names: set[str] = field(default_factory=set)
@@ -35,13 +36,13 @@ class Promised:
     changes: int = 0
 
     def note(self, answer: Any) -> None:  # noqa: ANN401  JSON
-        """A change was confirmed with this answer."""
+        """Record a change that was confirmed with this answer."""
         self.changes += 1
         for document_id in _heading_ids(answer):
             self.documents.setdefault(document_id, "")
 
     def observe(self, server: RealServer) -> None:
-        """Read everything: what was read once has to stay."""
+        """Read everything: what was read once must persist."""
         ask = server.ask
         self.opened = ask("GET", "/api/cases", 200)["opened_id"]
         if self.opened is None:
@@ -53,11 +54,11 @@ class Promised:
         self.lines = _lines(server)
         steps = ask("GET", "/api/procedure", 200)["steps"]
         self.steps = {one["step"]: one["state"] for one in steps}
-        # Alarms are logged by themselves at any time, and change no step.
+        # # Alarms are logged at any time and change no step.
         self.seen_ids = frozenset(_ids(server, self.opened, without="alarm"))
 
     def broken(self, server: RealServer) -> Iterator[str]:
-        """What is not as it was confirmed; to be asked right after the start."""
+        """Differences from what was confirmed; to be called directly after the start."""
         reported = server.ask("GET", "/api/cases", 200)
         if reported["opened_id"] != self.opened:
             yield f"the open case was {self.opened}, and is {reported['opened_id']}"
@@ -82,7 +83,7 @@ class Promised:
         yield from (one["message"] for one in damage)
 
     def changed_steps(self, server: RealServer) -> dict[str, tuple[str, str]]:
-        """Steps that stand otherwise than before, where no document came to it since they were read."""
+        """Steps whose state changed without a new document."""
         if self.opened is None or frozenset(_ids(server, self.opened, without="alarm")) != self.seen_ids:
             return {}
         steps = server.ask("GET", "/api/procedure", 200)["steps"]

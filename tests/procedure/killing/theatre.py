@@ -1,4 +1,4 @@
-"""A case in which everything is done up to navigation, by what is true of the rehearsal's theatre."""
+"""A case that is ready for navigation, made from the ground truth of the rehearsal."""
 
 from pathlib import Path
 from typing import Any
@@ -20,7 +20,7 @@ EARLIER = "a run before"
 
 
 def settings_of(*, reference: bool) -> dict[str, Any]:
-    """Of a server that rehearses, with or without a marker on the patient."""
+    """Ground truth of a rehearsing server, with or without a patient marker."""
     return {
         **BUSY_MACHINE,
         "rehearsal": {"seed": 3, "provides_setup": False, "reference": reference, "rate_hz": 15},
@@ -29,7 +29,7 @@ def settings_of(*, reference: bool) -> dict[str, Any]:
 
 
 def prepare(home_folder: Path, config: Config) -> None:
-    """Make that case in this folder, and open it."""
+    """Create this case in a folder and open it."""
     theatre = theatre_from_config(config.rehearsal)
     with Home(home_folder) as home, CaseStore(home) as store:
         case_id = store.create("prepared").id

@@ -1,4 +1,4 @@
-"""The alarms as a function of their calls: a recorded state and the calls after it give the same again."""
+"""Alarms are a function of their calls: a recorded state and the same later calls give the same alarms."""
 
 from server.alarms import AlarmService
 from server.alarms.evaluation import AlarmEvaluation, AlarmState, AlarmStep

@@ -1,4 +1,4 @@
-"""The alarm log: added to, never changed, and on the disk when it was said to be."""
+"""The alarm log: append-only, and on disk when it is reported as logged."""
 
 import json
 import signal
@@ -46,7 +46,9 @@ def test_without_a_case_it_is_a_file_of_the_home(store: CaseStore, log: StoredAl
     assert len((store.home.folder / FILE_NAME).read_text(encoding="utf-8").splitlines()) == 5
 
 
-def test_with_a_case_it_belongs_to_the_case_and_says_who(store: CaseStore, log: StoredAlarmLog) -> None:
+def test_with_a_case_it_belongs_to_the_case_and_names_the_person(
+    store: CaseStore, log: StoredAlarmLog
+) -> None:
     log.append([entry(1)])
     log.flush()
     case = store.open(store.create("L3").id)

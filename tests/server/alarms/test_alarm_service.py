@@ -1,4 +1,4 @@
-"""Everything that raises or ends an alarm, with the clock in the test's hand."""
+"""All causes that raise or end an alarm, with a clock set by the test."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
@@ -21,7 +21,7 @@ SnapshotOf = Callable[..., NavigationSnapshot]
 
 @dataclass(slots=True)
 class Retained:
-    """A log that only remembers."""
+    """A log in memory."""
 
     lines: list[Line] = field(default_factory=list)
     is_well: bool = True
@@ -54,7 +54,7 @@ class Room:
         self.service.report_screen("theatre-1", armed=True)
 
     def image(self, **how: Any) -> AlarmSnapshot:  # noqa: ANN401  arguments of the snapshot
-        """One image, grabbed 40 ms ago."""
+        """One image, captured 40 ms ago."""
         self.now_s += 1 / 30
         self.number += 1
         self.service.report_screen("theatre-1", armed=True)
@@ -248,7 +248,7 @@ def test_what_people_do_is_kept_with_their_name(room: Room) -> None:
     ]
 
 
-def test_what_the_procedure_says_is_looked_at(room: Room) -> None:
+def test_facts_of_the_procedure_are_evaluated(room: Room) -> None:
     room.images(1.0)
     room.service.set_facts(ProcedureFacts(registration_current=False, checked_at_s=room.now_s - 1801.0))
     assert conditions(room.image()) == [Condition.REGISTRATION_OUT_OF_DATE, Condition.CHECK_DUE]
@@ -277,7 +277,7 @@ def test_a_registration_that_goes_out_of_date_under_the_hand_is_an_alarm_though_
     room.service.set_facts(ProcedureFacts(registration_current=False))
     picture = room.images(2.0, registered=False)
     assert Condition.REGISTRATION_OUT_OF_DATE in conditions(picture)
-    # Registered again, it is over; what was never navigated raises nothing.
+    # # A new registration ends it; what was never navigated raises nothing.
     room.service.set_facts(ProcedureFacts())
     room.service.acknowledge([one.number for one in picture.alarms], by="ito")
     assert room.images(2.0, registered=False).alarms == ()

@@ -1,4 +1,4 @@
-"""The samples themselves against the table of alarms.md: pulses, gaps, rise, tone, level."""
+"""The sound samples compared with the table of alarms.md: pulses, gaps, rise, tone, level."""
 
 import io
 import itertools
@@ -37,7 +37,7 @@ def heard(priority: Priority) -> tuple[np.ndarray, int]:
 
 
 def envelope_of(samples: np.ndarray, rate_hz: int, fundamental_hz: float) -> np.ndarray:
-    """The height of the tone without its swing: the analytic signal's power over two periods."""
+    """Level of the tone without its ripple: power of the analytic signal over two periods."""
     power = np.abs(hilbert(np.concatenate([np.zeros(2000), samples, np.zeros(2000)]))) ** 2
     width = round(2 * rate_hz / fundamental_hz)
     smooth = np.convolve(power, np.ones(width) / width, mode="same")[2000:-2000]
@@ -67,7 +67,7 @@ def test_pulses_and_gaps_are_those_of_the_table(priority: Priority, level: float
 
 
 @pytest.mark.parametrize("priority", Priority)
-def test_bursts_come_again_as_the_table_says_however_it_is_counted(priority: Priority) -> None:
+def test_bursts_repeat_as_in_the_table(priority: Priority) -> None:
     samples, rate_hz = heard(priority)
     min_s, max_s = TABLE[priority].again_s
     every_s, length_s = BURSTS[priority].repeat_every_s, len(samples) / rate_hz

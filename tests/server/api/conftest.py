@@ -1,4 +1,4 @@
-"""The whole application, reached through its door."""
+"""Fixtures: the whole application, reached through HTTP."""
 
 from collections.abc import Iterator
 

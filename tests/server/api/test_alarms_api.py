@@ -1,4 +1,4 @@
-"""The alarms through the HTTP door, and in every live message."""
+"""Alarms over HTTP, and in every live message."""
 
 import io
 import wave
@@ -22,7 +22,7 @@ WORKS = ProcessStatus(state=ProcessState.RUNNING)
 
 
 class Door:
-    """A server with alarms, fed by hand."""
+    """A server with alarms, fed by the test."""
 
     def __init__(self, store: CaseStore, snapshot_of: Callable[..., NavigationSnapshot]) -> None:
         self.hub, self.now_s, self.number = LiveHub(), 1000.0, 0

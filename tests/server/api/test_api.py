@@ -1,4 +1,4 @@
-"""What the application answers, whole."""
+"""Complete answers of the application."""
 
 import time
 from collections.abc import Callable
@@ -46,7 +46,7 @@ def test_the_newest_instant_is_reported(
     assert reported["snapshot"]["tools"][0]["deviation"]["kind"] == "deviation"
 
 
-def test_the_page_is_told_names_limits_and_addresses(client: TestClient) -> None:
+def test_the_page_receives_names_limits_and_addresses(client: TestClient) -> None:
     reported = client.get("/api/dashboard").json()
     assert reported["product"] == "Coaxial"
     assert reported["notice"] == "research software, not a medical device"
@@ -78,7 +78,7 @@ def test_every_rejection_has_the_one_shape(
     assert answer.json()["code"] == code
 
 
-def test_an_unknown_camera_is_told_the_known_ones(client: TestClient) -> None:
+def test_the_error_for_an_unknown_camera_lists_the_known_ones(client: TestClient) -> None:
     reported = client.get("/video/side.mjpg").json()
     assert reported["message"] == "there is no camera 'side', only main"
     assert reported["context"] == {"requested": "side", "known": ["main"]}

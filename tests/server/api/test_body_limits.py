@@ -1,4 +1,4 @@
-"""Bodies that are too long, or come too slowly, are rejected in words, and the line goes."""
+"""Bodies that are too long or too slow are rejected with a message, and the connection is closed."""
 
 import asyncio
 import contextlib
@@ -23,7 +23,7 @@ def house(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Guarded]:
 
 
 def in_pieces(size_bytes: int) -> Iterator[bytes]:
-    """Without a length that is told before."""
+    """Without a Content-Length."""
     yield b'{"name": "'
     for _ in range(size_bytes // 2**16):
         yield b"a" * 2**16
@@ -74,9 +74,10 @@ def test_what_has_a_limit_of_its_own_is_every_address_that_takes_a_file(house: G
 
 
 def sent(path: str, pieces: list[tuple[float, int]], *, works_s: float = 0.0) -> tuple[str, float]:
-    """What becomes of a body of these pieces (seconds before each, bytes), and after how long.
+    """Result and duration for a body of these pieces (seconds before each, bytes).
 
-    The application works so long on each piece before it takes the next. Time is made: nobody waits.
+    The application works for this long on each piece. Time is simulated.
+
     """
     came: list[tuple[str, float]] = []
 
@@ -143,8 +144,8 @@ def test_to_sign_in_there_is_one_time_for_all() -> None:
     assert after_s == pytest.approx(20.0)
 
 
-def test_whoever_was_heard_to_the_end_may_stay_silent() -> None:
-    """A picture without end waits for its viewer to go."""
+def test_a_client_may_be_silent_after_a_complete_request() -> None:
+    """An endless picture stream ends when its viewer disconnects."""
     silent: list[Message] = []
 
     async def run() -> None:
@@ -178,10 +179,10 @@ def test_every_request_with_a_body_has_the_rejection_in_its_description(house: G
     assert [one[:2] for one in with_body if "408" not in one[2]["responses"]] == []
 
 
-def test_who_did_not_sign_in_in_time_is_told_and_cut_off(
+def test_a_late_sign_in_is_rejected_and_the_connection_closed(
     house: Guarded, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Over a real line, with no time at all: what comes too late is what was not there at once."""
+    """Over a real connection with a time limit of 0: anything not there at once is too late."""
     monkeypatch.setattr(body_limits, "SIGN_IN_WITHIN_S", 0.0)
     head = (
         b"POST /api/session HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\n"
@@ -193,7 +194,7 @@ def test_who_did_not_sign_in_in_time_is_told_and_cut_off(
         socket.create_connection(("127.0.0.1", port), timeout=60) as slow,
     ):
         slow.sendall(head + b'{"')
-        # A line that was left open would end this by its own time limit.
+        # # A connection left open would end this by its own time limit.
         with contextlib.suppress(ConnectionResetError):
             while some := slow.recv(65_536):
                 reported.extend(some)

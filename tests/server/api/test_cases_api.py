@@ -1,4 +1,4 @@
-"""Cases through the HTTP door."""
+"""Cases over HTTP."""
 
 import zipfile
 from collections.abc import Callable, Iterator
@@ -40,7 +40,7 @@ def made(door: TestClient, name: str = "one") -> str:
     return str(door.post("/api/cases", json={"name": name}).json()["id"])
 
 
-def test_json_that_is_called_a_form_is_told_how_to_be_sent(door: TestClient) -> None:
+def test_json_with_the_media_type_of_a_form_is_rejected_with_a_remedy(door: TestClient) -> None:
     def sent_as(content_type: str, content: str) -> str:
         answer = door.post("/api/cases", content=content, headers={"content-type": content_type})
         assert answer.status_code == 422
@@ -112,7 +112,7 @@ def test_a_body_that_is_no_text_is_rejected_like_one_that_is_no_json(door: TestC
 def test_what_is_not_there_is_reported(door: TestClient, method: str, path: str) -> None:
     for case_id in (UNKNOWN, "..%2f..%2fetc", "😀"):
         answer = door.request(method, f"/api/cases/{case_id}{path}")
-        # A path with a step upwards is no case's: it is the page's, which can only be got.
+        # # A path with `..` belongs to no case but to the page, which only accepts GET.
         assert answer.status_code == 404 or (".." in case_id and answer.status_code == 405)
         assert set(answer.json()) == {"code", "message", "remedy", "context"}
 
@@ -189,7 +189,7 @@ def test_an_upload_that_cannot_be_leaves_nothing_behind(
     monkeypatch.setattr(cases, "MAX_ARCHIVE_BYTES", 1000)
 
     def in_pieces() -> Iterator[bytes]:
-        # Without a length that could be believed beforehand.
+        # # Without a length that could be trusted in advance.
         yield from (content[at : at + 300] for at in range(0, len(content), 300))
 
     for body in (content, in_pieces()):

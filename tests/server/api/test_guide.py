@@ -1,4 +1,4 @@
-"""The user guide at `/docs/`: open to all, under the page's policy but for its own inline scripts."""
+"""The user guide at `/docs/`: public, under the page's policy except for its own inline scripts."""
 
 import base64
 import hashlib
@@ -57,7 +57,7 @@ def test_a_page_that_did_not_change_keeps_its_policy(built: Path) -> None:
     assert again.headers["content-security-policy"] == first.headers["content-security-policy"]
 
 
-def test_a_page_that_was_built_anew_has_a_new_policy(built: Path) -> None:
+def test_a_rebuilt_guide_has_a_new_policy(built: Path) -> None:
     client = client_of(built)
     client.get("/docs/")
     (built / "index.html").write_text("<!doctype html><title>New</title>")
@@ -77,7 +77,7 @@ def test_files_outside_the_guide_are_not_given(built: Path) -> None:
 
 
 @pytest.mark.parametrize("address", ["/docs", "/docs/"])
-def test_a_guide_that_is_not_built_says_how_to_build_it(address: str) -> None:
+def test_a_missing_build_of_the_guide_states_how_to_build_it(address: str) -> None:
     answer = client_of(None).get(address)
     assert answer.status_code == 503
     assert "make docs" in answer.text

@@ -1,4 +1,4 @@
-"""Long work through the HTTP door."""
+"""Jobs over HTTP."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""The page's files have the right lifetimes, and a page that is not built says how to build it."""
+"""The page's files have the right cache lifetimes; a page that is not built states how to build it."""
 
 from pathlib import Path
 
@@ -44,7 +44,7 @@ def test_files_outside_the_page_are_not_given(built: Path) -> None:
     assert TestClient(app).get("/%2e%2e/secret.txt").status_code == 404
 
 
-def test_a_page_that_is_not_built_says_how_to_build_it() -> None:
+def test_a_missing_build_of_the_page_states_how_to_build_it() -> None:
     app = FastAPI()
     mount_page(app, camera="main", folder=None)
     answer = TestClient(app).get("/")

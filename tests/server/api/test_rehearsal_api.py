@@ -1,4 +1,4 @@
-"""The rehearsal through the door: another scene while it runs, its truth, and its CT."""
+"""The rehearsal over HTTP: another scene while it runs, its ground truth, and its CT."""
 
 from pathlib import Path
 
@@ -20,7 +20,7 @@ CONFIG = Config(rehearsal=RehearsalConfig(seed=3, reference=True))
 
 
 class Played:
-    """A tracking process that begins what it is ordered at once."""
+    """A tracking process that executes orders at once."""
 
     def __init__(self) -> None:
         self.orders: list[SceneOrder] = []
@@ -43,7 +43,7 @@ def door(played: Played) -> TestClient:
     return TestClient(app, base_url=URL)
 
 
-def test_it_says_what_is_played_and_keeps_the_truth_to_itself(door: TestClient) -> None:
+def test_it_reports_the_scene_without_its_truth(door: TestClient) -> None:
     reported = door.get("/api/rehearsal").json()
     assert (reported["scene"], reported["seed"], reported["reference"], reported["begun"]) == (
         "operation",
@@ -68,7 +68,7 @@ def test_another_scene_is_played_in_the_same_theatre(door: TestClient, played: P
         assert after[key] == truth[key]
     assert len(after["landmarks"]) >= 6
     assert after["moment"] is None
-    # What is left out stays, but for the events.
+    # # Omitted values stay, except the events.
     door.put("/api/rehearsal", json={"scene": "operation", "skill": "breaching"})
     door.put("/api/rehearsal", json={"scene": "operation"})
     assert played.orders[-1].rehearsal.skill == "breaching"

@@ -1,4 +1,4 @@
-"""A name of who does something is the session's, at every address that asks for one."""
+"""The author of an action is the session's user, at every address that accepts a name."""
 
 import asyncio
 from collections.abc import Iterator
@@ -47,7 +47,7 @@ def operations_of(described: dict[str, Any]) -> Iterator[tuple[str, dict[str, An
 
 
 def schemas_in(described: dict[str, Any], node: object, found: set[str]) -> set[str]:
-    """The names of all schemas that a part of the description needs."""
+    """Names of all schemas used by a part of the description."""
     if isinstance(node, dict):
         name = str(node.get("$ref", "")).rpartition("/")[2]
         if name and name not in found:
@@ -68,7 +68,7 @@ def every(kind: type[Message]) -> Iterator[type[Message]]:
 
 
 def read_as_ito(message: type[Message], field: str) -> list[object]:
-    """What the field of a message becomes, with another name and with none, in a request of Dr Ito's."""
+    """Value of a message's name field in a request of Dr Ito, with another name and with none."""
     described = message.model_fields[field]
     only = create_model("Only", **{field: (described.annotation, described)})  # type: ignore[call-overload]  # by name
 
@@ -82,7 +82,7 @@ def read_as_ito(message: type[Message], field: str) -> list[object]:
 def test_no_body_names_another_than_who_is_signed_in(house: Guarded) -> None:
     described = house.app.openapi()
     messages = {one.__name__: one for one in every(Message)}
-    # Where two have the same name, the description tells them apart by their rooms.
+    # # Schemas of equal name are distinguished by their modules.
     messages |= {f"{one.__module__}.{one.__name__}".replace(".", "__"): one for one in every(Message)}
     requested: set[str] = set()
     for _, operation in operations_of(described):
@@ -156,7 +156,7 @@ def chequered() -> bytes:
     return png_bytes(np.kron(cells, np.ones((40, 40), dtype=np.uint8)))
 
 
-def test_where_nobody_signs_in_a_name_is_needed(tmp_path_factory: pytest.TempPathFactory) -> None:
+def test_without_sign_in_a_name_is_required(tmp_path_factory: pytest.TempPathFactory) -> None:
     with guarded(tmp_path_factory.mktemp("open"), required=False) as house:
         case = house.door.post("/api/cases", json={"name": "own"}).json()
         stored = house.store.put(case["id"], DocumentKind.CT, "main", {}, made_by="abe")

@@ -19,7 +19,7 @@ def modes(fourcc: str, size_wh_px: tuple[int, int], *rates_hz: float) -> list[Ca
     return [CameraMode(fourcc=fourcc, size_wh_px=size_wh_px, rate_hz=rate_hz) for rate_hz in rates_hz]
 
 
-# As webcams on USB 2 are: full HD without compression at 5 Hz.
+# # Like webcams on USB 2: full HD without compression at 5 Hz.
 WEBCAM_MODES = (
     *modes("YUYV", VGA, 30, 15),
     *modes("YUYV", HD, 10, 5),
@@ -43,7 +43,7 @@ WEBCAM_CONTROLS = {
 
 @dataclass
 class FakeCamera:
-    """State of the camera, changed by the test as a person or a driver would."""
+    """State of the camera, changed by the test in place of a user or a driver."""
 
     path: str = "/dev/video0"
     name: str = "Webcam"
@@ -100,9 +100,10 @@ class FakeDevices:
 
 
 class FakeVideo:
-    """What OpenCV makes of a camera: it grants what is offered, and stamps images with the driver's clock.
+    """OpenCV's view of a camera: it grants what is offered, and stamps images with the driver's clock.
 
-    The test sets `now_s`, the one clock of this machine, and how long an image takes to arrive.
+    The test sets `now_s`, the only clock of this machine, and the transfer time of an image.
+
     """
 
     def __init__(self, camera: FakeCamera, *, latency_s: float = 0.04) -> None:
@@ -158,7 +159,7 @@ class FakeVideo:
     def retrieve(self) -> tuple[bool, np.ndarray | None]:
         width, height = self.size_wh_px or self.camera.granted.size_wh_px
         self._taken += 1
-        # Of another grey each time, as no two images of a sensor are the same; one byte in memory.
+        # # Another grey level each time, since no two sensor images are equal; one byte in memory.
         image = np.broadcast_to(np.uint8(self._taken % 251), (height, width, 3))
         return True, image
 

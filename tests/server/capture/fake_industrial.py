@@ -20,7 +20,7 @@ SWITCH = ("Off", "Once", "Continuous")
 
 
 def sensor_features() -> dict[str, FeatureValue]:
-    """As a colour camera with 2.3 megapixels has them when it is switched on."""
+    """# Features of a colour camera with 2.3 megapixels after power-on."""
     return {
         "WidthMax": SENSOR_WH_PX[0],
         "HeightMax": SENSOR_WH_PX[1],
@@ -46,15 +46,16 @@ def sensor_features() -> dict[str, FeatureValue]:
 
 @dataclass
 class FakeIndustrialCamera:
-    """State of the camera, changed by the test as a person, a cable or a firmware would.
+    """State of the camera, changed by the test in place of a user, a cable or firmware.
 
     Attributes:
-        now_s: the one clock of this machine, moved by the test; `clock` reads it.
-        device_zero_s: what the camera's own clock read when this machine's read 0.
-        latency_s: from the exposure to the arrival of the next image.
-        latch_takes_s: round trip of a reading of the camera's clock; None where it cannot be read.
-        max_rate_hz: that its line carries.
-        arriving: what comes next: an image, None where none comes in time, or what breaks.
+        now_s: the only clock of this machine, advanced by the test; `clock` reads it.
+        device_zero_s: reading of the camera's clock when this machine's read 0.
+        latency_s: from exposure to arrival of the next image.
+        latch_takes_s: round trip of reading the camera's clock; None if it cannot be read.
+        max_rate_hz: limit of its connection.
+        arriving: what comes next: an image, None for a timeout, or an error.
+
     """
 
     features: dict[str, FeatureValue] = field(default_factory=sensor_features)
@@ -112,7 +113,7 @@ class FakeIndustrialCamera:
         device_s = self.device_s()
         if name != "TimestampLatch" or self.latch_takes_s is None or device_s is None:
             raise OSError(f"{name} is not executable")
-        # Read halfway between the request and the answer.
+        # # Read halfway between request and answer.
         self.features["TimestampLatchValue"] = round((device_s + self.latch_takes_s / 2.0) * 1e9)
         self.now_s += self.latch_takes_s
 
@@ -130,14 +131,14 @@ class FakeIndustrialCamera:
         return thing
 
     def image(self, *, device_s: Callable[[float], float] | None = None) -> GrabbedImage:
-        """An image that arrives now, taken `latency_s` before, with this time by the camera's clock."""
+        """An image that arrives now, taken `latency_s` before, with this camera time."""
         taken_s = self.device_s()
         if taken_s is not None:
             taken_s -= self.latency_s
             taken_s = taken_s if device_s is None else device_s(taken_s)
         self.taken += 1
         height, width = int(self.features["Height"]), int(self.features["Width"])
-        # Of another grey each time, as no two images of a sensor are the same; one byte in memory.
+        # # Another grey level each time, since no two sensor images are equal; one byte in memory.
         pixels = np.broadcast_to(np.uint8(self.taken % 251), (height, width))
         return GrabbedImage(
             pixels=pixels, pixel_format=str(self.features["PixelFormat"]), device_s=taken_s, skipped=0

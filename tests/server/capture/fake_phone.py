@@ -19,13 +19,13 @@ CAMERA = PhoneCamera(
 
 
 def jpeg_of(grey: int, size_wh_px: tuple[int, int] = (160, 90)) -> bytes:
-    """A picture as bright as this."""
+    """A picture with this brightness."""
     width, height = size_wh_px
     return cv2.imencode(".jpg", np.full((height, width, 3), grey, np.uint8))[1].tobytes()
 
 
 def image(number: int, captured_at_s: float = 1.0, **changes: object) -> PhoneImage:
-    """An image as bright as its number."""
+    """An image with its number as brightness."""
     made = PhoneImage(
         jpeg=jpeg_of(number % 256),
         number=number,
@@ -37,11 +37,12 @@ def image(number: int, captured_at_s: float = 1.0, **changes: object) -> PhoneIm
 
 
 class Script:
-    """An inbox that answers with one entry after the other, and then with the end of the wait.
+    """An inbox that returns the given entries and then ends the wait.
 
     Attributes:
-        entries: that come after what was there before; None is a wait in vain.
-        now_s: grows by each wait in vain, for as long as it lasts.
+        entries: that arrive later; None is a timeout.
+        now_s: advances by the duration of each timeout.
+
     """
 
     def __init__(self, before: PhoneUpdate | None, entries: list[PhoneUpdate | None]) -> None:

@@ -8,7 +8,8 @@ class ImageServer(ThreadingHTTPServer):
     """Answers with this handler until it is ended.
 
     Attributes:
-        ended: set when it ends; a handler that sends without end looks at it.
+        ended: set at the end; an endless handler checks it.
+
     """
 
     daemon_threads = True

@@ -1,6 +1,7 @@
-"""A network camera in software that speaks RTSP: JPEG in RTP (RFC 2435), over the same connection (RFC 2326).
+"""A simulated RTSP network camera: JPEG in RTP (RFC 2435), interleaved in the connection (RFC 2326).
 
-It sends what a test hands it, at once: images with any RTP time, and sender reports with any NTP time.
+It sends at once what a test provides: images with any RTP time, and sender reports with any NTP time.
+
 """
 
 import socketserver
@@ -28,11 +29,12 @@ DQT, SOS = 0xDB, 0xDA
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RtpImage:
-    """One image: its grey, its size (multiples of 8), and the sender's time of it.
+    """One image: grey level, size (multiples of 8), and sender's time.
 
     Attributes:
         time_s: of the RTP timestamp.
-        wall_s: a sender report before it says that this is the wall-clock time; None sends no report.
+        wall_s: wall-clock time of a sender report before it; None sends no report.
+
     """
 
     grey: int
@@ -45,11 +47,12 @@ class RtspServer(socketserver.ThreadingTCPServer):
     """Answers on 127.0.0.1 until it is ended.
 
     Attributes:
-        images: that each client gets once it plays.
-        hangs_up: close the connection after them; else it stays open, and silent.
-        period_s: from one to the next; 0 sends them at once.
+        images: sent to each client after PLAY.
+        hangs_up: close the connection afterwards; otherwise it stays open and silent.
+        period_s: interval of the images; 0 sends them at once.
         has_sound: offers sound beside the video.
-        methods: that were asked for, in their order.
+        methods: requested so far, in order.
+
     """
 
     daemon_threads = True
@@ -105,7 +108,7 @@ class _Client(socketserver.StreamRequestHandler):
         return lines
 
     def _answer(self, lines: list[str], server: RtspServer) -> bool:
-        """Whether it was the request to play."""
+        """Whether the request was PLAY."""
         method = lines[0].split()[0]
         sequence = next(line for line in lines if line.lower().startswith("cseq:"))
         server.methods.append(method)
@@ -148,13 +151,13 @@ def sender_report(image: RtpImage) -> bytes:
 
 
 def rtp_packets(image: RtpImage, number: int) -> list[bytes]:
-    """The packets of one image, counted from this number on."""
+    """The packets of one image, starting with this number."""
     width, height = image.size_wh_px
     tables, scan = jpeg_parts(np.asarray(grey_image(image.grey, image.size_wh_px)))
     packets: list[bytes] = []
     offset = 0
     while offset < len(scan):
-        # Type 1 is 4:2:0; quality 255 brings its own tables, in the first packet.
+        # # Type 1 is 4:2:0; quality 255 has its own tables, in the first packet.
         payload = struct.pack(">I", offset) + bytes((1, 255, width // 8, height // 8))
         if offset == 0:
             payload += struct.pack(">BBH", 0, 0, len(tables)) + tables

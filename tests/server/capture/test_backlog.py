@@ -6,7 +6,7 @@ from server.capture.backlog import Backlog
 
 
 def judged(*intervals_s: float) -> str:
-    """For an image at 0 and one after each of these intervals: L for live, o for old."""
+    """Results for an image at 0 and one after each of these intervals: L for live, o for old."""
     backlog, at_s = Backlog(), 0.0
     said = ["o" if backlog.is_old(at_s) else "L"]
     for interval_s in intervals_s:

@@ -16,7 +16,7 @@ from server.live import CameraMode, ImageClock, Problem, SourceState
 pylon = pytest.importorskip(
     "pypylon.pylon", reason="needs pypylon, which the development lock has for Linux", exc_type=ImportError
 )
-# While pylon waits for an image it has a timer of its own send SIGALRM, which must not end the test.
+# # While waiting for an image, pylon uses a timer that sends SIGALRM, which must not end the test.
 pytestmark = pytest.mark.timeout(300, method="thread")
 DEADLINE_S = 30.0
 SERIAL = "0815-0000"
@@ -24,7 +24,7 @@ WANTED = WantedMode(size_wh_px=(320, 240), rate_hz=100.0)
 
 
 class SpyCameras(BaslerCameras):
-    """Hands the test the camera that the source has opened."""
+    """Gives the test the camera that the source has opened."""
 
     def open(self, serial: str) -> BaslerCamera:
         self.newest = super().open(serial)
@@ -111,7 +111,7 @@ def test_the_newest_image_comes_and_never_a_backlog(emulated: Callable[..., Emul
     assert third.captured_at_s > second.captured_at_s
 
 
-def test_a_camera_that_waits_for_its_trigger_says_so_until_the_pulse_comes(
+def test_a_camera_that_waits_for_its_trigger_reports_it_until_the_pulse(
     emulated: Callable[..., Emulated], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     one = emulated("software")
@@ -132,7 +132,7 @@ def test_a_camera_that_waits_for_its_trigger_says_so_until_the_pulse_comes(
     assert "waits for a pulse on Software" in problem.message
 
     def is_running_after_a_pulse() -> bool:
-        # The camera drops a pulse that comes before it is ready.
+        # # The camera drops a pulse that arrives before it is ready.
         one.cameras.newest.execute("TriggerSoftware")
         return one.capture.status().state is SourceState.RUNNING
 

@@ -1,4 +1,4 @@
-"""harvesters, with its own producer, and with a fake of the used API."""
+"""harvesters with a real producer, and with a fake of the used API."""
 
 import sys
 import threading
@@ -44,7 +44,7 @@ class FakeBuffer:
         nodes = acquirer.remote_device.node_map
         width, height = nodes.Width.value, nodes.Height.value
         self._acquirer = acquirer
-        # The producer's own memory: filled again once the buffer is given back.
+        # # The producer's own memory, refilled after the buffer is returned.
         self.pixels = np.full(width * height, number, dtype=np.uint8)
         component = SimpleNamespace(
             width=width, height=height, num_components_per_pixel=1.0, data=self.pixels, data_format="Mono8"
@@ -83,7 +83,7 @@ class FakeAcquirer:
 
 @pytest.fixture
 def fake_library(monkeypatch: pytest.MonkeyPatch) -> FakeAcquirer:
-    """Stands in the place of harvesters, whether it is installed or not."""
+    """Replaces harvesters, whether it is installed or not."""
     acquirer = FakeAcquirer()
 
     class FakeHarvester:
@@ -140,7 +140,7 @@ def test_of_the_images_that_wait_the_newest_is_taken_and_all_buffers_are_given_b
     shot = source.read()
     assert shot is not None
     assert shot.number == 4
-    # A copy, not the memory that the producer fills again.
+    # # A copy, not the memory that the producer refills.
     assert np.unique(shot.image).tolist() == [5]
     assert fake_library.given_back == 5
     assert source.camera.clock is ImageClock.DEVICE
@@ -154,7 +154,9 @@ def test_a_camera_that_is_not_there_is_reported_and_the_library_let_go(fake_libr
     assert fake_library.ended == ["reset"]
 
 
-def test_producers_are_found_where_the_variable_says(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_producers_are_found_in_the_folders_of_the_variable(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     (tmp_path / "vendor.cti").touch()
     (tmp_path / "readme.txt").touch()
     monkeypatch.setenv(PATH_VARIABLE, f"{tmp_path / 'gone'}:{tmp_path}")
@@ -163,7 +165,7 @@ def test_producers_are_found_where_the_variable_says(monkeypatch: pytest.MonkeyP
 
 @pytest.fixture
 def viky(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The producer that comes with GenICam's package; neither is in the locks, by its licence."""
+    """The producer in GenICam's package; neither is in the locks, because of its licence."""
     genicam = pytest.importorskip("genicam", reason="needs coaxial[genicam], which is in no lock")
     pytest.importorskip("harvesters.core", reason="needs coaxial[genicam], which is in no lock")
     monkeypatch.setenv(PATH_VARIABLE, str(Path(genicam.__file__).parent))
@@ -184,7 +186,7 @@ def test_the_library_itself_gives_images_as_they_were_requested() -> None:
     mode = CameraMode(fourcc="RGBa8", size_wh_px=(320, 240), rate_hz=50.0)
     assert source.camera.requested == source.camera.granted == mode
     assert [shot.image.shape for shot in shots if shot is not None] == [(240, 320, 3)] * 3
-    # Opened again, as after a loss.
+    # # Reopened, as after a loss.
     source.open()
     assert source.read() is not None
     source.close()

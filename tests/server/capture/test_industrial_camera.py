@@ -67,7 +67,7 @@ def read(source: IndustrialCameraSource, camera: FakeIndustrialCamera) -> Shot:
 
 
 def code_of(source: IndustrialCameraSource) -> str:
-    """Of the error that opening or reading ends with."""
+    """Code of the error with which opening or reading ends."""
     with pytest.raises(CaptureError) as caught:
         opened(source).read()
     assert caught.value.remedy
@@ -128,7 +128,7 @@ def test_by_its_own_clock_images_are_stamped_without_the_jitter_of_the_way(
     for latency_s in (0.02, 0.03, 0.05, 0.02, 0.04):
         camera.latency_s = latency_s
         shot = read(source, camera)
-        # The least delay stays in it, because nothing tells it.
+        # # The smallest delay remains, since nothing reveals it.
         assert shot.captured_at_s == pytest.approx(camera.now_s - latency_s + 0.02)
     assert source.camera.clock is ImageClock.DEVICE
 
@@ -140,7 +140,7 @@ def test_where_its_clock_can_be_read_no_delay_stays(camera: FakeIndustrialCamera
         shot = read(source, camera)
     assert shot.captured_at_s == pytest.approx(camera.now_s - 0.02, abs=1e-6)
     assert source.camera.clock is ImageClock.DEVICE
-    # Somebody sets it to zero, as GenICam's TimestampReset does.
+    # # Reset to zero, as by GenICam's TimestampReset.
     camera.device_zero_s = -camera.now_s
     read(source, camera)
     shot = read(source, camera)
@@ -154,7 +154,7 @@ def test_a_camera_without_a_clock_is_stamped_at_the_arrival(camera: FakeIndustri
     assert source.camera.clock is ImageClock.ARRIVAL
 
 
-def test_a_clock_that_stands_still_is_given_up_with_a_sentence(camera: FakeIndustrialCamera) -> None:
+def test_a_stopped_clock_is_abandoned_with_a_message(camera: FakeIndustrialCamera) -> None:
     source = opened(source_of(camera))
     with capture_logs() as logs:
         for _ in range(GIVEN_UP_AFTER + 2):
@@ -207,7 +207,7 @@ def test_without_a_pulse_a_triggered_camera_is_waited_for_and_a_free_one_opened_
     assert not camera.arriving
 
 
-def test_one_that_waits_for_a_pulse_ends_when_it_is_told_to(camera: FakeIndustrialCamera) -> None:
+def test_one_that_waits_for_a_pulse_ends_on_request(camera: FakeIndustrialCamera) -> None:
     stop = threading.Event()
     source = opened(source_of(camera, trigger="line1", stop=stop))
     stop.set()
@@ -230,7 +230,7 @@ def test_exposure_gain_and_white_balance_are_locked_once_they_have_settled(
     assert controls[CameraControl.EXPOSURE] == 12_000
     assert source.camera.exposure_ms == pytest.approx(12.0)
     assert controls[CameraControl.GAIN] == 325
-    # What somebody changes later is seen.
+    # # Later changes by a user are detected.
     camera.features["Gain"] = 6.0
     camera.now_s += 2.0
     read(source, camera)
@@ -262,7 +262,7 @@ def test_binning_and_the_place_of_the_cut_out_are_what_they_were_at_the_calibrat
     source = opened(source_of(camera, calibration=calibration))
     assert {name: source.camera.controls[name] for name in controls} == controls
     assert camera.calls.index("BinningHorizontal=2") < camera.calls.index("Width=800")
-    # A calibration that is taken up later opens it again with its own.
+    # # A calibration that is adopted later reopens the camera with its own mode.
     source.adopt(replace(calibration, controls={CameraControl.PAN: 160}))
     read(source, camera)
     assert source.camera.controls[CameraControl.PAN] == 160

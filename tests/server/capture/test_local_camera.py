@@ -105,7 +105,7 @@ def test_without_v4l2_what_the_settings_say_is_asked_and_opencv_tells_what_was_g
     assert wanted.defect is None
 
 
-def test_an_image_is_as_old_as_its_driver_says(video: FakeVideo) -> None:
+def test_an_image_has_the_age_stated_by_its_driver(video: FakeVideo) -> None:
     source = source_of(video)
     source.open()
     shot = read(source, video)
@@ -128,7 +128,7 @@ def test_a_driver_whose_clock_is_wrong_is_reported_once_and_not_believed_any_mor
     with capture_logs() as logs:
         for _ in range(40):
             assert read(source, video).captured_at_s == video.now_s
-        # Not even when it comes right, nor after the device was opened again.
+        # # Not even when it becomes plausible, nor after the device was reopened.
         video.stamp = lambda taken_s: taken_s
         source.open()
         for _ in range(40):
@@ -177,7 +177,7 @@ def test_a_calibration_that_is_adopted_sets_the_focus_and_the_size(video: FakeVi
     source.adopt(CalibratedCamera(size_wh_px=HD, controls={CameraControl.FOCUS: 50}))
     assert read(source, video).image.shape == (720, 1280, 3)
     assert source.camera.controls[CameraControl.FOCUS] == 50
-    # Adopted once more, nothing is set: what a person changed meanwhile stays.
+    # # When adopted again, nothing is set: a user's change remains.
     video.camera.controls[CameraControl.FOCUS] = 60
     source.adopt(CalibratedCamera(size_wh_px=HD, controls={CameraControl.FOCUS: 50}))
     read(source, video, after_s=1.1)

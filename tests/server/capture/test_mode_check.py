@@ -53,7 +53,7 @@ def code_of(checked: ModeCheck) -> str:
         ),
         (NOTHING, mode(30), mode(30, size_wh_px=HD), "CAMERA_MODE_NOT_GRANTED", ["1920x1080", "1280x720"]),
         (NOTHING, mode(30), mode(15), "CAMERA_MODE_NOT_GRANTED", ["30 Hz", "15 Hz"]),
-        # What is offered is not known: elsewhere than on Linux.
+        # # Offered modes are known on Linux only.
         (
             WantedMode(size_wh_px=FULL_HD),
             None,
@@ -104,7 +104,7 @@ def test_nothing_is_measured_while_the_camera_settles() -> None:
         assert checked.problem is None
 
 
-def test_a_rate_that_comes_back_ends_it_and_one_that_wavers_is_not_reported_anew() -> None:
+def test_a_restored_rate_ends_it_and_a_wavering_one_is_not_reported_again() -> None:
     checked = check(mode(30), mode(30))
     at_s = film(checked, 15.0)
     reported = checked.problem

@@ -37,7 +37,7 @@ def test_the_settings_name_it_phone() -> None:
     assert (source.name, source.stalls, source.waits_for_consumer) == ("phone", True, False)
 
 
-def test_without_a_server_there_is_nobody_to_send_to() -> None:
+def test_without_a_server_no_phone_can_send() -> None:
     with pytest.raises(CaptureError) as reported:
         source_from_config(Config(camera=CameraConfig(source="phone")), stop=threading.Event())
     assert reported.value.code == "PHONE_WITHOUT_SERVER"
@@ -64,12 +64,12 @@ def test_images_that_were_replaced_before_they_were_read_are_counted() -> None:
 def test_an_image_from_before_the_source_was_opened_is_not_read() -> None:
     source = opened(Script(sent(3, 1.0), [sent(5, 2.0)]))
     shot = source.read()
-    # One in between was skipped; the one that lay there is none that this source gave.
+    # # One in between was skipped; an image from before is not delivered by this source.
     assert shot is not None
     assert (shot.captured_at_s, shot.number) == (2.0, 1)
 
 
-def test_a_source_that_nobody_sends_to_says_how_to_begin() -> None:
+def test_a_source_without_a_sender_states_how_to_begin() -> None:
     for script in (Script(None, []), Script(GONE, []), Script(None, [GONE])):
         with pytest.raises(CaptureError) as reported:
             opened(script)
@@ -101,7 +101,7 @@ def test_a_phone_that_gives_no_image_is_reported(entries: list[PhoneUpdate | Non
     assert reported.value.remedy
 
 
-def test_the_phone_is_told_silent_before_a_camera_with_a_cable_would_be() -> None:
+def test_a_phone_counts_as_silent_earlier_than_a_wired_camera() -> None:
     script = Script(HERE, [])
     source = opened(script)
     with pytest.raises(CaptureError):
@@ -129,10 +129,10 @@ def test_a_focus_that_may_move_is_reported(focus: Focus, code: str | None) -> No
     assert source.defect is None
     source.read()
     assert (None if source.defect is None else source.defect.code) == code
-    # What is not known cannot be compared with a calibration, and is not made up.
+    # # Unknown values cannot be compared with a calibration, and are not invented.
     known = {Focus.LOCKED: 0, Focus.AUTOMATIC: 1, Focus.UNKNOWN: None}[focus]
     assert source.camera.controls.get(CameraControl.AUTOFOCUS) == known
-    # It is gone, and with it what was known of it.
+    # # It disconnected, and its values with it.
     source.close()
     assert (source.defect, source.camera.controls) == (None, {})
 

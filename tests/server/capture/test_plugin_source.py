@@ -1,4 +1,4 @@
-"""An image source of another package: nothing that it gives counts as live before it is checked."""
+"""An image source of another package: nothing counts as live before it is validated."""
 
 import threading
 import time
@@ -20,7 +20,7 @@ IMAGE = np.arange(2 * 3 * 3, dtype=np.uint8).reshape(2, 3, 3)
 
 
 class Camera:
-    """What an entry point may make: gives what was put into `given`, or raises it."""
+    """Product of an entry point: returns what is in `given`, or raises it."""
 
     def __init__(self, address: str) -> None:
         if address == "unplugged":
@@ -42,7 +42,7 @@ class Camera:
 
 @pytest.fixture
 def opened(monkeypatch: pytest.MonkeyPatch) -> Open:
-    """A source as the settings make it, and the cameras that the plug-in has opened."""
+    """A source made from settings, and the cameras that the plug-in has opened."""
 
     def make(address: str = "") -> tuple[PluginSource, list[Camera]]:
         cameras: list[Camera] = []
@@ -134,7 +134,7 @@ def test_a_camera_that_fails_is_closed_and_opened_again(
     assert source.read().number == 7
 
 
-def test_a_camera_that_cannot_be_opened_says_why(
+def test_a_camera_that_cannot_be_opened_gives_the_reason(
     opened: Open,
 ) -> None:
     with pytest.raises(CaptureError, match="OSError: no such device"):

@@ -1,4 +1,4 @@
-"""A recording as a source: every image once, at its own time, also of a file that was cut."""
+"""A recording as a source: every image once, at its own time, also from a truncated file."""
 
 import threading
 from pathlib import Path

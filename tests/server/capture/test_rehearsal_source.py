@@ -54,7 +54,7 @@ def test_a_silent_theatre_leaves_out_the_images_of_that_time() -> None:
 
 
 class Clock(threading.Event):
-    """Time that passes while somebody waits or renders."""
+    """Time that passes while waiting or rendering."""
 
     now_s = 100.0
 
@@ -96,7 +96,7 @@ def test_the_theatres_images_are_rendered_before_they_are_due(
         shots.append(shot)
         late_s.append(clock.now_s - shot.captured_at_s)
         clock.now_s += 1e-4
-    # The age of an image counts from the instant that it shows, however long it was rendered.
+    # # The age of an image counts from the instant that it shows, whatever its rendering time.
     assert [shot.captured_at_s - began_s for shot in shots] == pytest.approx(
         [shot.number / 25 for shot in shots]
     )
@@ -106,7 +106,7 @@ def test_the_theatres_images_are_rendered_before_they_are_due(
     assert [shot.number for shot in shots] == numbers
 
 
-def test_a_theatre_whose_camera_stops_says_so_and_its_clock_goes_on() -> None:
+def test_a_theatre_whose_camera_stops_reports_it_and_its_clock_continues() -> None:
     clock = Clock()
     source = RehearsalSource(
         Numbered(),

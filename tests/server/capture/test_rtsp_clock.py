@@ -39,12 +39,12 @@ def serve() -> Iterator[Callable[..., RtspServer]]:
 
 
 def images(count: int, time_of: Callable[[float], float] = lambda taken_s: taken_s) -> list[RtpImage]:
-    """Taken every 33 ms; what the sender says of the time is a function of the truth."""
+    """Taken every 33 ms; the sender's time is a function of the true time."""
     return [RtpImage(grey=40 + n % 200, time_s=time_of(5000.0 + n * PERIOD_S)) for n in range(count + AHEAD)]
 
 
 def source_of(server: RtspServer, delays_s: Sequence[float]) -> StreamSource:
-    """Its images, after the first, which the decoder takes, arrive with these delays by the test's clock."""
+    """Images after the first, which the decoder consumes, arrive with these delays on the test's clock."""
     arrivals_s = (1000.0 + (n + 1) * PERIOD_S + delay_s for n, delay_s in enumerate(delays_s))
     return StreamSource(
         source_from_text(server.address), stop=threading.Event(), clock=lambda: next(arrivals_s)
@@ -59,7 +59,7 @@ def read(source: StreamSource, count: int) -> list[Shot]:
 
 
 def time_errors_s(shots: Sequence[Shot]) -> list[float]:
-    """By how much each image looks younger than it is."""
+    """How much younger than true each image appears."""
     return [shot.captured_at_s - 1000.0 - (shot.number + 1) * PERIOD_S for shot in shots]
 
 
@@ -86,7 +86,7 @@ def test_an_image_that_was_held_back_for_a_moment_is_as_old_as_it_is(
     serve: Callable[..., RtspServer],
 ) -> None:
     delays_s = [MIN_S] * 60
-    # Less than a pause is: by their rhythm alone these would be live.
+    # # Shorter than a pause: by rhythm alone these would be live.
     stall_s = (PAUSE_PERIODS - 1.5) * PERIOD_S
     delays_s[30:33] = [MIN_S + stall_s] * 3
     shots = read(source_of(serve(images(60)), delays_s), 50)
@@ -94,9 +94,9 @@ def test_an_image_that_was_held_back_for_a_moment_is_as_old_as_it_is(
     assert time_errors_s(shots) == pytest.approx([MIN_S] * len(shots), abs=2e-4)
 
 
-# FFmpeg takes a step back by more than a minute for a counter that began anew, and steps forward.
+# # FFmpeg treats a step back of more than a minute as a counter reset, and steps forward.
 @pytest.mark.parametrize("jump_s", [3600.0, -3600.0, -50.0])
-def test_a_clock_that_jumps_is_reported_once_and_taken_up_anew(
+def test_a_clock_that_jumps_is_reported_once_and_synchronised_again(
     serve: Callable[..., RtspServer], jump_s: float
 ) -> None:
     server = serve(images(60, lambda taken_s: taken_s + (jump_s if taken_s > 5001.0 else 0.0)))
@@ -122,7 +122,7 @@ def test_a_clock_that_does_not_keep_time_is_given_up_and_no_image_looked_younger
     assert source.camera.clock is ImageClock.ARRIVAL
     errors_s = time_errors_s(shots)
     assert max(errors_s) <= MIN_S + 1e-4
-    # What runs slow makes them look older, until that is more than can be.
+    # # A slow clock makes them appear older, until that is implausible.
     assert min(errors_s) > MIN_S - MAX_AGE_S - 0.2
     assert errors_s[-1] == pytest.approx(MIN_S, abs=1e-4)
 
@@ -143,7 +143,7 @@ def test_sound_beside_the_video_is_not_requested_and_sender_reports_move_nothing
 
 
 def test_of_the_senders_wall_clock_the_first_report_alone_is_known(serve: Callable[..., RtspServer]) -> None:
-    """Why it is not used: it is never corrected, and what it has to do with the clock here is not known."""
+    """Reason for not using it: it is never corrected, and its relation to this clock is unknown."""
     sent = [
         RtpImage(grey=40 + n, time_s=n * PERIOD_S, wall_s={0: 1.7e9, 5: 1.7e9 + 60.0}.get(n))
         for n in range(30)
@@ -175,7 +175,7 @@ def test_a_camera_that_stops_is_reported_and_taken_again_when_it_is_back(
     with capture_logs() as logs:
         _lose_and_find(capture)
     assert server.methods.count("PLAY") >= 2
-    # The clock of a new connection is another one.
+    # # A new connection has another clock.
     assert "STREAM_CLOCK_JUMPED" not in [line.get("code") for line in logs]
     stop.set()
     capture.close(5.0)
@@ -195,7 +195,7 @@ def _lose_and_find(capture: Capture) -> None:
         capture.take(1.0)
 
 
-def test_an_rtsp_address_where_nobody_listens_is_reported(serve: Callable[..., RtspServer]) -> None:
+def test_an_rtsp_address_without_a_server_is_reported(serve: Callable[..., RtspServer]) -> None:
     server = serve(images(1))
     server.end()
     with pytest.raises(CaptureError) as caught:

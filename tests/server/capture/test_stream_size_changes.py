@@ -1,4 +1,4 @@
-"""A network camera with wrong size, time and rate: no old image as live, no stretched image."""
+"""A network camera with wrong size, time and rate: no old image counts as live, and none is stretched."""
 
 import contextlib
 import itertools
@@ -23,13 +23,13 @@ from tests.server.capture.small_videos import grey_image
 
 VGA, QVGA, WIDE = (640, 480), (320, 240), (640, 360)
 PERIOD_S = 1 / 30
-# How many more are sent than a test reads: the decoder looks ahead.
+# # Images sent beyond those that a test reads: the decoder looks ahead.
 AHEAD = 12
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sent:
-    """One image as the server sends it: grey, size, how much of it, and what it says of its length."""
+    """One image as sent: grey level, size, sent share, and stated length."""
 
     grey: int
     size_wh_px: tuple[int, int] = VGA
@@ -45,7 +45,7 @@ class Sent:
 
 
 class LyingServer(ImageServer):
-    """Sends its images at once to whoever asks, and then nothing."""
+    """Sends its images at once to each client, and then nothing."""
 
     def __init__(self, images: Sequence[Sent]) -> None:
         self.parts = [image.part for image in images]
@@ -84,7 +84,7 @@ def serve() -> Iterator[Callable[[Sequence[Sent]], LyingServer]]:
 
 
 def source_of(server: LyingServer, intervals_s: Sequence[float], *, begin_s: float = 100.0) -> StreamSource:
-    """Its images arrive after these intervals by the test's clock, then every 33 ms."""
+    """Images arrive after these intervals on the test's clock, then every 33 ms."""
     times_s = itertools.accumulate(itertools.chain(intervals_s, itertools.repeat(PERIOD_S)), initial=begin_s)
     return StreamSource(
         source_from_text(f"http://127.0.0.1:{server.server_address[1]}/live.mjpg"),
@@ -101,7 +101,7 @@ def read(source: StreamSource, images: int) -> list[Shot]:
 
 
 def code_after(source: StreamSource, images: int) -> str:
-    """Of the error that ends the stream within so many images; empty when none does."""
+    """Code of the error that ends the stream within this many images; empty if none does."""
     try:
         for _ in range(images):
             source.read()
@@ -132,7 +132,7 @@ def test_what_was_held_back_during_a_stall_is_not_shown(
     serve: Callable[[Sequence[Sent]], LyingServer],
 ) -> None:
     sent = [Sent(grey=40 + 2 * number) for number in range(60 + AHEAD)]
-    # Twenty in rhythm, a second of nothing, what was held back all at once, then the rhythm again.
+    # # Twenty in rhythm, a second of silence, the held-back images at once, then the rhythm again.
     intervals_s = [*[PERIOD_S] * 19, 1.0, *[0.001] * 15]
     shots = read(source_of(serve(sent), intervals_s), 30)
     assert [shot.number for shot in shots] == [*range(1, 20), *range(36, 47)]
@@ -185,7 +185,7 @@ def test_a_false_length_makes_no_false_image(
     source = source_of(serve(sent), [])
     source.open()
     shots: list[Shot] = []
-    # The decoder may lose its place: the stream then ends, and is opened again.
+    # # The decoder may lose synchronisation: the stream then ends and is reopened.
     with contextlib.suppress(CaptureError):
         shots += (shot for _ in range(12) if (shot := source.read()) is not None)
     source.close()
@@ -211,7 +211,7 @@ def test_a_stream_that_repeats_its_last_image_is_frozen(
     capture.close(5.0)
     assert problem.code == "SOURCE_FROZEN"
     assert status.state is SourceState.RECONNECTING
-    # A quarter of a second of it, until it is known to be the same.
+    # # A quarter of a second of it, until it is known to be unchanged.
     assert status.images <= 20 + 9
     assert status.camera is not None
     assert status.camera.clock is ImageClock.ARRIVAL

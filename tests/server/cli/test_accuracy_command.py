@@ -71,7 +71,7 @@ def test_a_focal_length_from_the_first_row_is_not_checked_by_it(tmp_path: Path) 
     assert document["focal_length_px"] == pytest.approx(1032.7, abs=0.1)
     assert len(document["rows"]) == 4
     assert document["rows"][0]["error_mm"] == pytest.approx(-0.54, abs=0.01)
-    # The paper's 0.5 mm does not hold for its own numbers so.
+    # # The paper's 0.5 mm does not hold for its own numbers in this way.
     assert (status, document["passed"]) == (1, False)
 
 
@@ -81,7 +81,7 @@ def test_v_and_h_alone_give_distance_and_angle() -> None:
     assert json.loads(text) == pytest.approx({"axial_distance_mm": 952.103, "angle_deg": 36.027}, abs=1e-3)
 
 
-def test_a_true_camera_passes_and_says_how_it_was_checked(tmp_path: Path, camera: Path) -> None:
+def test_a_true_camera_passes_and_states_how_it_was_checked(tmp_path: Path, camera: Path) -> None:
     status, text = typed("accuracy", grid_rows(tmp_path / "r.csv"), "--camera", camera)
     assert status == 0
     assert "Largest error 0.00 mm" in text
@@ -149,7 +149,7 @@ BOARD = ("--pattern", "dots", "--size", "16x14", "--pitch-mm", "8")
 
 
 def image_of_board(path: Path) -> Path:
-    """The dots of a board on the tilted plane, drawn with 16 samples a pixel's side, through the lens."""
+    """The dots of a board on a tilted plane, rendered through the lens with 16 samples per pixel side."""
     board = DotBoard(columns=16, rows=14, pitch_mm=8.0)
     around = np.stack([np.cos(np.arange(40) * np.pi / 20.0), np.sin(np.arange(40) * np.pi / 20.0)], axis=1)
     picture = np.full((720, 1280), 220, np.uint8)
@@ -170,7 +170,7 @@ def test_a_board_in_an_image_is_measured_at_its_points(tmp_path: Path, camera: P
     assert 0.0 < document["rms_error_mm"] < 0.03
     middle = TURN @ [50.0, 42.0, 0.0] + MOVE
     assert document["plane_distance_mm"] == pytest.approx(float(np.linalg.norm(middle)), abs=1.0)
-    # The unit of the board goes into all lengths alike: only a tape measure shows that it is wrong.
+    # # The board's unit scales all lengths alike: only a tape measure reveals a wrong one.
     doubled = (*BOARD[:-1], "16")
     assert json.loads(typed("accuracy", "--image", image, *doubled, "--camera", camera, "--json")[1])[
         "plane_distance_mm"

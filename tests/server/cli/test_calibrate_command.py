@@ -70,7 +70,7 @@ def test_the_report_is_readable_and_the_gate_fails_with_status_1(images: Path, t
     assert not output.exists()
 
 
-def test_without_an_output_it_says_that_no_camera_file_is_there(images: Path) -> None:
+def test_without_an_output_it_states_that_no_camera_file_was_written(images: Path) -> None:
     status, text = typed(*BOARD, images)
     assert status == 0, text
     assert "No camera file was written: name one with --output" in text
@@ -125,7 +125,7 @@ def test_bad_input_is_reported_and_nothing_is_written(images: Path, tmp_path: Pa
     assert not output.exists()
 
 
-def test_a_bad_file_is_reported_and_costs_nobody_else(images: Path, tmp_path: Path) -> None:
+def test_a_bad_file_is_reported_and_affects_no_other(images: Path, tmp_path: Path) -> None:
     folder = tmp_path / "images"
     shutil.copytree(images, folder)
     (folder / "a-text.png").write_text("no image")
@@ -134,7 +134,7 @@ def test_a_bad_file_is_reported_and_costs_nobody_else(images: Path, tmp_path: Pa
     cv2.imwrite(str(folder / "tiny.png"), np.zeros((3, 3), np.uint8))
     shutil.copy(folder / "view0.png", folder / "view0-again.png")
     whole, spoilt = (json.loads(typed(*BOARD, "--json", one)[1]) for one in (images, folder))
-    # Sums over threads end in another last digit.
+    # # Sums over threads differ in the last digit.
     np.testing.assert_allclose(spoilt["matrix"], whole["matrix"], rtol=1e-9)
     assert spoilt["passed"]
     reason_of = {view["image"]: view["reason"] for view in spoilt["views"] if not view["used"]}
@@ -148,7 +148,7 @@ def test_a_bad_file_is_reported_and_costs_nobody_else(images: Path, tmp_path: Pa
 
 
 def test_a_rig_is_written_with_its_baseline(images: Path, tmp_path: Path) -> None:
-    # Twice the same camera: the other one stands where the first one does.
+    # # The same camera twice: the second replaces the first.
     left, right = tmp_path / "left", tmp_path / "right"
     for folder in (left, right):
         folder.mkdir()

@@ -82,7 +82,7 @@ def test_the_settings_and_the_calibration_decide_which_mode_is_taken(
     assert len(requested["modes"]) == 13
 
 
-def test_a_machine_without_cameras_says_so_with_a_remedy(
+def test_a_machine_without_cameras_is_reported_with_a_remedy(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.setattr("sys.platform", "linux")
@@ -106,7 +106,7 @@ def test_elsewhere_than_on_linux_the_remedy_is_another(
 
 
 class BusyCamera(FakeIndustrialCamera):
-    """Another program has it."""
+    """Another program uses it."""
 
     def bounds(self, name: str) -> Bounds | None:
         raise OSError(f"{name} is controlled by another application")
@@ -138,7 +138,7 @@ def test_industrial_cameras_are_reported_with_what_they_offer(
     assert values["serial"] == "4711"
     assert values["width_px"] == {"min": 16.0, "max": 1936.0, "step": 8.0}
     assert values["rate_hz"] == {"min": 1.0, "max": 160.0, "step": 0.0}
-    # What is triggered has no rate of its own.
+    # # A triggered camera has no rate.
     assert values["chosen"] == {"fourcc": "BayerRG8", "width_px": 1000, "height_px": 800, "rate_hz": 0.0}
 
 

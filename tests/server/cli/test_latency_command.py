@@ -77,7 +77,7 @@ def test_each_camera_has_its_newest_result_and_few_are_remembered(file: LatencyF
     assert len(file.results()) == MAX_CAMERAS
 
 
-def test_without_a_result_it_says_how_to_measure_with_a_page(file: LatencyFile) -> None:
+def test_without_a_result_it_states_how_to_measure_with_a_page(file: LatencyFile) -> None:
     assert file.results() == ()
     status, text = typed("show")
     assert status == 1

@@ -38,7 +38,7 @@ def design(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def folder_with(picture: Path | None, folder: Path) -> Path:
-    """Two images of a desk; in the second one lies a print of the picture, if there is one."""
+    """Two images of a desk; the second one contains a print of the picture, if given."""
     folder.mkdir()
     service = np.full((240, 320), 200, np.uint8)
     cv2.circle(service, (60, 60), 25, 40, -1)
@@ -120,7 +120,7 @@ def test_a_background_that_shows_the_marker_fails_the_check(design: Path, tmp_pa
     )
     picture = cv2.imread(str(tmp_path / "marker-closest.png"))
     assert picture is not None
-    # Orange, around the print.
+    # # Orange, around the print.
     orange = np.argwhere((picture[..., 2] > 200) & (picture[..., 0] < 90))
     assert orange.mean(axis=0) == pytest.approx([125, 179], abs=15)
 

@@ -1,4 +1,4 @@
-"""The socket of OpenIGTLink at the start: bound before anything else, and its faults name its settings."""
+"""The OpenIGTLink socket at the start: bound before anything else; its errors name its settings."""
 
 import socket
 

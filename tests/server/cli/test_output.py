@@ -1,4 +1,4 @@
-"""A file is whole or is not there, and nothing that is no ordinary file is ever replaced."""
+"""An output file is complete or absent, and only regular files are replaced."""
 
 import io
 import os

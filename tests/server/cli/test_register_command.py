@@ -73,7 +73,9 @@ def test_names_bring_rows_into_order(tmp_path: Path) -> None:
         pytest.param(VERTEBRA * [1.0, 1.0, -1.0], "POINTS_", id="mirrored"),
     ],
 )
-def test_what_says_no_motion_ends_with_status_2(tmp_path: Path, points: np.ndarray, code: str) -> None:
+def test_data_that_determine_no_motion_end_with_status_2(
+    tmp_path: Path, points: np.ndarray, code: str
+) -> None:
     fixed = written(tmp_path / "f.csv", VERTEBRA[: len(points)] if "LINEAR" not in code else points)
     status, text = typed(
         "points", "--fixed", fixed, "--moving", written(tmp_path / "m.csv", points), "--json"

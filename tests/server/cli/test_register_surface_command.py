@@ -112,13 +112,13 @@ def test_a_start_that_is_none_is_reported(tmp_path: Path, mesh: Path, content: s
     assert (status, text.split(":")[0]) == (2, code)
 
 
-def test_without_a_start_it_says_what_to_give(tmp_path: Path, mesh: Path) -> None:
+def test_without_a_start_it_states_what_to_give(tmp_path: Path, mesh: Path) -> None:
     points = written(tmp_path / "p.csv", VERTEBRA)
     status, text = typed("surface", "--surface", mesh, "--points", points)
     assert (status, text.split(":")[0]) == (2, "REGISTRATION_START_MISSING")
 
 
-def test_a_sweep_that_says_too_little_ends_with_status_2(
+def test_a_sweep_that_determines_too_little_ends_with_status_2(
     tmp_path: Path, mesh: Path, truth: SweepTruth
 ) -> None:
     start = tmp_path / "start.json"

@@ -37,7 +37,7 @@ def run(*words: str) -> tuple[int, str]:
     return result.exit_code, result.output
 
 
-def test_it_says_what_is_in_a_recording(file: Path) -> None:
+def test_it_prints_the_contents_of_a_recording(file: Path) -> None:
     code, text = run(str(file))
     assert code == 0
     assert "recorded 2026-01-02T03:04:05Z from rehearsal" in text

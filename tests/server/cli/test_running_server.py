@@ -20,7 +20,7 @@ REPOSITORY = Path(__file__).parents[3]
 
 
 def ask(address: str, path: str, sent: object, **headers: str) -> tuple[Any, str]:
-    """Ask the running server as a page of it does; its answer, and the cookie that it gives."""
+    """Send a request as a page does; return the answer and its cookie."""
     said = {"Content-Type": "application/json", "Origin": address.rstrip("/"), **headers}
     requested = urllib.request.Request(address + path, data=json.dumps(sent).encode(), headers=said)  # noqa: S310
     with urllib.request.urlopen(requested, timeout=60) as answer:  # noqa: S310  our own address
@@ -28,7 +28,7 @@ def ask(address: str, path: str, sent: object, **headers: str) -> tuple[Any, str
 
 
 def create_case(address: str, link: str) -> str:
-    """Sign in by the link, and ask for a case; gives its id."""
+    """Sign in with the link and create a case; return its id."""
     entered, cookie = ask(address, "api/session", {"invitation": link.partition("#")[2]})
     assert (entered["name"], entered["role"], entered["token"]) == ("Operator", "operator", None)
     assert {"HttpOnly", "SameSite=Strict", "Path=/"} <= set(cookie.split("; "))
@@ -51,7 +51,7 @@ def test_it_prints_one_address_serves_it_and_stops_without_a_word(
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        # As in a terminal, where Ctrl+C reaches every process of the group; service managers do the same.
+        # # As in a terminal, where Ctrl+C reaches every process of the group; service managers do the same.
         start_new_session=True,
     ) as server:
         assert server.stdout is not None

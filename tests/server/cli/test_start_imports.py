@@ -1,10 +1,10 @@
-"""What a start of the server must not wait for."""
+"""Modules that a server start must not wait for."""
 
 import subprocess
 import sys
 
-# Each takes between a tenth and three quarters of a second, and only jobs, uploads, registration, a migration
-# or a viewer of the 3-D scene need it.
+# # Each takes 0.1 to 0.75 s, and is needed only by jobs, uploads, registration, a migration or a viewer of
+# # the 3-D scene.
 NOT_AT_START = {
     *("alembic", "mako", "networkx", "pydicom", "trimesh", "viser"),
     *(

@@ -21,7 +21,7 @@ HAND = HandMotion(seed=3)
 
 
 def tracked(path: Path, series: PoseSeries, name: str = "drill") -> Path:
-    """The lines of `coaxial track`, with an image at the end that does not show the marker."""
+    """Lines of `coaxial track`, with an image at the end without the marker."""
     assert series.rotations is not None
     rows = zip(
         series.times_s.tolist(), series.rotations.tolist(), series.translations_mm.tolist(), strict=True
@@ -137,7 +137,7 @@ def test_poses_without_times_are_bad_input(tmp_path: Path, second: Path) -> None
     lines = (json.loads(line) for line in tracked(untimed, CAMERA.record(HAND)).read_text().splitlines())
     untimed.write_text("\n".join(json.dumps({**line, "time_s": None}) for line in lines))
     result = CliRunner().invoke(app, ["time-offset", str(untimed), str(second)])
-    # Told by `main` in one sentence, with status 2.
+    # # Reported by `main` in one sentence, with status 2.
     assert isinstance(result.exception, InvalidInput)
     assert result.exception.code == "POSE_TIMES_MISSING"
     assert "untimed.jsonl, line 1" in result.exception.message

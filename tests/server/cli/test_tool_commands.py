@@ -63,7 +63,7 @@ def reported(*words: str | Path, folder: Path, status: int = 0) -> dict[str, Any
     return answer
 
 
-def test_pivot_says_the_tip_with_all_that_was_promised(tmp_path: Path, pivot_poses: Path) -> None:
+def test_pivot_prints_the_tip_with_all_documented_values(tmp_path: Path, pivot_poses: Path) -> None:
     answer = reported("pivot", pivot_poses, folder=tmp_path)
     assert set(answer) >= PIVOT_KEYS
     np.testing.assert_allclose(answer["tip_in_marker_mm"], TIP, atol=0.4)
@@ -212,7 +212,7 @@ def test_a_tip_without_axis_asks_for_one_and_takes_it_from_the_drawing(
     np.testing.assert_allclose(axis, [0, -1, 0], atol=1e-12)
 
 
-def test_spin_says_the_axis_towards_the_tip(tmp_path: Path, spin_poses: Path) -> None:
+def test_spin_prints_the_axis_towards_the_tip(tmp_path: Path, spin_poses: Path) -> None:
     answer = reported("spin", spin_poses, "--tip-mm", "12,-120,6", folder=tmp_path)
     np.testing.assert_allclose(answer["axis_in_marker"], AXIS, atol=0.02)
     assert answer["points_to_tip"] is True
@@ -256,7 +256,7 @@ def test_an_invalid_option_is_reported(
 
 
 def tracked(folder: Path, poses: Poses, *, side_mm: float) -> Path:
-    """The lines of `coaxial track` that say these poses."""
+    """Lines of `coaxial track` with these poses."""
     lines = (
         {
             "name": "drill",
@@ -286,7 +286,7 @@ def test_poses_that_were_tracked_with_another_side_make_no_tool(tmp_path: Path) 
     assert said.startswith("TOOL_SIDE_DIFFERS")
     assert "25 mm" in said
     assert "99 mm" in said
-    # Where nobody says it, it is the side that they were tracked with.
+    # # Without an option it is the side that they were tracked with.
     typed("pivot", lines, "--output", file, folder=tmp_path)
     assert yaml.safe_load(file.read_text())["side_mm"] == 25.0
     spin = tracked(tmp_path, spun(), side_mm=25.4)

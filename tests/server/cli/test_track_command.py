@@ -30,7 +30,7 @@ def marker(tmp_path: Path) -> Path:
 
 @pytest.fixture(autouse=True)
 def quiet(monkeypatch: pytest.MonkeyPatch) -> None:
-    """No log of the command: its stream ends with the command, the process and its other tests do not."""
+    """Disables the command's log: its stream ends with the command, but other tests continue."""
     monkeypatch.setattr("server.cli.track.configure_logging", lambda _settings: None)
 
 
@@ -43,7 +43,7 @@ def folder_of(path: Path, **sizes_wh_px: tuple[int, int]) -> Path:
 
 
 def tracked(folder: Path, marker: Path, *words: str | Path) -> tuple[int, str]:
-    """The exit status, and what stands on standard error."""
+    """Exit status and standard error."""
     typed = ("track", folder, "--marker", marker, "--side-mm", 40, *words)
     result = CliRunner().invoke(app, [str(word) for word in typed])
     if isinstance(result.exception, NavigationError):
@@ -91,7 +91,7 @@ def test_tracking_again_writes_over_the_lines_only_where_that_is_said(tmp_path: 
     assert json.loads(lines.read_text(encoding="utf-8"))["image_number"] == 0
 
 
-def test_help_says_what_stands_in_a_line() -> None:
+def test_help_describes_the_content_of_a_line() -> None:
     text = " ".join(CliRunner().invoke(app, ["track", "--help"], env={"COLUMNS": "80"}).output.split())
     for reason in UnseenReason:
         assert f"{reason.value}: " in text

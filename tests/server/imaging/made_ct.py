@@ -1,4 +1,4 @@
-"""Builders of CT files whose every voxel and place is known."""
+"""Builders of CT files with known voxels and positions."""
 
 import copy
 import io
@@ -31,7 +31,7 @@ SPACE = "1.2.826.0.1.3680043.8.498.2002"
 
 @dataclass(kw_only=True)
 class Made:
-    """A series of slices in memory, to be changed by a test and then written."""
+    """A series of slices in memory, which a test may change and then write."""
 
     stored: npt.NDArray[np.integer]
     slices: list[Dataset] = field(default_factory=list)
@@ -86,7 +86,7 @@ def made_ct(
 
 
 def file_of(slice_: Dataset, syntax: str = ExplicitVRLittleEndian, *, content: bytes = b"") -> bytes:
-    """The bytes of the file that holds this slice, with pixels that are compressed already if given."""
+    """The bytes of this slice's file, with precompressed pixels if given."""
     one = copy.deepcopy(slice_)
     one.file_meta = FileMetaDataset()
     one.file_meta.MediaStorageSOPClassUID = one.get("SOPClassUID", CTImageStorage)
@@ -130,7 +130,7 @@ def compressed(slice_: Dataset, syntax: str) -> bytes:
     change.SetTransferSyntax(gdcm.TransferSyntax(gdcm.TransferSyntax.GetTSType(str(syntax))))
     change.SetInput(image)
     assert change.Change()
-    # Each of these belongs to the one before, which must outlive it.
+    # # Each refers to the previous one, which must outlive it.
     output = change.GetOutput()
     encoded = output.GetDataElement()
     fragments = encoded.GetSequenceOfFragments()
@@ -181,7 +181,7 @@ def nifti_of(
     *,
     change: Callable[[nib.Nifti1Header], object] = lambda _: None,
 ) -> bytes:
-    """The bytes of a NIfTI file; `change` may spoil its header."""
+    """The bytes of a NIfTI file; `change` may corrupt its header."""
     image = nib.Nifti1Image(hu_ijk, affine)
     image.header.set_xyzt_units("mm")
     change(image.header)

@@ -1,4 +1,4 @@
-"""Builders of CT files in which one thing is wrong."""
+"""Builders of CT files with one defect each."""
 
 import zipfile
 from collections.abc import Callable
@@ -17,7 +17,7 @@ HU = np.random.default_rng(5).integers(-1000, 2000, (6, 7, 8)).astype(np.int16)
 def spoilt(
     spoil: Callable[[Made], object], *, syntax: str = uid.ExplicitVRLittleEndian, count: int = 6
 ) -> Case:
-    """A folder of slices in which something was changed."""
+    """A folder of slices with one change."""
 
     def make(folder: Path) -> Path:
         made = made_ct(count=count)
@@ -132,7 +132,7 @@ def zipped(*names: str, content: bytes = b"x" * 400) -> Case:
 
 
 def zip_changed(at: int, value: bytes) -> Case:
-    """A zip whose list of files says something else at a place in each of its entries."""
+    """A zip whose directory has a changed value at one place of each entry."""
 
     def make(folder: Path) -> Path:
         path = zipped("IM1", "IM2", "IM3", content=file_of(made_ct(count=1).slices[0]))(folder)

@@ -24,7 +24,7 @@ LOSSLESS = [
 
 
 def assert_whole(made: Made, path: Path) -> None:
-    """Every voxel and every slice's place as they were made."""
+    """Every voxel and every slice's position are as created."""
     ct = read_ct(path)
     assert np.array_equal(ct.volume.hu, made.hu)
     for k, one in enumerate(made.slices):

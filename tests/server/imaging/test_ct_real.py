@@ -1,4 +1,4 @@
-"""Scanners' own files are read to the voxel and the micrometre."""
+"""Files of real scanners are read to the voxel and the micrometre."""
 
 import nibabel as nib
 import numpy as np
@@ -8,7 +8,7 @@ from server.imaging.ct_reader import list_series, read_ct
 from tests.real_data import real_data_file
 
 
-def test_every_voxel_of_a_scanners_slices_is_where_its_file_says() -> None:
+def test_every_voxel_of_a_scanners_slices_is_at_its_stated_position() -> None:
     folder = real_data_file("ct", "thoracic-dicom")
     ct = read_ct(folder)
     slices = sorted(
@@ -30,7 +30,7 @@ def test_a_scanners_series_is_described() -> None:
     assert "JPEG 2000" in series.compression
 
 
-def test_every_voxel_of_a_nifti_is_where_nibabel_says() -> None:
+def test_every_voxel_of_a_nifti_is_where_nibabel_places_it() -> None:
     path = real_data_file("ct", "lumbar-3mm", "ct.nii.gz")
     ct = read_ct(path)
     image = nib.Nifti1Image.from_filename(path)

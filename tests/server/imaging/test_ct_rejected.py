@@ -1,4 +1,4 @@
-"""Every CT that is rejected, and by which code: the whole table."""
+"""Every rejected CT with its error code: the whole table."""
 
 import struct
 from pathlib import Path
@@ -154,7 +154,7 @@ def test_a_ct_that_cannot_be_trusted_is_rejected(code: str, make: Case, tmp_path
         read_ct(make(given), into=into / "voxels.npy")
     error = caught.value
     assert error.code == code
-    # Nothing half stored, nobody named, and something to do.
+    # # Nothing is stored, nobody is named, and there is a remedy.
     assert list(into.iterdir()) == []
     reported = f"{error} {error.context}".casefold()
     for secret in (

@@ -1,4 +1,4 @@
-"""Meshes of every kind that programs write come in whole; what is no mesh is rejected in one sentence."""
+"""Meshes of all common formats are read completely; anything else is rejected with one sentence."""
 
 from pathlib import Path
 
@@ -11,7 +11,7 @@ from tests.real_data import real_data_file
 from tracker.errors import InvalidInput, NavigationError, PlanError
 from tracker.plan import Surface
 
-# A block of 60 x 50 x 30 mm, its corners counted in binary: x 1, y 2, z 4.
+# # A block of 60 x 50 x 30 mm with binary corner numbers: x 1, y 2, z 4.
 CORNERS = np.array([[x, y, z] for z in (0.0, 30.0) for y in (-50.0, 0.0) for x in (100.0, 160.0)])
 QUADS = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
 FACES = np.array([f for a, b, c, d in QUADS for f in ((a, b, c), (a, c, d))])
@@ -188,7 +188,7 @@ def test_no_message_names_the_file_which_may_name_the_patient(tmp_path: Path) ->
         assert "Doe" not in f"{reported.value} {reported.value.context}"
 
 
-def test_what_a_file_says_of_its_space_is_heeded() -> None:
+def test_the_coordinate_space_stated_by_a_file_is_applied() -> None:
     ras = mesh_from_bytes(binary_stl(header=b"3D Slicer output. SPACE=RAS"), file_format="stl")
     lps = mesh_from_bytes(binary_stl(header=b"3D Slicer output. SPACE=LPS"), file_format="stl")
     assert lps.surface.vertices_mm.min(axis=0) == pytest.approx([100.0, -50.0, 0.0])

@@ -1,4 +1,4 @@
-"""Work for jobs to do."""
+"""Job functions for tests."""
 
 import errno
 import math

@@ -1,4 +1,4 @@
-"""Long work in processes of its own: progress, result, failure, cancelling, a violent end."""
+"""Jobs in their own processes: progress, result, failure, cancelling, killed processes."""
 
 import os
 import shutil
@@ -31,7 +31,7 @@ def folder(tmp_path: Path) -> Path:
 
 
 def until_running(jobs: Jobs, job: Job, folder: Path) -> None:
-    """Waits for the work's first file; its beginning cannot be waited for in another way."""
+    """Wait for the job's first file, which shows that it has started."""
     waiting = threading.Event()
     while not (folder / "half").exists() or not jobs.get(job.id).doing:
         assert not waiting.wait(0.01)

@@ -1,4 +1,4 @@
-"""A measurement in made time: codes, a camera, a server and a page whose every delay is known."""
+"""A measurement in simulated time: codes, a camera, a server and a page with known delays."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -94,16 +94,16 @@ class Run:
         )
 
     def server_s(self, page_ms: float) -> float:
-        """The server's clock at a moment of the page's."""
+        """The server's clock at a page time."""
         return (page_ms * (1.0 + self.drift_ratio) + self.ahead_ms) / 1000.0
 
     @property
     def after_capture_ms(self) -> float:
-        """All but the screen and the camera."""
+        """Everything except the screen and the camera."""
         return self.tracking_ms + self.server_ms + self.line_ms + self.page_ms
 
     def first_shown_ms(self, places: Sequence[int]) -> list[float]:
-        """The latency of each of these codes, worked out from the light alone."""
+        """Latency of each of these codes, computed from the light alone."""
         exposed_ms = [one.shown_at_ms - self.after_capture_ms - self.camera_ms for one in self.shown]
         return [
             next(at for at in exposed_ms if at >= self.painted[place].painted_at_ms)

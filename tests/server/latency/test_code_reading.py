@@ -1,4 +1,4 @@
-"""Codes are read from images of a screen as the page draws it from the patterns."""
+"""Codes are read from images of a screen, as the page draws it from the patterns."""
 
 import cv2
 import numpy as np
@@ -11,7 +11,7 @@ SCREEN_WH_PX = (1280, 720)
 
 
 def drawn(code: int, cell_px: int = CELL_PX) -> np.ndarray:
-    """The code as a page draws it from its pattern, white around it."""
+    """The code as drawn by a page, with a white margin."""
     cells = np.array([int(one) for one in code_patterns()[code]]).reshape(CELLS, CELLS) * 255
     marker = np.pad(cells, 1).astype(np.uint8)
     return np.pad(np.kron(marker, np.ones((cell_px, cell_px), np.uint8)), cell_px, constant_values=255)
@@ -26,7 +26,7 @@ def screen(*placed: tuple[np.ndarray, int, int], size_wh_px: tuple[int, int] = S
 
 
 def filmed(picture: np.ndarray, *, light: float = 1.0, blur_px: float = 1.5, seed: int = 0) -> np.ndarray:
-    """A camera's image of a screen that it looks at aslant, with the dark room around it."""
+    """A camera's oblique image of a screen in a dark room."""
     height, width = picture.shape
     ends = np.array([[0, 0], [width, 0], [width, height], [0, height]], np.float32)
     seen = np.array([[0.2, 0.15], [0.85, 0.22], [0.8, 0.85], [0.15, 0.8]], np.float32) * [width, height]

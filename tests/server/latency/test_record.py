@@ -1,4 +1,4 @@
-"""What a stored latency states of the lag of a moving tip."""
+"""The lag of a moving tip that a stored latency states."""
 
 from server.latency import LatencyReport, LatencyResult, Screen
 from tracker.navigation import MeasuredLatency

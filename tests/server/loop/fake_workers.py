@@ -67,7 +67,7 @@ def send_images(
 
 
 def _ended(link: WorkerLink) -> bool:
-    """Whether the server has let go; waits a moment."""
+    """Whether the server has ended the connection; waits a moment."""
     return link.orders.poll(0.005)
 
 
@@ -76,7 +76,7 @@ def steady_worker(order: WorkerOrder, link: WorkerLink) -> None:
 
 
 def echoing_worker(order: WorkerOrder, link: WorkerLink) -> None:
-    """Reports images with the camera of the case: of its order first, then of what it is sent."""
+    """Reports images with the camera of the case: first from its order, then from later messages."""
     case = order.case
     number = order.first_number
     while True:
@@ -91,7 +91,7 @@ def echoing_worker(order: WorkerOrder, link: WorkerLink) -> None:
 
 
 def silent_worker(order: WorkerOrder, link: WorkerLink) -> None:
-    """Reports three images, then hangs, deaf to everything but SIGKILL."""
+    """Reports three images, then hangs and reacts to SIGKILL only."""
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     send_images(link, order.first_number, count=3)
     while True:
@@ -104,7 +104,7 @@ def failing_worker(order: WorkerOrder, link: WorkerLink) -> None:
 
 
 class Seen(LiveHub):
-    """A hub that keeps every instant, in order."""
+    """A hub that stores every instant, in order."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -115,7 +115,7 @@ class Seen(LiveHub):
         super().publish(instant)
 
     def until(self, true: Callable[[Instant], bool], *, after: int = 0) -> Instant:
-        """The first instant of which this is true, from the one with index `after` on."""
+        """The first instant for which this is true, from index `after` on."""
         deadline_s = time.monotonic() + DEADLINE_S
         index = after
         while time.monotonic() < deadline_s:

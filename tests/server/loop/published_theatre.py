@@ -1,4 +1,4 @@
-"""A rehearsed theatre through the whole path from camera to viewers; the test sets the clock."""
+"""A rehearsed theatre with the whole path from camera to viewers; the test sets the clock."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ from tracker.rehearsal import Renderer
 BEGIN_S = 14.0
 RATE_HZ = 30.0
 WIDTH, HEIGHT = 960, 540
-# On the shaft, behind the tip: nothing else is drawn there.
+# # On the shaft behind the tip, where nothing else is drawn.
 SHAFT_MM = np.linspace(25.0, 85.0, 61)
 DRAWN_BY = 40
 SOURCE = SourceStatus(name="rehearsal", state=SourceState.RUNNING)
@@ -38,13 +38,14 @@ GONE = SourceStatus(name="rehearsal", state=SourceState.RECONNECTING)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PublishedImage:
-    """What everybody was shown at one instant.
+    """All outputs of one instant.
 
     Attributes:
-        at_s: when it was published.
+        at_s: time of publication.
         message: the JSON.
         is_drawn: whether the drill's line is in the picture.
         is_on_stage: whether the drill is in the 3-D scene.
+
     """
 
     at_s: float
@@ -54,7 +55,7 @@ class PublishedImage:
 
     @property
     def is_in_message(self) -> bool:
-        """Whether the JSON says where the drill is, or how far it is from the channel."""
+        """Whether the JSON contains the drill's position or its distance to the channel."""
         snapshot = self.message.snapshot
         return snapshot is not None and any(
             "absent" not in {tool.pose.kind, tool.deviation.kind, tool.judgement.kind, tool.assessment.kind}
@@ -63,7 +64,7 @@ class PublishedImage:
 
     @property
     def is_hinted_at(self) -> bool:
-        """Whether anything at all is said of where the drill is."""
+        """Whether the JSON contains anything about the drill's position."""
         snapshot = self.message.snapshot
         reported = snapshot is not None and any(
             {tool.pose.kind, tool.deviation.kind, tool.judgement.kind, tool.assessment.kind} != {"absent"}
@@ -73,7 +74,7 @@ class PublishedImage:
 
     @property
     def reason(self) -> AbsentReason | None:
-        """Why there is no number, if there is none."""
+        """The reason for missing numbers, if they are missing."""
         snapshot = self.message.snapshot
         deviation = None if snapshot is None else snapshot.tools[0].deviation
         return deviation.reason if isinstance(deviation, AbsentMessage) else None
@@ -85,11 +86,12 @@ class PublishedImage:
 
 
 class ShownTheatre:
-    """The rehearsal with these events, tracked, watched, drawn, published.
+    """The rehearsal with these events, through tracking, alarms, overlay and publication.
 
     Attributes:
-        now_s: the time, which each image takes on by a thirtieth of a second.
-        renderer: what the next theatre may take that stands still from.
+        now_s: the time, which each image advances by a thirtieth of a second.
+        renderer: the static background, which the next theatre may reuse.
+
     """
 
     def __init__(
@@ -135,12 +137,12 @@ class ShownTheatre:
         patch.setattr("server.loop.publisher.time.monotonic", lambda: self.now_s)
 
     def close(self) -> None:
-        """Free the memory that processes share."""
+        """Free the shared memory."""
         self._ring.close()
         self._door.stop()
 
     def image(self) -> PublishedImage:
-        """One more image, a thirtieth of a second after the last."""
+        """Publish one more image, a thirtieth of a second after the last."""
         self._raw = self.renderer.image_at(self.now_s)
         shot = Shot(image=self._raw, number=self._number, captured_at_s=self.now_s, source_time_s=self.now_s)
         snapshot = self._tracking.process(shot, skipped_images=0, clock=lambda: self.now_s)
@@ -149,7 +151,7 @@ class ShownTheatre:
         return self._published()
 
     def no_image(self, source: SourceStatus | None = None) -> PublishedImage:
-        """As much time passes without an image; the source says so, or says nothing."""
+        """Let this time pass without an image; the source reports its loss, or nothing."""
         if source is not None:
             self._ring.write(self._packer.pack(Report(source=source, tracked_images=self._number)), None)
         return self._published()

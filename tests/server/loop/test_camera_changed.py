@@ -1,4 +1,4 @@
-"""A camera whose lens moved: no measurements, a reason, and a named alarm."""
+"""A camera whose lens was adjusted: no measurements, a reason, and a specific alarm."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -92,7 +92,7 @@ def test_a_lens_that_moved_takes_the_numbers_and_alarms_by_its_name_until_it_is_
         pytest.param(CALIBRATED, {**CALIBRATED, GAIN: 90}, id="brightness alone"),
     ],
 )
-def test_what_is_not_known_or_voids_nothing_alarms_nobody(
+def test_unknown_or_harmless_changes_raise_no_alarm(
     calibrated: Mapping[CameraControl, int], now: Mapping[CameraControl, int]
 ) -> None:
     theatre = Theatre(calibrated)
@@ -118,7 +118,7 @@ def test_the_calibration_of_a_case_brings_its_own_controls() -> None:
     assert from_settings.with_case(CaseSetup()).camera_controls == CALIBRATED
     of_case = CaseSetup(camera=preparation.camera, camera_controls={FOCUS: 45})
     assert from_settings.with_case(of_case).camera_controls == {FOCUS: 45}
-    # A calibration of the case without controls is not held against those of the settings' one.
+    # # A calibration of the case without controls is not compared with the controls of the settings' one.
     assert from_settings.with_case(CaseSetup(camera=preparation.camera)).camera_controls == {}
     calibrated = from_settings.with_case(of_case).calibrated_camera
     assert calibrated is not None
@@ -143,7 +143,7 @@ def test_another_camera_than_the_calibrated_one_gives_no_millimetres_until_it_is
     preparation, image = prepared()
     tracking = Tracking(replace(preparation, camera_device="Webcam A"))
     reported = []
-    # The status of a camera that is just being opened names none.
+    # # The status of a camera that is being opened has no controls.
     for number, device in enumerate(("Webcam A", "", "Webcam B", "", "Webcam A")):
         at_s = 1.0 + number * PERIOD_S
         shot = Shot(image=image, number=number, captured_at_s=at_s, source_time_s=at_s)

@@ -13,7 +13,7 @@ from tracker.warm_up import Part
 
 @pytest.fixture
 def loop(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> SimpleNamespace:
-    """The only loop there is: not compiled yet."""
+    """The only loop: not compiled yet."""
     source = tmp_path / "kernels.py"
     source.touch()
     function = SimpleNamespace(

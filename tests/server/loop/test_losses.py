@@ -1,4 +1,4 @@
-"""A loss disappears from picture, JSON and 3-D with its image, and raises the right alarm."""
+"""After a loss the drill disappears from picture, JSON and 3-D with that image, and an alarm is raised."""
 
 import asyncio
 from collections.abc import Iterator
@@ -15,24 +15,25 @@ from tracker.rehearsal import Renderer
 
 AT_S = BEGIN_S + 0.5
 LONGEST_S = 1.6
-# The fixed scene is looked at now and then, and twice before it is believed that the camera moved.
+# # The fixed scene is checked periodically, and twice before the camera counts as moved.
 SCENE_S = 3.0 * SCENE_PERIOD_S
-# A marker that is suddenly elsewhere is unseen in that image, and found in the next.
+# # A marker that jumps is unseen in that image, and found in the next.
 SEARCH_S = 0.04
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Loss:
-    """Something that goes wrong, what takes its place, and when.
+    """A loss with its expected consequences and times.
 
     Attributes:
         event: of the rehearsal.
-        size_mm: how far what moves moves.
-        reason: why there are no numbers then.
-        alarm: that comes.
-        gone_after_s: how long after the event the axis may still be shown; with 0 the very image lacks it.
-        alarm_after_s: how long after that the alarm may come.
+        size_mm: size of the movement.
+        reason: for missing numbers.
+        alarm: that is raised.
+        gone_after_s: how long after the event the axis may still be shown; with 0 that very image lacks it.
+        alarm_after_s: how long after that the alarm may be raised.
         reference: whether the patient has a marker.
+
     """
 
     event: str
@@ -71,7 +72,7 @@ LOSSES = {
 
 
 class Theatres:
-    """Makes theatres that share what stands still."""
+    """Makes theatres that share their static background."""
 
     def __init__(self, patch: pytest.MonkeyPatch) -> None:
         self._patch = patch
@@ -97,7 +98,7 @@ def theatres(monkeypatch: pytest.MonkeyPatch) -> Iterator[Theatres]:
 
 
 def in_order(theatre: ShownTheatre) -> None:
-    """Up to the event the drill is drawn, told and on the stage, and nothing is wrong."""
+    """Before the event the drill is in picture, JSON and scene, without alarms."""
     while theatre.now_s < AT_S - 1e-9:
         shown = theatre.image()
         assert (shown.is_drawn, shown.is_in_message, shown.is_on_stage) == (True, True, True)
@@ -114,7 +115,7 @@ def test_what_is_lost_is_gone_everywhere_with_its_image(theatres: Theatres, name
         shown = theatre.image()
         assert loss.gone_after_s > 0.0 or not shown.is_in_message
         while loss.reason is not shown.reason:
-            # All of it or nothing, in every image.
+            # # All outputs or none, in every image.
             assert shown.is_in_message == shown.is_hinted_at == shown.is_drawn == shown.is_on_stage
             assert shown.at_s < AT_S + loss.gone_after_s + SEARCH_S, "it is shown still"
             shown = theatre.image()
@@ -150,7 +151,7 @@ def test_a_camera_that_stalls_is_announced_and_leaves_no_picture(theatres: Theat
         while "CAMERA_STALLED" not in shown.alarms:
             assert shown.at_s - last_s < LONGEST_S
             shown = theatre.no_image()
-        # The age of a picture is judged by whoever shows it; from the alarm on there is none.
+        # # Each display judges the age of a picture; after the alarm there is none.
         assert shown.at_s - last_s == pytest.approx(0.5, abs=0.1)
         assert not shown.is_hinted_at
         assert shown.message.snapshot is None

@@ -1,4 +1,4 @@
-"""Alarms are published with the image that raised them, and without an image when none comes."""
+"""Alarms are published with the image that raised them, or without one if no image arrives."""
 
 import random
 from collections.abc import Callable
@@ -22,7 +22,7 @@ RINGS = AlarmSnapshot(alarms=(BREACH,), sound=Sound.HIGH, sound_number=1, revisi
 
 
 class Looks:
-    """Says what the test wants, and remembers what it was shown."""
+    """Evaluates as ordered by the test, and records what it received."""
 
     def __init__(self) -> None:
         self.says = AlarmSnapshot()
@@ -107,7 +107,7 @@ def test_alarms_that_fail_are_reported_and_the_picture_goes_on() -> None:
 
 
 def moments(rate_hz: float, deep_from_s: float, rng: random.Random) -> list[tuple[float, float, bool]]:
-    """When images are ready, when they were grabbed, and whether they show it: one in ten is lost."""
+    """Ready and capture times of images, and whether they show the condition; one in ten is lost."""
     made, ready_s, at_s = [], 0.0, rng.random() / rate_hz
     while at_s < deep_from_s + 1.0:
         if rng.random() > 0.1:
@@ -121,9 +121,10 @@ def moments(rate_hz: float, deep_from_s: float, rng: random.Random) -> list[tupl
 def test_too_deep_is_announced_within_a_quarter_of_a_second_of_its_image(
     rate_hz: float, monkeypatch: pytest.MonkeyPatch, snapshot_of: Callable[..., NavigationSnapshot]
 ) -> None:
-    """From the grab of the first image that shows it to the instant that carries the sound.
+    """Delay from the capture of the first image with the condition to the instant that carries the sound.
 
-    Tracking takes 20 to 80 ms, and one image in ten is lost, on a clock of the test's own.
+    Tracking takes 20 to 80 ms, and one image in ten is lost, on the test's own clock.
+
     """
     rng, late_s, now = random.Random(5), [], [0.0]
     monkeypatch.setattr("server.loop.publisher.time.monotonic", lambda: now[0])

@@ -1,4 +1,4 @@
-"""The ring between the processes: newest wins, and never torn."""
+"""The ring between the processes: newest wins, and no image is torn."""
 
 import multiprocessing
 import os
@@ -104,7 +104,7 @@ def test_an_image_too_large_is_rejected_with_both_sizes(ring: ImageRing) -> None
 
 
 def write_many(ring: ImageRing, done: Connection) -> None:
-    """In a child: one level an image, written so fast that the reader is always behind."""
+    """Runs in a child: writes one grey level per image, so fast that the reader is always behind."""
     number = 0
     while not done.poll():
         number += 1

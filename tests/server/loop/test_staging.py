@@ -60,7 +60,7 @@ def test_a_new_process_goes_on_with_the_scene_or_begins_it() -> None:
     assert reported.played_scene(70) == PlayedScene(scene_number=2, first_number=31)
 
 
-def test_the_next_process_is_told_where_the_scene_began() -> None:
+def test_the_next_process_receives_the_start_of_the_scene() -> None:
     status = SharedStatus("rehearsal")
     order = WorkerOrder(config=Config(), log=LogSettings(as_json=True))
     supervisor = Supervisor(order=order, status=status, target=steady_worker)

@@ -1,4 +1,4 @@
-"""The tracking process is killed, hangs, fails forever; and nothing of it is left behind."""
+"""The tracking process is killed, hangs, or fails repeatedly; nothing of it remains."""
 
 import os
 import signal
@@ -27,7 +27,7 @@ class Stage:
         self, target: Target, watchdog: WatchdogSettings, compiled: Callable[[], Progress] = lambda: COMPILED
     ) -> None:
         self.hub = Seen()
-        # Stands still unless a test moves it: how long a process takes to start is not asked.
+        # # Stopped unless a test advances it: start times of processes are not tested.
         self.now_s = 0.0
         status = SharedStatus("made")
         order = WorkerOrder(config=Config(), log=LogSettings(as_json=True))
@@ -107,7 +107,7 @@ def test_a_killed_process_is_reported_at_once_and_replaced(
     assert number(again) > number(before)
     sequences = [instant.sequence for instant in stage.hub.instants]
     assert sequences == list(range(len(sequences)))
-    # Between the death and the first new image, no picture at all.
+    # # From its death to the first new image there is no picture.
     between = stage.hub.instants[dead.sequence : again.sequence]
     assert all(instant.snapshot is None for instant in between)
 

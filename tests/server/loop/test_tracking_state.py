@@ -1,4 +1,4 @@
-"""The state of tracking between two images: every attribute has its place, and nothing is shared."""
+"""The state of tracking between two images: every attribute is assigned, and nothing is shared."""
 
 import numpy as np
 import pytest

@@ -182,7 +182,7 @@ def parent_of(pid: int) -> int:
 
 
 def wait_until_ended(pid: int) -> None:
-    """Returns when the process has ended, whether or not somebody has collected it."""
+    """Return when the process has ended, reaped or not."""
     try:
         handle = os.pidfd_open(pid)
     except ProcessLookupError:

@@ -60,7 +60,7 @@ class Counting:
 
 
 class Failing(Tracker):
-    """Raises what it is given for the image with this grey level."""
+    """Raises the given error for the image with this grey level."""
 
     def __init__(self, level: int, error: Exception) -> None:
         super().__init__(camera=made_setup().camera, models=[])
@@ -82,7 +82,7 @@ class Failing(Tracker):
 
 
 class Prepared(Preparation):
-    """A preparation with a tracker of the test's making."""
+    """A preparation with a tracker provided by the test."""
 
     def __init__(self, tracker: Tracker) -> None:
         setup = made_setup()
@@ -106,7 +106,7 @@ class Prepared(Preparation):
 
 
 class SpyRing(ImageRing):
-    """A ring that remembers all that was written."""
+    """A ring that records everything that was written."""
 
     def __init__(self) -> None:
         super().__init__(image_bytes=20_000)

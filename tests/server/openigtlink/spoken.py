@@ -1,4 +1,4 @@
-"""Messages of OpenIGTLink taken apart, and contents of instants for a feed."""
+"""Parses OpenIGTLink messages, and builds contents of instants for a feed."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -21,11 +21,11 @@ _READ: dict[str, Callable[[bytes], object]] = {
 
 
 def said(messages: Sequence[Message]) -> Said:
-    """What each message says, by type and device; of a status its name."""
+    """Content of each message by type and device; of a status its name."""
     return {(one.type, one.device): _READ.get(one.type, bytes)(one.content) for one in messages}
 
 
 def contents(snapshot: NavigationSnapshot | None, **more: Any) -> InstantContents:  # noqa: ANN401  fields
-    """The contents of an instant with this snapshot, and with other fields of it."""
+    """Contents of an instant with this snapshot and other fields."""
     instant = replace(make_instant(0, snapshot=snapshot), **more)
     return contents_of(instant, OpenIgtLinkConfig(), language="en")

@@ -1,4 +1,4 @@
-"""The messages of one instant: their frames, and what is not known."""
+"""The messages of one instant: coordinate frames, and unknown values."""
 
 from dataclasses import replace
 
@@ -65,7 +65,7 @@ def test_ras_turns_the_vertebra_and_leaves_the_camera() -> None:
     )
     lps, ras = (devices(replace(snapshot, setup=setup), coordinates=one) for one in ("LPS", "RAS"))
     assert lps["drillToCamera"] == ras["drillToCamera"]
-    # Each column, an axis or the tip, has x and y with the other sign.
+    # # Each column, an axis or the tip, has x and y with the opposite sign.
     expected = matrix_of(lps["drillToVertebra"]) * np.array([[-1.0], [-1.0], [1.0], [1.0]])
     assert matrix_of(ras["drillToVertebra"]) == pytest.approx(expected)
     assert np.linalg.det(matrix_of(ras["drillToVertebra"])) == pytest.approx(1.0, abs=1e-5)
@@ -162,7 +162,7 @@ def two_tools(snapshot: NavigationSnapshot, second: str) -> NavigationSnapshot:
         pytest.param({"camera_frame": "A", "vertebra_frame": "A"}, set(), id="one-name-for-both-frames"),
     ],
 )
-def test_no_name_stands_for_two_things(settings: dict[str, object], sent: set[str]) -> None:
+def test_names_are_unique(settings: dict[str, object], sent: set[str]) -> None:
     found = devices(two_tools(make_snapshot(judged=True), "awl"), **settings)
     assert {name.removesuffix("Tip") for name, one in found.items() if name.endswith("Tip")} == sent
     assert reason_of(found["Coaxial"]) == ("OK" if sent else "NAME_UNUSABLE")

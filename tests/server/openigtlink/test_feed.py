@@ -1,4 +1,4 @@
-"""What a client gets, and when it is told that what it has is too old: by the limits of the page."""
+"""What a client receives, and when it is informed that its data is stale, by the page's limits."""
 
 from math import inf
 
@@ -67,7 +67,7 @@ def test_a_reason_lasts_as_long_as_its_picture(after_s: float, reason: str) -> N
     assert {messages["STATUS", device] for _, device in LIVE} == {reason}
 
 
-def test_when_no_image_comes_any_more_the_client_is_told_at_the_limit_and_once() -> None:
+def test_when_images_stop_the_client_is_informed_once_at_the_limit() -> None:
     one = feed()
     assert one.expires_at_s == inf
     sent(one)
@@ -79,7 +79,7 @@ def test_when_no_image_comes_any_more_the_client_is_told_at_the_limit_and_once()
     assert said(expired(one, 101.0)) == {("STATUS", "Coaxial"): "TOO_OLD"}
     assert one.expires_at_s == inf
     assert expired(one, 200.0) == []
-    # And the next image brings all back.
+    # # The next image restores everything.
     assert set(said(sent(one, captured_at_s=200.0))) == LIVE | {("STRING", "Headline"), ("STATUS", "Coaxial")}
 
 

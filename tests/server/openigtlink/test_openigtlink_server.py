@@ -1,4 +1,4 @@
-"""The server of OpenIGTLink with real sockets: who gets what, and who delays nobody."""
+"""The OpenIGTLink server with real sockets: delivery, and independence of clients."""
 
 import asyncio
 import socket
@@ -25,7 +25,7 @@ HEADLINE = ("STRING", "Headline")
 
 
 class World:
-    """A server, its hub, a clock that stands, and clients."""
+    """A server, its hub, a stopped clock, and clients."""
 
     def __init__(self, **settings: object) -> None:
         self.now_s = AT_S
@@ -86,7 +86,7 @@ async def message_from(reader: asyncio.StreamReader) -> Message:
 
 
 async def until(reader: asyncio.StreamReader, last: tuple[str, str]) -> Said:
-    """What comes up to this message."""
+    """All messages up to this one."""
     found: Said = {}
     while last not in found:
         found |= said([await message_from(reader)])
@@ -113,12 +113,12 @@ def test_each_client_gets_the_newest_instant_at_once_and_each_new_one(version: i
     played(scene, header_version=version)
 
 
-def test_when_images_stop_the_client_is_told_without_another_instant() -> None:
+def test_when_images_stop_the_client_is_informed_without_another_instant() -> None:
     async def scene(world: World) -> None:
         world.publish(3)
         reader = await world.client()
         await until(reader, HEADLINE)
-        # Past the time at which the rate allows the next image: now the server waits for one alone.
+        # # The rate allows the next image from here on: the server waits only for an image.
         world.now_s += 0.05
         while not world.hub._waiting:
             await asyncio.sleep(0)
@@ -145,7 +145,7 @@ def test_between_two_images_of_a_slow_rate_no_pose_stays_valid_and_the_newest_fo
     played(scene, max_rate_hz=1.0)
 
 
-def test_a_client_that_reads_nothing_delays_nobody_and_is_disconnected(
+def test_a_client_that_reads_nothing_delays_no_other_and_is_disconnected(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(link_server, "SEND_TIMEOUT_S", 0.05)
@@ -167,7 +167,7 @@ def test_a_client_that_reads_nothing_delays_nobody_and_is_disconnected(
     played(scene, max_rate_hz=240.0)
 
 
-def test_one_client_too_many_is_told_and_the_others_stay() -> None:
+def test_a_client_above_the_limit_is_rejected_and_the_others_stay() -> None:
     async def scene(world: World) -> None:
         world.publish(3)
         reader = await world.client()
@@ -177,7 +177,7 @@ def test_one_client_too_many_is_told_and_the_others_stay() -> None:
         assert await rejected.read() == b""
         world.publish(4)
         await until(reader, HEADLINE)
-        # A place that becomes free is given to the next.
+        # # A released place is given to the next client.
         world.writers[0].transport.abort()
         while world.server._clients:
             await asyncio.wait(world.server._clients)
@@ -198,7 +198,7 @@ def test_one_client_too_many_is_told_and_the_others_stay() -> None:
         ),
     ],
 )
-def test_a_client_that_speaks_otherwise_is_told_and_closed(sent: bytes, name: str) -> None:
+def test_a_client_with_another_protocol_is_rejected_and_closed(sent: bytes, name: str) -> None:
     async def scene(world: World) -> None:
         reader = await world.client()
         world.writers[0].write(sent)
@@ -212,7 +212,7 @@ def test_a_client_that_speaks_otherwise_is_told_and_closed(sent: bytes, name: st
     played(scene)
 
 
-def test_requests_are_answered_and_a_damaged_one_is_told() -> None:
+def test_requests_are_answered_and_a_damaged_one_is_reported() -> None:
     async def scene(world: World) -> None:
         reader = await world.client()
         ask = wire.pack(Message(type="GET_STATUS", device="mine", timestamp_s=0.0), version=2)
@@ -225,7 +225,7 @@ def test_requests_are_answered_and_a_damaged_one_is_told() -> None:
 
 def test_pyigtl_is_served_by_the_whole_application() -> None:
     hub, listener = LiveHub(), listening()
-    # To a busy machine no image of this test is old.
+    # # No image of this test is too old, however busy the machine.
     config = Config.model_validate({"limits": {"pose_stale_after_ms": 10_000.0}})
     with served(create_app(AppParts(hub=hub, config=config, openigtlink=listener))):
         client = pyigtl.OpenIGTLinkClient("127.0.0.1", listener.getsockname()[1])

@@ -1,4 +1,4 @@
-"""What a client sends: in any pieces, in any order, damaged, too long and too often."""
+"""Client messages: in any pieces and order, damaged, too long, and too frequent."""
 
 import pytest
 
@@ -28,7 +28,7 @@ def test_messages_come_out_whole_however_they_are_cut() -> None:
         assert types(found) == ["GET_STATUS", "STRING", "STT_TDATA"], size
 
 
-def test_a_damaged_body_is_told_and_the_next_message_is_read() -> None:
+def test_a_damaged_body_is_reported_and_the_next_message_is_read() -> None:
     damaged = bytearray(request("STRING", wire.string_content("hi")))
     damaged[-1] ^= 1
     reader = RequestReader()

@@ -1,4 +1,4 @@
-"""The drill is judged in all that is drawn here."""
+"""Fixtures: the drill is assessed in all drawn images."""
 
 from collections.abc import Callable
 from functools import partial

@@ -1,4 +1,4 @@
-"""The highest alarm, burned into the picture."""
+"""The highest alarm is drawn into the picture."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The card for no video says its words, and keeps them inside the picture."""
+"""The card for missing video shows its text inside the picture."""
 
 import numpy as np
 import pytest

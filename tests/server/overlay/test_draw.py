@@ -1,4 +1,4 @@
-"""What is burned in stands where it is in truth, and what is absent is not drawn."""
+"""Overlays are drawn at their true positions, and absent values are not drawn."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -20,7 +20,7 @@ from tracker.pose import Seen
 SnapshotOf = Callable[..., NavigationSnapshot]
 Picture = npt.NDArray[np.uint8]
 GOLDEN = Path(__file__).parent / "golden"
-# Where the panel is in a picture of 640x360: with its numbers, and with its words.
+# # The panel's area in a picture of 640x360, with numbers and with text.
 PANELS_PX = (np.s_[20:, :132], np.s_[285:, :310])
 
 
@@ -29,7 +29,7 @@ def grey(size_wh_px: tuple[int, int] = (640, 360)) -> Picture:
 
 
 def inked(picture: Picture, colour: tuple[int, int, int]) -> npt.NDArray[np.bool_]:
-    """Where this ink is in the picture, beside the panel (its words are orange too)."""
+    """Pixels of this colour outside the panel, whose text is orange too."""
     near = np.abs(picture.astype(np.int16) - np.array(colour)).max(axis=2) < 60
     for panel in PANELS_PX:
         near[panel] = False
@@ -37,7 +37,7 @@ def inked(picture: Picture, colour: tuple[int, int, int]) -> npt.NDArray[np.bool
 
 
 def inked_near(ink: npt.NDArray[np.bool_], px: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
-    """For each pixel (n, 2): is there ink within 1.5 px of it?"""
+    """For each pixel (n, 2): is this colour within 1.5 px of it?"""
     grown = cv2.dilate(ink.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
     at = np.round(px).astype(int)
     return np.asarray(grown[at[:, 1], at[:, 0]], dtype=np.bool_)
@@ -109,7 +109,7 @@ def test_geometry_alone_has_the_lines_of_the_whole_and_no_panel(snapshot_of: Sna
     geometry = draw_overlay(grey(), snapshot_of(), content=OverlayContent.GEOMETRY)
     for colour in (DRILL_ORANGE, PLAN_BLUE):
         assert inked(geometry, colour).any()
-    # Without tool and channel only the marker has lines: the panel with its reason is all that differs.
+    # # Without tool and channel only the marker has lines; only the panel with its reason differs.
     bare = snapshot_of(with_tool=False, planned=False, seen=False)
     assert np.array_equal(draw_overlay(grey(), bare, content=OverlayContent.GEOMETRY), grey())
     assert not np.array_equal(draw_overlay(grey(), bare), grey())
@@ -163,7 +163,7 @@ def test_an_image_of_another_size_is_rejected(snapshot_of: SnapshotOf) -> None:
 def test_the_picture_looks_as_it_was_approved(
     snapshot_of: SnapshotOf, name: str, theatre: dict[str, bool]
 ) -> None:
-    """Approved by eye; to approve another look, delete the picture, run this, look at it and commit it."""
+    """Approved by eye; to approve a change, delete the picture, run this, review and commit it."""
     drawn = draw_overlay(grey(), snapshot_of(image_number=1234, **theatre))
     path = GOLDEN / f"{name}.png"
     if not path.exists():
@@ -172,7 +172,7 @@ def test_the_picture_looks_as_it_was_approved(
     approved = cv2.imread(str(path))
     assert approved is not None
     off = np.abs(approved.astype(np.int16) - drawn).max(axis=2)
-    # Another build of OpenCV may set single pixels of an edge otherwise, never a line or a digit.
+    # # Another build of OpenCV may differ in single edge pixels, never in a line or a digit.
     assert (off > 60).mean() < 0.0005
 
 

@@ -1,4 +1,4 @@
-"""The panel says numbers when they are known, and the reason when they are not; never both."""
+"""The panel shows numbers if they are known, otherwise the reason; never both."""
 
 from collections.abc import Callable
 

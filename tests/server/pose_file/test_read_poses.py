@@ -1,4 +1,4 @@
-"""Poses from files: every form gives the same poses, and every mistake is told with its place."""
+"""Poses from files: every format gives the same poses, and every mistake is reported with its place."""
 
 import json
 from collections.abc import Callable
@@ -31,7 +31,7 @@ def quaternion(rotation: np.ndarray) -> list[float]:
 
 
 def folder_of_text(folder: Path) -> Path:
-    # Out of order by the alphabet: as a person counts, 10 comes after 2.
+    # # Not in alphabetical order: numerically, 10 comes after 2.
     for number, matrix in enumerate(MATRICES):
         (folder / f"pose{number}.txt").write_text(rows(matrix))
     (folder / "LICENSE").write_text("words\n")

@@ -1,4 +1,4 @@
-"""A printed board is found by OpenCV in the drawn page, each point at its true place in millimetres."""
+"""OpenCV finds a printed board in the rendered page, each point at its true place in millimetres."""
 
 import re
 from xml.etree import ElementTree
@@ -28,12 +28,12 @@ Grey = npt.NDArray[np.uint8]
 
 
 def fixed(values: Points) -> npt.NDArray[np.int32]:
-    # OpenCV's pixel (0, 0) is the middle of the first pixel, the page's (0, 0) its corner.
+    # # OpenCV's pixel (0, 0) is the centre of the first pixel, the page's (0, 0) its corner.
     return np.asarray(np.rint((values * PX_PER_MM - 0.5) * 2**SUBPIXEL_BITS), dtype=np.int32)
 
 
 def drawn(svg: str) -> Grey:
-    """The SVG's polygons and circles as a picture; its lines and words are left out."""
+    """The SVG's polygons and circles as a picture, without lines and text."""
     root = ElementTree.fromstring(svg.encode())  # noqa: S314  our own file
     width, height = (float(root.attrib[key].removesuffix("mm")) for key in ("width", "height"))
     assert root.attrib["viewBox"] == f"0 0 {width:g} {height:g}"
@@ -59,7 +59,7 @@ def in_mm(px: MatLike) -> Points:
 
 
 def assert_at_true_size(found_px: MatLike, board: Board, ids: list[int] | None = None) -> None:
-    """Distances between all points are the board's, neither turned nor mirrored."""
+    """Distances between all points equal the board's; the board is neither rotated nor mirrored."""
     wanted = board.object_points_mm[:, :2] if ids is None else board.object_points_mm[ids, :2]
     found = in_mm(found_px)
     assert found - found[0] == pytest.approx(wanted - wanted[0], abs=0.05)
@@ -95,7 +95,7 @@ def test_dots_are_found_at_their_places(board: DotBoard, flag: int) -> None:
 
 
 def in_page_order(centres: MatLike, board: DotBoard) -> MatLike:
-    """Row by row: OpenCV may begin at another corner of a grid that looks the same from there."""
+    """Row by row: OpenCV may begin at another corner of a symmetric grid."""
     points = centres.reshape(-1, 2)
     row = np.rint((points[:, 1] - points[:, 1].min()) / (board.pitch_mm * PX_PER_MM))
     return np.asarray(points[np.lexsort((points[:, 0], row))])
@@ -115,7 +115,7 @@ def test_a_checkerboard_is_found_at_its_places() -> None:
     board = CheckerBoard(columns=9, rows=6, square_mm=25.0)
     found, corners = cv2.findChessboardCornersSB(page_of(board), (9, 6))
     assert found
-    # OpenCV begins at a white outer square, which is the last one here.
+    # # OpenCV begins at a white outer square, which is the last one here.
     assert_at_true_size(corners[::-1], board)
 
 
@@ -151,7 +151,7 @@ def test_a_charuco_board_is_opencv_s_own_picture_of_it(layout: CharucoLayout) ->
     mine = cv2.resize(
         page[first_row : first_row + height, first_column : first_column + width], own.shape[::-1]
     )
-    # Apart from a seam of a pixel along edges.
+    # # Except for a margin of a pixel along edges.
     assert np.mean(cv2.erode(cv2.absdiff(mine, own), np.ones((3, 3), np.uint8)) > 100) < 1e-4
 
 
@@ -221,6 +221,6 @@ def test_dots_that_touch_or_have_no_width_are_rejected(dot_mm: float, fiducials:
     assert reported.value.code == "BOARD_DOTS_UNPRINTABLE"
 
 
-def test_a_paper_that_nobody_has_is_rejected() -> None:
+def test_an_unknown_paper_size_is_rejected() -> None:
     with pytest.raises(InvalidInput, match="A4, A3, letter"):
         board_sheet(CheckerBoard(columns=4, rows=3, square_mm=10.0), paper="A0")

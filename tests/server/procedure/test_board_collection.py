@@ -1,4 +1,4 @@
-"""Views of a board are taken by themselves from the live images of a rehearsal."""
+"""Views of a board are captured automatically from the live images of a rehearsal."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -33,7 +33,7 @@ def images() -> tuple[np.ndarray, ...]:
 
 
 class Camera:
-    """Shows images one after the other, each when the one before was looked at."""
+    """Publishes images one after another, each when the previous one was processed."""
 
     def __init__(self, instant_of: InstantOf, snapshot_of: SnapshotOf) -> None:
         self.hub = LiveHub()
@@ -82,7 +82,7 @@ def test_each_place_is_taken_once_when_the_board_holds_still(camera: Camera) -> 
     assert status.progress.missing
 
 
-def test_without_a_board_or_a_picture_it_says_so_and_waits(camera: Camera) -> None:
+def test_without_a_board_or_a_picture_it_reports_that_and_waits(camera: Camera) -> None:
     camera.show(np.full((SIZE[1], SIZE[0], 3), 90, dtype=np.uint8))
     empty = camera.collection.status
     assert empty.points_px.shape == (0, 2)

@@ -1,4 +1,4 @@
-"""A step of the set-up looks at live images: newest first, none twice, and its end is told."""
+"""A set-up step processes live images: newest first, none twice; its end is reported."""
 
 import threading
 from collections.abc import Callable
@@ -11,7 +11,7 @@ InstantOf = Callable[..., Instant]
 
 
 class RecordingCallback:
-    """Remembers what was looked at; each look waits until the test lets it go."""
+    """Records processed images; each call waits until the test releases it."""
 
     def __init__(self, error: Exception | None = None) -> None:
         self.sequences: list[int] = []

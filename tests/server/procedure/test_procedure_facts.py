@@ -1,4 +1,4 @@
-"""What the alarms are told of the procedure."""
+"""Facts of the procedure that the alarms use."""
 
 from dataclasses import replace
 
@@ -21,7 +21,7 @@ def facts(**states: StepState) -> ProcedureFacts:
     return facts_of(derive_state("case", findings), now_s=5000.0)
 
 
-def test_a_procedure_that_stands_is_all_current_and_says_when_it_was_checked() -> None:
+def test_a_valid_procedure_is_current_and_has_the_time_of_its_check() -> None:
     assert facts() == ProcedureFacts(checked_at_s=4400.0)
 
 

@@ -87,7 +87,7 @@ def test_a_bone_that_cannot_be_read_is_none(store: CaseStore, shown: Shown) -> N
     assert shown.get(timeout=20) is None
 
 
-def test_nothing_is_read_anew_for_what_changes_elsewhere(store: CaseStore, shown: Shown) -> None:
+def test_unrelated_changes_read_nothing_again(store: CaseStore, shown: Shown) -> None:
     case_id = opened(store)
     keep_surface(store, case_id, ply_from_surface(ball(33.0)))
     plan(store, case_id)

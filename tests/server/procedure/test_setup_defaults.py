@@ -1,4 +1,4 @@
-"""What the settings bring is what the tracking process is prepared with."""
+"""The set-up of the settings prepares the tracking process."""
 
 import pytest
 

@@ -20,7 +20,7 @@ def drilling() -> tuple[Config, Preparation, list[Image]]:
 
 @pytest.fixture
 def made(drilling: tuple[Config, Preparation, list[Image]], tmp_path: Path) -> Callable[..., RecordedTheatre]:
-    """Return a function that makes a theatre to be recorded."""
+    """Return a function that creates a theatre for recording."""
     config, preparation, images = drilling
 
     def make(name: str = "case.mcap") -> RecordedTheatre:
@@ -33,7 +33,7 @@ def made(drilling: tuple[Config, Preparation, list[Image]], tmp_path: Path) -> C
 def recorded(
     drilling: tuple[Config, Preparation, list[Image]], tmp_path_factory: pytest.TempPathFactory
 ) -> Path:
-    """Return a recording that begins in the middle of a stream, with an alarm that is acknowledged."""
+    """Return a recording that begins in the middle of a stream, with an acknowledged alarm."""
     config, preparation, images = drilling
     path = tmp_path_factory.mktemp("recorded") / "case.mcap"
     theatre = RecordedTheatre(path=path, images=images, preparation=preparation, config=config)
@@ -51,7 +51,7 @@ def _drill(theatre: RecordedTheatre) -> None:
     for number in range(5, 8):
         theatre.track(number)
     black = np.zeros_like(theatre.images[0])
-    # Long enough for the alarm of an unseen drill, which somebody acknowledges.
+    # # Long enough for the alarm of an unseen drill, which is acknowledged.
     for number in range(8, 13):
         theatre.track(number, image=black)
     theatre.alarms.acknowledge([one.number for one in theatre.alarms.picture.alarms], by="Anna")

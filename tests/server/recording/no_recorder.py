@@ -29,7 +29,7 @@ class NoImages:
 
 
 class NoRecorder(Recorder):
-    """Writes a few bytes in place of a recording."""
+    """Writes a few bytes instead of a recording."""
 
     def __init__(
         self,

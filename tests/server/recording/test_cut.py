@@ -1,4 +1,4 @@
-"""A piece of a recording is a recording, replays exactly, and says of what it is a piece."""
+"""A section of a recording is a recording, replays exactly, and names its origin."""
 
 import re
 from collections.abc import Callable
@@ -28,7 +28,7 @@ def led(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def two_states(made: Make, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a recording of 12 images, from 3 on, with a state before image 3 and one before image 10."""
+    """Return a recording of 12 images, starting at 3, with a state before image 3 and one before image 10."""
     monkeypatch.setattr("server.recording.process.STATE_PERIOD_S", 5.5 / RATE_HZ)
     monkeypatch.setattr("server.recording.process.MIN_REQUEST_INTERVAL_S", 0.0)
     theatre = made("two.mcap")
@@ -95,7 +95,7 @@ def test_a_piece_begins_at_a_state_and_replays_exactly(
 
 
 def test_a_changed_byte_is_found(two_states: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    # Several chunks: those before the damage are compared.
+    # # Several chunks: those before the damage are compared.
     monkeypatch.setattr("server.recording_file.copy.CHUNK_BYTES", 1000)
     piece = tmp_path / "piece.mcap"
     cut_recording(two_states, piece, from_s=0.0, to_s=0.2)
@@ -113,7 +113,7 @@ def test_a_changed_byte_is_found(two_states: Path, tmp_path: Path, monkeypatch: 
     assert sorted(one.name for one in tmp_path.iterdir()) == ["piece.mcap", "two.mcap"]
 
 
-def test_a_piece_says_how_many_images_are_missing_in_it(made: Make, tmp_path: Path) -> None:
+def test_a_section_states_its_number_of_missing_images(made: Make, tmp_path: Path) -> None:
     theatre = made("lost.mcap")
     theatre.begin()
     theatre.track(0)
@@ -125,7 +125,7 @@ def test_a_piece_says_how_many_images_are_missing_in_it(made: Make, tmp_path: Pa
     assert cut_recording(theatre.path, tmp_path / "piece.mcap", from_s=0.0, to_s=9.0).missing_images == 2
 
 
-def test_a_recording_without_a_state_is_cut_at_the_image_and_says_that_it_cannot_be_replayed(
+def test_without_a_state_a_section_starts_at_the_image_and_cannot_be_replayed(
     led: Path, tmp_path: Path
 ) -> None:
     piece = tmp_path / "piece.mcap"
@@ -135,7 +135,7 @@ def test_a_recording_without_a_state_is_cut_at_the_image_and_says_that_it_cannot
     code, text = replayed(piece)
     assert (code, "no state is stored before it" in text) == (1, True)
     index = make_index(piece)
-    # Figures as in the whole, and the alarms and documents that were in effect at its begin.
+    # # Figures as in the whole recording, with the alarms and documents in effect at its start.
     assert index.values.tolist() == make_index(led).values[18:26].tolist()
     assert (index.alarms[:, 1] > 0).all()
 

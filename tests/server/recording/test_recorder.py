@@ -1,4 +1,4 @@
-"""A recording in its own process: it is stopped, it is killed, and what it needs it asks for."""
+"""The recorder in its own process: stopped, killed, and its requests to tracking."""
 
 import os
 import signal
@@ -65,7 +65,7 @@ class Recorded:
             time.sleep(0.005)
 
     def until_recorded(self, images: int) -> None:
-        """Return when so many images are recorded."""
+        """Return when this many images are recorded."""
         self.until(lambda: self.recorder.status.images >= images)
 
     def track(self, number: int) -> None:
@@ -93,7 +93,7 @@ def made_recorder(
 
 
 def record_images(recorded: Recorded, count: int) -> None:
-    """Track images, the first with the state that was asked for."""
+    """Track images, the first with the requested state."""
     recorded.until(lambda: True in recorded.tracked.requests)
     recorded.theatre.answer_state()
     for number in range(count):

@@ -1,4 +1,4 @@
-"""Recordings of the open case: when they begin and end, and what may be done with them."""
+"""Recordings of the open case: when they start and stop, and which actions are allowed."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -56,7 +56,7 @@ class Theatre:
 
     @property
     def conditions(self) -> set[Condition]:
-        """What is present; an alarm that is over stays in sight until it is acknowledged."""
+        """Alarms in sight; one that is over stays until it is acknowledged."""
         alarms = self.alarms.picture.alarms
         return {one.condition for one in alarms if one.presence is Presence.YES}
 
@@ -141,7 +141,7 @@ def test_a_recording_follows_navigation_where_the_settings_say_so(store: CaseSto
     theatre.navigate(on=True)
     theatre.service.stop()
     theatre.service.poll()
-    # Somebody stopped it: not before the next navigation.
+    # # Stopped by a user: it does not start before the next navigation.
     assert len(theatre.recorders) == 2
     assert theatre.service.state.name == ""
 
@@ -201,7 +201,7 @@ def test_without_consent_nothing_is_recorded_by_hand_or_by_itself(store: CaseSto
             theatre.service.start()
         assert rejected.value.code == "RECORDING_CONSENT_MISSING"
         theatre.navigate(on=True)
-        # An operation that nobody may record is no failure.
+        # # An operation without consent is no failure.
         assert Condition.RECORDING_STOPPED not in theatre.conditions
         assert theatre.recorders == []
     theatre.service.answer_consent(case_id, is_given=True, made_by="Ben")

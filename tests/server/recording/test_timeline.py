@@ -1,4 +1,4 @@
-"""The index of a recording: figures as recorded, and what happened when."""
+"""The index of a recording: figures as recorded, and times of events."""
 
 import json
 from pathlib import Path

@@ -57,7 +57,7 @@ def test_an_array_comes_back_with_its_bits_and_its_order() -> None:
 
 @dataclass
 class Elsewhere:
-    """A class of no module that may be recorded."""
+    """A class of a module that must not be recorded."""
 
     x: int = 0
 

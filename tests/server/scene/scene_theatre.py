@@ -1,4 +1,4 @@
-"""A theatre made by hand for the scene: a block for a bone, a channel, a drill, and instants at will."""
+"""A synthetic theatre for the scene: a block as bone, a channel, a drill, and instants on demand."""
 
 import asyncio
 import socket
@@ -52,7 +52,7 @@ class Theatre:
     def instant(
         self, sequence: int, *, image_number: int | None, seen: bool = True, tip_z_mm: float = 0.0
     ) -> Instant:
-        """An instant whose drill stands on the channel's axis, `tip_z_mm` short of the entry."""
+        """An instant with the drill on the channel's axis, `tip_z_mm` before the entry."""
         source = SourceStatus(name="made up", state=SourceState.RUNNING)
         process = ProcessStatus(state=ProcessState.RUNNING)
         if image_number is None:
@@ -72,7 +72,7 @@ class Theatre:
         return Instant(sequence=sequence, source=source, process=process, snapshot=snapshot)
 
     def sighting(self, tip_z_mm: float) -> Seen:
-        """The marker where it must be for the drill to stand there."""
+        """Pose of the marker for this position of the drill."""
         channel, registration = self.setup.channel, self.setup.registration
         assert isinstance(channel, Channel)
         assert isinstance(registration, Registration)
@@ -97,7 +97,7 @@ class Theatre:
 
 
 def make_theatre() -> Theatre:
-    """A drill on its way to the left pedicle."""
+    """A drill approaching the left pedicle."""
     tool = ToolModel.from_tip_and_axis(
         name="drill",
         marker="drill",
@@ -131,7 +131,7 @@ def make_theatre() -> Theatre:
 
 @dataclass(kw_only=True)
 class Running:
-    """A server in a thread of this process, and the hub that feeds it."""
+    """A server in a thread of this process, and its hub."""
 
     port: int
     hub: LiveHub
@@ -147,7 +147,7 @@ class Running:
 def running(
     theatre: Theatre, *, port: int = 0, stale_after_ms: float = 500.0, max_viewers: int = 32
 ) -> Iterator[Running]:
-    """The scene behind a real socket on 127.0.0.1, with a page around it at `/`."""
+    """The scene on a real socket on 127.0.0.1, embedded in a page at `/`."""
     hub, viewers = LiveHub(), Viewers(maximum=max_viewers)
 
     @asynccontextmanager

@@ -1,4 +1,4 @@
-"""Ellipsoid, cone and trace go with their drill, and disappear in the very image that has them not."""
+"""Ellipsoid, cone and trace follow their drill, and disappear in the first image without them."""
 
 import dataclasses
 

@@ -1,4 +1,4 @@
-"""What a viewer may say."""
+"""Messages that a viewer may send."""
 
 import msgspec
 import pytest
@@ -35,7 +35,7 @@ def message(kind: str, **fields: object) -> bytes:
         ),
     ],
 )
-def test_only_the_camera_is_let_in(sent: bytes | str | None, verdict: Verdict) -> None:
+def test_only_camera_messages_are_accepted(sent: bytes | str | None, verdict: Verdict) -> None:
     gate = Gate(counts={})
     assert gate.judge(sent, now_s=0.0) is verdict
     assert gate.counts == {verdict: 1}

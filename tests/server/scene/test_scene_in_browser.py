@@ -1,4 +1,4 @@
-"""The scene in a real browser: what is seen, what the page around it is told, and how it comes back."""
+"""The scene in a real browser: its picture, its messages to the page around it, and its recovery."""
 
 import math
 import threading
@@ -28,7 +28,7 @@ BONE_HIDES_ITSELF = """() => {
 
 @contextmanager
 def fed(server: Running, theatre: Theatre, *, first_image: int = 0, seen: bool = True) -> Iterator[None]:
-    """Instants at 30 a second for as long as the block lasts."""
+    """Publish instants at 30 Hz during the block."""
     over = threading.Event()
 
     def feed() -> None:
@@ -39,7 +39,7 @@ def fed(server: Running, theatre: Theatre, *, first_image: int = 0, seen: bool =
             server.hub.publish(theatre.instant(sequence, image_number=image, seen=seen, tip_z_mm=tip))
             sequence += 1
 
-    # Sequences begin anew with each feeder, so what was published before is forgotten first.
+    # # Each feeder restarts the sequence, so earlier instants are forgotten first.
     server.hub._newest = None
     feeder = threading.Thread(target=feed)
     feeder.start()
@@ -68,7 +68,7 @@ def picture(page: Page) -> npt.NDArray[np.uint8]:
 
 
 def uncovered(page: Page) -> None:
-    """Wait until the scene takes itself for live: it looks ten times a second, and is dim until it has."""
+    """Wait until the scene considers itself live: it checks ten times a second, and is dimmed until then."""
     page.frames[1].wait_for_selector("html[data-coaxial=live]", timeout=60_000)
 
 
@@ -77,7 +77,7 @@ def orange_px(image: npt.NDArray[np.uint8]) -> int:
     return int(((red > 150) & (green > 70) & (green < red - 40) & (blue < green - 40)).sum())
 
 
-def test_the_drill_is_seen_told_about_and_hidden(browser: Browser, theatre: Theatre) -> None:
+def test_the_drill_is_drawn_reported_and_hidden(browser: Browser, theatre: Theatre) -> None:
     with running(theatre) as server:
         page = opened(browser, server.address)
         with fed(server, theatre, first_image=99_990):
@@ -94,7 +94,7 @@ def test_the_drill_is_seen_told_about_and_hidden(browser: Browser, theatre: Thea
     assert orange_px(shown) > 500
     assert orange_px(hidden) == 0
     assert hides_itself == [False]
-    assert hidden.std() > 5  # bone and channel still stand there
+    assert hidden.std() > 5  # bone and channel are still shown
     numbers = [m["image_number"] for m in messages if m["image_number"] is not None]
     assert numbers == sorted(numbers)
     assert numbers[0] >= 99_990
@@ -118,7 +118,7 @@ def test_an_untouched_screen_comes_back_after_a_restart(browser: Browser, theatr
     with running(theatre) as server:
         port = server.port
         page = opened(browser, server.address)
-        # The driver makes every page believe that it has the focus; a screen in theatre has none.
+        # # The driver gives every page focus; a screen in theatre has none.
         page.context.new_cdp_session(page).send("Emulation.setFocusEmulationEnabled", {"enabled": False})
         other = browser.new_page()
         other.bring_to_front()
@@ -169,11 +169,11 @@ def test_nothing_outside_is_called_and_no_control_of_viser_is_there(
     assert [url for url in requested if not url.startswith(here)] == []
     assert f"ws://127.0.0.1:{server.port}/scene" in requested
     assert set(touched) == {"CANVAS"}
-    # The client of viser, left alone, says nothing but where it looks from.
+    # # Unmodified, viser's client only sends its camera pose.
     assert {verdict: count for verdict, count in counts.items() if count} == {"camera": counts["camera"]}
 
 
-def test_a_line_that_fell_silent_is_asked_for_anew(
+def test_a_silent_connection_is_reopened(
     browser: Browser, theatre: Theatre, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(scene_module, "MIN_SILENCE_MS", 1000.0)
@@ -181,7 +181,7 @@ def test_a_line_that_fell_silent_is_asked_for_anew(
         page = opened(browser, server.address)
         with fed(server, theatre):
             reported(page, "m.image_number >= 5")
-        # A server that lost its power: the line stands, and nothing ever comes.
+        # # A server without power: the connection stays open, and nothing arrives.
         task = server.app.state.scene._update_task
         page.evaluate("received.length = 0")
         task.get_loop().call_soon_threadsafe(task.cancel)

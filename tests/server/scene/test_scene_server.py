@@ -1,4 +1,4 @@
-"""The scene behind a real socket: who gets in, what they get, and what they cannot do."""
+"""The scene on a real socket: who is admitted, what they receive, and what they cannot do."""
 
 import contextlib
 import os
@@ -51,7 +51,7 @@ def names_and_positions(packet: bytes | str) -> dict[str, list[float]]:
 
 
 def next_number(line: ClientConnection) -> int | None:
-    """The number in the next batch that has one; None when no image is shown."""
+    """The image number in the next batch that has one; None if no image is shown."""
     while True:
         positions = names_and_positions(line.recv(timeout=20))
         if "/image_number" in positions:
@@ -60,13 +60,13 @@ def next_number(line: ClientConnection) -> int | None:
 
 
 def reach(line: ClientConnection, image: int | None) -> None:
-    """Read on until this image is told."""
+    """Read until this image is reported."""
     while next_number(line) != image:
         pass
 
 
 def until(happened: Callable[[], bool]) -> None:
-    """Wait for what must come; the test's own time limit is the only clock."""
+    """Wait for an expected message; the test's time limit is the only clock."""
     end = monotonic() + 60
     while not happened():
         assert monotonic() < end, "it never happened"
@@ -107,7 +107,7 @@ def test_who_comes_late_gets_the_state_at_once(theatre: Theatre) -> None:
             assert next_number(late) == 41
 
 
-def test_nothing_is_drawn_for_nobody_and_nothing_old_is_left_for_the_next_viewer(
+def test_nothing_is_drawn_without_viewers_and_nothing_old_remains_for_the_next_one(
     theatre: Theatre, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shown: list[int] = []
@@ -145,7 +145,7 @@ def test_many_viewers_get_the_newest(theatre: Theatre) -> None:
         assert server.app.state.scene.viewers == 2
 
 
-def test_when_nobody_says_anything_the_image_is_taken_away(theatre: Theatre) -> None:
+def test_the_image_is_removed_when_no_message_arrives(theatre: Theatre) -> None:
     with running(theatre, stale_after_ms=200) as server, viewer(server) as line:
         server.hub.publish(theatre.instant(0, image_number=5))
         reach(line, 5)
@@ -194,7 +194,7 @@ def test_a_crowd_is_rejected(theatre: Theatre) -> None:
         assert server.app.state.scene.viewers == 1
 
 
-def test_own_page_is_let_in(theatre: Theatre) -> None:
+def test_own_page_is_admitted(theatre: Theatre) -> None:
     with running(theatre) as server, viewer(server, origin=f"http://127.0.0.1:{server.port}") as line:
         assert line.subprotocol == PROTOCOL
         assert line.recv(timeout=20)
@@ -225,12 +225,12 @@ def test_who_floods_is_thrown_out(theatre: Theatre) -> None:
         until(lambda: server.app.state.scene.viewers == 0)
 
 
-def test_a_stalled_viewer_delays_nobody_and_is_dropped(
+def test_a_stalled_viewer_delays_no_other_and_is_dropped(
     theatre: Theatre, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(scene_module, "SEND_TIMEOUT_S", 0.3)
     monkeypatch.setattr(scene_module, "THINNEST_LINE_BYTES_PER_S", 1e9)
-    # A surface of 24 MB fills whatever the kernel is willing to hold for somebody who does not read.
+    # # A surface of 24 MB exceeds the kernel's buffers for a client that does not read.
     large = Theatre(
         setup=theatre.setup,
         surface=Surface(vertices_mm=np.zeros((2_000_000, 3)), faces=np.zeros((1, 3), dtype=np.int64)),

@@ -1,4 +1,4 @@
-"""What is drawn for an instant, read from the messages that a viewer is sent."""
+"""What is drawn for an instant, decoded from the messages to a viewer."""
 
 import asyncio
 import pickle
@@ -22,7 +22,7 @@ Batch = list[dict[str, Any]]
 
 
 class Viewer:
-    """Collects what it is sent, decoded as the client decodes it."""
+    """Collects sent messages, decoded as by the client."""
 
     def __init__(self) -> None:
         self.batches: asyncio.Queue[Batch] = asyncio.Queue()
@@ -34,7 +34,7 @@ class Viewer:
 
 
 def on_stage(theatre: Theatre, play: Callable[[Stage, Viewer], Coroutine[Any, Any, None]]) -> None:
-    """Run a play with one viewer watching from the start."""
+    """Play instants with one viewer watching from the start."""
 
     async def run() -> None:
         door = Door()
@@ -89,7 +89,7 @@ def test_pose_visibility_and_number_of_an_image_come_in_one_batch(theatre: Theat
         pytest.param(lambda t: t.instant(2, image_number=None), id="there is no image"),
     ],
 )
-def test_a_drill_is_hidden_in_the_batch_that_says_so(
+def test_a_drill_is_hidden_in_the_batch_that_lacks_it(
     theatre: Theatre, last: Callable[[Theatre], Instant]
 ) -> None:
     async def play(stage: Stage, viewer: Viewer) -> None:
@@ -137,7 +137,7 @@ def test_silence_is_still_heard(theatre: Theatre) -> None:
     on_stage(theatre, play)
 
 
-def test_a_copy_of_the_same_setup_builds_nothing_anew(theatre: Theatre) -> None:
+def test_a_copy_of_the_same_setup_rebuilds_nothing(theatre: Theatre) -> None:
     async def play(stage: Stage, viewer: Viewer) -> None:
         await viewer.batches.get()
         stage.show(pickle.loads(pickle.dumps(theatre.instant(1, image_number=1))))  # noqa: S301 our own object
@@ -203,8 +203,8 @@ def test_the_planned_screw_lies_in_its_channel_from_the_entry_on(theatre: Theatr
     on_stage(theatre, play)
 
 
-def test_a_setup_that_comes_back_stands_where_it_stood_at_first(theatre: Theatre) -> None:
-    """A name that was used before would keep its old pose in a viewer; so none is used twice."""
+def test_a_setup_that_returns_is_at_its_first_place(theatre: Theatre) -> None:
+    """A reused name would keep its old pose in a viewer, so names are unique."""
     before = theatre.unregistered()
 
     async def play(stage: Stage, viewer: Viewer) -> None:

@@ -24,13 +24,13 @@ def test_segments_hang_together() -> None:
     np.testing.assert_array_equal(segments[1:, 0], segments[:-1, 1])
 
 
-def test_a_tip_that_was_away_begins_anew() -> None:
+def test_the_trace_restarts_after_a_gap() -> None:
     trace = filled(5.0)
     assert trace.take(np.array([99.0, 0.0, 0.0]), at_s=6.5)
     assert len(trace.segments_mm) == 0
 
 
-def test_time_that_runs_backwards_begins_anew() -> None:
+def test_the_trace_restarts_when_time_runs_backwards() -> None:
     trace = filled(5.0)
     trace.take(np.zeros(3), at_s=1.0)
     assert len(trace.segments_mm) == 0

@@ -1,8 +1,9 @@
-"""What the scene takes from inside viser. An upgrade that changes it fails here first.
+"""Internals of viser that the scene uses. An upgrade that changes them fails here first.
 
-When this fails: read viser's `_viser.py`, `infra/_infra.py` and the client's `WebsocketInterface.tsx`,
-`WebsocketClientWorker.ts` and `MessageHandler.tsx` again, mend `server/scene/door.py` and `watch.js`, run the
-browser tests, and only then change the version here.
+In that case read viser's `_viser.py`, `infra/_infra.py` and the client's `WebsocketInterface.tsx`,
+`WebsocketClientWorker.ts` and `MessageHandler.tsx` again, adapt `server/scene/door.py` and `watch.js`, run
+the browser tests, and only then change the version here.
+
 """
 
 import dataclasses
@@ -57,7 +58,7 @@ def test_a_server_opens_its_port_only_when_it_is_started() -> None:
 
 def test_the_attributes_that_viser_gives_its_server_are_those_that_the_door_gives() -> None:
     made = set(re.findall(r"self\.(_?\w+)(?:: [^=(]+)? = ", inspect.getsource(viser.ViserServer.__init__)))
-    # Nothing reads _connection; gui and the share lock belong to doors that are not built.
+    # # Nothing reads _connection; gui and the share lock belong to features that are not used.
     assert made == {
         "_websock_server", "_initial_camera", "_connection", "_connected_clients", "_client_lock",
         "_scene_lifecycle_lock", "_client_connect_cb", "_client_disconnect_cb", "_thread_executor",

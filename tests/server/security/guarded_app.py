@@ -1,4 +1,4 @@
-"""The whole application behind its guard, and people of every role."""
+"""The whole application with access control, and users of every role."""
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -26,7 +26,7 @@ HOST = "127.0.0.1:8000"
 
 
 class Clock:
-    """A wall clock and a stopwatch that a test turns."""
+    """A wall clock and a stopwatch set by the test."""
 
     def __init__(self) -> None:
         self.at = datetime(2026, 11, 21, 8, tzinfo=UTC)
@@ -46,7 +46,7 @@ class Clock:
 
 @dataclass(slots=True, kw_only=True)
 class Guarded:
-    """The application, its door, and what stands before it."""
+    """The application, its client, and its access control."""
 
     app: FastAPI
     door: TestClient
@@ -60,11 +60,11 @@ class Guarded:
         return self.people.invite(requested, by="test")[1].text
 
     def token(self, role: Role = Role.OPERATOR, **wanted: Any) -> str:  # noqa: ANN401  as Wanted takes it
-        """The token of a session with this role."""
+        """Token of a session with this role."""
         return self.people.sign_in(self.invited(role, **wanted), address="test")[1].text
 
     def bearer(self, role: Role = Role.OPERATOR, **wanted: Any) -> dict[str, str]:  # noqa: ANN401
-        """The header of a machine that is signed in with this role."""
+        """Header of a signed-in script with this role."""
         return {"Authorization": f"Bearer {self.token(role, **wanted)}"}
 
 
@@ -78,7 +78,7 @@ def people_of(folder: Path, clock: Clock, *, required: bool = True) -> PeopleSer
 def guarded(
     folder: Path, *, required: bool = True, settings: Mapping[str, object] | None = None
 ) -> Iterator[Guarded]:
-    """Everything, in this folder."""
+    """All parts, in this folder."""
     config = Config.model_validate(settings or {})
     clock, hub, jobs = Clock(), LiveHub(), Jobs(log=LogSettings(as_json=True))
     try:
@@ -105,7 +105,7 @@ def guarded(
 
 
 def addresses_of(app: FastAPI) -> set[tuple[str, str]]:
-    """Every method and path that the application itself answers to, but for the files of page and guide."""
+    """Every method and path of the application, except the files of page and guide."""
     return {found for route in app.router.routes for found in _addresses(route)}
 
 

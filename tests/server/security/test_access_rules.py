@@ -1,4 +1,4 @@
-"""Every route of the application, and every role: exactly as in the table."""
+"""Access of every role to every route, exactly as in the table."""
 
 import re
 from collections.abc import Iterator
@@ -10,7 +10,7 @@ from server.security import Role
 from server.security.access_rules import ACCESS_RULES, Rule
 from tests.server.security.guarded_app import HOST, Guarded, addresses_of, guarded
 
-# Read by eye once, and written down a second time: a rule that slips into a wider group is seen.
+# # Written down a second time, so that a rule that slips into a wider group is noticed.
 VIEWERS_MAY = {
     "GET /api/session",
     "DELETE /api/session",
@@ -69,7 +69,7 @@ def test_the_table_holds_every_address_that_the_application_has_and_no_other(hou
     schema = house.app.openapi()["paths"]
     documented = {(method.upper(), path) for path, methods in schema.items() for method in methods}
     silent = {"/api/docs", "/api/openapi.json", "/scene", "/scene/", "/ws/live", "/ws/room", "/ws/view"}
-    # Helper sockets of other rooms are in no document either.
+    # # Socket addresses of other modules are not documented either.
     assert {one for one in listed if one[0] != "WS" and one[1] not in silent} == documented
 
 
@@ -87,7 +87,7 @@ def test_what_each_role_may_is_what_was_agreed() -> None:
     viewer = may(Role.VIEWER, read=True) | may(Role.VIEWER, read=False)
     assert viewer - {"GET /health", "POST /api/session"} >= VIEWERS_MAY
     assert may(Role.SCREEN, read=True) == may(Role.VIEWER, read=True)
-    # What other rooms add for their roles goes here by name.
+    # # Roles of other modules are added here by name.
     assert {one for one in may(Role.SUPERVISOR, read=False) if "/supervision" not in one} == SUPERVISORS_DO
     assert may(Role.SCREEN, read=False) == SCREENS_DO
     camera = may(Role.CAMERA, read=True) | may(Role.CAMERA, read=False)
@@ -96,7 +96,7 @@ def test_what_each_role_may_is_what_was_agreed() -> None:
 
 
 def answer_to(house: Guarded, rule: Rule, headers: dict[str, str]) -> tuple[int, str]:
-    """Status and code of the answer; what lets in is asked in a way that changes nothing."""
+    """Status and code of the answer; allowed requests change nothing."""
     path = re.sub(r"\{[a-z_]+\}", "none", rule.template)
     if rule.method == "WS":
         try:
@@ -112,7 +112,7 @@ def answer_to(house: Guarded, rule: Rule, headers: dict[str, str]) -> tuple[int,
 
 
 @pytest.mark.parametrize("rule", ACCESS_RULES, ids=lambda rule: rule.name)
-def test_each_address_lets_in_whom_the_table_names_and_nobody_else(
+def test_each_address_admits_exactly_the_roles_of_the_table(
     house: Guarded, bearers: dict[Role, dict[str, str]], rule: Rule
 ) -> None:
     status, code = answer_to(house, rule, {})
@@ -129,7 +129,7 @@ def test_each_address_lets_in_whom_the_table_names_and_nobody_else(
             assert (status, code) == (403, "ROLE_REJECTED"), role
 
 
-def test_who_is_not_signed_in_is_told_one_word(house: Guarded) -> None:
+def test_without_a_session_every_address_gives_the_same_answer(house: Guarded) -> None:
     assert house.door.get("/health").json() == {
         "status": "degraded",
         "process": None,
@@ -170,7 +170,7 @@ def test_head_is_allowed_as_get_is(house: Guarded) -> None:
     assert house.door.head("/metrics", headers=house.bearer(Role.VIEWER)).status_code == 403
 
 
-def test_who_is_signed_in_is_told_what_there_is_not(house: Guarded) -> None:
+def test_with_a_session_a_missing_address_is_reported(house: Guarded) -> None:
     reported = house.door.get("/api/nothing", headers=house.bearer())
     assert (reported.status_code, reported.json()["code"]) == (404, "NOT_FOUND")
     reported = house.door.put("/api/cases", headers=house.bearer())

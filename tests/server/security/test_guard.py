@@ -1,4 +1,4 @@
-"""The guard: cookies, cross-site requests, audit entries, sessions that end during a stream."""
+"""Access control: cookies, cross-site requests, audit entries, sessions that end during a stream."""
 
 import asyncio
 import json
@@ -56,7 +56,7 @@ def test_a_session_that_was_there_before_is_another_one_after_signing_in(house: 
     enter(house, house.invited(Role.VIEWER))
     assert dict(house.door.cookies) != before
     assert [one.person.role for one in house.people.sessions()] == [Role.VIEWER]
-    # A stranger's cookie is not taken over.
+    # # A foreign cookie is not adopted.
     house.door.cookies.clear()
     house.door.cookies.set("coaxial-8000", "0" * 12 + "." + "A" * 43)
     assert enter(house, house.invited()).status_code == 200
@@ -98,7 +98,7 @@ def test_a_cookie_alone_changes_nothing_for_another_page(house: Guarded, headers
     assert house.store.list() == ()
 
 
-def test_what_a_proxy_says_of_tls_is_believed_only_where_the_settings_do(tmp_path: Path) -> None:
+def test_a_proxys_statement_on_tls_is_trusted_only_if_configured(tmp_path: Path) -> None:
     says = {"X-Forwarded-Proto": "https", "X-Forwarded-For": "203.0.113.9"}
     with guarded(tmp_path / "a") as house:
         assert "Secure" not in enter(house, house.invited(), **says).headers["set-cookie"]
@@ -110,7 +110,7 @@ def test_what_a_proxy_says_of_tls_is_believed_only_where_the_settings_do(tmp_pat
         assert "203.0.113.9" not in house.people.audit.complete_lines().decode()
 
 
-def test_too_many_wrong_links_are_told_to_wait(house: Guarded) -> None:
+def test_too_many_wrong_links_are_rejected_with_a_wait(house: Guarded) -> None:
     for _ in range(10):
         assert enter(house, "x").json()["code"] == "INVITATION_UNKNOWN"
     reported = enter(house, "x")
@@ -149,7 +149,7 @@ def test_rejected_tries_are_written_and_opening_the_page_is_none(house: Guarded)
     assert last_line(house)["code"] == "INVITATION_UNKNOWN"
 
 
-def test_who_is_signed_in_is_who_acknowledges_whatever_the_page_says(house: Guarded) -> None:
+def test_an_acknowledgement_is_by_the_sessions_user_whatever_the_page_sends(house: Guarded) -> None:
     screen = house.bearer(Role.SCREEN)
     house.door.post("/api/alarms/pause", json={"by": "somebody else", "seconds": 10}, headers=screen)
     lines = house.door.get("/api/alarms/log", headers=house.bearer()).json()["lines"]
@@ -171,7 +171,7 @@ def test_where_the_disk_is_full_it_is_said_what_was_done_and_nothing_more_is_beg
     reported = house.door.post("/api/cases", json={"name": "two"}, headers=operator)
     assert (reported.status_code, reported.json()["code"]) == (507, "STORE_FULL")
     assert len(house.store.list()) == 1
-    # What must never wait for a disk is done.
+    # # Actions that must not wait for a disk are executed.
     reported = house.door.post("/api/alarms/hold", json={}, headers=operator)
     assert reported.json()["code"] == "AUDIT_NOT_WRITTEN"
     seen = house.door.get("/api/alarms", headers=operator).json()["alarms"]
@@ -227,7 +227,7 @@ def test_a_socket_with_a_cookie_must_say_its_page(house: Guarded) -> None:
             assert rejected.value.response.status_code == 403
 
 
-def test_where_nobody_has_to_sign_in_all_is_open_and_written_all_the_same(tmp_path: Path) -> None:
+def test_without_sign_in_everything_is_open_and_still_logged(tmp_path: Path) -> None:
     with guarded(tmp_path / "home", required=False) as house:
         assert house.door.get("/api/session").json()["sign_in_required"] is False
         assert house.door.post("/api/cases", json={"name": "L3"}).status_code == 201
@@ -293,7 +293,7 @@ def test_an_operator_signs_in_on_a_full_disk_to_make_room(
         assert (reported.status_code, reported.json()["code"]) == (507, "STORE_FULL")
     house.people.audit.catch_up()
     assert house.people.audit.head.count > before
-    # With the next change they are kept.
+    # # They are stored with the next change.
     house.invited(Role.VIEWER)
     again = people_of(tmp_path / "home" / "security", house.clock)
     assert [one.person.role for one in again.sessions()] == [Role.OPERATOR]

@@ -1,4 +1,4 @@
-"""Invitations and sessions: who can sign in, for how long, and who no longer."""
+"""Invitations and sessions: who can sign in, for how long, and who no longer can."""
 
 import errno
 import json
@@ -54,7 +54,7 @@ def test_who_invited_somebody_is_known_of_them_over_a_restart(tmp_path: Path, cl
     link = invited(people_of(tmp_path, clock))
     _, token = people_of(tmp_path, clock).sign_in(link, address=HERE)
     assert people_of(tmp_path, clock).session_of(token.text, address=HERE).person.invited_by == "test"
-    # An invitation that was made before it was written down says who made it.
+    # # A legacy invitation without a stored author.
     link, file = invited(people_of(tmp_path, clock)), tmp_path / PEOPLE_FILE
     older = json.loads(file.read_bytes())
     for one in (*older["invitations"], *older["sessions"]):
@@ -77,7 +77,7 @@ def test_one_for_many_lets_in_many_as_the_same_person_until_its_time_is_over(
     assert rejected.value.code == "INVITATION_EXPIRED"
 
 
-def test_one_that_was_taken_back_lets_nobody_in_and_leaves_who_is_in(service: PeopleService) -> None:
+def test_a_withdrawn_invitation_admits_nobody_and_keeps_its_sessions(service: PeopleService) -> None:
     link = invited(service, single_use=False)
     session, _ = service.sign_in(link, address=HERE)
     service.revoke(session.invitation_id)
@@ -137,7 +137,7 @@ def test_failed_logins_are_limited_by_address_and_wait_a_minute(service: PeopleS
     assert reported.value.context == {"wait_s": 50}
     with pytest.raises(TooManyTries):
         service.session_of("nonsense", address=HERE)
-    # Somebody elsewhere is not kept waiting by that, and neither is who has the right link, or is in already.
+    # # That delays neither other addresses, nor valid links, nor existing sessions.
     with pytest.raises(InvitationRejected):
         service.sign_in("x", address="192.0.2.8")
     session, token = service.sign_in(link, address=HERE)
@@ -214,7 +214,7 @@ def test_ended_sessions_make_room_and_the_operator_gets_in_however_many_there_ar
     there = json.loads((tmp_path / "people.json").read_text())
     assert len(there["sessions"]) + len(there["invitations"]) == 12
     assert {active.id, last.id} <= {one["id"] for one in there["sessions"]}
-    # Links that were used go as well; then what holds fills the room, and only that is rejected.
+    # # Used links are removed too; only when valid ones fill the limit is an invitation rejected.
     service.sign_in(invited(service), address=HERE)
     for _ in range(9):
         invited(service)
@@ -262,11 +262,11 @@ def test_one_link_signs_in_forty_times_an_hour_and_its_audit_lines_end_there(
     )
     assert reported.value.context["wait_s"] == 3600 - 39 * 30
     assert reported.value.remedy
-    # Who is in stays in, and other links let in.
+    # # Existing sessions continue, and other links are accepted.
     assert service.session_of(token.text, address=HERE) == session
     clock.passes(seconds=3600 - 39 * 30)
     service.sign_in(link, address=HERE)
-    # A rejected try does not make the wait longer, and each place comes back for itself.
+    # # A rejected attempt does not extend the wait; each attempt expires separately.
     with pytest.raises(TooManyTries) as reported:
         service.sign_in(link, address=HERE)
     assert reported.value.context["wait_s"] == 30
@@ -302,7 +302,7 @@ def test_nobody_waits_at_the_door_while_the_disk_is_slow(
         entering.join()
 
 
-def test_a_disk_with_room_for_a_part_keeps_the_old_file_and_says_so(
+def test_a_nearly_full_disk_keeps_the_old_file_and_reports_it(
     service: PeopleService, tmp_path: Path, clock: Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     link = invited(service, single_use=False)

@@ -1,4 +1,4 @@
-"""TLS: when it is used, with which certificate, and that video works the same with it."""
+"""TLS: when it is used, with which certificate, and video over it."""
 
 import contextlib
 import hashlib
@@ -83,7 +83,7 @@ def test_poses_leave_this_computer_unencrypted_only_where_the_settings_say_so_in
 
 
 @pytest.mark.parametrize("what", ["plan", "registration"])
-def test_nobody_is_a_second_person_where_nobody_signs_in(what: str) -> None:
+def test_without_sign_in_there_is_no_second_person(what: str) -> None:
     required = {"supervision": {"cosign": {what: "required"}}}
     reject_unsafe(Config.model_validate(required))
     with pytest.raises(ConfigError) as reported:
@@ -101,32 +101,32 @@ def test_who_connects_and_does_not_finish_the_handshake_is_cut_off(
     app = create_app(AppParts(hub=LiveHub(), config=Config()))
     trusting = ssl.create_default_context(cafile=str(tls.certificate))
     trusting.check_hostname = False
-    # The lines end before the server does: a farewell that nobody answers would be open at its end.
+    # # The connections end before the server, whose close would otherwise wait for an answer.
     with served(app, tls=tls) as port, ExitStack() as lines:
 
         def connected() -> socket.socket:
-            # asyncio alone would hold each of them for 60 s.
+            # # asyncio alone would keep each of them for 60 s.
             return lines.enter_context(socket.create_connection(("127.0.0.1", port), timeout=20.0))
 
         silent, halting, whole = connected(), connected(), connected()
-        # The first bytes of a greeting that never ends.
+        # # The first bytes of a handshake that never ends.
         halting.sendall(b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03")
         chained_line = lines.enter_context(trusting.wrap_socket(whole))
         wait_for_end(silent)
         wait_for_end(halting)
-        # Who has finished it is not in a hurry because of that.
+        # # A completed handshake has no further time limit.
         chained_line.sendall(b"GET /health HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n")
         assert chained_line.recv(1024).startswith(b"HTTP/1.1 ")
 
 
 def wait_for_end(line: socket.socket) -> None:
-    """Until the other side ends it; a line that is held on to is a TimeoutError."""
+    """Until the other side closes it; TimeoutError if it does not."""
     with contextlib.suppress(ConnectionResetError):
         while line.recv(1024):
             pass
 
 
-def test_a_self_made_one_is_made_anew_when_it_ends_or_a_name_is_missing(
+def test_a_self_signed_certificate_is_renewed_when_it_expires_or_lacks_a_name(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def pem(host: str = "192.0.2.1", **later: float) -> bytes:
@@ -149,7 +149,7 @@ def test_a_self_made_one_is_made_anew_when_it_ends_or_a_name_is_missing(
 
 @pytest.fixture
 def own(tmp_path: Path) -> dict[str, Path]:
-    """Certificates that somebody brings, good and bad."""
+    """User-provided certificates, valid and invalid."""
     one, other = (load_or_create(tmp_path / name, host="localhost") for name in ("one", "other"))
     locked, text = tmp_path / "locked.pem", tmp_path / "text.pem"
     text.write_text("no certificate at all")
@@ -202,7 +202,7 @@ def test_a_good_one_is_served_on_loopback_too_and_half_of_one_is_rejected(
 
 @pytest.fixture
 def under_tls(own: dict[str, Path], tmp_path: Path) -> Iterator[tuple[list[str], Path]]:
-    """`coaxial run` with a certificate; what it printed, and the certificate."""
+    """`coaxial run` with a certificate; its output, and the certificate."""
     settings = {
         "server": {"tls": {"certificate": str(own["certificate"]), "key": str(own["key"])}},
         "rehearsal": {"width": 1920, "height": 1080, "rate_hz": 10},
@@ -253,7 +253,7 @@ def test_video_goes_through_tls_and_a_stalled_viewer_is_disconnected(
         while sum(size > 100_000 for size in sizes) < 3:
             view.send('{"next": true}')
             sizes.append(len(view.recv(timeout=60)))
-        # It takes nothing; what lay in the system's buffers is read after it was cut, and then nothing comes.
+        # # It reads nothing; the buffered data is read after the server has closed the connection.
         while 'coaxial_viewer_let_go_total{kind="mjpeg"} 1.0' not in _metrics(port, context, cookie[1]):
             view.send('{"next": true}')
             view.recv(timeout=60)

@@ -1,4 +1,4 @@
-"""Sinks: the newest message reaches each of them, and what one does wrong is named and delays nobody."""
+"""Sinks: each receives the newest message; a sink's fault is reported and delays nobody."""
 
 import json
 import os
@@ -22,7 +22,7 @@ from server.stream.messages import live_message
 
 PATIENCE_S = 120.0
 SETTINGS = LogSettings(as_json=True)
-# A sink writes what it receives and does what the message's source is called.
+# # A sink writes what it receives, and behaves as the message's source name orders.
 MODULE = """
 import os
 from pathlib import Path
@@ -61,7 +61,7 @@ absent = no_such_module:Sink
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The folder of a package with sinks, on the import path of this process and its children."""
+    """Folder of a package with sinks, on the import path of this process and its children."""
     (tmp_path / "example_sink.py").write_text(MODULE.format(folder=str(tmp_path)))
     metadata = tmp_path / "example_sink-1.0.dist-info"
     metadata.mkdir()
@@ -134,7 +134,7 @@ def test_a_sink_receives_the_message_of_the_sockets(folder: Path, theatre: Calla
     assert (folder / "closed").exists()
 
 
-def test_a_slow_sink_is_named_skips_to_the_newest_and_delays_nobody(
+def test_a_slow_sink_is_reported_skips_to_the_newest_and_delays_no_other(
     folder: Path, theatre: Callable[..., Theatre]
 ) -> None:
     os.mkfifo(folder / "gate")

@@ -1,4 +1,4 @@
-"""Transforms of ITK, against SimpleITK: it is the independent reader and writer of the direction."""
+"""ITK transforms compared with SimpleITK, the independent reader and writer of their direction."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -106,7 +106,7 @@ def composite(tmp_path: Path) -> bytes:
         pytest.param(AFFINE.replace("1 2 3", "1 2 1e9"), "TRANSFORM_INVALID", "exceeds", id="too-far"),
     ],
 )
-def test_another_file_is_rejected_and_says_why(
+def test_another_file_is_rejected_with_the_reason(
     content: bytes | str | Callable[[Path], bytes], code: str, said: str, tmp_path: Path
 ) -> None:
     given = content(tmp_path) if callable(content) else content

@@ -1,4 +1,4 @@
-"""Markups of 3D Slicer: in which frame they are, and what is rejected instead of guessed."""
+"""Markups of 3D Slicer: their coordinate frame, and rejections instead of guesses."""
 
 import json
 from collections.abc import Callable
@@ -14,7 +14,7 @@ NAME = "points.mrk.json"
 
 
 def of_slicer(kind: str = "Fiducial", system: str = "LPS", **more: object) -> dict[str, Any]:
-    """As 3D Slicer 5 writes it, shortened."""
+    """As written by 3D Slicer 5, shortened."""
     return {
         "@schema": "https://raw.githubusercontent.com/slicer/slicer/master/schema.json#",
         "markups": [

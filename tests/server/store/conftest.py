@@ -1,4 +1,4 @@
-"""A store in a folder of the test, with a clock that the test moves."""
+"""Fixtures: a store in a folder of the test, with a clock that the test sets."""
 
 from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
@@ -10,7 +10,7 @@ from server.store import CaseStore, Home
 
 
 class Clock:
-    """Time that stands still until it is told to go on."""
+    """A clock that advances on request only."""
 
     def __init__(self) -> None:
         self.now = datetime(2026, 11, 21, 8, 0, 0, 250_000, tzinfo=UTC)

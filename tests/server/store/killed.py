@@ -1,9 +1,10 @@
-"""How the store stands a `kill -9` at any moment: a child writes and says what was confirmed, and is killed.
+"""Kill a writing store with `kill -9` at random times: a child reports what was confirmed until it is killed.
 
     PYTHONPATH=. python -m tests.server.store.killed --times 200 [--fault acknowledge-early | name-early]
 
-After each kill the folder is opened as the next start would, and everything that was said is looked for.
-A fault is put in on purpose with --fault, to see that it is found.
+After each kill the folder is opened as at the next start, and everything confirmed must exist. --fault
+introduces a deliberate fault, which must be found.
+
 """
 
 import argparse
@@ -32,13 +33,14 @@ FAULTS = ("none", "acknowledge-early", "name-early")
 
 @dataclass(slots=True)
 class Promised:
-    """What was confirmed so far.
+    """Everything confirmed so far.
 
     Attributes:
         cases: names by id.
         documents: content and version by case and document id.
         files: SHA-256 by case and file id.
-        deleted: cases that are gone.
+        deleted: deleted cases.
+
     """
 
     cases: dict[str, str] = field(default_factory=dict)
@@ -47,7 +49,7 @@ class Promised:
     deleted: set[str] = field(default_factory=set)
 
     def note(self, line: str) -> None:
-        """One line of the child."""
+        """Record one line of the child."""
         said = json.loads(line)
         what, case_id = said["what"], said["case"]
         if what == "case":
@@ -57,19 +59,19 @@ class Promised:
         elif what == "file":
             self.files[case_id, said["id"]] = said["sha256"]
         elif what == "leaving":
-            # Begun and perhaps done: no longer promised, and not to be gone either.
+            # # Begun and possibly done: neither its presence nor its absence is promised.
             self.cases.pop(case_id, None)
         elif what == "gone":
             self.deleted.add(case_id)
 
     @property
     def count(self) -> int:
-        """How many changes were confirmed."""
+        """Number of confirmed changes."""
         return len(self.cases) + len(self.documents) + len(self.files) + len(self.deleted)
 
 
 def broken_promises(folder: Path, promised: Promised) -> Iterator[str]:
-    """Start anew in the folder, and tell what is not as it was confirmed."""
+    """Open the folder as at a start; return differences from what was confirmed."""
     with Home(folder) as home, CaseStore(home) as store:
         there = {case.id: case for case in store.list()}
         for case_id, name in promised.cases.items():
@@ -95,7 +97,7 @@ def broken_promises(folder: Path, promised: Promised) -> Iterator[str]:
 
 
 class Writers:
-    """Children that write, forked from one process that has loaded everything; each is killed."""
+    """Children that write, forked from one process with everything loaded; each is killed."""
 
     def __init__(self, fault: str = "none") -> None:
         self._forker = subprocess.Popen(
@@ -108,7 +110,7 @@ class Writers:
     def kill_once(
         self, folder: Path, promised: Promised, *, after_changes: int, after_s: float, seed: int
     ) -> None:
-        """Let a child say so many changes, kill it so long after that, and note all that it had said."""
+        """Let a child make this many changes, kill it after this delay, and record its lines."""
         requested, said = self._forker.stdin, self._forker.stdout
         assert requested is not None
         assert said is not None
@@ -116,7 +118,7 @@ class Writers:
         requested.flush()
         pid = int(said.readline())
         lines = [said.readline().decode() for _ in range(after_changes)]
-        # Not a wait for something to be done: the very moment of the kill is what is varied.
+        # # Not a wait for an event: the time of the kill is the variable.
         time.sleep(after_s)
         with contextlib.suppress(ProcessLookupError):
             os.kill(pid, signal.SIGKILL)
@@ -124,7 +126,7 @@ class Writers:
             lines.append(line)
         assert line == f"end {signal.SIGKILL}\n", "the child ended by itself, with an error"
         for line in lines:
-            # A line that was cut was not said.
+            # # An incomplete line does not count.
             with contextlib.suppress(json.JSONDecodeError):
                 promised.note(line)
 
@@ -137,7 +139,7 @@ class Writers:
 
 
 def fork_for_ever(*, fault: str) -> None:
-    """Fork a child for each line that is read, and tell how it ended."""
+    """Fork a child for each line of input, and print how it ended."""
     for line in sys.stdin:
         folder, seed = json.loads(line)
         sys.stdout.flush()
@@ -150,12 +152,12 @@ def fork_for_ever(*, fault: str) -> None:
                 traceback.print_exc()
             os._exit(1)
         _, status = os.waitpid(pid, 0)
-        # A line of its own, also where the child was cut in the middle of one.
+        # # On its own line, even if the child was killed within one.
         _say_line(f"\nend {os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0}")
 
 
 def write_for_ever(folder: Path, *, seed: int, fault: str) -> None:
-    """The child: change after change, each said once the store has confirmed it."""
+    """The child: makes changes, and prints each after the store has confirmed it."""
     if fault == "acknowledge-early":
         _acknowledge_before_commit()
     if fault == "name-early":
@@ -209,7 +211,7 @@ def _say_document(document: Document) -> None:
 
 
 def _acknowledge_before_commit() -> None:
-    """As a store would that answers what it has not stored yet."""
+    """A faulty store that confirms before it has stored."""
 
     def add_document(session: Session, case_id: str, new: documents.NewDocument, *, now: str) -> Document:
         document = real(session, case_id, new, now=now)
@@ -220,7 +222,7 @@ def _acknowledge_before_commit() -> None:
 
 
 def _record_before_naming() -> None:
-    """As a store would that records a file as whole before it has its name."""
+    """A faulty store that records a file as complete before it has its name."""
 
     def commit_file(part: Path, _whole: Path) -> tuple[int, str]:
         with part.open("rb") as stream:
@@ -245,7 +247,7 @@ def _say_line(line: str) -> None:
 
 
 def main() -> None:
-    """Kill so many times, and tell how it went."""
+    """Run the kills and print the results."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--times", type=int, default=200)
     parser.add_argument("--max-changes", type=int, default=10, help="before a kill")

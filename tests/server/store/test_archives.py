@@ -1,4 +1,4 @@
-"""A case copied out and in: the same again, or nothing at all."""
+"""A case exported and imported: identical, or not at all."""
 
 import contextlib
 import hashlib
@@ -52,7 +52,7 @@ def parts_of(archive: Path) -> dict[str, bytes]:
 
 
 def written(folder: Path, parts: dict[str, bytes], *, fix_manifest: bool = True) -> Path:
-    """An archive of these parts, with a manifest that agrees with them."""
+    """An archive of these parts, with a consistent manifest."""
     if fix_manifest:
         manifest = json.loads(parts["manifest.json"])
         manifest["parts"] = [
@@ -75,7 +75,7 @@ def test_a_case_comes_back_as_it_was(store: CaseStore, case: Case) -> None:
     assert (again.name, again.created_at, again.copied_from) == (PATIENT, case.created_at, case.id)
 
     def comparable(entries: tuple[Entry, ...]) -> str:
-        """But for the case that they are in, and that they came in."""
+        """Documents without the case that they belong to and were imported into."""
         reported = repr([(replace(one.heading, imported=None), one.validity) for one in entries])
         return reported.replace(case.id, "").replace(again.id, "").replace(SAYS_ARCHIVE, "")
 
@@ -95,7 +95,7 @@ def test_a_case_comes_back_as_it_was(store: CaseStore, case: Case) -> None:
 def test_what_came_in_never_looks_as_if_somebody_here_had_made_it(
     store: CaseStore, case: Case, clock: Callable[[], datetime]
 ) -> None:
-    """An archive may name anybody as who made and withdrew what is in it."""
+    """An archive may name anybody as the author of its documents and withdrawals."""
     taken_at = utc_text(clock())
     again = store.import_archive(store.export_case(case.id).path, by="M. Ito")
     came = [one.heading for one in store.outline(again.id)]
@@ -110,7 +110,7 @@ def test_what_came_in_never_looks_as_if_somebody_here_had_made_it(
     plan = store.latest(again.id, DocumentKind.PLAN, "L3 😀")
     assert plan is not None
     assert plan.makers == ("abe", "M. Ito")
-    # What is made here afterwards was made here, also on what came in.
+    # # Documents made after the import were made here, also if based on imported ones.
     made = store.put(again.id, DocumentKind.CHECK, "tip", {}, made_by="abe", depends_on=[plan.id])
     assert (made.imported, made.maker, made.makers) == (None, "abe", ("abe",))
     assert [one.heading.maker for one in store.outline(case.id) if one.heading.imported is None][:1] == [
@@ -118,9 +118,7 @@ def test_what_came_in_never_looks_as_if_somebody_here_had_made_it(
     ]
 
 
-def test_taken_in_twice_it_is_said_once_and_who_took_it_in_last_stands_for_it(
-    store: CaseStore, case: Case
-) -> None:
+def test_imported_twice_it_is_noted_once_with_the_last_importer(store: CaseStore, case: Case) -> None:
     first = store.import_archive(store.export_case(case.id).path, by="M. Ito")
     second = store.import_archive(store.export_case(first.id).path, by="Dr Sato")
     check = store.history(second.id, DocumentKind.CHECK, "tip")[0]
@@ -215,7 +213,7 @@ def test_a_hostile_archive_is_rejected_whole(
     store: CaseStore, home: Home, case: Case, tmp_path: Path, change: Damaging, said: str, *, agreeing: bool
 ) -> None:
     parts = parts_of(store.export_case(case.id, with_identity=True).path)
-    # The patient's line comes first and is not interesting here.
+    # # The patient's line comes first and is not compared.
     parts["documents.jsonl"] = parts["documents.jsonl"].split(b"\n", 1)[1]
     if not agreeing:
         parts = parts_of(written(tmp_path, parts))
@@ -244,7 +242,7 @@ def test_an_archive_cut_or_changed_anywhere_is_rejected(store: CaseStore, case: 
         for changed in (whole[:n], whole[:n] + bytes([whole[n] ^ 0x55]) + whole[n + 1 :]):
             path.write_bytes(changed)
             with contextlib.suppress(InvalidInput):
-                # It may be a byte that means nothing, as a time inside the zip.
+                # # The byte may be insignificant, such as a time inside the zip.
                 taken = store.import_archive(path, by="M. Ito")
                 assert store.verify(taken.id) == ()
                 assert len(store.outline(taken.id)) == 4
@@ -312,7 +310,7 @@ def test_a_case_is_not_deleted_while_it_is_copied_out(
         return ()
 
     monkeypatch.setattr("server.store.archive.packing.all_files", all_files)
-    # Inside the reading transaction a writer of the same thread must not wait for itself either.
+    # # Inside the read transaction a writer of the same thread must not wait for itself.
     store.export_case(case.id)
     assert rejections == ["CASE_IN_USE"]
     store.delete(case.id, confirm=PATIENT)

@@ -1,4 +1,4 @@
-"""Cases: made, found, opened, renamed, deleted."""
+"""Cases: create, find, open, rename, delete."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

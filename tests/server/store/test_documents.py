@@ -74,7 +74,7 @@ def test_a_new_plan_puts_what_was_registered_on_the_old_one_out_of_date(store: C
     assert validities == {one.id: store.validity(one) for one in (ct, plan, newer, registration, check)}
 
 
-def test_what_was_withdrawn_takes_with_it_what_stands_on_it_and_no_older_version_holds_again(
+def test_a_withdrawal_invalidates_dependent_documents_and_restores_no_older_version(
     store: CaseStore, put: Put
 ) -> None:
     old, ct = put(CT), put(CT)
@@ -159,7 +159,7 @@ def test_a_bottomless_and_a_huge_content_are_rejected(store: CaseStore, case_id:
 
 
 @pytest.mark.parametrize("name", ["", "   ", "a\nb", "a\0b", "x" * 201, "\ud800"])
-def test_a_name_that_nobody_can_read_is_rejected(store: CaseStore, case_id: str, name: str) -> None:
+def test_an_unreadable_name_is_rejected(store: CaseStore, case_id: str, name: str) -> None:
     with pytest.raises(InvalidInput) as rejected:
         store.put(case_id, PLAN, name, {}, made_by="ito")
     assert rejected.value.code == "NAME_INVALID"
@@ -173,14 +173,14 @@ def test_documents_stand_only_on_documents_of_their_own_case(store: CaseStore, p
     assert store.all(other, PLAN) == ()
 
 
-def test_nothing_stands_on_who_the_patient_is(store: CaseStore, put: Put, case_id: str) -> None:
+def test_no_document_depends_on_the_patients_identity(store: CaseStore, put: Put, case_id: str) -> None:
     patient = put(DocumentKind.PATIENT)
     with pytest.raises(InvalidInput) as rejected:
         store.put(case_id, PLAN, "a", {}, made_by="ito", depends_on=[patient.id])
     assert rejected.value.code == "DEPENDS_ON_IDENTITY"
 
 
-def test_what_a_reader_does_to_a_content_reaches_nobody_else(store: CaseStore, put: Put) -> None:
+def test_a_readers_change_of_a_content_affects_no_other(store: CaseStore, put: Put) -> None:
     document = put(PLAN, "a", numbers=[1])
     document.content["numbers"].append(2)  # type: ignore[attr-defined]  # a list, as JSON has it
     assert store.document(document.case_id, document.id).content == {"numbers": [1]}

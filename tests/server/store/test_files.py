@@ -1,4 +1,4 @@
-"""Files of a case: whole or not there, whatever happens."""
+"""Files of a case: complete or absent, whatever happens."""
 
 import errno
 import hashlib
@@ -57,7 +57,7 @@ def test_a_full_disk_while_a_file_is_written_is_reported(store: CaseStore, case_
     with pytest.raises(StoreError) as full:
         write(errno.ENOSPC)
     assert full.value.code == "STORE_FULL"
-    # An error that has nothing to do with the disk is the caller's own.
+    # # An error unrelated to the disk is the caller's.
     with pytest.raises(ConnectionResetError):
         write(errno.ECONNRESET)
     assert store.files(case_id) == ()
@@ -122,7 +122,7 @@ STEPS = ("make_folder", "commit_file", "_record", "fsync", "replace", "sync_fold
 
 
 class Copies:
-    """The home's folder as a power cut would leave it, after each step that the store takes on the disk."""
+    """The home folder as a power failure would leave it, after each step of the store on disk."""
 
     def __init__(self, home: Home, to: Path) -> None:
         self._home, self._to = home, to
@@ -176,7 +176,7 @@ def test_power_lost_between_any_two_steps_costs_nothing_that_was_confirmed(
         with Home(copy) as home, CaseStore(home) as again:
             there = {case.name for case in again.list()}
             assert ("one" in there) or number >= after_copy, number
-            # The deletion is confirmed by its end, and true from its first commit on.
+            # # A deletion is confirmed at its end, and effective from its first commit.
             assert ("one" not in there) or number <= after_copy, number
             assert (f"Case {case_id[:6]}" in there) is (number >= after_copy), number
             for case in again.list():

@@ -1,4 +1,4 @@
-"""The folder in which everything is kept, and the database in it."""
+"""The home folder and its database."""
 
 import errno
 import os
@@ -117,7 +117,7 @@ def test_what_is_committed_is_on_the_disk_and_documents_do_not_change(store: Cas
 
 
 def with_a_third_form(folder: Path, upgrade: str) -> Path:
-    """The migrations, and one more."""
+    """The migrations with an additional one."""
     shutil.copytree(MIGRATIONS, folder)
     (folder / "versions" / "form_3.py").write_text(
         f"from alembic import op\nrevision = '3'\ndown_revision = '2'\ndef upgrade():\n    {upgrade}\n"

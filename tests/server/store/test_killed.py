@@ -1,4 +1,4 @@
-"""`kill -9` while the store is written: what was confirmed is there, and the next start is clean."""
+"""`kill -9` while the store is writing: confirmed data exists, and the next start is clean."""
 
 import random
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Reads are answered from memory until the next commit, and never with what is older than it."""
+"""Reads are answered from memory until the next commit, and are never stale."""
 
 import pytest
 from sqlalchemy import event

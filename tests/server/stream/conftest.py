@@ -1,4 +1,4 @@
-"""The whole application for a viewer, and pictures."""
+"""Fixtures: the whole application for a viewer, and pictures."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -28,7 +28,7 @@ def app(hub: LiveHub) -> FastAPI:
 
 @pytest.fixture
 def patient_app(hub: LiveHub) -> FastAPI:
-    """The same, to which no image of a test is old, however long the machine takes."""
+    """The same, with age limits that no test reaches on a slow machine."""
     return create_app(AppParts(hub=hub, config=Config(limits=LimitsConfig(video_stale_after_ms=10_000.0))))
 
 
@@ -40,7 +40,7 @@ def client(app: FastAPI) -> Iterator[TestClient]:
 
 @pytest.fixture
 def open_socket(client: TestClient) -> Callable[..., WebSocketTestSession]:
-    """Open a WebSocket of the application, with more headers if wanted."""
+    """Open a WebSocket of the application, with additional headers if given."""
 
     def opened(path: str, headers: dict[str, str] | None = None) -> WebSocketTestSession:
         return client.websocket_connect(f"ws://127.0.0.1:8000{path}", headers=headers or {})
@@ -52,7 +52,7 @@ def open_socket(client: TestClient) -> Callable[..., WebSocketTestSession]:
 def live_instant(
     snapshot_of: Callable[..., NavigationSnapshot], instant_of: Callable[..., Instant]
 ) -> Callable[..., Instant]:
-    """An instant of now, with a picture that is as bright as its sequence number."""
+    """A present instant whose picture has its sequence number as brightness."""
 
     def make(sequence: int, *, jpeg: bytes | None = None) -> Instant:
         picture = np.full((90, 160, 3), sequence % 256, np.uint8)

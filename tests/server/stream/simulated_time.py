@@ -10,18 +10,18 @@ from server.stream.connection import STATE_KEY, Connection
 
 
 class Leaping(asyncio.SelectorEventLoop):
-    """Never waits: where others would sleep, its clock is put forward."""
+    """A selector that never waits: it advances the clock instead."""
 
     def __init__(self) -> None:
         self._now_s = 0.0
         super().__init__(_Impatient(self))
 
     def time(self) -> float:
-        """Made time, from 0."""
+        """Simulated time, starting at 0."""
         return self._now_s
 
     def leap(self, by_s: float) -> None:
-        """Put the clock forward."""
+        """Advance the clock."""
         self._now_s += by_s
 
 
@@ -37,22 +37,22 @@ class _Impatient(selectors.DefaultSelector):
 
 
 class LoopTime:
-    """Stands in for the module `time` where made time is read."""
+    """Replaces the module `time` where simulated time is read."""
 
     @staticmethod
     def monotonic() -> float:
-        """Seconds of the running loop."""
+        """Time of the running loop, in seconds."""
         return asyncio.get_running_loop().time()
 
 
 def run_in_made_time(main: Coroutine[Any, Any, None]) -> None:
-    """Run it to its end, as fast as it can be computed."""
+    """Run to completion without waiting."""
     with asyncio.Runner(loop_factory=Leaping) as runner:
         runner.run(main)
 
 
 class Wire:
-    """A transport that carries so many bytes a second; 0 is a viewer that takes nothing."""
+    """A transport with this many bytes per second; 0 is a viewer that reads nothing."""
 
     def __init__(self, bytes_per_s: float) -> None:
         self._bytes_per_s = bytes_per_s
@@ -61,7 +61,7 @@ class Wire:
         self.connection = Connection(cast("asyncio.Transport", cast("Any", self)))
 
     async def carry(self, size: int) -> None:
-        """Take a message over, and be free when it has gone."""
+        """Accept a message, and become free when it has been sent."""
         loop = asyncio.get_running_loop()
         self._since_s, self._unsent = loop.time(), float(size)
         if self._bytes_per_s == float("inf"):
@@ -72,14 +72,14 @@ class Wire:
             loop.call_later(size / self._bytes_per_s, self._end)
 
     def get_write_buffer_size(self) -> int:
-        """What has not gone yet."""
+        """Bytes not sent yet."""
         gone = (
             self._bytes_per_s * (asyncio.get_running_loop().time() - self._since_s) if self._unsent else 0.0
         )
         return max(0, round(self._unsent - gone))
 
     def is_closing(self) -> bool:
-        """Whether it was cut."""
+        """Whether it was aborted."""
         return self.cut_at_s is not None
 
     def get_extra_info(self, _name: str) -> None:
@@ -96,7 +96,7 @@ class Wire:
 
 
 class Page:
-    """The WebSocket of a viewer that asks for the next image as soon as it has one, or only listens."""
+    """The WebSocket of a viewer that requests the next image after each one, or only listens."""
 
     def __init__(self, bytes_per_s: float = float("inf"), *, asks: bool = True) -> None:
         self._asks = asks
@@ -109,7 +109,7 @@ class Page:
         """Let in."""
 
     async def receive(self) -> dict[str, Any]:
-        """The next question: once the last answer has gone over the wire."""
+        """The next request, after the last answer has been transmitted."""
         if not self._asks:
             await asyncio.Event().wait()
         if not self._requested:

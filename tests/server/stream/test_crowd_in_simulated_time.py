@@ -28,7 +28,7 @@ BYTES = {PictureSize.FULL: 130_000, PictureSize.HALF: 43_000, PictureSize.QUARTE
 
 
 class MadePictures(PictureCache):
-    """Pictures of the usual sizes, without a thread; counts what was asked for."""
+    """Pictures of the usual sizes without a thread; counts requests."""
 
     def __init__(self) -> None:
         super().__init__(quality=80)
@@ -43,7 +43,7 @@ class MadePictures(PictureCache):
 
 @dataclasses.dataclass
 class Crowd:
-    """What is watched, and who watches."""
+    """The hub and its viewers."""
 
     view: ViewContext
     good: list[Page]
@@ -83,7 +83,7 @@ def _socket(page: Page) -> WebSocket:
 
 @pytest.fixture(scope="module")
 def crowd(snapshot_of: Callable[..., NavigationSnapshot], instant_of: Callable[..., Instant]) -> Crowd:
-    """Three pages on good lines, one on 1 Mbit/s, one that takes nothing, and one that reads numbers."""
+    """Three pages on fast connections, one on 1 Mbit/s, one that reads nothing, one that reads numbers."""
     view = ViewContext(hub=LiveHub(), viewers=Viewers(), pictures=MadePictures(), texts=MessageCache())
     made: list[Crowd] = []
 
@@ -116,11 +116,11 @@ def test_each_text_and_picture_is_made_once_for_all(crowd: Crowd) -> None:
     in_full = sum(size is PictureSize.FULL for _, size in pictures.made)
     smaller = [message for _, message in crowd.thin.came if message["shown_scale_ratio"] < 1.0]
     assert in_full == IMAGES
-    # Only what the one thin line asked for.
+    # # Only the requests of the slow connection.
     assert len(pictures.made) - in_full == len(smaller)
 
 
-def test_the_stalled_one_is_disconnected_after_2_s_and_nobody_else(crowd: Crowd) -> None:
+def test_only_the_stalled_viewer_is_disconnected_after_2_s(crowd: Crowd) -> None:
     viewers = crowd.view.viewers
     assert numbers_of(crowd.stalled) == [0]
     assert crowd.stalled.wire.cut_at_s == pytest.approx(2.0, abs=0.01)
@@ -135,7 +135,7 @@ def test_the_slow_connection_gets_small_pictures_that_are_young(crowd: Crowd) ->
     assert ratios[0] == 1.0
     settled = [came for came in crowd.thin.came if came[0] > 4.0]
     assert {message["shown_scale_ratio"] for _, message in settled} == {0.25}
-    # Some 8 a second, each the newest when its sending begins.
+    # # Some 8 a second, each the newest when its transmission begins.
     assert len(settled) > (SECONDS - 4.0) * 6
     assert max(message["snapshot"]["age_ms"] for _, message in settled) < 1000.0 / RATE_HZ
 
@@ -158,6 +158,6 @@ def test_a_viewer_on_a_slow_connection_who_insists_gets_full_pictures_rarely(
         came.extend(message["shown_scale_ratio"] for _, message in page.came)
 
     run_in_made_time(run())
-    # 130 kB over 1 Mbit/s take 1.04 s, which is slow and no stall.
+    # # 130 kB over 1 Mbit/s take 1.04 s: slow but not stalled.
     assert came == [1.0] * 7
     assert view.viewers.disconnected(ViewerKind.VIEW) == 0

@@ -37,7 +37,7 @@ def test_each_instant_is_reported_with_or_without_an_image(
         assert socket.receive_json()["sequence"] == 2
 
 
-def test_one_who_talks_is_told_not_to(open_socket: OpenSocket) -> None:
+def test_a_client_message_is_rejected(open_socket: OpenSocket) -> None:
     with open_socket("/ws/live") as socket:
         socket.send_text("stop the drill")
         with pytest.raises(WebSocketDisconnect) as reported:

@@ -1,4 +1,4 @@
-"""MJPEG from a real server: at once, never an image late, never frozen; a stalled viewer costs nothing."""
+"""MJPEG from a real server: immediate, current, never frozen; a stalled viewer costs nothing."""
 
 import dataclasses
 import http.client
@@ -29,7 +29,7 @@ DEADLINE_S = 60.0
 
 
 class MotionMonitor:
-    """A viewer of the MJPEG stream that looks at each byte."""
+    """A viewer of the MJPEG stream that checks each byte."""
 
     def __init__(self, port: int, query: str = "") -> None:
         self._connection = http.client.HTTPConnection("127.0.0.1", port, timeout=DEADLINE_S)
@@ -38,9 +38,10 @@ class MotionMonitor:
         assert self.response.read(len(PART_HEAD)) == PART_HEAD
 
     def picture(self) -> tuple[dict[str, Any], bytes]:
-        """The facts in the comment of the next JPEG, and the JPEG without them.
+        """The metadata in the comment of the next JPEG, and the JPEG without it.
 
-        Reads up to the head of the next part and not a byte further: that head has to come directly.
+        Reads up to the header of the next part and no further: that header must follow directly.
+
         """
         data = b""
         while not data.endswith(b"\r\n" + PART_HEAD):
@@ -52,7 +53,7 @@ class MotionMonitor:
 
 
 def facts_in(jpeg: bytes) -> tuple[dict[str, Any], bytes]:
-    """The facts in the comment of a JPEG, and the JPEG without them."""
+    """The metadata in the comment of a JPEG, and the JPEG without it."""
     found = re.search(rb"\xff\xfe(..)(\{.*?\})", jpeg, re.DOTALL)
     assert found is not None
     return json.loads(found[2]), jpeg[: found.start()] + jpeg[found.end() :]
@@ -85,7 +86,7 @@ def metric(port: int, name: str) -> float:
 
 
 def received_until_cut(line: socket.socket) -> int:
-    """How many bytes still come before the line is at its end."""
+    """Number of bytes until the connection ends."""
     total = 0
     try:
         while received := line.recv(1 << 20):
@@ -154,13 +155,13 @@ def test_when_tracking_dies_a_card_replaces_the_last_image(
     assert viewer.picture()[0] == {"image_number": None}
 
 
-def test_when_nobody_says_anything_any_more_a_card_replaces_the_last_image(
+def test_a_card_replaces_the_last_image_when_messages_stop(
     live_instant: LiveInstant, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(mjpeg, "time", LoopTime)
     viewers, hub, said = Viewers(), LiveHub(), live_instant(0)
     assert said.snapshot is not None
-    # 30 ms old when it comes: at the end of the viewer's patience it is older than 500 ms.
+    # # 30 ms old on arrival: at the viewer's timeout it is older than 500 ms.
     snapshot = dataclasses.replace(said.snapshot, captured_at_s=-0.03)
     video = Video(hub=hub, viewers=viewers, pictures=PictureCache(quality=80), stale_after_ms=500.0)
     came: list[tuple[float, int | None]] = []
@@ -177,7 +178,7 @@ def test_when_nobody_says_anything_any_more_a_card_replaces_the_last_image(
     assert came == [(0.0, 1000), (pytest.approx(0.5), None), (pytest.approx(1.5), None)]
 
 
-def test_a_stalled_viewer_is_disconnected_and_delays_nobody(
+def test_a_stalled_viewer_is_disconnected_and_delays_no_other(
     hub: LiveHub, live_instant: LiveInstant, port: int, watch: Callable[[], MotionMonitor]
 ) -> None:
     noise = np.random.default_rng(1).integers(0, 255, 400_000, dtype=np.uint8).tobytes()
@@ -197,7 +198,7 @@ def test_a_stalled_viewer_is_disconnected_and_delays_nobody(
         while metric(port, 'coaxial_viewer_let_go_total{kind="mjpeg"}') == 0.0:
             publish()
             assert time.monotonic() < deadline
-        # Its line is cut for good: what was waiting for it is thrown away, not kept.
+        # # Its connection is closed for good: pending data is dropped.
         assert received_until_cut(stalled) < 2 * len(noise)
         assert metric(port, 'coaxial_viewers{kind="mjpeg"}') == 0.0
     publish()

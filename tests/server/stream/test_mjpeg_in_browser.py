@@ -1,4 +1,4 @@
-"""MJPEG in a real browser, which displays a part only when the next one has begun."""
+"""MJPEG in a real browser, which displays a part only when the next one begins."""
 
 import time
 from collections.abc import Callable
@@ -14,7 +14,7 @@ from tracker.navigation import NavigationSnapshot
 
 pytestmark = pytest.mark.browser
 
-# Whether the picture is as bright as asked for.
+# # Whether the picture has this brightness.
 IS_SHOWN = """bright => {
     const img = document.querySelector('img')
     if (!img || !img.naturalWidth) return false
@@ -32,7 +32,7 @@ def test_the_browser_shows_an_image_without_waiting_for_the_next(
     snapshot_of: Callable[..., NavigationSnapshot],
     instant_of: Callable[..., Instant],
 ) -> None:
-    # No card within this test: it would be the next part, and hide that the browser waits for it.
+    # # No card during this test: it would be a next part and hide that the browser waits for one.
     port = serve(patient_app)
 
     def publish(sequence: int, bright: int) -> None:

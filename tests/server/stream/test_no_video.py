@@ -1,4 +1,4 @@
-"""The card for no video has the first reason, and is made once for all viewers."""
+"""The card for missing video shows the first reason, and is made once for all viewers."""
 
 from collections.abc import Callable
 from datetime import datetime
@@ -50,7 +50,7 @@ def test_the_reason_is_reported(
     assert reasons_for_no_video(instant_of(1, process=process, source=source), now_s=5.0) == reasons
 
 
-def test_an_image_that_stands_still_is_reported_with_its_age(
+def test_a_frozen_image_is_reported_with_its_age(
     instant_of: InstantOf, snapshot_of: Callable[..., NavigationSnapshot]
 ) -> None:
     instant = instant_of(1, snapshot=snapshot_of(captured_at_s=5.0))

@@ -25,7 +25,7 @@ from tests.server.capture.fake_phone import CAMERA, jpeg_of
 from tests.server.stream.test_phone_sender import CAMERA as CAMERA_SAID
 from tracker.camera import CameraControl
 
-# The server speaks twice a second at least.
+# # The server sends at least twice a second.
 MAX_MESSAGES = 20
 KEY, OTHER_KEY = "0" * 32, "1" * 32
 ITO = Person(id="ito", name="Dr. Ito", role=Role.OPERATOR)
@@ -58,7 +58,7 @@ def connected(client: TestClient) -> WebSocketTestSession:
 
 
 class Phone:
-    """A page that sends, as far as the server sees it. Its clock is this machine's."""
+    """A sending page as seen by the server. Its clock is this machine's."""
 
     def __init__(self, socket: WebSocketTestSession, key: str = KEY) -> None:
         self.socket = socket
@@ -69,7 +69,7 @@ class Phone:
         self.socket.send_text(json.dumps(message))
 
     def reported(self, what: str) -> dict[str, Any]:
-        """The next message of this kind; each ping on the way is answered."""
+        """The next message of this kind; pings before it are answered."""
         for _ in range(MAX_MESSAGES):
             message = self.socket.receive_json()
             if "note" in message:
@@ -81,14 +81,14 @@ class Phone:
         pytest.fail(f"the server says no {what}")
 
     def note_after(self, images: int) -> dict[str, Any]:
-        """The note that counts this many images."""
+        """The note with this image count."""
         for _ in range(MAX_MESSAGES):
             if (note := self.reported("note"))["images"] >= images:
                 return note
         pytest.fail(f"no {images} images were handed on")
 
     def problem(self) -> dict[str, Any]:
-        """The next note that tells of something wrong."""
+        """The next note with a problem."""
         for _ in range(MAX_MESSAGES):
             if (note := self.reported("note"))["problem"] is not None:
                 return note
@@ -107,7 +107,7 @@ class Phone:
 
 
 def ending(socket: WebSocketTestSession) -> WebSocketDisconnect:
-    """How the server ends it, after whatever it says before."""
+    """Close code and reason, skipping earlier messages."""
     for _ in range(MAX_MESSAGES):
         try:
             socket.receive_json()
@@ -141,7 +141,7 @@ def test_images_reach_the_inbox_with_their_time_and_each_one_grants_the_next(
         assert before_s - 5.0 < image.captured_at_s <= time.monotonic()
         assert note["delay_ms"] >= 0.0
         assert note["problem"] is None
-    # The page is closed: nobody is there, and that is told at once.
+    # # The page is closed: nobody is connected, which is reported at once.
     assert newest(inbox) == PhoneUpdate(sender="")
 
 
@@ -185,7 +185,7 @@ def test_a_second_device_is_rejected_with_a_sentence_and_the_first_goes_on(
 
 
 def test_the_page_that_lost_its_connection_gets_its_slot_back(door: TestClient, inbox: PhoneInbox) -> None:
-    # Its first connection hangs in the air: the server has not seen it end.
+    # # Its first connection is half-open: the server has not noticed its end.
     with connected(door) as hanging, connected(door) as socket:
         first = Phone(hanging)
         first.begin()
@@ -194,7 +194,7 @@ def test_the_page_that_lost_its_connection_gets_its_slot_back(door: TestClient, 
         assert ending(hanging).code == phone_socket.REPLACED
         again.send(jpeg_of(50))
         again.note_after(1)
-        # The end of the first one has not taken the place from the second.
+        # # The end of the first connection has not released the second one's place.
         assert newest(inbox).sender
 
 
@@ -218,7 +218,7 @@ def test_a_page_that_misbehaves_is_reported_and_its_slot_is_free(door: TestClien
     assert newest(inbox) == PhoneUpdate(sender="")
 
 
-def test_a_server_with_another_camera_says_how_to_start_it(client: TestClient) -> None:
+def test_a_server_with_another_camera_states_how_to_start_it(client: TestClient) -> None:
     with connected(client) as socket:
         rejected = socket.receive_json()["rejected"]
     assert rejected["code"] == "PHONE_NOT_SELECTED"
@@ -265,7 +265,7 @@ def test_an_image_of_a_connection_that_was_replaced_is_not_handed_on(
         assert newest(inbox) == PhoneUpdate(sender="Dr. Ito")
 
 
-def test_a_key_alone_takes_nobodys_place(receiver: Receiver) -> None:
+def test_a_key_alone_does_not_replace_a_sender(receiver: Receiver) -> None:
     with receiver.sending(KEY, ITO), pytest.raises(PhoneTaken, match="Ito"), receiver.sending(KEY, GUEST):
         pass
 

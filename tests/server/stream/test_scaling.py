@@ -69,7 +69,7 @@ def test_a_picture_that_is_there_already_is_not_encoded_again(live_instant: Live
     assert pictures.encoded[PictureSize.FULL] == 0
 
 
-def test_a_late_comer_gets_a_picture_that_nobody_had_wanted(drawn: Instant) -> None:
+def test_a_late_viewer_gets_a_picture_that_was_not_encoded_before(drawn: Instant) -> None:
     assert size_px(asyncio.run(all_of(PictureCache(quality=80), drawn, PictureSize.FULL))[0]) == (160, 90)
 
 
@@ -153,7 +153,7 @@ def test_an_instant_without_picture_has_none_in_any_size(instant_of: LiveInstant
     assert sum(pictures.encoded.values()) == 0
 
 
-def test_a_text_is_written_once_and_says_the_truth_of_each_sending(live_instant: LiveInstant) -> None:
+def test_a_text_is_written_once_and_is_true_at_each_sending(live_instant: LiveInstant) -> None:
     texts, instant = MessageCache(), live_instant(3)
     made_s = time.monotonic()
     texts.of(instant, now_s=made_s)

@@ -9,7 +9,7 @@ from tracker.camera import CameraControl, LampFlicker
 GRANTED = CameraMode(fourcc="YUYV", size_wh_px=(640, 480), rate_hz=15.0)
 
 
-def test_a_camera_says_whose_clock_it_is_what_it_granted_and_how_it_is_set() -> None:
+def test_a_camera_reports_its_clock_granted_mode_and_controls() -> None:
     camera = CameraStatus(
         clock=ImageClock.DRIVER, granted=GRANTED, controls={CameraControl.FOCUS: 30, CameraControl.GAIN: 7}
     )

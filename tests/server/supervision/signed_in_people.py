@@ -1,6 +1,7 @@
-"""People signed in to an application under test, without keys.
+"""Users signed in to an application under test, without keys.
 
-Whom header, query or cookie names is taken for who asks, in place of whom the session says.
+The user named in a header, query or cookie replaces the session's.
+
 """
 
 from http.cookies import SimpleCookie
@@ -22,12 +23,12 @@ PERSONS = {person.id: person for person in (SATO, KIM, LEE, ITO, GUEST)}
 
 
 def sign_people_in(app: FastAPI) -> None:
-    """Behind everything that the application itself puts before its doors."""
+    """Runs after the application's own middleware."""
     app.user_middleware.append(Middleware(SignedIn))
 
 
 class SignedIn:
-    """ASGI middleware: the header `x-person`, or `person` in the query or a cookie, says who asks."""
+    """ASGI middleware: the header `x-person`, or `person` in the query or a cookie, names the user."""
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app

@@ -1,4 +1,4 @@
-"""Hold requests: over a restart, with any case open, and with any disk error."""
+"""Hold requests survive a restart, with any open case, and with any disk error."""
 
 import json
 import os
@@ -29,7 +29,7 @@ def alarms_of(service: AlarmService) -> list[tuple[str, str]]:
 
 @pytest.fixture
 def start(tmp_path: Path) -> Callable[..., tuple[HoldRequests, AlarmService]]:
-    """A start of the server: nothing is left of the one before but what lies on the disk."""
+    """A start of the server: only what is on disk survives from the previous one."""
 
     def started(at: str = "2026-11-21T14:03:00.000Z") -> tuple[HoldRequests, AlarmService]:
         service = AlarmService(Config())
@@ -40,13 +40,13 @@ def start(tmp_path: Path) -> Callable[..., tuple[HoldRequests, AlarmService]]:
     return started
 
 
-def test_a_hold_stands_after_a_start_with_who_asked_and_when(start: Callable[..., Any]) -> None:
+def test_a_hold_survives_a_restart_with_its_requester_and_time(start: Callable[..., Any]) -> None:
     holds, _ = start()
     holds.request(SATO)
     holds, service = start("2026-11-21T15:00:00.000Z")
     assert [(one.name, one.at) for one in holds.requests] == [("Dr Sato", "2026-11-21T14:03:00.000Z")]
     assert alarms_of(service) == [("HOLD_REQUESTED", "Dr Sato")]
-    # Who asks once more asks since the first time.
+    # # Repeated requests keep the time of the first.
     holds.request(SATO)
     holds.request(KIM)
     holds, service = start()
@@ -57,7 +57,7 @@ def test_a_hold_stands_after_a_start_with_who_asked_and_when(start: Callable[...
     assert alarms_of(service) == [("HOLD_REQUESTED", "Dr Sato, Dr Kim")]
 
 
-def test_after_a_start_it_is_released_by_who_asked_or_by_the_operator_and_nobody_else(
+def test_after_a_restart_only_its_requester_or_the_operator_releases_it(
     start: Callable[..., Any],
 ) -> None:
     start()[0].request(SATO)
@@ -73,7 +73,7 @@ def test_after_a_start_it_is_released_by_who_asked_or_by_the_operator_and_nobody
     assert (holds.requests, alarms_of(service)) == ((), [])
 
 
-def test_theatre_hears_of_a_hold_that_cannot_be_kept_and_who_asked_is_told(tmp_path: Path) -> None:
+def test_a_hold_that_cannot_be_stored_is_shown_and_its_requester_is_informed(tmp_path: Path) -> None:
     class FullDisk(HoldRequestFile):
         def write(self, asking: object) -> None:
             del asking
@@ -103,13 +103,13 @@ def test_it_is_on_the_disk_for_its_owner_alone_before_it_is_confirmed(
 
     monkeypatch.setattr(os, "fsync", counted_fsync)
     start()[0].request(SATO)
-    # The file, and the folder that has its name.
+    # # The file, and the folder that contains its name.
     assert len(synced) == 2
     assert (tmp_path / HOLDS_FILE).stat().st_mode & 0o777 == 0o600
 
 
 @pytest.mark.parametrize("content", [b"", b"{", b'{"form": 2}', b'{"form": 1, "asking": [{"id": "s1"}]}'])
-def test_of_a_damaged_file_a_hold_stands_that_the_operator_lifts(
+def test_a_damaged_file_counts_as_a_hold_that_the_operator_can_release(
     tmp_path: Path, start: Callable[..., Any], content: bytes
 ) -> None:
     (tmp_path / HOLDS_FILE).write_bytes(content)
@@ -123,7 +123,7 @@ def test_of_a_damaged_file_a_hold_stands_that_the_operator_lifts(
 
 @pytest.fixture
 def served(tmp_path: Path) -> Iterator[Callable[[], TestClient]]:
-    """The application on one home, as often as it is started."""
+    """The application in one home folder, for repeated starts."""
     with Home(tmp_path / "home") as home, CaseStore(home) as store:
 
         def client() -> TestClient:

@@ -1,4 +1,4 @@
-"""The room without a network: people once, marks that expire with their image, rate limits."""
+"""The room without a network: unique users, marks that expire with their image, rate limits."""
 
 from dataclasses import dataclass, field
 
@@ -19,7 +19,7 @@ FADES_S = 20.0
 
 @dataclass(slots=True)
 class Scene:
-    """A room, a clock and a camera that are set by hand."""
+    """A room with a clock and a camera set by the test."""
 
     room: Room = field(default_factory=lambda: Room(fades_after_s=FADES_S))
     now_s: float = 100.0
@@ -129,7 +129,7 @@ def test_a_pointer_goes_with_its_page_but_drawings_stay_their_time(scene: Scene)
 def test_a_drawing_goes_with_the_image_that_it_was_made_on(scene: Scene) -> None:
     session = scene.enter(SATO)
     seen = scene.moment
-    scene.now_s += 5  # over a thin line an old image was drawn on
+    scene.now_s += 5  # drawn on an old image over a slow connection
     scene.room.draw(session, 1, Shape.PEN, [(1.0, 1.0)], seen, scene.shown, now_s=scene.now_s)
     scene.now_s += 14.9
     assert scene.drawn == ["1-1"]

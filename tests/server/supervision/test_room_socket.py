@@ -41,7 +41,7 @@ class Page:
         return reported
 
     def reason(self) -> str:
-        """Why it is closed."""
+        """Reason of the close."""
         with pytest.raises(WebSocketDisconnect) as reported:
             self.socket.receive_json()
         assert reported.value.code in (1008, 1009)
@@ -118,7 +118,7 @@ def test_the_operator_clears_what_others_drew(page: Callable[..., Page], image: 
         [],
         [],
     ]
-    # Nothing of it comes back with what is drawn next.
+    # # None of it returns with the next drawing.
     sato.say(draw={"key": 8, "shape": "circle", "points_px": [[200, 100], [250, 100]], **image})
     (after,) = ito.until(lambda reported: reported["drawings"])["drawings"]
     assert after != drawn["key"]
@@ -195,7 +195,7 @@ def test_holds_of_several_stand_until_each_has_released(client: TestClient) -> N
     def by(reported: Any) -> list[str]:  # noqa: ANN401  JSON
         return [one["by"] for one in reported["alarms"] if one["condition"] == "HOLD_REQUESTED"]
 
-    # The session's name counts, whatever was typed.
+    # # The session's name is used, whatever was entered.
     assert by(post("hold", "s1")) == ["Dr Sato"]
     rejected = post("release", "s2", 409)
     assert (rejected["code"], "Dr Sato" in rejected["message"]) == ("HOLD_NOT_YOURS", True)

@@ -1,4 +1,4 @@
-"""Alarms as the engine has them, for their words."""
+"""Alarms as the engine provides them, for tests of their texts."""
 
 from dataclasses import replace
 
@@ -23,7 +23,7 @@ def alarm(condition: Condition, state: AlarmState = AlarmState.ACTIVE, **changes
 
 
 def breach(**changes: object) -> Alarm:
-    """0.4 mm through now, or 7.3 mm away; 0.8 mm was the worst."""
+    """Now 0.4 mm through, or 7.3 mm away; the worst was 0.8 mm."""
     values: dict[str, object] = {
         "measure": mm(-0.4),
         "site": MEDIAL,

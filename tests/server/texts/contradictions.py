@@ -1,7 +1,7 @@
-"""What no two of headline, figures, alarms, overlay, wire and log may say of one moment.
+"""Contradictions between headline, figures, alarms, overlay, wire and log at one moment.
 
-The law is written once more, from the digits and the words alone: nothing here asks the program what it
-meant.
+The rules are stated independently, from the digits and words alone, without reading the program's intent.
+
 """
 
 import re
@@ -18,7 +18,7 @@ from tests.server.texts.random_drilling import Moment
 from tracker.navigation import FigureName, Verdict
 from tracker.navigation.alarms import AlarmState, Condition, Presence
 
-# From an image that shows a breach to its alarm: two images, or 80 ms and the next look.
+# # From an image with a breach to its alarm: two images, or 80 ms and the next evaluation.
 MAX_UNANNOUNCED = 2
 INSTRUCTION = re.compile(r"Stop\.|Anhalten\.")
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
@@ -34,13 +34,14 @@ OF_ERROR = {Condition.POSE_UNCERTAIN, Condition.SETUP_INSUFFICIENT}
 
 @dataclass(slots=True)
 class ContradictionCheck:
-    """Hears moment after moment, and fails at the first that contradicts itself or those before it.
+    """Checks moment after moment, and fails at the first contradiction in it or with those before it.
 
     Attributes:
-        through_images: how many images in a row have shown a breach without an alarm of it.
-        deepest: by number of a breach's alarm, the least clearance that was shown while it stood.
-        shown_before: the least clearance shown since the last moment without one.
-        again: how many alarms were raised while an earlier one of their kind was not acknowledged.
+        through_images: number of successive images that have shown a breach without its alarm.
+        deepest: by number of a breach's alarm, the smallest clearance shown while it was raised.
+        shown_before: smallest clearance shown since the last moment without a breach.
+        again: number of alarms raised while an earlier one of their kind was not acknowledged.
+
     """
 
     through_images: int = 0
@@ -127,7 +128,7 @@ class ContradictionCheck:
         assert self.through_images < MAX_UNANNOUNCED
 
     def _worst(self, moment: Moment, assessments: Mapping[str, AssessmentMessage]) -> None:
-        """The worst value of a breach is the least clearance that was on the screen while it stood."""
+        """The worst value of a breach is the smallest clearance shown while it was raised."""
         if moment.snapshot is None:
             return
         walls = [one.figures.wall.value for one in assessments.values()]
@@ -152,7 +153,7 @@ class ContradictionCheck:
             assert isinstance(sentence, dict)
             if change == "raised":
                 shown = by_number[_number(line)]
-                # The line is of this occurrence; the screen names those before it, too.
+                # # The log line is of this occurrence; the screen also names earlier ones.
                 for language, word in (("en", "Earlier"), ("de", "Zuvor")):
                     own, reported = sentence[language], getattr(shown.sentence, language)
                     is_again = shown.earlier_worst is not None
@@ -175,7 +176,7 @@ def _assessments(snapshot: SnapshotMessage | None) -> Mapping[str, AssessmentMes
 
 
 def _verdict_fits(assessment: AssessmentMessage) -> None:
-    """The law of the verdict, from the digits of the figures alone."""
+    """The rule of the headline, from the digits of the figures alone."""
     f = assessment.figures
     over = {
         "wall": f.wall.value is not None and _less(f.wall, f.wall.limit),
@@ -213,7 +214,7 @@ def _verdict_fits(assessment: AssessmentMessage) -> None:
 
 
 def _overlay(moment: Moment, snapshot: SnapshotMessage) -> None:
-    """The burned-in words and digits are those of the wire, in both languages."""
+    """Words and digits in the video equal those of the wire, in both languages."""
     assert moment.snapshot is not None
     for language in ("en", "de"):
         panel = panel_of(moment.snapshot, moment.alarms, language)
@@ -253,7 +254,7 @@ def _numbers(text: str) -> set[str]:
 
 
 def _digits(assessment: AssessmentMessage) -> set[str]:
-    """Every number that may stand in a headline: of a figure without its sign, of a correction, 95 and 2."""
+    """Every number that a headline may contain: unsigned figures, corrections, 95 and 2."""
     digits = {"95", "2"}
     for name in FigureName:
         value = getattr(assessment.figures, name.value).value

@@ -1,8 +1,9 @@
-"""A drill that is moved at random through a bone of known size, and everything that is said of it.
+"""A drill that moves at random through a bone of known size, with all outputs of each moment.
 
     PYTHONPATH=. python -m tests.server.texts.random_drilling --seeds 20
 
 prints how many moments and different states were visited, and ends at the first contradiction.
+
 """
 
 import random
@@ -29,7 +30,7 @@ RUNS = SourceStatus(name="rehearsal", state=SourceState.RUNNING)
 WORKS = ProcessStatus(state=ProcessState.RUNNING)
 START = datetime(2026, 1, 2, 10, 41, 13, tzinfo=UTC)
 
-# Where a hand is led: (depth, medial, cranial, medial_deg, cranial_deg), and how unsure the pose is.
+# # Targets of the hand: (depth, medial, cranial, medial_deg, cranial_deg), and the factor of the uncertainty.
 PLACES: Sequence[tuple[float, float, float, float, float, float]] = [
     (-15.0, 0.2, 0.1, 0.3, 0.2, 1.0),  # before the entry, on path
     (25.0, 0.1, 0.0, 0.2, 0.1, 1.0),  # inside, on path
@@ -52,7 +53,7 @@ PLACES: Sequence[tuple[float, float, float, float, float, float]] = [
 
 @dataclass(slots=True)
 class MemoryLog(NoLog):
-    """The log's lines, as they are handed to the disk."""
+    """The log's lines, as passed to the disk."""
 
     lines: list[Mapping[str, object]] = field(default_factory=list)
 
@@ -62,14 +63,15 @@ class MemoryLog(NoLog):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Moment:
-    """All that is said at one moment.
+    """All outputs of one moment.
 
     Attributes:
-        at_s: of the moment.
-        snapshot: of the image of this moment; None where none came.
-        alarms: as the engine has them.
-        message: as it goes over the wire.
-        lines: that were added to the log.
+        at_s: time of the moment.
+        snapshot: of the image of this moment; None without an image.
+        alarms: from the engine.
+        message: as sent.
+        lines: added to the log.
+
     """
 
     at_s: float
@@ -102,7 +104,7 @@ class RandomDrilling:
         self.sequence = 0
 
     def moments(self, images: int) -> Iterator[Moment]:
-        """So many images, with silences and people between them."""
+        """This many images, with gaps and user actions between them."""
         number = 0
         while number < images:
             targets = {name: np.array(self.random.choice(PLACES)) for name in self.setup.tools}
@@ -133,7 +135,7 @@ class RandomDrilling:
         )
 
     def _person(self) -> Iterator[Moment]:
-        """Now and then somebody acknowledges, pauses, or changes what the registration depends on."""
+        """Occasionally a user acknowledges, pauses, or changes what the registration depends on."""
         probability = self.random.random()
         if probability < 0.02:
             numbers = [alarm.number for alarm in self.service.picture.alarms]
@@ -171,7 +173,7 @@ class RandomDrilling:
 
 
 def state_of(moment: Moment) -> tuple[object, ...]:
-    """What kind of a moment this is: verdict or none, and each alarm with its state and presence."""
+    """Kind of a moment: headline or none, and each alarm with its state and presence."""
     return (
         moment.message.headline.verdict,
         moment.message.headline.tone,
@@ -180,7 +182,7 @@ def state_of(moment: Moment) -> tuple[object, ...]:
 
 
 def main() -> None:
-    """Visit many moments, and print how many states they were in."""
+    """Visit many moments, and print the number of different states."""
     from tests.server.texts.contradictions import ContradictionCheck  # noqa: PLC0415  it needs the moments of this file
 
     parser = ArgumentParser()

@@ -1,4 +1,4 @@
-"""An alarm is told in the present tense only while its condition is present."""
+"""An alarm is stated in the present tense only while its condition is present."""
 
 import pytest
 

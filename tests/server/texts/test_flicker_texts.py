@@ -1,4 +1,4 @@
-"""What is said of lamps that flicker, and which exposures are proposed."""
+"""Texts about flickering lamps, and the proposed exposures."""
 
 import pytest
 
@@ -15,11 +15,11 @@ from tracker.camera import LampFlicker
         (50, 27.0, 30.0, ["20.0", "30.0"]),
         (60, 7.0, 30.0, ["8.3", "16.7"]),
         (60, None, 30.0, ["8.3", "16.7"]),
-        # Not longer than from image to image.
+        # # Not longer than the interval of images.
         (50, 7.0, 60.0, ["10.0"]),
         (60, 4.0, 100.0, ["8.3"]),
         (50, 4.0, 120.0, []),
-        # That it is so already helps nobody.
+        # # The present exposure is not proposed.
         (50, 10.0, 30.0, ["20.0", "30.0"]),
     ],
 )
@@ -30,7 +30,7 @@ def test_exposures_are_whole_periods_of_the_light(
     assert [format_number(ms, decimals=1) for ms in found] == exposures_ms
 
 
-def test_the_note_says_mains_depth_exposure_and_what_to_set_in_both_languages() -> None:
+def test_the_note_has_mains_depth_exposure_and_remedy_in_both_languages() -> None:
     note = flicker_note(LampFlicker(mains_hz=(50,), depth_ratio=0.124), exposure_ms=7.0, rate_hz=30.0)
     assert note.message == {
         "en": "Lamps flicker by 12.4 % in the image (50 Hz mains), exposure 7.0 ms.",
@@ -42,7 +42,7 @@ def test_the_note_says_mains_depth_exposure_and_what_to_set_in_both_languages() 
     }
 
 
-def test_where_mains_or_exposure_are_not_known_the_note_says_so() -> None:
+def test_unknown_mains_or_exposure_are_stated_in_the_note() -> None:
     note = flicker_note(LampFlicker(mains_hz=(50, 60), depth_ratio=0.05), exposure_ms=None, rate_hz=0.0)
     assert note.message["en"] == "Lamps flicker by 5.0 % in the image (50 Hz or 60 Hz mains)."
     assert note.remedy["en"] == "Set exposure to 10.0 or 20.0 ms (50 Hz); 8.3 or 16.7 ms (60 Hz)."

@@ -1,4 +1,4 @@
-"""Contradictions that were once found by attack, each as the moment in which it was seen."""
+"""Contradictions found by earlier attacks, each as the moment in which it appeared."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -61,7 +61,7 @@ class Theatre:
     def images(
         self, seconds: float, where: Mapping[str, tuple[float, ...]], **changes: object
     ) -> AlarmSnapshot:
-        """Tools that are not named are not seen."""
+        """Tools that are not given are unseen."""
         setup = replace(self.setup, **changes)  # type: ignore[arg-type]  # any field of it
         for _ in range(round(seconds * 10)):
             self.at_s += 0.1
@@ -113,7 +113,7 @@ def test_medial_is_medial_beside_a_channel_that_runs_straight_forwards(side: Sid
         assert along.medial_is_right == (along.tip_mm[0] > 0.0)
 
 
-def test_of_a_drill_that_is_lost_in_a_breach_another_one_says_nothing() -> None:
+def test_another_drill_does_not_speak_for_one_lost_in_a_breach() -> None:
     theatre = Theatre("drill", "awl")
     theatre.images(1.0, {"drill": BREACH, "awl": PATH})
     theatre.images(5.0, {"awl": PATH})
@@ -128,7 +128,7 @@ def test_of_a_drill_that_is_lost_in_a_breach_another_one_says_nothing() -> None:
     assert {one.condition for one in theatre.service.picture.alarms} <= {Condition.NO_ARMED_SCREEN}
 
 
-def test_what_is_over_says_nothing_of_now_where_nothing_is_measured_now() -> None:
+def test_a_past_alarm_claims_nothing_about_now_without_a_measurement() -> None:
     theatre = Theatre()
     theatre.images(1.0, {"drill": BREACH})
     theatre.images(3.0, {"drill": PATH})
@@ -163,7 +163,7 @@ def test_when_tracking_dies_in_a_breach_its_number_is_at_once_of_the_past() -> N
     picture = theatre.service.observe(None, RUNS, DIED)
     assert theatre.alarm(Condition.BREACH).presence is Presence.UNKNOWN
     assert theatre.sentence(Condition.BREACH).startswith("Not tracked. Was ")
-    # Whoever publishes on a change publishes this one.
+    # # A publisher that publishes on change publishes this one.
     assert picture.revision > before.revision
 
 

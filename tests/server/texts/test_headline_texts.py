@@ -1,4 +1,4 @@
-"""The headline names what is over its limit and which way to correct it, in the digits of the figures."""
+"""The headline names what exceeds its limit and the direction of the correction, with the figures' digits."""
 
 import dataclasses
 from collections.abc import Callable
@@ -126,7 +126,7 @@ def test_of_several_drills_the_worst_is_shown_and_named(snapshot_of: SnapshotOf)
         pytest.param(breach(), "", id="present, and then the headline says so itself"),
     ],
 )
-def test_a_breach_that_is_not_acknowledged_stands_beside_the_headline_and_is_not_green(
+def test_an_unacknowledged_breach_is_beside_the_headline_and_not_green(
     snapshot_of: SnapshotOf, alarm: Alarm, event: str
 ) -> None:
     headline = headline_of(snapshot_of(**ON_THE_AXIS), alarms(alarm))

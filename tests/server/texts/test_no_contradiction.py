@@ -1,4 +1,4 @@
-"""No two of headline, figures, alarms, overlay, wire and log contradict each other, whatever happens."""
+"""Headline, figures, alarms, overlay, wire and log never contradict each other."""
 
 from collections import Counter
 from dataclasses import replace
@@ -32,7 +32,7 @@ def test_no_moment_of_a_random_drilling_contradicts_itself() -> None:
                 if alarm.condition is Condition.BREACH
             )
         again += check.again
-    # It is worth nothing where nothing happened.
+    # # Without events the test would prove nothing.
     assert set(verdicts) == {None, *Verdict} - {Verdict.NOT_ASSESSED}
     assert set(breaches) >= {
         (AlarmState.ACTIVE, Presence.YES),

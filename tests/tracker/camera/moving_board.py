@@ -1,4 +1,4 @@
-"""A board that is moved before a camera that reads its image row by row: points, and rendered images."""
+"""A board moving in front of a rolling-shutter camera: points and rendered images."""
 
 from collections.abc import Callable, Sequence
 from functools import cache
@@ -30,7 +30,7 @@ def shaken(
     hz: float = 1.8,
     rotation_deg: float = 0.0,
 ) -> Motion:
-    """A hand that shakes the board to and fro, with a little of everything else."""
+    """A hand that shakes the board to and fro, with small motion along the other axes."""
 
     middle_mm = np.asarray(BOARD.object_points_mm).mean(axis=0)
 
@@ -54,7 +54,7 @@ def shaken(
 
 
 def drifting(speed_mm_s: float) -> Motion:
-    """A board that moves one way only."""
+    """A board that moves in one direction only."""
     still = shaken()
 
     def at(at_s: float) -> Pose:
@@ -74,7 +74,7 @@ def seen_views(
     rate_hz: float = RATE_HZ,
     bow_mm: float = 0.0,
 ) -> list[TimedView]:
-    """The board's points as they are found in each image; each when its own row is read."""
+    """Detected points of the board in each image, each at the time when its row is read."""
     random, views = np.random.default_rng(seed), []
     points = np.asarray(BOARD.object_points_mm, dtype=np.float64)
     across = points[:, 0] / points[:, 0].max()
@@ -106,7 +106,7 @@ def _rays() -> Array:
 
 
 def image_at(motion: Motion, at_s: float, *, readout_s: float) -> np.ndarray:
-    """The board in grey, each row of the image as it is when that row is read."""
+    """The board in grey, each row at the time when it is read."""
     height = CAMERA.size_wh_px[1]
     placed = [motion(at_s + readout_s * row / height) for row in range(height)]
     rotations, shifts = (np.array(one) for one in zip(*placed, strict=True))

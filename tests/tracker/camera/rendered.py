@@ -1,4 +1,4 @@
-"""Pictures of boards through a lens that bends, from the numbers that a test knows."""
+"""Renders boards through a lens with distortion, with known truth."""
 
 import functools
 
@@ -18,7 +18,7 @@ CAMERA = CameraModel(
     size_wh_px=(640, 480),
 )
 Pose = tuple[tuple[float, float, float], tuple[float, float, float]]
-# Turn in degrees (about x, y, z), and where the board's middle is in mm.
+# # Rotation in degrees (about x, y, z), and position of the board's centre in mm.
 POSES: tuple[Pose, ...] = (
     ((0, 0, 0), (0, 0, 260)),
     ((25, 0, 5), (-30, -20, 250)),
@@ -41,7 +41,7 @@ def _rays() -> Array:
 
 
 def placed_board(board: Board, pose: Pose) -> tuple[Array, Array]:
-    """Rotation and translation, camera from board, with the board's middle where the pose says."""
+    """Rotation and translation, camera from board, with the board's centre at the pose's position."""
     (x, y, z), middle_mm = pose
     rotation = rotation_from_vector(np.radians([x, y, 0.0])) @ rotation_from_vector(np.radians([0.0, 0.0, z]))
     points = np.asarray(board.object_points_mm)
@@ -49,7 +49,7 @@ def placed_board(board: Board, pose: Pose) -> tuple[Array, Array]:
 
 
 def true_px(board: Board, pose: Pose) -> Array:
-    """Where the board's points land."""
+    """Image positions of the board's points."""
     rotation, translation = placed_board(board, pose)
     return CAMERA.px_from_camera(np.asarray(board.object_points_mm) @ rotation.T + translation)
 
@@ -58,7 +58,7 @@ def true_px(board: Board, pose: Pose) -> Array:
 def picture(
     board: Board, pose: Pose, *, radius_mm: float = 2.0, large_mm: float = 3.2, seed: int = 1
 ) -> npt.NDArray[np.uint8]:
-    """The board as the camera sees it, a little blurred and with noise."""
+    """The board as the camera sees it, with slight blur and noise."""
     rotation, translation = placed_board(board, pose)
     rays = _rays()
     normal = rotation[:, 2]
@@ -73,7 +73,7 @@ def picture(
 
 
 def _light(board: Board, at_mm: Array, radius_mm: float, large_mm: float) -> Array:
-    """1 for white and 0 for black at places (n, 2) of the board's plane."""
+    """1 for white and 0 for black at points (n, 2) of the board's plane."""
     if isinstance(board, DotBoard):
         return _dots_light(board, at_mm, radius_mm, large_mm)
     if isinstance(board, CheckerBoard):

@@ -1,4 +1,4 @@
-"""A grid on a tilted plane, and where a camera with a known lens sees it."""
+"""A grid on a tilted plane, and its image positions in a known camera."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""What a calibrated camera measures on a plane: its true errors, and none that a fit could hide."""
+"""Errors of a calibrated camera's measurements on a plane are true errors, which no fit hides."""
 
 import numpy as np
 import pytest
@@ -43,7 +43,7 @@ def test_a_lens_left_out_shows_in_millimetres() -> None:
 
 
 def test_noise_of_pixels_is_measured_at_its_size() -> None:
-    """At 3 px a mm, two ends with 0.3 px each way make about 0.14 mm, more where the plane recedes."""
+    """At 3 px/mm, two ends with 0.3 px noise each give about 0.14 mm, more where the plane recedes."""
     report = accuracy_left_out(CAMERA, rows(25, noise_px=0.3))
     assert 0.08 < report.rms_error_mm < 0.25
     assert report.errors_mm == pytest.approx(report.measured_mm - report.known_mm)
@@ -52,7 +52,7 @@ def test_noise_of_pixels_is_measured_at_its_size() -> None:
 
 
 def test_what_is_measured_is_never_what_the_plane_was_fitted_to() -> None:
-    """One point clicked wrong: a fit that had seen it would have hidden a part of its error."""
+    """One wrong point: a fit that included it would hide part of its error."""
     displaced = rows(6)
     px = displaced.first_px.copy()
     px[2] += [8.0, 0.0]
@@ -69,7 +69,7 @@ def test_points_that_displacements_share_are_left_out_of_the_fit() -> None:
     chain = Displacements(
         first_mm=GRID[:8], second_mm=GRID[1:9], first_px=seen_at(GRID[:8]), second_px=seen_at(GRID[1:9])
     )
-    # Nine points on a line: however many rows, no plane.
+    # # Nine points on a line: no plane, however many rows are stated.
     with pytest.raises(CalibrationError, match="one line"):
         accuracy_left_out(CAMERA, chain)
     ring = np.array([0, 8, 62, 54, 31])

@@ -1,4 +1,4 @@
-"""Views of a board are taken when it holds still and shows something new; what is missing is said."""
+"""Views of a board are captured when it is still and in a new position; missing conditions are reported."""
 
 from typing import Any
 
@@ -21,8 +21,8 @@ def seen(
     at: tuple[float, float] = (0, 0),
     far_mm: float = 450.0,
 ) -> np.ndarray:
-    """Pixels of a 9x6 board whose middle lies at `at` mm beside the axis."""
-    # About x a positive angle brings the lower edge away; leaning back is the other way round.
+    """Pixels of a 9x6 board with its centre `at` mm beside the axis."""
+    # # A positive angle about x moves the lower edge away; leaning back is the opposite.
     turned = rotation_from_vector(np.radians([0.0, rotation_deg, 0.0])) @ rotation_from_vector(
         np.radians([-lean_deg, 0.0, 0.0])
     )
@@ -65,7 +65,7 @@ def test_only_what_is_new_is_taken(second: np.ndarray, judgement: ViewVerdict) -
     assert show(collector, second, 3.0) is judgement
 
 
-def test_a_board_that_was_lost_has_to_hold_still_anew() -> None:
+def test_a_lost_board_has_to_be_still_again() -> None:
     collector = BoardCollector(SIZE)
     collector.offer(ids=IDS, object_points_mm=GRID, image_points_px=seen(), captured_at_s=1.0)
     collector.reset_motion()
@@ -91,7 +91,7 @@ def test_five_points_are_too_few() -> None:
         pytest.param({"rotation_deg": -30.0}, "right edge away", id="turned-right-edge-back"),
     ],
 )
-def test_it_says_which_tilts_are_missing(view: dict[str, Any], reached: str) -> None:
+def test_it_states_the_missing_tilts(view: dict[str, Any], reached: str) -> None:
     collector = BoardCollector(SIZE)
     show(collector, seen(**view, far_mm=250.0), 1.0)
     tilts = [sentence for sentence in collector.progress.missing if sentence.startswith("Tilt")]

@@ -1,4 +1,4 @@
-"""A board whose size was counted wrongly passes as one that is seen in part: it is told."""
+"""A board with a wrongly counted size, which looks like a partly visible one, is detected."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ DOTS = DotBoard(columns=13, rows=9, pitch_mm=9.0)
 
 
 def part(board: Board, columns: int, rows: int) -> BoardView:
-    """A view in which so much of the board is found."""
+    """A view in which this part of the board is found."""
     ids = np.arange(board.columns * board.rows)
     ids = ids[(ids % board.columns < columns) & (ids // board.columns < rows)]
     points = np.asarray(board.object_points_mm)[ids]

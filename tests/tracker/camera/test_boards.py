@@ -1,4 +1,4 @@
-"""Calibration boards: where their points lie, and what cannot be a board."""
+"""Calibration boards: positions of their points, and invalid boards."""
 
 import numpy as np
 import pytest

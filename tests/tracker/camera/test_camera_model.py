@@ -1,4 +1,4 @@
-"""The camera: what is rejected, and that the compiled lens is OpenCV's."""
+"""The camera model: invalid parameters, and equality of the compiled lens with OpenCV's."""
 
 import pickle
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""Which changes of a camera's controls void its calibration."""
+"""Changes of a camera's controls that invalidate its calibration."""
 
 import pytest
 

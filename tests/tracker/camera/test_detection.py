@@ -1,4 +1,4 @@
-"""Boards found in pictures whose truth is known."""
+"""Boards detected in pictures with known truth."""
 
 import cv2
 import numpy as np
@@ -50,7 +50,7 @@ def test_every_point_is_where_and_which_it_is(board: Board, pose: int, within_px
     assert view.ambiguity is PlacementAmbiguity.NONE
     assert view.ids.size > 0.9 * len(board.object_points_mm)
     off = np.linalg.norm(view.image_points_px - true_px(board, POSES[pose])[view.ids], axis=1)
-    # Larger than the noise of a corner, far smaller than a step: no point has another one's name.
+    # # Larger than the noise of a corner, far smaller than a step: no point is mislabelled.
     assert off.max() < 6 * within_px
     assert np.median(off) < within_px
 
@@ -65,7 +65,7 @@ def test_corners_of_large_charuco_squares_are_placed_to_a_few_hundredths_of_a_pi
     assert np.linalg.norm(view.image_points_px - truth_px, axis=1).max() < 0.1
 
 
-def test_a_grid_of_equal_dots_may_be_turned_by_half_and_says_so() -> None:
+def test_a_symmetric_dot_grid_is_reported_as_ambiguous_by_half_a_turn() -> None:
     assert found(PLAIN_DOTS, 1).ambiguity is PlacementAmbiguity.HALF_TURN
 
 

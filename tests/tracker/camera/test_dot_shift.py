@@ -1,4 +1,4 @@
-"""Dots seen from aside: the middle of the image of a dot is not the image of its middle."""
+"""Dots seen obliquely: the centroid of a dot's image is not the image of its centre."""
 
 import numpy as np
 import pytest
@@ -30,7 +30,7 @@ def one_dot(turn_rad: Array) -> tuple[Fit, BoardView]:
 
 
 def middle_of_image(turn_rad: Array) -> Array:
-    """By counting fine cells of the image that show the dot, minus the image of its middle."""
+    """Computed from fine cells of the image that show the dot, minus the image of its centre."""
     rotation, place = rotation_from_vector(turn_rad), np.array([5.0, -3.0, 120.0])
     middle = (CAMERA.matrix @ place)[:2] / place[2]
     u, v = np.meshgrid(np.arange(-45, 45, 0.1), np.arange(-45, 45, 0.1))
@@ -54,7 +54,7 @@ def test_a_tilted_dot_is_off_by_more_than_its_noise() -> None:
 
 
 def view_of_large_dots(pose: Pose) -> BoardView:
-    """Middles of the images of dots that nearly touch, almost without noise, and one that glare has moved."""
+    """Centroids of nearly touching dots, almost without noise, one of them displaced by glare."""
     board = DotBoard(columns=8, rows=6, pitch_mm=30.0)
     rotation, translation = placed_board(board, pose)
     around = np.linspace(0.0, 2.0 * np.pi, 4000, endpoint=False)
@@ -63,7 +63,7 @@ def view_of_large_dots(pose: Pose) -> BoardView:
     spots = np.asarray(board.object_points_mm)[:, None, :] + disc.reshape(-1, 3)
     px = CAMERA.px_from_camera(spots.reshape(-1, 3) @ rotation.T + translation).reshape(len(spots), -1, 2)
     depth = (spots @ rotation[2] + translation[2])[..., None]
-    # The nearer a piece of a dot, the more of the image it takes.
+    # # The nearer a part of a dot, the larger its image.
     middles = (px / depth**3).sum(axis=1) / (1.0 / depth**3).sum(axis=1)
     rng = np.random.default_rng(round(10.0 * sum(pose[0]) + 1000.0))
     middles += rng.normal(0.0, 0.01, middles.shape)
@@ -77,7 +77,7 @@ def view_of_large_dots(pose: Pose) -> BoardView:
 
 
 def test_points_are_judged_where_the_shift_has_put_them() -> None:
-    """Against a camera that was fitted before, most of these would lie off by many times their noise."""
+    """Without the correction, most of these would be off by many times their noise."""
     views = [view_of_large_dots((turn, (x, y, 2.0 * z))) for turn, (x, y, z) in POSES[1:]]
     report = calibrate(views, size_wh_px=CAMERA.size_wh_px, settings=CalibrationSettings(coefficients=5))
     assert report.views_used == len(views)

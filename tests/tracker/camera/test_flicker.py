@@ -1,4 +1,4 @@
-"""Lamps on mains current, told from everything else that changes an image."""
+"""Flickering lamps, distinguished from all other changes of an image."""
 
 from collections.abc import Callable, Sequence
 from functools import cache, partial
@@ -64,25 +64,25 @@ def _stepped(image: Image, at_s: float) -> Image:
 
 
 def _hunting(image: Image, at_s: float) -> Image:
-    """Automatic exposure that swings about its aim."""
+    """Automatic exposure that oscillates about its target."""
     return np.asarray(np.clip(image * (1.0 + 0.1 * np.sin(2.0 * np.pi * 2.2 * at_s)), 0, 255), dtype=np.uint8)
 
 
 def _clouded(image: Image, at_s: float) -> Image:
-    """Clouds before the sun: all of the image goes up and down, slowly."""
+    """Clouds in front of the sun: the whole image varies slowly."""
     return np.asarray(
         np.clip(image * (0.8 + 0.15 * np.sin(2.0 * np.pi * 0.5 * at_s)), 0, 255), dtype=np.uint8
     )
 
 
 def _jittering(image: Image, at_s: float) -> Image:
-    """A gain that is a little different in each image, in all of it."""
+    """A gain that varies slightly from image to image."""
     gain = 1.0 + 0.03 * np.random.default_rng(round(at_s * 1e4)).standard_normal()
     return np.asarray(np.clip(image * gain, 0, 255), dtype=np.uint8)
 
 
 def _unevenly_lit(image: Image, at_s: float) -> Image:
-    """A gradient of the light that stands still: from half to full over the rows, with bands in it."""
+    """A static gradient of light: from half to full over the rows, with bands in it."""
     del at_s
     rows = np.arange(len(image)) / len(image)
     return (image * (0.5 + 0.4 * rows + 0.1 * np.sin(2.0 * np.pi * 1.6 * rows))[:, None, None]).astype(
@@ -91,7 +91,7 @@ def _unevenly_lit(image: Image, at_s: float) -> Image:
 
 
 def _trembling(image: Image, at_s: float) -> Image:
-    """A hand's tremor at the very beat of 50 Hz mains with 30 images/s, with something bright in it."""
+    """A tremor at exactly the beat of 50 Hz mains with 30 images/s, with a bright object."""
     shown = image.copy()
     left = 100 + round(12.0 * np.sin(2.0 * np.pi * 10.0 * at_s))
     shown[40:200, left : left + 90] = np.minimum(shown[40:200, left : left + 90].astype(int) + 90, 255)
@@ -125,7 +125,7 @@ def _grey(level: float, at_s: float, depth_ratio: float) -> Image:
 
 
 def test_where_the_rate_cannot_tell_the_mains_both_are_named() -> None:
-    # At 27.5 images/s light at 100 Hz and at 120 Hz beat alike, 10 Hz up and down.
+    # # At 27.5 images/s, light at 100 Hz and at 120 Hz has the same beat, 10 Hz up and down.
     times_s = np.arange(0.0, WINDOW_S, 1.0 / 27.5)
     verdict = detect_flicker(list(times_s), [brightness_grid(_grey(120.0, at_s, 0.1)) for at_s in times_s])
     assert verdict.flicker is not None
@@ -139,7 +139,7 @@ def test_black_and_full_images_say_nothing(level: float) -> None:
     assert verdict.state is FlickerState.UNSURE
 
 
-def test_too_small_an_image_says_nothing() -> None:
+def test_too_small_an_image_gives_no_result() -> None:
     means: list[Array] = [brightness_grid(np.full((20, 20), 100, np.uint8))] * 130
     assert detect_flicker([number / 30.0 for number in range(130)], means).state is FlickerState.UNSURE
 
@@ -154,6 +154,6 @@ def test_a_monitor_tells_flicker_until_light_is_seen_steady() -> None:
 
     assert not shown(0.0, 0.0)
     assert shown(11.0, 0.05)
-    # What cannot be seen clears nothing.
+    # # Without evidence nothing is ruled out.
     assert shown(22.0, 0.0, level=3.0)
     assert not shown(33.0, 0.0)

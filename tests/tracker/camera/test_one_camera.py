@@ -1,4 +1,4 @@
-"""Views of two cameras in one calibration are told, and those of one camera are not."""
+"""Views of two cameras in one calibration are detected, and those of one camera are not."""
 
 from dataclasses import replace
 

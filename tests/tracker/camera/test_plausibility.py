@@ -1,4 +1,4 @@
-"""Cameras that no lens can be are rejected, real ones are not, and none that is accepted folds the image."""
+"""Implausible lenses are rejected, real ones are not, and no accepted lens folds the image."""
 
 from collections.abc import Callable, Sequence
 
@@ -98,7 +98,7 @@ def coefficients(**values: float) -> list[float]:
             "corners",
             id="a-pole",
         ),
-        # In mm, as a data sheet has them.
+        # # In mm, as in a data sheet.
         pytest.param(lambda: camera(3.6), "at least 192 px", "OpenCV", id="focal-length-in-mm"),
     ],
 )

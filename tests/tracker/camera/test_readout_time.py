@@ -1,4 +1,4 @@
-"""The readout time of a rolling shutter, from a board that is shaken before the camera."""
+"""The readout time of a rolling shutter, measured with a shaken board."""
 
 from typing import Any
 

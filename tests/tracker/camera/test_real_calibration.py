@@ -1,4 +1,4 @@
-"""Real images of boards: as good as the figures that came with them, with as many views or more."""
+"""Real images of boards: at least as good as their published results, with as many views or more."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Cameras of one rig: where they stand to each other, and what must be rejected."""
+"""Cameras of one rig: their relative poses, and rejections."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The paper's ruler: its equations undo each other, and numbers that cannot be are rejected."""
+"""The paper's ruler: its equations are inverses of each other, and impossible values are rejected."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""How far a square is squashed by its tilt, told from two sides of it."""
+"""Foreshortening of a tilted square, from two of its sides."""
 
 import numpy as np
 import pytest

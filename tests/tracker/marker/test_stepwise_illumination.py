@@ -1,4 +1,4 @@
-"""Markers in shadow, glare and noise at once, and look-alikes that differ in one field."""
+"""Markers with shadow, glare and noise at once, and similar codes that differ in one field."""
 
 import cv2
 import numpy as np

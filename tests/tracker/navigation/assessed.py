@@ -19,7 +19,7 @@ LIMITS = DrillLimits(warning_distance_mm=1.0, breach_ratio=0.05)
 
 @cache
 def drill_reference(tolerance_mm: float = 1.8, lever_mm: float = 18.0) -> DrillReference:
-    """The rod as bone, with this room for error."""
+    """The rod as bone, with this tolerance."""
     return DrillReference(
         wall=bone_distance_field(rod(), ROD_CHANNEL),
         tolerance=PedicleTolerance(tolerance_mm=tolerance_mm, lever_mm=lever_mm),
@@ -46,9 +46,10 @@ def judged_at(
     tolerance_mm: float = 1.8,
     **off: float,
 ) -> DrillAnalysis:
-    """The judgement of a drill at a depth, off by `medial_mm`, `cranial_mm`, `medial_deg`, `cranial_deg`.
+    """The assessment of a drill at a depth with these offsets and angles.
 
-    `unsure`: how many times as large its standard deviations are as 0.1 mm and 0.1 degrees.
+    `unsure`: factor of its standard deviations, relative to 0.1 mm and 0.1 degrees.
+
     """
     placed = UncertainPose(pose=drill_at(ROD_CHANNEL, depth_mm, **off), covariance=SURE * unsure**2)
     return drill_reference(tolerance_mm).analyse(placed, drill(), ROD_CHANNEL)

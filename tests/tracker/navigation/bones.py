@@ -21,17 +21,17 @@ ROD_CHANNEL = Channel(
 def rod(
     radius_mm: float = ROD_RADIUS_MM, *, turned_inside_out: bool = False, shorter_mm: float = 0.0
 ) -> Surface:
-    """The rod; a shorter one inside out is its marrow."""
+    """The rod; a shorter one with inverted faces is its marrow."""
     middle = np.array([0.0, 0.5 * (ROD_BACK_MM + ROD_FRONT_MM), 0.0])
     length = ROD_BACK_MM - ROD_FRONT_MM - 2.0 * shorter_mm
     mesh = trimesh.creation.cylinder(radius=radius_mm, height=length, sections=96)
     faces = mesh.faces[:, ::-1] if turned_inside_out else mesh.faces
-    # A turn about the patient's left-right axis lays it down.
+    # # A rotation about the patient's left-right axis lays it down.
     return Surface(vertices_mm=mesh.vertices[:, [0, 2, 1]] * [1.0, -1.0, 1.0] + middle, faces=faces)
 
 
 def together(*surfaces: Surface) -> Surface:
-    """Several surfaces as one."""
+    """Several surfaces merged."""
     starts = np.cumsum([0, *[len(each.vertices_mm) for each in surfaces]])
     return Surface(
         vertices_mm=np.concatenate([each.vertices_mm for each in surfaces]),
@@ -40,12 +40,12 @@ def together(*surfaces: Surface) -> Surface:
 
 
 def without_faces(surface: Surface, where: npt.NDArray[np.bool_]) -> Surface:
-    """The surface with the triangles left out whose middle is where a flag of each says so."""
+    """The surface without the triangles whose centre is flagged."""
     return Surface(vertices_mm=surface.vertices_mm, faces=surface.faces[~where])
 
 
 def middles_mm(surface: Surface) -> Array:
-    """The middle (m, 3) of each triangle."""
+    """The centre (m, 3) of each triangle."""
     return np.asarray(surface.vertices_mm[surface.faces].mean(axis=1))
 
 
@@ -58,7 +58,7 @@ def drill_at(
     medial_deg: float = 0.0,
     cranial_deg: float = 0.0,
 ) -> Rigid[Vertebra, Tool]:
-    """A drill that goes in at an offset, turned by angles, with its tip at a depth along the channel."""
+    """A drill with an offset and angles at the entry, and its tip at a depth along the channel."""
     across = channel_directions(channel, "left" if "left" in channel.name else "right")
     slope = np.tan(np.radians([medial_deg, cranial_deg]))
     way = across.axis + slope[0] * across.medial + slope[1] * across.cranial

@@ -9,7 +9,7 @@ from tracker.plan import Channel
 
 
 def straight(*, left: bool = True) -> Channel:
-    """Forwards through the patient (LPS: -y), on one side, 40 mm long, a little to the middle."""
+    """Forward through the patient (LPS: -y), on one side, 40 mm long, slightly medial."""
     side = 1.0 if left else -1.0
     return Channel(
         name="L3",
@@ -40,7 +40,7 @@ def test_places_in_the_view(
     at_target: tuple[float, float],
 ) -> None:
     seen = bullseye_view(drill(tip_mm, direction), straight())
-    # The channel itself leans to the middle by a thousandth of a millimetre.
+    # # The channel itself is inclined by a thousandth of a millimetre.
     np.testing.assert_allclose(seen.tip_mm, tip, atol=2e-3)
     np.testing.assert_allclose(seen.at_entry_mm, at_entry, atol=2e-3)
     np.testing.assert_allclose(seen.at_target_mm, at_target, atol=2e-3)

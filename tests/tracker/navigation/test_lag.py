@@ -1,4 +1,4 @@
-"""How far a shown tip may lag behind: speed times latency, nothing at rest."""
+"""Lag of a displayed tip: speed times latency, zero at rest."""
 
 from math import isnan
 
@@ -14,7 +14,7 @@ RATE_HZ = 30.0
 def speeds(
     *, mm_s: float, noise_mm: float, rate_hz: float = RATE_HZ, images: int = 60, seed: int = 1
 ) -> list[float]:
-    """What is said of a tip that moves evenly, seen with this noise."""
+    """Results for a tip in uniform motion, seen with this noise."""
     random, tip = np.random.default_rng(seed), TipSpeedEstimator()
     direction = np.array([0.6, 0.0, 0.8])
     said = []
@@ -48,7 +48,7 @@ def test_until_five_images_are_known_there_is_no_speed_and_none_across_a_gap() -
     for number in range(8):
         tip.take(np.array([number * 1.0, 0.0, 0.0]), at_s=number / RATE_HZ)
     assert isnan(tip.take(np.array([200.0, 0.0, 0.0]), at_s=3.0))
-    # The same image again, and a clock that went back, begin anew, too.
+    # # A repeated image, and a clock that was set back, also reset it.
     assert isnan(tip.take(np.array([201.0, 0.0, 0.0]), at_s=3.0))
 
 

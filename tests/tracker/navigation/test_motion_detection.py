@@ -1,4 +1,4 @@
-"""What moved, the camera or the patient's reference, as images come thirty times a second."""
+"""Whether the camera or the patient marker moved, at 30 images/s."""
 
 import cv2
 import numpy as np
@@ -34,7 +34,7 @@ def _scene() -> Picture:
 
 
 def _shifted(scene: Picture, shift_px: float, relief_ratio: float) -> Picture:
-    """Moved to the side; what is nearer moves more."""
+    """Moved sideways; nearer things move more."""
     rows, columns = np.mgrid[: SIZE[1], : SIZE[0]].astype(np.float32)
     more = 1.0 + relief_ratio * np.sin(rows / 60.0)
     moved = cv2.remap(scene, (columns - shift_px * more).astype(np.float32), rows, cv2.INTER_LINEAR)
@@ -57,7 +57,7 @@ def _reference(shift_mm: float) -> Seen:
 
 
 def _watched(*, camera_px: float, reference_mm: float, relief_ratio: float = 0.0) -> list[MotionState]:
-    """What is said of each image after the move."""
+    """Results for each image after the move."""
     scene, watching = _scene(), MotionMonitor()
     before, after = scene, _shifted(scene, camera_px, relief_ratio)
     said = []

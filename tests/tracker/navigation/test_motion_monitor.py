@@ -48,12 +48,12 @@ def setup() -> Setup:
 
 
 def shifted(picture: npt.NDArray[np.uint8], px: float) -> npt.NDArray[np.uint8]:
-    """What a camera sees that was turned by a little."""
+    """View of a camera that was rotated slightly."""
     return np.asarray(cv2.warpAffine(picture, np.array([[1.0, 0, px], [0, 1.0, 0]]), picture.shape[1::-1]))
 
 
 class Play:
-    """Images shown one after the other to all watches."""
+    """Images passed to all monitors one after another."""
 
     def __init__(self, setup: Setup) -> None:
         self.watching = MotionMonitor()
@@ -73,7 +73,7 @@ class Play:
         return motion
 
 
-def test_a_camera_that_moved_is_reported_within_a_third_of_a_second_until_it_is_registered_anew(
+def test_a_moved_camera_is_reported_within_a_third_of_a_second_until_the_next_registration(
     setup: Setup, picture: npt.NDArray[np.uint8]
 ) -> None:
     play = Play(setup)
@@ -82,7 +82,7 @@ def test_a_camera_that_moved_is_reported_within_a_third_of_a_second_until_it_is_
     assert (before.camera_moved, before.scene) == (False, SceneState.STILL)
     after = shifted(picture, 6.0)
     assert play.show(after, images=10).camera_moved
-    # It stays so, though the scene is still again.
+    # # The state persists although the scene is still again.
     later = play.show(after, images=60)
     assert (later.camera_moved, later.scene) == (True, SceneState.STILL)
     play.watching.begin(from_s=play.now_s, now_s=play.now_s)
@@ -117,7 +117,7 @@ def test_a_reference_that_moves_in_a_still_scene_was_bumped_and_one_that_moves_w
 def test_a_reference_that_another_camera_model_places_elsewhere_was_not_bumped(
     setup: Setup, picture: npt.NDArray[np.uint8]
 ) -> None:
-    """As when a server starts, and its first images come before what the open case knows of the camera."""
+    """As at a server start, with the first images before the camera of the open case is known."""
     play = Play(setup)
     play.show(picture, seen(REFERENCE), images=30)
     matrix = setup.camera.matrix * np.array([[1.02, 1.0, 1.0], [1.0, 1.02, 1.0], [1.0, 1.0, 1.0]])
@@ -126,7 +126,7 @@ def test_a_reference_that_another_camera_model_places_elsewhere_was_not_bumped(
     farther = seen(replace(REFERENCE, translation_mm=REFERENCE.translation_mm * np.array([1.0, 1.0, 1.02])))
     reported = play.show(picture, farther, images=30)
     assert (reported.reference_moved, reported.jumped) == (False, frozenset())
-    # A bump after that is one.
+    # # A later bump counts.
     bumped = seen(moved(farther.camera_from_marker, 8.0))
     assert play.show(picture, bumped, images=30).reference_moved
 

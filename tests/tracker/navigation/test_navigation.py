@@ -1,4 +1,4 @@
-"""Deviation by hand, what is absent and why, and that one snapshot never disagrees with itself."""
+"""Deviation by hand, absent values with their reasons, and consistency within a snapshot."""
 
 from dataclasses import replace
 
@@ -22,7 +22,7 @@ from tracker.navigation import (
 from tracker.plan import Channel
 from tracker.registration import Registration
 
-# From the origin 40 mm along +y.
+# # From the origin 40 mm along +y.
 CHANNEL = Channel(
     name="L3 left",
     entry_in_vertebra_mm=np.zeros(3),
@@ -94,7 +94,7 @@ def test_the_deviation_does_not_depend_on_where_the_patient_lies() -> None:
     )
     drill = _drill((2.0, 11.0, -1.0), (0.1, 1.0, -0.2))
     here, there = deviation_from_channel(drill, CHANNEL), deviation_from_channel(move @ drill, moved)
-    # What is told in the patient's own directions turns with the patient, of course.
+    # # Values in the patient's directions rotate with the patient.
     for name in ("entry_offset_mm", "angle_deg", "depth_mm", "remaining_mm", "tip_offset_mm"):
         assert getattr(there, name) == pytest.approx(getattr(here, name), abs=1e-9)
 
@@ -242,7 +242,7 @@ NOT_REGISTERED = Absent(reason=AbsentReason.NOT_REGISTERED)
         pytest.param(SETUP, SEEN, None, None, id="everything is there"),
     ],
 )
-def test_what_is_absent_says_why(
+def test_absent_values_have_their_reason(
     setup: Setup, sighting: Sighting, tool: str | None, deviation: str | None
 ) -> None:
     snapshot = _snapshot(setup, sighting)
@@ -260,7 +260,7 @@ def test_without_tools_there_are_none() -> None:
 
 
 def test_one_snapshot_is_made_of_one_pose() -> None:
-    """Tool, covariance and deviation all follow from the sighting that lies beside them."""
+    """Tool, covariance and deviation all follow from the sighting stored with them."""
     snapshot = _snapshot(SETUP, SEEN)
     tool, deviation = snapshot.tools["drill"], snapshot.deviations["drill"]
     assert isinstance(tool, ToolPose)

@@ -1,4 +1,4 @@
-"""The deviation in the patient's directions: by hand, mirrored, and as the pedicle's measure tells it."""
+"""Deviation in the patient's directions: by hand, mirrored, and consistent with the pedicle measurement."""
 
 from typing import Literal
 

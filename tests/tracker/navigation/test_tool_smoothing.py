@@ -32,7 +32,7 @@ def navigated(
     settings: SmoothingSettings,
     tips_mm: list[tuple[float, float, float] | None],
 ) -> list[NavigationSnapshot]:
-    """Snapshots of a tool whose tip is at these points of the vertebra, unseen where there is none."""
+    """Snapshots of a tool with its tip at these points of the vertebra, unseen where None."""
     steadying = ToolSmoothing(settings)
     snapshots = []
     for k, tip in enumerate(tips_mm):
@@ -75,14 +75,14 @@ def test_without_a_lag_the_numbers_are_the_same_to_the_last_bit() -> None:
         assert now.lag_ms == 0.0
 
 
-def test_away_from_the_wall_a_tool_is_steadied_and_says_by_how_much_it_is_late() -> None:
+def test_away_from_the_wall_a_tool_is_smoothed_and_states_its_lag() -> None:
     snapshots = navigated(SmoothingSettings(lag_ms=50.0), trembling(FAR))
     assert lags_ms(snapshots) == pytest.approx([0.0, 1000 / 60, 1000 / 30, 50.0])
     last = snapshots[-1].deviations["drill"]
     alone = make_snapshot(tip_in_vertebra_mm=FAR).deviations["drill"]
     assert isinstance(last, Deviation)
     assert isinstance(alone, Deviation)
-    # The tremble of 0.005 mm is gone.
+    # # The tremor of 0.005 mm is removed.
     assert last.tip_offset_mm == pytest.approx(alone.tip_offset_mm, abs=1e-4)
 
 
@@ -113,7 +113,7 @@ def test_near_the_wall_the_image_itself_is_shown_unless_asked(
     assert (lags_ms(navigated(settings, trembling(tip_mm)))[-1] > 0.0) is steadied
 
 
-def test_an_unseen_tool_is_not_filled_in_and_starts_anew() -> None:
+def test_an_unseen_tool_is_not_extrapolated_and_restarts() -> None:
     snapshots = navigated(SmoothingSettings(lag_ms=50.0), [FAR, FAR, FAR, None, FAR])
     assert isinstance(snapshots[3].tools["drill"], Absent)
     assert lags_ms(snapshots)[-1] == 0.0

@@ -48,7 +48,7 @@ def off_px(sighting: Seen, pose: Rigid[Camera, Marker]) -> float:
 
 
 def away_from_deg(field: int) -> float:
-    """Where the other side of the face is, seen from a field of the code; the face stands upright."""
+    """Position of the opposite side of the face from a field of the code; the face is upright."""
     row, column = divmod(field, 3)
     return float(np.degrees(np.arctan2(1 - row, 1 - column)))
 

@@ -22,7 +22,7 @@ IMAGES = 3
 
 
 def _versions() -> dict[str, int]:
-    """How many kinds of arguments each loop of the tracker is compiled for, in this process."""
+    """Number of compiled signatures of each kernel of the tracker in this process."""
     return {
         f"{room}.{name}": len(loop.signatures)
         for room, module in list(sys.modules.items())
@@ -33,7 +33,7 @@ def _versions() -> dict[str, int]:
 
 
 def _see_everything() -> None:
-    """Search and step through each condition of the benchmark."""
+    """Search and track through each condition of the benchmark."""
     for nth, condition in enumerate(conditions_of(RIG).values()):
         face = FACES[nth % len(FACES)]
         tracker = tracker_of(RIG, [face])
@@ -52,7 +52,7 @@ def _measure_a_pedicle() -> None:
 
 
 def test_after_the_warm_up_no_image_and_no_ct_makes_anything_compile() -> None:
-    # In a process of its own: other tests call the loops with other arrays, which would hide it.
+    # # In its own process, because other tests call the kernels with other arrays.
     reported = subprocess.run(
         [sys.executable, "-m", "tests.tracker.pipeline.test_nothing_compiles"],
         cwd=CHECKOUT,

@@ -1,4 +1,4 @@
-"""Tracking of a marker that a finger occludes by nearly a half."""
+"""Tracking of a marker that is nearly half occluded by a finger."""
 
 import cv2
 import numpy as np
@@ -18,7 +18,7 @@ def _pose(side_px: float) -> Rigid[Camera, Marker]:
 
 
 def _under_a_finger(image: Image8, side_px: float, from_deg: float) -> Image8:
-    """A finger wider than the marker, from this direction nearly to its middle."""
+    """A finger wider than the marker, from this direction nearly to its centre."""
     toward = np.array([np.cos(np.radians(from_deg)), np.sin(np.radians(from_deg))])
     # The tip is round; its ends are in sixteenths of a pixel.
     width = round(1.6 * side_px)
@@ -29,7 +29,7 @@ def _under_a_finger(image: Image8, side_px: float, from_deg: float) -> Image8:
 
 
 def _covered(fields: Fields, side_px: float, from_deg: float) -> Seen | Unseen:
-    """What is said of these fields under the finger, where the marker was an image before."""
+    """Results for these fields under the finger, with the marker tracked from the previous image."""
     tracker, pose = tracker_of(), _pose(side_px)
     tracker.step(image_of(pose), captured_at_s=0.0)
     image = _under_a_finger(image_of(pose, fields=fields), side_px, from_deg)
@@ -51,5 +51,5 @@ def test_a_marker_is_kept_when_a_finger_hides_nearly_a_half_of_it(side_px: float
 @pytest.mark.parametrize("field", OUTER_FIELDS)
 def test_a_look_alike_is_not_kept_for_a_finger_on_its_other_side(field: int, side_px: float) -> None:
     found = _covered(NEIGHBOURS[field], side_px, away_from_deg(field))
-    # What is left of one, turned by a quarter, is the marker's own.
+    # # A quarter turn of the remaining part still matches the marker.
     assert isinstance(found, Unseen) or found.found_by == "search"

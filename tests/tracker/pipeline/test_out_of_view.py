@@ -39,7 +39,7 @@ def _two(there: Rigid[Camera, Marker] | None, *, seed: int, here: Rigid[Camera, 
 
 
 def _without_a_corner(image: Image8, pose: Rigid[Camera, Marker]) -> Image8:
-    """Something grey over one corner: no dark region has four sides any more, later rounds are needed."""
+    """A grey occluder on one corner: no dark region has four sides any more, so later rounds are needed."""
     corners = corners_px_of(CAMERA, pose)
     a, b, d = corners[0], corners[1], corners[3]
     patch = [a + 0.3 * (a - b), a + 0.3 * (b - a), a + 0.3 * (d - a), a + 0.3 * (a - d)]
@@ -53,7 +53,7 @@ def _tracker() -> Tracker:
 
 
 class _Counted:
-    """Counts the parts of searches and the fits of each image."""
+    """Counts the search parts and fits of each image."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.quick, self.costly, self.complete, self.fits = [0], [0], [0], [0]

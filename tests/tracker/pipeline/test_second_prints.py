@@ -1,4 +1,4 @@
-"""Two prints of one shape in view: the marker has no pose until one of them is alone."""
+"""Two prints of one marker in view: there is no pose until only one is visible."""
 
 import cv2
 import numpy as np
@@ -43,7 +43,7 @@ def _alone(pose: Rigid[Camera, Marker] = HERE, *, seed: int = 0) -> Image8:
 
 
 def _under_a_finger(image: Image8, pose: Rigid[Camera, Marker]) -> Image8:
-    """The image with something grey over a corner of the marker, so that its dark region has more sides."""
+    """The image with a grey occluder on a corner of the marker, so that its dark region has more sides."""
     corners = corners_px_of(CAMERA, pose)
     a, b, d = corners[0], corners[1], corners[3]
     finger = [a + 0.5 * (a - b), a + 0.6 * (b - a), a + 0.6 * (d - a), a + 0.5 * (a - d)]
@@ -148,7 +148,7 @@ def test_what_is_not_the_same_shape_is_no_second_print(picture: Image8) -> None:
 
 
 def test_the_square_of_a_marker_is_no_second_print_of_it() -> None:
-    """A marker that moves over clutter, with another marker: nothing is noticed."""
+    """A marker moving over clutter, with another marker: no second print is reported."""
     other = code_model(OTHER, name="other")
     tracker = Tracker(camera=CAMERA, models=[MODEL, other])
     background = cluttered(CAMERA, 3)

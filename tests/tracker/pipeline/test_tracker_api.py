@@ -24,7 +24,7 @@ from tracker.warm_up import warm_up
 
 
 def _fingered(pose: Rigid[Camera, Marker], *, side: int, area_ratio: float, grey: int) -> Image8:
-    """The marker with a finger a third of a side wide over this part of it, from one side."""
+    """The marker with a finger, a third of a side wide, over this part of it."""
     image = image_of(pose)
     corners = corners_px_of(CAMERA, pose)
     a, b = corners[side], corners[(side + 1) % 4]
@@ -67,8 +67,8 @@ def test_strict_settings_turn_the_same_occurrence_down() -> None:
         assert (sighting.best_score_ratio or 0.0) > 0.9
 
 
-def test_a_bright_field_too_many_says_that_the_shape_differs() -> None:
-    """Without asking the inside, one flipped field of nine has nine tenths of the marker's edges."""
+def test_an_additional_bright_field_gives_shape_differs() -> None:
+    """Without verification of the inside, one flipped field of nine keeps nine tenths of the edges."""
     lenient = ScoreSettings(
         accept_score_ratio=0.3, accept_target_score_ratio=0.3, accept_inner_coverage_ratio=0.0
     )
@@ -169,7 +169,7 @@ def test_each_stage_has_its_name_and_its_time() -> None:
     tracker = tracker_of(clock=lambda: next(ticks))
     image = image_of(pose_of())
     tracker.search(image)
-    # The second search for candidates is that for a second print.
+    # # The second candidate search is for a second print.
     assert tracker.stage_ms == pytest.approx(
         {"grey": 4.0, "gradient": 4.0, "candidates": 8.0, "fit": 4.0, "score": 4.0, "judgement": 4.0}
     )
@@ -233,7 +233,7 @@ def test_warming_up_runs_the_loops_of_a_search_and_of_a_track(monkeypatch: pytes
 
 
 @pytest.mark.parametrize("side", range(4))
-def test_what_is_inside_must_be_there_whatever_the_outline_says(side: int) -> None:
+def test_the_inside_must_match_whatever_the_outline(side: int) -> None:
     pose = pose_of(side_px=64)
     image = _fingered(pose, side=side, area_ratio=0.1, grey=185)
     strict = ScoreSettings(accept_inner_coverage_ratio=1.0, verified_threshold_ratio=1.0)

@@ -24,7 +24,7 @@ def _under_glare(image: Image8, from_deg: float) -> Image8:
 
 
 def _in_glare(fields: Fields, from_deg: float) -> Seen | Unseen:
-    """What is said of these fields under glare, where the marker was an image before."""
+    """Results for these fields under glare, with the marker tracked from the previous image."""
     tracker = tracker_of()
     tracker.step(image_of(POSE), captured_at_s=0.0)
     return tracker.step(_under_glare(image_of(POSE, fields=fields), from_deg), captured_at_s=0.03)["code"]

@@ -1,4 +1,4 @@
-"""Phantoms with a known pedicle, made without the project's own phantom, and how far a measure is off."""
+"""Phantoms with a known pedicle, independent of the project's own phantom, and errors of a measurement."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ HuAt = Callable[[np.ndarray], np.ndarray]
 
 @dataclass(frozen=True, kw_only=True)
 class Off:
-    """Errors of one measure."""
+    """Errors of one measurement."""
 
     width_voxels: float
     height_voxels: float
@@ -29,7 +29,7 @@ class Off:
 
 
 def off_by(measure: PedicleMeasure, truth: PedicleTruth, volume: Volume) -> Off:
-    """In voxels of the slice, which are the smaller ones, also for the height in thick slices."""
+    """In voxels of the slice, the smaller ones, also for the height in thick slices."""
     voxel = float(volume.spacing_mm[0])
     return Off(
         width_voxels=(measure.width_mm - truth.width_mm) / voxel,

@@ -1,4 +1,4 @@
-"""The part of a CT around a few points: the same voxels at the same places, and small enough."""
+"""Part of a CT around some points: the same voxels at the same positions, with limited size."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ CHANNEL = [[15.0, 14.0, 2.0], [8.0, -30.0, 3.0]]
 
 
 def ramp() -> Volume:
-    """An oblique CT in which the HU are a linear function of the place, so that any average is known."""
+    """An oblique CT with HU linear in position, so that every average is known."""
     affine = np.eye(4)
     affine[:3, :3] = rotation_from_vector([0.1, -0.05, 0.2]) @ np.diag([1.0, 1.25, 2.0])
     shape = (120, 140, 130)
@@ -38,7 +38,7 @@ def test_a_part_that_is_too_large_is_averaged_where_its_voxels_are_finest() -> N
     assert part.hu.nbytes <= 300_000
     np.testing.assert_allclose(part.spacing_mm, [2.0, 2.5, 2.0], rtol=1e-9)
     places = np.random.default_rng(1).uniform([-5, -50, -20], [35, 35, 20], (500, 3))
-    # A voxel is rounded at each of the two steps, and in the CT itself.
+    # # A voxel is rounded in each of the two steps, and in the CT itself.
     assert np.abs(part.sample_hu(places) - places @ HU_PER_MM).max() < 1.5
 
 

@@ -18,7 +18,7 @@ def test_between_voxels_and_beyond_the_block_a_number_is_that_of_the_common_libr
 
 
 def _steps(profile: Array, *, start: float = 0.0, min_fall: float = 100.0, behind: int = 3) -> float:
-    """How many voxels from `start` the wall of a block that changes along x alone is, in steps of a half."""
+    """Distance of the wall from `start` in half voxels, for a block that varies along x only."""
     block = np.tile(np.asarray(profile, np.float32), (2, 2, 1))
     out = np.empty((1, 1))
     centre, step = np.array([[start, 0.5, 0.5]]), np.array([[[0.5, 0.0, 0.0]]])
@@ -46,7 +46,7 @@ def test_a_wall_is_where_bone_has_fallen_halfway_to_its_outside(
 
 
 def test_the_outside_is_looked_for_only_so_far_behind_the_first_fall() -> None:
-    # A trough of 400, then farther out one of -1000 that is another bone's.
+    # # A trough of 400, then further out one of -1000 that belongs to another bone.
     profile = np.array([800, 800, 400, 400, 400, 400, -1000, -1000], float)
     assert _steps(profile, behind=7) == pytest.approx(1.5)
     assert _steps(profile, behind=8) == pytest.approx(5.0 + 0.5 * 150.0 / 700.0)

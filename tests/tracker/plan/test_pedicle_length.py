@@ -1,4 +1,4 @@
-"""Where a pedicle's length begins and ends: at the arch and not a process, at the body and not a vessel."""
+"""Start and end of a pedicle's length: at the arch, not a process; at the body, not a vessel."""
 
 import numpy as np
 import pytest

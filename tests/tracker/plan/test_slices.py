@@ -26,7 +26,7 @@ EDGES = {"axial": "RLAP", "sagittal": "APHF", "coronal": "RLHF"}
 
 
 def mountains(affine: np.ndarray, shape: tuple[int, int, int] = (24, 26, 28)) -> Volume:
-    """HU is linear in LPS: 3 x - 2 y + 5 z, so that every pixel tells whether it knows its place."""
+    """HU is linear in LPS: 3 x - 2 y + 5 z, so that every pixel reveals its position."""
     volume = Volume(hu=np.zeros(shape, np.int16), lps_from_ijk=affine)
     k, j, i = np.meshgrid(*[np.arange(size) for size in shape], indexing="ij")
     hu = expected(volume.lps_from_index(np.stack([i, j, k], axis=-1)))
@@ -64,7 +64,7 @@ VOLUMES = {
 
 @pytest.mark.parametrize("plane", PLANES)
 @pytest.mark.parametrize("linear", VOLUMES.values(), ids=VOLUMES.keys())
-def test_every_pixel_shows_what_lies_where_it_says(linear: np.ndarray, plane: Plane) -> None:
+def test_every_pixel_shows_the_content_at_its_stated_position(linear: np.ndarray, plane: Plane) -> None:
     volume = mountains(placed(linear))
     low, high, step = reach_mm(volume, plane)
     for at_mm in (low + 0.5 * (high - low), low + 0.371 * (high - low), low + 2.0 * step):
@@ -135,7 +135,7 @@ def test_a_slice_along_a_channel_holds_its_axis_at_any_turn(
     channel = Channel(name="L3", entry_in_vertebra_mm=entry, target_in_vertebra_mm=target, radius_mm=3.0)
     one = along_channel(volume, channel, rotation_deg=turn, size_mm=(20.0, 20.0), pixel_mm=1.0)
     assert np.abs(one.beyond_mm(np.array([entry, target]))).max() < 1e-9
-    # Entry below, target above, both in the middle column.
+    # # Entry below, target above, both in the middle column.
     assert one.pixel_from_lps(entry) == pytest.approx([10.0, 16.0])
     assert one.pixel_from_lps(target) == pytest.approx([10.0, 4.0])
     assert one.pixel_from_lps(one.lps_from_pixel(pixel)) == pytest.approx(pixel, abs=1e-6)

@@ -1,4 +1,4 @@
-"""A tool that a hand moves at random, as sources with clocks, frames and markers of their own record it."""
+"""A randomly moving tool, recorded by sources with their own clocks, frames and markers."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -10,18 +10,19 @@ from tracker.geometry import Array
 from tracker.pose.temporal_calibration import PoseSeries
 
 SECONDS = 12.0
-# Times (n,) in s to orientations (n) and places (n, 3) in mm of the tool in the room.
+# # Times (n,) in s to orientations (n) and positions (n, 3) in mm of the tool in the room.
 Movement = Callable[[Array], tuple[Rotation, Array]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HandMotion:
-    """Sums of sines with random rates: smooth, never at rest, and the same at no two times.
+    """Sums of sines with random rates: smooth, never at rest, and never periodic.
 
     Attributes:
         shift_mm: RMS of each coordinate.
         rotation_deg: RMS of each component of the rotation vector.
-        rates_hz: the slowest and the fastest sine.
+        rates_hz: slowest and fastest sine.
+
     """
 
     seed: int
@@ -30,11 +31,11 @@ class HandMotion:
     rates_hz: tuple[float, float] = (0.2, 1.8)
 
     def __call__(self, times_s: Array) -> tuple[Rotation, Array]:
-        """Where the tool is."""
+        """Pose of the tool."""
         random = np.random.default_rng(self.seed)
         rates = random.uniform(*self.rates_hz, size=(8, 6))
         starts = random.uniform(0.0, 2.0 * np.pi, size=(8, 6))
-        # A hand is slower the farther it goes.
+        # # Larger motion is slower.
         sizes = 1.0 / rates / np.sqrt((rates**-2.0).sum(axis=0) / 2.0)
         waves = (sizes * np.sin(2.0 * np.pi * rates * times_s[:, None, None] + starts)).sum(axis=1)
         turned = Rotation.from_rotvec(np.radians(self.rotation_deg) * waves[:, 3:])
@@ -43,17 +44,18 @@ class HandMotion:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Source:
-    """A camera or tracker that looks at the tool from somewhere, at a marker somewhere on it.
+    """A camera or tracker that observes a marker on the tool.
 
     Attributes:
         rate_hz: of its images.
-        late_s: how much later than the true time it stamps.
-        phase_s: when its first image is taken.
-        arm_mm: the marker's place on the tool.
+        late_s: offset of its timestamps from the true time.
+        phase_s: time of its first image.
+        arm_mm: position of the marker on the tool.
         shift_sd_mm, turn_sd_deg: noise of each component.
-        unseen_ratio: share of the images in which it does not see the marker, at random.
-        gaps_s: from when to when it sees nothing.
-        jitter_s: standard deviation of the moments of its images, which it stamps truly.
+        unseen_ratio: share of images without the marker, at random.
+        gaps_s: intervals without the marker.
+        jitter_s: standard deviation of the image times, which are stamped truly.
+
     """
 
     seed: int
@@ -68,7 +70,7 @@ class Source:
     jitter_s: float = 0.0
 
     def record(self, motion: Movement, *, seconds: float = SECONDS) -> PoseSeries:
-        """What it records of a motion."""
+        """Record a motion."""
         random = np.random.default_rng(1000 + self.seed)
         times_s = np.arange(self.phase_s, seconds, 1.0 / self.rate_hz)
         times_s = times_s + self.jitter_s * random.uniform(-1.7, 1.7, size=len(times_s))
@@ -91,12 +93,12 @@ class Source:
 
 
 def at_rest(times_s: Array) -> tuple[Rotation, Array]:
-    """Nothing moves."""
+    """No motion."""
     return moved(np.zeros((len(times_s), 3)))
 
 
 def steady(times_s: Array) -> tuple[Rotation, Array]:
-    """One velocity: 31 deg/s and 81 mm/s."""
+    """Constant velocity: 31 deg/s and 81 mm/s."""
     return moved(np.outer(times_s, [1.0, 0.1, 0.0]))
 
 
@@ -106,7 +108,7 @@ def waving(period_s: float) -> Movement:
 
 
 def circling(period_s: float) -> Movement:
-    """Round and round at one speed: at any two times the motion differs by a rotation alone."""
+    """Rotation at constant speed: at any two times the motion differs by a rotation only."""
 
     def movement(times_s: Array) -> tuple[Rotation, Array]:
         angle = 2.0 * np.pi * times_s / period_s
@@ -116,5 +118,5 @@ def circling(period_s: float) -> Movement:
 
 
 def moved(way: Array) -> tuple[Rotation, Array]:
-    """A way (n, 3) as rotation vectors (30 deg for each unit) and as places (80 mm)."""
+    """A path (n, 3) as rotation vectors (30 deg per unit) and positions (80 mm per unit)."""
     return Rotation.from_rotvec(np.radians(30.0) * way), 80.0 * way

@@ -1,4 +1,4 @@
-"""Which candidates are accepted as the marker where edges alone say too little."""
+"""Acceptance of candidates as the marker where edges alone are inconclusive."""
 
 import numpy as np
 import pytest
@@ -35,7 +35,7 @@ MODEL = code_model()
 
 
 def _accepted(image: Image8, pose: Rigid[Camera, Marker]) -> Sighting:
-    """What is said of a candidate whose corners are up to a pixel off."""
+    """Results for a candidate whose corners are up to a pixel off."""
     corners = corners_px_of(CAMERA, pose) + np.array([[0.8, -0.5], [-0.6, 0.4], [0.3, 0.9], [-0.7, -0.6]])
     start = pose_from_corners(CAMERA, corners, side_mm=SIDE_MM)
     assert start is not None
@@ -61,7 +61,7 @@ def test_a_marker_smeared_over_a_quarter_of_its_side_is_seen_and_where_it_is(fro
     image = motion_blurred(rendered(CAMERA, [Print(picture=code_image(), pose=pose)]), 8.0, from_deg)
     sighting = _accepted(image, pose)
     assert isinstance(sighting, Seen), sighting
-    # Its edges are found up to three pixels off.
+    # # Its edges are detected up to three pixels off.
     off = corners_px_of(CAMERA, sighting.camera_from_marker) - corners_px_of(CAMERA, pose)
     assert float(np.abs(off).max()) < 1.0
     assert float(np.abs(sighting.corners_px - corners_px_of(CAMERA, pose)).max()) < 1.0

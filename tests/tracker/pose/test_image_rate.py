@@ -1,4 +1,4 @@
-"""The image period comes from the images' own times, and the gap that is allowed follows it."""
+"""The image period follows from the image times, and the allowed gap from the period."""
 
 import pytest
 

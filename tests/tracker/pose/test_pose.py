@@ -1,4 +1,4 @@
-"""Poses: render a marker of known pose, recover it; and say honestly how well it is known."""
+"""Poses of rendered markers: recovered, with a calibrated stated uncertainty."""
 
 import numpy as np
 import pytest
@@ -49,7 +49,7 @@ def _turned_deg(a: Rigid[Camera, Marker], b: Rigid[Camera, Marker]) -> float:
 def _scene(
     side_px: int, seed: int, *, noise_grey: float = 2.0, tilt_deg: tuple[float, float] = (15.0, 50.0)
 ) -> tuple[Seen, Rigid[Camera, Marker]]:
-    """A marker anywhere in the image at any turn, and what a search says of it."""
+    """A marker anywhere in the image at any rotation, and the result of a search for it."""
     random = np.random.default_rng([seed, side_px])
     pose = facing_at_px(
         CAMERA,
@@ -119,7 +119,7 @@ def test_four_corners_give_the_pose(pose: Rigid[Camera, Marker]) -> None:
 
 @pytest.mark.parametrize("side_px", [20.0, 60.0, 200.0])
 def test_corners_that_are_half_a_pixel_off_give_a_pose_that_is_seen_where_they_are(side_px: float) -> None:
-    """Of far and small squares, where perspective is less than such errors, as of near ones."""
+    """# For far and small squares, where perspective is smaller than such errors, as for near ones."""
     random = np.random.default_rng(5)
     for tilt_deg in (0.0, 25.0, 55.0):
         pose = facing_at_px(CAMERA, (310.0, 250.0), side_px, tilt_deg=tilt_deg, about_deg=40, roll_deg=70)
@@ -198,7 +198,7 @@ def test_a_covariance_is_symmetric_positive_and_grows_with_noise() -> None:
 
 
 def _squared_distance(sighting: Seen, pose: Rigid[Camera, Marker]) -> float:
-    """Of the tip from where it is, in the metric of its stated covariance."""
+    """Error of the tip in the metric of its stated covariance."""
     covariance = point_covariance_mm2(sighting.camera_from_marker, sighting.pose_covariance, TIP_MM)
     off = sighting.camera_from_marker.move_points(TIP_MM) - pose.move_points(TIP_MM)
     return float(off @ np.linalg.solve(covariance, off))
@@ -308,7 +308,7 @@ def test_from_the_wrong_one_of_both_solutions_the_fit_comes_to_the_right_one(abo
 
 @pytest.mark.parametrize("side_px", [32, 60, 110])
 def test_a_fit_that_ends_early_is_where_a_fit_without_end_would_be(side_px: float) -> None:
-    """Refined on from its own end, again and again, no corner moves by 0.004 px."""
+    """Repeated refinement from its own result moves no corner by 0.004 px."""
     pose = facing([20, -15, SIDE_MM * 700.0 / side_px], tilt_deg=35, about_deg=70, roll_deg=15)
     gradient = gradient_of(rendered(CAMERA, [Print(picture=code_image(), pose=pose)]))
     start: Rigid[Camera, Marker] = Rigid(

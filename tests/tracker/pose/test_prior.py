@@ -31,7 +31,7 @@ def _seen(pose: Rigid[Camera, Marker], *, delta_chi2: float, systematic_residual
 
 
 def _lead_after(images: int, systematic_residual_ratio: float) -> float:
-    """Of the last of so many images that each say the same for the same solution."""
+    """Result after this many images with the same evidence for the same solution."""
     prior, lead = Prior(), 0.0
     for k in range(images):
         lead = SAYS_SD2 + prior.delta_chi2
@@ -77,7 +77,7 @@ def test_against_what_was_said_before_an_image_speaks_with_its_own_weight() -> N
         prior = Prior()
         prior.update(_seen(POSE, delta_chi2=before_sd2 / 0.9, systematic_residual_ratio=0.0), 0.0)
         assert prior.delta_chi2 == pytest.approx(before_sd2)
-        # By 5 more than all before: the other solution.
+        # # By 5 more than all before: the other solution.
         turned = _seen(
             flipped_pose(POSE), delta_chi2=5.0, systematic_residual_ratio=systematic_residual_ratio
         )
@@ -86,7 +86,7 @@ def test_against_what_was_said_before_an_image_speaks_with_its_own_weight() -> N
 
 
 def _still(seed: int, *, of_one_field: bool) -> Iterator[tuple[Scene, Image]]:
-    """Images of a small marker that rests; of one field: each second row is that above it."""
+    """Images of a small marker at rest; of one field: each second row repeats the one above."""
     random = np.random.default_rng([seed, 7])
     pose = somewhere(random, *((27.0, (10.0, 55.0)) if of_one_field else (20.0, (4.0, 12.0))))
     for k in range(8):

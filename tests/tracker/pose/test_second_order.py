@@ -1,4 +1,4 @@
-"""What an unsure turn does to the end of a tool, against many turns drawn from its covariance."""
+"""Effect of rotational uncertainty on the end of a tool, against rotations drawn from its covariance."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ FACING: Rigid[Camera, Tool] = Rigid(
 
 
 def _inside(covariance: Array, stated: Array) -> float:
-    """The share of ends that lie inside what is stated (6, 6), where poses err by a covariance (6, 6)."""
+    """Share of ends inside the stated (6, 6), for pose errors with a covariance (6, 6)."""
     around = np.random.default_rng(3).multivariate_normal(np.zeros(6), covariance, 2000)
     shape = point_covariance_mm2(FACING, stated, END_MM)
     arm = FACING.rotation @ END_MM

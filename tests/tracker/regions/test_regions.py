@@ -111,7 +111,7 @@ def test_the_noise_is_measured(noise: float) -> None:
 
 
 def test_illumination_normalisation_removes_a_shadow() -> None:
-    """Ink and paper are equal on both sides of a shadow that takes half of the light."""
+    """Ink and paper have the same contrast on both sides of a shadow of half intensity."""
     tile = np.kron(np.indices((12, 16)).sum(axis=0) % 2 * 160 + 40, np.ones((10, 10)))
     tile[:, 80:] *= 0.5
     even = normalise_illumination(tile.astype(np.uint8), window_px=41, noise_grey=0.0).astype(float)

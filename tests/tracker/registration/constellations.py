@@ -21,7 +21,7 @@ VERTEBRA = np.array(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Truth:
-    """Landmarks on the CT (n, 3), the tips on them, and where the CT truly is."""
+    """Landmarks on the CT (n, 3), the captured tips, and the true pose of the CT."""
 
     fixed_mm: Array
     moving_mm: Array
@@ -33,7 +33,7 @@ def any_pose(rng: np.random.Generator) -> Rigid[Vertebra, Anchor]:
 
 
 def touched(fixed_mm: Array, rng: np.random.Generator, noise: Array | float = 0.0) -> Truth:
-    """Tips on these landmarks, with noise of this sd in mm, or of this covariance (3, 3) as touched."""
+    """Tips on these landmarks, with noise of this sd in mm or of this covariance (3, 3)."""
     pose = any_pose(rng)
     root = np.linalg.cholesky(noise) if isinstance(noise, np.ndarray) else noise * np.eye(3)
     moving = pose.inverse.move_points(fixed_mm) + rng.normal(size=fixed_mm.shape) @ root.T
@@ -41,7 +41,7 @@ def touched(fixed_mm: Array, rng: np.random.Generator, noise: Array | float = 0.
 
 
 def random_landmarks(rng: np.random.Generator, count: int) -> Array:
-    """Landmarks that are no line (the second extent is a quarter of the first or more) and 5 mm apart."""
+    """Landmarks not in a line (second extent at least a quarter of the first) and 5 mm apart."""
     while True:
         points = rng.uniform(-30.0, 30.0, (count, 3))
         sizes = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)

@@ -48,7 +48,7 @@ def samples(
 
 
 def collected(tips: Iterator[TipSample], settings: CaptureSettings | None = None) -> LandmarkCollector:
-    """The collector when it is over."""
+    """The collector after its end."""
     collector = LandmarkCollector(settings)
     while not collector.is_over:
         collector.take(next(tips))
@@ -104,7 +104,7 @@ def test_a_camera_too_slow_for_a_hand_is_named_with_its_rate_and_a_remedy(
     assert error.code == code
     assert said in error.message
     assert "camera.rate_hz" in error.remedy
-    # Nobody holds a tip for ten seconds to hear that it was in vain.
+    # # A user should not hold a tip for ten seconds in vain.
     assert int(str(error.context["images"])) <= 4
 
 
@@ -130,7 +130,7 @@ def test_lost_images_are_noticed_at_every_rate(rate_hz: float, gap_s: float, all
 
 def test_two_rests_on_a_landmark_are_not_one_however_few_the_images() -> None:
     few = CaptureSettings(min_images=3, min_s=0.4)
-    # The mean of both intervals would pass for the period, and allow either.
+    # # The mean of both intervals would be a possible period and allow either.
     error = rejected(collected(samples([0.033, 0.9]), few))
     assert error.code == "CAPTURE_INTERRUPTED"
     assert error.context["allowed_s"] == 0.25
@@ -165,7 +165,7 @@ def test_a_marker_that_is_missed_is_counted_and_the_rate_is_named() -> None:
     )
 
 
-def test_a_hold_that_was_too_short_says_how_long_it_must_be_at_this_rate() -> None:
+def test_a_capture_that_was_too_short_states_the_time_needed_at_this_rate() -> None:
     collector = LandmarkCollector()
     assert collector.left_s is None
     for tip, _ in zip(samples(steady_s(5.0)), range(5), strict=False):

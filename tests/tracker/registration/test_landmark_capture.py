@@ -52,7 +52,7 @@ def test_what_is_common_does_not_average_out_and_spread_does() -> None:
     assert np.trace(captured(still_samples()).covariance_mm2) > 3 * 0.04
 
 
-def test_the_mean_is_as_far_off_as_its_covariance_says() -> None:
+def test_the_error_of_the_mean_agrees_with_its_covariance() -> None:
     inside = 0
     for seed in range(300):
         found = captured(still_samples(seed=seed), common_covariance_mm2=np.zeros((3, 3)))

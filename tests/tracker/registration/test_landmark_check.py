@@ -1,4 +1,4 @@
-"""The tip on a landmark that was not used: the distance decides."""
+"""Check with the tip on an unused landmark: the distance decides."""
 
 import numpy as np
 import pytest

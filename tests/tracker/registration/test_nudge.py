@@ -30,7 +30,7 @@ def turn(axis: NudgeAxis, amount: float) -> Nudge:
 
 
 def moved_mm(nudged: NudgedRegistration, at: Array) -> Array:
-    """How a point of the plan moves, on the patient's axes."""
+    """Motion of a plan point along the patient's axes."""
     before, after = nudged.made.anchor_from_vertebra, nudged.registration.anchor_from_vertebra
     return before.inverse.rotate_directions(after.move_points(at) - before.move_points(at))
 
@@ -48,7 +48,7 @@ def test_a_shift_moves_every_point_along_the_patients_axis(axis: NudgeAxis, way:
 def test_a_turn_leaves_the_pivot_and_turns_the_rest() -> None:
     nudged = NudgedRegistration(made=made(), pivot_mm=PIVOT).nudged(turn(NudgeAxis.HEAD, 1.0))
     assert np.allclose(moved_mm(nudged, PIVOT), 0.0, atol=1e-9)
-    # Right-handed about the way to the head: what is left of the pivot goes backwards.
+    # # Right-handed about the direction to the head: points left of the pivot move backwards.
     expected = 30.0 * np.array([np.cos(np.radians(1.0)) - 1.0, np.sin(np.radians(1.0)), 0.0])
     assert np.allclose(moved_mm(nudged, PIVOT + np.array([30.0, 0.0, 0.0])), expected)
 

@@ -1,4 +1,4 @@
-"""A registration, fixed to the camera or to the patient's reference, and carried into an image."""
+"""A registration relative to the camera or the patient marker, and its transfer to an image."""
 
 from dataclasses import replace
 
@@ -69,7 +69,7 @@ def concluded(setup: Setup, sighting: Seen | Unseen) -> NavigationSnapshot:
 
 
 def off(true: Rigid[Camera, Vertebra], found: Rigid[Camera, Vertebra]) -> Array:
-    """What a covariance is of: the translation, then the rotation as a small vector from the left."""
+    """Definition of the covariance: translation, then rotation as a small left-multiplied vector."""
     turn = vector_from_rotation(found.rotation @ true.rotation.T)
     return np.concatenate([found.translation_mm - true.translation_mm, turn])
 
@@ -87,12 +87,12 @@ def test_the_vertebra_is_placed_through_the_reference_as_it_is_seen_in_this_imag
     np.testing.assert_allclose(placed.camera_from_vertebra.matrix, through, atol=1e-12)
 
 
-def test_without_the_reference_nobody_knows_where_the_vertebra_is() -> None:
+def test_without_the_reference_the_vertebra_has_no_pose() -> None:
     unseen = Unseen(reason=UnseenReason.NO_CANDIDATE)
     assert concluded(SETUP, unseen).vertebra == Absent(reason=AbsentReason.REFERENCE_UNSEEN)
     twice = Unseen(reason=UnseenReason.MARKER_TWICE)
     assert concluded(SETUP, twice).vertebra == Absent(reason=AbsentReason.MARKER_TWICE)
-    # Not even where the settings name no reference: it is fixed to one all the same.
+    # # Not even if the settings name no reference: the registration is relative to one.
     nameless = replace(SETUP, reference="")
     assert concluded(nameless, SEEN).vertebra == Absent(reason=AbsentReason.REFERENCE_UNSEEN)
 
@@ -129,7 +129,7 @@ def test_a_pose_and_its_inverse_err_by_the_same() -> None:
     again = inverse_covariance(back, there)
     np.testing.assert_allclose(again, OF_REFERENCE, rtol=1e-9, atol=1e-12)
     both = chained_covariance(CAMERA_FROM_REFERENCE, OF_REFERENCE, back, there)
-    # Back at the start, both turns have swung the origin of the other frame, which is as far away as this.
+    # # Back at the start, both rotations have moved the origin of the other frame, which is as far away.
     swing = np.eye(6)
     swing[:3, 3:] = skew(CAMERA_FROM_REFERENCE.translation_mm)
     np.testing.assert_allclose(both, 2.0 * swing @ OF_REFERENCE @ swing.T, rtol=1e-9, atol=1e-12)

@@ -1,4 +1,4 @@
-"""CT phantoms: voxels average what lies in them, and the truth is that of the shape."""
+"""CT phantoms: voxels are averages of their content, and the truth is that of the shape."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Noise, blur and strips: optimisations of the renderer do not change what is measured."""
+"""Noise, blur and strips: renderer optimisations do not change measured values."""
 
 from functools import lru_cache
 from itertools import pairwise
@@ -86,7 +86,7 @@ def test_a_markers_noise_is_new_in_each_image(name: str) -> None:
     rows, columns = (min(field.shape[axis] for field in fields) for axis in (0, 1))
     inner = np.s_[8 : rows - 8, 8 : columns - 8]
     for one, other in pairwise(fields):
-        # Nor is it the noise before, moved a little.
+        # # Nor is it the previous noise, shifted slightly.
         moved = [
             np.roll(other[:rows, :columns], (down, across), axis=(0, 1))[inner]
             for down in range(-8, 9, 2)

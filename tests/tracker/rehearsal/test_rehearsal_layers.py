@@ -1,4 +1,4 @@
-"""Layers: where the drill's body is drawn, what hides it, and how a layer is laid over an image."""
+"""Layers: where the drill's body is drawn, what occludes it, and compositing over an image."""
 
 import numpy as np
 import numpy.typing as npt

@@ -91,7 +91,7 @@ def test_a_bumped_camera_sees_everything_elsewhere_and_the_patient_has_not_moved
     assert changed[corner].mean() > 2.0, "the room moves in the picture, too"
 
 
-def test_a_patient_moves_in_a_room_that_stands_still() -> None:
+def test_a_patient_moves_while_the_room_is_static() -> None:
     theatre, renderer = eventful(Event(kind=EventKind.PATIENT_MOVES, at_s=10.0, lasts_s=15.0))
     before, after, later = (theatre.truth_at(at_s) for at_s in (9.99, 10.0, 25.0))
     np.testing.assert_array_equal(before.camera_from_room.matrix, after.camera_from_room.matrix)
@@ -144,7 +144,7 @@ def test_an_event_out_of_range_is_rejected_by_name(key: str, value: float) -> No
     assert key in caught.value.message
 
 
-def test_another_scene_of_the_same_theatre_takes_over_what_stands_still() -> None:
+def test_another_scene_of_the_same_theatre_reuses_the_static_background() -> None:
     settings = TheatreSettings(seed=5, size_wh_px=(320, 180), reference=True)
     first = Theatre(settings).renderer()
     sweep = Theatre(TheatreSettings(seed=5, size_wh_px=(320, 180), reference=True, scene=Scene.SWEEP))

@@ -1,4 +1,4 @@
-"""The rendered image against the theatre's truth, and what each knob does."""
+"""The rendered image against the theatre's ground truth, and the effect of each setting."""
 
 from functools import lru_cache
 
@@ -61,7 +61,7 @@ def edge_offsets_px(image: npt.NDArray[np.uint8], theatre: Theatre, truth: Truth
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
 @pytest.mark.parametrize("at_s", [3.3, 9.0, 17.77, 25.0], ids=["approach", "align", "drill", "drift"])
-def test_every_edge_of_the_square_lies_where_the_truth_says(seed: int, at_s: float) -> None:
+def test_every_edge_of_the_square_is_at_its_true_position(seed: int, at_s: float) -> None:
     theatre, renderer = staged(seed=seed)
     truth = theatre.truth_at(at_s)
     assert truth.marker_in_view
@@ -129,7 +129,7 @@ def test_another_seed_or_another_time_gives_another_image() -> None:
     _, two = staged(seed=2, noise=1.0, size=(640, 360))
     here = one.image_at(12.0).astype(np.int16)
     assert np.abs(here - two.image_at(12.0)).mean() > 3.0
-    # Nothing of the noise repeats with the motion's cycle.
+    # # The noise does not repeat with the motion's period.
     assert np.abs(here - one.image_at(52.0)).mean() > 0.5
 
 
@@ -151,7 +151,7 @@ def test_blur_softens_the_marker() -> None:
         low = theatre.truth_at(9.0).corners_px.min(axis=0).astype(int)
         grey = cv2.cvtColor(renderer.image_at(9.0), cv2.COLOR_BGR2GRAY)
         part = grey[low[1] - 10 : low[1] + 90, low[0] - 10 : low[0] + 90]
-        # The steepest of the marker's edges, not its one luckiest pixel.
+        # # The steepest of the marker's edges, not the single best pixel.
         slopes = np.sort(np.abs(cv2.Sobel(part, cv2.CV_64F, 1, 0)).ravel())
         sharpness.append(float(slopes[-300:].mean()))
     assert sharpness[0] > 1.2 * sharpness[1] > 1.2 * 1.5 * sharpness[2]

@@ -1,4 +1,4 @@
-"""The theatre's geometry: what moves, what stands still, and that all of it is consistent."""
+"""The theatre's geometry: moving and static parts, and their consistency."""
 
 import numpy as np
 import pytest

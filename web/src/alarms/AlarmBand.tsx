@@ -10,7 +10,7 @@ import { UnknownAlarms } from "./UnknownAlarms";
 import { useAlarmSound } from "./useAlarmSound";
 import { alarmsVerdict } from "./verdict";
 
-/** The alarms: the highest in big words, the others listed, what can be done about them, and the sound. */
+/** Band of alarms: the highest in large type, the others listed, with their actions and the sound. */
 export function AlarmBand(): ReactNode {
   const texts = useTexts().alarms;
   const { view } = useLive();

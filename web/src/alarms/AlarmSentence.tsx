@@ -9,7 +9,7 @@ import { textsBeside, type AlarmTexts } from "./alarmTexts";
 
 export const MARKS: Record<Priority, string> = { high: "▲▲▲", medium: "▲▲", low: "▲" };
 
-/** What an alarm says: painted with the figures, from the same image, so that no two numbers differ. */
+/** Text of an alarm, painted with the figures of the same image, so that their numbers agree. */
 export function AlarmSentence({ alarm }: { alarm: AlarmMessage }): ReactNode {
   const texts = useTexts();
   const sentence = useRef<HTMLSpanElement>(null);
@@ -29,7 +29,7 @@ export function AlarmSentence({ alarm }: { alarm: AlarmMessage }): ReactNode {
   );
 }
 
-/** One of the alarms that are not the first: its title and its sentence. */
+/** An alarm below the highest: title and sentence. */
 export function AlarmLine({ alarm }: { alarm: AlarmMessage }): ReactNode {
   const texts = useTexts();
   const line = useRef<HTMLSpanElement>(null);

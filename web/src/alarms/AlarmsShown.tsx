@@ -4,7 +4,7 @@ import { useTexts } from "../texts/TextsContext";
 import { AlarmLine } from "./AlarmSentence";
 import { alarmsVerdict } from "./verdict";
 
-/** The alarms as theatre has them. They are acknowledged there, by people who stand before them. */
+/** Read-only list of alarms. They are acknowledged in theatre. */
 export function AlarmsShown(): ReactNode {
   const texts = useTexts().alarms;
   const { view } = useLive();

@@ -9,7 +9,7 @@ import { acknowledge, pause, resume } from "./alarmRequests";
 
 const PAUSE_S = 120;
 
-/** The alarms that the server has now, and what a person here can do about them. */
+/** The current alarms with their actions. */
 export function KnownAlarms({ alarms }: { alarms: AlarmsMessage }): ReactNode {
   const all = useTexts();
   const texts = all.alarms;
@@ -68,7 +68,7 @@ function Top({ alarm }: { alarm: AlarmMessage }): ReactNode {
   return (
     <div className="alarms-top" data-testid="alarm-top" data-condition={alarm.condition}>
       <p className="alarms-state">
-        {/* What is over has no urgency any more, and no marks. */}
+        {/* An alarm that is over has no urgency marks. */}
         <span aria-hidden="true">{isOver ? "" : MARKS[alarm.priority]}</span>{" "}
         <small>{isOver ? texts.alarms.over : texts.alarms.priority[alarm.priority]}</small>{" "}
         {textOf(alarm.title, texts)}

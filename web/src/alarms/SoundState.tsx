@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { useTexts } from "../texts/TextsContext";
 import type { AlarmSound } from "./useAlarmSound";
 
-/** Whether an alarm would be heard here: always in sight; a screen that is silent asks to be touched. */
+/** Whether this screen would sound an alarm. Always visible; a silent screen asks to be touched. */
 export function SoundState({ sound, isPaused }: { sound: AlarmSound; isPaused: boolean }): ReactNode {
   const texts = useTexts().alarms;
   if (!sound.armed) {

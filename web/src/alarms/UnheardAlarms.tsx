@@ -4,7 +4,7 @@ import { useTexts } from "../texts/TextsContext";
 import { AlarmsShown } from "./AlarmsShown";
 import { alarmsVerdict } from "./verdict";
 
-/** In the band of alarms before the first message: that the page is loading, or that the server is not reached. */
+/** Band of alarms before the first message: loading, or server not reached. */
 export function UnheardAlarms(): ReactNode {
   const { rest, cause } = useTexts();
   if (useLive().view.firstMessage === "awaited") return <p className="alarms-none">{rest.loading}</p>;
@@ -19,7 +19,7 @@ export function UnheardAlarms(): ReactNode {
   );
 }
 
-/** The alarms as theatre has them, once something of them can be known. */
+/** The band of alarms once their state can be known. */
 export function AlarmsAfterFirstMessage(): ReactNode {
   const texts = useTexts().alarms;
   const { view } = useLive();

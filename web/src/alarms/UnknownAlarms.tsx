@@ -3,7 +3,7 @@ import { useLive } from "../live/LiveContext";
 import { useTexts } from "../texts/TextsContext";
 import type { AlarmSound } from "./useAlarmSound";
 
-/** Nothing is claimed of alarms while the server is not heard; the screen's own alarm can be paused. */
+/** Shown while the server does not answer: alarms are unknown; the screen's own alarm can be paused. */
 export function UnknownAlarms({ sound }: { sound: AlarmSound }): ReactNode {
   const texts = useTexts().alarms;
   const { nowMs } = useLive().view;

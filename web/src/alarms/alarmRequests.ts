@@ -1,15 +1,15 @@
-// What a person at this screen does about alarms, and what the screen says of itself.
+// Alarm actions of this screen, and its report to the server.
 import createClient from "openapi-fetch";
 import type { paths } from "../schema";
 
 const server = createClient<paths>({ baseUrl: location.origin });
 const SCREENS = "/api/alarms/screens";
 
-/** Made up by this page for as long as it is loaded. */
+/** Identifier of this page load. */
 export const SCREEN = Array.from(crypto.getRandomValues(new Uint8Array(8)), (byte) =>
   byte.toString(16).padStart(2, "0"),
 ).join("");
-/** Until people sign in, the screen answers for whoever touches it. */
+/** Without sign-in, actions are attributed to the screen. */
 const BY = `screen ${SCREEN.slice(0, 4)}`;
 
 export async function acknowledge(numbers: number[]): Promise<boolean> {
@@ -29,7 +29,7 @@ export async function reportArmed(armed: boolean, signal: AbortSignal): Promise<
   return done(() => server.POST(SCREENS, { body: { screen: SCREEN, state }, signal }));
 }
 
-/** The page goes: it is not lost. */
+/** Reports that the page closes, so that the screen does not count as lost. */
 export function reportClosed(): void {
   const body = JSON.stringify({ screen: SCREEN, state: "closed" });
   navigator.sendBeacon(SCREENS, new Blob([body], { type: "application/json" }));

@@ -28,7 +28,7 @@ test("an alarm that the shown image does not have states nothing about now", () 
   expect(texts.remedy).toEqual(now.remedy_without_figures);
 });
 
-test("beside figures that went for their age no alarm says what figures would show, and none instructs by them", () => {
+test("without figures, no alarm states present values or gives instructions based on them", () => {
   const texts = textsBeside({ newest: newestWith(now), numbers: OLD }, now);
   expect(texts.sentence).toEqual(now.sentence_without_figures);
   expect(texts.remedy).toEqual(now.remedy_without_figures);

@@ -1,4 +1,4 @@
-// The words of an alarm beside the figures that are displayed. Pure.
+// Texts of an alarm for the displayed figures. Pure.
 import { isOfNow } from "../live/assess";
 import type { View } from "../live/live";
 import type { AlarmMessage } from "../live/messages";
@@ -6,9 +6,9 @@ import type { AlarmMessage } from "../live/messages";
 export type AlarmTexts = Pick<AlarmMessage, "sentence" | "remedy" | "known">;
 
 /**
- * The texts of the alarm with the image whose figures are shown. Beside figures that were removed for their age, and
- * for an alarm that the shown image does not have (React lists the alarms up to one refresh of the screen later), these
- * are the texts that state nothing about now.
+ * Returns the texts of an alarm with the image whose figures are displayed. If the figures were removed for their
+ * age, or the image does not have the alarm (React lists alarms up to one refresh later), returns the texts that
+ * claim nothing about the present.
  */
 export function textsBeside(
   { newest, numbers }: Pick<View, "newest" | "numbers">,

@@ -2,7 +2,7 @@ import { describe, expect, test } from "vitest";
 import type { Priority } from "../live/messages";
 import { isLit } from "./flash";
 
-/** Looked at 60 times a second for 10 s, as a screen does. */
+/** Sampled at 60 Hz for 10 s. */
 function watched(priority: Priority, fromMs: number): { hz: number; onRatio: number } {
   const looks = Array.from({ length: 600 }, (_, number) => isLit(priority, fromMs + (number * 1000) / 60));
   const rises = looks.filter((lit, number) => lit && number > 0 && looks[number - 1] === false).length;

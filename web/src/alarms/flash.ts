@@ -1,4 +1,4 @@
-// When an alarm is lit: from a monotonic clock alone, so that every band on every screen flashes evenly.
+// When an alarm is lit: a function of a monotonic clock, so that all bands flash evenly.
 import type { Priority } from "../live/messages";
 
 interface Flash {

@@ -1,10 +1,10 @@
-// The sound of alarms in a browser, which stays silent until somebody has touched the page.
+// Plays alarm sounds. Browsers allow sound only after a touch on the page.
 import type { Sound } from "../live/messages";
 import type { Dashboard } from "../live/start";
 import type { RequestedSound } from "./verdict";
 
 type SoundMessage = Dashboard["sounds"][number];
-/** Shorter than a burst's first pulse is to be heard: a change is heard at once, without a click. */
+/** Shorter than the first pulse of a burst, so that a change is heard at once and without a click. */
 const FADE_S = 0.01;
 
 export class AlarmPlayer {
@@ -12,12 +12,12 @@ export class AlarmPlayer {
   private readonly loops = new Map<Sound, AudioBuffer>();
   private playing: { wanted: RequestedSound; source: AudioBufferSourceNode; gain: GainNode } | null = null;
 
-  /** Whether an alarm would be heard now, as far as a browser can know. */
+  /** Whether an alarm would be heard now, as far as the browser reports. */
   get armed(): boolean {
     return this.context?.state === "running" && this.loops.size > 0;
   }
 
-  /** To be called from a touch; resolves to whether it worked. */
+  /** Must be called from a touch; resolves to whether sound works. */
   async arm(sounds: readonly SoundMessage[]): Promise<boolean> {
     this.context ??= new AudioContext();
     const { context } = this;
@@ -31,7 +31,7 @@ export class AlarmPlayer {
     return this.armed;
   }
 
-  /** Plays this and nothing else; what plays already goes on. */
+  /** Plays exactly this; a sound that is already playing continues. */
   want(wanted: RequestedSound): void {
     const now = this.playing?.wanted;
     if (now ? now.sound === wanted.sound && now.number === wanted.number : wanted.sound === "silent") return;
@@ -56,7 +56,7 @@ export class AlarmPlayer {
   }
 }
 
-/** A burst with its silence behind it: repeated by the sound hardware, which no busy page delays. */
+/** A burst with its silence, looped by the sound hardware so that a busy page does not delay it. */
 function looped(context: AudioContext, burst: AudioBuffer, everyS: number): AudioBuffer {
   const whole = context.createBuffer(1, Math.round(everyS * burst.sampleRate), burst.sampleRate);
   whole.copyToChannel(burst.getChannelData(0), 0);

@@ -1,4 +1,4 @@
-// Joins the player to the live state: plays what is wanted, and says every few seconds whether it would be heard.
+// Connects the player to the live state, and reports every few seconds whether an alarm would be heard.
 import { useEffect, useEffectEvent, useRef, useState } from "react";
 import { useLive, usePainter } from "../live/LiveContext";
 import { reportArmed, reportClosed } from "./alarmRequests";
@@ -11,7 +11,7 @@ export interface AlarmSound {
   armed: boolean;
   failed: boolean;
   arm: () => void;
-  /** Until when the screen's own alarm is paused, on the page's clock. */
+  /** End of the pause of the screen's own alarm, on the page's clock. */
   ownPauseUntilMs: number;
   pauseOwn: (nowMs: number) => void;
 }
@@ -32,7 +32,7 @@ export function useAlarmSound(): AlarmSound {
   });
 
   const say = useEffectEvent((signal: AbortSignal) => {
-    // A browser may take the sound back, as when another program has the device.
+    // A browser may suspend the sound, for example when another program takes the device.
     setArmed(player.armed);
     void reportArmed(player.armed, signal);
   });

@@ -7,14 +7,14 @@ const ringing = alarms({ sound: "high", sound_number: 4 });
 const heard = { link: "open" as const, silentMs: 100, newest: message({ alarms: ringing }) };
 const gone: AlarmsVerdict = { known: false, everReceived: true };
 
-test("what the server says is shown as long as it is heard", () => {
+test("the server's alarms are shown while it answers", () => {
   expect(alarmsVerdict(heard, true)).toEqual({ known: true, alarms: ringing });
   expect(alarmsVerdict({ ...heard, silentMs: 801 }, true)).toEqual(gone);
   expect(alarmsVerdict({ ...heard, link: "lost" }, true)).toEqual(gone);
   expect(alarmsVerdict({ ...heard, newest: null }, false)).toEqual({ known: false, everReceived: false });
 });
 
-test("before the first message a page knows of no alarm, and makes none of its own, however long it waits", () => {
+test("before the first message a page has no alarms and raises none", () => {
   const loading = alarmsVerdict({ link: "lost", silentMs: 5000, newest: null }, false);
   expect(loading).toEqual({ known: false, everReceived: false });
   expect(requestedSound(loading, 60_000, 0).sound).toBe("silent");

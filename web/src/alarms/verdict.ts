@@ -1,4 +1,4 @@
-// What the page says of the alarms now. Pure: what is known and a time go in.
+// Which alarm state the page shows. Pure.
 import { SILENT_AFTER_MS } from "../live/assess";
 import type { LinkState } from "../live/viewConnection";
 import type { AlarmsMessage, LiveMessage, Sound } from "../live/messages";
@@ -9,7 +9,7 @@ export interface ServerContact {
   newest: LiveMessage | null;
 }
 
-/** Nothing is claimed of alarms that may be over, or of silence that may not be: the server is not heard. */
+/** Without the server neither alarms nor their absence are claimed. */
 export type AlarmsVerdict = { known: true; alarms: AlarmsMessage } | { known: false; everReceived: boolean };
 
 export function alarmsVerdict(
@@ -24,17 +24,17 @@ export function alarmsVerdict(
 
 export interface RequestedSound {
   sound: Sound;
-  /** A new number begins the sound anew. */
+  /** A new number restarts the sound. */
   number: number;
 }
 
 const SILENCE: RequestedSound = { sound: "silent", number: 0 };
-/** The screen's own alarm: the server that decides is not heard. It is no alarm of the server's. */
+/** The screen's own alarm: the server that evaluates alarms does not answer. */
 const SERVER_GONE: RequestedSound = { sound: "medium", number: -1 };
-/** A line that is made anew at once is no alarm. */
+/** A connection that returns at once raises no alarm. */
 export const GONE_SOUNDS_AFTER_MS = 2000;
 
-/** What this screen, if its sound is armed, is to be heard with. */
+/** The sound of this screen, if it is armed. */
 export function requestedSound(
   verdict: AlarmsVerdict,
   goneMs: number,

@@ -8,7 +8,7 @@ import { ProcedureProvider } from "./procedure";
 import { useSession } from "./session";
 import { CAMERA_PATH, isCameraAt, viewAt, type ViewName } from "./views";
 
-// A screen in theatre loads nothing of the pages that only a tablet shows.
+// A screen in theatre does not load the pages of the tablet.
 const VIEWS: Record<ViewName, ComponentType> = {
   theatre: TheatreView,
   operator: lazy(async () => ({ default: (await import("../operator/OperatorView")).OperatorView })),
@@ -16,10 +16,10 @@ const VIEWS: Record<ViewName, ComponentType> = {
 };
 
 const CameraPage = lazy(async () => ({ default: (await import("../phone/CameraPage")).CameraPage }));
-// The browser asks for a camera only in a page that was loaded at the address whose answer allows it.
+// Only the document at the camera's address has permission to use a camera.
 const LOADED_AT = location.pathname;
 
-/** Who is signed in sees a view; everybody else the door. */
+/** Shows a view to users who are signed in, and the sign-in page to others. */
 export function App(): ReactNode {
   const { session } = useSession();
   const [path] = useLocation();

@@ -8,11 +8,11 @@ import { useTexts } from "../texts/TextsContext";
 import { useFrequentProcedure } from "./procedure";
 import { useSession } from "./session";
 
-/** After a start: why navigation is stopped, and the operator's button to go on. Nothing at other times. */
+/** After a restart: why navigation is stopped, and the operator's button to continue. Otherwise nothing. */
 export function ConfirmRestart(): ReactNode {
   const { view } = useLive();
   const [stopped, setStopped] = useState(false);
-  // While no picture comes nobody says that it is over.
+  // Without pictures it is unknown whether the confirmation is still needed: keep showing it.
   const snapshot = view.newest?.snapshot ?? null;
   const isStopped = snapshot === null ? stopped : snapshot.withheld === "NOT_CONFIRMED";
   if (isStopped !== stopped) setStopped(isStopped);
@@ -25,7 +25,7 @@ function Question(): ReactNode {
   const { data, refetch } = useFrequentProcedure();
   const doing = useAction();
   const [needed, setNeeded] = useState(data?.confirmation ?? null);
-  // A server that does not answer has not said that it is over either.
+  // The same applies while the server does not answer.
   if (data !== null && data.confirmation !== needed) setNeeded(data.confirmation);
   if (needed === null) return null;
   const isOperator = session.state === "in" && session.who.role === "operator";

@@ -9,7 +9,7 @@ import { useTexts } from "../texts/TextsContext";
 import { isOnlyOperator } from "./onlyOperator";
 import { useSession } from "./session";
 
-/** Who is signed in, and the way out; nothing where nobody has to sign in. */
+/** Who is signed in, and the sign-out button; nothing if the server requires no sign-in. */
 export function SignedIn(): ReactNode {
   const texts = useTexts().signIn;
   const { session, leave } = useSession();
@@ -59,7 +59,7 @@ export function SignedIn(): ReactNode {
           <Button
             size="lg"
             variant={isOnly ? "default" : "filled"}
-            // Whether anybody else can come back is known in a moment; until then a slip must not sign out.
+            // Disabled until it is known whether another operator could return.
             loading={busy || isUnknown}
             onClick={() => void run(leave)}
             data-testid="sign-out"

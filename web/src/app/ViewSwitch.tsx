@@ -4,7 +4,7 @@ import { useTexts } from "../texts/TextsContext";
 import { useSession } from "./session";
 import { PATHS, viewAt, viewsOf } from "./views";
 
-/** The views that this role may choose from; nothing where there is but one. */
+/** Views that this role may open; nothing if there is only one. */
 export function ViewSwitch(): ReactNode {
   const texts = useTexts().shell;
   const { session } = useSession();

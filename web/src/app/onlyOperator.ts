@@ -1,9 +1,9 @@
-// Whether anybody else could come back as operator; pure.
+// Whether another person could sign in as operator. Pure.
 import type { components } from "../schema";
 
 type People = components["schemas"]["PeopleMessage"];
 
-/** No other person is signed in as operator, and no invitation as operator waits to be used. */
+/** True if no other operator is signed in and no operator invitation is open. */
 export function isOnlyOperator({ sessions, invitations }: Pick<People, "sessions" | "invitations">): boolean {
   const isThere = sessions.some((one) => one.role === "operator" && !one.is_own && !one.for_machine);
   const mayCome = invitations.some(

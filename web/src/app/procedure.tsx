@@ -1,5 +1,5 @@
-// The state of the procedure, requested once for everything on the page, and often enough that no gate
-// looks open that is shut.
+// State of the procedure, polled once for the whole page, often enough that a gate never looks open
+// after it has closed.
 import { createContext, use, useCallback, useEffect, useMemo, useState, type ReactNode } from "react";
 import { answered, server } from "../rest/client";
 import { useQuery, type QueryState } from "../rest/useQuery";
@@ -10,13 +10,13 @@ export type Procedure = components["schemas"]["ProcedureMessage"];
 export type Step = components["schemas"]["StepMessage"];
 
 const OFTEN_MS = 1000;
-/** On a screen that is only looked at: what moves quickly comes with each image. */
+/** For a screen that only displays: fast changes arrive with each image. */
 const SELDOM_MS = 4000;
 
 interface SharedQuery extends QueryState<Procedure> {
-  /** Requests it often from now on, until the returned function is called. */
+  /** Polls at the high rate until the returned function is called. */
   hurry: () => () => void;
-  /** The open case of the last answer; null where none was open, undefined before the first answer. */
+  /** The open case of the last answer; null if none was open, undefined before the first answer. */
   caseId: string | null | undefined;
 }
 
@@ -49,20 +49,20 @@ function useShared(): SharedQuery {
   return value;
 }
 
-/** As the page asks for it anyway. */
+/** Polled at the rate of the view. */
 export function useProcedure(): QueryState<Procedure> {
   return useShared();
 }
 
 /**
- * The open case of the last answer, also while the server does not answer: unsaved work on a page belongs to its case,
- * and must not go with one failed request. Null where no case is open, undefined before the first answer.
+ * The open case of the last answer, kept while the server does not answer: unsaved work belongs to its case and
+ * must survive a failed request. Null if no case is open, undefined before the first answer.
  */
 export function useCaseId(): string | null | undefined {
   return useShared().caseId;
 }
 
-/** Requested often while this is mounted, and at once when it mounts. */
+/** Polled at the high rate while mounted, and at once on mount. */
 export function useFrequentProcedure(): QueryState<Procedure> {
   const shared = useShared();
   const { hurry, refetch } = shared;

@@ -1,4 +1,4 @@
-// Who is signed in here. The cookie itself is out of reach for scripts; the server says whose it is.
+// The session of this page. Scripts cannot read the cookie; the server states whose it is.
 import {
   createContext,
   use,
@@ -16,18 +16,18 @@ export type { Role, Session, Who } from "./sessionAfter";
 
 interface SessionValue {
   session: Session;
-  /** Ask the server again who this is. */
+  /** Asks the server again whose session this is. */
   refetch: () => void;
-  /** Sign out; every picture and socket of this session ends. */
+  /** Signs out. The server ends every picture and socket of the session. */
   leave: () => Promise<void>;
 }
 
-/** Sockets that the server closes say no reason to a page: it asks, so that no view outlives its session. */
+/** A closed socket carries no reason: the page asks, so that no view outlives its session. */
 const ASK_EVERY_MS = 3000;
 
 const SessionContext = createContext<SessionValue | null>(null);
 
-/** Who this is, or the code of why nobody is. */
+/** The user, or the code of the reason why there is none. */
 async function ask(): Promise<Session | string> {
   try {
     const { name, role, sign_in_required } = await answered(server.GET("/api/session"));
@@ -41,7 +41,7 @@ async function ask(): Promise<Session | string> {
 export function SessionProvider({ children }: { children: ReactNode }): ReactNode {
   const [session, setSession] = useState<Session>({ state: "asking", silent: false });
   const asking = useRef(false);
-  // Who comes by a link is nobody yet: whoever takes the link asks.
+  // With a link in the address nobody is signed in yet; the sign-in page uses the link and then asks.
   const [byLink] = useState(() => location.pathname === "/enter" && location.hash.length > 1);
 
   const refetch = useCallback(() => {
@@ -62,7 +62,7 @@ export function SessionProvider({ children }: { children: ReactNode }): ReactNod
   }, []);
 
   const onTick = useEffectEvent(() => {
-    // Who is out comes back by a link, or by having signed in beside; each question would count as a try.
+    // After sign-out, return is by a link or another tab; each further question would count as an attempt.
     if (session.state !== "out") refetch();
   });
   const onGone = useEffectEvent(() => {

@@ -16,6 +16,6 @@ test.each<[string, Session, Session | string, Session]>([
   expect(sessionAfter(before, answer)).toEqual(after);
 });
 
-test("the same answer changes nothing, so that nothing is drawn anew", () => {
+test("an equal answer changes nothing, so that nothing is rendered again", () => {
   expect(sessionAfter(inside, { ...inside, who: { ...inside.who } })).toBe(inside);
 });

@@ -1,4 +1,4 @@
-// Who is believed to be signed in, after each answer of the server.
+// The session state after each answer of the server.
 
 export type Role = "operator" | "supervisor" | "viewer" | "screen" | "camera";
 
@@ -8,13 +8,13 @@ export interface Who {
 }
 
 export type Session =
-  /** `silent` once the server has not answered. */
+  /** `silent` if the server has not answered. */
   | { state: "asking"; silent: boolean }
   | { state: "in"; who: Who; required: boolean }
-  /** Nobody is signed in; `expired` where somebody was. */
+  /** Nobody is signed in; `expired` if somebody was. */
   | { state: "out"; expired: boolean };
 
-/** What to believe after an answer (or the code of a rejection), from what was believed before it. */
+/** Returns the next state from an answer, or from the code of a rejection. */
 export function sessionAfter(before: Session, answer: Session | string): Session {
   if (typeof answer !== "string") return same(before, answer) ? before : answer;
   if (answer === "SESSION_NEEDED" || answer === "SESSION_EXPIRED") {
@@ -22,7 +22,7 @@ export function sessionAfter(before: Session, answer: Session | string): Session
     const expired = was || answer === "SESSION_EXPIRED";
     return before.state === "out" && before.expired === expired ? before : { state: "out", expired };
   }
-  // A server that is gone ends no session: the panes say that it is gone.
+  // A lost server does not end a session; the panes show that it is lost.
   return before.state === "asking" ? { state: "asking", silent: true } : before;
 }
 

@@ -7,7 +7,7 @@ import { useTexts } from "../texts/TextsContext";
 import { useCuts } from "./CutsContext";
 import type { CutVerdict, NoVolume } from "./cutVerdict";
 
-/** Over a cut that must not be looked at: why, as over figures and video. */
+/** Covers a cut that is not valid, with the reason, as for figures and video. */
 export function CutCover({ verdict }: { verdict: CutVerdict }): ReactNode {
   const texts = useTexts();
   const { view } = useLive();
@@ -25,7 +25,7 @@ export function CutCover({ verdict }: { verdict: CutVerdict }): ReactNode {
   );
 }
 
-/** Why the drill is shown without the CT around it. */
+/** Why the CT is missing around the drill. */
 export function NoVolumeNote({ volume }: { volume: NoVolume }): ReactNode {
   const t = useTexts().theatre.cuts;
   const { requestCt } = useCuts();

@@ -24,18 +24,18 @@ const AHEAD_MM = [0, 5, 10, 20];
 const MAX_LABELS = 5;
 const EDGES = ["left", "right", "top", "bottom"] as const;
 const MAX_RULER_PX = 120;
-/** A pane that is just being laid out shows nothing. */
+/** Minimum size; a pane that is being laid out shows nothing. */
 const MIN_STAGE_PX = 40;
 
 interface CutPaneProps {
   name: CutName;
-  /** Beside the title: what else can be shown in this place. */
+  /** Shown beside the title: other content for this tile. */
   tabs?: ReactNode;
-  /** Over the picture: in which planes it lies. */
+  /** Shown over the picture: the choice of planes. */
   tools?: ReactNode;
 }
 
-/** A cut through the CT that moves with the drill, with drill and plan drawn in it to scale. */
+/** A cut of the CT that follows the drill, with drill and plan to scale. */
 export function CutPane({ name, tabs, tools }: CutPaneProps): ReactNode {
   const texts = useTexts();
   const { dashboard } = useLive();
@@ -49,7 +49,7 @@ export function CutPane({ name, tabs, tools }: CutPaneProps): ReactNode {
   const shown = useRef<Cut | null>(null);
   const size = useRef({ width: 0, height: 0 });
   const limiter = useRef(new PaintRateLimiter());
-  /** What the lines that stand there were drawn from; empty where none stand. */
+  /** Subject of the painted lines; empty if there are none. */
   const drawnFrom = useRef<readonly unknown[]>([]);
   const drawnAtMs = useRef(-Infinity);
   const ahead = name === "probe" ? aheadMm : 0;
@@ -69,7 +69,7 @@ export function CutPane({ name, tabs, tools }: CutPaneProps): ReactNode {
     return { grid: cutGrid(name, pose, fieldOf(name, width, height), ahead), aheadMm: ahead };
   };
 
-  /** The plane that is drawn on: that of the cut, or of the drill itself where there is no CT to cut. */
+  /** The plane of the lines: that of the cut, or of the drill if there is no CT. */
   const drawnOn = (next: CutVerdict, { numbers }: View): (Wanted & { imageNumber: number }) | null => {
     const drill = displayedDrill(numbers);
     if (next.state === "bare" && numbers.live && drill !== null) {
@@ -132,7 +132,7 @@ export function CutPane({ name, tabs, tools }: CutPaneProps): ReactNode {
       setText(stamp.current, "");
       return;
     }
-    // Each change of the lines costs an image of the screen: they are drawn with their cut, and not with each message.
+    // Lines are painted with their cut instead of with each message, since each change costs a screen refresh.
     const from = [next.state, shown.current, size.current, ahead];
     const isMovingAlone = next.state === "bare" && now.nowMs - drawnAtMs.current >= now.budget.cutIntervalMs;
     if (isMovingAlone || from.some((one, index) => one !== drawnFrom.current[index])) {
@@ -201,7 +201,7 @@ export function CutPane({ name, tabs, tools }: CutPaneProps): ReactNode {
   );
 }
 
-/** How far ahead of the tip the probe's eye looks. */
+/** How far ahead of the tip the probe's eye is. */
 function DepthButtons(): ReactNode {
   const t = useTexts().theatre.cuts;
   const { aheadMm, setAheadMm } = useCuts();
@@ -224,7 +224,7 @@ function DepthButtons(): ReactNode {
   );
 }
 
-/** The next window by one touch. */
+/** Switches to the next window. */
 function WindowButton(): ReactNode {
   const texts = useTexts();
   const { windows, window, setWindow } = useCuts();
@@ -244,7 +244,7 @@ function WindowButton(): ReactNode {
   );
 }
 
-/** What the words over a cut depend on. */
+/** State that the cover's texts depend on. */
 function wordsOf(verdict: CutVerdict): string {
   switch (verdict.state) {
     case "covered":

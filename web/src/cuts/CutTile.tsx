@@ -11,11 +11,11 @@ interface CutTileProps {
   choices?: readonly TileName[];
   choice: TileChoice;
   onChoose: (choice: TileChoice) => void;
-  /** Whether the kind of planes is chosen here. */
+  /** Whether the planes can be chosen here. */
   hasKind?: boolean;
 }
 
-/** One cut or the 3-D scene, with what else can be shown in its place. */
+/** One cut or the 3-D scene, with a choice of alternatives. */
 export function CutTile({ name, choices = [], choice, onChoose, hasKind = false }: CutTileProps): ReactNode {
   const texts = useTexts();
   const t = texts.theatre.cuts;
@@ -61,7 +61,7 @@ interface OnlyTileProps {
   onChoose: (choice: TileChoice) => void;
 }
 
-/** The tile of a page that has no room for more: one of all views. */
+/** The only tile of a small page, with all alternatives. */
 export function OnlyTile({ choice, onChoose }: OnlyTileProps): ReactNode {
   return (
     <div className="tiles tiles-one">
@@ -76,7 +76,7 @@ export function OnlyTile({ choice, onChoose }: OnlyTileProps): ReactNode {
   );
 }
 
-/** The same for a page that shows no other tile: the probe's eye, until something else is chosen. */
+/** The same, starting with the probe's eye. */
 export function ChosenTile(): ReactNode {
   const [choice, setChoice] = useState(FIRST_CHOICE);
   return <OnlyTile choice={choice} onChoose={setChoice} />;

@@ -1,4 +1,4 @@
-// The cuts of a page: one volume, one worker, and the panes that show what it cuts.
+// The cuts of a page: one volume, one worker, and the panes that show its cuts.
 import { createContext, use, useEffect, useMemo, useState, type ReactNode } from "react";
 import { useLive, usePainter } from "../live/LiveContext";
 import type { View } from "../live/view";
@@ -12,14 +12,14 @@ import { useVolume } from "./useVolume";
 interface CutsValue {
   cutter: Cutter;
   volume: VolumeState;
-  /** Names of the windows, the usual one first. */
+  /** Names of the windows, the default first. */
   windows: string[];
   window: string;
   setWindow: (name: string) => void;
-  /** How far ahead of the tip the probe's eye looks. */
+  /** How far ahead of the tip the probe's eye is. */
   aheadMm: number;
   setAheadMm: (aheadMm: number) => void;
-  /** Load the CT, where that waits for a request. */
+  /** Loads the CT if loading waits for a request. */
   requestCt: () => void;
 }
 
@@ -29,7 +29,7 @@ const USUAL_WINDOW = "bone";
 const USUAL_GREY: GreyWindow = { window_hu: 1800, level_hu: 400 };
 
 interface CutsProviderProps {
-  /** Load the CT only when somebody asks for it: whose line may be thin needs it for the figures. */
+  /** Load the CT only on request: a possibly slow connection is kept free for the figures. */
   ctOnRequest?: boolean;
   children: ReactNode;
 }
@@ -92,7 +92,7 @@ export function useCuts(): CutsValue {
   return value;
 }
 
-/** What to cut for this view: the drill whose figures stand there, else the plan, else nothing. */
+/** Subject of the cuts: the drill whose figures are displayed, else the plan, else nothing. */
 function subjectOf({ numbers, newest, nowMs, untrackedMs }: View): CutSubject | null {
   const channel = newest?.snapshot?.channel ?? null;
   if (channel === null) return null;

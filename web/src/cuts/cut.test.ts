@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { drawCut, inverseAffine, type CutPlane, type Voxels } from "./cut";
 
-/** 3 x 2 x 2 voxels of 2 mm whose HU are 10 i + 100 j + 1000 k; (0, 0, 0) lies at (5, 0, 0). */
+/** 3 x 2 x 2 voxels of 2 mm with HU = 10 i + 100 j + 1000 k; voxel (0, 0, 0) is at (5, 0, 0). */
 const AFFINE = [
   [2, 0, 0, 5],
   [0, 2, 0, 0],
@@ -19,7 +19,7 @@ const VOXELS: Voxels = {
 /** 0 HU is 0, 2550 HU is 255. */
 const GREY = { window_hu: 2550, level_hu: 1275 };
 
-/** One row of pixels along x, 1 mm apart, at this y and z. */
+/** One row of pixels along x, 1 mm apart, at given y and z. */
 function line(y: number, z: number, fromX: number, count: number): number[][] {
   const plane: CutPlane = {
     lps_from_px: [
@@ -36,7 +36,7 @@ function line(y: number, z: number, fromX: number, count: number): number[][] {
 }
 
 test("between voxels the grey is linear, and outside of them the pixel is transparent", () => {
-  // x = 4 is half a voxel beyond; 5, 6 .. 9 are indexes 0, 0.5 .. 2; 10 is beyond again. k = 0.5: 500 HU.
+  // x = 4 is half a voxel outside; 5, 6 .. 9 are indices 0, 0.5 .. 2; 10 is outside again. k = 0.5: 500 HU.
   const seen = line(2, 1, 4, 7);
   expect(seen.map(([, alpha]) => alpha)).toEqual([0, 255, 255, 255, 255, 255, 0]);
   expect(seen.slice(1, 6).map(([grey]) => grey)).toEqual([60, 60, 61, 62, 62]);

@@ -1,17 +1,17 @@
-// A cut through a volume: trilinear Hounsfield units in a plane, as grey pixels. Pure, and without imports, so that it
-// runs in the worker, in tests and in Node alike.
+// A cut through a volume: trilinear Hounsfield units in a plane, as grey pixels. Pure and without imports, so that it
+// runs in the worker, in tests and in Node.
 
 export interface Voxels {
   /** i fastest, then j, then k. */
   hu: Int16Array;
   /** Number of voxels along i, j and k. */
   size: readonly [number, number, number];
-  /** Rows of the affine from LPS in mm to the index of a voxel: 3 of 4. */
+  /** Rows of the affine from LPS in mm to voxel indices: 3 of 4. */
   indexFromLps: readonly (readonly number[])[];
 }
 
 export interface CutPlane {
-  /** From (u, v, 1) to LPS in mm; the centre of the top-left pixel is (0, 0). Rows, 3 of 3. */
+  /** From (u, v, 1) to LPS in mm; (0, 0) is the centre of the top-left pixel. Rows, 3 of 3. */
   lps_from_px: readonly (readonly number[])[];
   width_px: number;
   height_px: number;
@@ -22,12 +22,12 @@ export interface GreyWindow {
   level_hu: number;
 }
 
-/** A point on the outermost voxels is inside, whichever way its index was rounded. */
+/** A point on the outermost voxels counts as inside despite rounding. */
 const BORDER_VOXELS = 1e-4;
 
 /**
- * Writes the cut as RGBA into `pixels`, which has `width_px * height_px * 4` bytes. Outside of the volume, where the
- * HU are not known, pixels are transparent; black would look like air.
+ * Writes the cut as RGBA into `pixels` (`width_px * height_px * 4` bytes). Pixels outside of the volume, where HU are
+ * unknown, are transparent: black would look like air.
  */
 export function drawCut(voxels: Voxels, plane: CutPlane, grey: GreyWindow, pixels: Uint8ClampedArray): void {
   const { hu, size } = voxels;
@@ -46,7 +46,7 @@ export function drawCut(voxels: Voxels, plane: CutPlane, grey: GreyWindow, pixel
         pixels[at + 3] = 0;
         continue;
       }
-      // The last voxel has no next one: it is reached with the full share of the one before.
+      // The last voxel has no next one; it is reached from the previous one with weight 1.
       const i0 = Math.min(Math.floor(i), columns - 2);
       const j0 = Math.min(Math.floor(j), rows - 2);
       const k0 = Math.min(Math.floor(k), slices - 2);
@@ -72,7 +72,7 @@ function row(hu: Int16Array, at: number, share: number): number {
   return mix(hu[at] ?? 0, hu[at + 1] ?? 0, share);
 }
 
-/** The index held on the outermost voxels; negative outside of them. */
+/** The index clamped to the outermost voxels; negative outside. */
 function within(index: number, count: number): number {
   if (index < -BORDER_VOXELS || index > count - 1 + BORDER_VOXELS) return -1;
   return Math.min(Math.max(index, 0), count - 1);
@@ -80,7 +80,7 @@ function within(index: number, count: number): number {
 
 type Triple = readonly [number, number, number];
 
-/** Steps of the voxel's index to the next column and row, and the index of the top-left pixel. */
+/** Steps of the voxel index per column and row, and the index of the top-left pixel. */
 function indexFromPx({ indexFromLps }: Voxels, plane: CutPlane): readonly [Triple, Triple, Triple] {
   const column = (index: number, isPoint: boolean): Triple => {
     const [x, y, z] = plane.lps_from_px.map((one) => one[index] ?? 0);
@@ -93,7 +93,7 @@ function indexFromPx({ indexFromLps }: Voxels, plane: CutPlane): readonly [Tripl
   return [column(0, false), column(1, false), column(2, true)];
 }
 
-/** The inverse of an affine whose last row is 0 0 0 1: its first three rows. */
+/** First three rows of the inverse of an affine with last row 0 0 0 1. */
 export function inverseAffine(affine: readonly (readonly number[])[]): number[][] {
   const at = (r: number, c: number): number => affine[r]?.[c] ?? 0;
   const cofactor = (r: number, c: number): number => {

@@ -39,12 +39,12 @@ function verdict(
   });
 }
 
-test("a young cut beside live figures is live, with the age of its own image", () => {
+test("a recent cut beside live figures is live, with the age of its own image", () => {
   expect(LIVE.live).toBe(true);
   expect(verdict(OF_DRILL)).toEqual({ state: "live", ageMs: 100 });
 });
 
-test("a cut that does not follow is covered while figures go on", () => {
+test("a stale cut is covered while figures continue", () => {
   expect(verdict(OF_DRILL, { nowMs: 1400 }).state).toBe("live");
   expect(verdict(OF_DRILL, { nowMs: 1401 })).toEqual({ state: "covered", why: "late" });
   expect(verdict(null)).toEqual({ state: "covered", why: "late" });
@@ -80,7 +80,7 @@ test("a cut of another channel or another CT is not shown", () => {
   });
 });
 
-test("without a CT drill and plan are shown alone, and the reason is said", () => {
+test("without a CT, drill and plan are shown alone, with the reason", () => {
   const volume = { state: "none" } as const;
   expect(verdict(null, { volume })).toEqual({ state: "bare", ageMs: 40, volume });
   expect(verdict(null, { volume, numbers: UNREAD })).toEqual({ state: "covered", why: "unread" });
@@ -90,6 +90,6 @@ test.each([
   ["a refusal of the server", new Rejection(PROBLEM), { state: "rejected", problem: PROBLEM }],
   ["no answer", new Rejection({ ...PROBLEM, message: "" }), { state: "failed", message: "" }],
   ["an answer that is no volume", new Error("8 voxels"), { state: "failed", message: "8 voxels" }],
-])("loading that ends with %s is said, and is not loading any more", (_, error, state) => {
+])("loading that ends with %s is reported and has ended", (_, error, state) => {
   expect(volumeAfter(error)).toEqual(state);
 });

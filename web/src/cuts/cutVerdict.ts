@@ -1,34 +1,34 @@
-// Whether a cut may be shown, and as what. Pure: it is covered for the same reasons and at the same moment as figures.
+// Whether a cut may be shown, and of what. Pure. It is covered for the same reasons and at the same time as figures.
 import type { Cause, NumbersVerdict } from "../live/assess";
 import type { ChannelMessage } from "../live/messages";
 import { Rejection, type Problem } from "../rest/client";
 import type { CutSubject } from "./cutter";
 
-/** What this page has of the CT around the vertebra. */
+/** State of the CT around the vertebra on this page. */
 export type VolumeState =
   | { state: "none" }
   | { state: "loading" }
   | { state: "scanning" }
-  /** It is loaded when somebody asks for it. */
+  /** Loaded on request. */
   | { state: "on_request" }
   | { state: "rejected"; problem: Problem }
-  /** What came could not be read; without the message where nothing came. */
+  /** The answer was unreadable; the message is empty if there was no answer. */
   | { state: "failed"; message: string }
   | { state: "unsupported" }
   | { state: "ready"; ctId: string };
 
-/** Why there is no CT to cut, for now or at all. */
+/** Why there is no CT. */
 export type NoVolume = Exclude<VolumeState, { state: "ready" }>;
 
 export type CutVerdict =
   | { state: "live"; ageMs: number }
-  /** Drill and plan alone, which need no CT. */
+  /** Drill and plan without a CT. */
   | { state: "bare"; ageMs: number; volume: NoVolume }
-  /** The planned channel alone, without a drill. */
+  /** The planned channel without a drill. */
   | { state: "plan" }
   | { state: "covered"; why: "late" | "unread" | Cause };
 
-/** What there is of a CT after loading it has failed. */
+/** State after loading has failed. */
 export function volumeAfter(error: unknown): VolumeState {
   if (error instanceof Rejection) {
     const { problem } = error;
@@ -37,19 +37,19 @@ export function volumeAfter(error: unknown): VolumeState {
   return { state: "failed", message: error instanceof Error ? error.message : String(error) };
 }
 
-/** Numbers that go for a moment are no reason to show something else. */
+/** Numbers that disappear briefly do not switch the cut to the plan. */
 export const PLAN_AFTER_MS = 1000;
 
-/** Whether cuts of the plan are wanted: the newest image says itself why it has no figures, and has said so for a while. */
+/** Whether to cut along the plan: the newest image has had a reason for missing figures for a while. */
 export function wantsPlan(numbers: NumbersVerdict, untrackedMs: number | null): boolean {
   return !numbers.live && numbers.cause === "unread" && (untrackedMs ?? Infinity) > PLAN_AFTER_MS;
 }
 
 /**
- * The verdict on a cut that is displayed (null where none is).
+ * Returns the verdict on the displayed cut (null if none is displayed).
  *
- * `volume`, `channel` and `numbers` are those of the newest message; `limitMs` is the greatest age of a drawing that
- * follows the drill, as for the 3-D scene.
+ * `volume`, `channel` and `numbers` belong to the newest message; `limitMs` is the maximum age of a drawing that follows
+ * the drill, as for the 3-D scene.
  */
 export function cutVerdict(
   shown: CutSubject | null,
@@ -70,7 +70,7 @@ export function cutVerdict(
   },
 ): CutVerdict {
   if (!numbers.live && numbers.cause !== "unread") return { state: "covered", why: numbers.cause };
-  // A pose of one CT in the voxels of another would be a place that nobody planned.
+  // A pose in another CT's voxels would be a place that nobody planned.
   const isOfCt = volume.state === "ready" && channel !== null && channel.ct_id === volume.ctId;
   if (!isOfCt) {
     const missing = volume.state === "ready" ? ({ state: "loading" } as const) : volume;

@@ -1,4 +1,4 @@
-// Cuts the volume beside the page: figures and alarms never wait for it.
+// Cuts the volume in a worker, so that figures and alarms never wait for it.
 import { drawCut } from "./cut";
 import type { CutReply, ToCutWorker } from "./cutter";
 

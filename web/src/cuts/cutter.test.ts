@@ -57,7 +57,7 @@ test("one cut at a time, of the newest pose, at most ten times a second", () => 
   expect(shown).toEqual([1, 4]);
 });
 
-test("cuts are as far apart as the page's budget says", () => {
+test("cuts follow the interval of the page's budget", () => {
   const { cutter, posted, reply } = started();
   cutter.update(0, subject(1), GREY, 200);
   reply(4);

@@ -1,5 +1,5 @@
-// Orders cuts of the newest pose from the worker: one at a time, without a queue, as often as the page's budget allows,
-// and less often where they take long. Pure but for the port that it is given; times go in as numbers.
+// Orders cuts of the newest pose from the worker: one at a time, without a queue, at the rate that the page's budget and
+// the duration of cuts allow. Pure except for the injected port.
 import type { ChannelMessage } from "../live/messages";
 import type { PixelGrid } from "../operator/plan/slices/place";
 import type { GreyWindow, Voxels } from "./cut";
@@ -12,7 +12,7 @@ export type ToCutWorker =
       job: number;
       grey: GreyWindow;
       cuts: { name: CutName; grid: PixelGrid }[];
-      /** Buffers of earlier cuts, given back to be written again. */
+      /** Buffers of earlier cuts, for reuse. */
       spare: ArrayBuffer[];
     };
 
@@ -22,7 +22,7 @@ export interface CutReply {
   cuts: { name: CutName; buffer: ArrayBuffer }[];
 }
 
-/** What the cuts are made for: the drill of one image, or the plan while there is none. */
+/** Subject of the cuts: the drill of one image, or the plan without a drill. */
 export interface CutSubject {
   kind: "live" | "plan";
   imageNumber: number;
@@ -32,13 +32,13 @@ export interface CutSubject {
   channel: ChannelMessage;
 }
 
-/** The pixels that a pane wants, and how far ahead of the tip they lie. */
+/** The pixels of a pane, and their distance ahead of the tip. */
 export interface Wanted {
   grid: PixelGrid;
   aheadMm: number;
 }
 
-/** A finished cut: its pixels, where they lie, and what it was made for. */
+/** A finished cut: pixels, plane and subject. */
 export interface Cut extends Wanted {
   subject: CutSubject;
   buffer: ArrayBuffer;
@@ -47,7 +47,7 @@ export interface Cut extends Wanted {
 /** A pane that shows a cut. */
 export interface CutViewer {
   name: CutName;
-  /** The pixels to cut for this pose, or null while the pane has no size. */
+  /** The plane to cut for this pose; null while the pane has no size. */
   gridFor: (pose: Pose) => Wanted | null;
   show: (cut: Cut) => void;
 }
@@ -56,7 +56,7 @@ type Post = (message: ToCutWorker, transfer: ArrayBuffer[]) => void;
 
 /** A plan does not move. */
 const PLAN_INTERVAL_MS = 500;
-/** The share of one core that cuts may take. */
+/** Share of one core for cuts. */
 const MAX_SHARE = 0.15;
 const MAX_SPARE = 8;
 
@@ -64,7 +64,7 @@ export class Cutter {
   private readonly viewers = new Set<CutViewer>();
   private job = 0;
   private orderedAtMs = -Infinity;
-  /** From one order to the next, for the worker not to take more than its share. */
+  /** Time between orders that keeps the worker within its share. */
   private restMs = 0;
   private ordered: {
     subject: CutSubject;
@@ -72,10 +72,10 @@ export class Cutter {
   } | null = null;
   private spare: ArrayBuffer[] = [];
   private post: Post | null = null;
-  /** Of the volume that the worker has; a pose of another CT is never cut from it. */
+  /** The worker's volume; a pose of another CT is never cut from it. */
   private ctId: string | null = null;
 
-  /** From now on the worker is reached by this; null while there is none. */
+  /** Sets the port of the worker; null without a worker. */
   connect(post: Post | null): void {
     this.post = post;
     this.ordered = null;
@@ -85,7 +85,7 @@ export class Cutter {
   setVolume({ ctId, voxels }: { ctId: string; voxels: Voxels }): void {
     this.ctId = ctId;
     this.post?.({ kind: "volume", voxels }, [voxels.hu.buffer as ArrayBuffer]);
-    // What is still on its way was cut from another volume.
+    // Pending replies belong to another volume.
     this.job += 1;
     this.ordered = null;
   }
@@ -96,8 +96,8 @@ export class Cutter {
   }
 
   /**
-   * Orders cuts of this subject if the worker is idle and it is time; a later call has a newer one. `intervalMs` is the
-   * least time from one order to the next while the drill moves.
+   * Orders cuts of this subject if the worker is idle and the interval has passed; otherwise a later call does, with a
+   * newer pose. `intervalMs` is the shortest time between orders while the drill moves.
    */
   update(nowMs: number, subject: CutSubject | null, grey: GreyWindow, intervalMs: number): void {
     if (this.post === null || subject === null || this.ordered !== null) return;
@@ -118,7 +118,7 @@ export class Cutter {
     this.spare = [];
   }
 
-  /** Takes the worker's reply. */
+  /** Receives the worker's reply. */
   receive({ job, tookMs, cuts }: CutReply): void {
     if (job !== this.job || this.ordered === null) return;
     const { subject, of } = this.ordered;

@@ -5,7 +5,7 @@ import { assessment } from "../live/figureBuilders";
 import type { SnapshotMessage } from "../live/messages";
 import { displayedDrill, drillOf } from "./drill";
 
-/** A camera that looks from behind (LPS +y) at a prone patient: its x points to the patient's right, its y to the feet. */
+/** A camera behind (LPS +y) a prone patient: its x points to the patient's right, its y to the feet. */
 const CAMERA_FROM_VERTEBRA = {
   rotation: [
     [-1, 0, 0],
@@ -15,7 +15,7 @@ const CAMERA_FROM_VERTEBRA = {
   translation_mm: [5, -10, 400],
 };
 
-/** A drill that points away from the camera, its tip at (-14, 3, 380) in it. */
+/** A drill pointing away from the camera, its tip at (-14, 3, 380) in camera coordinates. */
 function seen(): SnapshotMessage {
   const base = snapshot();
   const [tool] = base.tools;
@@ -47,7 +47,7 @@ function seen(): SnapshotMessage {
 
 test("the drill is placed in the vertebra by both poses of the same message", () => {
   const drill = drillOf(seen(), "drill");
-  // From the vertebra's origin in the camera it is (-19, 13, -20): 19 to the left, 13 to the feet, 20 to the back.
+  // From the vertebra's origin in the camera: (-19, 13, -20), i.e. 19 left, 13 to the feet, 20 back.
   expect(drill?.pose.tip.map((one) => one + 0)).toEqual([19, 20, -13]);
   expect(drill?.pose.axis.map((one) => one + 0)).toEqual([0, -1, 0]);
   expect(drill?.radiusMm).toBe(seen().tools[0]?.along?.drill_radius_mm);
@@ -65,7 +65,7 @@ test("a message without a pose of tool or vertebra, or without figures, places n
   expect(drillOf(whole, "awl")).toBeNull();
 });
 
-test("the displayed drill is that of the image whose figures stand, and none without figures", () => {
+test("the displayed drill belongs to the image of the displayed figures; none without figures", () => {
   const first = seen();
   const tools = first.tools.map((one) => ({ ...one, assessment: assessment() }));
   const numbers = (drilled: SnapshotMessage): NumbersVerdict =>

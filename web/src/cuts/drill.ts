@@ -1,4 +1,4 @@
-// The drill in the vertebra frame, out of one image's message: exactly that from which the server computed the figures.
+// The drill in the vertebra frame, from the same message from which the server computed the figures.
 import type { NumbersVerdict } from "../live/assess";
 import type { SnapshotMessage } from "../live/messages";
 import { dot, minus, vec3, type Vec3 } from "../operator/plan/slices/vectors";
@@ -7,16 +7,16 @@ import type { Pose } from "./planes";
 export interface Drill {
   pose: Pose;
   radiusMm: number;
-  /** Half axes of the 95 % ellipsoid of the tip, and half angle of the 95 % cone of the axis; null where unknown. */
+  /** Semi-axes of the tip's 95 % ellipsoid and half angle of the axis' 95 % cone; null if unknown. */
   spread: { ellipsoidMm: Vec3[]; coneDeg: number } | null;
-  /** The point of the drill that is nearest to a wall; null outside of the bone. */
+  /** Point of the drill nearest to a wall; null outside of the bone. */
   nearest: Vec3 | null;
 }
 
-/** Of each image that a cut has asked about: every cut asks several times an image. */
+/** Cached per image, since every cut asks several times. */
 const drills = new WeakMap<SnapshotMessage, Drill | null>();
 
-/** The drill whose figures are displayed; null where none are, or where its place is not known. */
+/** The drill whose figures are displayed; null if there are none or its position is unknown. */
 export function displayedDrill(numbers: NumbersVerdict): Drill | null {
   if (!numbers.live) return null;
   const { snapshot, reading } = numbers;
@@ -27,7 +27,7 @@ export function displayedDrill(numbers: NumbersVerdict): Drill | null {
   return drill;
 }
 
-/** The drill of this name; null where the message places it not in the vertebra. */
+/** The drill of this name; null if it is not placed in the vertebra. */
 export function drillOf({ tools, vertebra }: SnapshotMessage, name: string): Drill | null {
   const tool = tools.find((one) => one.name === name);
   if (tool?.pose.kind !== "tool" || vertebra.kind !== "vertebra" || tool.along === null) return null;
@@ -52,7 +52,7 @@ export function drillOf({ tools, vertebra }: SnapshotMessage, name: string): Dri
   };
 }
 
-/** By the transpose of a rotation, which is its inverse. */
+/** Applies the transpose of a rotation, which is its inverse. */
 function turnedBack(rotation: readonly number[][], direction: Vec3): Vec3 {
   const column = (index: number): Vec3 => vec3(rotation.map((row) => row[index])) ?? [0, 0, 0];
   return [dot(column(0), direction), dot(column(1), direction), dot(column(2), direction)];

@@ -8,7 +8,7 @@ import { cutGrid, type CutName } from "./planes";
 
 const FIELD = { widthMm: 80, heightMm: 100 };
 const ENTRY: Vec3 = [14, 12, 0];
-/** In the planned axis, 20 mm deep, with a screw of 6.5 x 45 mm in a channel of 8 x 40 mm. */
+/** On the planned axis, 20 mm deep, with a 6.5 x 45 mm screw in an 8 x 40 mm channel. */
 const ON_AXIS: Drill = {
   pose: { tip: [14, -8, 0], axis: [0, -1, 0] },
   radiusMm: 2,
@@ -26,7 +26,7 @@ function drawn(
   return { ...overlay, entry: planeFromLps(grid, ENTRY) };
 }
 
-/** Left, right, top and bottom of a path of straight lines, from a point. */
+/** Bounds of a path of straight lines relative to a point: left, right, top, bottom. */
 function reach(path: string, [x, y]: readonly [number, number]): number[] {
   const places = [...path.matchAll(/(-?[\d.]+) (-?[\d.]+)/g)].map(([, a, b]) => [
     Number(a) - x,
@@ -45,13 +45,13 @@ function near(values: number[], wanted: number[]): void {
 describe("in a cut along a drill in the planned axis", () => {
   test.each(["axial", "sagittal"] as const)("screw, channel and drill have their true size (%s)", (name) => {
     const { paths, entry } = drawn(name, ON_AXIS);
-    // The drilling direction is up.
+    // The drilling direction points up.
     near(reach(paths.screw, entry), [-3.25, 3.25, -45, 0]);
     near(reach(paths.channel, entry), [-4, 4, -40, 0]);
     near(reach(paths.shaft, entry).slice(0, 3), [-2, 2, -20]);
   });
 
-  test("a tick stands each 10 mm ahead of the tip", () => {
+  test("there is a tick every 10 mm ahead of the tip", () => {
     const { paths, labels, entry } = drawn("axial", ON_AXIS);
     const ticks = paths.ahead
       .split("M")
@@ -78,21 +78,21 @@ describe("in a cut along a drill in the planned axis", () => {
 });
 
 describe("the probe's eye", () => {
-  /** 3 mm off towards a side, 20 mm deep. */
+  /** 3 mm off to one side, 20 mm deep. */
   const beside = (by: Vec3): Drill => ({
     ...ON_AXIS,
     pose: { tip: [14 + by[0], -8 + by[1], by[2]], axis: [0, -1, 0] },
   });
 
   test("shows the planned axis to the drill's side on which it lies", () => {
-    // The drill stands 3 mm to the patient's left of it: the left is on the left, so that the way to it leads right.
+    // The drill is 3 mm to the patient's left of the axis. Left is on the left, so the arrow points right.
     const { paths } = drawn("probe", beside([3, 0, 0]));
     const [from, to] = [...paths.off.matchAll(/(-?[\d.]+) (-?[\d.]+)/g)].map(([, x, y]) => [
       Number(x),
       Number(y),
     ]);
     near([(to?.[0] ?? NaN) - (from?.[0] ?? NaN), (to?.[1] ?? NaN) - (from?.[1] ?? NaN)], [3, 0]);
-    // And 3 mm towards the feet of it: the way to it leads up.
+    // And 3 mm towards the feet, so the arrow points up.
     const up = [...drawn("probe", beside([0, 0, -3])).paths.off.matchAll(/(-?[\d.]+) (-?[\d.]+)/g)];
     near([Number(up[1]?.[2]) - Number(up[0]?.[2])], [-3]);
   });
@@ -104,7 +104,7 @@ describe("the probe's eye", () => {
     near([right - left, bottom - top], [8, 8]);
   });
 
-  test("ahead of the planned end there is no channel, and its rings stay", () => {
+  test("beyond the planned end there is no channel, but the rings stay", () => {
     const { paths, labels } = drawn("probe", ON_AXIS, 30);
     expect(paths.channel).toBe("");
     expect(paths.rings).not.toBe("");
@@ -136,7 +136,7 @@ test("an ellipse has the half axes of its covariance", () => {
 });
 
 describe("in an anatomical cut through the tip", () => {
-  /** 30 degrees towards the midline, in the axial plane. */
+  /** 30 degrees towards the midline in the axial plane. */
   const TILTED: Drill = {
     ...ON_AXIS,
     pose: { tip: [14, -8, 0], axis: unit([-Math.tan(Math.PI / 6), -1, 0]) },
@@ -145,7 +145,7 @@ describe("in an anatomical cut through the tip", () => {
   test("a drill in its plane has its true size, and each tick its true distance", () => {
     const { paths, labels } = drawn("anatomical-axial", TILTED);
     const tip = planeFromLps(cutGrid("anatomical-axial", TILTED.pose, FIELD, 0), TILTED.pose.tip);
-    // At its end it is 4 mm across, at 30 degrees to the picture's edges: 2 mm times cosine and sine to each side.
+    // 4 mm wide at its end, at 30 degrees to the edges: 2 mm times cosine and sine to each side.
     const [left, , top] = reach(paths.shaft, tip);
     near([left ?? NaN, top ?? NaN], [-2 * Math.cos(Math.PI / 6), -2 * Math.sin(Math.PI / 6)]);
     near([reach(paths.ahead, tip)[0] ?? NaN], [-25 - 1.6 * Math.cos(Math.PI / 6)]);
@@ -155,7 +155,7 @@ describe("in an anatomical cut through the tip", () => {
   test("a drill out of its plane is outlined only where the plane meets it", () => {
     const { paths } = drawn("anatomical-sagittal", TILTED);
     const tip = planeFromLps(cutGrid("anatomical-sagittal", TILTED.pose, FIELD, 0), TILTED.pose.tip);
-    // Within its radius of 2 mm over the sine of 30 degrees, behind the tip; half of its end lies before it.
+    // Within its radius of 2 mm over the sine of 30 degrees behind the tip; half of its end lies in front.
     const [left, right, top, bottom] = reach(paths.shaft, tip);
     near([right ?? NaN, top ?? NaN, bottom ?? NaN], [2 / Math.sin(Math.PI / 6), -2, 2]);
     expect(left).toBeGreaterThan(-0.1);

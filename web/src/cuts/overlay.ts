@@ -1,5 +1,5 @@
-// What is drawn over a cut, to scale: outlines in mm of its plane, x to the right and y down from the middle of its
-// top-left pixel. Pure.
+// Overlay of a cut, to scale: outlines in mm of its plane, x right and y down from the middle of the top-left pixel.
+// Pure.
 import type { ChannelMessage } from "../live/messages";
 import { cylinderOnSlice } from "../operator/plan/drawing/cylinder";
 import {
@@ -15,7 +15,7 @@ import { dot, minus, plus, times, unit, vec3, type Vec3 } from "../operator/plan
 import type { Drill } from "./drill";
 import { directionLetter, isAnatomical, type CutName, type Pose } from "./planes";
 
-/** Paths by what they show, as SVG; empty where there is nothing to show. */
+/** SVG paths by content; empty if there is nothing to show. */
 export const PARTS = [
   "channel",
   "screw",
@@ -36,7 +36,7 @@ export type Part = (typeof PARTS)[number];
 
 export interface Overlay {
   paths: Record<Part, string>;
-  /** Numbers at the ticks ahead of the tip and at the rings, in mm. */
+  /** Labels of the ticks and rings, in mm. */
   labels: { text: string; at: Vec2 }[];
   /** The patient's direction at each edge. */
   edges: Record<"left" | "right" | "top" | "bottom", string>;
@@ -50,12 +50,12 @@ const CROSS_MM = 0.9;
 const WALL_MM = 1.1;
 const ARROW_MM = 2.2;
 const CORNERS = 64;
-/** Square roots of the 95 % points of chi-square with 2 and with 3 degrees of freedom. */
+/** Square roots of the 95 % quantiles of chi-square with 2 and 3 degrees of freedom. */
 const SD_95_OF_2 = 2.4477;
 const SD_95_OF_3 = 2.7955;
-/** A drill across the planned axis (over 84 degrees) meets it nowhere that matters. */
+/** Above this angle to the planned axis (84 degrees) an intersection is meaningless. */
 const MIN_ALONG = 0.1;
-/** A path ahead that is shortened to less than this has no ticks: 10 mm take less than 4 mm of the cut. */
+/** A path foreshortened below this has no ticks: 10 mm take less than 4 mm of the cut. */
 const MIN_TICKED = 0.4;
 
 interface Planned {
@@ -64,7 +64,7 @@ interface Planned {
   axis: Vec3;
 }
 
-/** The plan as a pose: its entry and its axis, from which a cut shows the plan where no drill is. */
+/** The plan as a pose (entry and axis), from which a cut shows the plan without a drill. */
 export function planPose(channel: ChannelMessage): Pose | null {
   const planned = plannedOf(channel);
   return planned === null ? null : { tip: planned.entry, axis: planned.axis };
@@ -80,10 +80,10 @@ export function overlayOf(
     maxOffsetMm,
   }: {
     channel: ChannelMessage | null;
-    /** Null where only the plan is shown. */
+    /** Null if only the plan is shown. */
     drill: Drill | null;
     aheadMm: number;
-    /** Limit of the entry figure; null where none is stated. */
+    /** Limit of the entry figure; null if there is none. */
     maxOffsetMm: number | null;
   },
 ): Overlay {
@@ -120,7 +120,7 @@ function edgesOf(grid: PixelGrid): Overlay["edges"] {
   };
 }
 
-/** Channel and screw as the plane cuts them, and the planned axis laid onto it. */
+/** Channel and screw intersected with the plane, and the planned axis projected onto it. */
 function drawPlan({ paths }: Overlay, grid: PixelGrid, channel: ChannelMessage, planned: Planned): void {
   const { entry, target, axis } = planned;
   const onPlane = (points: readonly Vec3[]): string => closed(points.map((one) => planeFromLps(grid, one)));
@@ -135,7 +135,7 @@ function drawPlan({ paths }: Overlay, grid: PixelGrid, channel: ChannelMessage, 
   paths.target = cross(to, CROSS_MM);
 }
 
-/** In a cut through the tip that need not contain the drill: its outline where the cut meets it, and its path laid onto it. */
+/** In a cut through the tip that need not contain the drill: the drill's intersection, and its projected path. */
 function drawThrough(overlay: Overlay, grid: PixelGrid, drill: Drill): void {
   const { tip, axis } = drill.pose;
   drawAlong(overlay, grid, drill);
@@ -144,7 +144,7 @@ function drawThrough(overlay: Overlay, grid: PixelGrid, drill: Drill): void {
   overlay.paths.ring = cross(planeFromLps(grid, tip), CROSS_MM);
 }
 
-/** In a cut that contains the drill: its shaft, its path ahead with a tick each 10 mm, and where both may be. */
+/** In a cut that contains the drill: shaft, path with a tick every 10 mm, and the uncertainty of both. */
 function drawAlong(overlay: Overlay, grid: PixelGrid, drill: Drill): void {
   const { paths, labels } = overlay;
   const tip = planeFromLps(grid, drill.pose.tip);
@@ -162,7 +162,7 @@ function drawAlong(overlay: Overlay, grid: PixelGrid, drill: Drill): void {
   const r = drill.radiusMm;
   paths.shaft = closed([at(-SHAFT_MM, r), at(0, r), at(0, -r), at(-SHAFT_MM, -r)]);
   const last = TICKS_MM.at(-1) ?? 0;
-  // Seen nearly along it, ticks and their numbers would lie on each other.
+  // Nearly end-on, ticks and labels would overlap.
   const ticks = length < MIN_TICKED ? [] : TICKS_MM;
   paths.ahead = [
     line([tip, at(last, 0)]),
@@ -177,7 +177,7 @@ function drawAlong(overlay: Overlay, grid: PixelGrid, drill: Drill): void {
     .join("");
 }
 
-/** Across the drill: its ring, and where its axis may be at this depth. */
+/** In a cut across the drill: its ring, and the uncertainty of its axis at this depth. */
 function drawAcross({ paths }: Overlay, grid: PixelGrid, drill: Drill, aheadMm: number): void {
   const centre = planeFromLps(grid, drill.pose.tip);
   paths.ring = circle(centre, drill.radiusMm) + cross(centre, CROSS_MM);
@@ -202,7 +202,7 @@ function drawAcross({ paths }: Overlay, grid: PixelGrid, drill: Drill, aheadMm: 
   ]);
 }
 
-/** The bull's-eye: where the planned axis crosses this plane, with rings of 1, 2 and 5 mm. */
+/** Bull's-eye: the planned axis' intersection with this plane, with rings of 1, 2 and 5 mm. */
 function drawTarget(
   { paths, labels }: Overlay,
   grid: PixelGrid,
@@ -210,7 +210,7 @@ function drawTarget(
   drill: Drill | null,
   maxOffsetMm: number | null,
 ): void {
-  // The entry and the axis are laid onto the plane only along it: here the crossing says it truly.
+  // Projection along the plane's normal would be wrong here; the intersection is exact.
   paths.axis = paths.entry = paths.target = "";
   const normal = normalOf(grid);
   const along = dot(planned.axis, normal);
@@ -227,7 +227,7 @@ function drawTarget(
   if (drill !== null) paths.off = towards(grid, planeFromLps(grid, drill.pose.tip), at);
 }
 
-/** From the drill to the planned axis; an arrow at the border where that is beyond it. */
+/** From the drill to the planned axis; an arrow at the border if the axis is outside. */
 function towards(grid: PixelGrid, from: Vec2, to: Vec2): string {
   const { x, y, width, height } = frameOf(grid);
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
@@ -245,12 +245,12 @@ function towards(grid: PixelGrid, from: Vec2, to: Vec2): string {
   );
 }
 
-/** A direction of the patient along the plane. */
+/** A direction of the patient within the plane. */
 function flat(grid: PixelGrid, direction: Vec3): Vec2 {
   return [dot(direction, rightOf(grid)), dot(direction, downOf(grid))];
 }
 
-/** xx, xy, yy of the tip's covariance in the plane, from the half axes of its 95 % ellipsoid. */
+/** xx, xy, yy of the tip's covariance in the plane, from the semi-axes of its 95 % ellipsoid. */
 type Covariance = readonly [number, number, number];
 
 function covarianceOn(grid: PixelGrid, ellipsoidMm: readonly Vec3[]): Covariance {
@@ -268,7 +268,7 @@ function quadratic([xx, xy, yy]: Covariance, [x, y]: Vec2): number {
   return xx * x * x + 2 * xy * x * y + yy * y * y;
 }
 
-/** The half axes of the ellipse that contains 95 % of this covariance. */
+/** Semi-axes of the 95 % ellipse of this covariance. */
 export function halfAxes95([xx, xy, yy]: Covariance): Vec2[] {
   const angle = Math.atan2(2 * xy, xx - yy) / 2;
   const [c, s] = [Math.cos(angle), Math.sin(angle)];

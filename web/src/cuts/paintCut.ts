@@ -1,11 +1,11 @@
-// Puts a cut and what is drawn over it onto the page, past React's state.
+// Paints a cut and its overlay without React.
 import { paintBitmap } from "../panes/bitmapCanvas";
 import { setText } from "../panes/setText";
 import { frameOf, type PixelGrid } from "../operator/plan/slices/place";
 import type { Cut } from "./cutter";
 import { PARTS, type Overlay } from "./overlay";
 
-/** Size of the numbers at ticks and rings, in pixels of the page. */
+/** Size of labels, in page pixels. */
 const LABEL_PX = 14;
 
 /** Writes the pixels of a cut. */
@@ -16,7 +16,7 @@ export function drawPixels(canvas: HTMLCanvasElement, { grid, buffer }: Cut): vo
   });
 }
 
-/** Draws the overlay over a cut of these pixels, which fill `widthPx` of the page; with null nothing is left. */
+/** Draws the overlay over a cut of this size shown at `widthPx`; null clears it. */
 export function paintOverlay(
   svg: SVGSVGElement,
   drawn: { overlay: Overlay; grid: PixelGrid; widthPx: number } | null,

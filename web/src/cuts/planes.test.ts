@@ -21,7 +21,7 @@ function letters(grid: PixelGrid): string {
   return [back(right), right, back(down), down].map(directionLetter).join("");
 }
 
-/** Where a point stands from the middle of the cut, in mm to the right and down. */
+/** Position of a point relative to the middle of the cut, in mm right and down. */
 function seen(name: CutName, pose: Pose, point: Vec3, aheadMm = 0): number[] {
   const grid = cutGrid(name, pose, FIELD, aheadMm);
   const [x, y] = planeFromLps(grid, point);
@@ -33,7 +33,7 @@ describe.each([
   ["right", RIGHT],
 ])("the cuts of a drill in the %s pedicle", (_, pose) => {
   test("have the patient's directions at their edges: left, right, top, bottom", () => {
-    // Radiological, in front on top; feet on the left; and as one stands behind a patient who lies prone.
+    // Radiological with anterior on top; feet on the left; and as seen from behind a prone patient.
     expect(letters(cutGrid("axial", pose, FIELD, 0))).toBe("RLAP");
     expect(letters(cutGrid("sagittal", pose, FIELD, 0))).toBe("FHAP");
     expect(letters(cutGrid("probe", pose, FIELD, 0))).toBe("LRHF");
@@ -63,7 +63,7 @@ describe.each([
     const ahead: Vec3 = [tip[0] + 10 * axis[0], tip[1] + 10 * axis[1], tip[2] + 10 * axis[2]];
     const grid = cutGrid("probe", pose, FIELD, 10);
     const normal = normalOf(grid);
-    // One looks along the drill, not against it.
+    // The view is along the drill, not against it.
     expect(normal[0] * axis[0] + normal[1] * axis[1] + normal[2] * axis[2]).toBeCloseTo(1, 12);
     expect(seen("probe", pose, ahead, 10).map((one) => Math.abs(one) < 1e-9)).toEqual([true, true]);
   });

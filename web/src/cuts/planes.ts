@@ -1,6 +1,6 @@
-// The planes of the cuts: where the pixels of each lie in the patient (LPS, mm). As on the plan page
-// (tracker/plan/slices), the drilling direction points up in the two in-line cuts, the probe's eye looks along the drill
-// with the feet down, and the anatomical cuts through its tip have the radiological convention.
+// Planes of the cuts: position of their pixels in the patient (LPS, mm). As on the plan page (tracker/plan/slices), the
+// drilling direction points up in the in-line cuts, the probe's eye looks along the drill with the feet down, and the
+// anatomical cuts through the tip have the radiological convention.
 import type { PixelGrid } from "../operator/plan/slices/place";
 import { cross, dot, lengthOf, minus, plus, times, unit, type Vec3 } from "../operator/plan/slices/vectors";
 
@@ -10,25 +10,25 @@ type InLine = (typeof IN_LINE)[number];
 export type Anatomical = (typeof ANATOMICAL)[number];
 export type CutName = InLine | Anatomical | "probe";
 
-/** A drill, or the plan in its place: its tip and its unit drilling direction in the vertebra frame. */
+/** A drill, or the plan in its place: tip and unit drilling direction in the vertebra frame. */
 export interface Pose {
   tip: Vec3;
   axis: Vec3;
 }
 
-/** What a stage shows, in mm. */
+/** Field of a stage, in mm. */
 export interface Field {
   widthMm: number;
   heightMm: number;
 }
 
 export const PIXEL_MM = 0.25;
-/** The shorter side of what is shown, and the longest that the longer one gets. */
+/** Shorter side of the field, and the maximum of the longer one. */
 const SHORT_SIDE_MM = { plane: 64, probe: 44 };
 const MAX_SIDE_MM = 110;
-/** The tip stands this share of the height below the middle of an in-line cut: more is seen ahead of it. */
+/** In an in-line cut the tip is this share of the height below the middle, to show more of what is ahead. */
 const TIP_BELOW = 0.12;
-/** A direction nearer than this to the axis cannot define what is up. */
+/** A direction nearer than this to the axis cannot define "up". */
 const MIN_ACROSS = 0.1;
 
 const LEFT: Vec3 = [1, 0, 0];
@@ -47,14 +47,14 @@ export function isAnatomical(name: CutName): name is Anatomical {
   return name in VIEWS;
 }
 
-/** The field that a stage of this many pixels of the page shows, without distortion. */
+/** Undistorted field of a stage with this many page pixels. */
 export function fieldOf(name: CutName, widthPx: number, heightPx: number): Field {
   const short = SHORT_SIDE_MM[name === "probe" ? "probe" : "plane"];
   const perPx = Math.min(short / Math.min(widthPx, heightPx), MAX_SIDE_MM / Math.max(widthPx, heightPx));
   return { widthMm: widthPx * perPx, heightMm: heightPx * perPx };
 }
 
-/** The cut of this name through a pose; the probe's eye this far ahead of the tip. */
+/** The plane of a cut through a pose; for the probe's eye this far ahead of the tip. */
 export function cutGrid(name: CutName, { tip, axis }: Pose, field: Field, aheadMm: number): PixelGrid {
   if (name === "probe") {
     const down = across(axis, FEET, BACK);
@@ -65,7 +65,7 @@ export function cutGrid(name: CutName, { tip, axis }: Pose, field: Field, aheadM
     return grid(tip, right, down, field);
   }
   const leftwards = across(axis, LEFT, HEAD);
-  // Turned about the drilling direction by the right hand, as the plan page turns its slice along the channel.
+  // Rotated about the drilling direction by the right-hand rule, as on the plan page.
   const right = name === "axial" ? leftwards : cross(axis, leftwards);
   return grid(plus(tip, times(axis, TIP_BELOW * field.heightMm)), right, times(axis, -1), field);
 }
@@ -81,18 +81,18 @@ function grid(centre: Vec3, right: Vec3, down: Vec3, { widthMm, heightMm }: Fiel
   return { lps_from_px, pixel_mm: [PIXEL_MM, PIXEL_MM], width_px, height_px };
 }
 
-/** The unit direction across the axis that is nearest to the wanted one. */
+/** The unit direction perpendicular to the axis that is nearest to the wanted one. */
 function across(axis: Vec3, wanted: Vec3, otherwise: Vec3): Vec3 {
   const part = (direction: Vec3): Vec3 => minus(direction, times(axis, dot(direction, axis)));
   const first = part(wanted);
   return unit(lengthOf(first) > MIN_ACROSS ? first : part(otherwise));
 }
 
-/** Towards what the three axes of LPS point, and away from it. */
+/** Directions of the three LPS axes, positive and negative. */
 const LETTERS = ["LR", "PA", "HF"] as const;
 const WITHIN = Math.cos(Math.PI / 4);
 
-/** The patient's direction within 45 degrees of this one; empty where none is. */
+/** The patient's direction within 45 degrees of this one; empty if there is none. */
 export function directionLetter(direction: Vec3): string {
   const index = direction.findIndex((part) => Math.abs(part) >= WITHIN);
   return LETTERS[index]?.[(direction[index] ?? 0) > 0 ? 0 : 1] ?? "";

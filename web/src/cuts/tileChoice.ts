@@ -1,11 +1,11 @@
-// Which cuts are shown: in-line with the drill or in the patient's planes, and which one where there is room for one.
+// Choice of cuts: in-line with the drill or in the patient's planes, and which one if there is room for one.
 import { ANATOMICAL, IN_LINE, type CutName } from "./planes";
 
-/** What a tile shows: a cut, or the 3-D scene in its place. */
+/** Content of a tile: a cut or the 3-D scene. */
 export type TileName = CutName | "scene";
 
 export interface TileChoice {
-  /** Whether the planes are the patient's, not the drill's. */
+  /** Whether the planes are anatomical. */
   isAnatomical: boolean;
   name: TileName;
 }
@@ -20,12 +20,12 @@ const SAME_PLANE: Partial<Record<TileName, TileName>> = {
   "anatomical-coronal": "axial",
 };
 
-/** All that the only tile of a page can show. */
+/** All alternatives of a single tile. */
 export function choicesOf(choice: TileChoice): TileName[] {
   return ["probe", ...planesOf(choice), "scene"];
 }
 
-/** The cut of the upper of two tiles, what the lower one shows, and what else it can show. */
+/** Cut of the upper of two tiles, content of the lower one, and its alternatives. */
 export function pairOf(choice: TileChoice): { upper: CutName; lower: TileName; choices: TileName[] } {
   const [upper, ...others] = planesOf(choice);
   const [first = upper] = others;
@@ -33,12 +33,12 @@ export function pairOf(choice: TileChoice): { upper: CutName; lower: TileName; c
   return { upper, lower: isOther ? choice.name : first, choices: [...others, "scene"] };
 }
 
-/** The same view in the other planes. */
+/** The same view in the other kind of planes. */
 export function switched({ isAnatomical: was, name }: TileChoice): TileChoice {
   return { isAnatomical: !was, name: SAME_PLANE[name] ?? name };
 }
 
-/** Whether another plane than the drill's or the patient's can be chosen for what is shown. */
+/** Whether the kind of planes can be chosen for this content. */
 export function hasPlane({ name }: TileChoice): boolean {
   return name in SAME_PLANE;
 }

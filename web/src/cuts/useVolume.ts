@@ -1,4 +1,4 @@
-// Loads the CT around the navigated vertebra, and asks again for as long as there is none.
+// Loads the CT around the navigated vertebra, and retries while there is none.
 import { useEffect, useState } from "react";
 import type { ChannelMessage } from "../live/messages";
 import type { GreyWindow } from "./cut";
@@ -13,14 +13,14 @@ interface LoadedVolume {
   presets: Record<string, GreyWindow>;
 }
 
-/** The volume of this channel's CT, loaded when another channel or CT is navigated. */
+/** The volume of this channel's CT, reloaded when channel or CT change. */
 export function useVolume(
   channel: ChannelMessage | null,
   cutter: Cutter,
   { isSupported, isRequested }: { isSupported: boolean; isRequested: boolean },
 ): LoadedVolume {
   const [loaded, setLoaded] = useState<LoadedVolume>({ state: { state: "loading" }, presets: {} });
-  // Each message has a channel of its own: the same as before is kept, so that nothing is asked again.
+  // Each message has a new channel object: an equal one is reused, so that nothing is fetched again.
   const [wanted, setWanted] = useState(channel);
   if (channel !== wanted && !(channel !== null && wanted !== null && isSamePlan(channel, wanted))) {
     setWanted(channel);
@@ -46,7 +46,7 @@ export function useVolume(
           setLoaded(({ presets }) => ({ state: { state: "scanning" }, presets }));
           again(ASK_AGAIN_MS.scanning);
         } else if (volume.ctId !== ctId) {
-          // The server has changed over and its tracking not yet, or the other way round.
+          // Server and tracking process change over at different times.
           again(ASK_AGAIN_MS.other);
         } else take(volume);
       } catch (error) {

@@ -1,4 +1,4 @@
-// The CT around the navigated vertebra, as the server sends it once: voxels, their place, and the windows by name.
+// The CT around the navigated vertebra, sent once: voxels, position and named windows.
 import { answeredWithResponse, server } from "../rest/client";
 import { inverseAffine, type GreyWindow, type Voxels } from "./cut";
 
@@ -9,19 +9,19 @@ export interface Volume {
 }
 
 /**
- * The newest volume; null while the rehearsal's one is being scanned.
+ * Returns the newest volume; null while the rehearsal's CT is being simulated.
  *
  * @throws Rejection
  */
 export async function loadVolume(signal: AbortSignal): Promise<Volume | null> {
-  // Asked again each time, and answered from the browser's store where nothing has changed.
+  // Revalidated each time; answered from the browser's cache if unchanged.
   const request = server.GET("/api/navigation/ct", { parseAs: "arrayBuffer", cache: "no-cache", signal });
   const { data, response } = await answeredWithResponse(request);
   if (response.status === 204) return null;
   return volumeFrom(response.headers.get("volume-place") ?? "", data);
 }
 
-/** The volume of an answer; raises an error where header and voxels do not fit. */
+/** Parses an answer; throws if header and voxels do not match. */
 export function volumeFrom(header: string, content: ArrayBuffer): Volume {
   const { ct_id, size_ijk, lps_from_ijk, presets } = JSON.parse(header) as {
     ct_id: string;

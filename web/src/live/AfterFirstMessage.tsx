@@ -6,7 +6,7 @@ interface AfterFirstMessageProps {
   children: ReactNode;
 }
 
-/** What states something of the live state; until the first message has come, or is overdue, `loading`. */
+/** Renders live content; until the first message has arrived or is overdue, `loading`. */
 export function AfterFirstMessage({ loading, children }: AfterFirstMessageProps): ReactNode {
   return useLive().view.firstMessage === "awaited" ? loading : children;
 }

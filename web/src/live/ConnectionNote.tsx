@@ -6,7 +6,7 @@ import { usePainter } from "./LiveContext";
 import { formatNumber } from "./rounding";
 import type { ConnectionTexts } from "../texts/connection/en";
 
-/** Says in words when the picture is reduced or few images come; empty otherwise. */
+/** States when the picture is reduced or few images arrive; empty otherwise. */
 export function ConnectionNote(): ReactNode {
   const { connection: connectionTexts } = useTexts();
   const note = useRef<HTMLParagraphElement>(null);
@@ -16,7 +16,7 @@ export function ConnectionNote(): ReactNode {
   return <p className="line-note" data-testid="line-note" ref={note} />;
 }
 
-/** "Thin line: 4 images/s, 640x360"; nothing where all that the camera gives comes in full. */
+/** "Slow connection: 4 images/s, 640x360"; empty at full rate and size. */
 export function connectionText(
   { limitedBy, imagesPerS, widthPx, heightPx }: PictureDelivery,
   texts: ConnectionTexts,

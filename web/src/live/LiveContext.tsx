@@ -1,5 +1,5 @@
-// The way from the live state into React: words and tables a few times a second, and at once when what they
-// say changes. Picture and figures do not come this way; they are painted directly.
+// Connects the live state to React. Texts and tables update a few times a second, and at once when their content
+// changes. Picture and figures are painted without React.
 import {
   createContext,
   use,
@@ -55,17 +55,17 @@ export function useLive(): LiveValue {
   return value;
 }
 
-/** The true age of everything, a few times a second: for who watches from afar. */
+/** Ages of everything displayed, a few times a second. */
 export function useAges(): Ages {
   return useLive().view.ages;
 }
 
-/** What this viewer's line carries, a few times a second. */
+/** State of this viewer's connection, a few times a second. */
 export function usePictureDelivery(): PictureDelivery {
   return useLive().view.pictureDelivery;
 }
 
-/** Paints directly with every look, past React's state, and at once before what is new is seen. */
+/** Registers a painter that runs with every update, without React, and once before the new element is seen. */
 export function usePainter(paint: (view: View) => void): void {
   const { live } = useLive();
   const onLook = useEffectEvent(paint);

@@ -3,7 +3,7 @@ import { useTexts } from "../texts/TextsContext";
 import { PICTURE_CHOICES, type PictureChoice } from "./pictureDelivery";
 import { useLive } from "./LiveContext";
 
-/** In which size the picture comes: by itself as the line carries it, or the one that is chosen. */
+/** Picture size: automatic by connection, or chosen. */
 export function PictureSize(): ReactNode {
   const { connection: line } = useTexts();
   const { live, view } = useLive();

@@ -1,11 +1,11 @@
-// Alarms as the server sends them, for tests.
+// Alarm messages for tests.
 import type { AlarmMessage, AlarmsMessage } from "./messages";
 
 export function alarms(changes: Partial<AlarmsMessage> = {}): AlarmsMessage {
   return { revision: 0, sound: "silent", sound_number: 0, pause_left_s: 0, alarms: [], ...changes };
 }
 
-/** A breach that is there. */
+/** A present breach. */
 export function alarm(changes: Partial<AlarmMessage> = {}): AlarmMessage {
   const text = (en: string) => ({ en, de: en });
   return {

@@ -100,12 +100,12 @@ describe("age", () => {
     expect(numbersVerdict(situation({ numbers }), NOW)).toMatchObject({ live: false, cause });
   });
 
-  test("an age that is no number is never live", () => {
+  test("an age that is not a number is never live", () => {
     expect(numbersVerdict(situation({ numbers: receivedImage(NaN) }), NOW).live).toBe(false);
     expect(videoVerdict(situation({ picture: receivedImage(NaN) }), NOW).live).toBe(false);
   });
 
-  test("numbers without a picture stand, the picture does not", () => {
+  test("numbers without a picture are live, the picture is not", () => {
     expect(numbersVerdict(situation({ picture: null }), NOW).live).toBe(true);
     const none = situation({ picture: null, lastPictureAtMs: null });
     expect(videoVerdict(none, NOW)).toMatchObject({ live: false, cause: "no-picture" });
@@ -117,8 +117,8 @@ test("a picture that was taken away for its age is too old, and does not count a
   expect(videoVerdict(away, NOW)).toEqual({ live: false, cause: "old", ageMs: 700 });
 });
 
-describe("what the image says", () => {
-  test("the tool that the server shows is read, whatever stands before it", () => {
+describe("content of the image", () => {
+  test("the tool chosen by the server is used, whatever its position in the list", () => {
     const known = snapshot().tools[0];
     if (!known) throw new Error("the builder has a tool");
     const numbers = receivedImage(960, { tools: [{ ...known, name: "awl" }, known] });

@@ -1,4 +1,4 @@
-// What may be shown now. Pure: a situation and a time go in, a verdict for each pane comes out.
+// What may be shown now. Pure: takes a situation and a time, returns a verdict per pane.
 import { firstMessageAt, type FirstMessageWait } from "./firstMessage";
 import type { Reading } from "./reading";
 import { readingOf, type Unread } from "./reading";
@@ -11,7 +11,7 @@ export interface Limits {
   scene_stale_after_ms: number;
 }
 
-/** One image's message with its capture time on the page's clock. */
+/** A message with its capture time on the page's clock. */
 export interface ReceivedImage {
   snapshot: SnapshotMessage;
   headline: HeadlineMessage;
@@ -24,25 +24,25 @@ export interface Situation extends FirstMessageWait {
   hidden: boolean;
   lastReceivedAtMs: number | null;
   newest: LiveMessage | null;
-  /** Whose numbers are displayed. */
+  /** Image whose numbers are displayed. */
   numbers: ReceivedImage | null;
-  /** Whose picture stands on the canvas. */
+  /** Image whose picture is displayed. */
   picture: ReceivedImage | null;
-  /** The capture time of the last picture that stood, taken away or not; null before the first of this line. */
+  /** Capture time of the last displayed picture, even if removed; null before the first of this connection. */
   lastPictureAtMs: number | null;
-  /** Since when there is a canvas on which no picture has stood yet; null without one. */
+  /** Since when there is a canvas without a picture; null without one. */
   canvasSinceMs: number | null;
   limits: Limits;
 }
 
-/** Until the server has sent its own. */
+/** Defaults until the server has sent its limits. */
 const DEFAULT_LIMITS: Limits = {
   pose_stale_after_ms: 150,
   video_stale_after_ms: 500,
   scene_stale_after_ms: 500,
 };
 
-/** Of a page that was loaded just now: nothing is known. */
+/** State of a page that has just loaded. */
 export function situationAtLoad(nowMs: number): Situation {
   return {
     link: "connecting",
@@ -59,7 +59,7 @@ export function situationAtLoad(nowMs: number): Situation {
   };
 }
 
-/** Why a pane shows nothing, from the server's end down to the image. */
+/** Reasons why a pane is empty, ordered from the server to the image. */
 export type Cause =
   | "hidden"
   | "connecting"
@@ -83,10 +83,10 @@ export type NumbersVerdict =
   | { live: true; reading: Reading; imageNumber: number; ageMs: number; snapshot: SnapshotMessage }
   | { live: false; cause: Cause | "unread"; unread: Unread | null; ageMs: number | null };
 
-/** Nothing heard for this long, though the line is said to stand: the server is gone. */
+/** An open connection silent for this long means that the server is lost. */
 export const SILENT_AFTER_MS = 800;
 
-/** A canvas that came just now, as with another step, gets its first picture within this on a loaded machine. */
+/** On a loaded machine a new canvas, as after a change of step, has its first picture within this time. */
 export const FIRST_PICTURE_WITHIN_MS = 2000;
 
 export function videoVerdict(situation: Situation, nowMs: number): VideoVerdict {
@@ -99,7 +99,7 @@ export function videoVerdict(situation: Situation, nowMs: number): VideoVerdict 
   if (ageMs === null || (picture === null && isNewCanvas)) {
     return { live: false, cause: isNewCanvas ? "connecting" : "no-picture", ageMs: null };
   }
-  // A picture that was taken away for its age stays too old until a new one stands.
+  // A picture removed for its age stays "too old" until a new one is displayed.
   if (picture === null || !(ageMs <= limits.video_stale_after_ms))
     return { live: false, cause: "old", ageMs };
   const { snapshot } = picture;
@@ -115,8 +115,8 @@ export function numbersVerdict(situation: Situation, nowMs: number): NumbersVerd
     return { live: false, cause: "no-picture", unread: null, ageMs: null };
   }
   const reading = readingOf(numbers.snapshot, numbers.headline);
-  // Why there are no figures is no figure: as long as the picture of that image may stand, so may its reason. A marker
-  // that is searched for makes images late, and "too old" would hide that it is not seen.
+  // The reason for missing figures may be shown as long as the picture of its image. Searching for a marker makes images
+  // late, and "too old" would hide that the marker is not seen.
   const limitMs = reading.known ? limits.pose_stale_after_ms : limits.video_stale_after_ms;
   if (!(ageMs <= limitMs)) return { live: false, cause: "old", unread: null, ageMs };
   if (!reading.known) return { live: false, cause: "unread", unread: reading, ageMs };
@@ -124,12 +124,12 @@ export function numbersVerdict(situation: Situation, nowMs: number): NumbersVerd
   return { live: true, reading, imageNumber: snapshot.image_number, ageMs, snapshot };
 }
 
-/** Whether the newest image is young enough: it has figures, or says why it has none. */
+/** Whether the newest image is young enough: it has figures, or a reason for having none. */
 export function isOfNow(numbers: NumbersVerdict): boolean {
   return numbers.live || numbers.cause === "unread";
 }
 
-/** What takes everything away at once, or null. */
+/** The reason to remove everything at once, or null. */
 export function commonCause(situation: Situation, nowMs: number): Cause | null {
   const { link, hidden, lastReceivedAtMs, newest } = situation;
   if (hidden) return "hidden";

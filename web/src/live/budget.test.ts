@@ -18,7 +18,7 @@ let nowMs: number;
 let steps: DrawingBudget[];
 let step: number;
 
-/** So many seconds of this. */
+/** Feeds this many seconds of measurements. */
 function pass(seconds: number, timings: Timings, ageLimitMs: number | null = null): void {
   for (const until = nowMs + 1000 * seconds; nowMs < until; nowMs += 50) {
     const current = steps[step];
@@ -130,14 +130,14 @@ test("the picture waits longer than the scene before it gets smaller, as while a
   expect(STEPS[step]).toMatchObject({ sceneScale: 0.5, largestPicture: "full" });
 });
 
-test("the picture comes back when showing it is quick, however old the images of this machine are", () => {
+test("the picture returns when displaying is quick, however old the images are", () => {
   pass(30, SLOW);
   expect(STEPS[step]).toMatchObject({ largestPicture: "half" });
   pass(12, { ...IDLE, ageMs: 140 }, 150);
   expect(STEPS[step]).toMatchObject({ sceneScale: 0.5, largestPicture: "full" });
 });
 
-test("comes back step by step, and later after each mistake", () => {
+test("returns step by step, and later after each failed attempt", () => {
   pass(5, SLOW);
   const low = step;
   pass(12, IDLE);
@@ -151,7 +151,7 @@ test("comes back step by step, and later after each mistake", () => {
   expect(step).toBe(again - 1);
 });
 
-test("what has only begun says nothing yet", () => {
+test("a new step is not judged yet", () => {
   pass(5, { ...SLOW, images: 2 });
   expect(step).toBe(0);
 });

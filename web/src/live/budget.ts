@@ -1,18 +1,17 @@
-// What gives way when this device is too slow for everything: the 3-D scene's rate, then its size, the rate of the cuts
-// through the CT, the picture's rate, and only then the picture's size. Never the numbers.
-// Pure: times go in as numbers.
+// What is reduced on a device that is too slow: the 3-D scene's rate, then its size, the rate of the CT cuts, the
+// picture's rate, and last the picture's size. Never the numbers. Pure.
 import type { Timings } from "./timings";
 
 export interface DrawingBudget {
-  /** Least time between two images of the 3-D scene; 0 for as often as the screen shows one. */
+  /** Shortest interval between images of the 3-D scene; 0 for every screen refresh. */
   sceneIntervalMs: number;
-  /** Width and height in which the 3-D scene is drawn, of those in which it is shown. */
+  /** Drawn size of the 3-D scene relative to its displayed size. */
   sceneScale: number;
-  /** Least time between two cuts of the CT for a drill that moves. */
+  /** Shortest interval between CT cuts of a moving drill. */
   cutIntervalMs: number;
-  /** Least time from one picture to the next, on average; 0 for the next image as soon as one stands. */
+  /** Shortest mean interval between pictures; 0 for the next image as soon as one is displayed. */
   pictureIntervalMs: number;
-  /** The largest picture that this device can show. */
+  /** The largest picture that this device can display. */
   largestPicture: "full" | "half";
 }
 
@@ -27,32 +26,32 @@ export const UNLIMITED: DrawingBudget = {
 export type Strain = "strained" | "normal" | "idle";
 
 const SCENE_INTERVALS_MS = [0, 80, 125, 200];
-/** Letters in the scene keep their pixels: in fewer of them than half they would cover it. */
+/** Below half resolution the letters of the scene would cover it. */
 const SCENE_SCALES = [0.7, 0.5];
-/** Five a second: the slowest that still shows a drill's movement as one. */
+/** Five images a second, the slowest rate that still looks like motion. */
 const FEW_CUTS_INTERVAL_MS = 200;
-/** Twenty pictures a second and sixteen: what these take less, a machine that the server shares has for tracking. */
+/** Twenty and sixteen pictures a second: what they save is left to tracking on a shared machine. */
 const PICTURE_INTERVALS_MS = [50, 62];
-/** A scene or a cut that is drawn more seldom than this share of their limit would be stale in between. */
+/** Drawn less often than this share of their age limit, a scene or cut would become stale in between. */
 const MAX_INTERVAL_RATIO = 0.4;
 
-/** A change needs so long to be felt. */
+/** Time until a change has an effect. */
 const LOOK_AFTER_MS = 1500;
-/** A page that is still loading is slow for a while: the picture waits longer than the scene. */
+/** A loading page is slow for a while, so the picture waits longer than the scene. */
 const PICTURE_AFTER_MS = 6000;
-/** With fewer images than this there is nothing to judge. */
+/** Fewer images than this are not judged. */
 const MIN_IMAGES = 4;
 const WAIT_MS = 10_000;
 const MAX_WAIT_MS = 160_000;
-/** A step back up that is taken down again so soon was a mistake. */
+/** A step up that is reverted within this time was a mistake. */
 const REGRET_MS = 15_000;
 
 const STRAINED = { showingMs: 40, screenIntervalMs: 40, ageRatio: 0.6 };
 const IDLE = { showingMs: 25, screenIntervalMs: 28, ageRatio: 0.5 };
-/** Below this rate the picture is made smaller, when nothing else is left. */
+/** Below this rate the picture is made smaller, as the last resort. */
 const MIN_IMAGES_PER_S = 12;
 
-/** The steps, the best first. A scene that is not shown has nothing to give. */
+/** The steps, best first. A hidden scene cannot be reduced. */
 export function budgetSteps(staleAfterMs: number, isSceneShown: boolean): DrawingBudget[] {
   const slowestMs = MAX_INTERVAL_RATIO * staleAfterMs;
   const scene = isSceneShown ? sceneSteps(slowestMs) : [UNLIMITED];
@@ -72,14 +71,14 @@ function sceneSteps(slowestMs: number): DrawingBudget[] {
 }
 
 /**
- * How hard this device works in a step. The size of the picture is a matter of showing it alone: how old images are on a
- * machine that the server shares tells of it no more.
+ * Load of this device in a step. The picture size depends on displaying alone: on a machine shared with the server,
+ * the age of images says nothing more about it.
  */
 export function strainIn(step: DrawingBudget, timings: Timings, ageLimitMs: number | null): Strain {
   return strainOf(timings, step.largestPicture === "half" ? null : ageLimitMs);
 }
 
-/** How hard this device works. `ageLimitMs` where the server runs on this very machine and suffers with it, else null. */
+/** Load of this device. `ageLimitMs` if the server shares the machine, else null. */
 export function strainOf(timings: Timings, ageLimitMs: number | null): Strain {
   const { decodingMs, drawingMs, screenIntervalMs, ageMs } = timings;
   const showingMs = decodingMs + drawingMs;
@@ -90,24 +89,24 @@ export function strainOf(timings: Timings, ageLimitMs: number | null): Strain {
   return beyond(IDLE) ? "normal" : "idle";
 }
 
-/** Steps down while the device is strained, and slowly up again when it is idle. */
+/** Steps down under load, and slowly up again when idle. */
 export class BudgetControl {
   private step = 0;
   private changedAtMs = -Infinity;
-  /** The last step up, unless it is known to have been a mistake. */
+  /** The last step up, unless it was a mistake. */
   private raisedAtMs: number | null = null;
   private idleSinceMs: number | null = null;
   private waitMs = WAIT_MS;
   isSceneDrawnByProcessor = false;
 
-  /** Without a graphics card the scene begins where it takes the least rate, and rises where there is room. */
+  /** Without a graphics card the scene starts at its lowest rate and rises if there is capacity. */
   sceneDrawnByProcessor(steps: readonly DrawingBudget[], nowMs: number): void {
     if (this.isSceneDrawnByProcessor) return;
     this.isSceneDrawnByProcessor = true;
     this.slowScene(steps, nowMs);
   }
 
-  /** The scene is shown now, or no more: what else gives way stays as it is. */
+  /** The scene was shown or hidden; other reductions stay. */
   setSteps(from: readonly DrawingBudget[], steps: readonly DrawingBudget[], nowMs: number): void {
     const before = from[this.step] ?? UNLIMITED;
     const same = steps.findIndex(
@@ -125,7 +124,7 @@ export class BudgetControl {
     if (slowest > this.step) this.change(slowest, nowMs);
   }
 
-  /** Since when it is as it is: what was measured before says nothing of it. */
+  /** Since when this step applies: earlier measurements are ignored. */
   get sinceMs(): number {
     return this.changedAtMs;
   }
@@ -143,7 +142,7 @@ export class BudgetControl {
     const next = steps[this.step + 1];
     if (next === undefined) return false;
     if (next.largestPicture === "full") return true;
-    // A smaller picture helps only where showing it is what takes the time.
+    // A smaller picture helps only if displaying it takes the time.
     const isShowing = timings.decodingMs + timings.drawingMs > 1000 / MIN_IMAGES_PER_S;
     return isShowing && nowMs - this.changedAtMs >= PICTURE_AFTER_MS;
   }
@@ -157,7 +156,7 @@ export class BudgetControl {
 
   private rise(steps: readonly DrawingBudget[], nowMs: number): void {
     this.idleSinceMs ??= nowMs;
-    // As often as the processor draws it at best; without a card every image of the screen is out of reach.
+    // The best interval of software rendering; without a card not every refresh can be reached.
     const isEveryImage = steps[1] !== undefined && steps[1].sceneIntervalMs > 0;
     const best = this.isSceneDrawnByProcessor && isEveryImage ? 1 : 0;
     if (this.step <= best || nowMs - this.idleSinceMs < this.waitMs) return;

@@ -1,4 +1,4 @@
-// Truth for tests: messages as the server sends them.
+// Messages for tests, as the server sends them.
 import type { Situation, ReceivedImage } from "./assess";
 import { alarms } from "./alarmBuilders";
 import { assessment, headline } from "./figureBuilders";
@@ -69,7 +69,7 @@ export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessag
   };
 }
 
-/** Straight forwards in the patient, 40 mm long, with a screw. */
+/** Straight forward in the patient, 40 mm long, with a screw. */
 export function channel(changes: Partial<ChannelMessage> = {}): ChannelMessage {
   return {
     entry_in_vertebra_mm: [14, 12, 0],
@@ -81,7 +81,7 @@ export function channel(changes: Partial<ChannelMessage> = {}): ChannelMessage {
   };
 }
 
-/** 1.8 mm from the medial wall, of a screw that would stay within it. */
+/** 1.8 mm from the medial wall, with a screw that would stay within. */
 export function judgement(changes: Partial<JudgementMessage> = {}): JudgementMessage {
   const place = {
     kind: "nearest" as const,
@@ -122,7 +122,7 @@ export function judgement(changes: Partial<JudgementMessage> = {}): JudgementMes
   };
 }
 
-/** Beside the axis, turned a little to the right. */
+/** Beside the axis, rotated slightly to the right. */
 export function along(changes: Partial<BullseyeMessage> = {}): BullseyeMessage {
   return {
     tip_mm: [1, -0.5],
@@ -173,7 +173,7 @@ export function receivedImage(capturedAtMs: number, changes: Partial<SnapshotMes
   };
 }
 
-/** All well at time 1000 ms: an image grabbed at 960. */
+/** A good state at time 1000 ms, with an image captured at 960. */
 export function situation(changes: Partial<Situation> = {}): Situation {
   return {
     link: "open",

@@ -5,9 +5,9 @@ test("without a comparison, the stated age counts from receipt", () => {
   expect(new ServerClock().capturedAtMs(1000, 20, 55)).toBe(980);
 });
 
-test("an image is never taken for younger than the server states", () => {
+test("an image never counts as younger than the server states", () => {
   const clock = new ServerClock();
-  clock.sample(1000, 1000, 99); // says that the image was grabbed in the future
+  clock.sample(1000, 1000, 99); // claims that the image was captured in the future
   expect(clock.capturedAtMs(1000, 20, 100)).toBe(980);
 });
 
@@ -20,7 +20,7 @@ test("half the round trip is taken out of the comparison", () => {
 test.each([
   [1000, 2001],
   [1000, 999],
-])("a sample from %d to %d says too little and is dropped", (requestedAtMs, answeredAtMs) => {
+])("a sample from %d to %d is too uncertain and dropped", (requestedAtMs, answeredAtMs) => {
   const clock = new ServerClock();
   clock.sample(requestedAtMs, answeredAtMs, 1);
   expect(clock.capturedAtMs(1000, 20, 0)).toBe(980);

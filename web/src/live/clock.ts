@@ -1,8 +1,8 @@
-// The server's monotonic clock as seen from the page, so that time on the line counts as age too.
+// The server's monotonic clock as seen from the page, so that transfer time counts as age.
 
-/** A sample taken over a slower line than this says too little. */
+/** Samples with a longer round trip are discarded. */
 const MAX_ROUND_TRIP_MS = 1000;
-/** Of so many samples the quickest counts: on a busy machine others are off by half of their round trip. */
+/** The quickest of this many samples counts: on a busy machine the others are off by half of their round trip. */
 const REMEMBERED = 8;
 
 export class ServerClock {
@@ -16,7 +16,7 @@ export class ServerClock {
           .offsetMs;
   }
 
-  /** From a question asked at `requestedAtMs` and answered at `answeredAtMs` with the server's `sentAtS`. */
+  /** Sample of a request sent at `requestedAtMs` and answered at `answeredAtMs` with the server's `sentAtS`. */
   sample(requestedAtMs: number, answeredAtMs: number, sentAtS: number): void {
     const roundTripMs = answeredAtMs - requestedAtMs;
     if (!(roundTripMs >= 0 && roundTripMs <= MAX_ROUND_TRIP_MS)) return;
@@ -24,7 +24,7 @@ export class ServerClock {
     if (this.samples.length > REMEMBERED) this.samples.shift();
   }
 
-  /** By how much the server's clock is ahead of the page's; null before the first comparison. */
+  /** Offset of the server's clock from the page's; null before the first sample. */
   get aheadMs(): number | null {
     return this.offsetMs;
   }
@@ -33,14 +33,14 @@ export class ServerClock {
     this.samples = [];
   }
 
-  /** A moment of the server's clock on the page's; null before the first comparison. */
+  /** A server time on the page's clock; null before the first sample. */
   pageMs(atS: number): number | null {
     return this.offsetMs === null ? null : atS * 1000 - this.offsetMs;
   }
 
   /**
-   * When an image was grabbed, on the page's clock: the earlier of what the server states (age at sending,
-   * counted from receipt) and what the clocks say, so that an image is never taken for younger than it is.
+   * Capture time of an image on the page's clock: the earlier of the server's statement (age at sending, counted from
+   * receipt) and the clock comparison, so that an image never counts as younger than it is.
    */
   capturedAtMs(receivedAtMs: number, ageMs: number, capturedAtS: number): number {
     const stated = receivedAtMs - Math.max(ageMs, 0);

@@ -1,11 +1,11 @@
-/** Draws the picture of a frame; false when it cannot be drawn. Reports when it is decoded. */
+/** Draws the picture of a frame and reports when it is decoded; false if it cannot be drawn. */
 export type Draw = (
   jpeg: Uint8Array<ArrayBuffer>,
   isCurrent: () => boolean,
   onDecoded: () => void,
 ) => Promise<boolean>;
 
-/** What became of a frame: whether it stands, and how long the page needed for that. */
+/** Result of a frame: whether it is displayed, and how long that took. */
 export interface DisplayResult {
   isDisplayed: boolean;
   showingMs: number;

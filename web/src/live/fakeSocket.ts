@@ -1,4 +1,4 @@
-// Stands in for a WebSocket in tests.
+// A WebSocket for tests.
 import type { WebSocketLike } from "./reconnectingSocket";
 
 export class FakeSocket implements WebSocketLike {
@@ -15,7 +15,7 @@ export class FakeSocket implements WebSocketLike {
   }
 }
 
-/** Of a connection on which the page sends nothing. */
+/** For a connection on which the page sends nothing. */
 export class SilentSocket extends FakeSocket {
   override send(): void {
     throw new Error("nothing is sent on this connection");

@@ -1,7 +1,7 @@
-// Truth for tests: figures and headline as the server sends them.
+// Figures and headlines for tests, as the server sends them.
 import type { AssessmentMessage, FigureMessage, HeadlineMessage } from "./messages";
 
-/** A number as it is shown. */
+/** A number as displayed. */
 export function figure(value: number | null, changes: Partial<FigureMessage> = {}): FigureMessage {
   return { value, limit: null, error_95: null, status: "within", ...changes };
 }

@@ -1,18 +1,18 @@
-// Before its first live message a page is loading: it knows nothing yet, so it claims nothing.
+// Before its first live message a page is loading: it knows nothing and claims nothing.
 
 export type FirstMessage = "awaited" | "overdue" | "received";
 
-/** What is known of the first live message since the page was loaded. */
+/** State of the first live message since the page load. */
 export interface FirstMessageWait {
   everReceived: boolean;
-  /** Since when there was no sign of the server: the page's load, its return into view, or an answer. */
+  /** Last sign of the server: the page's load, its return into view, or an answer. */
   waitingSinceMs: number;
 }
 
 /**
- * Without any sign of the server for this long, a page that is still loading says that it is not reached. On a
- * loaded machine the first message takes up to 5 s: twice that raises no false alarm, and who stands before an
- * empty screen for longer needs a hint what to check.
+ * After this long without a sign of the server, a loading page states that the server is not reached. On a loaded
+ * machine the first message takes up to 5 s; twice that raises no false alarm, and a longer empty screen would leave
+ * the user without a hint.
  */
 export const REACHED_WITHIN_MS = 10_000;
 

@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import { bytes, message, snapshot } from "./builders";
 import { BadFrame, frameFromBytes } from "./frame";
 
-test("header and picture come apart where the length says", () => {
+test("header and picture are split at the stated length", () => {
   const frame = frameFromBytes(bytes(message({ sequence: 12 }), [1, 2, 3]));
   expect(frame.message.sequence).toBe(12);
   expect([...frame.jpeg]).toEqual([1, 2, 3]);

@@ -6,7 +6,7 @@ export interface ViewFrame {
   jpeg: Uint8Array<ArrayBuffer>;
 }
 
-/** A message that is not what the server promises; it is dropped with its line, never guessed at. */
+/** A malformed message. It is dropped with its connection, never guessed at. */
 export class BadFrame extends Error {}
 
 const LENGTH_BYTES = 4;
@@ -35,7 +35,7 @@ function headerFromBytes(bytes: Uint8Array): LiveMessage {
   return messageFromText(text);
 }
 
-/** A live message from its JSON, as in a header of /ws/view or alone on /ws/live. */
+/** Parses a live message from JSON: the header of /ws/view, or a message of /ws/live. */
 export function messageFromText(text: string): LiveMessage {
   let message: unknown;
   try {
@@ -47,7 +47,7 @@ export function messageFromText(text: string): LiveMessage {
   return message;
 }
 
-/** The server's schema is trusted for the fields; this only tells a live message from anything else. */
+/** The fields are trusted to match the schema; this only recognises a live message. */
 function isLiveMessage(value: unknown): value is LiveMessage {
   if (typeof value !== "object" || value === null) return false;
   const fields = value as Record<string, unknown>;
@@ -61,7 +61,7 @@ function isLiveMessage(value: unknown): value is LiveMessage {
 }
 
 function isSnapshot(value: unknown): boolean {
-  // An age that is no number would never be over its limit.
+  // An age that is not a number would never exceed its limit.
   return (
     isRecord(value) &&
     Number.isFinite(value["age_ms"]) &&

@@ -1,4 +1,4 @@
-// Times the stages of one image: received, decoded, displayed.
+// Times the stages of an image: received, decoded, displayed.
 import type { ImageTimes, Stall } from "./timings";
 
 export class ImageTimer {
@@ -7,7 +7,7 @@ export class ImageTimer {
   private readonly stallMs: number;
   private decodedStallMs = 0;
 
-  /** Starts at reception; a stall of the page before that counts as the page's time, too. */
+  /** Starts at reception; an earlier stall of the page counts as the page's time. */
   constructor(
     private readonly now: () => number,
     private readonly stall: Stall,
@@ -30,8 +30,8 @@ export class ImageTimer {
   }
 
   /**
-   * What this device, and not the network, took for it: the server must not think its line thin for that. Where the
-   * server runs on this very machine nothing lies between, and all since its sending is the machine's.
+   * Time that this device, not the network, took: the server must not reduce the picture for it. If the server runs on
+   * this machine, there is no network and all time since sending is the machine's.
    */
   deviceMs(sentAtMs: number | null, sharesMachine: boolean): number {
     const lastReceivedAtMs = this.receivedAtMs - this.stallMs;

@@ -31,7 +31,7 @@ test("numbers go by themselves 150 ms after their image was grabbed, with no mes
   expect(live.update().video).toMatchObject({ live: false, cause: "old" });
 });
 
-test("says when figures and then the picture expire, to the millisecond at which they do", async () => {
+test("states when figures and picture expire, to the millisecond", async () => {
   expect(live.update().expiresAtMs).toBeNull();
   await live.receive(frame(1));
   expect(live.update().expiresAtMs).toBe(1131);
@@ -49,7 +49,7 @@ test("the time without numbers is counted from the last image that had them", as
   expect(live.update().untrackedMs).toBe(1200);
 });
 
-test("numbers that were too old twice within a second come back only when young for a while", async () => {
+test("numbers that were too old twice within a second return only after a while of recent images", async () => {
   await live.receive(frame(1, 200));
   nowMs = 1100;
   await live.receive(frame(2));
@@ -63,7 +63,7 @@ test("numbers that were too old twice within a second come back only when young 
   expect(live.update().numbers.live).toBe(true);
 });
 
-test("a picture that was taken away never comes back, only a new one does", async () => {
+test("a removed picture never returns; only a new one is shown", async () => {
   await live.receive(frame(1));
   live.setHidden(true);
   live.setHidden(false);
@@ -139,10 +139,10 @@ test("what was being drawn when the line was lost is not shown on the next line"
 });
 
 test("time on the line counts as age: the clocks are compared, the stated age is not enough", async () => {
-  // Asked at 1000, answered at 1000: the server's clock stands at 100.02 s.
+  // Requested at 1000, answered at 1000: the server's clock is 100.02 s.
   live.receiveAnswer(message(), nowMs, live.currentGeneration);
   nowMs = 1400;
-  await live.receive(frame(8)); // grabbed at 100.0 s, 20 ms old when sent, 400 ms under way
+  await live.receive(frame(8)); // captured at 100.0 s, 20 ms old when sent, 400 ms in transfer
   expect(live.update().numbers).toMatchObject({ live: false, ageMs: 420 });
 });
 
@@ -167,7 +167,7 @@ test("the true age of everything can be read, clocks compared", async () => {
   expect(live.update().ages).toMatchObject({ pictureMs: 120, clockAheadMs: 99_020 });
 });
 
-test("what the page itself needs for an image is told apart from the network", async () => {
+test("the page's own time for an image is separated from the network's", async () => {
   live.setDraw((_jpeg, _isCurrent, onDecoded) => {
     nowMs += 30;
     onDecoded();
@@ -183,7 +183,7 @@ test("a page that was too busy to hear counts that as its own time", async () =>
   expect(await live.receive(frame(1))).toMatchObject({ showingMs: 200 });
 });
 
-test("a chosen size is reported at once, and the picture says which one came", async () => {
+test("a chosen size is reported at once, and the picture has the received size", async () => {
   const choices: string[] = [];
   live.setOnChoice((choice) => choices.push(choice));
   live.choosePicture("half");
@@ -193,13 +193,13 @@ test("a chosen size is reported at once, and the picture says which one came", a
   expect(live.update().pictureDelivery).toMatchObject({ choice: "half", widthPx: 640, heightPx: 360 });
 });
 
-test("a server that says nothing any more is gone within a second", async () => {
+test("a silent server counts as lost within a second", async () => {
   await live.receive(frame(1));
   nowMs = 1801;
   expect(live.update().video).toMatchObject({ live: false, cause: "server-gone" });
 });
 
-test("who measures is told of each picture that was drawn, with its message and when it came", async () => {
+test("a measurement receives each drawn picture with its message and time of arrival", async () => {
   const shown: [number, number][] = [];
   live.onShown = ({ message, receivedAtMs }) => {
     shown.push([message.sequence, receivedAtMs]);

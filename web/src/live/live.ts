@@ -1,5 +1,5 @@
-// The live state of the page: messages and frames in, one verdict for each pane out. It is updated with what comes and by
-// a timer, so that old content is removed even without a message.
+// The live state of the page: takes messages and frames, returns a verdict per pane. Updated by messages and by a
+// timer, so that old content is removed without a message.
 import {
   numbersVerdict,
   situationAtLoad,
@@ -44,7 +44,7 @@ export class Live {
     this.load = new Load(now);
   }
 
-  /** Called with every update; must only touch the page where something changed. */
+  /** Called with every update; must touch the DOM only on change. */
   onUpdate(painter: (view: View) => void): () => void {
     this.painters.add(painter);
     return () => this.painters.delete(painter);
@@ -55,7 +55,7 @@ export class Live {
     const numbers = this.withRecoveryDelay(numbersVerdict(this.situation, nowMs), nowMs);
     if (numbers.live) this.trackedAtMs = nowMs - numbers.ageMs;
     const video = videoVerdict(this.situation, nowMs);
-    // A removed picture is not shown again: only a new one is.
+    // A removed picture is not shown again; only a new one is.
     if (!video.live) this.situation.picture = null;
     const scene: SceneVerdict = this.load.sceneSwitch.isOn
       ? this.sceneAge.verdict(nowMs, this.situation.limits.scene_stale_after_ms)
@@ -86,7 +86,7 @@ export class Live {
   private expiresAtMs(numbers: NumbersVerdict, video: VideoVerdict): number | null {
     const { limits, numbers: image, picture } = this.situation;
     const times = [];
-    // A limit is kept, and one more millisecond passes it.
+    // At the limit content is still valid; one millisecond later it is not.
     if (numbers.live && image !== null) times.push(image.capturedAtMs + limits.pose_stale_after_ms + 1);
     if (video.live && picture !== null) times.push(picture.capturedAtMs + limits.video_stale_after_ms + 1);
     return times.length === 0 ? null : Math.min(...times);
@@ -97,7 +97,7 @@ export class Live {
     this.situation.canvasSinceMs = this.now();
   }
 
-  /** Who tells the server which size is wanted, now and with each later choice. */
+  /** Receives the wanted picture size now and with each later choice. */
   setOnChoice(onChoice: (choice: PictureChoice) => void): void {
     this.onChoice = onChoice;
   }
@@ -118,7 +118,7 @@ export class Live {
 
   setHidden(hidden: boolean): void {
     this.situation.hidden = hidden;
-    // A page in the background is held back by the browser: what it did not hear there says nothing of the server.
+    // Browsers throttle background pages: silence there says nothing about the server.
     if (!hidden) this.situation.waitingSinceMs = this.now();
     this.load.forget();
     this.update();
@@ -136,22 +136,22 @@ export class Live {
     this.load.sceneDrawn(note.drawn_by_processor, this.now());
   }
 
-  /** Draw the 3-D scene again, which was switched off for the sake of the figures. */
+  /** Draws the 3-D scene again after it was switched off to keep the figures timely. */
   switchSceneOn(): void {
     this.sceneAge.reload();
     this.load.sceneSwitch.switchOn(this.now());
     this.update();
   }
 
-  /** Receives the message of an image without its picture: figures and alarms do not wait for a picture. */
+  /** Receives an image's message without its picture, so that figures and alarms do not wait for it. */
   receiveMessage(message: LiveMessage): void {
-    // What this page shows depends on the connection that has the pictures.
+    // The display depends on the connection that carries the pictures.
     if (this.situation.link !== "open") return;
     const receivedAtMs = (this.situation.waitingSinceMs = this.markReceived());
     this.keepNewest(message, this.receivedImageFrom(message, receivedAtMs));
   }
 
-  /** Receives one frame; resolves when it is displayed and the next may be requested. */
+  /** Receives a frame; resolves when it is displayed and the next may be requested. */
   async receive({ message, jpeg }: ViewFrame): Promise<DisplayResult> {
     const generation = this.generation;
     const isCurrent = (): boolean => generation === this.generation;
@@ -161,7 +161,7 @@ export class Live {
     this.keepNewest(message, received);
     const onDecoded = timer.markDecoded;
     const drawn = received !== null && jpeg.byteLength > 0 && (await this.draw(jpeg, isCurrent, onDecoded));
-    // Not before its picture stands: to say that there is none would be a false alarm.
+    // Only after its picture is displayed: reporting none earlier would be a false alarm.
     this.situation.everReceived = true;
     if (!isCurrent()) return { isDisplayed: false, showingMs: 0 };
     timer.markDisplayed();
@@ -178,7 +178,7 @@ export class Live {
     return { isDisplayed: true, showingMs: timer.deviceMs(sentAtMs, this.load.sharesMachine) };
   }
 
-  /** The answer to a request that was sent because the line was quiet, or to compare clocks. */
+  /** Receives the answer to a request sent after silence or for clock comparison. */
   receiveAnswer(message: LiveMessage | null, requestedAtMs: number, generation: number): void {
     if (generation !== this.generation) return;
     const answeredAtMs = (this.situation.waitingSinceMs = this.markReceived());
@@ -195,14 +195,14 @@ export class Live {
     return this.generation;
   }
 
-  /** For how long nothing has come over an open line; 0 while there is none. */
+  /** How long an open connection has been silent; 0 without a connection. */
   quietMs(): number {
     return this.situation.link !== "open" || this.situation.lastReceivedAtMs === null
       ? 0
       : this.now() - this.situation.lastReceivedAtMs;
   }
 
-  /** Figures are those of the newest message; a picture that took longer on its way changes nothing of them. */
+  /** Figures come from the newest message; a picture that took longer does not replace them. */
   private keepNewest(message: LiveMessage, received: ReceivedImage | null): void {
     const { newest } = this.situation;
     if (newest !== null && message.sequence <= newest.sequence) return;

@@ -1,4 +1,4 @@
-// What this page can carry: measured with each image, reported as what is slow, and kept within by what gives way.
+// Capacity of this page: measured per image, reported as what is slow, and limited by the budget.
 import type { Limits } from "./assess";
 import { BudgetControl, budgetSteps, strainIn, UNLIMITED, type DrawingBudget } from "./budget";
 import { PictureDeliveryMonitor, type PictureDelivery, type PictureChoice } from "./pictureDelivery";
@@ -6,18 +6,18 @@ import { SceneSwitch } from "./sceneSwitch";
 import { ImageTimer } from "./imageTimer";
 import { Stall, TimingWindow, type ImageTimes } from "./timings";
 
-/** The page looks around at least this often, where nothing holds it up. */
+/** The longest interval between updates when nothing blocks the page. */
 export const UPDATE_EVERY_MS = 50;
 
-/** A picture is made smaller for lack of space only down to this width: whoever enlarges the page must recognise things. */
+/** For lack of space the picture is reduced only to this width, so that an enlarged page stays recognisable. */
 const MIN_HALF_WIDTH_PX = 640;
 
 export class Load {
   readonly deliveryMonitor = new PictureDeliveryMonitor();
   readonly sceneSwitch = new SceneSwitch();
-  /** Width and height that the picture may take on the page, in pixels of the screen; null while they are not known. */
+  /** Size of the picture's area in screen pixels; null if unknown. */
   spacePx: readonly [number, number] | null = null;
-  /** Whether the server runs on this very machine: then both share its processor, and no network lies between. */
+  /** Whether the server runs on this machine: both share its processor, without a network in between. */
   sharesMachine = false;
   private readonly window = new TimingWindow();
   private readonly stall = new Stall(UPDATE_EVERY_MS);
@@ -46,7 +46,7 @@ export class Load {
     return this.steps[this.current] ?? UNLIMITED;
   }
 
-  /** Whether a picture of half the size has a pixel for each one of the screen. */
+  /** Whether a half-size picture still has a pixel per screen pixel. */
   private get isHalfEnough(): boolean {
     if (this.spacePx === null || this.cameraPx === null) return false;
     const [width, height] = this.cameraPx;
@@ -58,17 +58,17 @@ export class Load {
     this.stall.tick(nowMs);
   }
 
-  /** The screen needed so long for an image. */
+  /** Records how long the screen took for an image. */
   screenImage(atMs: number, intervalMs: number): void {
     this.window.screen(atMs, intervalMs);
   }
 
-  /** An image was received just now. */
+  /** Records the reception of an image. */
   begin(receivedAtMs: number): ImageTimer {
     return new ImageTimer(this.now, this.stall, receivedAtMs);
   }
 
-  /** A pane with the 3-D scene is displayed until the answer is called. */
+  /** Declares a visible pane with the 3-D scene, until the returned function is called. */
   showScene(): () => void {
     this.isSceneShown = true;
     return () => {

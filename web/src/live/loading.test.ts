@@ -22,7 +22,7 @@ const cause = (): string => {
 };
 
 test("silence, lost lines and new ones claim nothing until the grace time is over", () => {
-  nowMs += 900; // open, and silent for longer than a server may be
+  nowMs += 900; // open, and silent for longer than the server's limit
   expect(cause()).toBe("connecting");
   live.setLink("lost");
   expect(cause()).toBe("connecting");
@@ -56,7 +56,7 @@ test("time in the background does not count", () => {
   expect(cause()).toBe("not-reached");
 });
 
-test("the first message ends it, also one that comes late: from then on a silent server is gone", async () => {
+test("the first message ends loading, even a late one; then a silent server counts as lost", async () => {
   nowMs += REACHED_WITHIN_MS + 1;
   await live.receive({ message: message(), jpeg: new Uint8Array([1]) });
   expect(live.update()).toMatchObject({ firstMessage: "received", numbers: { live: true } });
@@ -68,7 +68,7 @@ test("the first message ends it, also one that comes late: from then on a silent
   expect(live.update()).toMatchObject({ firstMessage: "received" });
 });
 
-test("until the first picture stands the page is loading, and the first look after it is live", async () => {
+test("the page is loading until the first picture is displayed, and live in the next update", async () => {
   let done: (drawn: boolean) => void = () => undefined;
   live.setDraw(() => new Promise((resolve) => (done = resolve)));
   const taking = live.receive({ message: message(), jpeg: new Uint8Array([1]) });
@@ -78,7 +78,7 @@ test("until the first picture stands the page is loading, and the first look aft
   expect(live.update()).toMatchObject({ video: { live: true }, numbers: { live: true } });
 });
 
-test("a canvas that comes with another page waits for its first picture, and not for long", async () => {
+test("a new canvas waits for its first picture for a limited time", async () => {
   live.setDraw(() => Promise.resolve(false)); // no canvas yet
   await live.receive({ message: message(), jpeg: new Uint8Array([1]) });
   nowMs += 50;
@@ -90,7 +90,7 @@ test("a canvas that comes with another page waits for its first picture, and not
   expect(live.update().video).toMatchObject({ cause: "no-picture" });
 });
 
-test("a picture that was taken away for its age is no first one", async () => {
+test("a picture removed for its age does not count as waiting for a first one", async () => {
   await live.receive({ message: message(), jpeg: new Uint8Array([1]) });
   live.receiveAnswer(null, (nowMs += 600), live.currentGeneration);
   live.update();

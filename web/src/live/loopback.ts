@@ -1,6 +1,6 @@
 const LOOPBACK = /^(localhost|127(\.\d+){3}|\[::1\])$/;
 
-/** Whether a page from this host has its server on its own machine: no line lies between them. */
+/** Whether the server of this host runs on the same machine, without a network in between. */
 export function isLoopback(hostname: string): boolean {
   return LOOPBACK.test(hostname);
 }

@@ -46,7 +46,7 @@ test.each(["{", "[]", JSON.stringify({ ...message(), sequence: null })])(
   },
 );
 
-test("is opened anew after a loss, and not after it was stopped", () => {
+test("is reopened after a loss, and not after it was stopped", () => {
   newest().onclose?.();
   for (const action of waits.splice(0)) action();
   expect(sockets).toHaveLength(2);

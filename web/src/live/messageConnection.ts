@@ -1,5 +1,5 @@
-// The connection to /ws/live: the message of each image as soon as it is tracked, without a picture that it would have
-// to wait for; reconnects after a loss (`reconnectingSocket.ts`). Without it figures come with each picture.
+// The connection to /ws/live: each image's message as soon as it is tracked, without waiting for a picture. Reconnects
+// after a loss (`reconnectingSocket.ts`). Without it, figures arrive with each picture.
 import { messageFromText } from "./frame";
 import type { LiveMessage } from "./messages";
 import { ReconnectingSocket, type WebSocketLike } from "./reconnectingSocket";
@@ -41,7 +41,7 @@ export class MessageConnection {
       if (typeof data !== "string") return;
       message = messageFromText(data);
     } catch {
-      // As with frames: an invalid message is not shown, and a new connection starts with a clean state.
+      // As with frames: an invalid message is dropped, and a new connection starts clean.
       this.socket.reconnect();
       return;
     }

@@ -1,4 +1,4 @@
-// The types of all messages come from the server's schema: a field renamed there fails the build here.
+// Types of all messages, from the server's schema: a renamed field fails the build.
 import type { components } from "../schema";
 
 type Schemas = components["schemas"];

@@ -14,7 +14,7 @@ const QUICK: Timings = {
 };
 const ELSEWHERE = { largestPicture: "full", neededRatio: 1, sharesMachine: false } as const;
 
-/** So many images a second for so long; the moment of the last one. */
+/** Displays images at this rate for this long; returns the time of the last one. */
 function bring(perS: number, seconds: number, scaleRatio = 1, fromMs = 0): number {
   const count = Math.round(perS * seconds);
   for (let i = 0; i < count; i += 1) carrying.recordPicture(fromMs + (i * 1000) / perS, SIZE, scaleRatio);
@@ -29,7 +29,7 @@ beforeEach(() => {
   carrying = new PictureDeliveryMonitor();
 });
 
-test("says nothing before the first picture", () => {
+test("has no note before the first picture", () => {
   expect(look(1000)).toMatchObject({ widthPx: null, imagesPerS: 0, limitedBy: null });
 });
 
@@ -64,13 +64,13 @@ test.each<[string, number, number, Partial<Timings>, object, PictureDelivery["li
   expect(look(bring(perS, 4, scaleRatio), timings, device).limitedBy).toBe(little);
 });
 
-test("a size that the viewer chose is said to be reduced, not thin", () => {
+test("a chosen size is called reduced, not a slow connection", () => {
   carrying.choice = "quarter";
   expect(look(bring(30, 4, 0.25))).toMatchObject({ widthPx: 320, heightPx: 180, limitedBy: "reduced" });
 });
 
 describe("does not flap", () => {
-  test("few is left only when clearly enough come again", () => {
+  test("the note disappears only when clearly enough images arrive", () => {
     let nowMs = bring(10, 4);
     expect(look(nowMs).limitedBy).toBe("thin");
     nowMs = bring(18, 4, 1, nowMs + 100);
@@ -84,6 +84,6 @@ describe("does not flap", () => {
   });
 });
 
-test("a line that stands still gets slower by itself", () => {
+test("the rate of a stalled connection decreases over time", () => {
   expect(look(bring(30, 3) + 2000).imagesPerS).toBeLessThan(12);
 });

@@ -1,5 +1,4 @@
-// Picture delivery to this viewer: rate, size, and what limits it.
-// Pure: times go in as numbers.
+// Picture delivery to this viewer: rate, size, and what limits it. Pure.
 import { drawingWithScreenMs, type Timings } from "./timings";
 
 export const PICTURE_CHOICES = ["auto", "full", "half", "quarter"] as const;
@@ -7,33 +6,33 @@ export type PictureChoice = (typeof PICTURE_CHOICES)[number];
 
 export interface PictureDelivery {
   choice: PictureChoice;
-  /** Of the newest picture; null before the first. */
+  /** Size of the newest picture; null before the first. */
   widthPx: number | null;
   heightPx: number | null;
   scaleRatio: number;
   imagesPerS: number;
-  /** What limits the delivery below the camera's rate and size; null if nothing does. */
+  /** What limits delivery below the camera's rate and size; null if nothing does. */
   limitedBy: SlowPart | "reduced" | null;
 }
 
 /** What holds the images up. */
 export type SlowPart = "thin" | "server" | "decoding" | "drawing";
 
-/** What this device allows, and where it stands. */
+/** What this device allows, and its area for the picture. */
 export interface Device {
   largestPicture: "full" | "half";
-  /** Scale that is enough for the space in which the picture stands. */
+  /** Scale that suffices for the picture's area. */
   neededRatio: number;
   sharesMachine: boolean;
 }
 
 const WINDOW_MS = 3000;
-/** Of the camera's rate: below the first something is said, above the second no more. */
+/** Shares of the camera's rate: a note appears below the first and disappears above the second. */
 const FEW_RATIO = 0.5;
 const ENOUGH_RATIO = 0.7;
-/** A page that spends more of its time than this on showing images is itself what is slow. */
+/** A page that spends more than this share of its time on displaying images is itself slow. */
 const SHOWING_RATIO = 0.5;
-/** Of the time in which nothing comes: what is less on the network is spent in the server. */
+/** Share of the idle time; if less of it is network, the server takes the rest. */
 const NETWORK_RATIO = 0.5;
 
 export class PictureDeliveryMonitor {
@@ -43,7 +42,7 @@ export class PictureDeliveryMonitor {
   private sizePx: [number, number] | null = null;
   private fewer = false;
 
-  /** Records a displayed picture: captured in this size, sent at this scale. */
+  /** Records a displayed picture: its capture size, and the scale it was sent at. */
   recordPicture(atMs: number, sizePx: [number, number], scaleRatio: number): void {
     this.arrivedAtMs = [...this.arrivedAtMs.filter((one) => atMs - one <= WINDOW_MS), atMs];
     this.scaleRatio = scaleRatio;
@@ -55,7 +54,7 @@ export class PictureDeliveryMonitor {
     this.fewer = false;
   }
 
-  /** At a camera that gives so many images a second; 0 where that is not known. */
+  /** Result for a camera with this rate; 0 if unknown. */
   update(nowMs: number, cameraHz: number, timings: Timings, device: Device): PictureDelivery {
     const recent = this.arrivedAtMs.filter((atMs) => nowMs - atMs <= WINDOW_MS);
     const imagesPerS = rateOf(recent, nowMs);
@@ -73,7 +72,7 @@ export class PictureDeliveryMonitor {
 
   private limitation(imagesPerS: number, timings: Timings, device: Device): PictureDelivery["limitedBy"] {
     const isSmall = this.scaleRatio < device.neededRatio;
-    // The server makes it smaller for its line alone; what this page has asked for is this device's doing.
+    // The server reduces the picture only for the connection; a size that this page requested is this device's limit.
     const isOwn = isSmall && device.largestPicture === "half" && this.scaleRatio >= 0.5;
     if (this.choice === "auto" && isSmall) return isOwn ? slowerOf(timings) : "thin";
     if (this.fewer) return slowPart(imagesPerS, timings, device);
@@ -94,7 +93,7 @@ function slowerOf(timings: Timings): "decoding" | "drawing" {
   return timings.decodingMs > drawingWithScreenMs(timings) ? "decoding" : "drawing";
 }
 
-/** Images a second, counted by the gaps between them; a gap that still lasts counts too. */
+/** Images per second from the gaps between them, including the present gap. */
 function rateOf(recent: number[], nowMs: number): number {
   const [first, last] = [recent[0], recent.at(-1)];
   if (first === undefined || last === undefined || recent.length < 2) return 0;

@@ -1,5 +1,4 @@
-// The surgeon's figures out of one image's message, or why there are none. Which tool's they are, what they are
-// compared with and what is said of them was decided by the server: the video says the same.
+// The figures of one image, or why there are none. Tool, limits and texts were decided by the server, as in the video.
 import type {
   BullseyeMessage,
   AssessmentMessage,

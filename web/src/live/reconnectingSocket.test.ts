@@ -13,13 +13,13 @@ const newest = (): SilentSocket => {
   if (!socket) throw new Error("no socket was opened");
   return socket;
 };
-/** Lets the time pass that was asked for last; answers how long that was. */
+/** Advances past the last requested delay and returns it. */
 const passLastWait = (): number => {
   const last = waits.pop();
   last?.action();
   return last?.waitMs ?? Number.NaN;
 };
-/** The wait after a loss, and then the line is there again. */
+/** Advances past the delay after a loss and opens the next connection. */
 const loseAndWait = (): number => {
   newest().onclose?.();
   return passLastWait();
@@ -61,7 +61,7 @@ test("what is heard sets the wait back to its shortest; to be open is not enough
   expect(loseAndWait()).toBe(100);
 });
 
-test("it stands from its opening on, and until it is lost", () => {
+test("it is open from its opening until its loss", () => {
   expect([reconnecting.socket === newest(), reconnecting.openSocket]).toEqual([true, null]);
   newest().onopen?.();
   expect(reconnecting.openSocket).toBe(newest());
@@ -92,7 +92,7 @@ test("a server that takes the call and never answers is left, one that answered 
   newest().onopen?.();
   waits.at(-1)?.action();
   expect(events).toEqual(["lost", "open"]);
-  // The first one's time is not the second one's.
+  // The first socket's timer must not affect the second.
   answer?.action();
   expect(sockets).toHaveLength(2);
 });
@@ -105,7 +105,7 @@ test("a lost line is not heard, and is lost once", () => {
   expect(events).toEqual(["open", "lost"]);
 });
 
-test("a stopped line stays down, and a started one comes again", () => {
+test("a stopped connection stays closed, and a started one reconnects", () => {
   newest().onclose?.();
   reconnecting.stop();
   passLastWait();

@@ -1,4 +1,4 @@
-// A WebSocket that reconnects after a loss, with a growing delay. The messages are defined by its users
+// A WebSocket that reconnects after a loss, with increasing delay. Its users define the messages
 // (`viewConnection.ts`, `room/roomConnection.ts`, `phone/phoneConnection.ts`).
 import { waitBeforeMs } from "./backoff";
 

@@ -1,5 +1,5 @@
-// Figures whose age passes its limit once and again must not blink: after the second time within a second they are
-// shown again only when they have been young for a while. A single late image costs no more than its own time.
+// Prevents figures from blinking when their age crosses the limit repeatedly: after the second time within a second
+// they return only when they have been young for a while. A single late image costs no extra time.
 
 const STEADY_AFTER_MS = 1000;
 const YOUNG_FOR_MS = 250;

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { formatDuration, formatFigure, formatNumber } from "./rounding";
 
-// The same table holds for `server/number_format.py`, which burns the digits into the video.
+// The same table applies to `server/number_format.py`, which draws the digits into the video.
 test.each([
   [0, "0.0"],
   [-0, "0.0"],

@@ -18,7 +18,7 @@ test("loads until its first image", () => {
   expect(scene.verdict(2000, 500)).toEqual({ state: "loading" });
 });
 
-test("is live with the newest image, and says how far behind it is", () => {
+test("is live with the newest image, and states its lag", () => {
   scene.drawn(note(28), 2000);
   // 28 was skipped by this page; 27 bounds its age from above.
   expect(scene.verdict(2000, 500)).toEqual({
@@ -29,12 +29,12 @@ test("is live with the newest image, and says how far behind it is", () => {
   });
 });
 
-test("is stale by itself when its image gets old", () => {
+test("becomes stale when its image gets old", () => {
   scene.drawn(note(30), 2000);
   expect(scene.verdict(2491, 500)).toMatchObject({ state: "stale", imageNumber: 30 });
 });
 
-test("is stale when it says it is not connected, however young its image is", () => {
+test("is stale when it reports no connection, however recent its image is", () => {
   scene.drawn(note(30), 2000);
   scene.verdict(2000, 500);
   scene.drawn(note(30, false), 2000);
@@ -47,12 +47,12 @@ test("what repeats one number does not get younger", () => {
   expect(scene.verdict(2501, 500).state).toBe("stale");
 });
 
-test("a number of the source before a restart is not taken for a new one", () => {
+test("an image number from before a restart does not count as new", () => {
   scene.drawn(note(5000), 2000);
   expect(scene.verdict(2001, 500).state).toBe("stale");
   scene.drawn(note(30), 2001);
   expect(scene.verdict(2001, 500).state).toBe("live");
-  scene.image(0, 2010); // the source counts anew
+  scene.image(0, 2010); // the source restarts its count
   expect(scene.verdict(2011, 500)).toMatchObject({ state: "stale", imageNumber: null });
 });
 

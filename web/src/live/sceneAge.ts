@@ -1,4 +1,4 @@
-// How old the 3-D scene is, from the image number that it says it has drawn.
+// Age of the 3-D scene, from the image index that it reports as drawn.
 
 export type SceneVerdict =
   | { state: "live"; imageNumber: number; behindImages: number; ageMs: number }
@@ -25,9 +25,9 @@ export function isSceneNote(value: unknown): value is SceneNote {
   );
 }
 
-/** How many images are remembered: some seconds' worth. */
+/** Number of remembered images: some seconds. */
 const REMEMBERED = 256;
-/** The scene may run ahead of this page's images, which skip; not by more than this. */
+/** How far the scene may be ahead of this page's images, which skip. */
 const AHEAD_AT_MOST = 90;
 
 export class SceneAge {
@@ -36,17 +36,17 @@ export class SceneAge {
   private changedAtMs = 0;
   private wasLive = false;
 
-  /** An image that this page has received. */
+  /** Records an image received by this page. */
   image(imageNumber: number, capturedAtMs: number): void {
     const last = this.captured.at(-1);
-    // Numbers that run backwards come from a new source: what the scene says of the old one counts no more.
+    // A decreasing index means a new source: reports about the old one are ignored.
     if (last && imageNumber < last.imageNumber) this.forget();
     if (last?.imageNumber === imageNumber) return;
     this.captured.push({ imageNumber, capturedAtMs });
     if (this.captured.length > REMEMBERED) this.captured.shift();
   }
 
-  /** What the scene says it has drawn. */
+  /** Records the scene's report of what it has drawn. */
   drawn(note: SceneNote, nowMs: number): void {
     if (note.image_number !== this.note?.image_number) this.changedAtMs = nowMs;
     this.note = note;
@@ -57,7 +57,7 @@ export class SceneAge {
     this.note = null;
   }
 
-  /** The scene is loaded anew: nothing of it is drawn yet. */
+  /** The scene is being reloaded: nothing is drawn yet. */
   reload(): void {
     this.note = null;
     this.wasLive = false;
@@ -72,16 +72,16 @@ export class SceneAge {
       const behindImages = Math.max(newest.imageNumber - number, 0);
       return { state: "live", imageNumber: number, behindImages, ageMs };
     }
-    // Connected before anything is drawn, it is still on its way.
+    // Connected, but nothing is drawn yet.
     if (!this.wasLive && (number === null || this.note?.connected !== true)) return { state: "loading" };
     return { state: "stale", imageNumber: number, ageMs };
   }
 
-  /** Age of the image drawn: at least the time since the scene last changed; null when it is unknown. */
+  /** Age of the drawn image: at least the time since the scene last changed; null if unknown. */
   private ageOf(imageNumber: number, nowMs: number): number | null {
     const newest = this.captured.at(-1);
     if (!newest || imageNumber > newest.imageNumber + AHEAD_AT_MOST) return null;
-    // The images between two that came were skipped: the older neighbour bounds the age from above.
+    // Images in between were skipped: the older neighbour bounds the age from above.
     const neighbour = this.captured.findLast((one) => one.imageNumber <= imageNumber);
     if (!neighbour) return null;
     return Math.max(nowMs - neighbour.capturedAtMs, nowMs - this.changedAtMs);

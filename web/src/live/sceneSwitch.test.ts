@@ -7,12 +7,12 @@ let scene: SceneSwitch;
 let window: TimingWindow;
 let nowMs: number;
 
-/** An image of this age is shown now. */
+/** An image of this age is displayed now. */
 function show(ageMs: number): void {
   window.image({ atMs: nowMs, networkMs: null, decodingMs: 0, drawingMs: 0, ageMs });
 }
 
-/** So many seconds at 25 images/s, every so manieth of them late. */
+/** Seconds at 25 images/s in which every n-th image is late. */
 function pass(seconds: number, lateEvery: number, limitMs: number | null = LIMIT_MS): void {
   for (let image = 0; image < 25 * seconds; image += 1) {
     nowMs += 40;
@@ -48,7 +48,7 @@ test("stays on where it does not take the processor of the figures", () => {
   expect(scene.isOn).toBe(true);
 });
 
-test("comes back only by a person, and is switched off again where the figures suffer again", () => {
+test("returns only on request, and is switched off again if the figures become late again", () => {
   pass(20, 2);
   pass(60, 1000);
   expect(scene.isOn).toBe(false);
@@ -59,7 +59,7 @@ test("comes back only by a person, and is switched off again where the figures s
   expect(scene.isOn).toBe(false);
 });
 
-test("a few images say nothing yet", () => {
+test("a few images are not judged", () => {
   pass(10, 1000);
   window.forget();
   for (let image = 0; image < 10; image += 1) {

@@ -1,15 +1,15 @@
-// Whether the 3-D scene is drawn at all. Drawn by the processor, it takes some 60 ms of a core an image; on a machine of
-// two cores that also runs the server, that alone makes the figures too old. It is then switched off before they are,
-// and comes back when a person asks for it. Pure: times go in as numbers.
+// Whether the 3-D scene is drawn. Software rendering takes some 60 ms of a core per image; on a two-core machine that
+// also runs the server, that alone makes the figures too old. The scene is switched off before that happens, and
+// returns on request. Pure.
 import type { TimingWindow } from "./timings";
 
-/** An image of this age is likely to be too old before the next one replaces it. */
+/** An image of this age is likely to become too old before the next one arrives. */
 const LATE_RATIO = 0.7;
-/** Switched off when more than this share of the images is late. */
+/** Switched off if more than this share of images is late. */
 const MAX_LATE_SHARE = 0.05;
-/** With fewer images in the window there is nothing to judge. */
+/** Fewer images in the window are not judged. */
 const MIN_IMAGES = 30;
-/** Loading the scene alone makes images late for some seconds. */
+/** Loading the scene makes images late for some seconds. */
 const LOADING_MS = 8000;
 
 export class SceneSwitch {
@@ -21,7 +21,7 @@ export class SceneSwitch {
     this.onSinceMs = nowMs;
   }
 
-  /** `ageLimitMs` of the figures, where the scene takes their processor; null elsewhere. */
+  /** Age limit of the figures if the scene shares their processor; null otherwise. */
   update(nowMs: number, window: TimingWindow, ageLimitMs: number | null): void {
     this.onSinceMs ??= nowMs;
     if (ageLimitMs === null || !this.isOn) return;

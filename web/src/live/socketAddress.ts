@@ -1,4 +1,4 @@
-/** The address of a WebSocket of this server, encrypted where the page is. */
+/** Address of a WebSocket of this server, encrypted if the page is. */
 export function socketAddress(path: string): string {
   return `${location.protocol === "https:" ? "wss:" : "ws:"}//${location.host}${path}`;
 }

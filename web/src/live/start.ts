@@ -1,4 +1,4 @@
-// Joins the pure parts to the browser: WebSocket, timers, questions to the server, visibility.
+// Connects the pure parts to the browser: WebSockets, timers, requests, visibility.
 import createClient from "openapi-fetch";
 import type { components, paths } from "../schema";
 import { storedPictureChoice, storePictureChoice } from "./storedPictureChoice";
@@ -22,7 +22,7 @@ const MEASURE_EVERY_PICTURES = 5;
 
 const server = createClient<paths>({ baseUrl: location.origin });
 
-/** Starts everything; the answer stops it again. */
+/** Starts everything; the returned function stops it. */
 export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): () => void {
   const stop = new AbortController();
   const { signal } = stop;
@@ -41,12 +41,12 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
         const { data } = await server.GET("/api/live", { signal: timeout, cache: "no-store" });
         live.receiveAnswer(data ?? null, requestedNowMs, generation);
       } else {
-        // Before the first image there is nothing to ask for but whether anybody is there.
+        // Before the first image the only question is whether the server answers.
         await server.GET("/api/dashboard", { signal: timeout, cache: "no-store" });
         live.receiveAnswer(null, requestedNowMs, generation);
       }
     } catch {
-      // No answer is what `quietMs` counts.
+      // A missing answer is measured by `quietMs`.
     } finally {
       isRequesting = false;
     }
@@ -69,7 +69,7 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
   const timer = setInterval(update, UPDATE_EVERY_MS);
   const leaveExpiry = updateAtExpiry(live);
   const onVisibility = (): void => {
-    // Covered before it is hidden: the first thing seen on return must not be an old picture.
+    // Covered before it is hidden, so that no old picture is visible on return.
     live.setHidden(document.visibilityState === "hidden");
   };
   document.addEventListener("visibilitychange", onVisibility, { signal });
@@ -102,7 +102,7 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
   };
 }
 
-/** Messages that came while the page was busy are painted once, the newest. */
+/** Messages that arrived while the page was busy are painted once, with the newest. */
 function messageConnection(live: Live): MessageConnection {
   let isScheduled = false;
   return new MessageConnection({
@@ -147,8 +147,10 @@ function viewConnection(live: Live, onOpen: () => void): ViewConnection {
   return connection;
 }
 
-/** Measures how long the screen needs for the image that was just drawn. Each measurement makes the browser put the page
- * together twice. */
+/**
+ * Measures how long the screen takes for the image just drawn. Each measurement makes the browser compose the page
+ * twice.
+ */
 function measureScreen(live: Live): void {
   requestAnimationFrame((beganAtMs) => {
     requestAnimationFrame((endedAtMs) => {
@@ -157,7 +159,7 @@ function measureScreen(live: Live): void {
   });
 }
 
-/** Updates at the very moment at which figures or picture become too old, between two looks of the timer. */
+/** Updates exactly when figures or picture become too old, between two timer updates. */
 function updateAtExpiry(live: Live): () => void {
   let timer: ReturnType<typeof setTimeout> | undefined;
   const leave = live.onUpdate(({ nowMs, expiresAtMs }) => {
@@ -171,7 +173,7 @@ function updateAtExpiry(live: Live): () => void {
   };
 }
 
-/** Tells the server, on each line anew, which size and rate of the picture this device can show. */
+/** Sends the rate and size that this device can display, on each connection. */
 function reportPictureBudget(live: Live, connection: ViewConnection): () => void {
   let reported = UNLIMITED;
   return live.onUpdate(({ link, budget }) => {
@@ -186,19 +188,19 @@ function reportPictureBudget(live: Live, connection: ViewConnection): () => void
   });
 }
 
-/** The server is there again: `watch.js` in each scene hears this, and takes its own line up at once. */
+/** The server has returned: `watch.js` in each scene receives this and reconnects at once. */
 function notifyScenes(): void {
   for (const frame of document.querySelectorAll<HTMLIFrameElement>("iframe[src^='/scene/']")) {
     frame.contentWindow?.postMessage({ kind: "coaxial-server" }, location.origin);
   }
 }
 
-/** Figures and alarms stand beside the picture and are newer than it: none are drawn into it. */
+/** Figures and alarms are beside the picture and newer; the server draws none into it. */
 function viewAddress(size: string): string {
   return socketAddress(`/ws/view?size=${size}&overlay=geometry`);
 }
 
-/** Asks the server who it is and which limits hold; limits have one home, its config. */
+/** Requests the server's identity and limits, which are defined in its config. */
 async function introduce(
   live: Live,
   onDashboard: (dashboard: Dashboard) => void,
@@ -210,7 +212,7 @@ async function introduce(
     live.setLimits(data.limits);
     onDashboard(data);
   } catch {
-    // The line is gone again; the next one asks anew.
+    // The connection was lost again; the next one requests anew.
   }
 }
 

@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import { ImageTimer } from "./imageTimer";
 import { drawingWithScreenMs, Stall, TimingWindow } from "./timings";
 
-/** Received at one time, decoded and standing at others. */
+/** An image with these times of reception, decoding and display. */
 function shownAt(stall: Stall, receivedAtMs: number, decodedAtMs: number, standsAtMs: number): ImageTimer {
   let nowMs = receivedAtMs;
   const showing = new ImageTimer(() => nowMs, stall, receivedAtMs);
@@ -36,7 +36,7 @@ test("what the page was too busy to hear is drawing, not network nor decoding", 
   expect(showing.deviceMs(930, false)).toBe(150);
 });
 
-test("before the clocks are compared nobody knows the time on the network", () => {
+test("before the clock comparison the network time is unknown", () => {
   expect(shownAt(new Stall(50), 1000, 1010, 1011).times(null, 950).networkMs).toBeNull();
 });
 

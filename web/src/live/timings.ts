@@ -1,15 +1,15 @@
-// How long each part of showing an image takes: on the network, decoding, drawing. Pure: times go in as numbers.
+// Durations of the stages of displaying an image: network, decoding, drawing. Pure.
 
-/** Of one image that is displayed. */
+/** Timings of one displayed image. */
 export interface ImageTimes {
-  /** When it stood there. */
+  /** Time of display. */
   atMs: number;
-  /** From the server's sending to this page, without the time in which the page itself was busy; null if unknown. */
+  /** From sending to reception, without the page's own busy time; null if unknown. */
   networkMs: number | null;
   decodingMs: number;
-  /** Painting it, and what the page was busy with while it waited. */
+  /** Painting, including the page's busy time in between. */
   drawingMs: number;
-  /** Since its grab. */
+  /** Since capture. */
   ageMs: number;
 }
 
@@ -20,12 +20,12 @@ export interface Timings {
   decodingMs: number;
   drawingMs: number;
   ageMs: number;
-  /** From the screen's image with a picture to its next: a browser that draws slowly needs longer. */
+  /** From the refresh with a picture to the next one: a browser that draws slowly needs longer. */
   screenIntervalMs: number;
 }
 
 const WINDOW_MS = 3000;
-/** A usual screen; what is longer than this is the drawing's. */
+/** Refresh interval of a usual screen; the excess counts as drawing. */
 const SCREEN_INTERVAL_MS = 17;
 
 export class TimingWindow {
@@ -37,7 +37,7 @@ export class TimingWindow {
     this.shown = this.shown.filter((one) => times.atMs - one.atMs <= WINDOW_MS);
   }
 
-  /** The screen needed so long for an image. */
+  /** Records how long the screen took for an image. */
   screen(atMs: number, intervalMs: number): void {
     this.screens.push({ atMs, intervalMs });
     this.screens = this.screens.filter((one) => atMs - one.atMs <= WINDOW_MS);
@@ -48,12 +48,12 @@ export class TimingWindow {
     this.screens = [];
   }
 
-  /** The ages of the images that have come since `fromMs`, within the window. */
+  /** Ages of the images since `fromMs`, within the window. */
   agesMs(nowMs: number, fromMs = -Infinity): number[] {
     return this.since(nowMs, fromMs).map((one) => one.ageMs);
   }
 
-  /** Of what has come since `fromMs`, and within the window. */
+  /** Samples since `fromMs`, within the window. */
   means(nowMs: number, fromMs = -Infinity): Timings {
     const from = Math.max(fromMs, nowMs - WINDOW_MS);
     const shown = this.since(nowMs, fromMs);
@@ -78,12 +78,12 @@ function mean(values: number[]): number | null {
   return values.length === 0 ? null : values.reduce((sum, one) => sum + one, 0) / values.length;
 }
 
-/** What the screen adds to the drawing of an image. */
+/** What the screen adds to the drawing time. */
 export function drawingWithScreenMs({ drawingMs, screenIntervalMs }: Timings): number {
   return drawingMs + Math.max(0, screenIntervalMs - SCREEN_INTERVAL_MS);
 }
 
-/** For how long the page was too busy to hear: it looks around at least this often. */
+/** How long the page was too busy to receive: it normally updates at least this often. */
 export class Stall {
   private tickAtMs = -Infinity;
 

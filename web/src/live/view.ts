@@ -1,4 +1,4 @@
-// What the page knows of one moment, as every pane gets it.
+// State of the page at one moment, as every pane receives it.
 import type { NumbersVerdict, VideoVerdict } from "./assess";
 import type { DrawingBudget } from "./budget";
 import type { PictureDelivery } from "./pictureDelivery";
@@ -7,12 +7,12 @@ import type { LinkState } from "./viewConnection";
 import type { LiveMessage } from "./messages";
 import type { SceneVerdict } from "./sceneAge";
 
-/** The true age of everything that is displayed, in ms; null where nothing is. */
+/** Ages of everything displayed, in ms; null if nothing is. */
 export interface Ages {
   pictureMs: number | null;
   numbersMs: number | null;
   sceneMs: number | null;
-  /** By how much the server's clock is ahead of the page's; null before they were compared. */
+  /** Offset of the server's clock from the page's; null before the first comparison. */
   clockAheadMs: number | null;
 }
 
@@ -20,24 +20,24 @@ export interface View {
   nowMs: number;
   link: LinkState;
   silentMs: number;
-  /** Since the page was loaded; what it claims before that is nothing. */
+  /** State of the first message: before it, the page claims nothing. */
   firstMessage: FirstMessage;
   newest: LiveMessage | null;
   video: VideoVerdict;
   numbers: NumbersVerdict;
-  /** How long there have been no numbers; null while there are, or when there never were. */
+  /** How long there have been no numbers; null if there are, or never were. */
   untrackedMs: number | null;
   scene: SceneVerdict;
   ages: Ages;
-  /** When figures or picture will be too old, if nothing newer comes; null when neither stands. */
+  /** When figures or picture become too old without a newer one; null if neither is displayed. */
   expiresAtMs: number | null;
-  /** What this viewer's line carries. */
+  /** State of this viewer's connection. */
   pictureDelivery: PictureDelivery;
   /** What this device can draw. */
   budget: DrawingBudget;
 }
 
-/** A picture that was drawn; it is seen with the next image of the screen. */
+/** A drawn picture; it becomes visible with the next refresh. */
 export interface PaintedImage {
   message: LiveMessage;
   receivedAtMs: number;
@@ -57,7 +57,7 @@ export function agesOf(
   };
 }
 
-/** What the texts of the page depend on; a change of it is rendered at once. */
+/** State that texts depend on; a change re-renders at once. */
 export function keyOf({
   link,
   firstMessage,

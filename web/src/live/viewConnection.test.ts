@@ -18,7 +18,7 @@ const newest = (): FakeViewSocket => {
   if (!socket) throw new Error("no socket was opened");
   return socket;
 };
-/** Lets the time pass that the last wait asked for. */
+/** Advances past the last requested delay. */
 const passWait = (waitMs: number): void => {
   const due = waits.filter((wait) => wait.waitMs === waitMs);
   waits = waits.filter((wait) => wait.waitMs !== waitMs);
@@ -42,7 +42,7 @@ beforeEach(() => {
   connection.start();
 });
 
-test("grants one image when it opens, and no other before it is told", () => {
+test("requests one image on opening, and no other before it is asked to", () => {
   newest().onopen?.();
   newest().onmessage?.({ data: bytes(message()) });
   expect(newest().sent).toEqual(['{"next":true}']);
@@ -51,7 +51,7 @@ test("grants one image when it opens, and no other before it is told", () => {
   expect(images).toEqual([7]);
 });
 
-test("says with a grant how long the page needed, and what it cannot show", () => {
+test("sends with each request the time that the page took, and its limits", () => {
   newest().onopen?.();
   connection.requestNext(41.7);
   connection.limitSize("half");
@@ -63,7 +63,7 @@ test("says with a grant how long the page needed, and what it cannot show", () =
   ]);
 });
 
-test("another size is asked for on a line that stands, and only there", () => {
+test("another size is requested on an open connection only", () => {
   connection.askSize("half");
   expect(newest().sent).toEqual([]);
   newest().onopen?.();
@@ -74,7 +74,7 @@ test("another size is asked for on a line that stands, and only there", () => {
   expect(newest().sent).toHaveLength(2);
 });
 
-test("a lost line is said at once and taken up again", () => {
+test("a lost connection is reported at once and retried", () => {
   newest().onopen?.();
   newest().onclose?.();
   expect(states).toEqual(["open", "lost"]);

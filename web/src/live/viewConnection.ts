@@ -54,18 +54,18 @@ export class ViewConnection {
     this.socket.reconnect();
   }
 
-  /** Requests the newest image, and reports how long the page needed to show the last one. */
+  /** Requests the newest image, and reports how long the page took to display the last one. */
   requestNext(showingMs?: number): void {
     const spent = showingMs === undefined ? {} : { showing_ms: Math.round(showingMs) };
     this.socket.openSocket?.send(JSON.stringify({ next: true, ...spent }));
   }
 
-  /** Limits the picture size from the next image on: the device cannot show more. */
+  /** Limits the picture size from the next image on to what the device can display. */
   limitSize(largest: string): void {
     this.socket.openSocket?.send(JSON.stringify({ largest }));
   }
 
-  /** Limits the picture rate: at least this time from one image to the next, on average. */
+  /** Limits the picture rate: the shortest mean interval between images. */
   limitRate(intervalMs: number): void {
     this.socket.openSocket?.send(JSON.stringify({ interval_ms: intervalMs }));
   }
@@ -81,7 +81,7 @@ export class ViewConnection {
       if (!(data instanceof ArrayBuffer)) return;
       frame = frameFromBytes(data);
     } catch {
-      // An invalid frame is not shown; a new connection starts with a clean state.
+      // An invalid frame is dropped; a new connection starts clean.
       this.socket.reconnect();
       return;
     }

@@ -1,4 +1,4 @@
-// Inside it, the video may be pointed at and drawn on; outside, others' marks are only shown.
+// Inside this provider the video can be pointed at and drawn on; outside, marks are read-only.
 import { createContext, use, useMemo, useState, type ReactNode } from "react";
 import { useRoom } from "../room/RoomContext";
 import { MarksInput, type Tool } from "./marksInput";
@@ -19,7 +19,7 @@ export function MarkingProvider({ children }: { children: ReactNode }): ReactNod
   return <MarkingContext value={value}>{children}</MarkingContext>;
 }
 
-/** Null where nothing may be marked. */
+/** Null if marking is not possible. */
 export function useMarking(): Marking | null {
   return use(MarkingContext);
 }

@@ -16,7 +16,7 @@ import { useMarking } from "./MarkingContext";
 import { isOnImage, onImage } from "./place";
 import { DisplayedImage } from "./displayedImage";
 
-/** Arrow keys move the pointer by this share of the picture's width, with shift by five times as much. */
+/** Step of the arrow keys, as a share of the picture width; five times as much with shift. */
 const KEY_STEP = 0.01;
 const KEYS: Record<string, Point> = {
   ArrowLeft: [-1, 0],
@@ -25,7 +25,7 @@ const KEYS: Record<string, Point> = {
   ArrowDown: [0, 1],
 };
 
-/** What others point at and draw, over the picture; inside a `MarkingProvider` also what this person does. */
+/** Marks of others over the picture; inside a `MarkingProvider` also this user's input. */
 export function MarksLayer(): ReactNode {
   const texts = useTexts().marks;
   const room = useRoom();
@@ -132,7 +132,7 @@ export function MarksLayer(): ReactNode {
       onPointerUp={up}
       onPointerCancel={up}
       onPointerLeave={({ pointerType }) => {
-        // A finger leaves with every tap: where it pointed stays until it goes by itself.
+        // A finger leaves after every tap: its pointer stays until it expires.
         if (pointerType !== "touch") marking.input.lift();
         board.current?.requestPaint();
       }}

@@ -9,7 +9,7 @@ import { useMarking } from "./MarkingContext";
 
 const TOOLS: readonly Tool[] = ["point", "pen", "arrow", "circle"];
 
-/** What the hand does on the video, and how it is taken back. */
+/** Choice of the drawing tool, undo and clear. */
 export function MarksTools(): ReactNode {
   const { marks: texts, rest } = useTexts();
   const marking = useMarking();

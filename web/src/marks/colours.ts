@@ -1,4 +1,4 @@
-// A colour for each page that marks; they differ for colour-blind eyes too, and a name always stands beside.
+// A colour for each page that marks. Distinguishable with colour blindness, and always beside a name.
 const COLOURS = ["#56b4e9", "#e69f00", "#cc79a7", "#f0e442", "#00c08b", "#ff8a5c"] as const;
 
 export function colourOf(seat: number): string {

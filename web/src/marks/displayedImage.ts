@@ -1,11 +1,11 @@
-// Which image is displayed, with its time and its size.
+// Index, time and size of the displayed image.
 import type { View } from "../live/live";
 import type { Moment } from "../room/messages";
 import type { Size } from "./place";
 
 export class DisplayedImage {
   size: Size = { width: 0, height: 0 };
-  /** Of the picture that is displayed; null while none is. */
+  /** Null while no picture is displayed. */
   moment: Moment | null = null;
 
   update({ video }: Pick<View, "video">): void {

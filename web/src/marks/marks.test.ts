@@ -8,7 +8,7 @@ import { isOnImage, onImage, onStage, placed } from "./place";
 
 const MOMENT = { image_number: 7, captured_at_s: 4 };
 
-describe("where a mark stands", () => {
+describe("position of a mark", () => {
   test.each([
     ["the same shape", { width: 640, height: 360 }, [0, 0], [0.25, 0.25]],
     ["a wider stage", { width: 1000, height: 360 }, [0, 0], [180.25, 0.25]],
@@ -48,7 +48,7 @@ describe("a hand", () => {
     expect(messages[0]).toEqual({ point: { at_px: [0, 1], ...MOMENT } });
   });
 
-  test("is said where it came to rest", () => {
+  test("is sent at its final position", () => {
     const { made, said: messages } = hand();
     made.point([1, 1], MOMENT, 0);
     made.point([2, 2], MOMENT, 10);
@@ -62,7 +62,7 @@ describe("a hand", () => {
     expect(messages).toHaveLength(3);
   });
 
-  test("is seen here where the others see it, for as long, and not where nobody was told", () => {
+  test("is shown here where others see it, for as long, and not if it was not sent", () => {
     let open = true;
     const { made } = hand(() => open);
     expect(made.pointerAt(0)).toBeNull();
@@ -81,7 +81,7 @@ describe("a hand", () => {
     expect(made.pointerAt(4001)).toBeNull();
   });
 
-  test("says a pen's line in parts that make the whole", () => {
+  test("sends a pen line in parts that add up", () => {
     const { made, said: messages } = hand();
     made.down("pen", [0, 0], MOMENT, 0);
     for (let n = 1; n <= 200; n += 1) made.move([n * 3, 0], n * 10);
@@ -108,7 +108,7 @@ describe("a hand", () => {
     expect(lengths.size).toBe(3);
   });
 
-  test("what a full line did not take is said later", () => {
+  test("points that did not fit into a message are sent later", () => {
     let open = false;
     const { made, said: messages } = hand(() => open);
     made.down("pen", [0, 0], MOMENT, 0);
@@ -131,7 +131,7 @@ describe("a hand", () => {
     ]);
   });
 
-  test("an arrow is said when it is done, and a slip is none", () => {
+  test("an arrow is sent when it is complete, and a slip is ignored", () => {
     const { made, said: messages } = hand();
     made.down("arrow", [0, 0], MOMENT, 0);
     made.move([50, 0], 10);
@@ -158,7 +158,7 @@ describe("a hand", () => {
     expect(made.own).toEqual([]);
   });
 
-  test("what never comes back is let go", () => {
+  test("drawings that are never confirmed are dropped", () => {
     const { made } = hand(() => false);
     made.down("circle", [0, 0], MOMENT, 0);
     made.move([50, 0], 10);

@@ -1,4 +1,4 @@
-// The canvas over the picture: everything that is marked, painted anew when something moved, came or went.
+// The canvas of marks, repainted when something moved, came or expired.
 import { prefersReducedMotion } from "./reducedMotion";
 import type { MarksInput } from "./marksInput";
 import { paintMark, paintPointer, type Pen } from "./paint";
@@ -6,7 +6,7 @@ import { placed, type Placement } from "./place";
 import type { DisplayedImage } from "./displayedImage";
 import type { Mark, RoomState } from "../room/roomState";
 
-/** From here on before it goes, a drawing fades. */
+/** Start of the fade before a drawing expires. */
 const FADES_FOR_MS = 5000;
 const AGAIN_AFTER_MS = 100;
 
@@ -27,7 +27,7 @@ export class MarksCanvas {
     return placed(this.displayed.size, { width: this.canvas.clientWidth, height: this.canvas.clientHeight });
   }
 
-  /** Paint with the next image of the screen. */
+  /** Paints with the next animation frame. */
   requestPaint(): void {
     if (this.waiting) return;
     this.waiting = true;
@@ -64,7 +64,7 @@ export class MarksCanvas {
     canvas.dataset["pointers"] = String(pointers.length);
     canvas.dataset["pointed"] = String(pointed !== null);
     const isEmpty = state.marks.length + own.length + pointers.length === 0 && pointed === null;
-    // To clear what is clear already would still have the whole picture put together anew.
+    // Clearing an empty canvas would still make the browser compose the whole picture.
     if (isEmpty && this.isEmpty) return;
     this.isEmpty = isEmpty;
     canvas.dataset["empty"] = String(isEmpty);
@@ -72,7 +72,7 @@ export class MarksCanvas {
     if (placement === null) return;
     const pen: Pen = { context, placement, width: canvas.clientWidth };
     for (const mark of state.marks) {
-      // What is drawn here now is painted from the hand, which is ahead.
+      // Local input is ahead of the server and is painted instead of its echo.
       if (own.some((one) => mark.key === `${you}-${one.key}`)) continue;
       paintMark(pen, { ...mark, strength: strengthOf(mark, nowMs), age: this.ageOf(mark, nowMs) });
     }
@@ -93,7 +93,7 @@ export class MarksCanvas {
     return seconds < 1 ? "" : this.ageText(seconds);
   }
 
-  /** As many pixels as the screen has, and nothing on them. */
+  /** Matches the canvas to the screen's pixels and clears it. */
   private fit(context: CanvasRenderingContext2D): void {
     const { canvas } = this;
     const ratio = Math.min(devicePixelRatio, 2);

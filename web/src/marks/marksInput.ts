@@ -1,29 +1,29 @@
-// A hand that points and draws: from where it goes to what is said. Pure: time and image are handed in.
+// Turns pointer input into messages. Pure: time and image are arguments.
 import type { Moment, Point, ClientMessage, Shape } from "../room/messages";
 import { POINTER_GOES_AFTER_MS } from "../room/roomState";
 
 export type Tool = "point" | Shape;
 
-/** What was drawn here and has not come back from the server yet. */
+/** Drawn here and not yet confirmed by the server. */
 export interface LocalMark {
   key: number;
   shape: Shape;
   points: Point[];
-  /** How many of them were said. */
+  /** Number of points that were sent. */
   sentPoints: number;
   endedAtMs: number | null;
 }
 
 const POINT_EVERY_MS = 45;
 const EXTEND_EVERY_MS = 60;
-/** Nearer points say nothing; in image pixels. */
+/** Closer points are not sent; in image pixels. */
 const MIN_STEP_PX = 2.5;
-/** As the server takes them: points to a message, points to a drawing. */
+/** Limits of the server: points per message and per drawing. */
 const MAX_A_MESSAGE = 50;
 const MAX_A_DRAWING = 380;
 const FORGOTTEN_AFTER_MS = 3000;
 
-/** Where the others see this hand point. */
+/** Position of this pointer as others see it. */
 export interface LocalPointer {
   at: Point;
   goesAtMs: number;
@@ -36,7 +36,7 @@ export class MarksInput {
   private sentAtMs = -Infinity;
   private drawing: LocalMark | null = null;
   private moment: Moment | null = null;
-  /** Where the hand is, while that was not said. */
+  /** Position that has not been sent yet. */
   private pending: { at: Point; moment: Moment } | null = null;
 
   private localPointer: LocalPointer | null = null;
@@ -48,20 +48,20 @@ export class MarksInput {
     this.flush(nowMs);
   }
 
-  /** To be called often: where a hand came to rest is said too, when its time has come. */
+  /** Call often: the final position of a pointer is sent when its interval has passed. */
   flush(nowMs: number): void {
     const { pending: rests, drawing } = this;
     if (rests !== null && nowMs - this.pointedAtMs >= POINT_EVERY_MS) {
       this.pointedAtMs = nowMs;
       this.pending = null;
       const isSent = this.send({ point: { at_px: rests.at, ...rests.moment } });
-      // What was sent to nobody is not shown here either.
+      // What could not be sent is not shown here either.
       this.localPointer = isSent ? { at: rests.at, goesAtMs: nowMs + POINTER_GOES_AFTER_MS } : null;
     }
     if (drawing?.shape === "pen" && nowMs - this.sentAtMs >= EXTEND_EVERY_MS) this.sendPen(drawing, nowMs);
   }
 
-  /** Null once it is gone for the others, too. */
+  /** Null after the pointer has expired for others too. */
   pointerAt(nowMs: number): LocalPointer | null {
     return this.localPointer !== null && this.localPointer.goesAtMs > nowMs ? this.localPointer : null;
   }
@@ -98,7 +98,7 @@ export class MarksInput {
     drawing.points.push(at);
     this.flush(nowMs);
     if (drawing.points.length < MAX_A_DRAWING) return;
-    // A line without end is several drawings.
+    // A line beyond the limit is split into several drawings.
     const { moment } = this;
     this.up(nowMs);
     if (moment !== null) this.down("pen", at, moment, nowMs);
@@ -115,7 +115,7 @@ export class MarksInput {
     }
     const [from, to] = drawing.points;
     const short = !from || !to || Math.hypot(to[0] - from[0], to[1] - from[1]) < 2 * MIN_STEP_PX;
-    // A slip of the finger is no arrow.
+    // A minimal movement is no arrow.
     if (short) this.own.splice(this.own.indexOf(drawing), 1);
     else this.send({ draw: { key: drawing.key, shape: drawing.shape, points_px: [from, to], ...moment } });
   }
@@ -130,7 +130,7 @@ export class MarksInput {
     this.own.length = 0;
   }
 
-  /** Lets go of what has come back, or never will. */
+  /** Removes drawings that were confirmed or never will be. */
   settle(hasCome: (own: LocalMark) => boolean, nowMs: number): void {
     const remaining = this.own.filter(
       (one) => !hasCome(one) && !(one.endedAtMs !== null && nowMs - one.endedAtMs > FORGOTTEN_AFTER_MS),
@@ -147,7 +147,7 @@ export class MarksInput {
         drawing.sentPoints === 0 && this.moment !== null
           ? { draw: { key, shape, points_px, ...this.moment } }
           : { extend: { key, points_px } };
-      // A line that is full takes the rest with the next points.
+      // Points beyond the limit of a message are sent with the next one.
       if (!this.send(message)) return;
       drawing.sentPoints += points_px.length;
     }

@@ -1,4 +1,4 @@
-// Pointers and drawings on a canvas, thick and cased in dark, so that they stand out on any picture.
+// Paints pointers and drawings with a dark outline, so that they are visible on any picture.
 import type { Point, Shape } from "../room/messages";
 import type { Pointer } from "../room/roomState";
 import { colourOf } from "./colours";
@@ -11,16 +11,16 @@ export interface Painted {
   name: string;
   shape: Shape;
   points: readonly Point[];
-  /** 1 when it is new, less before it goes. */
+  /** Opacity: 1 when new, less before it expires. */
   strength: number;
-  /** Said beside the name; empty says the name alone. */
+  /** Shown after the name; may be empty. */
   age: string;
 }
 
 export interface Pen {
   context: CanvasRenderingContext2D;
   placement: Placement;
-  /** Width of the stage: what is read from 3 m grows with it. */
+  /** Width of the stage: text grows with it, to be read from 3 m. */
   width: number;
 }
 
@@ -77,7 +77,7 @@ function trace(
     return;
   }
   context.moveTo(from[0], from[1]);
-  // A single point is a dot.
+  // A single point is painted as a dot.
   for (const [x, y] of points.length > 1 ? points.slice(1) : points) context.lineTo(x, y);
   if (shape !== "arrow" || to === undefined) return;
   const way = Math.atan2(to[1] - from[1], to[0] - from[0]);
@@ -87,7 +87,7 @@ function trace(
   }
 }
 
-/** The name in a dark box above the place, within the stage. */
+/** The name in a dark box above the position, within the stage. */
 function label(pen: Pen, text: string, [x, y]: Point, seat: number): void {
   const { context, width } = pen;
   const size = Math.min(Math.max(14, width * 0.019), 38);

@@ -1,4 +1,4 @@
-// Between pixels of the whole image and this page: the picture is shown whole, in the middle of its stage.
+// Transform between image pixels and page pixels. The picture is shown completely, centred in its stage.
 import type { Point } from "../room/messages";
 
 export interface Size {
@@ -7,14 +7,14 @@ export interface Size {
 }
 
 export interface Placement {
-  /** Page pixels to one image pixel. */
+  /** Page pixels per image pixel. */
   scale: number;
   left: number;
   top: number;
   image: Size;
 }
 
-/** Null while one of them has no size. */
+/** Null if the stage or the image has no size. */
 export function placed(image: Size, stage: Size): Placement | null {
   if (!(image.width > 0 && image.height > 0 && stage.width > 0 && stage.height > 0)) return null;
   const scale = Math.min(stage.width / image.width, stage.height / image.height);
@@ -26,12 +26,12 @@ export function placed(image: Size, stage: Size): Placement | null {
   };
 }
 
-/** The centre of pixel (0, 0) lies half a pixel within the picture. */
+/** The centre of pixel (0, 0) is half a pixel inside the picture. */
 export function onStage([x, y]: Point, { scale, left, top }: Placement): Point {
   return [left + (x + 0.5) * scale, top + (y + 0.5) * scale];
 }
 
-/** To a tenth of a pixel, and never off the picture. */
+/** Rounded to a tenth of a pixel and clamped to the picture. */
 export function onImage([x, y]: Point, { scale, left, top, image }: Placement): Point {
   return [
     within((x - left) / scale - 0.5, image.width - 1),

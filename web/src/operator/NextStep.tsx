@@ -4,7 +4,7 @@ import { useTexts } from "../texts/TextsContext";
 import { PAGES, type OperatorPage } from "./pages";
 import { useProcedure } from "../app/procedure";
 
-/** The way to what is to be done now, where that is another page than this one. */
+/** Link to the next step, if it is on another page. */
 export function NextStep({ page }: { page: OperatorPage }): ReactNode {
   const texts = useTexts().operator;
   const { data } = useProcedure();

@@ -6,7 +6,7 @@ import { RecordControl } from "../recording/RecordControl";
 import { useTexts } from "../texts/TextsContext";
 import { useProcedure } from "../app/procedure";
 
-/** Whose case is open, whether tracking, camera and server are there, and the way to the other views. */
+/** Header: open case, state of tracking, camera and server, and links to the other views. */
 export function OperatorTop(): ReactNode {
   const texts = useTexts();
   const { data, rejection } = useProcedure();

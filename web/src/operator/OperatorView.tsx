@@ -19,7 +19,7 @@ export function OperatorView(): ReactNode {
   const [path] = useLocation();
   const procedure = useProcedure();
   const { data, rejection } = procedure;
-  // Which step is next is not known before the first answer; without one the list of cases is the place to begin.
+  // Before the first answer the next step is unknown; without one the page starts with the list of cases.
   const next =
     data === null ? (rejection === null ? null : "case") : ((data.case_id && data.next_step) ?? "case");
   const band = useBandHeight<HTMLDivElement>();

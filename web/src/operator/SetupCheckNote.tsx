@@ -4,7 +4,7 @@ import { useTexts } from "../texts/TextsContext";
 import { useSides } from "./registration/useSides";
 import { remedyText, setupSentence } from "./setupCheckText";
 
-/** Whether the planned screw can be navigated, known before navigation, and what would help. It blocks nothing. */
+/** Whether the planned screw can be navigated, before navigation starts, and what would help. Blocks nothing. */
 export function SetupCheckNote(): ReactNode {
   const texts = useTexts().setupCheck;
   const sideName = useSides();

@@ -8,20 +8,23 @@ import { useGates } from "./parts/useGates";
 import { bringIntoView } from "./parts/useIntoView";
 import { useProcedure } from "../app/procedure";
 import { MARK_OF_STATE } from "./stepMarks";
+import { stepReason } from "./stepReason";
 import { stateText, stepNote } from "./stepTexts";
 
-/** A remedy that names an address of the API is for programs: whoever is here has the page's own buttons. */
+/** A remedy with an API address is for programs; the page has its own buttons. */
 const FOR_MACHINES = "/api/";
 
-/** What a step is for, its state with its numbers, and what to do next, as the server says it. */
+/** State of a step with its reason and remedy, as stated by the server. */
 export function StepHead({ page }: { page: OperatorPage }): ReactNode {
-  const texts = useTexts().operator;
+  const all = useTexts();
+  const texts = all.operator;
   const { data, rejection } = useProcedure();
   const gates = useGates().data;
   const head = useArrival();
   const step = data?.steps.find((one) => one.step === page.step) ?? null;
-  const note = step === null ? "" : stepNote(step, gates?.registration.min_points ?? null, texts);
-  // Where navigation is open, its page says below that all steps hold, and by what.
+  const note = step === null ? "" : stepNote(step, gates?.registration.min_points ?? null, all);
+  const reason = step === null || data === null ? null : stepReason(step, data, all);
+  // While navigation is allowed, its page lists the passed gates below.
   const isSaidByGates = step?.step === "navigate" && step.state === "done";
   return (
     <header className="step-head" ref={head}>
@@ -30,21 +33,20 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
         <NextStep page={page} />
       </div>
       <RejectionNote rejection={rejection} />
-      {step !== null && !isSaidByGates && (
+      {step !== null && reason !== null && !isSaidByGates && (
         <p className="step-said" data-state={step.state} data-testid="step-said">
           <strong>
             <span aria-hidden="true">{MARK_OF_STATE[step.state]}</span> {stateText(step, texts)}
           </strong>{" "}
-          {/* The server speaks English. */}
-          <span lang="en">{sentence(step.message)}</span>{" "}
+          <span lang={reason.lang}>{reason.message}</span>{" "}
           {note !== "" && (
             <span className="step-remedy" data-testid="step-note">
               ▲ {note}
             </span>
           )}
-          {step.remedy !== "" && !step.remedy.includes(FOR_MACHINES) && (
-            <span className="step-remedy" lang="en">
-              {step.remedy}
+          {reason.remedy !== "" && !reason.remedy.includes(FOR_MACHINES) && (
+            <span className="step-remedy" lang={reason.lang}>
+              {reason.remedy}
             </span>
           )}
         </p>
@@ -53,7 +55,7 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
   );
 }
 
-/** Whoever goes on to another step begins at its head, wherever the last one was left. */
+/** Scrolls to the head of a step when the page changes. */
 function useArrival(): RefObject<HTMLElement | null> {
   const [path] = useLocation();
   const head = useRef<HTMLElement>(null);
@@ -64,9 +66,4 @@ function useArrival(): RefObject<HTMLElement | null> {
     bringIntoView(head.current);
   }, [path]);
   return head;
-}
-
-/** The server's sentences begin small and have no full stop. */
-function sentence(said: string): string {
-  return said === "" ? "" : `${said.charAt(0).toUpperCase()}${said.slice(1)}.`;
 }

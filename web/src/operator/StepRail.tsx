@@ -8,7 +8,7 @@ import { stateText } from "./stepTexts";
 
 type Mark = Step["state"] | "none";
 
-/** The steps, the state of each, and the way to each. */
+/** Links to the steps, with their states. */
 export function StepRail({ now }: { now: OperatorPage | null }): ReactNode {
   const texts = useTexts().operator;
   const { data } = useProcedure();

@@ -1,4 +1,4 @@
-// The pages of the operator's view, in the order of the procedure; `/operator/<name>` shows one.
+// Pages of the operator's view, in the order of the procedure; the address is `/operator/<name>`.
 import type { ReactNode } from "react";
 import { CameraPage } from "./camera/CameraPage";
 import { CasePage } from "./case/CasePage";
@@ -26,7 +26,7 @@ export type PageName =
 
 export interface OperatorPage {
   name: PageName;
-  /** The step of the procedure that it serves; null where it is no step. */
+  /** The page's step of the procedure; null if it has none. */
   step: Step["step"] | null;
   Page: () => ReactNode;
 }

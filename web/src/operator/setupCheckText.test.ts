@@ -25,17 +25,17 @@ const CHECK: SetupCheck = {
   remedies: [],
 };
 
-test("a registration that does not suffice says so with its figures", () => {
+test("an insufficient registration is stated with its values", () => {
   expect(setupSentence(CHECK, "left", setupCheckEn)).toBe(
     "L3 left, screw of 6.5 mm: error at the isthmus at least 1.20 mm (95 %), 0.50 mm to the wall. " +
-      "The set-up does not suffice: every image would be SET-UP INSUFFICIENT.",
+      "The set-up is not sufficient: every image would report SET-UP INSUFFICIENT.",
   );
 });
 
 test("the place is that of the larger error, and what suffices is not warned of", () => {
   const text = setupSentence({ ...CHECK, found: error(0.4, 0.3, 0.5) }, "left", setupCheckEn);
   expect(text).toContain("error at the entry at least 0.40 mm");
-  expect(text).toContain("The set-up suffices for this screw.");
+  expect(text).toContain("The set-up is sufficient for this screw.");
 });
 
 test("before a registration the sentence is an expectation", () => {
@@ -47,7 +47,7 @@ test("before a registration the sentence is an expectation", () => {
 test.each([
   [
     { kind: "more_landmarks", landmarks: 8, diameter_mm: null, expected: error(0.8, 0.9, 0.5) },
-    "8 landmarks, spread as these and none mistaken: 0.90 mm, not enough.",
+    "8 landmarks, spread like these, none mistaken: 0.90 mm, not enough.",
   ],
   [
     { kind: "thinner_screw", landmarks: null, diameter_mm: 5, expected: error(1.1, 1.2, 1.25) },
@@ -55,13 +55,13 @@ test.each([
   ],
   [
     { kind: "exact_tool", landmarks: null, diameter_mm: null, expected: error(0.2, 0.3, 0.5) },
-    "A tool with exact tip and axis: 0.30 mm, enough at best.",
+    "A tool with an exact tip and axis: 0.30 mm, enough at best.",
   ],
   [
     { kind: "surface_sweep", landmarks: null, diameter_mm: null, expected: null },
-    "A surface sweep: its error is known after it.",
+    "A surface sweep: the error is known only afterwards.",
   ],
-] as const)("a remedy has the figure that it would give", (remedy, text) => {
+] as const)("a remedy states the error that it would give", (remedy, text) => {
   expect(remedyText(remedy, setupCheckEn)).toBe(text);
   expect(remedyText(remedy, setupCheckDe)).not.toMatch(/[{}]/);
 });

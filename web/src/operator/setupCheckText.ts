@@ -1,4 +1,4 @@
-// The check of the planned screw in words: one sentence with its figures, and each remedy with the figure it would give.
+// Texts of the check of the planned screw: one sentence with its values, and each remedy with its result.
 import type { components } from "../schema";
 import { formatNumber } from "../live/rounding";
 import { interpolate } from "../texts/interpolate";

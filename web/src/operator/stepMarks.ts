@@ -1,6 +1,6 @@
 import type { Step } from "../app/procedure";
 
-/** A shape of its own for each state: the colour says nothing that the shape does not. */
+/** A symbol for each state: colour never carries information alone. */
 export const MARK_OF_STATE: Record<Step["state"], string> = {
   done: "✓",
   due: "↻",

@@ -1,4 +1,5 @@
 import { expect, test } from "vitest";
+import { en } from "../texts/en";
 import { operatorEn } from "../texts/operator/en";
 import { stateText, stepNote } from "./stepTexts";
 
@@ -7,7 +8,7 @@ test.each([
   ["navigate", "missing", "to do"],
   ["plan", "done", "done"],
   ["check", "due", "due again"],
-] as const)("%s that the server calls %s is told as %s", (step, state, expected) => {
+] as const)("%s that the server calls %s reads %s", (step, state, expected) => {
   expect(stateText({ step, state }, operatorEn)).toBe(expected);
 });
 
@@ -19,7 +20,7 @@ test.each([
   ["plan", "missing", 0, 3, false],
   ["register", "done", 0, 3, false],
 ] as const)("%s, %s, with %s of %s landmarks", (step, state, landmarks, minLandmarks, isShown) => {
-  const note = stepNote({ step, state, numbers: { landmarks } }, minLandmarks, operatorEn);
+  const note = stepNote({ step, state, numbers: { landmarks } }, minLandmarks, en);
   expect(note !== "").toBe(isShown);
   if (isShown) expect(note).toContain(`${String(landmarks)} landmarks`);
 });

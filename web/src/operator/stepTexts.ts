@@ -1,17 +1,18 @@
-// The state of a step, in words that are true of it: navigation that may begin has not been done.
+// Texts of a step's state. Navigation that may start is "ready", not "done".
+import type { Texts } from "../texts/catalogue";
 import type { OperatorTexts } from "../texts/operator/en";
-import { interpolate } from "../texts/interpolate";
+import { pluralize } from "../texts/pluralize";
 import type { Step } from "../app/procedure";
 
 export function stateText({ step, state }: Pick<Step, "step" | "state">, texts: OperatorTexts): string {
   return step === "navigate" && state === "done" ? texts.ready : texts.state[state];
 }
 
-/** What a step that holds still does not allow; empty where it allows all. */
+/** What a valid step does not allow; empty if it allows everything. */
 export function stepNote(
   { step, state, numbers }: Pick<Step, "step" | "state" | "numbers">,
   minLandmarks: number | null,
-  texts: OperatorTexts,
+  { operator: texts, language }: Pick<Texts, "operator" | "language">,
 ): string {
   const there = numbers["landmarks"];
   const isFew =
@@ -20,5 +21,5 @@ export function stepNote(
     typeof there === "number" &&
     minLandmarks !== null &&
     there < minLandmarks;
-  return isFew ? interpolate(texts.fewLandmarks, { there, min: minLandmarks }) : "";
+  return isFew ? pluralize(texts.fewLandmarks, there, language, { min: minLandmarks }) : "";
 }

@@ -1,7 +1,7 @@
-// The alarm band stays in sight while the page moves under it: everything else that stays must know how high it is.
+// Publishes the height of the fixed alarm band for other fixed and scrolled elements.
 import { useEffect, useRef, type RefObject } from "react";
 
-/** Keeps the height of what has this ref as `--band-height` of the whole page, however its lines are broken. */
+/** Keeps the height of the referenced element in `--band-height`. */
 export function useBandHeight<Band extends HTMLElement>(): RefObject<Band | null> {
   const band = useRef<Band>(null);
   useEffect(() => {

@@ -4,7 +4,7 @@ import { useTexts } from "../texts/TextsContext";
 import { textOf } from "../texts/text";
 import { noteOf, problemsOf } from "./problems";
 
-/** What is wrong, in the server's words: what happened, and what to do. Nothing wrong, no band. */
+/** Problems in the server's words, with their remedies; nothing without a problem. */
 export function AlertBand(): ReactNode {
   const texts = useTexts();
   const { view } = useLive();
@@ -15,7 +15,7 @@ export function AlertBand(): ReactNode {
       {problems.map(({ code, message, remedy }) => (
         <p className="alert" key={code} data-testid="alert">
           <span aria-hidden="true">▲▲</span>
-          {/* The server speaks English. */}
+          {/* Error messages of the server are English only. */}
           <strong lang="en">{message}.</strong>
           <span>
             {texts.alerts.remedy} <span lang="en">{remedy}</span> <code>{code}</code>

@@ -2,10 +2,10 @@ import { useEffect, useState, type ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import { useTexts } from "../texts/TextsContext";
 
-/** A state must last this long before it is read out: what flickers is not worth a voice. */
+/** A state is announced only after it has lasted this long, so that a flicker is not read out. */
 const LASTS_MS = 700;
 
-/** Beside a live picture: reads changes of its state out, never numbers. */
+/** Announces changes of state to screen readers, never numbers. */
 export function Announcer(): ReactNode {
   const texts = useTexts();
   const { video, numbers, firstMessage } = useLive().view;

@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { useTexts } from "../texts/TextsContext";
 
-/** Whose page this is, and that it is no medical device. */
+/** Product name, and the notice that it is not a medical device. */
 export function Brand(): ReactNode {
   const texts = useTexts();
   return (

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 
-/** `none` while a page is loading, which is nothing to be alarmed at. */
+/** `none` while a page is loading, which is no alarm. */
 export type Urgency = "medium" | "low" | "none";
 
 const MARKS: Record<Urgency, string> = { medium: "▲▲", low: "●", none: "◌" };
@@ -13,7 +13,7 @@ interface CoverProps {
   children?: ReactNode;
 }
 
-/** Big words over what is not live. It is opaque: nothing old shines through. */
+/** Large words over content that is not live. Opaque, so that nothing old shows through. */
 export function Cover({ urgency, title, state, sentence, children }: CoverProps): ReactNode {
   return (
     <div className="cover" data-urgency={urgency}>

@@ -11,7 +11,7 @@ import { searchTimeMs } from "./searchTime";
 
 const NONE = "—";
 
-/** Times and counts; what a server sent that is gone is not shown any more. */
+/** Times and counts; values of a lost server are removed. */
 export function DetailsPane(): ReactNode {
   const texts = useTexts();
   const { view, dashboard } = useLive();

@@ -10,7 +10,7 @@ interface FactProps {
   testid?: string;
 }
 
-/** A name with its value; a mood has a shape besides its colour. */
+/** A name with its value. A mood has a shape besides its colour. */
 export function Fact({ name, value, mood = "plain", testid }: FactProps): ReactNode {
   return (
     <div className="fact" data-mood={mood} data-testid={testid}>

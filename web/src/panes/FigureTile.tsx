@@ -18,7 +18,7 @@ const MARKS: Record<Status, string> = {
   outside: "",
 };
 
-/** One big number, its unit, and its limit under it. */
+/** One figure with its unit and limit. */
 export function FigureTile({ name }: { name: FigureName }): ReactNode {
   const texts = useTexts();
   return (
@@ -55,7 +55,7 @@ export function FigureTile({ name }: { name: FigureName }): ReactNode {
   );
 }
 
-/** Paints past React's state. */
+/** Paints without React. */
 export function paintFigure(
   pane: HTMLElement | null,
   name: FigureName,
@@ -82,7 +82,7 @@ function limitText({ limit, status }: FigureMessage, name: FigureName, texts: Te
   const amount = formatNumber(limit);
   if (name === "depth") return `${theatre.of} ${amount}`;
   const mark = MARKS[status];
-  // The wall's own limit is 0; this is the distance from which on it is near.
+  // The wall's limit is 0; this is the distance below which it is near.
   if (name === "wall") {
     if (status === "through") return `${mark}${theatre.through}`;
     return status === "over" ? `${mark}${theatre.near} ${amount}` : `${theatre.nearBelow} ${amount}`;
@@ -90,7 +90,7 @@ function limitText({ limit, status }: FigureMessage, name: FigureName, texts: Te
   return status === "over" ? `${mark}${theatre.over} ${amount}` : `${theatre.limit} ${amount}`;
 }
 
-/** Only what is not as it should be, or which wall is meant: everything else is known by heart. */
+/** Shows only deviations, or which wall is meant. */
 function hintOf(reading: Reading | null, name: FigureName, texts: Texts): string {
   if (reading === null) return "";
   const { assessment } = reading;

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 
-/** Drawn, because many fonts have no sign for them. Lines on a field of 24 by 24. */
+/** Icons are drawn, since many fonts lack these characters. Lines in a 24 by 24 box. */
 const LINES = {
   crosshair: "M12 2v6M12 16v6M2 12h6M16 12h6M18 12a6 6 0 1 1-12 0a6 6 0 0 1 12 0",
   enlarge: "M14 4h6v6M20 4l-7 7M10 20H4v-6M4 20l7-7",
@@ -16,7 +16,7 @@ const LINES = {
 
 export type IconName = keyof typeof LINES;
 
-/** A sign as large as the letters beside it; what it means is said by the button that it stands in. */
+/** An icon as large as the adjacent text. Decorative: its button carries the label. */
 export function Icon({ name }: { name: IconName }): ReactNode {
   return (
     <svg className="icon" viewBox="0 0 24 24" aria-hidden="true" focusable="false">

@@ -4,7 +4,7 @@ import { useTexts } from "../texts/TextsContext";
 import { Fact } from "./Fact";
 import { serverStateOf } from "./serverState";
 
-/** Whether there are numbers, a camera and a server: in words, on every view. */
+/** State of numbers, camera and server in words, on every view. */
 export function LiveStatus({ withTracking = false }: { withTracking?: boolean }): ReactNode {
   const texts = useTexts();
   const { view } = useLive();

@@ -4,7 +4,7 @@ import { FIGURES } from "./limits";
 
 const NOTHING_YET = "\u00a0";
 
-/** In the place of the numbers while the page is loading: as large as they are, without a value. */
+/** Placeholder for the numbers while the page is loading, of the same size. */
 export function LoadingNumbers(): ReactNode {
   const texts = useTexts();
   return (

@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { useTexts } from "../texts/TextsContext";
 
-/** In the place of a pane that states something of the live state, while the page is loading. */
+/** Placeholder for a live pane while the page is loading. */
 export function LoadingPane({ id, title }: { id: string; title: string }): ReactNode {
   const texts = useTexts().rest;
   return (

@@ -7,11 +7,11 @@ import type { Texts } from "../texts/en";
 import { useTexts } from "../texts/TextsContext";
 import { Pane } from "./Pane";
 
-/** Each marker with its score and target score, as in the paper's program. */
+/** Each marker with its score and target score, as in the paper. */
 export function MarkersPane(): ReactNode {
   const texts = useTexts();
   const { view } = useLive();
-  // Scores belong to an image as the numbers do: they go when the image is old.
+  // Scores belong to an image: they are removed when the image is too old.
   const stale = !view.numbers.live && view.numbers.cause !== "unread";
   const markers = view.newest?.snapshot?.markers ?? [];
   return (

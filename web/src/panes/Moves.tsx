@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import { useTexts } from "../texts/TextsContext";
 
-/** By what a move of patient or camera is noticed; nothing while that is not known. */
+/** How movements of patient or camera are detected; nothing while unknown. */
 export function Moves(): ReactNode {
   const texts = useTexts();
   const { view } = useLive();

@@ -7,12 +7,12 @@ import { FIGURES } from "./limits";
 import { NumbersState } from "./NumbersState";
 import { setData } from "./setText";
 
-/** The surgeon's numbers with their limits; removed, with words in their place, when they are not live. */
+/** The surgeon's numbers with their limits, replaced by words when they are not live. */
 export function NumbersPane(): ReactNode {
   const texts = useTexts();
   const pane = useRef<HTMLDivElement>(null);
 
-  // Painted first: the curves follow the figures.
+  // Painted before the curves, which follow the figures.
   usePainter(({ numbers }) => {
     setData(pane.current, "live", String(numbers.live));
     setData(pane.current, "cause", numbers.live ? "" : numbers.cause);

@@ -9,7 +9,7 @@ import { useTexts } from "../texts/TextsContext";
 import { setData, setText } from "./setText";
 import { errorText, lagText, riskText, TONE_SYMBOL } from "./verdictText";
 
-/** The headline of the image whose figures stand here, with what is behind it; or why there are none. */
+/** Headline and detail of the displayed figures, or why there are none. */
 export function NumbersState(): ReactNode {
   const texts = useTexts();
   const { view } = useLive();
@@ -33,7 +33,7 @@ export function NumbersState(): ReactNode {
   return (
     <div className="numbers-state">
       {view.numbers.live ? (
-        // Keys, because the painter writes into one of them, and the other must not inherit what it wrote.
+        // Keys keep React from reusing an element that the painter has written to.
         <p className="state-verdict" data-testid="verdict" key="verdict" ref={headline} />
       ) : (
         <p className="state-bad" data-testid="no-tracking" key="no-tracking">
@@ -49,7 +49,7 @@ export function NumbersState(): ReactNode {
   );
 }
 
-/** What the newest image says it lacks; a page that shows no image says that there are no figures. */
+/** The newest image's reason for missing figures, if the page displays no image's figures. */
 function noneTitle(numbers: NumbersVerdict, texts: Texts): string {
   if (numbers.live || numbers.unread === null) return texts.numbers.none;
   return textOf(numbers.unread.headline.title, texts);
@@ -64,7 +64,7 @@ function reasonTexts(numbers: NumbersVerdict, texts: Texts): string {
   return numbers.unread === null ? "" : textOf(numbers.unread.headline.detail, texts);
 }
 
-/** Alarms that are over and not acknowledged, or whose drill is not tracked: beside the headline, as in the video. */
+/** Unacknowledged alarms that are over or not observed, beside the headline as in the video. */
 function eventText(numbers: NumbersVerdict, texts: Texts): string {
   const headline = numbers.live ? numbers.reading.headline : numbers.unread?.headline;
   return headline === undefined ? "" : textOf(headline.event, texts);
@@ -75,7 +75,7 @@ function errorLine(numbers: NumbersVerdict, texts: Texts): string {
   const { tool, assessment, lagMs } = numbers.reading;
   const lag = lagText(assessment, texts);
   const line = `${tool} · ${errorText(assessment, texts)}${lag === "" ? "" : ` · ${lag}`}`;
-  // The age of the image does not hold this delay: it is said beside the numbers that have it.
+  // The image's age does not include this delay, so it is shown beside the affected numbers.
   return lagMs > 0 ? `${line} · ${texts.numbers.steadied} ${Math.max(Math.round(lagMs), 1)} ms` : line;
 }
 

@@ -8,7 +8,7 @@ interface PaneProps {
   children: ReactNode;
 }
 
-/** One part of the page with its name. */
+/** A section of the page with its title. */
 export function Pane({ id, title, aside, ref, children }: PaneProps): ReactNode {
   return (
     <section className={`pane pane-${id}`} id={id} aria-labelledby={`${id}-title`} ref={ref} tabIndex={-1}>

@@ -10,13 +10,13 @@ import { setSize, sendRate, sendView, VIEWS, type ViewName } from "./sceneFrame"
 import { setData, setText } from "./setText";
 import { hasWebGl } from "./webgl";
 
-/** A scene that says nothing for this long, while the server is there, is loaded anew. */
+/** A scene that sends nothing for this long, although the server answers, is reloaded. */
 const RELOAD_AFTER_MS = 15_000;
 
-/** After this many loads without an image the scene counts as missing, not as loading. */
+/** After this many loads without an image the scene counts as missing instead of loading. */
 const TRIES_WITHOUT_AN_IMAGE = 2;
 
-/** The 3-D scene in its frame, covered whenever what it has drawn is not live. */
+/** The 3-D scene in its frame, covered whenever its image is not live. */
 export function ScenePane({ tabs }: { tabs?: ReactNode }): ReactNode {
   const texts = useTexts();
   const { live, view } = useLive();
@@ -28,7 +28,7 @@ export function ScenePane({ tabs }: { tabs?: ReactNode }): ReactNode {
   const sentView = useRef<DrawingBudget | null>(null);
   const [attempt, setAttempt] = useState(0);
   const [chosen, setChosen] = useState<ViewName>("behind");
-  // Before the server has spoken there is no scene to load; a frame loaded then would show an error page.
+  // The frame is not loaded before the server has answered; it would show an error page.
   const known = view.newest !== null;
   const [wanted, setWanted] = useState(known);
   if (known && !wanted) setWanted(true);

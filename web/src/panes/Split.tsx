@@ -7,7 +7,7 @@ import { splitOf, type SplitPart } from "./splitText";
 
 const PARTS: readonly SplitPart[] = ["entry", "angle"];
 
-/** Which way the drill is off, in words: at its entry, and in its direction. */
+/** Directions of the drill's deviation at the entry and of its axis, in words. */
 export function Split({ ref }: { ref: Ref<HTMLDListElement> }): ReactNode {
   const texts = useTexts();
   return (

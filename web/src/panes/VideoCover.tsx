@@ -6,11 +6,11 @@ import { Cover } from "./Cover";
 
 interface VideoCoverProps {
   cause: Cause;
-  /** What the server says is wrong, where it says so. */
+  /** The problem that the server reports, if any. */
   problem?: ProblemMessage | undefined;
 }
 
-/** Over the picture while there is none: why, in big words; calm while the page is loading. */
+/** Covers the video while there is none, with the reason; plain while the page is loading. */
 export function VideoCover({ cause, problem }: VideoCoverProps): ReactNode {
   const texts = useTexts();
   const { state, sentence } = texts.cause[cause];

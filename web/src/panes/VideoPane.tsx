@@ -15,13 +15,13 @@ import { problemsOf } from "./problems";
 import { VideoCover } from "./VideoCover";
 
 interface VideoPaneProps {
-  /** Beside the title. */
+  /** Shown beside the title. */
   tools?: ReactNode;
-  /** Over the picture, under what covers it. */
+  /** Shown over the picture, below the cover. */
   over?: ReactNode;
 }
 
-/** The live video: a canvas that is painted directly, and cleared and covered when it is not live. */
+/** The live video: a canvas painted without React, cleared and covered when it is not live. */
 export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
   const texts = useTexts();
   const { live, view } = useLive();
@@ -31,7 +31,7 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
   const painted = useRef(false);
   const limiter = useRef(new PaintRateLimiter());
 
-  // Before the painters' first look, which then knows that this canvas is new.
+  // Before the painters' first update, which detects the new canvas.
   useLayoutEffect(() => {
     live.setDraw(async (jpeg, isCurrent, onDecoded) => {
       if (canvas.current === null) return false;
@@ -58,7 +58,7 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
 
   usePainter(({ nowMs, video }) => {
     setData(stage.current, "live", String(video.live));
-    // Also what was still being decoded when its time was over.
+    // Also drops a picture that was still being decoded.
     if (painted.current && !video.live && canvas.current) {
       clearBitmap(canvas.current);
       painted.current = false;

@@ -1,9 +1,9 @@
-// A canvas that shows finished bitmaps. Without a graphics card the browser copies every other canvas whenever any part of
-// the page changes; this one only when it has a new bitmap.
+// A canvas that shows finished bitmaps. Without a graphics card the browser copies other canvases whenever any part
+// of the page changes, but this one only for a new bitmap.
 
 let sketch: OffscreenCanvas | undefined;
 
-/** Shows the bitmap, which is used up by it. */
+/** Shows the bitmap and consumes it. */
 export function presentBitmap(canvas: HTMLCanvasElement, bitmap: ImageBitmap): void {
   if (canvas.width !== bitmap.width || canvas.height !== bitmap.height) {
     canvas.width = bitmap.width;
@@ -12,7 +12,7 @@ export function presentBitmap(canvas: HTMLCanvasElement, bitmap: ImageBitmap): v
   canvas.getContext("bitmaprenderer")?.transferFromImageBitmap(bitmap);
 }
 
-/** Draws in a bitmap of this size, and shows it. */
+/** Draws into a bitmap of this size and shows it. */
 export function paintBitmap(
   canvas: HTMLCanvasElement,
   width: number,
@@ -28,7 +28,7 @@ export function paintBitmap(
   presentBitmap(canvas, sketch.transferToImageBitmap());
 }
 
-/** Leaves nothing of the last bitmap. */
+/** Clears the canvas. */
 export function clearBitmap(canvas: HTMLCanvasElement): void {
   canvas.getContext("bitmaprenderer")?.transferFromImageBitmap(null);
 }

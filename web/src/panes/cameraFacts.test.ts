@@ -5,7 +5,7 @@ import { cameraFacts } from "./cameraFacts";
 const MODE = { fourcc: "MJPG", width_px: 1920, height_px: 1080, rate_hz: 30 };
 const CAMERA = { clock: "driver" as const, requested: MODE, granted: MODE, controls: {}, note: null };
 
-test("a camera says whose clock stamps its images, and what it granted", () => {
+test("a camera shows the clock of its images and its granted mode", () => {
   expect(cameraFacts(CAMERA, en)).toEqual([
     ["Image time from", "the camera's driver", "image-clock"],
     ["Camera mode", "1920 × 1080 px, MJPG, 30.0 Hz", "camera-mode"],
@@ -14,7 +14,7 @@ test("a camera says whose clock stamps its images, and what it granted", () => {
 
 test("what is not known of a stream is left out", () => {
   expect(cameraFacts({ ...CAMERA, clock: "arrival", granted: null }, en)).toEqual([
-    ["Image time from", "its arrival", "image-clock"],
+    ["Image time from", "arrival at the server", "image-clock"],
   ]);
   expect(cameraFacts({ ...CAMERA, granted: { ...MODE, fourcc: "", rate_hz: 0 } }, en)[1]).toEqual([
     "Camera mode",

@@ -2,7 +2,7 @@ import type { CameraModeMessage, CameraStatusMessage } from "../live/messages";
 import { formatNumber } from "../live/rounding";
 import type { Texts } from "../texts/catalogue";
 
-/** What a camera's driver granted, and whose clock stamps its images; nothing where there is no camera. */
+/** Mode granted by the camera's driver, and the clock of its images; empty without a camera. */
 export function cameraFacts(camera: CameraStatusMessage | null, texts: Texts): [string, string, string][] {
   if (camera === null) return [];
   const d = texts.details;

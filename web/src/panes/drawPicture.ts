@@ -1,7 +1,7 @@
-// From JPEG bytes to the canvas, past React.
+// From JPEG bytes to the canvas, without React.
 import { presentBitmap } from "./bitmapCanvas";
 
-/** Draws the picture, and reports when it is decoded; false when it is no picture, or its line has gone meanwhile. */
+/** Draws the picture and reports when it is decoded. False if it is invalid or its connection was lost meanwhile. */
 export async function drawPicture(
   canvas: HTMLCanvasElement,
   jpeg: Uint8Array<ArrayBuffer>,

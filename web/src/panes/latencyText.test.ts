@@ -30,17 +30,17 @@ const measured: Latency = {
   },
 };
 
-test("the latency stands in one line with its day", () => {
+test("the latency is shown in one line with its date", () => {
   expect(latencyText(measured, latencyEn)).toBe("84 ms median, 131 ms p99, measured 2026-11-24");
   expect(latencyText(measured, latencyDe)).toBe("84 ms Median, 131 ms p99, gemessen 2026-11-24");
 });
 
-test("what was not measured is said", () => {
+test("a missing measurement is stated", () => {
   expect(latencyText({ measuring: true, result: null, applies: false }, latencyEn)).toBe("not measured");
 });
 
 test("a latency of images of another size or rate is not stated", () => {
   expect(latencyText({ ...measured, applies: false }, latencyEn)).toBe(
-    "measured with 1280 × 720 px at 30 images/s, other than now: measure again",
+    "measured with 1280 × 720 px at 30 images/s, the setting is now different: measure again",
   );
 });

@@ -1,4 +1,4 @@
-// The measured latency in one line; that of other images is not stated.
+// The measured latency in one line; omitted if it was measured with other images.
 import { formatNumber } from "../live/rounding";
 import type { Latency } from "../rest/useLatency";
 import { interpolate } from "../texts/interpolate";
@@ -14,7 +14,7 @@ export function latencyText({ result, applies }: Latency, texts: LatencyTexts): 
   });
 }
 
-/** What it was measured with, where that is not what the camera gives now. */
+/** Size and rate of the measurement, if they differ from the current ones. */
 export function otherImagesText(result: NonNullable<Latency["result"]>, texts: LatencyTexts): string {
   return interpolate(texts.otherImages, {
     size: `${String(result.width_px)} × ${String(result.height_px)} px`,

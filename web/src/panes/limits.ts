@@ -1,5 +1,5 @@
-// The figures as the server assessed them: rounded, and compared with their limits after that. Nothing is
-// compared here, so that page, video, alarms and log cannot disagree.
+// The figures as the server assessed them: rounded, then compared with their limits. The page compares nothing, so
+// that page, video, alarms and log cannot disagree.
 import type { FigureMessage } from "../live/messages";
 import type { Reading } from "../live/reading";
 

@@ -6,7 +6,7 @@ const NOTE = { code: "LAMP_FLICKER", message: { en: "a", de: "b" }, remedy: { en
 const camera = { clock: "driver", requested: null, granted: null, controls: {}, note: NOTE };
 const viewOf = (source: unknown): View => ({ newest: source === null ? null : { source } }) as View;
 
-test("a camera's note is told while there is one", () => {
+test("a camera's note is shown while there is one", () => {
   expect(noteOf(viewOf({ camera }))).toEqual(NOTE);
   expect(noteOf(viewOf({ camera: { ...camera, note: null } }))).toBeNull();
   expect(noteOf(viewOf({ camera: null }))).toBeNull();

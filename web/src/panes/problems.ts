@@ -1,7 +1,7 @@
 import type { CameraNoteMessage, ProblemMessage } from "../live/messages";
 import type { View } from "../live/live";
 
-/** What the server says is wrong now: tracking first, then the camera. Nothing while the server is gone. */
+/** Current problems reported by the server: tracking first, then the camera. Empty while the server is lost. */
 export function problemsOf({ newest }: View): ProblemMessage[] {
   if (newest === null) return [];
   return [newest.process.problem, newest.source.problem]
@@ -9,12 +9,12 @@ export function problemsOf({ newest }: View): ProblemMessage[] {
     .map((problem) => ({ ...problem, message: capitalised(problem.message) }));
 }
 
-/** What is worth mending about the camera and stops nothing; null while nothing is. */
+/** A recommendation about the camera that blocks nothing; null if there is none. */
 export function noteOf({ newest }: View): CameraNoteMessage | null {
   return newest?.source.camera?.note ?? null;
 }
 
-/** The server's messages begin small and have no full stop, so that they stand in a sentence as well. */
+/** The server's messages start in lower case and have no full stop. */
 function capitalised(message: string): string {
   return message.charAt(0).toUpperCase() + message.slice(1);
 }

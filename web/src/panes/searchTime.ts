@@ -1,4 +1,4 @@
-// The paper's "search time per image": what the tracker spends on one image, without the server's stages.
+// The paper's "search time per image": the tracker's time for one image, without the server's stages.
 
 const NOT_SEARCH = new Set([
   "waiting",

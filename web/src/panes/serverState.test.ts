@@ -27,7 +27,7 @@ test.each(["connecting", "open", "lost"] as const)(
   },
 );
 
-test("once it was heard, a lost or silent server is gone, and nothing of it is told any more", async () => {
+test("after the first message, nothing of a lost or silent server is shown", async () => {
   const { live, clock } = page();
   live.setLink("open");
   await live.receive({ message: message(), jpeg: new Uint8Array() });

@@ -1,4 +1,4 @@
-// What may still be said of the server: nothing that it sent before it went.
+// Which server state may be shown: nothing that was received before the connection was lost.
 import { isOfNow } from "../live/assess";
 import type { LinkState } from "../live/viewConnection";
 import type { View } from "../live/live";
@@ -8,7 +8,7 @@ export interface ServerState {
   linkState: LinkState | "not-reached";
   source: LiveMessage["source"] | null;
   snapshot: LiveMessage["snapshot"];
-  /** The newest image is young enough for its figures: what is well is shown as well only then. */
+  /** Whether the newest image is young enough. Good states are shown as good only then. */
   isOfNow: boolean;
 }
 

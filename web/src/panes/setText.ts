@@ -1,4 +1,4 @@
-// Paints into the page only where something changed, so that a look that changes nothing costs nothing.
+// Writes to the DOM only on change, so that an update without a change costs nothing.
 
 export function setText(element: Element | null, text: string): void {
   if (element && element.textContent !== text) element.textContent = text;

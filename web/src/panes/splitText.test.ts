@@ -11,12 +11,12 @@ function reading(): Reading {
   return read;
 }
 
-test("each part says which way, from the patient's middle and to the head", () => {
+test("each component has its direction, medial-lateral and cranial-caudal", () => {
   expect(splitOf(reading(), "entry", en)).toEqual(["0.6 mm lateral", "0.8 mm cranial"]);
   expect(splitOf(reading(), "angle", en)).toEqual(["1.5° medial", "1.5° caudal"]);
 });
 
-test("what rounds to nothing goes no way, and what is not known says nothing", () => {
+test("components that round to zero have no direction, and unknown ones no text", () => {
   const base = reading();
   const deviation = { ...base.deviation, entry_lateral_mm: -0.04, entry_cranial_mm: null };
   expect(splitOf({ ...base, deviation }, "entry", en)).toEqual(["0.0 mm", ""]);

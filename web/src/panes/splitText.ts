@@ -1,4 +1,4 @@
-// The parts of offset and angle in the patient's directions, in words. Pure.
+// Components of offset and angle along the patient's directions, in words. Pure.
 import type { Reading } from "../live/reading";
 import { formatNumber } from "../live/rounding";
 import type { Texts } from "../texts/en";
@@ -21,7 +21,7 @@ export function splitOf({ deviation }: Reading, part: SplitPart, texts: Texts): 
   }
 }
 
-/** The size of a part with its direction in words; no direction where it rounds to nothing. */
+/** A component's size with its direction; no direction if it rounds to zero. */
 function signed(value: number | null, unit: string, positive: string, negative: string): string {
   if (value === null) return "";
   const size = formatNumber(Math.abs(value));

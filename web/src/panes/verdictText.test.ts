@@ -4,7 +4,7 @@ import { assessment, figure } from "../live/figureBuilders";
 import { en } from "../texts/en";
 import { errorText, lagText, riskText, TONE_SYMBOL, wallSide } from "./verdictText";
 
-test("every tone has a shape of its own", () => {
+test("every tone has its own symbol", () => {
   expect(new Set(Object.values(TONE_SYMBOL)).size).toBe(5);
 });
 
@@ -12,7 +12,7 @@ test("the risk of a breach is shown with its limit", () => {
   expect(riskText(assessment(), en)).toBe("Risk of breach: in 2 mm 3 %, screw at the end 4 % · limit 5 %");
 });
 
-test("without a pedicle there is no risk to show", () => {
+test("without a pedicle no risk is shown", () => {
   const none = figure(null, { limit: null, status: "unlimited" });
   expect(riskText(assessment({}, { risk: none, end: none }), en)).toBe("");
   expect(errorText(assessment({}, { error: none }), en)).toBe("95 % error unknown");
@@ -28,7 +28,7 @@ test("the nearest wall is named, and a drill outside has none", () => {
   expect(wallSide(outside, en)).toBe("outside");
 });
 
-test("what a moving tip lags by stands beside the error, and never in it", () => {
+test("the lag of a moving tip is shown beside the error, not added to it", () => {
   const lagging = (lag: AssessmentMessage["lag"]): string => lagText(assessment({ lag }), en);
   expect(lagging(null)).toBe("");
   expect(lagging({ speed_mm_s: 0, latency_ms: 95, margin_mm: 0 })).toBe("");
@@ -36,5 +36,5 @@ test("what a moving tip lags by stands beside the error, and never in it", () =>
   expect(lagging({ speed_mm_s: 40, latency_ms: 95, margin_mm: 3.8 })).toBe(
     "while moving +3.8 mm (40 mm/s × 95 ms)",
   );
-  expect(lagging({ speed_mm_s: 40, latency_ms: null, margin_mm: null })).toBe("moving, latency not known");
+  expect(lagging({ speed_mm_s: 40, latency_ms: null, margin_mm: null })).toBe("moving, latency unknown");
 });

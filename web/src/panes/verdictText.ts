@@ -1,9 +1,9 @@
-// What stands beside the headline, from the figures. Pure, so that it is tested without a page.
+// Texts beside the headline, computed from the figures. Pure.
 import type { AssessmentMessage, Tone } from "../live/messages";
 import { formatNumber } from "../live/rounding";
 import type { Texts } from "../texts/en";
 
-/** A shape of its own for each, as in the video: the colour says nothing that the shape does not. */
+/** A symbol for each tone, as in the video: colour never carries information alone. */
 export const TONE_SYMBOL: Record<Tone, string> = {
   good: "●",
   caution: "▲",
@@ -12,7 +12,7 @@ export const TONE_SYMBOL: Record<Tone, string> = {
   none: "○",
 };
 
-/** The probability of a breach, within 2 mm and by the screw at the end, with the limit of both. */
+/** Probability of a breach within 2 mm and by the screw at its end, with their limit. */
 export function riskText({ figures }: AssessmentMessage, texts: Texts): string {
   const { risk, end } = figures;
   const parts = [
@@ -23,7 +23,7 @@ export function riskText({ figures }: AssessmentMessage, texts: Texts): string {
   return `${texts.wall.risk}: ${parts.join(", ")} · ${texts.theatre.limit} ${formatNumber(risk.limit, 0)} %`;
 }
 
-/** The error of the whole chain, marker, registration and tool, and what the pedicle leaves. */
+/** Error of the whole chain (marker, registration, tool), and what the pedicle tolerates. */
 export function errorText({ figures }: AssessmentMessage, texts: Texts): string {
   const { value, limit } = figures.error;
   if (value === null) return texts.numbers.errorUnknown;
@@ -31,7 +31,7 @@ export function errorText({ figures }: AssessmentMessage, texts: Texts): string 
   return `${texts.numbers.error} ±${formatNumber(value, 2)} mm${of}`;
 }
 
-/** How far the shown tip may lag behind one that moves, to be added to the error; empty at rest. */
+/** How far a moving tip may lag behind, in addition to the error; empty at rest. */
 export function lagText({ lag }: AssessmentMessage, texts: Texts): string {
   const speedMmS = lag?.speed_mm_s ?? 0;
   if (lag === null || speedMmS === 0) return "";
@@ -40,7 +40,7 @@ export function lagText({ lag }: AssessmentMessage, texts: Texts): string {
   return `${texts.numbers.whileMoving} +${formatNumber(lag.margin_mm)} mm (${by})`;
 }
 
-/** Which wall is the nearest; that the drill is outside, where none is. */
+/** The nearest wall; outside the pedicle, that the drill is outside. */
 export function wallSide({ wall, figures }: AssessmentMessage, texts: Texts): string {
   if (wall !== null) return texts.wall.side[wall];
   return figures.wall.status === "outside" ? texts.wall.outside : "";

@@ -8,7 +8,7 @@ import { StreamFacts } from "./StreamFacts";
 import { StreamProblems } from "./StreamProblems";
 import { useCameraStream } from "./useCameraStream";
 
-/** This device as camera: its picture, one button, and what is sent and said. */
+/** This device as camera: preview, button and transfer state. */
 export function CameraPage(): ReactNode {
   const all = useTexts();
   const texts = all.phone;
@@ -56,7 +56,7 @@ export function CameraPage(): ReactNode {
           </ul>
         </details>
         <footer>
-          {/* Loaded anew: other pages may not ask for a camera. */}
+          {/* A full page load: only the camera page's document may request a camera. */}
           {session.state === "in" && session.who.role === "operator" && <a href="/">{texts.dashboard}</a>}
           <span className="notice">{all.notice}</span>
         </footer>

@@ -5,7 +5,7 @@ import { interpolate } from "../texts/interpolate";
 import { useTexts } from "../texts/TextsContext";
 import type { CameraStream } from "./useCameraStream";
 
-/** What is sent, and what the server says; what is not known yet has no line. */
+/** What is sent and what the server reports; unknown values are omitted. */
 export function StreamFacts({ sending }: { sending: CameraStream }): ReactNode {
   const all = useTexts();
   const texts = all.phone;

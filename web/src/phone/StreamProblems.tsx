@@ -6,7 +6,7 @@ import type { Problem } from "./messages";
 import type { NoCamera } from "./noCamera";
 import type { CameraStream } from "./useCameraStream";
 
-/** What is wrong and what to do: of this device in the page's words, of the server in its own. */
+/** Problems of this device in the page's words, and of the server in its own. */
 export function StreamProblems({
   sending,
   lacks,

@@ -1,4 +1,4 @@
-// What a camera is asked for, and what the browser says of it. Focus, zoom: W3C MediaStream Image Capture.
+// Camera constraints and settings. Focus and zoom: W3C MediaStream Image Capture.
 import type { CameraFacts, Focus, Welcome } from "./messages";
 
 interface Range {
@@ -31,7 +31,7 @@ export interface Constraints extends MediaTrackConstraints {
   advanced?: FocusConstraint[];
 }
 
-/** The camera at the back; a size of its sensor, not one that the browser scales or cuts. */
+/** The rear camera, at a native size of its sensor: not scaled or cropped by the browser. */
 export function requestedConstraints(welcome: Welcome): Constraints {
   return {
     facingMode: { ideal: "environment" },
@@ -43,8 +43,8 @@ export function requestedConstraints(welcome: Welcome): Constraints {
 }
 
 /**
- * The same with the focus locked: where it was at the calibration, else where it is; null where this browser
- * cannot, or where the settings leave it alone. Constraints replace each other, so all are given again.
+ * Constraints with the focus locked at its calibrated distance, else at its present one; null if this browser
+ * cannot, or the settings do not ask for it. Constraints replace each other, so all are given again.
  */
 export function withLockedFocus(
   welcome: Welcome,
@@ -61,7 +61,7 @@ export function withLockedFocus(
   return { ...requestedConstraints(welcome), advanced: [lock] };
 }
 
-/** What the server gets: the size as frames have it, the rest as the track's settings say. */
+/** What the server receives: the size of the frames, the rest from the track's settings. */
 export function factsOf(
   label: string,
   size: { width: number; height: number },

@@ -1,4 +1,4 @@
-// Joins the pure parts to the browser: camera, video frames, canvas, WebSocket, and the screen that stays on.
+// Connects the pure parts to the browser: camera, video frames, canvas, WebSocket, wake lock.
 import { socketAddress } from "../live/socketAddress";
 import { factsOf, requestedConstraints, withLockedFocus, type Capabilities } from "./camera";
 import { frameTime, type FrameTimes } from "./frameTime";
@@ -6,7 +6,7 @@ import type { CameraFacts, FrameTime, Note, Problem, Welcome } from "./messages"
 import { PhoneConnection, type PhoneSocket } from "./phoneConnection";
 import { keepScreenOn } from "./wakeLock";
 
-/** Automatic focus needs this long to find what suits the room; the server waits as long for other cameras. */
+/** Time for the automatic focus to settle; the server waits as long for other cameras. */
 const FOCUS_SETTLES_MS = 3000;
 const CHECK_EVERY_MS = 500;
 
@@ -22,12 +22,12 @@ export interface Listener {
   onSent(sent: SentImage): void;
   onNote(note: Note | null): void;
   onWakeLock(isLocked: boolean): void;
-  /** It is over: the server rejected it, or the browser gave no camera. */
+  /** The stream has ended: the server rejected it, or the browser gave no camera. */
   onRejected(problem: Problem): void;
   onNoCamera(error: unknown): void;
 }
 
-/** Sends this device's camera, shown in `video`, until the answer is called. */
+/** Sends this device's camera, previewed in `video`, until the returned function is called. */
 export function startCameraStream(video: HTMLVideoElement, listener: Listener): () => void {
   const stop = new AbortController();
   const { signal } = stop;
@@ -40,7 +40,7 @@ export function startCameraStream(video: HTMLVideoElement, listener: Listener): 
     nowMs: () => performance.now(),
     onWelcome: (welcome) => {
       listener.onWelcome(welcome);
-      // One camera for all lines: who comes back after a loss goes on with what runs.
+      // The camera outlives a connection, so a reconnect continues with it.
       if (track === null) void begin(welcome).catch(fail);
     },
     onNote: listener.onNote.bind(listener),
@@ -113,14 +113,14 @@ async function openCamera(video: HTMLVideoElement, welcome: Welcome): Promise<Me
 }
 
 async function lockFocus(track: MediaStreamTrack, welcome: Welcome, signal: AbortSignal): Promise<void> {
-  // Safari and Firefox have no capabilities of this kind, or none at all.
+  // Safari and Firefox do not report these capabilities, or any.
   const capabilities = "getCapabilities" in track ? (track.getCapabilities() as Capabilities) : {};
   const constraints = withLockedFocus(welcome, capabilities, track.getSettings());
   if (constraints === null || signal.aborted) return;
   try {
     await track.applyConstraints(constraints);
   } catch {
-    // What the camera then does is read from its settings, and sent.
+    // The resulting settings are read back and sent.
   }
 }
 
@@ -168,7 +168,7 @@ async function jpegOf(canvas: HTMLCanvasElement, quality: number): Promise<Array
 
 const KEY_NAME = "coaxial-camera";
 
-/** The same for as long as this page's tab lives, so that a reload finds its place again. */
+/** Persists for the lifetime of the tab, so that a reload keeps its identity. */
 function pageKey(): string {
   const known = sessionStorage.getItem(KEY_NAME);
   if (known !== null) return known;

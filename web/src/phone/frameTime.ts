@@ -1,18 +1,18 @@
-// When a video frame was captured, on the page's clock.
+// Capture time of a video frame, on the page's clock.
 import type { FrameTime } from "./messages";
 
-/** A camera that needs longer from capture to presentation has another clock: its time is not believed. */
+/** A larger delay from capture to presentation means another clock; the capture time is then ignored. */
 const MAX_PIPELINE_MS = 1000;
 
-/** The part of `VideoFrameCallbackMetadata` that says when. */
+/** The timing fields of `VideoFrameCallbackMetadata`. */
 export interface FrameTimes {
   presentationTime: number;
   captureTime?: number;
 }
 
 /**
- * The capture time where the browser gives a plausible one, else the time of presentation, which is later by
- * exposure and processing. The frame is drawn after its times were read, so it is never older than they say.
+ * Returns the capture time if it is plausible, else the presentation time, which is later by exposure and
+ * processing. The frame is drawn after its times were read, so it is never older than stated.
  */
 export function frameTime({ presentationTime, captureTime }: FrameTimes): FrameTime {
   const pipelineMs = captureTime === undefined ? NaN : presentationTime - captureTime;

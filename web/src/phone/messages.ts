@@ -1,4 +1,4 @@
-// What is said on `/ws/camera`, as `server/stream/phone/messages.py` has it.
+// Messages of `/ws/camera`; see `server/stream/phone/messages.py`.
 
 export interface Problem {
   code: string;

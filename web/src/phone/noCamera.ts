@@ -1,8 +1,8 @@
-// Why a browser gives no camera, as one of the reasons that the page has words for.
+// Maps the browser's reasons for having no camera to those that the page has texts for.
 
 export type NoCamera = "insecure" | "denied" | "none" | "busy" | "old" | "other";
 
-/** Null where this browser can send a camera. Without https it hides cameras from pages altogether. */
+/** Null if this browser can send a camera. Without https, browsers hide cameras. */
 export function unfit(isSecure: boolean, hasCameras: boolean, hasFrames: boolean): NoCamera | null {
   if (!isSecure) return "insecure";
   return hasCameras && hasFrames ? null : "old";

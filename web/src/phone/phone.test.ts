@@ -48,7 +48,7 @@ test.each([
   const settings = focusDistance === undefined ? {} : { focusDistance };
   const constraints = withLockedFocus({ ...WELCOME, ...request }, capabilities, settings);
   expect(constraints?.advanced?.[0] ?? null).toEqual(lock);
-  // Constraints replace each other: without its size the camera would go back to its own.
+  // Constraints replace each other: without its size the camera would return to its default.
   if (constraints !== null) expect(constraints.width).toEqual({ ideal: 1920 });
 });
 
@@ -62,7 +62,7 @@ test.each([
   expect(factsOf("", SIZE, focusMode === undefined ? {} : { focusMode }).focus).toBe(focus);
 });
 
-test("what the browser does not say is not made up, and numbers are the server's", () => {
+test("unknown settings are not invented, and units are the server's", () => {
   expect(factsOf("x".repeat(300), SIZE, {})).toEqual({
     label: "x".repeat(120),
     width_px: 1920,
@@ -94,7 +94,7 @@ test.each([
   ["NotFoundError", "none"],
   ["NotReadableError", "busy"],
   ["TypeError", "other"],
-])("%s is told as %s", (name, expected) => {
+])("%s is reported as %s", (name, expected) => {
   expect(noCameraOf(Object.assign(new Error(), { name }))).toBe(expected);
 });
 

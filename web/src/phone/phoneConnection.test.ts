@@ -67,7 +67,7 @@ const newest = (): FakeSocket => {
   if (!socket) throw new Error("no socket was opened");
   return socket;
 };
-/** Lets the wait before the next attempt pass, but not the patience with one. */
+/** Advances past the wait before the next attempt, but not past the timeout of an attempt. */
 const tryAgain = (): void => {
   const due = waits.filter(({ waitMs }) => waitMs <= LONGEST_WAIT_MS);
   waits = [];
@@ -99,7 +99,7 @@ beforeEach(() => {
   connection.start();
 });
 
-test("says who it is, answers a ping at once with its clock, and waits for credit", () => {
+test("identifies itself, answers a ping at once with its clock, and waits for credit", () => {
   const socket = open();
   connection.describe(FACTS);
   expect(connection.isFree).toBe(false);
@@ -163,7 +163,7 @@ test("an image of before a loss is not sent on the new line without credit", () 
   expect(connection.send(new ArrayBuffer(1), TIME)).toBe(false);
 });
 
-test("a refusal is told, and not tried again", () => {
+test("a rejection is reported and not retried", () => {
   newest().onopen?.();
   newest().hear({ rejected: { code: "PHONE_TAKEN", message: "", remedy: "" } });
   tryAgain();
@@ -172,7 +172,7 @@ test("a refusal is told, and not tried again", () => {
   expect(newest().closed).toBe(true);
 });
 
-test("a server that falls silent, or says what nobody understands, is left for a new line", () => {
+test("a silent server or an invalid message leads to a reconnect", () => {
   const socket = open();
   nowMs += QUIET_MS;
   connection.checkTimeout();

@@ -1,4 +1,4 @@
-// The line to `/ws/camera`: answers pings, counts credit, sends an image in parts. `reconnectingSocket.ts` keeps it.
+// The connection to `/ws/camera`: answers pings, counts credit, sends an image in parts. Reconnects.
 import { ReconnectingSocket, type WebSocketLike } from "../live/reconnectingSocket";
 import type { CameraFacts, FrameTime, Note, ServerMessage, Problem, Welcome } from "./messages";
 
@@ -13,12 +13,12 @@ export interface PhoneConnectionOptions {
   nowMs(): number;
   onWelcome(welcome: Welcome): void;
   onNote(note: Note): void;
-  /** The server does not take this device's images; the line is given up. */
+  /** The server rejects this device's images; the connection is not retried. */
   onRejected(problem: Problem): void;
   onLost(): void;
 }
 
-/** The server speaks twice a second. */
+/** The server sends a message twice a second. */
 export const QUIET_MS = 2500;
 
 export class PhoneConnection {
@@ -61,14 +61,14 @@ export class PhoneConnection {
     this.forget();
   }
 
-  /** What the browser granted, said again on each new line. */
+  /** Settings granted by the browser, sent again on each connection. */
   describe(facts: CameraFacts): void {
     const changed = JSON.stringify(facts) !== JSON.stringify(this.facts);
     this.facts = facts;
     if (changed && this.welcome !== null) this.sendMessage({ camera: facts });
   }
 
-  /** Whether an image may be taken for sending: granted, and none of the last one waits on this device. */
+  /** Whether an image may be captured: credit is available and the previous image has left this device. */
   get isFree(): boolean {
     const socket = this.socket.openSocket;
     return (
@@ -80,7 +80,7 @@ export class PhoneConnection {
     );
   }
 
-  /** Whether it went: between the frame and its JPEG the line may have been lost. */
+  /** False if the connection was lost between the frame and its JPEG. */
   send(jpeg: ArrayBuffer, time: FrameTime): boolean {
     const socket = this.socket.openSocket;
     if (socket === null || this.welcome === null || this.sent >= this.credit) return false;
@@ -92,7 +92,7 @@ export class PhoneConnection {
     return true;
   }
 
-  /** To be called now and then: a server that fell silent is left for a new line. */
+  /** Call periodically: reconnects if the server is silent. */
   checkTimeout(): void {
     if (this.socket.openSocket !== null && this.options.nowMs() - this.lastReceivedAtMs > QUIET_MS)
       this.socket.reconnect();
@@ -108,7 +108,7 @@ export class PhoneConnection {
     this.lastReceivedAtMs = nowMs;
     this.socket.markReceived();
     if ("note" in message) {
-      // At once: each moment spent here would count as a difference of the clocks.
+      // Answered at once: any delay here would count as clock offset.
       this.sendMessage({ pong: { ping: message.note.ping, at_ms: nowMs } });
       this.credit = message.note.credit;
       this.options.onNote(message.note);

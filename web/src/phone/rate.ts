@@ -1,4 +1,4 @@
-// How many images a second go out now. None for a while is none a second, and not the rate of before.
+// Images per second being sent. After a pause it is 0, not the previous rate.
 
 const WINDOW_MS = 2000;
 

@@ -1,4 +1,4 @@
-// What the page shows of its sending; started and stopped by touch, and stopped with the page.
+// State of the stream for the page. Started and stopped by touch, and stopped on unmount.
 import { useCallback, useEffect, useRef, useState, type RefObject } from "react";
 import type { CameraFacts, FrameTime, Note, Problem, Welcome } from "./messages";
 import { noCameraOf, type NoCamera } from "./noCamera";
@@ -65,7 +65,7 @@ export function useCameraStream(video: RefObject<HTMLVideoElement | null>): {
         change({ state: "sending", last: { bytes, clock, rateHz: rate.hz(performance.now()) } });
       },
       onNote: (note) => {
-        // What went out before is not what goes out now.
+        // The rate of a previous stream does not apply.
         const isSilent = rate.hz(performance.now()) === 0;
         setSending((before) => ({
           ...before,

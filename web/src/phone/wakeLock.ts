@@ -1,6 +1,6 @@
-// Keeps the screen on: a page that is not seen gets no frames.
+// Keeps the screen on: a hidden page gets no frames.
 
-/** Asked for now, and again whenever the page is seen again; tells whether it was granted. */
+/** Requests the lock now and whenever the page becomes visible again; reports whether it was granted. */
 export function keepScreenOn(signal: AbortSignal, onChange: (isLocked: boolean) => void): void {
   if (!("wakeLock" in navigator)) {
     onChange(false);
@@ -14,7 +14,7 @@ export function keepScreenOn(signal: AbortSignal, onChange: (isLocked: boolean) 
     if (document.visibilityState !== "visible") return;
     const lock = await navigator.wakeLock.request("screen").catch(() => null);
     if (lock !== null) locks.push(lock);
-    // It may have been stopped while this was asked for.
+    // It may have been stopped while the request was pending.
     if (signal.aborted) release();
     else onChange(lock !== null);
   };

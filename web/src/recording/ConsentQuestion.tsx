@@ -9,11 +9,11 @@ import { isConsentPromptDue } from "./consent";
 
 interface ConsentAnswersProps {
   caseId: string;
-  /** Called when the answer is stored. */
+  /** Called after the answer was stored. */
   onAnswer: (isGiven: boolean) => void;
 }
 
-/** The two answers, stored in the case under the name of who touches them. */
+/** The two answers, stored in the case under the user's name. */
 export function ConsentAnswers({ caseId, onAnswer }: ConsentAnswersProps): ReactNode {
   const texts = useTexts().recording.consent;
   const doing = useAction();
@@ -45,7 +45,7 @@ export function ConsentAnswers({ caseId, onAnswer }: ConsentAnswersProps): React
   );
 }
 
-/** Where recordings begin with navigation: the question before the first one. Nothing once it is answered. */
+/** If recording begins with navigation: asks before the first recording. Nothing once it is answered. */
 export function ConsentQuestion(): ReactNode {
   const texts = useTexts().recording.consent;
   const { data, refetch } = useProcedure();

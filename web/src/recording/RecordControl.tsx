@@ -9,7 +9,7 @@ import { isConsented } from "./consent";
 import { ConsentAnswers } from "./ConsentQuestion";
 import { RecordingState } from "./RecordingState";
 
-/** The state of the recording, and the one button that starts and stops it; without consent it asks first. */
+/** State of the recording and its start/stop button; asks for consent first if needed. */
 export function RecordControl(): ReactNode {
   const texts = useTexts().recording;
   const { data, refetch } = useProcedure();
@@ -61,10 +61,10 @@ export function RecordControl(): ReactNode {
           title={<strong className="consent-title">{texts.consent.title}</strong>}
           size="lg"
           withCloseButton={false}
-          // At the lower border, below alarm, verdict and figures.
+          // At the lower edge, below alarm, headline and figures.
           classNames={{ inner: "consent-place", content: "consent-card" }}
           transitionProps={{ duration: 0 }}
-          // An alarm stays bright, and can be acknowledged, while the question is open.
+          // No dimming: alarms stay bright and can be acknowledged while the question is open.
           withOverlay={false}
           trapFocus={false}
           lockScroll={false}

@@ -5,9 +5,9 @@ import { detailsLine, recordingText, type RecordingText } from "./recordingText"
 
 const SYMBOL: Record<RecordingText["state"], string> = { on: "●", off: "○", stopped: "▲" };
 
-/** Whether images and figures are being recorded, in a sign and in words; nothing where the server records nothing. */
+/** Whether images and figures are being recorded; nothing if the server does not record. */
 export function RecordingState({ testId = "recording-state" }: { testId?: string }): ReactNode {
-  const texts = useTexts().recording;
+  const { recording: texts, language } = useTexts();
   const { data, rejection } = useProcedure();
   if (data === null) {
     return rejection === null ? null : (
@@ -17,7 +17,7 @@ export function RecordingState({ testId = "recording-state" }: { testId?: string
     );
   }
   if (data.recording === null) return null;
-  const text = recordingText(data.recording, texts);
+  const text = recordingText(data.recording, texts, language);
   const { state, title, warnings, serverReason } = text;
   const all = detailsLine(text);
   return (

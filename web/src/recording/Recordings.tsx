@@ -16,15 +16,15 @@ import { Review } from "./review/Review";
 
 type Stored = components["schemas"]["RecordingMessage"];
 
-/** The recordings of the open case and the review of one; who may change them protects and deletes. */
+/** Recordings of the open case and the review of one. Users with the right may protect and delete them. */
 export function Recordings({ mayChange }: { mayChange: boolean }): ReactNode {
   const texts = useTexts();
   const own = texts.recording.list;
   const { data: procedure } = useProcedure();
   const caseId = procedure?.case_id ?? null;
-  // A recording that begins or ends changes the list.
+  // The list changes when a recording begins or ends.
   const running = procedure?.recording?.name ?? "";
-  // Its file is in the list only after its first bytes.
+  // The list contains a recording only after its first bytes are written.
   const isWritten = (procedure?.recording?.size_bytes ?? 0) > 0;
   const query = useQuery(
     async (signal) =>

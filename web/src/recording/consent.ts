@@ -1,4 +1,4 @@
-// Whether the patient consented to being recorded, and whom the page asks. Pure.
+// Consent to recording, and whom the page asks for it. Pure.
 import type { components } from "../schema";
 import type { Recording } from "./recordingText";
 
@@ -9,7 +9,7 @@ export function isConsented(consent: Consent): boolean {
   return consent.state === "given" || consent.state === "not_required";
 }
 
-/** Whether the page asks by itself: a recording would begin with navigation, and nobody has answered yet. */
+/** Whether the page asks unprompted: recording would begin with navigation and consent is unanswered. */
 export function isConsentPromptDue(recording: Recording): boolean {
   return recording.when === "navigating" && recording.consent.state === "not_answered";
 }

@@ -11,13 +11,13 @@ import {
 } from "./recordingText";
 
 const textOf = (changes: Partial<Recording>): ReturnType<typeof recordingText> =>
-  recordingText(recording(changes), recordingEn);
+  recordingText(recording(changes), recordingEn, "en");
 
-test("a recording says how long, how large, and how long the disk lasts", () => {
+test("a recording shows its duration, size and remaining time", () => {
   expect(textOf({})).toEqual({
     state: "on",
     title: "REC 12:34",
-    details: ["1.2 GB", "disk lasts 3 h"],
+    details: ["1.2 GB", "disk space for 3 h"],
     warnings: [],
     serverReason: "",
   });
@@ -27,14 +27,16 @@ test("a recording says how long, how large, and how long the disk lasts", () => 
 test("missing images and a disk that is nearly full are warnings", () => {
   const { details, warnings } = textOf({ missing_images: 12, remaining_s: 599 });
   expect(details).toEqual(["1.2 GB"]);
-  expect(warnings).toEqual(["disk lasts 9 min", "12 images missing"]);
+  expect(warnings).toEqual(["disk space for 9 min", "12 images missing"]);
 });
 
-test("warnings stand before what a narrow header may cut off", () => {
-  expect(detailsLine(textOf({ missing_images: 12 }))).toBe("▲ 12 images missing · 1.2 GB · disk lasts 3 h");
+test("warnings precede what a narrow header may truncate", () => {
+  expect(detailsLine(textOf({ missing_images: 12 }))).toBe(
+    "▲ 12 images missing · 1.2 GB · disk space for 3 h",
+  );
 });
 
-test("a recording that ended by itself says why, in the page's words where it has some", () => {
+test("an interrupted recording shows the reason, in the page's words if it has them", () => {
   const problem = { code: "RECORDING_DISK_FULL", message: "0.10 GB are free", remedy: "", context: {} };
   const ended = { is_recording: false, name: null, problem };
   expect(textOf(ended)).toMatchObject({ state: "stopped", details: ["the disk is full"], serverReason: "" });

@@ -1,7 +1,8 @@
-// What is said of the recording that runs, or of the last one. Pure.
+// Texts of the current or last recording. Pure.
 import { formatBytes } from "../operator/parts/format";
 import type { components } from "../schema";
 import { interpolate } from "../texts/interpolate";
+import { pluralize } from "../texts/pluralize";
 import type { RecordingTexts } from "../texts/recording/en";
 
 export type Recording = components["schemas"]["RecordingStateMessage"];
@@ -10,16 +11,16 @@ export interface RecordingText {
   state: "on" | "off" | "stopped";
   title: string;
   details: string[];
-  /** What is not as it should be: images that are missing, a disk that is nearly full. */
+  /** Warnings: missing images, a disk that is nearly full. */
   warnings: string[];
-  /** The server's English where this page has no words for the reason; empty otherwise. */
+  /** The server's English reason if the page has no text for it; otherwise empty. */
   serverReason: string;
 }
 
-/** A disk that lasts no longer than this is a warning. */
+/** Remaining time below which disk space is a warning. */
 const MIN_REMAINING_S = 600;
 
-export function recordingText(recording: Recording, texts: RecordingTexts): RecordingText {
+export function recordingText(recording: Recording, texts: RecordingTexts, language: string): RecordingText {
   const { problem } = recording;
   if (!recording.is_recording) {
     if (problem === null) {
@@ -43,13 +44,13 @@ export function recordingText(recording: Recording, texts: RecordingTexts): Reco
     details: [formatBytes(recording.size_bytes), isNearlyFull ? "" : lasts].filter((one) => one !== ""),
     warnings: [
       isNearlyFull ? lasts : "",
-      missing_images > 0 ? interpolate(texts.missing, { count: missing_images }) : "",
+      missing_images > 0 ? pluralize(texts.missing, missing_images, language) : "",
     ].filter((one) => one !== ""),
     serverReason: "",
   };
 }
 
-/** Warnings first: a narrow header cuts off the end. */
+/** Warnings first, since a narrow header truncates the end. */
 export const detailsLine = ({ details, warnings }: RecordingText): string =>
   [...warnings.map((one) => `▲ ${one}`), ...details].join(" · ");
 
@@ -61,7 +62,7 @@ export function clockDuration(seconds: number): string {
   return h > 0 ? `${h}:${two(min)}:${two(s)}` : `${min}:${two(s)}`;
 }
 
-/** Rounded down to one unit, so that nobody counts on more than there is. */
+/** Rounded down to one unit, so that the remaining time is never overstated. */
 export function roughDuration(seconds: number): string {
   if (seconds < 60) return "< 1 min";
   if (seconds < 3600) return `${Math.floor(seconds / 60)} min`;
@@ -69,9 +70,9 @@ export function roughDuration(seconds: number): string {
   return hours < 100 ? `${hours} h` : "> 100 h";
 }
 
-/** The same with tenths of a second: "0:12.3". */
+/** With tenths of a second: "0:12.3". */
 export function clockTenths(seconds: number): string {
-  // Times of images come with rounding errors of a microsecond.
+  // Image times have rounding errors of a microsecond.
   const tenths = Math.floor(10 * seconds + 1e-4);
   return `${clockDuration(Math.floor(tenths / 10))}.${tenths % 10}`;
 }

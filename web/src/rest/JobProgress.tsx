@@ -5,7 +5,7 @@ import { Rejection } from "./client";
 import { RejectionNote } from "./RejectionNote";
 import { isOver, type JobFollowed } from "./useJob";
 
-/** How far long work is, with a way to stop it; why it failed, if it did. */
+/** Progress of a job with a cancel button, or the reason of its failure. */
 export function JobProgress({ followed }: { followed: JobFollowed }): ReactNode {
   const texts = useTexts().rest;
   const { job, cancel } = followed;

@@ -6,7 +6,7 @@ import type { QueryState } from "./useQuery";
 
 interface QueryStatusProps {
   query: Pick<QueryState<unknown>, "rejection" | "refetch">;
-  /** How a rejection is shown. */
+  /** Renders a rejection. */
   Note?: typeof RejectionNote;
 }
 

@@ -3,7 +3,7 @@ import type { ReactNode } from "react";
 import { useTexts } from "../texts/TextsContext";
 import type { Rejection } from "./client";
 
-/** What was rejected, why, and what to do; nothing where nothing was. */
+/** Shows a rejection with its remedy; renders nothing without one. */
 export function RejectionNote({ rejection }: { rejection: Rejection | null }): ReactNode {
   const texts = useTexts();
   if (rejection === null) return null;
@@ -15,7 +15,7 @@ export function RejectionNote({ rejection }: { rejection: Rejection | null }): R
       role="alert"
       title={silent ? texts.rest.noAnswer : <span lang="en">{sentence(message)}</span>}
     >
-      {/* The server speaks English, and is read out in English. */}
+      {/* Error messages of the server are English only. */}
       {silent ? texts.rest.noAnswerRemedy : <span lang="en">{remedy}</span>} <code>{code}</code>
     </Alert>
   );

@@ -1,4 +1,4 @@
-// Asks the server, with the types of its schema; a rejection keeps its sentence, its numbers and its remedy.
+// Typed client of the server's API. A rejection keeps the server's message, context and remedy.
 import createClient from "openapi-fetch";
 import type { components, paths } from "../schema";
 
@@ -18,7 +18,7 @@ server.use({
   },
 });
 
-/** Called when the server says that nobody is signed in here, or no longer; the answer ends that. */
+/** Called when the server answers that the session is missing or has ended; its answer ends the session. */
 export function onSessionGone(listener: () => void): () => void {
   gone.addEventListener(GONE, listener);
   return () => {
@@ -26,7 +26,7 @@ export function onSessionGone(listener: () => void): () => void {
   };
 }
 
-/** The server said no, or did not answer (`NO_ANSWER`). */
+/** The server rejected the request or did not answer (`NO_ANSWER`). */
 export class Rejection extends Error {
   constructor(readonly problem: Problem) {
     super(problem.message);
@@ -46,7 +46,7 @@ interface Answer<Data> {
 }
 
 /**
- * What the server answers: `await answered(server.GET("/api/cases"))`.
+ * Returns the body of an answer: `await answered(server.GET("/api/cases"))`.
  *
  * @throws Rejection
  */
@@ -55,7 +55,7 @@ export async function answered<Data>(request: Promise<Answer<Data>>): Promise<Da
 }
 
 /**
- * The same, with the response for its status and headers.
+ * Returns the body with the response, for its status and headers.
  *
  * @throws Rejection
  */

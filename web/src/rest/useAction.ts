@@ -1,11 +1,11 @@
-// A user action: one at a time; its rejection is stored until the next attempt.
+// A user action. Only one runs at a time; its rejection is kept until the next attempt.
 import { useCallback, useRef, useState } from "react";
 import { Rejection } from "./client";
 
 export interface Action {
   busy: boolean;
   rejection: Rejection | null;
-  /** Runs it; true when it was done. A second call while one runs does nothing. */
+  /** Runs the action; resolves to true on success. Ignored while one is running. */
   run: (action: () => Promise<void>) => Promise<boolean>;
   forget: () => void;
 }

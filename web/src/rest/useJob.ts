@@ -1,4 +1,4 @@
-// Long work: asked after until it is over, however often the line is lost meanwhile.
+// Polls a job until it ends, also across lost connections.
 import { useCallback, useEffect, useEffectEvent, useState } from "react";
 import type { components } from "../schema";
 import { answered, Rejection, server } from "./client";
@@ -12,13 +12,13 @@ export const isOver = (job: Job): boolean => OVER.has(job.state);
 
 export interface JobFollowed {
   job: Job | null;
-  /** Follow this one from now on. */
+  /** Follow this job from now on. */
   follow: (job: Job) => void;
   cancel: () => void;
   forget: () => void;
 }
 
-/** `onOver` is called once with the job as it ended. */
+/** `onOver` is called once, with the ended job. */
 export function useJob(onOver: (job: Job) => void): JobFollowed {
   const [job, setJob] = useState<Job | null>(null);
   const onEnd = useEffectEvent(onOver);
@@ -37,7 +37,7 @@ export function useJob(onOver: (job: Job) => void): JobFollowed {
           onEnd(now);
         })
         .catch((error: unknown) => {
-          // A server that restarted remembers no jobs; one that does not answer may come back.
+          // A restarted server does not know the job any more; a server that does not answer may return.
           if (error instanceof Rejection && error.problem.code !== "NO_ANSWER" && !stopped) setJob(null);
         });
     }, ASK_EVERY_MS);

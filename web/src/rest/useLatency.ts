@@ -1,11 +1,11 @@
-// The latency from light to page, as it was measured last with the camera of now.
+// The last measured latency from light to page of the current camera.
 import type { components } from "../schema";
 import { answered, server } from "./client";
 import { useQuery, type QueryState } from "./useQuery";
 
 export type Latency = components["schemas"]["LatencyMessage"];
 
-/** On a screen that is only looked at: it is measured before the theatre, by somebody else. */
+/** On a screen that only displays: the latency is measured elsewhere, before the operation. */
 const ASK_EVERY_MS = 60_000;
 
 export function useLatency(): QueryState<Latency> {

@@ -1,8 +1,8 @@
-// A server query whose result a component shows: fetched at once, and again with `refetch()`.
+// A server query for a component: fetched on mount, and again with `refetch()`.
 import { useCallback, useEffect, useEffectEvent, useState } from "react";
 import { Rejection } from "./client";
 
-/** With neither `data` nor `rejection` nothing is known yet: `QueryStatus.tsx` stands in its place, never "none". */
+/** Without `data` and `rejection` nothing is known yet: show `QueryStatus.tsx`, never "none". */
 export interface QueryState<Data> {
   data: Data | null;
   rejection: Rejection | null;
@@ -13,7 +13,7 @@ export interface QueryState<Data> {
 type Known<Data> = Omit<QueryState<Data>, "refetch">;
 const NOTHING: Known<never> = { data: null, rejection: null, isLoading: true };
 
-/** `ask` is called when `key` changes, with `again()`, and every `everyMs` where that is given. */
+/** Calls `ask` when `key` changes, on `again()`, and every `everyMs` if given. */
 export function useQuery<Data>(
   fetchData: (signal: AbortSignal) => Promise<Data>,
   { key = "", everyMs = 0 }: { key?: string; everyMs?: number } = {},
@@ -30,7 +30,7 @@ export function useQuery<Data>(
         if (!stop.signal.aborted) setState({ key, data, rejection: null, isLoading: false });
       } catch (error) {
         if (stop.signal.aborted) return;
-        // What was known stands no more beside a rejection: old must not look like now.
+        // A rejection clears the data: old data must not look current.
         if (error instanceof Rejection) setState({ key, data: null, rejection: error, isLoading: false });
         else throw error;
       }
@@ -47,7 +47,7 @@ export function useQuery<Data>(
   const refetch = useCallback(() => {
     setRound((before) => before + 1);
   }, []);
-  // The answer to another question is none to this one.
+  // An answer to the previous key is ignored.
   const { data, rejection, isLoading } = state.key === key ? state : NOTHING;
   return { data, rejection, isLoading, refetch };
 }

@@ -1,4 +1,4 @@
-// What is rehearsed; asked only where the camera is the theatre in software.
+// State of the rehearsal; requested only if the source is the simulated theatre.
 import { useLive } from "../live/LiveContext";
 import type { components } from "../schema";
 import { answered, server } from "./client";
@@ -8,11 +8,11 @@ export type Rehearsed = components["schemas"]["RehearsalMessage"];
 
 interface Wish {
   everyMs?: number;
-  /** With what is true, for helping through a rehearsal. */
+  /** Also requests the ground truth, to guide through a rehearsal. */
   truth?: boolean;
 }
 
-/** Without data where a real camera looks: there is nothing to play, and nothing to ask for. */
+/** No data with a real camera: there is nothing to request. */
 export function useRehearsal({ everyMs = 0, truth = false }: Wish = {}): QueryState<Rehearsed | null> {
   const isRehearsal = useLive().view.newest?.source.name === "rehearsal";
   return useQuery<Rehearsed | null>(

@@ -1,4 +1,4 @@
-// The room for everything on this page; outside it (in a test, before a session) there is nobody.
+// Provides the room to the page. Without a provider (in a test, before a session) the room is empty.
 import { createContext, use, useEffect, useMemo, useSyncExternalStore, type ReactNode } from "react";
 import type { ViewName } from "../app/views";
 import { Room, type RoomSnapshot } from "./room";
@@ -22,12 +22,12 @@ export function RoomProvider({ view, children }: { view: ViewName; children: Rea
   return <RoomContext value={room}>{children}</RoomContext>;
 }
 
-/** The room itself, for what is painted and said. */
+/** The room store, for canvases that paint without React. */
 export function useRoom(): Room | null {
   return use(RoomContext);
 }
 
-/** Who is here, who asks to hold, what is signed. */
+/** Who is present, who asks to hold, and what is signed. */
 export function useRoomSnapshot(): RoomSnapshot {
   const room = use(RoomContext);
   return useSyncExternalStore(room?.onSnapshot ?? never, room?.snapshot ?? alone);

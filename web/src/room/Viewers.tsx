@@ -5,7 +5,7 @@ import { useRoomSnapshot } from "./RoomContext";
 
 const SYMBOL: Record<ConnectionState, string> = { good: "●", slow: "◐", silent: "▲" };
 
-/** Who is watching: how many, who, in which role, and how their line does. */
+/** The viewers: number, names, roles and connection quality. */
 export function Viewers(): ReactNode {
   const { room: texts, rest } = useTexts();
   const { isConnected, firstMessage, people } = useRoomSnapshot();

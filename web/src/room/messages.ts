@@ -1,5 +1,5 @@
-// The room's messages, with the types of the server's schema. What a page says has its home in
-// `server/api/supervision_messages.py`, as `Said`.
+// Messages of the room, typed by the server's schema. The page's messages are defined in
+// `server/api/supervision_messages.py` (`Said`).
 import type { components } from "../schema";
 
 type Schemas = components["schemas"];
@@ -14,7 +14,7 @@ export type ConnectionState = Schemas["ConnectionState"];
 
 export type Point = readonly [number, number];
 
-/** The image that stood on this page while something was marked on it. */
+/** The image on display when something was marked. */
 export interface Moment {
   image_number: number;
   captured_at_s: number;

@@ -1,4 +1,4 @@
-// The room as this page lives in it: one line, one state; marks are painted past React, words go through it.
+// State of the room on this page: one connection and one store. Canvases read marks directly; texts go through React.
 import type { ViewName } from "../app/views";
 import { firstMessageAt, type FirstMessage, type FirstMessageWait } from "../live/firstMessage";
 import { socketAddress } from "../live/socketAddress";
@@ -6,10 +6,10 @@ import type { Hold, Person, RoomMessage, ClientMessage, Signable, You } from "./
 import { RoomConnection, type RoomSocket } from "./roomConnection";
 import { afterMessage, stateAt, NOBODY, type RoomState } from "./roomState";
 
-/** What words are made of; another object only when one of them changed. */
+/** State that texts depend on; a new object only when part of it changed. */
 export interface RoomSnapshot {
   isConnected: boolean;
-  /** Since the page was loaded. */
+  /** Lives as long as the page. */
   firstMessage: FirstMessage;
   you: You | null;
   people: readonly Person[];
@@ -56,12 +56,12 @@ export class Room {
     };
   }
 
-  /** False where it is sent to nobody. */
+  /** False if there is no connection. */
   send(message: ClientMessage): boolean {
     return this.connection.send(message);
   }
 
-  /** What stands now; what went by itself is left out. */
+  /** Current marks, without expired ones. */
   now(): RoomState {
     this.state = stateAt(this.state, performance.now());
     return this.state;
@@ -74,7 +74,7 @@ export class Room {
     return () => this.listeners.delete(listener);
   };
 
-  /** Called when pointers or drawings may be others. */
+  /** Called when pointers or drawings may have changed. */
   onMarks(painter: () => void): () => void {
     this.painters.add(painter);
     return () => this.painters.delete(painter);

@@ -38,7 +38,7 @@ test("each message is granted after it was dealt with", () => {
   expect(newest().sent).toHaveLength(2);
 });
 
-test("a line that was lost is taken anew, at first at once, then with patience", () => {
+test("a lost connection is retried, at first at once, then with increasing delay", () => {
   const { sockets, newest, later, line } = theatre();
   newest().onclose?.();
   expect(line).toEqual([false]);
@@ -48,7 +48,7 @@ test("a line that was lost is taken anew, at first at once, then with patience",
   expect(later.pop()?.[1]).toBe(200);
 });
 
-test("an open line on which nothing comes is left", () => {
+test("a silent open connection is closed", () => {
   const { room, newest, line, clock } = theatre();
   newest().onopen?.();
   newest().onmessage?.({ data: "{}" });

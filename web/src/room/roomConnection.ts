@@ -15,9 +15,9 @@ export interface RoomConnectionOptions {
   onConnection(isConnected: boolean): void;
 }
 
-/** The server says something each second. */
+/** The server sends a message every second. */
 export const SILENT_AFTER_MS = 3000;
-/** Marks that wait for a thin line would come too late: above this much unsent they are left out. */
+/** With more unsent bytes than this, marks are dropped: on a slow connection they would arrive too late. */
 const MAX_UNSENT_BYTES = 4096;
 const NEXT = JSON.stringify({ next: true } satisfies ClientMessage);
 

@@ -19,7 +19,7 @@ function grown(from_point: number, points_px: number[][], key = "1-1"): RoomMess
 }
 
 describe("what a page knows of the room", () => {
-  test("people and signatures stay until others are told", () => {
+  test("people and signatures stay until new ones are sent", () => {
     const people = [
       { name: "A", role: "viewer", views: [], since: "", line: "good", is_you: true },
     ] satisfies RoomMessage["people"];
@@ -29,7 +29,7 @@ describe("what a page knows of the room", () => {
     expect(second.signable).toEqual([]);
   });
 
-  test("a drawing grows point by point, and goes when it is not named any more", () => {
+  test("a drawing grows point by point, and disappears when it is no longer listed", () => {
     const first = afterMessage(
       NOBODY,
       {
@@ -52,7 +52,7 @@ describe("what a page knows of the room", () => {
         [5, 6],
       ],
     ]);
-    // It stays 12 s of its 20 s: 8 s are over.
+    // It lasts 20 s, of which 8 s have passed.
     expect(second.marks[0]?.goesAtMs).toBe(13_100);
     expect(second.marks[0]?.madeAtMs).toBe(-6900);
     expect(afterMessage(second, QUIET, 1200).marks).toEqual([]);
@@ -63,7 +63,7 @@ describe("what a page knows of the room", () => {
     expect(state.marks).toEqual([]);
   });
 
-  test("what is old goes by itself, without a word from the server", () => {
+  test("expired marks disappear without a message from the server", () => {
     const pointer = { ...SATO, at_px: [10, 20], still_ms: 500 };
     const message = {
       ...QUIET,

@@ -1,7 +1,7 @@
-// What this page knows of the room. Pure: a message and a time go in, the next state comes out.
+// State of the room. Pure: takes a message and a time, returns the next state.
 import type { Hold, Person, Point, RoomMessage, Shape, Signable, You } from "./messages";
 
-/** As on the server: a pointer that does not move says nothing any more. */
+/** Same as on the server: a pointer that stops moving expires. */
 export const POINTER_GOES_AFTER_MS = 2000;
 
 export interface Pointer {
@@ -28,9 +28,9 @@ export interface RoomState {
   pointers: readonly Pointer[];
   marks: readonly Mark[];
   hold: Hold | null;
-  /** How long a drawing stays, counted from the image that it was made on; null until it was received. */
+  /** Lifetime of a drawing, from its image; null before the first message. */
   fadesAfterS: number | null;
-  /** Null where nothing is kept, or nothing was received yet. */
+  /** Null if nothing is stored, or before the first message. */
   signable: readonly Signable[] | null;
 }
 
@@ -61,7 +61,7 @@ export function afterMessage(state: RoomState, message: RoomMessage, nowMs: numb
   };
 }
 
-/** Without what went by itself since; the same object where nothing did. */
+/** Removes what has expired; returns the same object if nothing has. */
 export function stateAt(state: RoomState, nowMs: number): RoomState {
   const pointers = state.pointers.filter((one) => one.goesAtMs > nowMs);
   const marks = state.marks.filter((one) => one.goesAtMs > nowMs);
@@ -73,7 +73,7 @@ function marksAfter(marks: readonly Mark[], message: RoomMessage, nowMs: number)
   const known = new Map(marks.map((one) => [one.key, one]));
   for (const one of message.grown) {
     const before = known.get(one.key)?.points ?? [];
-    // What begins at a point that is not here was sent to another connection: it cannot be drawn whole.
+    // A part that continues points which are not here belongs to another connection; it cannot be drawn completely.
     if (one.from_point > before.length) continue;
     const goesAtMs = nowMs + one.left_s * 1000;
     known.set(one.key, {

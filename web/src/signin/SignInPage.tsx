@@ -15,7 +15,7 @@ interface SignInMessage {
   sentence: string;
 }
 
-/** The door: for those who are not signed in, and those who come with a link. */
+/** The sign-in page, for users without a session and for invitation links. */
 export function SignInPage(): ReactNode {
   const all = useTexts();
   const texts = all.signIn;
@@ -75,7 +75,7 @@ export function SignInPage(): ReactNode {
   );
 }
 
-/** What happened and what to do, in the page's own words where it has some. */
+/** Title and sentence of a rejection, in the page's words if it has them. */
 function messageFor(session: Session, rejection: Rejection | null, texts: SignInTexts): SignInMessage {
   if (rejection !== null) {
     const { code, message, remedy, context } = rejection.problem;

@@ -1,4 +1,4 @@
-// Signing in by a link: once for each link, however often the page is drawn.
+// Signs in with a link, once per link regardless of re-rendering.
 import { useEffect, useEffectEvent, useRef, useState } from "react";
 import { useLocation } from "wouter";
 import { useSession } from "../app/session";
@@ -12,7 +12,7 @@ export interface SignIn {
   signIn: (token: string) => void;
 }
 
-/** Takes a link out of the address at once; `enter` takes one that was typed. */
+/** Reads a link from the address at once; `enter` takes a typed one. */
 export function useSignIn(): SignIn {
   const { refetch } = useSession();
   const [, go] = useLocation();

@@ -9,7 +9,7 @@ const PARTS = ["picture", "numbers", "scene", "line"] as const;
 type Part = (typeof PARTS)[number];
 type Ages = Record<Part, { live: boolean | "loading"; mark: string; text: string }>;
 
-/** The true age of everything that is shown here, measured on this page. */
+/** Ages of everything on display, measured on this page. */
 export function AgesStrip(): ReactNode {
   const { supervisor, rest } = useTexts();
   const texts = supervisor.ages;

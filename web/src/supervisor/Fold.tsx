@@ -3,13 +3,13 @@ import { useState, type ReactNode } from "react";
 interface FoldProps {
   id: string;
   title: string;
-  /** Said beside the title, open or not. */
+  /** Shown beside the title, open or closed. */
   aside?: ReactNode;
   open?: boolean;
   children: ReactNode;
 }
 
-/** A part of the page whose inside is there, and asked for, only while it is open. */
+/** A section that mounts its content, and so requests its data, only while it is open. */
 export function Fold({ id, title, aside, open = false, children }: FoldProps): ReactNode {
   const [isOpen, setOpen] = useState(open);
   return (

@@ -7,7 +7,7 @@ import { useTexts } from "../texts/TextsContext";
 import { formatTime } from "../operator/parts/format";
 import { TwoStepButton } from "./TwoStepButton";
 
-/** Asks those in theatre to hold: big, in two steps so that a slip does nothing. */
+/** Asks theatre to hold. Large, and in two steps, so that a slip has no effect. */
 export function HoldPanel(): ReactNode {
   const all = useTexts();
   const texts = all.supervisor.hold;

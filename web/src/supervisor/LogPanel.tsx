@@ -11,7 +11,7 @@ type Line = Record<string, unknown>;
 
 const LINES = 100;
 
-/** The alarm log of the open case, the newest first; asked for only while it is open. */
+/** Alarm log of the open case, newest first. It is requested only while it is open. */
 export function LogPanel(): ReactNode {
   const texts = useTexts();
   const own = texts.supervisor.log;
@@ -37,7 +37,7 @@ export function LogPanel(): ReactNode {
   );
 }
 
-/** As the alarm band had it: what happened to which alarm, in its words of that moment, and by whom. */
+/** One line of the log: the alarm, its change, its text at that time, and the person. */
 function entryText(line: Line, texts: Texts): string {
   const change = text(line, "change");
   const { change: changes, by } = texts.supervisor.log;

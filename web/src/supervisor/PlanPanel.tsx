@@ -7,8 +7,9 @@ import type { Signable } from "../room/messages";
 import { useTexts } from "../texts/TextsContext";
 import { vertebraeOf, type ChannelShown, type VertebraShown } from "./planRecords";
 import { SignBox } from "./SignBox";
+import { pluralize } from "../texts/pluralize";
 
-/** The plan in words and pictures, and its co-signature. */
+/** The plan in text and pictures, with its co-signature. */
 export function PlanPanel({ signable }: { signable: Signable }): ReactNode {
   const texts = useTexts().supervisor;
   const key = signable.document_id ?? "";
@@ -37,23 +38,21 @@ export function PlanPanel({ signable }: { signable: Signable }): ReactNode {
       {vertebraeOf(data.plan).map((vertebra) => (
         <Vertebra key={vertebra.name} vertebra={vertebra} version={data.heading.id} />
       ))}
-      {/* What was read is what is signed: another version has another key, and is read again first. */}
+      {/* The key is the version, so that a new version mounts a new box and must be read before it is signed. */}
       {data.heading.id === signable.document_id && <SignBox signable={signable} />}
     </>
   );
 }
 
 function Vertebra({ vertebra, version }: { vertebra: VertebraShown; version: string }): ReactNode {
-  const texts = useTexts().supervisor.plan;
+  const { supervisor, language } = useTexts();
+  const texts = supervisor.plan;
   const picture = `/api/plan/vertebrae/${encodeURIComponent(vertebra.name)}/reference.png?version=${version}`;
   return (
     <article className="vertebra">
       <div>
         <h3>
-          {vertebra.name}{" "}
-          <small>
-            {vertebra.landmarks} {texts.landmarks}
-          </small>
+          {vertebra.name} <small>{pluralize(texts.landmarks, vertebra.landmarks, language)}</small>
         </h3>
         {vertebra.channels.map((channel) => (
           <Channel key={channel.side} channel={channel} />

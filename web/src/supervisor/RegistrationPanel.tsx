@@ -8,7 +8,7 @@ import { useTexts } from "../texts/TextsContext";
 import { rowsOf } from "./registrationRows";
 import { SignBox } from "./SignBox";
 
-/** The registration with its numbers and what was allowed, and its co-signature. */
+/** The registration with its values, limits and co-signature. */
 export function RegistrationPanel({ signable }: { signable: Signable }): ReactNode {
   const texts = useTexts().supervisor;
   const own = texts.registration;

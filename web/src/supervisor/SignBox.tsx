@@ -10,7 +10,7 @@ import { useTexts } from "../texts/TextsContext";
 import { SignatureLine } from "./SignatureLine";
 import { TwoStepButton } from "./TwoStepButton";
 
-/** What exactly is signed, by whom it was, and the way to sign it or to take that back. */
+/** Shows what is signed and who made it; signs it or withdraws the signature. */
 export function SignBox({ signable }: { signable: Signable }): ReactNode {
   const all = useTexts();
   const texts = all.supervisor.sign;

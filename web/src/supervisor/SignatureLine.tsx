@@ -4,7 +4,7 @@ import { interpolate } from "../texts/interpolate";
 import type { components } from "../schema";
 import { useTexts } from "../texts/TextsContext";
 
-/** One signature: who, when, whether that is known to be a second person, and who had invited them. */
+/** One signature: who, when, whether it is certainly a second person, and who invited them. */
 export function SignatureLine({ of: one }: { of: components["schemas"]["SignatureMessage"] }): ReactNode {
   const all = useTexts();
   const texts = all.supervisor.sign;

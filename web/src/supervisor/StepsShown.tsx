@@ -1,5 +1,6 @@
 import type { ReactNode } from "react";
-import { useProcedure, type Step } from "../app/procedure";
+import { useProcedure, type Procedure, type Step } from "../app/procedure";
+import { stepReason } from "../operator/stepReason";
 import { stateText } from "../operator/stepTexts";
 import { QueryStatus } from "../rest/QueryStatus";
 import { useTexts } from "../texts/TextsContext";
@@ -12,7 +13,7 @@ const SYMBOL: Record<Step["state"], string> = {
   failed: "✕",
 };
 
-/** The state of every step of the procedure, in the server's own sentences. */
+/** The state of each step, with its reason. */
 export function StepsShown(): ReactNode {
   const texts = useTexts();
   const query = useProcedure();
@@ -34,10 +35,19 @@ export function StepsShown(): ReactNode {
           <div>
             <b>{texts.operator.page[step.step]}</b> ·{" "}
             {step.missing_cosignature === null ? stateText(step, texts.operator) : own.steps.lacks}
-            <p className="soft">{step.message}</p>
+            <Reason step={step} procedure={data} />
           </div>
         </li>
       ))}
     </ol>
+  );
+}
+
+function Reason({ step, procedure }: { step: Step; procedure: Procedure }): ReactNode {
+  const { message, lang } = stepReason(step, procedure, useTexts());
+  return (
+    <p className="soft" lang={lang}>
+      {message}
+    </p>
   );
 }

@@ -28,7 +28,7 @@ import { PlanPanel } from "./PlanPanel";
 import { RegistrationPanel } from "./RegistrationPanel";
 import { StepsShown } from "./StepsShown";
 
-/** The supervisor's view: sees all, points, signs, asks to hold. Nothing in it moves anything. */
+/** View of the supervisor: observes, points, signs, asks to hold. It controls nothing. */
 export function SupervisorView(): ReactNode {
   const texts = useTexts();
   const own = texts.supervisor;
@@ -87,7 +87,7 @@ export function SupervisorView(): ReactNode {
   );
 }
 
-/** Plan and registration; the state of their signatures comes with the room, and is shown while they are closed. */
+/** Plan and registration. Their signature state comes from the room, so it is shown while they are closed. */
 function Signables(): ReactNode {
   const { supervisor: own, rest } = useTexts();
   const { isConnected, firstMessage, signable } = useRoomSnapshot();

@@ -11,7 +11,7 @@ interface TwoStepButtonProps {
   onDone: () => void;
 }
 
-/** A button that asks once more, so that a slip does nothing; left alone it goes back. */
+/** A button that asks for confirmation, and resets if it gets none. */
 export function TwoStepButton({
   first,
   second,

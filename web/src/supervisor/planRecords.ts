@@ -1,4 +1,4 @@
-// What is shown of a plan, out of its document. What is not there stays out: nothing is guessed.
+// Reads the displayed values from a plan document. Missing values are omitted, never guessed.
 
 export interface ChannelShown {
   side: "left" | "right";

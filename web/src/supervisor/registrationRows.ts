@@ -1,4 +1,4 @@
-// The numbers of a registration that a person reads, each with what was allowed where that was kept beside it.
+// Values of a registration for display, with their limits where they were stored.
 import type { SupervisorTexts } from "../texts/supervisor/en";
 
 type NumberName = keyof SupervisorTexts["registration"]["numbers"];

@@ -1,4 +1,4 @@
-// What there is to say, in every language.
+// Type of the text catalogue; every language implements it.
 import type { Cause } from "../live/assess";
 import type { ImageClock, MotionDetection, Priority, UnseenReason, Wall } from "../live/messages";
 
@@ -27,7 +27,7 @@ import type { SupervisorTexts } from "./supervisor/en";
 import type { TheatreTexts } from "./theatre/en";
 import type { ToolTexts } from "./tool/en";
 
-/** A short state in big words, and a sentence that says what it means or what to do. */
+/** A short state in capitals, and a sentence with its meaning or remedy. */
 export interface StateText {
   state: string;
   sentence: string;

@@ -1,4 +1,4 @@
-// Every word of the page, in one place. Another language is one more file of the same shape.
+// All texts of the page. A further language is another file of this type.
 import { alarmsEn } from "./alarmsEn";
 import { cameraEn } from "./camera/en";
 import { caseEn } from "./case/en";
@@ -39,7 +39,7 @@ export const en: Texts = {
     none: "NO VIDEO",
     image: "image",
     age: "age",
-    alt: "Live video with the planned channel and the drill's line drawn in",
+    alt: "Live video with the planned channel and the line of the drill",
   },
   numbers: {
     title: "Drill to channel",
@@ -47,9 +47,9 @@ export const en: Texts = {
     tracking: "TRACKING",
     error: "95 % error",
     errorUnknown: "95 % error unknown",
-    steadied: "steadied, behind by",
+    steadied: "smoothed, delayed by",
     whileMoving: "while moving",
-    latencyUnknown: "moving, latency not known",
+    latencyUnknown: "moving, latency unknown",
     trend: "{figure} in the last 30 s, with its limit",
   },
   reading: {
@@ -57,7 +57,7 @@ export const en: Texts = {
     angle: { name: "Angle", hint: "to the channel's axis", unit: "°" },
     depth: { name: "Depth", hint: "past the entry plane", unit: "mm" },
     toGo: { name: "To go", hint: "to the planned end", unit: "mm" },
-    wall: { name: "Wall", hint: "least clearance of the drill", unit: "mm" },
+    wall: { name: "Wall", hint: "smallest distance of the drill", unit: "mm" },
   },
   wall: {
     outside: "outside",
@@ -73,10 +73,10 @@ export const en: Texts = {
     },
   },
   moves: {
-    reference: "The marker on the patient shows a move of patient or camera.",
+    reference: "The patient marker shows whether patient or camera move.",
     "fixed-scene":
-      "No patient marker: patient movement is not seen, camera movement only by the fixed scene.",
-    "not-at-all": "No patient marker: movement of patient or camera is not seen.",
+      "No patient marker: patient movement is not detected, camera movement only from the background.",
+    "not-at-all": "No patient marker: movement of patient or camera is not detected.",
   },
   depthTexts: {
     before: "before entry",
@@ -87,13 +87,13 @@ export const en: Texts = {
   scene: {
     title: "3-D",
     loading: "3-D LOADING",
-    loadingHint: "The scene appears when its first image is drawn.",
+    loadingHint: "The scene appears with its first image.",
     stale: "SCENE STALE",
-    staleHint: "The scene does not follow the drill now. It comes back by itself.",
+    staleHint: "The scene does not follow the drill at present. It returns automatically.",
     unsupported: "NO 3-D",
-    unsupportedHint: "This browser has no WebGL 2. Video and figures work without it.",
+    unsupportedHint: "This browser has no WebGL 2. Video and numbers work without it.",
     off: "3-D OFF",
-    offHint: "This computer has no graphics card: 3-D would make the figures late.",
+    offHint: "This computer has no graphics card: 3-D would delay the numbers.",
     show: "Show 3-D",
     views: "View",
     view: { behind: "From behind", channel: "Along channel", camera: "From camera" },
@@ -124,20 +124,20 @@ export const en: Texts = {
     opening: "opening",
     running: "running",
     reconnecting: "reconnecting",
-    ended: "at its end",
+    ended: "ended",
     unknown: "not known",
   },
   imageClock: {
     driver: "the camera's driver",
-    device: "the camera's own clock",
-    sender: "the stream's sender",
+    device: "the camera's clock",
+    sender: "the sender of the stream",
     browser: "the phone's browser",
-    arrival: "its arrival",
+    arrival: "arrival at the server",
   },
   linkState: {
     connecting: "connecting",
     open: "connected",
-    lost: "gone, reconnecting",
+    lost: "lost, reconnecting",
     "not-reached": "not reached",
   },
   details: {

@@ -1,4 +1,4 @@
-/** A sentence with its gaps filled: `filled("{count} of {all}", { count: 2, all: 3 })`. */
+/** Fills the gaps of a sentence: `interpolate("{count} of {all}", { count: 2, all: 3 })`. */
 export function interpolate(sentence: string, gaps: Record<string, string | number>): string {
   return sentence.replace(/\{(\w+)\}/g, (gap, name: string) => String(gaps[name] ?? gap));
 }

@@ -1,4 +1,4 @@
-// Which language the page speaks: `?lang=` wins, then the browser's, then English.
+// Language of the page: `?lang=`, else the browser's, else English.
 import { de } from "./de";
 import { en, type Texts } from "./en";
 

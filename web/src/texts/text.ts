@@ -1,4 +1,4 @@
-// A text that the server has written in every language.
+// A text that the server sends in every language.
 import type { TextMessage } from "../live/messages";
 import type { Texts } from "./en";
 
@@ -6,7 +6,7 @@ export function textOf(text: TextMessage, texts: Texts): string {
   return texts.language === "de" ? text.de : text.en;
 }
 
-/** Such a text of a line whose form is not known, as of the log; empty where there is none. */
+/** Such a text in an untyped line of a log; empty if there is none. */
 export function textIn(line: Readonly<Record<string, unknown>>, key: string, texts: Texts): string {
   const textByLanguage = line[key];
   if (typeof textByLanguage !== "object" || textByLanguage === null) return "";

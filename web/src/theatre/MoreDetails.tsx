@@ -7,7 +7,7 @@ import { MarkersPane } from "../panes/MarkersPane";
 import { RecordingState } from "../recording/RecordingState";
 import { useTexts } from "../texts/TextsContext";
 
-/** Scores, times and counts for those who want them; closed for those who drill. */
+/** Scores, times and counts, collapsed by default. */
 export function MoreDetails(): ReactNode {
   const texts = useTexts().theatre;
   const details = useRef<HTMLDetailsElement>(null);

@@ -6,12 +6,12 @@ import { serverStateOf } from "../panes/serverState";
 import { useTexts } from "../texts/TextsContext";
 import { checkText, registrationText, type StatusText } from "./statusTexts";
 
-/** What is well is not shown as well beside a picture and figures that are too old. */
+/** Good states are not shown as good beside a picture or figures that are too old. */
 function dimmed(status: StatusText | null, isOfNow: boolean): StatusText | null {
   return status?.mood === "good" && !isOfNow ? { ...status, mood: "waiting" } : status;
 }
 
-/** Which case, level and side are navigated, how it was registered, and how old that and its check are. */
+/** Case, level and side; the registration's method; ages of registration and check. */
 export function NavigationStatus(): ReactNode {
   const texts = useTexts();
   const { view } = useLive();

@@ -6,7 +6,7 @@ import { Viewers } from "../room/Viewers";
 import { MoreDetails } from "./MoreDetails";
 import { NavigationStatus } from "./NavigationStatus";
 
-/** What is navigated, who watches, and whether all of it is there. */
+/** Header of the theatre view: navigation status, viewers and live state. */
 export function TheatreTop(): ReactNode {
   return (
     <header className="top">

@@ -15,11 +15,11 @@ import { TheatreTop } from "./TheatreTop";
 
 const ANSWERING: ReadonlySet<Role> = new Set<Role>(["operator", "screen"]);
 
-/** The theatre's view: all that the hand with the drill goes by, on one screen, read from 3 m. */
+/** The theatre view: everything needed while drilling, on one screen, readable from 3 m. */
 export function TheatreView(): ReactNode {
   const texts = useTexts();
   const { session } = useSession();
-  // Those who stand before the screen answer its alarms; who watches from elsewhere sees them.
+  // Alarms are acknowledged on a theatre screen; other viewers only see them.
   const answersAlarms = session.state === "in" && ANSWERING.has(session.who.role);
   return (
     <div className="theatre">

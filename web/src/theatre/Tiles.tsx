@@ -2,7 +2,7 @@ import { useState, useSyncExternalStore, type ReactNode } from "react";
 import { CutTile, OnlyTile } from "../cuts/CutTile";
 import { FIRST_CHOICE, pairOf } from "../cuts/tileChoice";
 
-/** Room for three cuts beside the video. */
+/** Wide enough for three cuts beside the video. */
 const WIDE = "(min-width: 1400px) and (min-aspect-ratio: 11/10)";
 
 function useIsWide(): boolean {
@@ -19,8 +19,8 @@ function useIsWide(): boolean {
 }
 
 /**
- * The cuts through the CT and the 3-D scene: on a theatre's screen axial, sagittal and the probe's eye, where another cut takes
- * the place of the sagittal one, and the scene that of both, by a touch; one of all on a smaller screen.
+ * The cuts of the CT and the 3-D scene. A theatre screen shows axial, sagittal and the probe's eye; a touch replaces
+ * the sagittal by another cut, or both by the scene. A smaller screen shows one of them.
  */
 export function Tiles(): ReactNode {
   const isWide = useIsWide();

@@ -23,7 +23,7 @@ function procedureWith(check: State, checkAgeMin: number | null = 3): Procedure 
   };
 }
 
-test("says how and how long ago it was registered", () => {
+test("states method and age of the registration", () => {
   const by = snapshot({ registered_by: "points" });
   expect(registrationText(by, procedureWith("done"), theatreEn)?.value).toBe("by landmarks, 12 min ago");
   expect(registrationText(by, null, theatreEn)?.value).toBe("by landmarks");
@@ -40,11 +40,11 @@ test.each([
   ["failed", "failed", "bad"],
   ["missing", "not checked", "bad"],
   ["out_of_date", "not checked", "bad"],
-] as const)("a check that is %s is said to be so", (state, value, mood) => {
+] as const)("a check that is %s is shown as such", (state, value, mood) => {
   expect(checkText(snapshot(), procedureWith(state), theatreEn)).toEqual({ value, mood });
 });
 
-test("without an open case nothing is said of a check", () => {
+test("without an open case no check is shown", () => {
   expect(checkText(snapshot(), { ...procedureWith("missing"), case_id: null }, theatreEn)).toBeNull();
 });
 

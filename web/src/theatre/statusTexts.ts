@@ -1,4 +1,4 @@
-// Registration and check in words: how, and how long ago. Pure.
+// Texts of registration and check: method and age. Pure.
 import type { SnapshotMessage } from "../live/messages";
 import type { Mood } from "../panes/Fact";
 import type { TheatreTexts } from "../texts/theatre/en";
@@ -12,7 +12,7 @@ export interface StatusText {
 const MINUTES_OF_HOUR = 60;
 const HOURS_FROM = 100;
 
-/** How plan and patient were registered, as the newest image says, and when, as the case says. */
+/** Method of the registration from the newest image, and its age from the case. */
 export function registrationText(
   snapshot: SnapshotMessage | null,
   procedure: Procedure | null,
@@ -25,7 +25,7 @@ export function registrationText(
   return { value: age === "" ? by : `${by}, ${age}`, mood: "good" };
 }
 
-/** Whether the tip was held on a landmark since; null where there is nothing to be checked. */
+/** Result and age of the check; null if there is nothing to check. */
 export function checkText(
   snapshot: SnapshotMessage | null,
   procedure: Procedure | null,

@@ -1,6 +1,6 @@
 import { createTheme, Loader } from "@mantine/core";
 
-/** Only what the machine has: no font and no address from outside is ever fetched. */
+/** System fonts only: nothing is fetched from outside. */
 export const theme = createTheme({
   fontFamily: 'Inter, "Segoe UI", Roboto, "Helvetica Neue", "Noto Sans", "DejaVu Sans", Arial, sans-serif',
   fontFamilyMonospace: 'ui-monospace, "Cascadia Mono", "DejaVu Sans Mono", monospace',
@@ -8,7 +8,7 @@ export const theme = createTheme({
   defaultRadius: "md",
   respectReducedMotion: true,
   components: {
-    // A turning ring says in words that something is awaited; a bare span may have no name.
+    // The spinner needs a role, because a bare span may not have a label.
     Loader: Loader.extend({ defaultProps: { role: "img" } }),
   },
 });

@@ -30,7 +30,7 @@ test("a gap is a gap: nothing is drawn where figures were withheld, or no image 
   expect(xs([sample(3, 1), sample(2.5, null), sample(2.2, 1)])).toEqual([[270], [278]]);
 });
 
-test("the limit stands at half the height, and a value beyond the range on the edge", () => {
+test("the limit is at half the height, and values beyond the range are clamped", () => {
   const { strokes, limit, range } = curveOf([sample(0.4, 1), sample(0, 3)], "entry", SIZE);
   expect(range).toEqual([-0, 4]);
   expect(strokes[0]?.points.map(([, y]) => y)).toEqual([75, 25]);

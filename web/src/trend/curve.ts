@@ -1,4 +1,4 @@
-// A figure's curve in the pixels of its chart. Pure.
+// Curve of a figure in pixels of its chart. Pure.
 import type { FigureName } from "../panes/limits";
 import type { Status } from "../live/messages";
 import { MAX_STEP_MS, SPAN_MS, type Sample, type TrendFigure } from "./history";
@@ -10,7 +10,7 @@ export interface Stroke {
   points: Point[];
 }
 
-/** An image to which the next one is joined. */
+/** A sample that is joined to the next one. */
 interface Joint {
   atMs: number;
   figure: TrendFigure;
@@ -18,17 +18,17 @@ interface Joint {
 }
 
 export interface Curve {
-  /** Parts of one status each; between gaps they do not meet. */
+  /** Segments of equal status; they do not meet across gaps. */
   strokes: Stroke[];
-  /** The limit as it was with each image. */
+  /** The limit at each sample. */
   limit: Point[][];
-  /** Height at which the bone's wall lies, for its clearance; null for other figures. */
+  /** Height of the bone's wall, for the clearance; null for other figures. */
   wallY: number | null;
-  /** The values at the lower and the upper edge. */
+  /** Values at the lower and upper edge. */
   range: readonly [number, number];
 }
 
-/** The range, in limits below and above zero: at least, and at most. Values beyond it lie on the edge. */
+/** The smallest and largest range, in multiples of the limit below and above zero. Values beyond it are clamped. */
 const RANGES: Record<FigureName, { below: [number, number]; above: [number, number] }> = {
   entry: { below: [0, 0], above: [2, 4] },
   angle: { below: [0, 0], above: [2, 4] },
@@ -36,7 +36,7 @@ const RANGES: Record<FigureName, { below: [number, number]; above: [number, numb
   wall: { below: [1, 3], above: [3, 8] },
 };
 
-/** The chart: its right edge in time and its size; samples further apart than `maxStepMs` are not joined. */
+/** The chart: time of its right edge and its size; samples further apart than `maxStepMs` are not joined. */
 export interface Frame {
   nowMs: number;
   width: number;
@@ -68,7 +68,7 @@ export function curveOf(
     const last = curve.strokes.at(-1);
     if (joined === null) curve.strokes.push({ status: figure.status, points: [at] });
     else if (last?.status === figure.status) last.points.push(at);
-    // The step to another status has the colour of what it leads to.
+    // A segment between two statuses has the colour of the later one.
     else curve.strokes.push({ status: figure.status, points: [joined.at, at] });
     if (figure.limit !== null) {
       const limit: Point = [at[0], y(figure.limit)];
@@ -81,7 +81,7 @@ export function curveOf(
   return curve;
 }
 
-/** Around the limit, and wider where the values are, but not without end: a drill that is far away has no trend. */
+/** Range around the limit, widened to the values up to a maximum: a distant drill has no trend. */
 function rangeOf(samples: readonly Sample[], name: FigureName): readonly [number, number] {
   let [lowest, highest, limit] = [0, 0, 0];
   for (const { figures } of samples) {

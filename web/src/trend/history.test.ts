@@ -14,7 +14,7 @@ const UNREAD: NumbersVerdict = {
 const OLD: NumbersVerdict = { live: false, cause: "old", unread: null, ageMs: 400 };
 const GONE: NumbersVerdict = { live: false, cause: "server-gone", unread: null, ageMs: 900 };
 
-/** An image grabbed 40 ms ago with these figures. */
+/** An image captured 40 ms ago with these figures. */
 function image(
   nowMs: number,
   figures: { entry?: number; depth?: number; wall?: number | null },
@@ -79,7 +79,7 @@ test("figures of another plan are no continuation of these", () => {
   expect(history.samples).toHaveLength(1);
 });
 
-test("curves are shown while the newest image has figures or says why not, and not when it is too old", () => {
+test("curves are shown while the newest image has figures or a reason, and not when it is too old", () => {
   expect(isTrendShown(image(1000, {}))).toBe(true);
   expect(isTrendShown(UNREAD)).toBe(true);
   expect(isTrendShown(OLD)).toBe(false);

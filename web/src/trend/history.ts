@@ -1,19 +1,19 @@
-// What the figures were in the last 30 s, for their curves. Pure; times go in as numbers.
+// Figures of the last 30 s, for their curves. Pure.
 import { isOfNow, type NumbersVerdict } from "../live/assess";
 import type { FigureMessage, SnapshotMessage } from "../live/messages";
 import { FIGURES, figureOf, type FigureName } from "../panes/limits";
 
 export const SPAN_MS = 30_000;
-/** Images that are nearer than this share a sample: the worst of them, so that no peak is lost. */
+/** Images within this interval share a sample, the worst of them, so that no peak is lost. */
 export const BUCKET_MS = 100;
-/** Samples further apart are not joined: nobody knows what was between them. */
+/** Samples further apart are not joined: the values between them are unknown. */
 export const MAX_STEP_MS = 700;
 
 export type TrendFigure = Pick<FigureMessage, "value" | "limit" | "status">;
 
 export interface Sample {
   atMs: number;
-  /** Null where figures were withheld. */
+  /** Null if the figures were withheld. */
   figures: Record<FigureName, TrendFigure> | null;
 }
 
@@ -22,12 +22,12 @@ export class TrendHistory {
   private newest: SnapshotMessage | null = null;
   private of = "";
 
-  /** From the oldest on; at most one for each bucket of the span. */
+  /** Oldest first; at most one per interval. */
   get samples(): readonly Sample[] {
     return this.buffer;
   }
 
-  /** Takes what the page shows now; the same image counts once. */
+  /** Adds the displayed figures; an image counts once. */
   add(nowMs: number, numbers: NumbersVerdict): void {
     this.drop(nowMs);
     if (!numbers.live) {
@@ -36,7 +36,7 @@ export class TrendHistory {
     }
     if (numbers.snapshot === this.newest) return;
     this.newest = numbers.snapshot;
-    // Figures of another plan or tool are not comparable with these.
+    // Figures of another plan or tool are not comparable.
     const of = `${numbers.reading.tool} ${JSON.stringify(numbers.snapshot.channel)}`;
     if (of !== this.of) this.buffer.length = 0;
     this.of = of;
@@ -64,18 +64,18 @@ export class TrendHistory {
 
   private drop(nowMs: number): void {
     let count = 0;
-    // The one before the span is kept: its line comes in from the edge.
+    // One sample before the span is kept, so that its line enters at the edge.
     while ((this.buffer[count + 1]?.atMs ?? Infinity) < nowMs - SPAN_MS) count += 1;
     if (count > 0) this.buffer.splice(0, count);
   }
 }
 
-/** Whether curves may be looked at: the newest image is young enough, with figures or with the reason why there are none. */
+/** Whether curves may be shown: the newest image is young enough, with figures or a reason for having none. */
 export function isTrendShown(numbers: NumbersVerdict): boolean {
   return isOfNow(numbers);
 }
 
-/** Of two figures the one that is nearer to harm; of depths the newer one. */
+/** Returns the worse of two figures; of depths the newer. */
 function worseOf(name: FigureName, before: TrendFigure, after: TrendFigure): TrendFigure {
   if (name === "depth" || before.value === null) return after;
   if (after.value === null) return before;

@@ -1,4 +1,4 @@
-// Puts a figure's curve onto its canvas, past React's state.
+// Paints the curve of a figure on its canvas, without React.
 import type { Status } from "../live/messages";
 import { formatFigure } from "../live/rounding";
 import { paintBitmap } from "../panes/bitmapCanvas";
@@ -6,7 +6,7 @@ import type { FigureName } from "../panes/limits";
 import { curveOf } from "./curve";
 import { SPAN_MS, type Sample } from "./history";
 
-/** Colours of the theme, by what the server says of the figure. */
+/** Colours of the theme by the server's status. */
 const INK: Record<Status, string> = {
   within: "--ink",
   over: "--medium",
@@ -17,17 +17,17 @@ const INK: Record<Status, string> = {
 const LINE_PX = 2;
 const LIMIT_PX = 1.5;
 const DASH_PX = [5, 4];
-/** A smaller one is not laid out yet. */
+/** A smaller canvas is not laid out yet. */
 const MIN_SIDE_PX = 12;
 const MIN_LABELLED_PX = 120;
 const LABEL_PX = 13;
 
 export interface TrendFrame {
-  /** At the right edge. */
+  /** Space at the right edge. */
   nowMs: number;
   spanMs?: number;
   maxStepMs?: number;
-  /** Labelled with the values at its edges, not with its duration. */
+  /** Labelled with the values at its edges. */
   hasRange?: boolean;
 }
 
@@ -61,7 +61,7 @@ export function paintTrend(
         if (index === 0) context.moveTo(x, y);
         else context.lineTo(x, y);
       }
-      // A single image between two gaps is a dot.
+      // A single sample between gaps is a dot.
       if (points.length === 1 && points[0] !== undefined)
         context.lineTo(points[0][0] + LINE_PX, points[0][1]);
       context.stroke();

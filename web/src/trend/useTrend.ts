@@ -8,7 +8,7 @@ import { paintTrend } from "./paintTrend";
 
 const EVERY_MS = 250;
 
-/** Paints the curve of each figure into the canvases of this pane, four times a second at most; gone as soon as figures are too old. */
+/** Paints the curves of this pane, at most four times a second; cleared as soon as figures are too old. */
 export function useTrend(pane: RefObject<HTMLElement | null>): void {
   const history = useRef(new TrendHistory());
   const paintedAtMs = useRef(-Infinity);
@@ -37,7 +37,7 @@ export function useTrend(pane: RefObject<HTMLElement | null>): void {
     }
     if (nowMs - paintedAtMs.current < EVERY_MS) return;
     paintedAtMs.current = nowMs;
-    // After the figures of this image are painted.
+    // Runs after the figures of this image were painted.
     timer.current = setTimeout(() => {
       for (const { name, canvas } of canvases()) paintTrend(canvas, name, history.current.samples, { nowMs });
     });

@@ -58,7 +58,7 @@ def test_a_recording_played_again_gives_the_same_alarms() -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_every_picture_says_one_thing(seed: int) -> None:
+def test_the_alarms_of_an_image_are_consistent(seed: int) -> None:
     for before, picture in pairwise(played(seed)):
         assert len({alarm.condition for alarm in picture.alarms}) == len(picture.alarms)
         is_over = [alarm.state is AlarmState.LATCHED for alarm in picture.alarms]

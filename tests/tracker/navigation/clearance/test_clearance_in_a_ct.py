@@ -1,4 +1,4 @@
-"""Clearance on the surface out of a CT, and its probability, against the implicit solid that was scanned."""
+"""Clearance and its probability on the surface from a CT, against the implicit solid that was scanned."""
 
 from functools import cache
 
@@ -39,14 +39,14 @@ def wall_of(name: str) -> tuple[WallDistanceField, float]:
 
 
 def true_clearance_mm(scanned: Scan, pose: Rigid[Vertebra, Tool]) -> float:
-    """The smallest depth below the true wall on the cylinder, in the pedicle, where it is smallest."""
+    """The smallest depth of the cylinder below the true wall in the pedicle."""
     along, turn = np.meshgrid(np.linspace(-12.0, 0.0, 121), np.linspace(0.0, 2.0 * np.pi, 181))
     local = np.stack([RADIUS_MM * np.cos(turn), RADIUS_MM * np.sin(turn), along], axis=-1).reshape(-1, 3)
     return float(-scanned.signed_mm(pose.move_points(local))[0].max())
 
 
 def wall_points_mm(scanned: Scan) -> Array:
-    """Points on the true wall beside the isthmus, to the middle and to the side."""
+    """Points on the true wall at the isthmus, medial and lateral."""
     pedicle = scanned.phantom.pedicles["left"]
     along, turn = np.meshgrid(np.linspace(-4.0, 4.0, 17), np.linspace(-0.6, 0.6, 13))
     growth = 1.0 + pedicle.widening_per_mm2 * along**2
@@ -65,7 +65,7 @@ def test_the_distance_at_the_true_wall_is_zero(name: str) -> None:
     points = wall_points_mm(SCANS[name])
     assert np.abs(SCANS[name].phantom.bone_distance_mm(points)).max() < 0.01
     wall, sd_mm = wall_of(name)
-    # Negative here is a clearance that is too large.
+    # # Negative here means that the clearance is overestimated.
     off_mm, _ = wall.distances_mm(points)
     assert -0.08 < np.median(off_mm) < 0.1
     assert np.sqrt(np.mean(off_mm**2)) < sd_mm

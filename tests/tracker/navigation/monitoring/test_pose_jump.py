@@ -59,7 +59,7 @@ def test_poses_that_jump_about_are_never_believed() -> None:
 
 
 def test_a_doubt_outlasts_the_pose_that_it_began_with() -> None:
-    """Half a second on, the old pose is forgotten; what still jumps about is not believed for that."""
+    """After half a second the old pose is forgotten; a pose that still jumps is not accepted."""
     watch = PoseJumpDetector(PoseJumpSettings(expires_after_s=0.2))
     jumps = _fed(watch, [_pose()] + [_pose(80.0 * (n % 2 + 1)) for n in range(30)])
     assert not any(jump.accepted for jump in jumps[1:])
@@ -71,7 +71,7 @@ def test_after_a_time_out_of_sight_there_is_nothing_to_have_jumped_from() -> Non
     assert watch.take(_pose(200.0), at_s=0.7).accepted
 
 
-def test_in_doubt_and_then_out_of_sight_begins_anew() -> None:
+def test_a_doubtful_pose_that_is_lost_starts_again() -> None:
     watch = PoseJumpDetector()
     _fed(watch, [_pose(), _pose(100.0)])
     assert watch.take(_pose(300.0), at_s=5.0).accepted

@@ -46,7 +46,7 @@ def watch() -> SceneMonitor:
     return SceneMonitor(_seen(), settings=SETTINGS)
 
 
-def test_a_camera_that_stands_still_is_still(watch: SceneMonitor) -> None:
+def test_a_resting_camera_is_reported_at_rest(watch: SceneMonitor) -> None:
     for noise in range(1, 6):
         check = watch.check(_seen(noise=noise))
         assert check.state is SceneState.STILL
@@ -116,7 +116,7 @@ def test_where_the_scene_is_gone_nothing_is_claimed(watch: SceneMonitor, image: 
     assert watch.check(np.ascontiguousarray(image)).state is SceneState.UNSURE
 
 
-def test_a_scene_without_anything_to_hold_on_to_says_so() -> None:
+def test_a_scene_without_texture_is_reported() -> None:
     bare = SceneMonitor(np.full((720, 1280), 120, np.uint8))
     assert bare.check(np.full((720, 1280), 120, np.uint8)).state is SceneState.NO_TEXTURE
 

@@ -60,7 +60,7 @@ def _shift(sd_mm: tuple[float, float, float]) -> Array:
 @pytest.mark.parametrize("sd_mm", [0.2, 0.5])
 def test_an_error_in_one_direction_gives_the_normal_distribution(medial_mm: float, sd_mm: float) -> None:
     judged = _judged(drill_at(ROD_CHANNEL, 30.0, medial_mm=medial_mm), _shift((sd_mm, 0.0, 0.0)))
-    # On the other side the rod ends as far away: 3 mm of room to both.
+    # # On the other side the rod ends at the same distance: 3 mm to both.
     expected = ndtr((medial_mm - 3.0) / sd_mm) + ndtr((-medial_mm - 3.0) / sd_mm)
     assert judged.now.through_ratio == pytest.approx(expected, abs=0.02)
     assert judged.now.sd_mm == pytest.approx(sd_mm, rel=0.05)
@@ -105,7 +105,7 @@ def test_the_end_of_the_plan_is_passed_by_chance_too() -> None:
 
 
 def _behind(pose: Rigid[Vertebra, Tool], sd_mm: float, sd_deg: float) -> Array:
-    """A marker some centimetres behind the tip, less sure along one axis: tip and axis err together."""
+    """A marker some centimetres behind the tip, less certain along one axis: both errors correlate."""
     own = np.diag([sd_mm**2, sd_mm**2, (2.5 * sd_mm) ** 2, *[np.radians(sd_deg) ** 2] * 3])
     carry = np.eye(6)
     carry[:3, 3:] = -skew(80.0 * pose.rotation[:, 2])

@@ -104,9 +104,9 @@ def test_the_chain_s_covariance_is_that_of_the_chain_drawn_at_random(*, with_ref
     )
     drawn = np.cov(steps.T)
     scale = np.sqrt(np.outer(np.diag(reported.covariance), np.diag(reported.covariance)))
-    # 3,000 draws tell a variance to 2.6 %, a correlation to 1.8 %.
+    # # 3,000 draws determine a variance to 2.6 %, a correlation to 1.8 %.
     np.testing.assert_allclose(drawn / scale, reported.covariance / scale, atol=0.11)
-    # The ellipsoid holds the tip, and the cone the axis, in 95 %.
+    # # The ellipsoid contains the tip, and the cone the axis, in 95 %.
     spread = propagate_uncertainty(reported, CHANNEL)
     inverse = np.linalg.inv(spread.tip_covariance_mm2)
     tips = steps[:, :3]
@@ -125,7 +125,7 @@ CHANNEL = Channel(
 POINT = np.array([7.0, -4.0, 11.0])
 
 
-def test_a_point_of_an_uncertain_pose_is_as_uncertain_as_geometry_says() -> None:
+def test_the_uncertainty_of_a_point_agrees_with_the_geometry() -> None:
     point: Rigid[Marker, Tool] = Rigid(rotation=np.eye(3), translation_mm=POINT)
     there = placed(CAMERA_FROM_MARKER, MARKER_COVARIANCE) @ placed(point, np.zeros((6, 6)))
     expected = point_covariance_mm2(CAMERA_FROM_MARKER, MARKER_COVARIANCE, POINT)

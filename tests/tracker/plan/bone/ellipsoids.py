@@ -1,4 +1,4 @@
-"""A CT of an ellipsoid of bone whose surface is known: each voxel holds the share of it that is bone."""
+"""A CT of an ellipsoidal bone with known surface: each voxel contains its fraction of bone."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""The surface out of a CT is the wall of the bone: signed, in the pedicle, for thin and thick cortex."""
+"""Signed error of a CT surface against the bone wall, in the pedicle, for thin and thick cortex."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The proposed threshold lies between soft tissue and bone, however much of either there is."""
+"""The proposed threshold is between soft tissue and bone, whatever their proportions."""
 
 import numpy as np
 import numpy.typing as npt

@@ -1,4 +1,4 @@
-"""The fitted wall is where the cortex ends, wherever the surface was cut, and however thin the cortex is."""
+"""The fitted wall is at the outside of the cortex, whatever the threshold and the thickness of the cortex."""
 
 from typing import Any
 
@@ -29,7 +29,7 @@ def plate(cortex_mm: float, *, noise_hu: float = 15.0, next_mm: float | None = N
 
 
 def fitted(hu: npt.NDArray[Any], off_mm: float) -> EdgeFit:
-    """Of places on a plane that lies this far outside of the wall."""
+    """Points on a plane at this distance outside of the wall."""
     y, z = np.meshgrid(np.linspace(2.0, 11.0, 20), np.linspace(2.0, 11.0, 20))
     points = np.stack([np.full(y.size, WALL_MM + off_mm), y.ravel(), z.ravel()], axis=1)
     normals = np.tile([1.0, 0.0, 0.0], (len(points), 1))

@@ -1,4 +1,4 @@
-"""The surface of a real vertebra: between its neighbours, at a threshold that a radiologist would take."""
+"""The surface of a real vertebra: between its neighbours, at a threshold that a radiologist would choose."""
 
 import nibabel
 import numpy as np
@@ -23,7 +23,7 @@ def test_a_lumbar_vertebra_is_cut_out_of_a_real_scan() -> None:
     assert 0.0 < made.proposal.surroundings_hu < 60.0
     assert made.averaged_ijk == (1, 1, 1)
     assert made.cut_at == ()
-    # It reaches about as far as a machine found it to reach; in voxels of 3 mm its thin processes fade.
+    # # About as large as segmented automatically; thin processes vanish in voxels of 3 mm.
     for ends in (np.min, np.max):
         assert np.abs(ends(made.surface.vertices_mm, axis=0) - ends(voxels, axis=0)).max() < 15.0
     assert made.surface.volume_ml > 0.0

@@ -1,4 +1,4 @@
-"""Builds poses of a tool whose tip and axis are known: tilted about a divot, or spun about its axis."""
+"""Poses of a tool with known tip and axis: tilted about a divot, or spun about its axis."""
 
 from dataclasses import dataclass
 
@@ -15,14 +15,15 @@ FACING = rotation_from_vector([2.9, 0.4, 0.2])
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Hand:
-    """How the tool is moved and how badly it is seen; angles are half ranges.
+    """Motion of the tool and quality of its poses; angles are half ranges.
 
     Attributes:
-        tilts_deg: along, and at right angles to it.
-        spin_deg: about the way to the tip.
+        tilts_deg: along one axis, and perpendicular to it.
+        spin_deg: about the direction to the tip.
         shift_sd_mm: noise of each coordinate.
         turn_sd_deg: noise about each axis of the marker.
-        outlier_ratio: share of poses that are anywhere within some 10 mm and 2 degrees.
+        outlier_ratio: share of poses that are off by some 10 mm and 2 degrees.
+
     """
 
     count: int = 60
@@ -38,7 +39,7 @@ class Hand:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pivoted:
-    """Poses, with what was true."""
+    """Poses with their truth."""
 
     poses: Poses
     tip_mm: Array
@@ -51,7 +52,7 @@ def turns(vectors_rad: Array) -> Array:
 
 
 def pivoted(hand: Hand | None = None, *, seed: int = 0, states_covariance: bool = False) -> Pivoted:
-    """Poses of a tool that is tilted evenly over an ellipse, its tip held."""
+    """Poses of a tool that is tilted evenly over an ellipse with its tip fixed."""
     hand = hand or Hand()
     random = np.random.default_rng(seed)
     tip, pivot = np.array(hand.tip_mm), np.array(hand.pivot_mm)
@@ -98,7 +99,7 @@ def spun(
     outliers: int = 0,
     seed: int = 0,
 ) -> Poses:
-    """Poses of a tool spun about `AXIS`, which itself wavers in the hand."""
+    """Poses of a tool spun about `AXIS`, which wavers itself."""
     random = np.random.default_rng(seed)
     angles = np.radians(arc_deg) * random.uniform(-0.5, 0.5, (count, 1))
     wobble = turns(np.radians(wobble_deg) * random.normal(size=(count, 3)))

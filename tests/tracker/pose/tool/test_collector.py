@@ -1,4 +1,4 @@
-"""Poses gathered one after another: which are taken, which not and why, and what is said to be missing."""
+"""Collection of poses: which are accepted, which are not and why, and what is missing."""
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ RATE_HZ = 30.0
 
 
 def placed(rotation_deg: tuple[float, float, float]) -> Rigid[Camera, Marker]:
-    """The tool turned in the camera's frame about its tip."""
+    """The tool rotated about its tip, in the camera's frame."""
     rotation = rotation_from_vector(np.radians(rotation_deg)) @ HERE
     return Rigid(rotation=rotation, translation_mm=np.array([0.0, 0.0, 500.0]) - rotation @ np.array(TIP_MM))
 
@@ -36,7 +36,7 @@ def swept(
     start_s: float = 0.0,
     rate_hz: float = RATE_HZ,
 ) -> float:
-    """Feed a path; gives the time after it."""
+    """Feed a path; return the time after it."""
     for number, turn in enumerate(path):
         collector.take_pose(placed(turn), SURE, at_s=start_s + number / rate_hz)
     return start_s + len(path) / rate_hz

@@ -228,7 +228,7 @@ def test_a_covariance_that_is_none_is_rejected(covariance: np.ndarray) -> None:
         ),
     ],
 )
-def test_the_gate_says_what_fails_with_both_numbers(hand: Hand, code: str) -> None:
+def test_the_gate_states_failures_with_both_numbers(hand: Hand, code: str) -> None:
     failures = pivot_calibration(pivoted(hand).poses).failures(ToolGate())
     assert code in [failure.code for failure in failures]
     assert all("0.80" in failure.message and failure.remedy for failure in failures)

@@ -1,4 +1,4 @@
-"""Pieces of bars, from both of their edges or, beside a needle that is known, from one."""
+"""Segments of bars, from both edges, or from one edge beside a known needle."""
 
 import cv2
 import numpy as np
@@ -9,7 +9,7 @@ KNOWN = Bar(middle_px=np.array([100.0, 100.0]), along=np.array([0.0, 1.0]), widt
 
 
 def step_at(x_px: int) -> np.ndarray[tuple[int, int], np.dtype[np.uint8]]:
-    """An image that is dark to the left of a column and bright to the right, from row 60 to 140."""
+    """An image that is dark left of a column and bright right of it, from row 60 to 140."""
     image = np.full((200, 300), 60, np.uint8)
     image[60:140, x_px:] = 180
     return np.asarray(cv2.GaussianBlur(image, (0, 0), 0.8), dtype=np.uint8)

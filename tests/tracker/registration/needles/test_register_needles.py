@@ -1,4 +1,4 @@
-"""Three needles become the registration: true within what it states, and rejected where it cannot be."""
+"""Registration with three needles: within its stated error, or rejected."""
 
 import dataclasses
 
@@ -33,7 +33,7 @@ def registered(given: Seen, limits: NeedleLimits | None = None) -> NeedleFit:
 
 
 def misfit(fit: NeedleFit, given: Seen) -> float:
-    """How far the truth is from the fit, as its covariance counts: 6 on the average if that is true."""
+    """Squared Mahalanobis distance of the truth from the fit: 6 on average if calibrated."""
     pose, truth = fit.registration.anchor_from_vertebra, given.camera_from_vertebra
     off = np.concatenate(
         [
@@ -148,7 +148,7 @@ def test_needles_that_hold_no_vertebra_are_rejected_with_numbers(given: Seen, co
 
 
 def test_two_poses_that_explain_the_needles_alike_are_reported() -> None:
-    """Three needles looked at from straight above, far away, and a ruler that says nothing of the tilt."""
+    """Three needles seen from straight above, far away, with a ruler that does not determine the tilt."""
     flat = np.array([[-20.0, 30.0, 15.0], [0.0, 30.0, -20.0], [20.0, 30.0, 12.0]])
     codes = set()
     for seed in range(4):
@@ -179,7 +179,7 @@ def reference(apart_mm: float) -> ReferenceSlice:
 
 
 def test_the_papers_lines_alone_leave_the_depth_along_the_needles_open() -> None:
-    """Needles on the slice's three lines, entries unknown: what is open is stated, and holds the truth."""
+    """Needles on the slice's three lines, entries unknown: the stated error is large and covers the truth."""
     places = planned_on_lines(reference(18.0))
     assert [one.name for one in places] == ["middle", "left", "right"]
     given = scene(4, entry_is_seen=False)

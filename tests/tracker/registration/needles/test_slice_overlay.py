@@ -1,4 +1,4 @@
-"""The slice over the video: what a person's hands do to it, and which pose that is."""
+"""The slice over the video: manual changes, and the resulting pose."""
 
 import numpy as np
 import pytest

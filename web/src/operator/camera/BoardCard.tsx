@@ -18,7 +18,7 @@ interface BoardCardProps {
   onBegun: () => void;
 }
 
-/** Which board is held before the camera, that board to be printed, and the beginning of collecting. */
+/** Choice of the board, its print-out, and the start of collecting. */
 export function BoardCard({ board, first, onBoard, onBegun }: BoardCardProps): ReactNode {
   const texts = useTexts().camera;
   const [paper, setPaper] = useState<Paper>("A4");

@@ -7,7 +7,7 @@ const DICTIONARIES = [4, 5, 6, 7].flatMap((bits) =>
   [50, 100, 250, 1000].map((size) => `DICT_${String(bits)}X${String(bits)}_${String(size)}`),
 );
 
-/** The numbers of a board, each with its unit. */
+/** Dimensions of a board, with units. */
 export function BoardNumbers({
   board,
   onBoard,

@@ -15,7 +15,7 @@ interface BurstProgressProps {
   onEnd: () => void;
 }
 
-/** What to do with the board now, and how far its images have been taken and read. */
+/** Instructions for the board, and progress of capture and detection. */
 export function BurstProgress({ working, onReady, onEnd }: BurstProgressProps): ReactNode {
   const texts = useTexts().camera.readout;
   const query = useQuery((signal) => answered(server.GET("/api/camera/readout/collection", { signal })), {
@@ -24,7 +24,7 @@ export function BurstProgress({ working, onReady, onEnd }: BurstProgressProps): 
   const { data } = query;
   const ready = useRef(false);
   useEffect(() => {
-    // Once a burst: what was rejected is taken anew, not fitted again.
+    // Fit each burst once: a rejected burst is captured again instead.
     if (data?.stage === "ready" && !ready.current) {
       ready.current = true;
       onReady();

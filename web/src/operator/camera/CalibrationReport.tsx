@@ -16,11 +16,11 @@ interface CalibrationReportProps {
   caseId: string;
   calibration: components["schemas"]["DocumentMessage"];
   gate: components["schemas"]["CalibrationConfig"];
-  /** Names this calibration where it was just made here. */
+  /** Identifies a calibration that was just made here. */
   fresh: string | null;
 }
 
-/** The calibration that the case has: its numbers with their limits, its warnings, its pictures, its views. */
+/** Calibration of the case: values with limits, warnings, plots and views. */
 export function CalibrationReport({ caseId, calibration, gate, fresh }: CalibrationReportProps): ReactNode {
   const all = useTexts();
   const texts = all.camera;

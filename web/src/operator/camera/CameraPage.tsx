@@ -18,7 +18,7 @@ import { ReadoutCard } from "./ReadoutCard";
 
 const ASK_EVERY_MS = 2000;
 
-/** The camera: its test, the markers and their search, its calibration with live coverage, its accuracy. */
+/** The camera page: test, markers, calibration with live coverage, accuracy. */
 export function CameraPage(): ReactNode {
   const texts = useTexts().camera;
   const procedure = useProcedure();
@@ -76,7 +76,7 @@ export function CameraPage(): ReactNode {
                 caseId={caseId}
                 calibration={data.calibration}
                 gate={gates.calibration}
-                // While views are still shown above it, it would move again.
+                // Mounted after the views, so that it does not move again.
                 fresh={calibratedHere && !data.collecting ? data.calibration.heading.id : null}
               />
             )}

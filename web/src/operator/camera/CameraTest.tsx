@@ -7,7 +7,7 @@ import { problemsOf } from "../../panes/problems";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 
-/** What the camera gives just now: from where, how large, how often, how old. */
+/** Current images of the camera: source, size, rate, age. */
 export function CameraTest(): ReactNode {
   const texts = useTexts();
   const { view, dashboard } = useLive();

@@ -26,7 +26,7 @@ interface CollectionProps {
   onOver: () => void;
 }
 
-/** Views as they are collected: where the board has been, how it was tilted, what is missing; then the fit. */
+/** Collected views: coverage, tilts, missing conditions; then the calibration. */
 export function Collection({ gates, onCalibrated, onOver }: CollectionProps): ReactNode {
   const texts = useTexts().camera;
   const madeBy = useMaker();
@@ -42,7 +42,7 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
     onOver();
   };
   const followed = useJob((job) => {
-    // What was kept needs its views no more; after a failure they stay, for another try.
+    // After success the views are discarded; after a failure they stay for another attempt.
     if (job.state !== "done") return;
     onCalibrated();
     void end();

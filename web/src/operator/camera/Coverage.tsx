@@ -5,7 +5,7 @@ import { interpolate } from "../../texts/interpolate";
 
 type Collected = components["schemas"]["CollectionMessage"];
 
-/** The image part by part: where the board has been, and where it is seen just now. */
+/** Grid of the image: past positions of the board, and its present corners. */
 export function Coverage({ collected }: { collected: Collected }): ReactNode {
   const texts = useTexts().camera;
   const { covered, points_px: points } = collected;

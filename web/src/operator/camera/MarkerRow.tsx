@@ -19,13 +19,13 @@ interface MarkerRowProps {
   onRemoved: () => void;
 }
 
-/** One marker: its picture, its side, and how its search goes in the newest image. */
+/** One marker: picture, size, and its detection in the newest image. */
 export function MarkerRow({ marker, gate, onRemoved }: MarkerRowProps): ReactNode {
   const texts = useTexts();
   const { view } = useLive();
   const madeBy = useMaker();
   const removing = useAction();
-  // Scores belong to an image as numbers do: they go when it is old.
+  // Scores belong to an image: they are removed when it is too old.
   const stale = !view.numbers.live && view.numbers.cause !== "unread";
   const found = view.newest?.snapshot?.markers.find((one) => one.name === marker.name) ?? null;
   const sighting = stale ? null : (found?.sighting ?? null);
@@ -46,7 +46,7 @@ export function MarkerRow({ marker, gate, onRemoved }: MarkerRowProps): ReactNod
       })
       .then(onRemoved);
   };
-  // Another picture under the same name is another document: the browser must not show the one before.
+  // A new picture under the same name is another document and must not come from the browser's cache.
   const address = `/api/markers/${marker.name}/picture?document=${marker.document_id ?? "settings"}`;
   return (
     <li className="marker-row" data-testid={`marker-${marker.name}`} data-seen={seen !== null}>

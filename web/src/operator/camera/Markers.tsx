@@ -12,12 +12,12 @@ export type MarkerGate = components["schemas"]["TrackerConfig"];
 
 interface MarkersProps {
   gate: MarkerGate;
-  /** Whether a case is open to keep one in; null until that is known. */
+  /** Whether a case is open to store a marker in; null until known. */
   canAdd: boolean | null;
   onChange: () => void;
 }
 
-/** The markers that are looked for, with their pictures and their search as it goes; another one sent. */
+/** The loaded markers with their live detection, and a form to add one. */
 export function Markers({ gate, canAdd, onChange }: MarkersProps): ReactNode {
   const texts = useTexts().camera;
   const query = useQuery((signal) => answered(server.GET("/api/markers", { signal })), {

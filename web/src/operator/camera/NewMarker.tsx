@@ -14,7 +14,7 @@ interface Chosen {
   address: string;
 }
 
-/** Another marker: its picture as it was printed, what it is called, how large its black square is. */
+/** Form for a marker: picture, name, and side of its black square. */
 export function NewMarker({
   known,
   onAdded,

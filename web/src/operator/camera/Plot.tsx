@@ -5,7 +5,7 @@ import { Rejection } from "../../rest/client";
 import { useTexts } from "../../texts/TextsContext";
 import { downloadFile } from "../parts/transfer";
 
-/** A picture that belongs to a calibration. It comes as plain bytes, and is only ever shown as a picture. */
+/** A plot of a calibration. The file is arbitrary bytes and is only used as an image source. */
 export function Plot({ caseId, file, name }: { caseId: string; file: string; name: string }): ReactNode {
   const texts = useTexts().rest;
   const [address, setAddress] = useState<string | null>(null);

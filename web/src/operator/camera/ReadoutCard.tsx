@@ -24,7 +24,7 @@ interface ReadoutCardProps {
   onChange: () => void;
 }
 
-/** The readout of a rolling shutter: out of the data sheet, or measured with a board that is shaken. */
+/** Readout time of a rolling shutter: from the data sheet, or measured with a moving board. */
 export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
   const texts = useTexts().camera.readout;
   const madeBy = useMaker();
@@ -46,7 +46,7 @@ export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
       .then(refetch);
   };
   const followed = useJob((job) => {
-    // What the motion did not determine is said, and another burst is taken.
+    // States what the motion did not determine, and captures another burst.
     if (job.state !== "done" && job.problem !== null) setRejected(new Rejection(job.problem));
     if (job.state !== "done") end();
     changed();

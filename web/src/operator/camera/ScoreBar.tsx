@@ -5,11 +5,11 @@ import { useTexts } from "../../texts/TextsContext";
 interface ScoreBarProps {
   name: string;
   ratio: number | null;
-  /** From where on the marker counts as found. */
+  /** Score from which the marker counts as found. */
   acceptRatio: number;
 }
 
-/** A score as the paper's program shows it, with the line that it must reach. */
+/** A score as in the paper's program, with its threshold. */
 export function ScoreBar({ name, ratio, acceptRatio }: ScoreBarProps): ReactNode {
   const texts = useTexts().case.measure;
   const accepted = ratio !== null && ratio >= acceptRatio;

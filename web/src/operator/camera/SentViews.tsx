@@ -3,7 +3,7 @@ import { RejectionNote } from "../../rest/RejectionNote";
 import { Rejection } from "../../rest/client";
 import { useTexts } from "../../texts/TextsContext";
 import { FileButton } from "../parts/FileButton";
-import { interpolate } from "../../texts/interpolate";
+import { pluralize } from "../../texts/pluralize";
 import { uploadFile } from "../parts/transfer";
 import { TransferProgress } from "../parts/TransferProgress";
 import { useTransfer } from "../parts/useTransfer";
@@ -13,9 +13,9 @@ interface Rejected {
   rejection: Rejection;
 }
 
-/** Views from pictures that were taken before, one after the other; each that is rejected says why. */
+/** Adds views from image files, one after another, and shows the rejected ones. */
 export function SentViews({ disabled, onAdded }: { disabled: boolean; onAdded: () => void }): ReactNode {
-  const texts = useTexts().camera;
+  const { camera: texts, language } = useTexts();
   const transfer = useTransfer();
   const [rejected, setRejected] = useState<readonly Rejected[]>([]);
   const [storedViews, setStoredViews] = useState<number | null>(null);
@@ -57,7 +57,7 @@ export function SentViews({ disabled, onAdded }: { disabled: boolean; onAdded: (
         <p className="soft grow">{texts.sendViewsHint}</p>
       </div>
       <TransferProgress transfer={transfer} name={texts.sendViews} />
-      {storedViews !== null && <p role="status">{interpolate(texts.viewsSent, { count: storedViews })}</p>}
+      {storedViews !== null && <p role="status">{pluralize(texts.viewsSent, storedViews, language)}</p>}
       {rejected.map(({ file, rejection }) => (
         <RejectionNote key={file} rejection={rejection} />
       ))}

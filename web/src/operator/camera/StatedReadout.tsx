@@ -11,7 +11,7 @@ interface StatedReadoutProps {
   onStored: () => void;
 }
 
-/** A readout out of the data sheet; an empty field is one that is not known. */
+/** Readout time from the data sheet; empty means unknown. */
 export function StatedReadout({ readoutMs, onStored }: StatedReadoutProps): ReactNode {
   const texts = useTexts().camera.readout;
   const madeBy = useMaker();

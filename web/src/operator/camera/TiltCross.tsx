@@ -11,7 +11,7 @@ const PLACES: Record<Way, { x: number; y: number; dx: number; dy: number }> = {
   right: { x: 114, y: 100, dx: 1, dy: 0 },
 };
 
-/** How far the board was tilted to each side, against how far it should be. */
+/** Tilt of the board to each side, relative to the required tilt. */
 export function TiltCross({
   tiltDeg,
   wantedDeg,

@@ -1,10 +1,10 @@
-// Calibration boards as they are asked for: what each kind is described by.
+// Calibration boards and their parameters.
 import type { components } from "../../schema";
 
 export type Board = components["schemas"]["CollectionMessage"]["board"];
 export type Pattern = Board["pattern"];
 
-/** A board of each kind that the print-outs of this program have, and the rehearsal shows. */
+/** Default board of each kind, as printed by this program and shown in the rehearsal. */
 export function boardOf(pattern: Pattern): Board {
   switch (pattern) {
     case "dots":
@@ -26,7 +26,7 @@ export function boardOf(pattern: Pattern): Board {
 
 export const startingBoard = boardOf("dots");
 
-/** Whether the numbers can be those of a board; what remains to be rejected, the server rejects. */
+/** Plausibility of a board's numbers; the server validates the rest. */
 export function isBoard(board: Board): boolean {
   const counts = [board.columns, board.rows].every((n) => Number.isInteger(n) && n >= 2 && n <= 200);
   const side = board.pattern === "dots" ? board.pitch_mm : board.square_mm;

@@ -11,7 +11,7 @@ test("a readout that is not known is not called a global shutter", () => {
   );
 });
 
-test("a measured readout says so", () => {
+test("a measured readout is called measured", () => {
   const text = readoutText({ ...NONE, readout_ms: 16.04, sd_ms: 0.2, found_by: "measured" }, readoutEn);
   expect(text).toBe("Measured: 16.0 ms from the first row to the last.");
 });

@@ -1,4 +1,4 @@
-// What the calibration says of the readout, in one sentence.
+// The readout of a calibration as a sentence.
 import { formatNumber } from "../../live/rounding";
 import type { components } from "../../schema";
 import { interpolate } from "../../texts/interpolate";

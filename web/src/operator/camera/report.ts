@@ -1,4 +1,4 @@
-// What a calibration's document says, read with care: its content is whatever was stored.
+// Parses a calibration document; its content is not trusted.
 export interface Parameter {
   name: string;
   value: number;
@@ -29,7 +29,7 @@ export interface Report {
   parameters: readonly Parameter[];
   views: readonly View[];
   warnings: readonly Warning[];
-  /** File ids by the name of the picture. */
+  /** File ids by the name of the plot. */
   plots: readonly (readonly [string, string])[];
 }
 

@@ -1,15 +1,15 @@
-// How far a board was tilted, side by side of it.
+// Tilt of a board to each side.
 export type Way = "up" | "down" | "left" | "right";
 
 export interface Arm {
-  /** The edge of the board that leans away from the camera. */
+  /** The edge that leans away from the camera. */
   way: Way;
   reachedDeg: number;
-  /** 0 to 1, of what is wanted. */
+  /** Share of the required tilt, 0 to 1. */
   ratio: number;
 }
 
-/** From least and most lean (upper edge away is above 0), least and most turn (left edge away is above 0). */
+/** From minimum and maximum lean (> 0: upper edge away) and turn (> 0: left edge away). */
 export function armsOf(tiltDeg: readonly number[], wantedDeg: number): Arm[] {
   const [minLean = 0, maxLean = 0, minTurn = 0, maxTurn = 0] = tiltDeg;
   const reached: [Way, number][] = [

@@ -8,7 +8,7 @@ import { TransferProgress } from "../parts/TransferProgress";
 import { useTransfer } from "../parts/useTransfer";
 import type { Case } from "./OpenedCase";
 
-/** Takes a case in from its archive: whole, or nothing of it. */
+/** Imports a case from an archive, completely or not at all. */
 export function ArchiveIn({ onTaken }: { onTaken: () => void }): ReactNode {
   const texts = useTexts().case;
   const [taken, setTaken] = useState<Case | null>(null);

@@ -6,7 +6,7 @@ import { downloadFile } from "../parts/transfer";
 import { TransferProgress } from "../parts/TransferProgress";
 import { useTransfer } from "../parts/useTransfer";
 
-/** The case as one file to be saved; who the patient is stays here unless somebody asks for it. */
+/** Saves the case as one file; the patient's identity only on request. */
 export function ArchiveOut({ caseId }: { caseId: string }): ReactNode {
   const texts = useTexts().case;
   const [withIdentity, setWithIdentity] = useState(false);

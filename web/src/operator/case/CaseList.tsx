@@ -15,7 +15,7 @@ interface CaseListProps {
   onChange: () => void;
 }
 
-/** All other cases: open one, or delete it. */
+/** The other cases, to open or delete. */
 export function CaseList({ cases, openedId, onChange }: CaseListProps): ReactNode {
   const texts = useTexts();
   const opening = useAction();

@@ -14,7 +14,7 @@ import { Verification } from "./Verification";
 
 const ASK_EVERY_MS = 3000;
 
-/** The case that is worked in: made, opened, looked through, copied out, put away. */
+/** The case page: create, open, inspect, archive and close cases. */
 export function CasePage(): ReactNode {
   const { refetch: askProcedure } = useProcedure();
   const query = useQuery((signal) => answered(server.GET("/api/cases", { signal })), {

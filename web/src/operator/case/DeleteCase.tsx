@@ -6,7 +6,7 @@ import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import type { Case } from "./OpenedCase";
 
-/** Nothing brings a deleted case back, so its name is to be written; a slip of the hand does not do that. */
+/** Deletes a case after its name was typed, since it cannot be restored. */
 export function DeleteCase({ leaving, onEnd }: { leaving: Case; onEnd: () => void }): ReactNode {
   const texts = useTexts().case;
   const [confirm, setConfirm] = useState("");

@@ -15,7 +15,7 @@ export type Heading = components["schemas"]["HeadingMessage"];
 
 const ASK_EVERY_MS = 3000;
 
-/** What the case has, and whether each of it holds; if not, why. */
+/** Documents of the case with their validity and the reason if they are not valid. */
 export function Documents({ caseId }: { caseId: string }): ReactNode {
   const texts = useTexts().case;
   const [all, setAll] = useState(false);

@@ -11,7 +11,7 @@ import { sentence } from "../parts/format";
 
 const SHOWN = 5;
 
-/** Long work, on whatever page it was begun: how far it is, how it ended, and a way to stop it. */
+/** All jobs of the case: progress, result, and cancel button. */
 export function Jobs(): ReactNode {
   const texts = useTexts();
   const cancelling = useAction();

@@ -6,7 +6,7 @@ import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 
-/** Makes a case and opens it; large where there is none yet. */
+/** Creates a case and opens it; prominent if there is none yet. */
 export function NewCase({ first, onMade }: { first: boolean; onMade: () => void }): ReactNode {
   const texts = useTexts().case;
   const [name, setName] = useState("");
@@ -16,7 +16,7 @@ export function NewCase({ first, onMade }: { first: boolean; onMade: () => void 
       const made = await answered(server.POST("/api/cases", { body: { name: name.trim() } }));
       await answered(server.POST("/api/cases/{case_id}/open", { params: { path: { case_id: made.id } } }));
     });
-    // Also when only the opening was rejected: the case is in the list then.
+    // Refreshed even if only opening was rejected, since the case then exists.
     onMade();
     if (done) setName("");
   };

@@ -12,7 +12,7 @@ import { Rename } from "./Rename";
 
 export type Case = components["schemas"]["CaseMessage"];
 
-/** The case that is open: its name, its archive, and the way out of it. */
+/** The open case: name, archive, and close button. */
 export function OpenedCase({ opened, onChange }: { opened: Case; onChange: () => void }): ReactNode {
   const texts = useTexts();
   const closing = useAction();

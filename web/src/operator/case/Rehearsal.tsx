@@ -22,16 +22,16 @@ const SCENES: readonly Scene[] = ["board", "pivot", "spin", "landmarks", "sweep"
 
 const ASK_EVERY_MS = 1500;
 
-/** Only where the camera is the theatre in software: what is played before it. */
+/** Choice of the played scene; shown only with the simulated theatre. */
 export function Rehearsal(): ReactNode {
   const texts = useTexts().case.rehearsal;
   const query = useRehearsal({ everyMs: ASK_EVERY_MS });
-  // What was just chosen, until the server says that it plays it.
+  // The new choice, until the server reports it.
   const [wish, setWish] = useState<Partial<Played>>({});
   const playing = useAction();
   const { data, refetch } = query;
   if (data === null) return <RejectionNote rejection={query.rejection} />;
-  // The answer has them as text; they are what was asked for before.
+  // Strings in the answer; they are valid choices, since they were sent as such.
   const played: Played = {
     scene: data.scene as Scene,
     skill: data.skill as Skill,

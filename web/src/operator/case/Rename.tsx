@@ -6,7 +6,7 @@ import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import type { Case } from "./OpenedCase";
 
-/** A case's name, and another one for it; the one before can be had back. */
+/** Renames a case, with undo. */
 export function Rename({ case_, onRenamed }: { case_: Case; onRenamed: () => void }): ReactNode {
   const texts = useTexts().case;
   const [name, setName] = useState<string | null>(null);

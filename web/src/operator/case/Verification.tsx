@@ -8,11 +8,11 @@ import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { sentence, formatBytes } from "../parts/format";
-import { interpolate } from "../../texts/interpolate";
+import { pluralize } from "../../texts/pluralize";
 
-/** The files of a case, read from end to end when somebody wants to know. */
+/** Verifies all files of a case on request. */
 export function Verification({ caseId }: { caseId: string }): ReactNode {
-  const { case: texts, rest } = useTexts();
+  const { case: texts, rest, language } = useTexts();
   const [found, setFound] = useState<components["schemas"]["VerificationMessage"] | null>(null);
   const verifying = useAction();
   const params = { path: { case_id: caseId } };
@@ -34,7 +34,7 @@ export function Verification({ caseId }: { caseId: string }): ReactNode {
         <p className="grow">
           {data === null
             ? rejection === null && rest.loading
-            : interpolate(texts.filesCount, { count: data.files.length, size: formatBytes(bytes) })}
+            : pluralize(texts.filesCount, data.files.length, language, { size: formatBytes(bytes) })}
         </p>
         <Button size="lg" variant="default" loading={verifying.busy} onClick={verify}>
           {texts.verify}

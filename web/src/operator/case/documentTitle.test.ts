@@ -12,6 +12,6 @@ test.each([
   ["registration", "L3", "Registration of L3"],
   ["signature", "registration L3 by a17", "Co-signature of the registration of L3"],
   ["snapshot", "main", "Snapshot main"],
-] as const)("%s “%s” is told as people say it", (kind, name, title) => {
+] as const)("%s “%s” has a readable title", (kind, name, title) => {
   expect(documentTitle({ kind, name }, caseEn)).toBe(title);
 });

@@ -1,4 +1,4 @@
-// What a document is called by people: the server's own names are for programs.
+// Titles of documents for display; the server's names are identifiers.
 import type { components } from "../../schema";
 import type { CaseTexts } from "../../texts/case/en";
 import { interpolate } from "../../texts/interpolate";
@@ -6,7 +6,7 @@ import { interpolate } from "../../texts/interpolate";
 type Heading = Pick<components["schemas"]["HeadingMessage"], "kind" | "name">;
 type Title = keyof CaseTexts["titles"];
 
-/** By kind, how the server names what it keeps; the bracket is what people would call it. */
+/** Patterns of the server's names by kind; the group is the displayed name. */
 const NAMED: readonly [kind: Heading["kind"], name: RegExp, title: Title][] = [
   ["check", /^registration of (.+)$/, "check"],
   ["check", /^tip of (.+)$/, "tip"],

@@ -21,7 +21,7 @@ test("each document once, in its newest version, the last made first", () => {
   expect(newestOf(all)).toEqual([of("tool", "awl", 1), of("camera", "main", 2), of("tool", "drill", 1)]);
 });
 
-test("a version that was told late does not hide a newer one", () => {
+test("a version that arrives late does not hide a newer one", () => {
   expect(newestOf([of("plan", "main", 3), of("plan", "main", 2)])).toEqual([of("plan", "main", 3)]);
 });
 

@@ -1,4 +1,4 @@
-// Of each document the newest version, the last made first.
+// Newest version of each document, last made first.
 interface Versioned {
   kind: string;
   name: string;

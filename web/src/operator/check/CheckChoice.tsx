@@ -21,7 +21,7 @@ interface CheckChoiceProps {
   onBegun: () => void;
 }
 
-/** Which landmark is checked on: one that the registration was not made from. */
+/** Choice of a landmark that was not used for the registration. */
 export function CheckChoice({ vertebra, used, maxMm, onBegun }: CheckChoiceProps): ReactNode {
   const texts = useTexts().check;
   const plan = useQuery((signal) => answered(server.GET("/api/plan", { signal })));

@@ -9,11 +9,11 @@ import { minutesLeft } from "./due";
 
 interface CheckDueProps {
   rule: components["schemas"]["CheckRuleMessage"];
-  /** Names the check that was just kept here. */
+  /** Identifies a check that was just saved here. */
   fresh: string | null;
 }
 
-/** The result of the last check, and when the next is due. */
+/** Result of the last check, and when the next is due. */
 export function CheckDue({ rule, fresh }: CheckDueProps): ReactNode {
   const texts = useTexts().check;
   const step = useProcedure().data?.steps.find((one) => one.step === "check");

@@ -5,7 +5,7 @@ import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { interpolate } from "../../texts/interpolate";
 
-/** How far the tip is from where the plan has the landmark, against what is allowed, and which way. */
+/** Distance of the tip from the planned landmark, with its limit and direction. */
 export function CheckOutcome({ outcome }: { outcome: components["schemas"]["CheckRecord"] }): ReactNode {
   const texts = useTexts().check;
   const [left = 0, back = 0, head = 0] = outcome.off_lps_mm;

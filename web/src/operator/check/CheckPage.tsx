@@ -14,7 +14,7 @@ import { CheckChoice } from "./CheckChoice";
 import { CheckDue } from "./CheckDue";
 import { CheckWork } from "./CheckWork";
 
-/** The check on anatomy: a landmark that was not used decides whether anybody may navigate. */
+/** Check on anatomy: an unused landmark decides whether navigation is allowed. */
 export function CheckPage(): ReactNode {
   const texts = useTexts().check;
   const procedure = useProcedure();

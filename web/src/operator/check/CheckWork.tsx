@@ -19,11 +19,11 @@ const ASK_EVERY_MS = 250;
 
 interface CheckWorkProps {
   onOver: () => void;
-  /** It was kept, whether it passed or not. */
+  /** Called after the check was saved, passed or failed. */
   onStored: () => void;
 }
 
-/** The tip held on the landmark until it is taken; then its distance, and what to do with it. */
+/** Measures the tip on the landmark, then shows the distance and the choices. */
 export function CheckWork({ onOver, onStored }: CheckWorkProps): ReactNode {
   const texts = useTexts().check;
   const procedure = useProcedure();

@@ -1,6 +1,6 @@
-// When the check is asked for again.
+// Time until the next check.
 
-/** Minutes until then, at least 0; null where no check says how old it is. */
+/** Minutes until the check is due, at least 0; null without a check of known age. */
 export function minutesLeft(ageMin: unknown, againAfterMin: number): number | null {
   return typeof ageMin === "number" ? Math.max(0, againAfterMin - ageMin) : null;
 }

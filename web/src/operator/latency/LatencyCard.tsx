@@ -11,7 +11,7 @@ import { LatencyReport } from "./LatencyReport";
 import { LatencyScreen } from "./LatencyScreen";
 import type { Plan, Result } from "./measure";
 
-/** The latency from light to page, measured with this screen and the camera before it. */
+/** Latency from light to page, measured with this screen and the camera in front of it. */
 export function LatencyCard(): ReactNode {
   const texts = useTexts().latency;
   const { data, refetch } = useLatency();
@@ -63,5 +63,5 @@ export function LatencyCard(): ReactNode {
   );
 }
 
-/** Some 20 s at 30 images a second. */
+/** Some 20 s at 30 images/s. */
 const CODES = 160;

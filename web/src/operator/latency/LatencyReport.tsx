@@ -6,7 +6,7 @@ import { Measure } from "../parts/Measure";
 import { formatTime } from "../parts/format";
 import { STAGES, type Result } from "./result";
 
-/** What was measured, its stages, and what it cannot tell. */
+/** The measured latency, its stages and its resolution. */
 export function LatencyReport({ result }: { result: Result }): ReactNode {
   const all = useTexts();
   const texts = all.latency;

@@ -9,11 +9,11 @@ import { measure, type Plan, type Progress, type Result } from "./measure";
 
 interface LatencyScreenProps {
   plan: Plan;
-  /** Called once, with neither where it was stopped. */
+  /** Called once; with null for both if stopped. */
   onOver: (result: Result | null, rejection: Rejection | null) => void;
 }
 
-/** The codes over the whole page, under the alarms; it ends by itself, by a touch, and when the page is left. */
+/** Shows the codes over the whole page, below the alarms, until the end, a touch, or unmount. */
 export function LatencyScreen({ plan, onOver }: LatencyScreenProps): ReactNode {
   const texts = useTexts().latency;
   const { live } = useLive();
@@ -41,7 +41,7 @@ export function LatencyScreen({ plan, onOver }: LatencyScreenProps): ReactNode {
       end();
       onEnd(null, null);
     };
-    // A page that is not in view paints nothing.
+    // A hidden page paints nothing.
     const onVisibility = (): void => {
       if (document.visibilityState === "hidden") leave();
     };

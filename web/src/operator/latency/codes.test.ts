@@ -3,7 +3,7 @@ import { CodeSequence } from "./codes";
 
 const plan = { patterns: ["a", "b", "c"], codes: 4, min_code_ms: 100, max_code_ms: 150 };
 
-test("a code stands for a time between the shortest and the longest", () => {
+test("a code is shown for between the shortest and the longest time", () => {
   const shortest = new CodeSequence(plan, () => 0);
   expect(shortest.next(1000)).toBe(0);
   expect(shortest.next(1099)).toBeNull();
@@ -14,7 +14,7 @@ test("a code stands for a time between the shortest and the longest", () => {
   expect(longest.next(1150)).toBe(1);
 });
 
-test("codes begin again after the last one, and no number comes twice in a row", () => {
+test("codes restart after the last one, and no number repeats in succession", () => {
   const sequence = new CodeSequence(plan, () => 0);
   expect([0, 100, 200, 300, 400].map((at) => sequence.next(at))).toEqual([0, 1, 2, 0, 1]);
 });

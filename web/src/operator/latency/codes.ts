@@ -1,4 +1,4 @@
-// Which code the screen shows, and when the next one is due. Pure: times and random numbers go in.
+// Sequence of codes and their times. Pure.
 
 export interface CodePlan {
   patterns: readonly string[];
@@ -10,7 +10,7 @@ export interface CodePlan {
 export class CodeSequence {
   private painted = 0;
   private dueAtMs = -Infinity;
-  /** Since the camera has read one; null while it is being pointed at the screen. */
+  /** Time of the first code that the camera read; null while it is being aimed. */
   private counted: number | null = null;
 
   constructor(
@@ -18,17 +18,17 @@ export class CodeSequence {
     private readonly random: () => number,
   ) {}
 
-  /** The code to paint with this screen image; null while the one before it stands, and at the end. */
+  /** The code to paint in this refresh; null while the previous one stays, and at the end. */
   next(nowMs: number): number | null {
     if (nowMs < this.dueAtMs || this.isOver) return null;
     const { patterns, min_code_ms, max_code_ms } = this.plan;
-    // Random times keep codes and images out of step, so that each part of an image period is met alike.
+    // Random intervals keep codes and images out of step, so that all phases of the image period are sampled.
     this.dueAtMs = nowMs + min_code_ms + this.random() * (max_code_ms - min_code_ms);
     if (this.counted !== null) this.counted += 1;
     return this.painted++ % patterns.length;
   }
 
-  /** The camera has read a code: from here on codes are counted. */
+  /** The camera has read a code: codes count from now on. */
   begin(): void {
     this.counted ??= 0;
   }

@@ -1,14 +1,14 @@
-// One code onto a canvas: cells in a black border, white around it.
+// Draws a code: cells inside a black border with a white margin.
 
 const BORDER_CELLS = 1;
-/** What stands out from a dark page: the border is found by the white around it. */
+/** Margin that separates the border from a dark page. */
 const WHITE_CELLS = 1;
 
-/** Draws a pattern ("1" is a white cell, row by row) as large as the canvas is. */
+/** Draws a pattern ("1" is a white cell, row by row) over the whole canvas. */
 export function drawCode(canvas: HTMLCanvasElement, pattern: string, cells: number): void {
   const sidePx = Math.round(Math.min(canvas.clientWidth, canvas.clientHeight) * devicePixelRatio);
   const all = cells + 2 * (BORDER_CELLS + WHITE_CELLS);
-  // Whole pixels for each cell: blurred edges are read later.
+  // Whole pixels per cell: blurred edges are detected later.
   const cellPx = Math.max(1, Math.floor(sidePx / all));
   if (canvas.width !== cellPx * all) canvas.width = canvas.height = cellPx * all;
   const context = canvas.getContext("2d", { alpha: false });

@@ -1,4 +1,4 @@
-// Measures: paints codes, notes what the live page shows meanwhile, and has the server time them.
+// Runs a measurement: paints codes, records what the page displays, and sends it to the server for evaluation.
 import type { Live } from "../../live/live";
 import { answered, Rejection, server } from "../../rest/client";
 import type { components } from "../../schema";
@@ -26,13 +26,13 @@ interface Measured {
 }
 
 const ASK_EVERY_MS = 500;
-/** To take the camera in hand; then the server says in how many images it read nothing. */
+/** Time to aim the camera; after that the server reports how many images it could not read. */
 const AIM_WITHIN_MS = 60_000;
-/** For the images that show the last code to come. */
+/** Time for images of the last code to arrive. */
 const LINGER_MS = 1500;
 
 /**
- * The result, or null where it was stopped by `signal`.
+ * Returns the result, or null if stopped by `signal`.
  *
  * @throws Rejection
  */
@@ -73,7 +73,7 @@ export async function measure(measured: Measured): Promise<Result | null> {
 function paintEachFrame({ plan, canvas }: Measured, sequence: CodeSequence, notes: LatencyNotes): () => void {
   let frame = 0;
   const onFrame = (): void => {
-    // One moment for code and picture: what the browser and the screen need after it is the same for both.
+    // One refresh for code and picture, so that later delays of browser and screen are the same for both.
     const nowMs = performance.now();
     notes.frame(nowMs);
     const code = sequence.next(nowMs);

@@ -1,4 +1,4 @@
-// What the page saw while the latency was measured, by its own clock. Pure: times go in as numbers.
+// Records what the page displayed during the measurement, on its own clock. Pure.
 import type { components } from "../../schema";
 import type { PaintedImage } from "../../live/view";
 
@@ -7,7 +7,7 @@ type Painted = Conclusion["painted"][number];
 type ShownImage = Conclusion["shown"][number];
 type Comparison = Conclusion["comparisons"][number];
 
-/** What the server takes. */
+/** Maximum that the server accepts. */
 const MAX_PAINTED = 1000;
 const MAX_SHOWN = 8000;
 const MAX_COMPARISONS = 1000;
@@ -21,12 +21,12 @@ export class LatencyNotes {
   private drawn: PaintedImage[] = [];
   private frameAtMs: number | null = null;
 
-  /** A picture was drawn; it is seen with the next screen image. */
+  /** A picture was drawn; it becomes visible with the next refresh. */
   draw(image: PaintedImage): void {
     this.drawn.push(image);
   }
 
-  /** A screen image begins: what was drawn before it is shown by it. */
+  /** A refresh begins and shows what was drawn before it. */
   frame(nowMs: number): void {
     if (this.frameAtMs !== null) this.periodsMs.push(nowMs - this.frameAtMs);
     this.frameAtMs = nowMs;
@@ -42,7 +42,7 @@ export class LatencyNotes {
     this.drawn = [];
   }
 
-  /** A code is painted with the screen image that begins now: the same moment as that of a picture. */
+  /** A code is painted in the refresh that begins now, at the same moment as a picture. */
   paint(code: number, nowMs: number): void {
     this.painted.push({ code, painted_at_ms: nowMs });
   }
@@ -55,7 +55,7 @@ export class LatencyNotes {
     });
   }
 
-  /** Images from before the camera saw a code say nothing; codes stay, because images on their way show them. */
+  /** Removes images from before the first code. Codes are kept, since later images still show them. */
   begin(): void {
     this.shown = [];
   }
@@ -70,7 +70,7 @@ export class LatencyNotes {
     };
   }
 
-  /** Of the screen: the median, because a busy page leaves images of the screen out. */
+  /** Refresh interval of the screen: the median, since a busy page misses refreshes. */
   private get periodMs(): number {
     const sorted = this.periodsMs.filter((one) => one > 0 && one <= 1000).sort((a, b) => a - b);
     const median = sorted[Math.floor(sorted.length / 2)] ?? USUAL_PERIOD_MS;

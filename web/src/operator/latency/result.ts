@@ -1,8 +1,8 @@
-// A measured latency, as the server sends it.
+// A latency measurement, as sent by the server.
 import type { components } from "../../schema";
 
 export type Result = components["schemas"]["LatencyResultMessage"];
 
-/** The way of the light, part by part. */
+/** The stages of the latency. */
 export const STAGES = ["screen and camera", "tracking", "server", "line", "page"] as const;
 export type Stage = (typeof STAGES)[number];

@@ -12,7 +12,7 @@ import { ConfirmOrCancelButton } from "../registration/ConfirmOrCancelButton";
 import { useMadeBy } from "../registration/useMadeBy";
 import { useSides } from "../registration/useSides";
 
-/** Which channel is drilled; another one is chosen by two touches, with what that ends. */
+/** The drilled channel; switching needs two touches and states what it ends. */
 export function ChannelSwitch(): ReactNode {
   const texts = useTexts().navigate;
   const sideName = useSides();
@@ -20,7 +20,7 @@ export function ChannelSwitch(): ReactNode {
   const madeBy = useMadeBy();
   const isPlanned = procedure.data?.steps.some((one) => one.step === "plan" && one.document_id !== null);
   const plan = useQuery(
-    // Without a plan there is nothing to ask for, and nothing to switch to.
+    // Without a plan there is nothing to switch to.
     async (signal) => (isPlanned === true ? answered(server.GET("/api/plan", { signal })) : null),
     { key: String(isPlanned) },
   );

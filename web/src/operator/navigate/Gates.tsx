@@ -4,16 +4,17 @@ import { formatNumber } from "../../live/rounding";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useTexts } from "../../texts/TextsContext";
 import { interpolate } from "../../texts/interpolate";
+import { stepReason } from "../stepReason";
 import { stateText } from "../stepTexts";
-import { useProcedure, type Step } from "../../app/procedure";
+import { useProcedure, type Procedure, type Step } from "../../app/procedure";
 
-/** Every step that does not hold or is due again, why, and the way to it; or that all hold. */
+/** Steps that are not valid or due again, with reasons and links; or that all are valid. */
 export function Gates(): ReactNode {
   const texts = useTexts();
   const procedure = useProcedure();
   const { data } = procedure;
   if (data === null) return <QueryStatus query={procedure} />;
-  // The head of the page says so, and what to do.
+  // The head of the page states this already.
   if (data.case_id === null) return null;
   const open = data.steps.filter((one) => one.step !== "navigate" && one.state !== "done");
   const check = data.steps.find((one) => one.step === "check");
@@ -37,7 +38,7 @@ export function Gates(): ReactNode {
                 {steps.map((one) => texts.operator.page[one.step]).join(", ")} ·{" "}
                 {stateText(steps[0], texts.operator)}
               </strong>{" "}
-              {steps[0].message}.
+              <Reason step={steps[0]} procedure={data} />
             </span>
             {steps.map((one) => (
               <Link key={one.step} className="big-link" href={`/operator/${one.step}`}>
@@ -51,7 +52,7 @@ export function Gates(): ReactNode {
   );
 }
 
-/** Neighbours that are in one state for one reason, together: it is said once. */
+/** Groups adjacent steps with the same state and reason. */
 function groupSteps(steps: readonly Step[]): [Step, ...Step[]][] {
   const groups: [Step, ...Step[]][] = [];
   for (const step of steps) {
@@ -62,9 +63,14 @@ function groupSteps(steps: readonly Step[]): [Step, ...Step[]][] {
   return groups;
 }
 
-/** On what it was checked and how far off it was; nothing where no check says so. */
+/** Landmark and distance of the check; empty if they are missing. */
 function checkSaid(texts: string, { landmark, distance_mm, max_mm }: Step["numbers"]): string {
   if (typeof landmark !== "string" || typeof distance_mm !== "number" || typeof max_mm !== "number")
     return "";
   return interpolate(texts, { landmark, mm: formatNumber(distance_mm, 1), max: formatNumber(max_mm, 1) });
+}
+
+function Reason({ step, procedure }: { step: Step; procedure: Procedure }): ReactNode {
+  const { message, lang } = stepReason(step, procedure, useTexts());
+  return <span lang={lang}>{message}</span>;
 }

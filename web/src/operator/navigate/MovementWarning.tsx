@@ -4,7 +4,7 @@ import { Link } from "wouter";
 import { useLive } from "../../live/LiveContext";
 import { useTexts } from "../../texts/TextsContext";
 
-/** Camera or patient moved: what that ends, and the way back. */
+/** Camera or patient moved: consequence and remedy. */
 export function MovementWarning(): ReactNode {
   const texts = useTexts().navigate;
   const watched = useLive().view.newest?.snapshot?.motion;

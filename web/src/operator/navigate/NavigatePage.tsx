@@ -13,7 +13,7 @@ import { Gates } from "./Gates";
 import { MovementWarning } from "./MovementWarning";
 import { Steadiness } from "./Steadiness";
 
-/** What the operator watches while the surgeon drills: gates, numbers, picture, the CT under the drill, and the channel in work. */
+/** The operator's page during drilling: gates, numbers, picture, cuts and the active channel. */
 export function NavigatePage(): ReactNode {
   const { data } = useProcedure();
   return (

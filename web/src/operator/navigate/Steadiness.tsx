@@ -5,7 +5,7 @@ import { setText } from "../../panes/setText";
 import { errorText } from "../../panes/verdictText";
 import { useTexts } from "../../texts/TextsContext";
 
-/** How sure and how prompt the numbers are, how long each marker is unseen, and what sees a move. */
+/** Smoothing and delay of the numbers, when markers were last seen, and how movement is detected. */
 export function Steadiness(): ReactNode {
   const texts = useTexts();
   const { view } = useLive();

@@ -5,12 +5,12 @@ interface CardProps {
   title: string;
   testId?: string;
   aside?: ReactNode;
-  /** Names what was just made here and stands in this card: it is brought into view. */
+  /** Identifies a result that was just made here; a new value scrolls to the card. */
   fresh?: string | null;
   children: ReactNode;
 }
 
-/** One part of a step's page with its name. */
+/** A titled section of a step's page. */
 export function Card({ title, testId, aside, fresh = null, children }: CardProps): ReactNode {
   const id = useId();
   const card = useIntoView<HTMLElement>(fresh);

@@ -4,7 +4,7 @@ import { useEffect, useState, type ReactNode } from "react";
 const FORGET_AFTER_MS = 5000;
 
 interface ConfirmButtonProps {
-  /** What the second touch says that it does. */
+  /** Label of the second touch. */
   confirmLabel: string;
   color?: string;
   variant?: string;
@@ -14,7 +14,7 @@ interface ConfirmButtonProps {
   children: ReactNode;
 }
 
-/** Does what it says with the second touch, so that a slip of the hand does nothing. */
+/** A button that acts on the second touch, so that a slip has no effect. */
 export function ConfirmButton(props: ConfirmButtonProps): ReactNode {
   const {
     confirmLabel,

@@ -6,13 +6,13 @@ import { sentence } from "./format";
 
 type Heading = components["schemas"]["HeadingMessage"];
 
-/** Whether a document holds, and what it was made from. */
+/** Validity of a document, and what it depends on. */
 export function DocumentValidity({
   heading,
   documents,
 }: {
   heading: Heading;
-  /** Null until they are known: then nothing is said of what it was made from. */
+  /** Null until known; then dependencies are omitted. */
   documents: readonly Heading[] | null;
 }): ReactNode {
   const texts = useTexts().case;

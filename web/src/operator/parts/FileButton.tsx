@@ -10,7 +10,7 @@ interface FileButtonProps {
   children: ReactNode;
 }
 
-/** A large button that asks for files; the same file can be chosen twice. */
+/** A large file button; the same file can be chosen twice. */
 export function FileButton(props: FileButtonProps): ReactNode {
   const { accept, multiple = false, disabled = false, testId, onFiles, children } = props;
   const input = useRef<HTMLInputElement>(null);

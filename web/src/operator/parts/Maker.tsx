@@ -8,7 +8,7 @@ interface Made {
   imported: components["schemas"]["ImportedMessage"] | null;
 }
 
-/** Who made something; of what came in with an archive, that only the archive says so, and who took it in. */
+/** Author of a document. For imported documents: according to the archive, and who imported it. */
 export function Maker({ of: made }: { of: Made }): ReactNode {
   const { case: texts, language } = useTexts();
   if (made.imported === null) return made.made_by ?? "";

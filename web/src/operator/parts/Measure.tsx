@@ -12,20 +12,20 @@ interface MeasureProps {
   value: number | null;
   unit: string;
   decimals?: number;
-  /** Its limit; without one it is only shown. */
+  /** The limit; without one the value is only shown. */
   limit?: Limit;
-  /** The limit lets it pass by a bar as well: how far it is on its way. */
+  /** Also shows progress towards the limit as a bar. */
   bar?: boolean;
   testId?: string;
 }
 
-/** Whether a value is within its limit; null where there is none to hold it against. */
+/** Whether a value is within its limit; null without a limit. */
 export function isWithin(value: number | null, limit: Limit | undefined): boolean | null {
   if (value === null || limit === undefined || !Number.isFinite(value)) return null;
   return limit.kind === "max" ? value <= limit.value : value >= limit.value;
 }
 
-/** A number with its unit and its limit, and in a sign and a word whether it holds. */
+/** A value with unit and limit; a symbol and a word state whether it is within. */
 export function Measure({ name, value, unit, decimals = 2, limit, bar, testId }: MeasureProps): ReactNode {
   const texts = useTexts().case.measure;
   const within = isWithin(value, limit);

@@ -5,7 +5,7 @@ import { useTexts } from "../../texts/TextsContext";
 import { formatBytes } from "./format";
 import type { Transfer } from "./useTransfer";
 
-/** How far a file is on its way, with a way to stop it; how it ended. */
+/** Progress and result of a transfer, with a cancel button. */
 export function TransferProgress({ transfer, name }: { transfer: Transfer; name: string }): ReactNode {
   const texts = useTexts();
   const { moved, rejection, stopped, stop } = transfer;

@@ -1,22 +1,22 @@
-// How times, sizes and sentences are shown on the pages of the set-up.
+// Formatting of times, sizes and sentences on the set-up pages.
 import { formatNumber } from "../../live/rounding";
 
-/** The day and time where this page is, to the minute. */
+/** Local date and time, to the minute. */
 export function formatTime(iso: string, language: string, zone?: string): string {
   return shownAs(iso, { dateStyle: "medium", timeStyle: "short" }, language, zone);
 }
 
-/** The same to the second, for logs, in which much happens within a minute. */
+/** Local date and time to the second, for logs. */
 export function formatSecond(iso: string, language: string, zone?: string): string {
   return shownAs(iso, { dateStyle: "medium", timeStyle: "medium" }, language, zone);
 }
 
-/** The time of today alone, to the second. */
+/** Time of day, to the second. */
 export function formatClock(iso: string, language: string, zone?: string): string {
   return shownAs(iso, { timeStyle: "medium" }, language, zone);
 }
 
-/** What is no time is shown as it is. */
+/** An invalid time is shown unchanged. */
 function shownAs(
   iso: string,
   form: Intl.DateTimeFormatOptions,
@@ -29,7 +29,7 @@ function shownAs(
   return new Intl.DateTimeFormat(language === "en" ? "en-GB" : language, inZone).format(at);
 }
 
-/** In the unit that leaves one to three digits before the point. */
+/** In the unit that leaves one to three digits before the decimal point. */
 export function formatBytes(bytes: number): string {
   const units = ["B", "kB", "MB", "GB"] as const;
   let size = bytes;
@@ -41,7 +41,7 @@ export function formatBytes(bytes: number): string {
   return `${formatNumber(size, place === 0 || size >= 100 ? 0 : 1)} ${units[place] ?? ""}`;
 }
 
-/** The server's sentences begin small, because they also stand after others. */
+/** The server's sentences start in lower case, since they may follow others. */
 export function sentence(text: string): string {
   const whole = text.charAt(0).toUpperCase() + text.slice(1);
   return /[.!?]$/.test(whole) || whole === "" ? whole : `${whole}.`;

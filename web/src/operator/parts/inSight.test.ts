@@ -15,7 +15,7 @@ test.each([
   expect(isInSight(box, SEEN)).toBe(inSight);
 });
 
-test("a panel that scrolls by itself hides what the window would show", () => {
+test("a scrolling panel hides what is outside of it", () => {
   const seen = throughAll([SEEN, { top: 300, bottom: 700 }]);
   expect(seen).toEqual({ top: 300, bottom: 700 });
   expect(isInSight({ top: 200, bottom: 400 }, seen)).toBe(false);

@@ -1,11 +1,11 @@
-// Whether something on a page can be seen without moving it.
+// Whether an element is visible without scrolling.
 
 export interface Span {
   top: number;
   bottom: number;
 }
 
-/** What is seen through all of these at once. */
+/** Intersection of these areas. */
 export function throughAll(windows: readonly Span[]): Span {
   return {
     top: Math.max(...windows.map((one) => one.top)),
@@ -13,7 +13,7 @@ export function throughAll(windows: readonly Span[]): Span {
   };
 }
 
-/** Whether it stands wholly within what is seen; what is higher than that, when its beginning fills it. */
+/** Whether an element is completely visible; a taller one, whether it fills the area from its top. */
 export function isInSight(box: Span, seen: Span): boolean {
   const fits = box.bottom - box.top <= seen.bottom - seen.top;
   return fits ? box.top >= seen.top && box.bottom <= seen.bottom : Math.abs(box.top - seen.top) < 1;

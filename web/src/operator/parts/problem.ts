@@ -1,6 +1,6 @@
 import type { Problem } from "../../rest/client";
 
-/** What a rejection's body says; the page has its own words for one that says nothing. */
+/** Problem of a rejection's body; null if it has none. */
 export function problemIn(text: string, status: number): Problem {
   const body = parsed(text);
   if (typeof body === "object" && body !== null && "code" in body && "message" in body)
@@ -8,7 +8,7 @@ export function problemIn(text: string, status: number): Problem {
   return { code: "NO_ANSWER", message: "", remedy: "", context: { status } };
 }
 
-/** What a text says as JSON; null where it is none. */
+/** Parses JSON; null if invalid. */
 export function parsed(text: string): unknown {
   try {
     return JSON.parse(text) as unknown;

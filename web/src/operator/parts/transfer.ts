@@ -1,19 +1,19 @@
-// What is sent up or fetched down in one piece, with how far it is; both can be stopped.
+// Uploads and downloads in one piece with progress; both can be cancelled.
 import { Rejection } from "../../rest/client";
 import { parsed, problemIn } from "./problem";
 
 export interface TransferredBytes {
   doneBytes: number;
-  /** 0 while nobody knows how much it will be. */
+  /** 0 while the total is unknown. */
   allBytes: number;
 }
 
 export type OnProgress = (moved: TransferredBytes) => void;
 
 /**
- * Sends a file as the body of a request. `fetch` does not say how far it is with that, so an older way is taken.
+ * Sends a file as the body of a request. Uses XMLHttpRequest, since `fetch` reports no upload progress.
  *
- * @throws Rejection, or a DOMException AbortError when it was stopped
+ * @throws Rejection, or a DOMException AbortError if cancelled
  */
 export function uploadFile<Answer>(
   path: string,
@@ -48,7 +48,7 @@ export function uploadFile<Answer>(
 /**
  * Fetches a file.
  *
- * @throws Rejection, or a DOMException AbortError when it was stopped
+ * @throws Rejection, or a DOMException AbortError if cancelled
  */
 export async function downloadFile(path: string, onMoved: OnProgress, signal: AbortSignal): Promise<Blob> {
   let answer: Response;

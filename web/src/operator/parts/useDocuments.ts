@@ -5,7 +5,7 @@ import { useProcedure } from "../../app/procedure";
 
 type Heading = components["schemas"]["HeadingMessage"];
 
-/** The documents of the open case, none while none is open; null until the server has sent them. */
+/** Documents of the open case, empty without one; null until the server has answered. */
 export function useDocuments(): readonly Heading[] | null {
   const procedure = useProcedure().data;
   const caseId = procedure?.case_id ?? null;

@@ -1,4 +1,4 @@
-// What a touch has made is often below the fold: it is brought into view, and its name read out.
+// Scrolls a new result into view and focuses its heading, since it is often below the fold.
 import { useEffect, useRef, type RefObject } from "react";
 import { prefersReducedMotion } from "../../marks/reducedMotion";
 import { isInSight, throughAll, type Span } from "./inSight";
@@ -6,15 +6,15 @@ import { isInSight, throughAll, type Span } from "./inSight";
 const HEADING = "h2, h3, h4";
 
 /**
- * For the element that shows a result.
+ * Returns the ref for the element of a result.
  *
- * @param fresh names what was just made here; whenever it becomes another name, that is brought into view.
- *   Null while there is nothing new, also when somebody else made what is shown.
+ * @param fresh identifies a result that was just made here; a new value scrolls to it. Null if nothing is new, also
+ *   if somebody else made what is shown.
  */
 export function useIntoView<Shown extends HTMLElement>(fresh: string | null): RefObject<Shown | null> {
   const shown = useRef<Shown>(null);
   const last = useRef<string | null>(null);
-  // With every render, because the element may come later than the name.
+  // On every render, because the element may be mounted later than the name changes.
   useEffect(() => {
     if (fresh === null || fresh === last.current || shown.current === null) return;
     last.current = fresh;
@@ -23,7 +23,7 @@ export function useIntoView<Shown extends HTMLElement>(fresh: string | null): Re
   return shown;
 }
 
-/** Moves the page only where it must, and the focus to the heading, so that a screen reader says it. */
+/** Scrolls only if needed, and focuses the heading so that a screen reader announces it. */
 export function bringIntoView(shown: HTMLElement): void {
   const heading = shown.querySelector<HTMLElement>(HEADING) ?? shown;
   heading.tabIndex = -1;
@@ -32,7 +32,7 @@ export function bringIntoView(shown: HTMLElement): void {
   shown.scrollIntoView({ behavior: prefersReducedMotion() ? "instant" : "smooth", block: "start" });
 }
 
-/** The page below what stays at its top, and every panel around it that scrolls by itself. */
+/** The visible area of the page below its fixed header, and of each scrolling ancestor. */
 function windowsOf(shown: HTMLElement): Span[] {
   const under = parseFloat(getComputedStyle(document.documentElement).scrollPaddingTop) || 0;
   const windows: Span[] = [{ top: under, bottom: innerHeight }];

@@ -1,7 +1,7 @@
 import { useSession } from "../../app/session";
 import { useTexts } from "../../texts/TextsContext";
 
-/** Whose name stands under what is made here: of who is signed in, or of this tablet. */
+/** Author of what is made here: the signed-in user, or this tablet. */
 export function useMaker(): string {
   const texts = useTexts().case;
   const { session } = useSession();

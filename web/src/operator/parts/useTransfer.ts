@@ -1,10 +1,10 @@
-// One file on its way at a time: how far it is, how it ended, and a way to stop it.
+// One transfer at a time: progress, result and cancelling.
 import { useCallback, useEffect, useRef, useState } from "react";
 import { Rejection } from "../../rest/client";
 import type { TransferredBytes, OnProgress } from "./transfer";
 
 export interface Transfer {
-  /** Null while nothing is on its way. */
+  /** Null while nothing is being transferred. */
   moved: TransferredBytes | null;
   rejection: Rejection | null;
   stopped: boolean;

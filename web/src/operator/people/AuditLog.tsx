@@ -6,10 +6,11 @@ import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
 import { formatSecond } from "../parts/format";
 import { auditRow } from "./auditRow";
+import { pluralize } from "../../texts/pluralize";
 
 const LINES = 25;
 
-/** The audit log, the newest line first, and whether it is whole. */
+/** The audit log, newest line first, and whether it is intact. */
 export function AuditLog(): ReactNode {
   const all = useTexts();
   const texts = all.people;
@@ -30,7 +31,8 @@ export function AuditLog(): ReactNode {
       {data === null && <QueryStatus query={query} />}
       {data?.is_intact === true && (
         <p>
-          ✓ {texts.whole} · {data.count} {texts.lines} · <code title={data.sum}>{data.sum.slice(0, 16)}</code>
+          ✓ {texts.whole} · {pluralize(texts.lines, data.count, all.language)} ·{" "}
+          <code title={data.sum}>{data.sum.slice(0, 16)}</code>
         </p>
       )}
       {data?.is_intact === false && (

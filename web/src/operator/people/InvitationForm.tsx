@@ -13,7 +13,7 @@ type Invited = components["schemas"]["InvitedMessage"];
 const ROLES: readonly Role[] = ["supervisor", "viewer", "screen", "camera", "operator"];
 const HOURS = [1, 24, 168];
 
-/** An invitation: who, as what, for how long; then its link, once. */
+/** Form for an invitation: name, role, duration; then its link, once. */
 export function InvitationForm({ onInvited }: { onInvited: () => void }): ReactNode {
   const all = useTexts();
   const texts = all.people;

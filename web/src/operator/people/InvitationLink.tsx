@@ -8,7 +8,7 @@ interface Props {
   onDone: () => void;
 }
 
-/** The link of a new invitation, as a picture that a phone reads, and as words; shown once. */
+/** Link of a new invitation as a QR code and as text; shown once. */
 export function InvitationLink({ invited, onDone }: Props): ReactNode {
   const all = useTexts();
   const texts = all.people;
@@ -33,7 +33,7 @@ export function InvitationLink({ invited, onDone }: Props): ReactNode {
           size="lg"
           variant="default"
           onClick={() => {
-            // Without TLS a browser may not have it; then the words above are there to be marked.
+            // Without TLS there may be no clipboard; the text above can be selected instead.
             void (navigator.clipboard as Clipboard | undefined)?.writeText(invited.link).then(() => {
               setCopied(true);
             });

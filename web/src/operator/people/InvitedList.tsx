@@ -12,7 +12,7 @@ interface Props {
   onRevoked: () => void;
 }
 
-/** Who was invited, how each invitation stands, and a way to take an open one back. */
+/** Invitations with their states; open ones can be withdrawn. */
 export function InvitedList({ invitations, onRevoked }: Props): ReactNode {
   const all = useTexts();
   const texts = all.people;

@@ -12,7 +12,7 @@ import { SignedInList } from "./SignedInList";
 
 const ASK_EVERY_MS = 3000;
 
-/** Who is signed in, who is invited, and what was done. */
+/** The people page: sessions, invitations, audit log. */
 export function PeoplePage(): ReactNode {
   const texts = useTexts().people;
   const query = useQuery((signal) => answered(server.GET("/api/people", { signal })), {

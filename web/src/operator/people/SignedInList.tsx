@@ -12,7 +12,7 @@ interface Props {
   onEnded: () => void;
 }
 
-/** Who is in now, and a way to send each away. */
+/** Sessions, each with a button to end it. */
 export function SignedInList({ sessions, onEnded }: Props): ReactNode {
   const all = useTexts();
   const texts = all.people;

@@ -7,7 +7,7 @@ import { auditRow } from "./auditRow";
 
 const ITO = { id: "a", name: "Ito", role: "operator" };
 
-test("a line is told with who, what, and from which version to which, in words", () => {
+test("a line is shown with person, action and versions", () => {
   const line = {
     number: 7,
     at: "2026-11-21T08:00:00.000Z",
@@ -31,7 +31,7 @@ test("a line is told with who, what, and from which version to which, in words",
 
 test.each([
   [{ what: "PUT /api/something/{new}", of: { id: "7f3a" } }, "Other action"],
-  [{ what: "GET /api/people" }, "Tried to look at something"],
+  [{ what: "GET /api/people" }, "Tried to view something"],
   [{ what: "constructor" }, "Other action"],
 ])("%j has no words of its own", (line, what) => {
   expect(auditRow(line, en).what).toBe(what);
@@ -46,7 +46,7 @@ test.each([
   expect(auditRow({ what: "start", status }, en).result).toBe(result);
 });
 
-test("what the server does by itself is nobody's work", () => {
+test("automatic actions of the server have no person", () => {
   expect(auditRow({ what: "start", who: { id: "server", name: "Coaxial", role: "operator" } }, en).who).toBe(
     "Coaxial itself",
   );
@@ -67,7 +67,7 @@ test("everything that the server writes down has words", () => {
       .filter((method) => ["post", "put", "patch", "delete"].includes(method))
       .map((method) => `${method.toUpperCase()} ${path}`),
   );
-  // Pages say every two seconds that they are there; nobody writes that down.
+  // Pages report their presence every two seconds; that is not logged.
   const written = changing.filter((one) => one !== "POST /api/alarms/screens");
   expect(written.filter((one) => !Object.hasOwn(auditEn.actions, one))).toEqual([]);
   expect(Object.keys(auditDe.actions)).toEqual(Object.keys(auditEn.actions));

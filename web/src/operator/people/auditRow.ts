@@ -1,4 +1,4 @@
-// A line of the audit log as a row of a table, in words for people; the log itself is taken along as it is.
+// Converts a line of the audit log to a table row; the exported log is unchanged.
 import type { components } from "../../schema";
 import type { Texts } from "../../texts/catalogue";
 import { documentTitle } from "../case/documentTitle";
@@ -8,11 +8,11 @@ export interface AuditRow {
   at: string;
   who: string;
   what: string;
-  /** As the log has it, for whoever compares. */
+  /** The logged action, for comparison. */
   written: string;
   changes: string[];
   result: string;
-  /** Why it was rejected, as the server names it. */
+  /** Code of the rejection. */
   code: string;
 }
 
@@ -21,10 +21,10 @@ type Kind = components["schemas"]["DocumentKind"];
 
 const REJECTED = 400;
 const FAILED = 500;
-/** Names in an address that people know; the others are long numbers. */
+/** Address parameters that people know; the others are ids. */
 const SHOWN_NAMES = ["name", "side", "series", "plane"] as const;
 
-/** What cannot be read in a line is empty: a damaged one is shown as what is left of it. */
+/** Unreadable fields are empty: a damaged line is shown as far as possible. */
 export function auditRow(line: Line, texts: Texts): AuditRow {
   const written = text(line["what"]) || text(line["damaged"]);
   const changes = Array.isArray(line["changes"]) ? line["changes"].filter(isRecord) : [];
@@ -66,7 +66,7 @@ function changeText(change: Line, texts: Texts): string {
   const title = titleOf(text(change["what"]), text(change["name"]), texts);
   const statement = text(change["said"]);
   if (statement !== "") return `${title}: ${statement}`;
-  // The ids of cases say nothing to anybody.
+  // Ids of cases are omitted.
   if (change["what"] === "open case") return title;
   const [from, to] = [text(change["from"]), text(change["to"])];
   if (typeof change["to"] === "number") {

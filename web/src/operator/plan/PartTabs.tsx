@@ -3,7 +3,7 @@ import { useTexts } from "../../texts/TextsContext";
 import { usePlanning } from "./state/PlanContext";
 import { PARTS, useWork, type Part } from "./state/WorkContext";
 
-/** The parts of planning, with what is there of each. */
+/** Tabs of the parts of the plan, with their content. */
 export function PartTabs(): ReactNode {
   const texts = useTexts().plan;
   const { part, setPart } = useWork();

@@ -9,7 +9,7 @@ import { PartTabs } from "./PartTabs";
 import { usePlanning } from "./state/PlanContext";
 import { useWork } from "./state/WorkContext";
 
-/** The parts of the plan, the way back, and what stands against going on. */
+/** Tabs, undo, and conflicts of the plan. */
 export function PlanBar(): ReactNode {
   const texts = useTexts().plan.bar;
   const { plan, planRejection, rejection, conflict, canUndo, undo, change, busy, forget } = usePlanning();

@@ -12,7 +12,7 @@ import { PlanProvider } from "./state/PlanContext";
 import { WorkProvider } from "./state/WorkContext";
 import { Workplace } from "./Workplace";
 
-/** Planning on CT: the CT comes in, and on its slices the plan is made. */
+/** The plan page: receives the CT; the plan is made on its slices. */
 export function PlanPage(): ReactNode {
   const texts = useTexts().plan;
   const query = useProcedure();

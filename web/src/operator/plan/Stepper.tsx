@@ -4,13 +4,13 @@ import { useTexts } from "../../texts/TextsContext";
 interface StepperProps {
   name: string;
   label: string;
-  /** As it is shown, with its unit. */
+  /** Formatted value with unit. */
   value: string;
   disabled?: boolean;
   onStep: (direction: 1 | -1) => void;
 }
 
-/** A number with a button for less and one for more: nothing to type in gloves. */
+/** A number with buttons to decrease and increase it, for use with gloves. */
 export function Stepper({ name, label, value, disabled = false, onStep }: StepperProps): ReactNode {
   const texts = useTexts().plan;
   return (

@@ -16,7 +16,7 @@ import { usePlanning } from "./state/PlanContext";
 import { useWork, type Part } from "./state/WorkContext";
 import { SurfacePart } from "./surface/SurfacePart";
 
-/** The slices, and beside them the part of the plan that is worked on. */
+/** The slices, and beside them the current part of the plan. */
 export function Workplace({ onCtTaken }: { onCtTaken: () => void }): ReactNode {
   const texts = useTexts().plan;
   const { part } = useWork();
@@ -48,7 +48,7 @@ export function Workplace({ onCtTaken }: { onCtTaken: () => void }): ReactNode {
   );
 }
 
-/** The oblique slices are cut along the kept channel of the chosen side, while it is moved as well. */
+/** Oblique slices follow the stored channel of the chosen side, also while it is being moved. */
 function useWayOfChannel(): void {
   const { vertebra, side } = usePlanning();
   const { setWay } = useSlices();

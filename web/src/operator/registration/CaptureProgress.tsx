@@ -13,7 +13,7 @@ interface CaptureProgressProps {
   maxSpreadMm: number;
 }
 
-/** How far the tip at rest has been seen, how still it was, or why it was rejected. */
+/** Progress and spread of a capture, or why it was rejected. */
 export function CaptureProgress({ capture, maxSpreadMm }: CaptureProgressProps): ReactNode {
   const texts = useTexts().registration.capture;
   if (capture.state === "rejected" && capture.problem !== null)

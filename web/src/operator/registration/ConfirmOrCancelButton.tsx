@@ -6,9 +6,9 @@ const FORGET_AFTER_MS = 6000;
 
 interface ConfirmOrCancelButtonProps {
   children: ReactNode;
-  /** What the second touch says, such as "Yes, end version 2". */
+  /** Label of the second touch, such as "Yes, replace version 2". */
   confirmLabel: string;
-  /** Without it the first touch is enough. */
+  /** Without it the first touch acts. */
   needsConfirmation: boolean;
   onConfirm: () => void;
   disabled?: boolean;
@@ -17,7 +17,7 @@ interface ConfirmOrCancelButtonProps {
   testId?: string;
 }
 
-/** For what cannot be taken back by a second touch: a glove that slips does nothing. */
+/** A button that needs a second touch, for actions that cannot be undone. */
 export function ConfirmOrCancelButton({
   children,
   confirmLabel,

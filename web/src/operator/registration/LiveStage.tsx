@@ -13,16 +13,16 @@ import { interpolate } from "../../texts/interpolate";
 import { useImageSize } from "./useImageSize";
 
 interface LiveStageProps {
-  /** Drawn over the picture, in pixels of the camera's image. */
+  /** Overlay in pixels of the camera's image. */
   children?: ReactNode;
   stage?: RefObject<HTMLDivElement | null>;
-  /** The canvas on which the live picture stands. */
+  /** Canvas of the live picture. */
   picture?: RefObject<HTMLCanvasElement | null>;
   isFrozen?: boolean;
   onFreeze?: (isFrozen: boolean) => void;
 }
 
-/** The live video with something laid over it; it can be frozen, and is then marked as such. */
+/** The live video with an overlay; it can be frozen and is then marked as such. */
 export function LiveStage({
   children,
   stage,
@@ -42,7 +42,7 @@ export function LiveStage({
   const box = stage ?? ownStage;
   const canvas = picture ?? ownCanvas;
 
-  // Before the painters' first look, which then knows that this canvas is new.
+  // Before the painters' first update, which detects the new canvas.
   useLayoutEffect(() => {
     live.setDraw((jpeg, isCurrent, onDecoded) =>
       canvas.current === null

@@ -6,13 +6,13 @@ interface MeasureProps {
   name: string;
   value: number | null;
   unit: string;
-  /** What is allowed; left out where nothing is. */
+  /** The limit; omitted if there is none. */
   max?: number | null | undefined;
   digits?: number;
   hint?: string;
 }
 
-/** One number with its unit, and its limit where it has one: whether it is within it, in a word, a mark and a colour. */
+/** A value with unit and limit; a word, a symbol and a colour state whether it is within. */
 export function Measure({ name, value, unit, max, digits = 2, hint }: MeasureProps): ReactNode {
   const texts = useTexts().registration.measure;
   const limited = max !== undefined && max !== null;

@@ -8,7 +8,7 @@ import { useActiveProcedures } from "./useActiveProcedures";
 export const METHODS = ["points", "needles", "surface"] as const;
 const PATH = { points: "points", needles: "needles", surface: "sweep" } as const;
 
-/** The ways to register, what each sees and does not see, and what is there already. */
+/** Registration methods, with what each determines and misses, and their state. */
 export function MethodChoice(): ReactNode {
   const texts = useTexts().registration;
   const running = useActiveProcedures().data;

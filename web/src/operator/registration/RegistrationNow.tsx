@@ -15,13 +15,13 @@ import { RegistrationNumbers } from "./RegistrationNumbers";
 import { ConfirmOrCancelButton } from "./ConfirmOrCancelButton";
 import { useMadeBy } from "./useMadeBy";
 
-/** The registration that is there: how it was made, what it states of itself, and what comes next. */
+/** The current registration: method, values and next actions. */
 export function RegistrationNow(): ReactNode {
   const { data } = useProcedure();
   const step = data?.steps.find((one) => one.step === "register");
   const texts = useTexts().registration;
   if (data === null || step === undefined) return null;
-  // One that was withdrawn is no registration to go on with; why is said at the head of the step.
+  // A withdrawn registration has no actions; the head of the step states the reason.
   if (step.document_id === null || step.state !== "done")
     return <p data-testid="registration-none">{texts.now.none}</p>;
   return <Newest key={step.document_id} caseId={data.case_id ?? ""} documentId={step.document_id} />;

@@ -12,7 +12,7 @@ interface RegistrationNumbersProps {
   numbers: Registration["numbers"];
 }
 
-/** What a registration states of itself, with what is allowed, and in words what it cannot see. */
+/** Values of a registration with limits, and in words what it cannot determine. */
 export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProps): ReactNode {
   const texts = useTexts().registration.numbers;
   const of = (name: string): number | null => {

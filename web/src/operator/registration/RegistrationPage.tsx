@@ -12,7 +12,7 @@ import { SweepPage } from "./sweep/SweepPage";
 const WAYS = { points: PointsPage, needles: NeedlesPage, sweep: SweepPage, nudges: NudgesPage } as const;
 type Way = keyof typeof WAYS;
 
-/** Registration: `/operator/register` chooses a way, `/operator/register/<way>` is one. */
+/** Registration: `/operator/register` chooses a method, `/operator/register/<way>` is one. */
 export function RegistrationPage(): ReactNode {
   const texts = useTexts().registration;
   const [path] = useLocation();
@@ -20,8 +20,7 @@ export function RegistrationPage(): ReactNode {
   const step = procedure.data?.steps.find((one) => one.step === "register");
   const named = path.split("/")[3] ?? "";
   const way = Object.hasOwn(WAYS, named) ? (named as Way) : null;
-  // The ways begin from what the case is and has: they wait for the first answer. One that fails later must not
-  // take away what a hand has marked.
+  // Methods depend on the case and wait for the first answer. A later failure must not discard unsaved marks.
   if (step === undefined && procedure.rejection === null) return <QueryStatus query={procedure} />;
   if (step !== undefined && !step.allowed)
     return (

@@ -3,7 +3,7 @@ import { Rejection } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useTexts } from "../../texts/TextsContext";
 
-/** A rejection with what to do on this page, where the server can only name its own doors. */
+/** A rejection with a remedy for this page; the server's remedies name its API. */
 export function RegistrationRejection({ rejection }: { rejection: Rejection | null }): ReactNode {
   const texts = useTexts().registration.remedies;
   if (rejection === null) return null;

@@ -13,11 +13,11 @@ const ASK_EVERY_MS = 400;
 
 interface RehearsalStripProps {
   scenes: readonly Scene[];
-  /** Something more that only a rehearsal can tell. */
+  /** Additional state known only in a rehearsal. */
   children?: (rehearsal: Rehearsed) => ReactNode;
 }
 
-/** In a rehearsal alone: which scene is played before the camera, so that a step can be done without hardware. */
+/** In a rehearsal: the scene for this step, so that it can be done without hardware. */
 export function RehearsalStrip({ scenes, children }: RehearsalStripProps): ReactNode {
   const all = useTexts();
   const texts = all.registration.rehearsal;

@@ -11,7 +11,7 @@ interface StepFieldProps {
   testId: string;
 }
 
-/** A number between two large buttons: gloves hit no small arrows. */
+/** A number between two large buttons, for use with gloves. */
 export function StepField({ label, value, min, max, step, onValue, testId }: StepFieldProps): ReactNode {
   const by = (way: number) => () => {
     onValue(Math.min(max, Math.max(min, value + way * step)));

@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { useTexts } from "../../texts/TextsContext";
 import type { Rehearsed } from "../../rest/useRehearsal";
 
-/** Only a rehearsal knows where the tip really rests. */
+/** Ground truth of the tip's contact; known only in a rehearsal. */
 export function TipContact({ rehearsal }: { rehearsal: Rehearsed }): ReactNode {
   const texts = useTexts().registration.rehearsal;
   const touched = rehearsal.truth?.moment?.touched ?? "";

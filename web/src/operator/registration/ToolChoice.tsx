@@ -8,7 +8,7 @@ interface ToolChoiceProps {
   onTool: (tool: string) => void;
 }
 
-/** Which tool touches; nothing to choose where there is but one. */
+/** Choice of the tool; nothing if there is only one. */
 export function ToolChoice({ tool, onTool }: ToolChoiceProps): ReactNode {
   const { registration: texts, rest } = useTexts();
   const tools = useTools();

@@ -4,8 +4,10 @@ import { formatNumber } from "../../live/rounding";
 import { setData, setText } from "../../panes/setText";
 import { useTexts } from "../../texts/TextsContext";
 
-/** Whether the tool is seen in the newest image, and how sure its tip is; painted with every image. Says nothing
- *  without a tool or a live image: why there is none stands over the picture. */
+/**
+ * Whether the tool is visible in the newest image, and the uncertainty of its tip; painted with every image. Empty
+ *  * without a tool or a live image; the picture's cover states the reason.
+ */
 export function ToolSeen({ tool }: { tool: string }): ReactNode {
   const texts = useTexts().registration.tool;
   const line = useRef<HTMLParagraphElement>(null);

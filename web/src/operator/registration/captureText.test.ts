@@ -5,7 +5,7 @@ import { captureText } from "./captureText";
 
 const SLOW = { images: 7, wanted: 12, rate_hz: 5, left_s: 1 };
 
-test("a running capture says how long the tip is still to be held at the camera's rate", () => {
+test("a running capture states the remaining time at the camera's rate", () => {
   expect(captureText(SLOW, registrationEn.capture)).toBe(
     "7 of 12 images. Hold still for another 1.0 s, at 5.0 images/s.",
   );

@@ -6,7 +6,7 @@ import { interpolate } from "../../texts/interpolate";
 type Capture = Pick<components["schemas"]["CaptureMessage"], "images" | "wanted" | "rate_hz" | "left_s">;
 type CaptureTexts = Pick<RegistrationTexts["capture"], "looking" | "lookingAtRate">;
 
-/** How many images a running capture has, and how long the tip is still to be held at the camera's rate. */
+/** Images of a running capture, and the remaining time at the camera's rate. */
 export function captureText(capture: Capture, texts: CaptureTexts): string {
   const { images, wanted, rate_hz, left_s } = capture;
   if (rate_hz === null || left_s === null) return interpolate(texts.looking, { images, wanted });

@@ -24,7 +24,7 @@ test("a plan tells its vertebrae, their channels' sides and their landmarks", ()
   ]);
 });
 
-test("only landmarks that had a say in the fit are used up", () => {
+test("only landmarks that were used in the fit count as used", () => {
   const points = [
     { landmark: "left lamina", used: true },
     { landmark: "right lamina", used: false },

@@ -1,4 +1,4 @@
-// What these pages need of the plan, which the server sends as one large document.
+// Parts of the plan that the registration pages need.
 
 export interface PlannedLandmark {
   name: string;
@@ -12,7 +12,7 @@ export interface PlannedVertebra {
   hasReference: boolean;
 }
 
-/** The vertebrae of a plan; what is not as expected is left out. */
+/** Vertebrae of a plan; malformed ones are omitted. */
 export function plannedVertebrae(plan: Record<string, unknown>): PlannedVertebra[] {
   return recordsIn(plan["vertebrae"]).map((one) => ({
     name: String(one["name"]),
@@ -25,7 +25,7 @@ export function plannedVertebrae(plan: Record<string, unknown>): PlannedVertebra
   }));
 }
 
-/** The landmarks that a registration was fitted to: nothing can be checked on them. */
+/** Landmarks used by a registration; they cannot be used for its check. */
 export function usedLandmarks(madeFrom: Record<string, unknown>): string[] {
   return recordsIn(madeFrom["points"])
     .filter((one) => one["used"] === true)

@@ -4,7 +4,7 @@ import type { components } from "../../schema";
 
 const ASK_EVERY_MS = 1500;
 
-/** What somebody has begun, here or on another tablet, and neither kept nor thrown away. */
+/** Procedures begun here or on another tablet, and not concluded. */
 export function useActiveProcedures(): QueryState<components["schemas"]["RunningMessage"]> {
   return useQuery((signal) => answered(server.GET("/api/registration/running", { signal })), {
     everyMs: ASK_EVERY_MS,

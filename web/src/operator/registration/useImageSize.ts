@@ -5,7 +5,7 @@ export interface ImageSize {
   heightPx: number;
 }
 
-/** Of the camera's own image, in which the server counts pixels, however small the picture comes. */
+/** Size of the camera's image, which the server's pixel coordinates refer to, whatever the picture size. */
 export function useImageSize(): ImageSize {
   const snapshot = useLive().view.newest?.snapshot;
   return { widthPx: snapshot?.width_px ?? 1280, heightPx: snapshot?.height_px ?? 720 };

@@ -1,9 +1,9 @@
 import { useSession } from "../../app/session";
 
-/** As the server calls whoever sits here where nobody has to sign in. */
+/** The server's name for users without sign-in. */
 const ANYBODY = "this computer";
 
-/** Whose name stands under what is done here. */
+/** Author of what is done here. */
 export function useMadeBy(): string {
   const { session } = useSession();
   return session.state === "in" && session.who.name !== "" ? session.who.name : ANYBODY;

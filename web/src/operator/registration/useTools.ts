@@ -1,6 +1,6 @@
 import { useLive } from "../../live/LiveContext";
 
-/** The tools that the live images know, and whether the marker of each is seen now; null without an image. */
+/** Tools in the live images, and whether their markers are visible; null without an image. */
 export function useTools(): { name: string; seen: boolean }[] | null {
   const { view } = useLive();
   const snapshot = view.newest?.snapshot;

@@ -10,7 +10,7 @@ import { alarmsIn } from "./alarmSummary";
 
 const MAX_LINES = 10_000;
 
-/** The alarm log in short: which, how often, from when to when, acknowledged by whom. */
+/** Summary of the alarm log: which, how often, first and last, acknowledged by whom. */
 export function Alarms(): ReactNode {
   const texts = useTexts();
   const query = useQuery((signal) =>

@@ -12,13 +12,13 @@ import type { Entry, Heading } from "./record";
 
 interface RecordReportProps {
   entries: readonly Entry[];
-  /** By the id of a document, what it says. */
+  /** Facts by document id. */
   contents: ReadonlyMap<string, Record<string, unknown>>;
-  /** When it was read: what holds is said of then. */
+  /** Time of reading, which validity refers to. */
   readAt: string;
 }
 
-/** The record: what was made, when, by whom, and what it says of itself; and what of it held when it was read. */
+/** History of the case: documents with author, time and values, and their validity at the time of reading. */
 export function RecordReport({ entries, contents, readAt }: RecordReportProps): ReactNode {
   const texts = useTexts();
   return (

@@ -17,7 +17,7 @@ import { recordOf, type Heading } from "./record";
 import { RecordReport } from "./RecordReport";
 import { StepsReport } from "./StepsReport";
 
-/** The case on paper: the record of what was made, the plan, the alarms, and how the steps stood at last. */
+/** The case for print: history, plan, alarms, and state of the steps. */
 export function ReportPage(): ReactNode {
   const texts = useTexts().report;
   const procedure = useProcedure();
@@ -96,19 +96,19 @@ function Report({ caseId }: { caseId: string }): ReactNode {
   );
 }
 
-/** The plan's own content is shown by its channels. */
+/** The plan's content is shown by its channels. */
 function isTelling({ kind, name }: Heading): boolean {
   return TELLING.has(kind) && !(kind === "plan" && name === "main");
 }
 
-/** What these documents say, by their ids. */
+/** Facts of these documents, by id. */
 async function contentsOf(
   caseId: string,
   documents: readonly Heading[],
   signal: AbortSignal,
 ): Promise<Map<string, Record<string, unknown>>> {
   const contents = new Map<string, Record<string, unknown>>();
-  // One after the other: a report is in no hurry, and the server has navigation to serve.
+  // Sequential, since navigation has priority on the server.
   for (const { id } of documents) {
     const params = { path: { case_id: caseId, document_id: id } };
     const { content } = await answered(

@@ -6,7 +6,7 @@ import { SignatureLine } from "../../supervisor/SignatureLine";
 import { useTexts } from "../../texts/TextsContext";
 import { Maker } from "../parts/Maker";
 
-/** Who signed plan and registration, and who had invited them. */
+/** Signatures of plan and registration, and who invited the signers. */
 export function SignaturesReport(): ReactNode {
   const texts = useTexts().supervisor.sign;
   const query = useQuery((signal) => answered(server.GET("/api/supervision/signatures", { signal })));

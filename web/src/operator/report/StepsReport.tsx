@@ -2,8 +2,9 @@ import { Table } from "@mantine/core";
 import type { ReactNode } from "react";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
+import { stepReason, type StepReason } from "../stepReason";
 import { stateText } from "../stepTexts";
-import { sentence, formatTime } from "../parts/format";
+import { formatTime } from "../parts/format";
 import { interpolate } from "../../texts/interpolate";
 
 interface StepsReportProps {
@@ -11,7 +12,7 @@ interface StepsReportProps {
   readAt: string;
 }
 
-/** How each step of the procedure stood when the report was read. */
+/** State of each step at the time of the report. */
 export function StepsReport({ procedure, readAt }: StepsReportProps): ReactNode {
   const texts = useTexts();
   return (
@@ -32,10 +33,7 @@ export function StepsReport({ procedure, readAt }: StepsReportProps): ReactNode 
                 <Table.Th scope="row">{texts.operator.page[step.step]}</Table.Th>
                 <Table.Td>
                   <strong>{stateText(step, texts.operator)}</strong>
-                  {/* The server speaks English. */}
-                  <p className="soft" lang="en">
-                    {sentence(step.message)}
-                  </p>
+                  <Reason reason={stepReason(step, procedure, texts)} />
                 </Table.Td>
               </Table.Tr>
             ))}
@@ -43,5 +41,13 @@ export function StepsReport({ procedure, readAt }: StepsReportProps): ReactNode 
         </Table>
       </Table.ScrollContainer>
     </section>
+  );
+}
+
+function Reason({ reason }: { reason: StepReason }): ReactNode {
+  return (
+    <p className="soft" lang={reason.lang}>
+      {reason.message}
+    </p>
   );
 }

@@ -42,7 +42,7 @@ test("a log that is cut off before an alarm was raised counts none of it", () =>
   expect(alarmsIn([line("cleared", "BREACH", "1"), {}])).toEqual([]);
 });
 
-test("the worst of all occurrences is kept, also of one that still stands", () => {
+test("the worst of all occurrences is kept, including a present one", () => {
   const at = (change: string, worst: number): Record<string, unknown> => ({
     ...line(change, "BREACH", "1"),
     worst,

@@ -1,17 +1,17 @@
-// The alarm log, line by line, as how often what was alarmed.
+// Counts the lines of the alarm log by alarm.
 export interface AlarmCount {
   condition: string;
   raised: number;
   firstAt: string;
   lastAt: string;
   acknowledgedBy: readonly string[];
-  /** The line with its worst value: what was raised again deeper is not understated. */
+  /** The line with the worst value, so that a deeper repetition is not understated. */
   line: Line;
 }
 
 type Line = Readonly<Record<string, unknown>>;
 
-/** By condition, the most frequent first; lines of another shape are passed over. */
+/** By condition, most frequent first; malformed lines are skipped. */
 export function alarmsIn(lines: readonly Line[]): AlarmCount[] {
   const counts = new Map<string, AlarmCount>();
   for (const line of lines) {
@@ -34,7 +34,7 @@ export function alarmsIn(lines: readonly Line[]): AlarmCount[] {
   return [...counts.values()].sort((a, b) => b.raised - a.raised);
 }
 
-/** How far its worst value is past the limit; of a line without numbers 0, so that the last one counts. */
+/** How far the worst value exceeds the limit; 0 without numbers, so that the last line counts. */
 function excessOf({ worst, limit }: Line): number {
   return typeof worst === "number" && typeof limit === "number" ? Math.abs(worst - limit) : 0;
 }

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { factsOf } from "./facts";
 
-test("a check says on what, how far off, and what was allowed", () => {
+test("a check has its landmark, distance and limit", () => {
   const content = { landmark: "left process", distance_mm: 0.8, max_mm: 2, passed: true, run: "7f" };
   expect(factsOf("check", content)).toEqual([
     { name: "landmark", value: "left process", unit: "", limit: null },
@@ -9,7 +9,7 @@ test("a check says on what, how far off, and what was allowed", () => {
   ]);
 });
 
-test("a registration says how, and its numbers with their limits, and nothing of the settings", () => {
+test("a registration has its method and its values with limits, without settings", () => {
   const numbers = { fre_rms_mm: 0.4, max_fre_mm: 1, tre_at_entry_mm: 0.9, max_tre_mm: 2, points: 4 };
   expect(factsOf("registration", { method: "points", numbers })).toEqual([
     { name: "method", value: "points", unit: "", limit: null },
@@ -18,7 +18,7 @@ test("a registration says how, and its numbers with their limits, and nothing of
   ]);
 });
 
-test("a camera says its fit in pixels", () => {
+test("a camera has its fit in pixels", () => {
   expect(factsOf("camera", { report: { rms_px: 0.2 } })).toEqual([
     { name: "fit", value: 0.2, unit: "px", limit: null },
   ]);

@@ -1,4 +1,4 @@
-// What a document says of itself, in numbers that people in theatre know; its content is whatever was stored.
+// Values of a document for the report; its content is not trusted.
 import type { ReportTexts } from "../../texts/report/en";
 
 type Content = Readonly<Record<string, unknown>>;
@@ -8,14 +8,14 @@ export interface Fact {
   name: FactName;
   value: number | string;
   unit: "mm" | "px" | "";
-  /** What was allowed when it was made; null where nothing was. */
+  /** The limit at that time; null if there was none. */
   limit: number | null;
 }
 
-/** Kinds whose documents are worth opening for the report. */
+/** Kinds of documents that are opened for the report. */
 export const TELLING: ReadonlySet<string> = new Set(["camera", "tool", "registration", "check", "plan"]);
 
-/** What is not there stays out: nothing is guessed. */
+/** Missing values are omitted, never guessed. */
 export function factsOf(kind: string, content: Content): Fact[] {
   if (kind === "camera") return some(mm("fit", part(content["report"])["rms_px"], null, "px"));
   if (kind === "tool") return some(mm("tip", part(content["pivot"])["rms_3d_mm"]));

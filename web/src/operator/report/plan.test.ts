@@ -28,6 +28,6 @@ test("a channel with its screw, its length from entry to end", () => {
   ]);
 });
 
-test("what is no plan has no channel", () => {
+test("a document that is not a plan has no channels", () => {
   expect(channelsIn({ vertebrae: "none" })).toEqual([]);
 });

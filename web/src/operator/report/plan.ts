@@ -1,4 +1,4 @@
-// The planned channels of a plan's document, read with care: its content is whatever was stored.
+// Planned channels of a plan document; its content is not trusted.
 export interface ReportedChannel {
   vertebra: string;
   side: string;
@@ -29,7 +29,7 @@ export function channelsIn(content: Record<string, unknown>): ReportedChannel[] 
   );
 }
 
-/** How long the channel is: from its entry point to its end. */
+/** Length of the channel, from entry point to end. */
 function between(entry: unknown, target: unknown): number | null {
   if (!Array.isArray(entry) || !Array.isArray(target)) return null;
   const length = Math.hypot(...entry.map((value, axis) => Number(target[axis]) - Number(value)));

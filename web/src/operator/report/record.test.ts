@@ -21,7 +21,7 @@ function made(kind: Heading["kind"], name: string, version: number, by = "Ito"):
 const idsOf = (documents: Heading[]): string[] =>
   recordOf(documents).map(({ first, last }) => (first === last ? first.id : `${first.id} to ${last.id}`));
 
-test("every version of what was made is told, also what holds no more", () => {
+test("every version is listed, including those no longer valid", () => {
   const lost = { ...made("registration", "L3", 1), current: false, out_of_date: "it was replaced" };
   expect(idsOf([made("camera", "main", 1), lost, made("registration", "L3", 2)])).toEqual([
     "camera-main-1",
@@ -37,10 +37,10 @@ test("a plan under one hand is one entry; another hand, or other work between, b
   ).toEqual(["plan-main-1 to plan-main-3", "plan-main-4", "check-L3-1", "plan-main-5"]);
 });
 
-test("two checks of one landmark are never told as one", () => {
+test("two checks of one landmark are never merged", () => {
   expect(idsOf([made("check", "L3", 1), made("check", "L3", 2)])).toHaveLength(2);
 });
 
-test("alarms stand in a table of their own", () => {
+test("alarms have their own table", () => {
   expect(idsOf([made("alarm", "log", 1), made("ct", "main", 1)])).toEqual(["ct-main-1"]);
 });

@@ -1,18 +1,18 @@
-// The case's documents as the record that they are: everything that was made, in the order of making.
+// Documents of the case in the order they were made.
 import type { components } from "../../schema";
 
 export type Heading = components["schemas"]["HeadingMessage"];
 
-/** One entry of the record; a plan is kept with every touch, and is shown as one entry from first to last. */
+/** One entry. Consecutive versions of a plan are merged, since each touch stores one. */
 export interface Entry {
   first: Heading;
   last: Heading;
 }
 
-/** Alarms and the log have a place of their own. */
+/** Alarms and log have their own sections. */
 const ELSEWHERE: ReadonlySet<Heading["kind"]> = new Set<Heading["kind"]>(["alarm", "audit"]);
 
-/** `documents` in the order of making. */
+/** `documents` in the order they were made. */
 export function recordOf(documents: readonly Heading[]): Entry[] {
   const entries: Entry[] = [];
   for (const one of documents) {

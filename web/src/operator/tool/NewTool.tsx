@@ -16,7 +16,7 @@ interface NewToolProps {
   onBegin: (tool: string, purpose: Purpose, marker: string | null) => void;
 }
 
-/** Another tool: what it is called, and behind which marker it is held. */
+/** Form for a tool: name and marker. */
 export function NewTool({ first, usedNames, busy, onBegin }: NewToolProps): ReactNode {
   const texts = useTexts().tool;
   const [typed, setTyped] = useState<string | null>(null);
@@ -27,7 +27,7 @@ export function NewTool({ first, usedNames, busy, onBegin }: NewToolProps): Reac
   const { data } = query;
   const markers = (data?.markers ?? []).map((one) => one.name);
   const marker = chosen !== null && markers.includes(chosen) ? chosen : (markers[0] ?? null);
-  // The first tool is mostly called as its marker is.
+  // The first tool usually has the name of its marker.
   const name = typed ?? (marker !== null && !usedNames.includes(marker) ? marker : "");
   const isNew = !usedNames.includes(name);
   return (

@@ -20,11 +20,11 @@ const ASK_EVERY_MS = 400;
 interface PoseCollectionProps {
   tools: readonly KnownTool[];
   gate: ToolGate;
-  /** With the name of the tool that was kept; null where nothing was. */
+  /** Called with the name of the saved tool; null if nothing was saved. */
   onOver: (stored: string | null) => void;
 }
 
-/** Poses as they are gathered: how far it has come, what is missing, and what they give so far. */
+/** Collected poses: progress, missing conditions, and preliminary result. */
 export function PoseCollection({ tools, gate, onOver }: PoseCollectionProps): ReactNode {
   const texts = useTexts().tool;
   const madeBy = useMaker();

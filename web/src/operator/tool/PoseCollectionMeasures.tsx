@@ -6,7 +6,7 @@ import type { PoseCollectionState, ToolGate } from "./toolRecord";
 
 const KINDS = ["not_seen", "too_uncertain", "jumped", "nothing_new"] as const;
 
-/** The numbers of a gathering against the gate, and how many images were passed over and why. */
+/** Values of a collection with limits, and unused images by reason. */
 export function PoseCollectionMeasures({
   collection,
   gate,

@@ -7,7 +7,7 @@ export interface ShapeMm {
   lengthMm: number | string;
 }
 
-/** The shape as numbers, if both are such that a tool can have them. */
+/** Parses the shape; null if the numbers are not plausible. */
 export function isShape({ diameterMm, lengthMm }: ShapeMm): { diameterMm: number; lengthMm: number } | null {
   if (typeof diameterMm !== "number" || typeof lengthMm !== "number") return null;
   return diameterMm > 0 && diameterMm <= 100 && lengthMm > 0 && lengthMm <= 1000
@@ -15,7 +15,7 @@ export function isShape({ diameterMm, lengthMm }: ShapeMm): { diameterMm: number
     : null;
 }
 
-/** How thick and how long the tool is: what tilting it cannot tell. */
+/** Diameter and length of the tool, which pivoting cannot measure. */
 export function Shape({
   shape,
   onChange,

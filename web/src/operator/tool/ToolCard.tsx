@@ -23,12 +23,12 @@ interface ToolCardProps {
   gate: ToolGate;
   documents: readonly components["schemas"]["HeadingMessage"][] | null;
   busy: boolean;
-  /** Names this tool where something of it was just kept here. */
+  /** Identifies a tool of which something was just saved here. */
   fresh: string | null;
   onBegin: (tool: string, purpose: Purpose, marker: string | null) => void;
 }
 
-/** One tool: what is known of it, with its limits, and what can be done with it. */
+/** One tool: calibration values with limits, and available actions. */
 export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCardProps): ReactNode {
   const all = useTexts();
   const texts = all.tool;

@@ -16,7 +16,7 @@ import { ToolCard } from "./ToolCard";
 
 const ASK_EVERY_MS = 2000;
 
-/** Tools: the tip by pivoting, the axis by spinning, the tip checked; each with its live progress. */
+/** The tool page: pivot, spin and tip check, with live progress. */
 export function ToolPage(): ReactNode {
   const texts = useTexts().tool;
   const procedure = useProcedure();

@@ -1,4 +1,4 @@
-// What a calibrated tool's document says, read with care: its content is whatever was stored.
+// Parses a tool document; its content is not trusted.
 import type { components } from "../../schema";
 
 export type KnownTool = components["schemas"]["KnownToolMessage"];
@@ -17,7 +17,7 @@ export interface ToolRecord {
   wobbleDeg: number | null;
   axisSdDeg: number | null;
   spinDeg: number | null;
-  /** Whether anybody knows which way it points: by a spin, or from its drawing. */
+  /** Whether the axis is known, from a spin or a drawing. */
   hasAxis: boolean;
 }
 
@@ -39,7 +39,7 @@ export function toolRecordFrom(content: Record<string, unknown>): ToolRecord {
   };
 }
 
-/** What is best done with this tool next. */
+/** The recommended next action for this tool. */
 export function nextPurpose(tool: KnownTool): Purpose {
   if (tool.calibration?.heading.current !== true) return "pivot";
   return toolRecordFrom(tool.calibration.content).hasAxis ? "tip_check" : "spin";

@@ -15,7 +15,7 @@ interface CommentFormProps {
   onWritten: () => void;
 }
 
-/** Write a comment on the instant that is shown. */
+/** Form for a comment on the displayed instant. */
 export function CommentForm({ name, atS, onWritten }: CommentFormProps): ReactNode {
   const own = useTexts().recording.review.comment;
   const [text, setText] = useState("");

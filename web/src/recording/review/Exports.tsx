@@ -21,7 +21,7 @@ interface ExportsProps {
   onPiece: (piece: Span) => void;
 }
 
-/** Save a piece of the recording, or the whole as a video, and download what was made. */
+/** Saves a section of the recording, or all of it as a video, and lists exports for download. */
 export function Exports({ name, atS, durationS, piece, onPiece }: ExportsProps): ReactNode {
   const texts = useTexts();
   const own = texts.recording.review.exports;
@@ -36,7 +36,7 @@ export function Exports({ name, atS, durationS, piece, onPiece }: ExportsProps):
     setMade(exportOf(job));
     refetch();
   });
-  // A job goes on while nobody looks.
+  // A job continues without viewers.
   const [found, setFound] = useState<Job | null>(null);
   if (found === null && data?.job != null) setFound(data.job);
   const onFound = useEffectEvent((job: Job) => {

@@ -10,7 +10,7 @@ import type { RecordedInstant, ShownInstant } from "./useShownInstant";
 
 type Tool = RecordedInstant["snapshot"]["tools"][number];
 
-/** The image of an instant, its figures with their limits, and the alarms of then. */
+/** Image of an instant with its figures, limits and alarms. */
 export function InstantView({ shown, images }: { shown: ShownInstant; images: number }): ReactNode {
   const texts = useTexts();
   const own = texts.recording.review;
@@ -69,7 +69,7 @@ export function InstantView({ shown, images }: { shown: ShownInstant; images: nu
   );
 }
 
-/** Of the tool that was displayed, else of the first: it has the reason why there are no figures. */
+/** Figures of the displayed tool, else of the first, which has the reason for missing figures. */
 function displayedAssessment({ snapshot }: RecordedInstant): Tool["assessment"] | null {
   const tool = snapshot.tools.find(({ name }) => name === snapshot.displayed_tool) ?? snapshot.tools[0];
   return tool?.assessment ?? null;

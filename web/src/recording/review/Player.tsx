@@ -12,7 +12,7 @@ interface PlayerProps {
   onNumber: (number: number) => void;
 }
 
-/** Plays, and leads to any image. */
+/** Playback controls and a slider over all images. */
 export function Player({ number, images, atS, isPlaying, onPlay, onNumber }: PlayerProps): ReactNode {
   const own = useTexts().recording.review;
   const step = (by: number, label: string, symbol: string, testId: string): ReactNode => (

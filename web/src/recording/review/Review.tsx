@@ -18,7 +18,7 @@ import { isWithin, MAX_SAMPLES, mergedNotes, numberAt, type Curves, type Timelin
 import { usePlayback } from "./usePlayback";
 import { useShownInstant } from "./useShownInstant";
 
-/** One recording: prepared the first time that it is asked for, then its timeline and any instant of it. */
+/** Review of one recording: indexed on first use, then its timeline and instants. */
 export function Review({ name, mayExport }: { name: string; mayExport: boolean }): ReactNode {
   const [span, setSpan] = useState<Span | null>(null);
   const query = useQuery(
@@ -44,7 +44,7 @@ export function Review({ name, mayExport }: { name: string; mayExport: boolean }
   useEffect(() => {
     if (job !== null) onJob(job);
   }, [job]);
-  // While another part is fetched, the curves of the one before are moved.
+  // While another part is being fetched, the previous curves are shown shifted.
   const [timeline, setTimeline] = useState<Timeline | null>(null);
   if (data?.timeline != null && data.timeline !== timeline) setTimeline(data.timeline);
   const [whole, setWhole] = useState<Curves | null>(null);
@@ -72,7 +72,7 @@ export function Review({ name, mayExport }: { name: string; mayExport: boolean }
 interface TimedProps {
   name: string;
   timeline: Timeline;
-  /** Of the whole recording, while the timeline has those of the part that is seen. */
+  /** Events of the whole recording; the timeline has those of its visible part. */
   whole: Curves;
   span: Span | null;
   mayExport: boolean;

@@ -10,7 +10,7 @@ import { ratioAt, timeAt, zoomSpan, type Span } from "./span";
 import { isWithin, maxStepMs, rowsOf, samplesOf, type RecordedEvent, type Timeline } from "./timeline";
 
 const LANES = ["navigation", "withheld", "alarm"] as const;
-/** A shorter way of the finger chooses an instant, a longer one a part of the recording. */
+/** A shorter drag selects an instant, a longer one a span. */
 const MIN_SELECTION_PX = 14;
 const WHEEL_PX_A_DOUBLING = 300;
 const ROW_PX = 26;
@@ -19,15 +19,15 @@ const CURVE_PX = 84;
 interface ReviewTimelineProps {
   timeline: Timeline;
   span: Span;
-  /** What is to be cut out; null for nothing. */
+  /** The section to export; null for none. */
   piece: Span | null;
-  /** The instant that is shown, since the first image. */
+  /** The displayed instant, since the first image. */
   atS: number;
   onSeek: (atS: number) => void;
   onSpan: (span: Span) => void;
 }
 
-/** What happened, and the curves of the figures: a touch chooses an instant, a drag or two fingers what is seen of it. */
+/** Events and curves: a tap selects an instant, a drag or a pinch the visible span. */
 export function ReviewTimeline(props: ReviewTimelineProps): ReactNode {
   const { timeline, span, piece, atS, onSeek, onSpan } = props;
   const texts = useTexts();
@@ -63,7 +63,7 @@ export function ReviewTimeline(props: ReviewTimelineProps): ReactNode {
         return distance;
       },
       onWheel: ({ event, delta: [, dy] }) => {
-        // Without Ctrl it moves the page.
+        // Without Ctrl the wheel scrolls the page.
         if (!event.ctrlKey) return;
         event.preventDefault();
         const times = 2 ** (-dy / WHEEL_PX_A_DOUBLING);
@@ -81,7 +81,7 @@ export function ReviewTimeline(props: ReviewTimelineProps): ReactNode {
   const cursor = ratioAt(span, atS);
   const lanes = LANES.map((kind) => ({
     kind,
-    // Of all events, so that no bar changes its row when another part is seen.
+    // Rows are computed from all events, so that a bar keeps its row when the span changes.
     rows: rowsOf(timeline.events.filter((event) => event.kind === kind)),
   }));
   const heights = [...lanes.map(({ rows }) => rows.length), 1].map((rows) => `${ROW_PX * rows}px`);
@@ -153,7 +153,7 @@ export function ReviewTimeline(props: ReviewTimelineProps): ReactNode {
   );
 }
 
-/** What is to be cut out, as far as it is seen. */
+/** The visible part of the section to export. */
 function Piece({ piece, span }: { piece: Span; span: Span }): ReactNode {
   const [from, to] = [piece.fromS, piece.toS].map((atS) => Math.min(Math.max(ratioAt(span, atS), 0), 1)) as [
     number,

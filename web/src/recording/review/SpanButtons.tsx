@@ -10,7 +10,7 @@ interface SpanButtonsProps {
   onSpan: (span: Span) => void;
 }
 
-/** Choose the part of the recording that the curves show. */
+/** Buttons that move and scale the visible span. */
 export function SpanButtons({ span, atS, durationS, onSpan }: SpanButtonsProps): ReactNode {
   const own = useTexts().recording.review;
   const buttons: [label: string, symbol: string, testId: string, to: () => Span][] = [

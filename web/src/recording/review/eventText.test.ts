@@ -14,12 +14,12 @@ const EVENT: RecordedEvent = {
   by: "",
 };
 
-test("an alarm says which, and how long", () => {
+test("an alarm shows its title and duration", () => {
   expect(eventText(EVENT, en)).toBe("Alarm · BREACH · 0:04");
   expect(eventText(EVENT, de)).toBe("Alarm · DURCHBRUCH · 0:04");
 });
 
-test("an acknowledgement says of what, and by whom", () => {
+test("an acknowledgement shows its alarm and person", () => {
   const event = { ...EVENT, kind: "acknowledgement", to_s: null, by: "Anna" } as const;
   expect(eventText(event, en)).toBe("Acknowledged · BREACH · Anna");
 });

@@ -1,4 +1,4 @@
-// What happened in a recording, in words. Pure.
+// Texts of recorded events. Pure.
 import type { Texts } from "../../texts/catalogue";
 import { textOf } from "../../texts/text";
 import { clockDuration } from "../recordingText";

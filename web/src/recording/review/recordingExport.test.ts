@@ -6,17 +6,21 @@ import { exportOf, exportText } from "./recordingExport";
 
 const FILE = { file: "a.mp4", size_bytes: 14_000_000, images: 120 };
 
-test("a video says how many of its images are without results", () => {
-  expect(exportText({ ...FILE, undrawn: 0 }, en)).toBe("120 images, 120 with their overlay. 14.0 MB");
-  expect(exportText({ ...FILE, undrawn: 7 }, en)).toContain("113 with their overlay. The others say why");
+test("a video states how many of its images have no results", () => {
+  expect(exportText({ ...FILE, undrawn: 0 }, en)).toBe("120 images, 120 with the overlay. 14.0 MB");
+  expect(exportText({ ...FILE, undrawn: 7 }, en)).toContain("113 with the overlay. The others state why");
 });
 
-test("a piece says where it begins, and whether it replays", () => {
-  expect(exportText({ ...FILE, from_s: 61, is_exact: true }, en)).toContain("from 1:01 on, where a state");
-  expect(exportText({ ...FILE, from_s: 61, is_exact: true }, en)).toContain("It replays exactly.");
+test("a section states where it begins and whether it can be replayed exactly", () => {
+  expect(exportText({ ...FILE, from_s: 61, is_exact: true }, en)).toContain(
+    "from 1:01 on, where a tracking state",
+  );
+  expect(exportText({ ...FILE, from_s: 61, is_exact: true }, en)).toContain(
+    "The section can be replayed exactly.",
+  );
   const missing = exportText({ ...FILE, from_s: 61, is_exact: true, missing_images: 3 }, en);
-  expect(missing).toContain("3 images between them were not recorded");
-  expect(missing).not.toContain("replays exactly");
+  expect(missing).toContain("3 images in between were not recorded");
+  expect(missing).not.toContain("can be replayed exactly");
   expect(exportText({ ...FILE, from_s: 61, is_exact: false }, de)).toContain("nicht wiederholbar");
 });
 

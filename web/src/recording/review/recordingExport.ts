@@ -1,11 +1,11 @@
-// What a job made of a recording, and what is said about it. Pure.
+// Result of an export job and its text. Pure.
 import { formatBytes } from "../../operator/parts/format";
 import type { Job } from "../../rest/useJob";
 import type { Texts } from "../../texts/catalogue";
-import { interpolate } from "../../texts/interpolate";
+import { pluralize } from "../../texts/pluralize";
 import { clockDuration } from "../recordingText";
 
-/** Of a piece `is_exact` and `from_s`, of a video `undrawn`. */
+/** A section has `is_exact` and `from_s`, a video `undrawn`. */
 export interface RecordingExport {
   file: string;
   size_bytes: number;
@@ -16,17 +16,22 @@ export interface RecordingExport {
   undrawn?: number;
 }
 
-/** Null where the job failed or was cancelled. */
+/** Null if the job failed or was cancelled. */
 export const exportOf = (job: Job): RecordingExport | null =>
   job.state === "done" ? (job.result as RecordingExport) : null;
 
-/** "120 images, 120 with their overlay. 14.0 MB" */
+/** "120 images, 120 with the overlay. 14.0 MB" */
 export function exportText(made: RecordingExport, texts: Texts): string {
   const own = texts.recording.review.exports;
   const { images, is_exact, from_s = 0, undrawn = 0, missing_images: missing = 0 } = made;
   const template = is_exact === undefined ? own.videoMade : is_exact ? own.pieceMade : own.pieceInexact;
-  const parts = [interpolate(template, { images, drawn: images - undrawn, from: clockDuration(from_s) })];
-  if (missing > 0) parts.push(interpolate(own.missing, { missing }));
+  const parts = [
+    pluralize(template, images, texts.language, {
+      drawn: images - undrawn,
+      from: clockDuration(from_s),
+    }),
+  ];
+  if (missing > 0) parts.push(pluralize(own.missing, missing, texts.language));
   else if (is_exact === true) parts.push(own.exact);
   if (undrawn > 0) parts.push(own.undrawn);
   return `${parts.join(" ")} ${formatBytes(made.size_bytes)}`;

@@ -1,4 +1,4 @@
-// The part of a recording that its curves show, in seconds since the first image. Pure.
+// The visible span of a recording, in seconds since the first image. Pure.
 
 export interface Span {
   fromS: number;
@@ -7,7 +7,7 @@ export interface Span {
 
 const MIN_SPAN_S = 1;
 
-/** A span inside of the recording, not shorter than a second where the recording is not. */
+/** Clamps a span to the recording, with a minimum of one second where possible. */
 export function clampSpan({ fromS, toS }: Span, durationS: number): Span {
   const length = Math.min(Math.max(toS - fromS, MIN_SPAN_S), Math.max(durationS, MIN_SPAN_S));
   const middle = (fromS + toS) / 2;
@@ -15,20 +15,20 @@ export function clampSpan({ fromS, toS }: Span, durationS: number): Span {
   return { fromS: from, toS: from + length };
 }
 
-/** The same, so many times as near; what is at `aboutS` stays where it is. */
+/** Scales the span; `aboutS` stays in place. */
 export function zoomSpan(span: Span, times: number, aboutS: number, durationS: number): Span {
   const fromS = aboutS - (aboutS - span.fromS) / times;
   const toS = aboutS + (span.toS - aboutS) / times;
   return clampSpan({ fromS, toS }, durationS);
 }
 
-/** Moved by a share of its own length. */
+/** Shifts the span by a share of its length. */
 export function moveSpan({ fromS, toS }: Span, share: number, durationS: number): Span {
   const by = share * (toS - fromS);
   return clampSpan({ fromS: fromS + by, toS: toS + by }, durationS);
 }
 
-/** Where a time lies in the span, 0 to 1; outside of it below 0 or above 1. */
+/** Position of a time in the span: 0 to 1 inside. */
 export const ratioAt = (span: Span, atS: number): number => (atS - span.fromS) / (span.toS - span.fromS);
 
 export const timeAt = (span: Span, ratio: number): number => span.fromS + ratio * (span.toS - span.fromS);

@@ -64,7 +64,7 @@ test.each([
   expect(isWithin(event, { fromS: 2, toS: 8 })).toBe(is);
 });
 
-test("alarms at the same time stand in rows of their own", () => {
+test("simultaneous alarms are in separate rows", () => {
   const events = [
     [0, 5],
     [1, 3],

@@ -1,4 +1,4 @@
-// What the server says of a recording, as the curves and the cursor need it. Pure.
+// Timeline data of a recording for the curves and the cursor. Pure.
 import type { Status } from "../../live/messages";
 import { FIGURES, type FigureName } from "../../panes/limits";
 import type { components } from "../../schema";
@@ -9,10 +9,10 @@ export type Timeline = components["schemas"]["TimelineMessage"];
 export type Curves = Timeline["curves"];
 export type RecordedEvent = Timeline["events"][number];
 
-/** So many samples a request; a screen has hardly more columns. */
+/** Samples per request; a screen has hardly more columns. */
 export const MAX_SAMPLES = 1000;
 
-/** Samples of a curve in ms since the first image; a figure that was withheld has no value. */
+/** Samples of a curve, in ms since the first image; a withheld figure has no value. */
 export function samplesOf(curves: Curves): Sample[] {
   return curves.at_s.map((atS, row) => ({
     atMs: 1000 * atS,
@@ -29,11 +29,11 @@ function figureAt(curves: Curves, name: FigureName, row: number): TrendFigure {
   return { value: values[row] ?? null, limit: limits[row] ?? null, status };
 }
 
-/** Samples of a long span stand for many images, and are further apart. */
+/** In a long span a sample stands for many images, so samples are further apart. */
 export const maxStepMs = ({ fromS, toS }: Span): number =>
   Math.max(MAX_STEP_MS, (2500 * (toS - fromS)) / MAX_SAMPLES);
 
-/** The image that was taken at a time, between the samples by their distance. */
+/** Index of the image at a time, interpolated between samples. */
 export function numberAt({ at_s, numbers }: Curves, atS: number, images: number): number {
   let [low, high] = [0, at_s.length - 1];
   while (high - low > 1) {
@@ -48,10 +48,10 @@ export function numberAt({ at_s, numbers }: Curves, atS: number, images: number)
   return Math.min(Math.max(number, 0), Math.max(images - 1, 0));
 }
 
-/** Equal notes closer than this are one in the list: on a slow computer images are missing several times a second. */
+/** Equal notes closer than this are merged: on a slow computer images are missing several times a second. */
 const MAX_NOTE_GAP_S = 5;
 
-/** Events with repeated notes merged into one from the first to the last; all others as they are. */
+/** Merges repeated notes into one from the first to the last; other events are unchanged. */
 export function mergedNotes(events: readonly RecordedEvent[]): RecordedEvent[] {
   const merged: RecordedEvent[] = [];
   const newest = new Map<string, number>();
@@ -71,7 +71,7 @@ export function mergedNotes(events: readonly RecordedEvent[]): RecordedEvent[] {
   return merged;
 }
 
-/** The rows in which these stand without covering one another, the first begun first; each has at least one. */
+/** Assigns events to rows without overlap, earliest first; at least one row. */
 export function rowsOf(events: readonly RecordedEvent[]): RecordedEvent[][] {
   const rows: RecordedEvent[][] = [];
   for (const event of events) {
@@ -82,6 +82,6 @@ export function rowsOf(events: readonly RecordedEvent[]): RecordedEvent[][] {
   return rows.length === 0 ? [[]] : rows;
 }
 
-/** Whether anything of it lies in the span. */
+/** Whether the event overlaps the span. */
 export const isWithin = ({ from_s, to_s }: RecordedEvent, { fromS, toS }: Span): boolean =>
   (to_s ?? from_s) >= fromS && from_s <= toS;

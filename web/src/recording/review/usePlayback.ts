@@ -11,7 +11,7 @@ interface Playback {
 
 const FRAME_MS = 40;
 
-/** Plays at the rate of the recording; an image that is late is waited for, and those after it are skipped. */
+/** Plays at the recorded rate. It waits for a late image and then skips the missed ones. */
 export function usePlayback({
   timeline,
   whole,

@@ -1,4 +1,4 @@
-// An image of a recording with its results, shown together: an image never stands beside figures of another.
+// An image of a recording with its results. They change together, so an image never appears with other figures.
 import { useEffect, useState } from "react";
 import { answered, Rejection, server } from "../../rest/client";
 import type { components } from "../../schema";
@@ -7,12 +7,12 @@ export type RecordedInstant = components["schemas"]["RecordedInstantMessage"];
 
 export interface ShownInstant {
   instant: RecordedInstant | null;
-  /** Of its image; null where it cannot be decoded. */
+  /** The bitmap; null if it cannot be decoded. */
   source: string | null;
   rejection: Rejection | null;
 }
 
-/** The one before stays until the wanted one has come; one that is not wanted any more is left. */
+/** The previous image stays until the requested one has arrived; obsolete requests are dropped. */
 export function useShownInstant(name: string, number: number): { shown: ShownInstant; isLoading: boolean } {
   const [shown, setShown] = useState<ShownInstant & { number: number }>({
     instant: null,

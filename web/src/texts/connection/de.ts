@@ -3,12 +3,12 @@ import type { ConnectionTexts } from "./en";
 export const connectionDe: ConnectionTexts = {
   size: "Bildgröße",
   sizes: { auto: "Automatisch", full: "Voll", half: "Halb", quarter: "Viertel" },
-  thin: "Langsame Leitung",
+  thin: "Langsame Verbindung",
   server: "Langsamer Server",
   decoding: "Langsames Dekodieren",
   drawing: "Langsames Zeichnen",
   reduced: "Verkleinertes Bild",
   rate: "Bilder/s",
-  ages: "Wie alt alles ist",
-  age: { picture: "Bild", numbers: "Zahlen", scene: "3-D", clock: "Uhr des Servers, voraus um" },
+  ages: "Alter der Anzeige",
+  age: { picture: "Bild", numbers: "Werte", scene: "3-D", clock: "Serveruhr geht vor um" },
 };

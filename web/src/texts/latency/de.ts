@@ -2,13 +2,13 @@ import type { LatencyTexts } from "./en";
 
 export const latencyDe: LatencyTexts = {
   title: "Verzögerung",
-  lead: "Wie alt das Bild ist, nach dem sich eine Hand richtet: vom Licht vor der Kamera bis auf diese Seite. Etwa 20 Sekunden lang füllen Codes diesen Bildschirm, während die Kamera darauf blickt; gemessen wird, was diese Kamera und dieser Bildschirm zusammen tun.",
+  lead: "Zeit vom Licht vor der Kamera bis zur Anzeige auf dieser Seite. Etwa 20 Sekunden lang zeigt dieser Bildschirm Codes, die die Kamera aufnimmt. Das Ergebnis gilt für diese Kamera mit diesem Bildschirm.",
   never: "Mit dieser Kamera noch nicht gemessen.",
   begin: "Messen",
   beginAgain: "Erneut messen",
   aim: "Die Kamera auf diesen Bildschirm richten, bis der Code einen guten Teil ihres Bildes füllt.",
-  measuring: "Es wird gemessen: die Kamera ruhig halten.",
-  read: "Gelesen in {read} von {looked} Bildern.",
+  measuring: "Messung läuft: Kamera ruhig halten.",
+  read: "Code gelesen in {read} von {looked} Bildern.",
   stop: "Abbrechen",
   codeAlt: "Ein Code, der etwa achtmal in der Sekunde wechselt",
   perSecond: "Bilder/s",
@@ -18,13 +18,13 @@ export const latencyDe: LatencyTexts = {
     "screen and camera": "Bildschirm und Kamera",
     tracking: "Tracking",
     server: "Server",
-    line: "Leitung",
+    line: "Verbindung",
     page: "Seite",
   },
   resolution:
-    "{samples} Codes in {images} Bildern, {skipped} übersprungen. Alle {period} ms kommt ein Bild: ein Code, der zwischen zwei Bildern erscheint, wird im Mittel {late} ms zu spät gesehen; das ist in diesen Zahlen enthalten, ebenso einmal die Verzögerung des Bildschirms selbst. Der Bildschirm zeigt alle {screen} ms ein Bild. Die Uhren von Seite und Server stimmen auf {clocks} ms überein; das verschiebt nur Zeit zwischen den Abschnitten.",
+    "Codes: {samples}, Bilder: {images}, übersprungen: {skipped}. Die Kamera liefert alle {period} ms ein Bild; ein Code wird deshalb im Mittel {late} ms nach seinem Erscheinen aufgenommen. Diese Zeit ist in den Werten enthalten, ebenso die Verzögerung des Bildschirms. Der Bildschirm zeigt alle {screen} ms ein Bild. Die Uhren von Seite und Server stimmen auf {clocks} ms überein; das betrifft nur die Aufteilung auf die Abschnitte.",
   lightToPage: "Licht bis Seite",
   measured: "{median} ms Median, {p99} ms p99, gemessen {day}",
   notMeasured: "nicht gemessen",
-  otherImages: "mit {size} bei {rate} Bildern/s gemessen, anders als jetzt: neu messen",
+  otherImages: "mit {size} bei {rate} Bildern/s gemessen, die Einstellung ist jetzt anders: neu messen",
 };

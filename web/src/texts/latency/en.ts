@@ -1,12 +1,12 @@
 export const latencyEn = {
   title: "Latency",
-  lead: "How old the picture is that a hand goes by: from the light before the camera to this page. Codes fill this screen for some 20 seconds while the camera looks at it; it measures what this camera and this screen do together.",
-  never: "Not measured yet with this camera.",
+  lead: "Time from the light in front of the camera to the display on this page. This screen shows codes for about 20 seconds, which the camera records. The result applies to this camera with this screen.",
+  never: "Not measured with this camera yet.",
   begin: "Measure",
   beginAgain: "Measure again",
   aim: "Point the camera at this screen until the code fills a good part of its picture.",
   measuring: "Measuring: hold the camera still.",
-  read: "Read in {read} of {looked} images.",
+  read: "Code read in {read} of {looked} images.",
   stop: "Stop",
   codeAlt: "A code that changes about eight times a second",
   perSecond: "images/s",
@@ -16,15 +16,15 @@ export const latencyEn = {
     "screen and camera": "Screen and camera",
     tracking: "Tracking",
     server: "Server",
-    line: "Line",
+    line: "Connection",
     page: "Page",
   },
   resolution:
-    "{samples} codes in {images} images, {skipped} skipped. One image comes every {period} ms: a code that appears between two images is seen {late} ms late on average, which is in these numbers, as is the screen's own delay, once. The screen shows an image every {screen} ms. The clocks of page and server agree within {clocks} ms; that moves time between the stages alone.",
+    "Codes: {samples}, images: {images}, skipped: {skipped}. The camera sends an image every {period} ms, so a code is recorded {late} ms after it appears, on average. The values include this time and the delay of the screen. The screen shows an image every {screen} ms. The clocks of page and server agree within {clocks} ms; this affects only the division into stages.",
   lightToPage: "Light to page",
   measured: "{median} ms median, {p99} ms p99, measured {day}",
   notMeasured: "not measured",
-  otherImages: "measured with {size} at {rate} images/s, other than now: measure again",
+  otherImages: "measured with {size} at {rate} images/s, the setting is now different: measure again",
 };
 
 export type LatencyTexts = typeof latencyEn;

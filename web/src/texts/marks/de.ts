@@ -2,16 +2,15 @@ import type { MarksTexts } from "./en";
 
 export const marksDe: MarksTexts = {
   layer:
-    "Das Video. Zum Zeigen darüberfahren; mit gewähltem Werkzeug drücken und zeichnen. Pfeiltasten bewegen den Zeiger.",
+    "Das Video. Zum Zeigen darüberfahren, zum Zeichnen ein Werkzeug wählen und ziehen. Die Pfeiltasten bewegen den Zeiger.",
   tools: "Zeigen und zeichnen",
   tool: { point: "Zeigen", pen: "Stift", arrow: "Pfeil", circle: "Kreis" },
   undo: "Rückgängig",
   clear: "Meine löschen",
   clearAll: "Alle löschen",
   ago: "vor # s",
-  seenBy: "Alle, die zusehen, sehen es.",
-  fades:
-    "Ein Zeiger verschwindet 2 s nach seiner letzten Bewegung, eine Zeichnung # s nach dem Bild, auf dem sie entstand.",
-  lineGone: "Die Leitung ist weg: Niemand sieht, was Sie zeigen.",
-  noPicture: "Es gibt kein Live-Bild, auf dem man zeichnen könnte.",
+  seenBy: "Für alle sichtbar, die zusehen.",
+  fades: "Der Zeiger verschwindet 2 s nach seiner letzten Bewegung, eine Zeichnung # s nach ihrem Bild.",
+  lineGone: "Keine Verbindung: Niemand sieht, was Sie zeigen.",
+  noPicture: "Zeichnen ist nur auf einem Live-Bild möglich.",
 };

@@ -1,15 +1,16 @@
 export const marksEn = {
-  layer: "The video. Move over it to point; with a tool chosen, press and draw. Arrow keys move the pointer.",
+  layer:
+    "The video. Move over it to point; to draw, choose a drawing tool and drag. The arrow keys move the pointer.",
   tools: "Point and draw",
   tool: { point: "Point", pen: "Pen", arrow: "Arrow", circle: "Circle" },
   undo: "Undo",
   clear: "Clear mine",
   clearAll: "Clear all",
   ago: "# s ago",
-  seenBy: "Everybody who watches sees it.",
-  fades: "A pointer goes 2 s after it moved last, a drawing # s after the image that it was made on.",
-  lineGone: "The line is gone: nobody sees what you mark.",
-  noPicture: "There is no live picture to mark on.",
+  seenBy: "Visible to everybody who is watching.",
+  fades: "The pointer disappears 2 s after its last movement, a drawing # s after its image.",
+  lineGone: "No connection: nobody sees what you mark.",
+  noPicture: "Drawing is possible only on a live picture.",
 };
 
 export type MarksTexts = typeof marksEn;

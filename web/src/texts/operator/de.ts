@@ -19,8 +19,11 @@ export const operatorDe: OperatorTexts = {
     people: "Personen",
   },
   ready: "bereit",
-  fewLandmarks:
-    "Sie hat {there} Landmarken; zum Registrieren mit Punkten braucht es mindestens {min}, mit drei Nadeln keine.",
+  fewLandmarks: {
+    one: "Die Planung hat {count} Landmarke. Die Registrierung mit Landmarken braucht mindestens {min}, mit drei Nadeln keine.",
+    other:
+      "Die Planung hat {count} Landmarken. Die Registrierung mit Landmarken braucht mindestens {min}, mit drei Nadeln keine.",
+  },
   state: {
     missing: "offen",
     out_of_date: "veraltet",

@@ -9,16 +9,19 @@ export const operatorEn = {
     camera: "Camera",
     tool: "Tool",
     plan: "Plan",
-    register: "Register",
+    register: "Registration",
     check: "Check",
-    navigate: "Navigate",
+    navigate: "Navigation",
     recordings: "Recordings",
     report: "Report",
     people: "People",
   },
   ready: "ready",
-  fewLandmarks:
-    "It has {there} landmarks; registering by points needs at least {min}. Three needles need none.",
+  fewLandmarks: {
+    one: "The plan has {count} landmark. Registration with landmarks needs at least {min}; with three needles, none.",
+    other:
+      "The plan has {count} landmarks. Registration with landmarks needs at least {min}; with three needles, none.",
+  },
   state: { missing: "to do", out_of_date: "out of date", failed: "failed", due: "due again", done: "done" },
 };
 

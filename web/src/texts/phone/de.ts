@@ -2,8 +2,8 @@ import type { PhoneTexts } from "./en";
 
 export const phoneDe: PhoneTexts = {
   title: "Dieses Gerät als Kamera",
-  lead: "Befestigen Sie es so, dass nichts es bewegt, mit dem Marker im Bild, und lassen Sie diese Seite vorn. Die Bilder gehen zum Server; hier bleibt keines.",
-  preview: "Was die Kamera dieses Geräts sieht",
+  lead: "Befestigen Sie das Gerät unbeweglich, mit dem Marker im Bild, und lassen Sie diese Seite geöffnet. Die Bilder werden an den Server gesendet und hier nicht gespeichert.",
+  preview: "Bild der Kamera dieses Geräts",
   noPreview: "Hier erscheint das Bild der Kamera.",
   start: "START",
   stop: "STOPP",
@@ -12,7 +12,7 @@ export const phoneDe: PhoneTexts = {
     connecting: "Verbindung zum Server …",
     opening: "Warten auf die Kamera …",
     sending: "Sendet",
-    lost: "Keine Verbindung: wird von selbst wieder versucht",
+    lost: "Keine Verbindung: neuer Versuch automatisch",
     none: "Sendet nichts",
   },
   image: "Bild",
@@ -29,18 +29,19 @@ export const phoneDe: PhoneTexts = {
   times: "Bildzeiten",
   clock: {
     capture: "der Aufnahme",
-    presentation: "der Anzeige: aufgenommen wurde früher, um eine unbekannte Zeit",
+    presentation: "der Anzeige; die Aufnahme war früher, um eine unbekannte Zeit",
   },
   server: "Server",
   serverValue: "Kamera {state} · {rate} Bilder/s",
-  delay: "Kommt an nach",
+  delay: "Übertragungszeit",
   delayValue: "{min} bis {max} ms",
-  screenOff: "Dieser Browser hält den Bildschirm nicht an: Schalten Sie die automatische Sperre aus.",
+  screenOff:
+    "Dieser Browser kann den Bildschirm nicht eingeschaltet lassen: Schalten Sie die automatische Sperre aus.",
   noCamera: {
     insecure: {
       title: "Diese Seite wurde nicht über https geöffnet",
       sentence:
-        "Browser verbergen die Kamera vor solchen Seiten. Öffnen Sie die Adresse, die mit https beginnt, oder localhost auf dem Rechner des Servers selbst. Ein Server, den andere erreichen, spricht von selbst https.",
+        "Browser geben die Kamera nur für https frei. Öffnen Sie die Adresse, die mit https beginnt, oder localhost auf dem Rechner des Servers. Ein Server, der für andere erreichbar ist, verwendet automatisch https.",
     },
     denied: {
       title: "Diese Seite darf die Kamera nicht benutzen",
@@ -49,32 +50,31 @@ export const phoneDe: PhoneTexts = {
     },
     none: {
       title: "Dieses Gerät hat keine brauchbare Kamera",
-      sentence: "Schließen Sie eine an, oder nehmen Sie ein anderes Gerät.",
+      sentence: "Schließen Sie eine an, oder verwenden Sie ein anderes Gerät.",
     },
     busy: {
-      title: "Die Kamera ist in Gebrauch oder wurde entzogen",
+      title: "Die Kamera wird bereits verwendet oder wurde getrennt",
       sentence: "Schließen Sie das andere Programm, das sie benutzt, und tippen Sie auf START.",
     },
     old: {
       title: "Dieser Browser kann keine Kamera senden",
-      sentence: "Er ist zu alt. Nehmen Sie Chrome, Edge, Firefox oder Safari ab 2024.",
+      sentence: "Er ist zu alt. Verwenden Sie Chrome, Edge, Firefox oder Safari ab 2024.",
     },
     other: {
       title: "Die Kamera ließ sich nicht öffnen",
       sentence: "Laden Sie diese Seite neu und tippen Sie wieder auf START.",
     },
   },
-  limits: "Was die Kamera eines Telefons nicht kann",
+  limits: "Einschränkungen von Telefonkameras",
   limitList: {
     focus:
-      "Nicht jedes Gerät lässt seinen Fokus sperren; iPhones und iPads nicht. Ein Fokus, der sich bewegt, macht die Kalibrierung ungültig.",
-    lens: "Ein Telefon mit mehreren Objektiven wechselt womöglich von selbst, nah oder im Dunkeln. Wählen Sie einen Abstand, in dem es das nicht tut.",
+      "Der Fokus lässt sich nicht auf jedem Gerät sperren, auf iPhones und iPads nie. Ändert sich der Fokus, ist die Kalibrierung ungültig.",
+    lens: "Telefone mit mehreren Objektiven können im Nahbereich oder bei wenig Licht selbsttätig wechseln. Wählen Sie einen Abstand, bei dem das nicht geschieht.",
     shutter:
-      "Die meisten Telefone lesen ihren Sensor zeilenweise und sagen nicht, wie schnell: Was sich bewegt, wird falsch gemessen.",
+      "Die meisten Telefone lesen den Sensor zeilenweise aus und geben die Auslesezeit nicht an: Bewegte Objekte werden falsch gemessen.",
     steady: "Ein Bildstabilisator verschiebt das Bild. Schalten Sie ihn aus, wo das Gerät es erlaubt.",
-    other:
-      "Ein anderes Telefon oder Objektiv wird vom kalibrierten nicht unterschieden: Kalibrieren Sie neu.",
-    turn: "Von hochkant nach quer gedreht haben die Bilder eine andere Größe, und die Kalibrierung passt nicht.",
+    other: "Ein anderes Telefon oder Objektiv wird nicht erkannt: Kalibrieren Sie nach einem Wechsel neu.",
+    turn: "Zwischen Hoch- und Querformat ändert sich die Bildgröße: Die Kalibrierung gilt dann nicht.",
   },
   dashboard: "Zur Übersicht",
 };

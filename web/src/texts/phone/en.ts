@@ -1,7 +1,7 @@
 export const phoneEn = {
   title: "Use this device as camera",
-  lead: "Fix it so that nothing moves it, with the marker in view, and leave this page in front. Images go to the server; none is kept here.",
-  preview: "What this device's camera sees",
+  lead: "Fix the device so that it cannot move, with the marker in view, and keep this page open. The images are sent to the server and not stored here.",
+  preview: "Picture of this device's camera",
   noPreview: "The picture of the camera appears here.",
   start: "START",
   stop: "STOP",
@@ -10,7 +10,7 @@ export const phoneEn = {
     connecting: "Connecting to the server …",
     opening: "Waiting for the camera …",
     sending: "Sending",
-    lost: "No connection: tried again by itself",
+    lost: "No connection: retrying automatically",
     none: "Sending nothing",
   },
   image: "Image",
@@ -18,23 +18,23 @@ export const phoneEn = {
   rate: "Sent",
   perSecond: "{rate} images/s",
   focus: "Focus",
-  focusState: { locked: "locked", automatic: "automatic, NOT locked", unknown: "not known, NOT locked" },
+  focusState: { locked: "locked", automatic: "automatic, NOT locked", unknown: "unknown, NOT locked" },
   focusAt: "at {distance} m",
   times: "Image times",
   clock: {
     capture: "of the capture",
-    presentation: "of the display: the capture was earlier, by an unknown time",
+    presentation: "of the display; the capture was earlier, by an unknown time",
   },
   server: "Server",
   serverValue: "camera {state} · {rate} images/s",
-  delay: "Arrives after",
+  delay: "Transfer time",
   delayValue: "{min} to {max} ms",
-  screenOff: "This browser does not keep the screen on: switch off its automatic lock in the settings.",
+  screenOff: "This browser cannot keep the screen on: switch off the automatic lock.",
   noCamera: {
     insecure: {
       title: "This page was not opened over https",
       sentence:
-        "Browsers hide the camera from such pages. Open the address that begins with https, or localhost on the computer of the server itself. A server that others reach speaks https by itself.",
+        "Browsers allow the camera only over https. Open the address that begins with https, or localhost on the server's computer. A server that others can reach uses https automatically.",
     },
     denied: {
       title: "This page may not use the camera",
@@ -42,11 +42,11 @@ export const phoneEn = {
         "Allow the camera for this site in the browser's settings, reload this page, and touch START.",
     },
     none: {
-      title: "This device has no camera that can be used",
+      title: "This device has no usable camera",
       sentence: "Connect one, or use another device.",
     },
     busy: {
-      title: "The camera is in use, or was taken away",
+      title: "The camera is in use or was disconnected",
       sentence: "Close the other program that uses it, then touch START.",
     },
     old: {
@@ -58,17 +58,16 @@ export const phoneEn = {
       sentence: "Reload this page and touch START again.",
     },
   },
-  limits: "What a phone's camera cannot do",
+  limits: "Limitations of phone cameras",
   limitList: {
     focus:
-      "Not every device lets its focus be locked; iPhones and iPads do not. A focus that moves voids the calibration.",
-    lens: "A phone with several lenses may change between them by itself, near or in the dark. Choose a distance at which it does not.",
+      "The focus cannot be locked on every device, and never on iPhones and iPads. If the focus changes, the calibration is invalid.",
+    lens: "Phones with several lenses may switch between them automatically, at close range or in low light. Choose a distance at which this does not happen.",
     shutter:
-      "Most phones read their sensor row by row, and do not say how fast: what moves is measured wrongly.",
+      "Most phones read the sensor row by row and do not state the readout time: moving objects are measured wrongly.",
     steady: "Image stabilisation shifts the picture. Switch it off where the device allows it.",
-    other:
-      "Another phone, or another lens, cannot be distinguished from the one that was calibrated: calibrate anew.",
-    turn: "Turned from upright to lying, images have another size, and the calibration does not fit.",
+    other: "Another phone or lens is not recognised: calibrate again after a change.",
+    turn: "The image size differs between portrait and landscape: the calibration is then not valid.",
   },
   dashboard: "To the dashboard",
 };

@@ -1,20 +1,20 @@
-// The surface and the plan as files.
+// Surface and plan files.
 export const filesEn = {
   surface: {
-    title: "Surface of the bone",
-    hint: "Its outline on the slices should follow the edge of the bone. It is shown in 3-D during navigation, and a sweep of the tip over it makes a registration finer.",
+    title: "Bone surface",
+    hint: "Its outline on the slices should follow the edge of the bone. It is shown in 3-D during navigation, and is used for a surface sweep.",
     none: "There is no surface yet.",
-    make: "Make it out of the CT",
-    makeAnew: "Make it anew out of the CT",
+    make: "Create from the CT",
+    makeAnew: "Create from the CT again",
     outOfDate: "This surface is out of date",
-    source: "Made from",
+    source: "Created from",
     fromCt: "the CT of this case",
     fromFile: "a file",
     faces: "Triangles",
     size: "Size",
     threshold: "Bone from",
     unit: "Unit of the file's numbers",
-    unitUnsaid: "Not said: it has to be mm",
+    unitUnsaid: "Not specified: millimetres",
     units: {
       mm: "millimetres",
       cm: "centimetres",
@@ -22,23 +22,24 @@ export const filesEn = {
       inch: "inches",
       um: "micrometres",
     },
-    proposedUnit: "Its size would fit in the unit",
-    sayUnit: "Measure the bone, choose its unit below, and send the file again. Nothing is scaled unasked.",
+    proposedUnit: "Unit that fits this size",
+    sayUnit:
+      "Measure the bone, choose the unit below, and send the file again. The file is not scaled automatically.",
     send: "Send STL, OBJ or PLY …",
     max: "at most",
   },
   file: {
     title: "Plan as a file",
-    hint: "The file says who made the plan, when, and on which CT. Nothing in it names the patient.",
-    none: "There is no plan yet that could be written out.",
-    out: "Write the plan to a file",
-    outForSlicer: "Write it for 3D Slicer",
-    in: "Take a plan in …",
-    replaces: "A plan that is taken in replaces the one that is shown; Undo brings it back.",
+    hint: "The file contains who made the plan, when, and on which CT, but no patient data.",
+    none: "There is no plan yet.",
+    out: "Save the plan as a file",
+    outForSlicer: "Save for 3D Slicer",
+    in: "Import a plan …",
+    replaces: "An imported plan replaces the one shown; Undo restores it.",
     otherCt: "This plan was made on another CT",
     otherCtHint:
-      "Its channels may lie anywhere on this one. Take it only if both are of this patient in one position, and check every channel.",
-    takeAllTheSame: "Take it all the same",
+      "Its channels may be wrong on this CT. Import it only if both CTs show the same patient in the same position, and check every channel.",
+    takeAllTheSame: "Import anyway",
   },
 };
 

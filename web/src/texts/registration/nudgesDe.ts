@@ -3,12 +3,13 @@ import type { NudgesTexts } from "./nudgesEn";
 export const nudgesDe: NudgesTexts = {
   nudges: {
     needsRegistration: "Es gibt keine Registrierung zum Korrigieren. Registrieren Sie zuerst.",
-    checkAgain: "Jede Korrektur ist eine neue Registrierung: vor der Navigation an einem Punkt prüfen.",
-    kind: "Schieben oder drehen",
-    shift: "Schieben",
+    checkAgain:
+      "Jede Korrektur erzeugt eine neue Registrierung: Vor der Navigation an einer Landmarke prüfen.",
+    kind: "Verschieben oder drehen",
+    shift: "Verschieben",
     turn: "Drehen",
     step: "Schrittweite",
-    pad: "Gezeichneten Wirbel korrigieren",
+    pad: "Lage des Wirbels korrigieren",
     shiftTo: {
       left: { minus: "nach rechts", plus: "nach links" },
       back: { minus: "nach vorn", plus: "nach hinten" },
@@ -24,6 +25,6 @@ export const nudgesDe: NudgesTexts = {
     allowed: "erlaubt",
     undo: "Letzte Korrektur zurücknehmen",
     log: "Gültige Korrekturen",
-    logEmpty: "Bisher wurde nichts korrigiert.",
+    logEmpty: "Bisher keine Korrektur.",
   },
 };

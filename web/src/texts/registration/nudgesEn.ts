@@ -2,11 +2,11 @@
 export const nudgesEn = {
   nudges: {
     needsRegistration: "There is no registration to nudge. Register first.",
-    checkAgain: "Each nudge makes another registration: check it on a landmark before navigating.",
-    kind: "Shift or turn",
+    checkAgain: "Each nudge creates a new registration: check it on a landmark before navigation.",
+    kind: "Shift or rotate",
     shift: "Shift",
-    turn: "Turn",
-    step: "Size of a step",
+    turn: "Rotate",
+    step: "Step size",
     pad: "Nudge the drawn vertebra",
     shiftTo: {
       left: { minus: "to the right", plus: "to the left" },
@@ -14,16 +14,16 @@ export const nudgesEn = {
       head: { minus: "to the feet", plus: "to the head" },
     },
     turnTo: {
-      left: { minus: "back side feetwards", plus: "back side headwards" },
+      left: { minus: "back side to the feet", plus: "back side to the head" },
       back: { minus: "upper end to the right", plus: "upper end to the left" },
-      head: { minus: "left side forwards", plus: "left side backwards" },
+      head: { minus: "left side to the front", plus: "left side to the back" },
     },
-    sumMm: "Shifted in all",
-    sumDeg: "Turned in all",
+    sumMm: "Total shift",
+    sumDeg: "Total rotation",
     allowed: "allowed",
     undo: "Undo the last nudge",
-    log: "Nudges that hold",
-    logEmpty: "Nothing has been nudged.",
+    log: "Valid nudges",
+    logEmpty: "No nudges so far.",
   },
 };
 

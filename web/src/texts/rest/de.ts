@@ -3,10 +3,10 @@ import type { RestTexts } from "./en";
 export const restDe: RestTexts = {
   noAnswer: "Der Server antwortet nicht.",
   noAnswerRemedy:
-    "Nichts wurde ausgeführt. Prüfen Sie die Verbindung zum Server und versuchen Sie es erneut.",
+    "Die Anfrage wurde möglicherweise nicht ausgeführt. Prüfen Sie die Verbindung zum Server und versuchen Sie es erneut.",
   loading: "Wird geladen …",
   again: "Erneut versuchen",
   waiting: "wartet",
   cancel: "Abbrechen",
-  cancelled: "Abgebrochen. Nichts davon wurde behalten.",
+  cancelled: "Abgebrochen. Es wurde nichts gespeichert.",
 };

@@ -1,11 +1,12 @@
 export const restEn = {
   noAnswer: "The server does not answer.",
-  noAnswerRemedy: "Nothing was done. Look at the line to the server, then try again.",
+  noAnswerRemedy:
+    "The request may not have been executed. Check the connection to the server, then try again.",
   loading: "Loading …",
   again: "Try again",
   waiting: "waiting",
   cancel: "Cancel",
-  cancelled: "Cancelled. Nothing was kept of it.",
+  cancelled: "Cancelled. Nothing was saved.",
 };
 
 export type RestTexts = typeof restEn;

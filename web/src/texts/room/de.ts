@@ -1,15 +1,15 @@
 import type { RoomTexts } from "./en";
 
 export const roomDe: RoomTexts = {
-  watching: "Es sehen zu",
-  unknown: "Wer zusieht, ist gerade nicht bekannt.",
+  watching: "Zuschauer",
+  unknown: "Wer zusieht, ist zurzeit nicht bekannt.",
   you: "Sie",
   role: {
     operator: "Bedienung",
     supervisor: "Aufsicht",
-    viewer: "Zuschauer",
-    screen: "Saalbildschirm",
+    viewer: "Betrachter",
+    screen: "OP-Bildschirm",
     camera: "Kamera",
   },
-  line: { good: "gute Leitung", slow: "langsame Leitung", silent: "antwortet nicht" },
+  line: { good: "gute Verbindung", slow: "langsame Verbindung", silent: "antwortet nicht" },
 };

@@ -1,6 +1,6 @@
 export const roomEn = {
   watching: "Watching",
-  unknown: "Who is watching is not known at the moment.",
+  unknown: "It is not known at present who is watching.",
   you: "you",
   role: {
     operator: "operator",
@@ -9,7 +9,7 @@ export const roomEn = {
     screen: "theatre screen",
     camera: "camera",
   },
-  line: { good: "good line", slow: "slow line", silent: "not answering" },
+  line: { good: "good connection", slow: "slow connection", silent: "not answering" },
 };
 
 export type RoomTexts = typeof roomEn;

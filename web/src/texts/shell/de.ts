@@ -5,6 +5,6 @@ export const shellDe: ShellTexts = {
   view: { theatre: "Operationssaal", operator: "Bedienung", supervisor: "Aufsicht" },
   status: "Zustand des Systems",
   tracking: "Tracking",
-  live: "Zahlen aktuell",
-  none: "keine Zahlen",
+  live: "Werte live",
+  none: "keine Werte",
 };

@@ -9,23 +9,23 @@ export const signInDe: SignInTexts = {
   expired: {
     title: "Ihre Sitzung ist beendet",
     sentence:
-      "Die Zeit ist abgelaufen, oder die Bedienung hat sie beendet. Es wird nichts Aktuelles mehr gezeigt. Bitten Sie die Bedienung um eine neue Einladung.",
+      "Die Zeit ist abgelaufen, oder die Bedienung hat die Sitzung beendet. Es wird kein Live-Bild mehr gezeigt. Bitten Sie die Bedienung um eine neue Einladung.",
   },
   silent: {
     title: "Der Server antwortet nicht",
     sentence:
-      "Es wird von selbst weiter versucht. Prüfen Sie, ob dieses Gerät im richtigen Netz ist und ob Coaxial läuft.",
+      "Der Versuch wird automatisch wiederholt. Prüfen Sie, ob dieses Gerät im richtigen Netz ist und Coaxial läuft.",
   },
   rejected: {
     INVITATION_UNKNOWN: {
       title: "Dieser Link gehört nicht zu diesem Server",
       sentence:
-        "Prüfen Sie, ob er vollständig kopiert wurde und für diesen Server gilt. Sonst bitten Sie die Bedienung um einen neuen.",
+        "Prüfen Sie, ob er vollständig kopiert wurde und für diesen Server gilt. Sonst bitten Sie die Bedienung um einen neuen Link.",
     },
     INVITATION_USED: {
-      title: "Dieser Link wurde schon benutzt",
+      title: "Dieser Link wurde bereits verwendet",
       sentence:
-        "Er galt für eine Anmeldung. Waren Sie das nicht, sagen Sie es sofort der Bedienung; bitten Sie dann um einen neuen Link.",
+        "Er galt für eine einzige Anmeldung. Waren Sie das nicht, informieren Sie sofort die Bedienung und bitten Sie um einen neuen Link.",
     },
     INVITATION_EXPIRED: {
       title: "Dieser Link ist abgelaufen",
@@ -36,12 +36,12 @@ export const signInDe: SignInTexts = {
       sentence: "Bitten Sie die Bedienung um einen neuen.",
     },
     INVITATION_FULL: {
-      title: "Über diesen Link sind schon zu viele angemeldet",
+      title: "Über diesen Link sind zu viele Geräte angemeldet",
       sentence:
-        "Melden Sie sich auf einem Gerät ab, das ihn nicht braucht, oder bitten Sie die Bedienung um einen eigenen Link.",
+        "Melden Sie ein Gerät ab, das nicht gebraucht wird, oder bitten Sie die Bedienung um einen eigenen Link.",
     },
     TOO_MANY_TRIES: {
-      title: "Zu viele falsche Links",
+      title: "Zu viele Versuche mit falschen Links",
       sentence: "Warten Sie kurz und öffnen Sie den Link dann noch einmal.",
     },
     NO_ANSWER: {
@@ -53,22 +53,23 @@ export const signInDe: SignInTexts = {
   asking: "Einen Moment …",
   paste: "Oder den Link hier einfügen",
   pasteHint: "Den ganzen Link oder den Teil nach dem #.",
-  noLink: "Das ist kein vollständiger Link einer Einladung.",
+  noLink: "Das ist kein vollständiger Einladungslink.",
   signIn: "Anmelden",
   signedInAs: "Angemeldet als",
   goOn: "Weiter",
   role: {
     operator: "Bedienung",
     supervisor: "Aufsicht",
-    viewer: "Zuschauer",
+    viewer: "Betrachter",
     screen: "OP-Bildschirm",
     camera: "Kamera",
   },
   leaveTitle: "Abmelden?",
-  leaveSentence: "Danach zeigt dieses Gerät nichts mehr. Zum Wiederkommen brauchen Sie eine neue Einladung.",
+  leaveSentence:
+    "Danach zeigt dieses Gerät nichts mehr. Für eine erneute Anmeldung brauchen Sie eine neue Einladung.",
   onlyTitle: "Sie sind die einzige Bedienung",
   onlySentence:
-    "Danach kann niemand mehr einrichten, registrieren oder bestätigen. Einen neuen Link für die Bedienung gibt der Server erst aus, wenn er beendet und neu gestartet wird; so lange steht die Navigation still.",
+    "Danach kann niemand mehr einrichten, registrieren oder bestätigen. Einen neuen Link für die Bedienung gibt der Server erst nach einem Neustart aus; solange ist die Navigation unterbrochen.",
   onlyInvite: "Erst jemanden als Bedienung einladen",
   leaveAnyway: "Trotzdem abmelden",
   leave: "Abmelden",

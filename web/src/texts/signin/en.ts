@@ -2,58 +2,58 @@ export const signInEn = {
   needed: {
     title: "Sign in",
     sentence:
-      "Open the link of your invitation, or scan its code. The operator's first link is shown in the window in which the server was started.",
+      "Open the link in your invitation, or scan its code. The operator's first link is shown in the window in which the server was started.",
   },
   expired: {
-    title: "Your session is over",
+    title: "Your session has ended",
     sentence:
-      "Its time has run out, or the operator has ended it. Nothing live is shown any more. Ask the operator for a new invitation.",
+      "It expired, or the operator ended it. Nothing live is shown any more. Ask the operator for a new invitation.",
   },
   silent: {
     title: "The server does not answer",
     sentence:
-      "It is tried again by itself. Check that this device is in the right network, and that Coaxial is running.",
+      "Retrying automatically. Check that this device is on the right network, and that Coaxial is running.",
   },
   rejected: {
     INVITATION_UNKNOWN: {
-      title: "This link does not open this server",
+      title: "This link does not belong to this server",
       sentence:
-        "Check that it was copied whole, and is for this server. Otherwise ask the operator for a new one.",
+        "Check that it was copied completely and is for this server. Otherwise ask the operator for a new link.",
     },
     INVITATION_USED: {
-      title: "This link has been used",
+      title: "This link has already been used",
       sentence:
-        "It was for one sign-in. If that was not you, tell the operator at once; then ask for a new link.",
+        "It was valid for one sign-in. If that was not you, tell the operator at once and ask for a new link.",
     },
     INVITATION_EXPIRED: {
-      title: "The time of this link is over",
+      title: "This link has expired",
       sentence: "Ask the operator for a new one.",
     },
     INVITATION_REVOKED: {
-      title: "This link was taken back",
+      title: "This link was withdrawn",
       sentence: "Ask the operator for a new one.",
     },
     INVITATION_FULL: {
-      title: "Too many are signed in by this link",
-      sentence: "Sign out on a device that does not need it, or ask the operator for a link of your own.",
+      title: "Too many devices are signed in with this link",
+      sentence: "Sign out on a device that is not needed, or ask the operator for a separate link.",
     },
     TOO_MANY_TRIES: {
-      title: "Too many wrong links were tried",
-      sentence: "Wait a little, then open the link once more.",
+      title: "Too many attempts with wrong links",
+      sentence: "Wait a moment, then open the link again.",
     },
     NO_ANSWER: {
       title: "The server does not answer",
-      sentence: "Check that this device is in the right network, then open the link once more.",
+      sentence: "Check that this device is on the right network, then open the link again.",
     },
   },
   entering: "Signing in …",
   asking: "One moment …",
   paste: "Or paste the link here",
   pasteHint: "The whole link, or the part after its #.",
-  noLink: "This is no whole link of an invitation.",
+  noLink: "This is not a complete invitation link.",
   signIn: "Sign in",
   signedInAs: "Signed in as",
-  goOn: "Go on",
+  goOn: "Continue",
   role: {
     operator: "Operator",
     supervisor: "Supervisor",
@@ -62,14 +62,14 @@ export const signInEn = {
     camera: "Camera",
   },
   leaveTitle: "Sign out?",
-  leaveSentence: "This device shows nothing more after that. To come back you need a new invitation.",
+  leaveSentence: "This device then shows nothing any more. You need a new invitation to sign in again.",
   onlyTitle: "You are the only operator",
   onlySentence:
-    "Nobody else can set up, register or confirm after that. A new link for an operator is printed only when the server is stopped and started again, and navigation is interrupted meanwhile.",
+    "Nobody will be able to set up, register or confirm. A new operator link is printed only when the server is restarted, which interrupts navigation.",
   onlyInvite: "Invite another operator first",
-  leaveAnyway: "Sign out all the same",
+  leaveAnyway: "Sign out anyway",
   leave: "Sign out",
-  stay: "Stay",
+  stay: "Stay signed in",
 };
 
 export type SignInTexts = typeof signInEn;

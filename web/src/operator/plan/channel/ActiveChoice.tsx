@@ -7,7 +7,7 @@ import { usePlanning } from "../state/PlanContext";
 import type { PlannedChannel } from "../state/shape";
 import { anglesOf, draftOf, lengthMm } from "./draft";
 
-/** What the channel is, and whether it is the one that is drilled now. */
+/** Origin of the channel, and whether it is the active one. */
 export function ActiveChoice({
   vertebra,
   planned,

@@ -33,7 +33,7 @@ interface ChannelByHandProps {
   planned: PlannedChannel | null;
 }
 
-/** The channel moved in half millimetres and degrees on the large slice, then kept or let go. */
+/** Moves the channel in steps of 0.5 mm and 1° on the large slice; then saves or discards it. */
 export function ChannelByHand({ of, draft, planned }: ChannelByHandProps): ReactNode {
   const texts = useTexts().plan.byHand;
   const { vertebra, side, change, busy } = usePlanning();

@@ -15,7 +15,7 @@ import { ChannelByHand } from "./ChannelByHand";
 import { draftOf } from "./draft";
 import { ScrewChoice } from "./ScrewChoice";
 
-/** A channel through the pedicle: laid along it or by hand, with its screw, and whether it is drilled now. */
+/** The channel of a pedicle: automatic or by hand, with its screw, and whether it is active. */
 export function ChannelPart(): ReactNode {
   const texts = useTexts().plan.channel;
   const { vertebra, side, change, busy } = usePlanning();

@@ -15,7 +15,7 @@ interface ScrewChoiceProps {
   isMeasured: boolean;
 }
 
-/** A screw of the catalogue: the proposed one, or thicker, thinner, longer, shorter. */
+/** Choice of a catalogue screw: the proposed one, or another size. */
 export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps): ReactNode {
   const texts = useTexts().plan.screw;
   const { change, busy } = usePlanning();

@@ -3,7 +3,7 @@ import { formatNumber } from "../../../live/rounding";
 import { useTexts } from "../../../texts/TextsContext";
 import { WALLS, type Screw } from "../state/shape";
 
-/** Bone left on each side, the grade that is to be expected, and how exactly it must be drilled. */
+/** Bone left on each side, expected grade, and required accuracy. */
 export function ScrewNumbers({ screw }: { screw: Screw }): ReactNode {
   const texts = useTexts().plan.screw;
   const { clearance, tolerance, bone } = screw;

@@ -10,7 +10,7 @@ import {
   type Draft,
 } from "./draft";
 
-/** 40 mm straight forwards. */
+/** 40 mm straight forward. */
 const DRAFT: Draft = { entry: [15, 20, 5], target: [15, -20, 5], diameterMm: 6 };
 
 test("the whole channel, its entry or its end is moved", () => {
@@ -23,7 +23,7 @@ test("the whole channel, its entry or its end is moved", () => {
 });
 
 test("turned about its entry it keeps its length, clockwise on the slice", () => {
-  // On an axial slice left is to the right and one looks to the head; clockwise turns what points up to the right.
+  // On an axial slice the patient's left is on the right, seen from the feet; clockwise rotates up to right.
   const turned = rotateChannel(DRAFT, [0, 0, 1], 30);
   expect(turned.entry).toEqual(DRAFT.entry);
   expect(lengthMm(turned)).toBeCloseTo(40, 9);

@@ -1,4 +1,4 @@
-// A channel while it is moved by hand, before it is kept.
+// A channel that is being moved by hand and is not saved yet.
 import { dot, lengthOf, minus, plus, times, turned, unit, type Vec3 } from "../slices/vectors";
 import type { Channel } from "../state/shape";
 
@@ -38,12 +38,12 @@ export function shiftChannel(draft: Draft, what: Moved, by: Vec3): Draft {
   };
 }
 
-/** Turned about its entry, as seen on a slice whose normal points away from the viewer: positive is clockwise. */
+/** Rotated about its entry in the plane of a slice; positive is clockwise for the viewer. */
 export function rotateChannel(draft: Draft, normal: Vec3, angleDeg: number): Draft {
   return { ...draft, target: plus(draft.entry, turned(minus(draft.target, draft.entry), normal, angleDeg)) };
 }
 
-/** Longer at its end. */
+/** Lengthened at its end. */
 export function extendChannel(draft: Draft, byMm: number): Draft {
   const length = lengthMm(draft);
   return { ...draft, target: plus(draft.entry, times(axisOf(draft), Math.max(1, length + byMm))) };
@@ -57,7 +57,7 @@ export function axisOf(draft: Draft): Vec3 {
   return unit(minus(draft.target, draft.entry));
 }
 
-/** As on an axial and a sagittal slice: from straight forwards, to the middle and to the head positive. */
+/** Angles as on an axial and a sagittal slice, from straight forward; medial and cranial are positive. */
 export function anglesOf(
   draft: Draft,
   side: "left" | "right",
@@ -70,7 +70,7 @@ export function anglesOf(
   };
 }
 
-/** How far a point lies beside the axis. */
+/** Distance of a point from the axis. */
 export function besideMm(draft: Draft, point: Vec3): number {
   const away = minus(point, draft.entry);
   return lengthOf(minus(away, times(axisOf(draft), dot(away, axisOf(draft)))));

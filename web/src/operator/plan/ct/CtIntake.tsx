@@ -15,12 +15,12 @@ import { UploadProgress } from "./UploadProgress";
 import { useUpload } from "./useUpload";
 
 interface CtIntakeProps {
-  /** Whether a CT is there already, on which other things stand. */
+  /** Whether the case already has a CT that other documents depend on. */
   isSecond: boolean;
   onTaken: () => void;
 }
 
-/** A CT comes into the case: sent, read, and its series chosen where there are several. */
+/** Receives a CT: upload, reading, and choice of the series if there are several. */
 export function CtIntake({ isSecond, onTaken }: CtIntakeProps): ReactNode {
   const texts = useTexts().plan.ct;
   const madeBy = useMadeBy();

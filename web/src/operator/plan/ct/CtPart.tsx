@@ -7,7 +7,7 @@ import { formatTime } from "../../parts/format";
 import { useSlices } from "../slices/SlicesContext";
 import { CtIntake } from "./CtIntake";
 
-/** The CT that is planned on: what it is, what to know of it, and the way to another one. */
+/** The planned CT: properties, warnings, and replacement. */
 export function CtPart({ onTaken }: { onTaken: () => void }): ReactNode {
   const all = useTexts();
   const texts = all.plan.ct;

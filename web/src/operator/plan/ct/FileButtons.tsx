@@ -8,13 +8,13 @@ interface FileButtonsProps {
   onFiles: (files: readonly File[]) => void;
 }
 
-/** One file, or all of a folder. */
+/** Chooses one file or a folder. */
 export function FileButtons({ texts, accept, disabled, onFiles }: FileButtonsProps): ReactNode {
   const file = useRef<HTMLInputElement>(null);
   const folder = useRef<HTMLInputElement>(null);
   const taken = (input: HTMLInputElement): void => {
     onFiles([...(input.files ?? [])]);
-    // The same file again is a choice as well.
+    // Reset, so that choosing the same file again is an event.
     input.value = "";
   };
   return (

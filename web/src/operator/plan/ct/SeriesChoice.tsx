@@ -3,8 +3,9 @@ import type { ReactNode } from "react";
 import { formatNumber } from "../../../live/rounding";
 import type { Job } from "../../../rest/useJob";
 import { useTexts } from "../../../texts/TextsContext";
+import { pluralize } from "../../../texts/pluralize";
 
-/** What is known of a series before it is read. */
+/** Properties of a series before it is read. */
 export interface Series {
   series: string;
   modality: string;
@@ -19,7 +20,7 @@ export interface Series {
   problem: string;
 }
 
-/** The series that a job found in an upload; none where it read the CT. */
+/** Series that a job found in an upload; empty if it read the CT. */
 export function seriesOf(job: Job): Series[] {
   const result = job.result as { series?: Series[] } | null;
   return Array.isArray(result?.series) ? result.series : [];
@@ -31,9 +32,10 @@ interface SeriesChoiceProps {
   onChoose: (series: string) => void;
 }
 
-/** Several series were sent: what each is, and one to be chosen. */
+/** Choice of one of several series. */
 export function SeriesChoice({ series, busy, onChoose }: SeriesChoiceProps): ReactNode {
-  const texts = useTexts().plan.ct.series;
+  const all = useTexts();
+  const texts = all.plan.ct.series;
   if (series.length === 0) return null;
   const patients = new Set(series.map((one) => one.patient)).size;
   return (
@@ -49,7 +51,7 @@ export function SeriesChoice({ series, busy, onChoose }: SeriesChoiceProps): Rea
                 {one.words || texts.unnamed} {one.modality}
               </strong>
               <p>
-                {one.images} {texts.images} · {one.size_wh_px.join(" × ")} ·{" "}
+                {pluralize(texts.images, one.images, all.language)} · {one.size_wh_px.join(" × ")} ·{" "}
                 {formatNumber(one.thickness_mm, 2)} mm {texts.thick}
                 {one.kernel !== "" && ` · ${one.kernel}`}
                 {patients > 1 && ` · ${texts.patient} ${one.patient}`}

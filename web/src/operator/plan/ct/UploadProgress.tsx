@@ -4,7 +4,7 @@ import { RejectionNote } from "../../../rest/RejectionNote";
 import { useTexts } from "../../../texts/TextsContext";
 import type { Upload } from "./useUpload";
 
-/** How much of a file is packed or sent, with a way to stop; why it was not taken. */
+/** Progress of packing and sending with a cancel button, or the reason of the rejection. */
 export function UploadProgress({ upload }: { upload: Upload }): ReactNode {
   const texts = useTexts();
   if (upload.rejection !== null) return <RejectionNote rejection={upload.rejection} />;

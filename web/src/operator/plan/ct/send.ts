@@ -1,8 +1,8 @@
-// Sends a large file with its progress: fetch tells nothing of what went up, XMLHttpRequest does.
+// Sends a large file with XMLHttpRequest, since fetch reports no upload progress.
 import { Rejection, type Problem } from "../../../rest/client";
 
 /**
- * What the server answers to a POST of this body.
+ * Returns the server's answer to a POST of this body.
  *
  * @throws Rejection
  * @throws DOMException - AbortError, after `stop`.

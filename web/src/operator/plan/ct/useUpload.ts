@@ -1,4 +1,4 @@
-// From files on the tablet to a job on the server: packed where there are several, sent, and stopped if wished.
+// Upload of files to a job on the server: packed if there are several, sent, and cancelled on request.
 import { useRef, useState } from "react";
 import { Rejection } from "../../../rest/client";
 import type { Job } from "../../../rest/useJob";
@@ -12,7 +12,7 @@ export interface Uploading {
   ratio: number;
   rejection: Rejection | null;
   wasStopped: boolean;
-  /** Too much for one zip: what to do is said on the page. */
+  /** Too large for one zip; the page states the remedy. */
   isTooMuch: boolean;
 }
 
@@ -20,12 +20,12 @@ const IDLE: Uploading = { phase: null, ratio: 0, rejection: null, wasStopped: fa
 
 export interface Upload extends Uploading {
   send: (files: readonly File[]) => void;
-  /** Fetch a file from the server itself and send it, as a person would. */
+  /** Fetches a file from the server and uploads it, as a user would. */
   sendFrom: (address: string) => void;
   stop: () => void;
 }
 
-/** The job that reads what was sent; of a CT with the id by which a series is chosen. */
+/** The job that reads the upload; for a CT with the id for choosing a series. */
 export type Begun = Job & { upload_id?: string };
 
 export function useUpload(address: () => string, onTaken: (begun: Begun) => void): Upload {

@@ -23,7 +23,7 @@ test("the directory leads to each file, whole and under its own name", async () 
     const named = found.getUint16(at + 28, true);
     const local = found.getUint32(at + 42, true);
     const name = new TextDecoder().decode(new Uint8Array(found.buffer, at + 46, named));
-    // In front of the content stands its header once more, with the same name and sum.
+    // The local header before the content has the same name and checksum.
     expect(found.getUint32(local, true)).toBe(0x04034b50);
     expect(found.getUint32(local + 14, true)).toBe(found.getUint32(at + 16, true));
     const content = new Uint8Array(found.buffer, local + 30 + named, size);
@@ -40,7 +40,7 @@ test("the directory leads to each file, whole and under its own name", async () 
   expect(done).toEqual([1, 2, 3]);
 });
 
-test("it stops when it is told to", async () => {
+test("it stops on request", async () => {
   const stop = new AbortController();
   stop.abort();
   await expect(zipFiles([{ name: "a", content: new Blob(["a"]) }], undefined, stop.signal)).rejects.toThrow();

@@ -1,10 +1,10 @@
-// Several files as one zip, without compression: a CT's slices are sent as one body, and nothing is copied.
+// Packs files into an uncompressed zip without copying them, to send CT slices as one body.
 
 const LOCAL = 0x04034b50;
 const CENTRAL = 0x02014b50;
 const END = 0x06054b50;
 const UTF8 = 0x0800;
-/** What a zip without the 64-bit extension holds. */
+/** Limits of a zip without the 64-bit extension. */
 export const MAX_FILES = 65_000;
 export const MAX_BYTES = 2 ** 32 - 2 ** 26;
 
@@ -28,11 +28,11 @@ interface Entry {
 }
 
 /**
- * A zip of these files.
+ * Returns a zip of these files.
  *
- * @param files - each is read once, for its sum; the zip holds the file itself and no copy.
- * @param onRead - is called with how many are done.
- * @param stop - ends it with an AbortError.
+ * @param files - each is read once for its checksum; the zip refers to the file and contains no copy.
+ * @param onRead - is called with the number of files done.
+ * @param stop - cancels with an AbortError.
  */
 export async function zipFiles(
   files: readonly { name: string; content: Blob }[],
@@ -66,13 +66,13 @@ function headerOf(entry: Entry, isCentral: boolean): Uint8Array<ArrayBuffer> {
   const fixed = isCentral ? 46 : 30;
   const bytes = new Uint8Array(fixed + entry.name.length);
   const view = new DataView(bytes.buffer);
-  // The directory's entry has one field more in front, the version that made it.
+  // The directory entry has one more field at its start: the version that made it.
   const shift = isCentral ? 2 : 0;
   view.setUint32(0, isCentral ? CENTRAL : LOCAL, true);
   if (isCentral) view.setUint16(4, 20, true);
   view.setUint16(4 + shift, 20, true);
   view.setUint16(6 + shift, UTF8, true);
-  // No time of day: 1 January 1980.
+  // No modification time: 1 January 1980.
   view.setUint16(12 + shift, 0x21, true);
   view.setUint32(14 + shift, entry.crc, true);
   view.setUint32(18 + shift, entry.size, true);

@@ -9,12 +9,12 @@ interface ChannelDrawingProps {
   entry: Vec3;
   target: Vec3;
   radiusMm: number;
-  /** Of the screw in it, if there is one. */
+  /** Of the screw, if any. */
   screw?: { diameter_mm: number; length_mm: number } | undefined;
   look: "planned" | "active" | "draft";
 }
 
-/** The channel as this slice cuts it, its axis laid onto the slice, and the screw in it. */
+/** The channel's intersection with this slice, its projected axis, and the screw. */
 export function ChannelDrawing(props: ChannelDrawingProps): ReactNode {
   const { projection, entry, target, radiusMm, screw, look } = props;
   const { place } = projection;

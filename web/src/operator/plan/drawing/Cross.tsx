@@ -4,7 +4,7 @@ import type { Vec3 } from "../slices/vectors";
 
 const GAP_PX = 12;
 
-/** The cross that all planes go through, open in the middle, so that what it marks is seen. */
+/** The common point of all planes, open in the middle so that it does not hide the target. */
 export function Cross({ projection, cursor }: { projection: Projection; cursor: Vec3 }): ReactNode {
   const [x, y] = projection.at(cursor);
   const { width, height } = projection.stage;

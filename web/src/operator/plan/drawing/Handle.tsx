@@ -3,9 +3,9 @@ import { useRef, type KeyboardEvent, type ReactNode } from "react";
 import type { Projection } from "../slices/projection";
 import { plus, minus, type Vec3 } from "../slices/vectors";
 
-/** Under a glove. */
+/** Size for a gloved finger. */
 const TOUCH_RADIUS_PX = 28;
-/** The knob stands beside its point, so that the finger does not hide it. */
+/** The knob is beside its point, so that the finger does not hide it. */
 const KNOB_AWAY_PX = 46;
 const STEP_MM = 0.5;
 const KEYS = new Map<string, readonly [number, number]>([
@@ -18,20 +18,20 @@ const KEYS = new Map<string, readonly [number, number]>([
 interface HandleProps {
   projection: Projection;
   point: Vec3;
-  /** Towards where the knob stands, in pixels; its length does not matter. */
+  /** Direction of the knob in pixels; its length is ignored. */
   towards: readonly [number, number];
   label: string;
   name: string;
   onMove: (point: Vec3) => void;
 }
 
-/** A point that is dragged by a knob beside it: it moves as the finger does, from where it was. */
+/** A point that is dragged by a knob beside it; it moves relative to its start. */
 export function Handle({ projection, point, towards, label, name, onMove }: HandleProps): ReactNode {
   const knob = useRef<SVGGElement>(null);
   const [x, y] = projection.at(point);
   const length = Math.hypot(...towards) || 1;
   const [kx, ky] = [x + (towards[0] / length) * KNOB_AWAY_PX, y + (towards[1] / length) * KNOB_AWAY_PX];
-  // What the point has off the slice it keeps: only what is seen of it moves.
+  // The offset from the slice is preserved: only the in-plane position moves.
   const movedBy = (from: Vec3, dx: number, dy: number): Vec3 => {
     const [fx, fy] = projection.at(from);
     const shift = minus(projection.lpsAt([fx + dx, fy + dy]), projection.lpsAt([fx, fy]));

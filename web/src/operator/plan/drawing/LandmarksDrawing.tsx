@@ -6,7 +6,7 @@ import { GAP_PX, labelAt } from "./label";
 const ON_SLICE_MM = 1.5;
 const NEAR_MM = 12;
 
-/** The landmarks: full and named on their own slice, hollow near it. */
+/** Landmarks: filled and labelled on their own slice, hollow near it. */
 export function LandmarksDrawing({
   projection,
   landmarks,

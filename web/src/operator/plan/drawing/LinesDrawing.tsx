@@ -4,7 +4,7 @@ import type { SliceLine } from "../state/shape";
 
 const ON_SLICE_MM = 0.75;
 
-/** The three lines and the paths of the reference slice, on this slice alone. */
+/** The three lines and the channels of the reference slice, on that slice only. */
 export function LinesDrawing({
   projection,
   lines,

@@ -2,10 +2,10 @@ import type { ReactNode } from "react";
 import { pathOf, type Projection } from "../slices/projection";
 import type { Pedicle } from "../state/shape";
 
-/** How far the narrowest section may lie off the slice and is drawn all the same, fainter. */
+/** Distance from the slice up to which the narrowest section is still drawn, fainter. */
 const NEAR_MM = 8;
 
-/** The measured wall of the narrowest section, and the pedicle's own axis from arch to front. */
+/** Measured wall of the narrowest section, and the pedicle's axis from arch to front. */
 export function PedicleDrawing({
   projection,
   pedicle,

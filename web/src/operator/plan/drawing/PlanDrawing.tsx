@@ -16,7 +16,7 @@ import { LandmarksDrawing } from "./LandmarksDrawing";
 import { LinesDrawing } from "./LinesDrawing";
 import { PedicleDrawing } from "./PedicleDrawing";
 
-/** Everything of the plan that this slice shows, the cross, and what is moved just now. */
+/** All parts of the plan on this slice, the cross, and unsaved drafts. */
 export function PlanDrawing({ plane, projection }: { plane: PlaneName; projection: Projection }): ReactNode {
   const { vertebrae, vertebra } = usePlanning();
   const { look } = useSlices();

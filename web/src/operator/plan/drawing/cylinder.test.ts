@@ -62,7 +62,7 @@ describe("a cylinder of 3 mm radius cut by a slice", () => {
   });
 
   test("nearly square to its axis shows its whole ellipse", () => {
-    // 3 degrees off: the slice crosses the cylinder within a third of a millimetre of its length.
+    // At 3 degrees the slice leaves the cylinder within a third of a millimetre of its length.
     const tilt = (3 * Math.PI) / 180;
     const upwards: [Vec3, Vec3] = [
       [5, 0, -20],

@@ -1,31 +1,31 @@
-// A cylinder cut by a slice: exactly the outline that the channel or the screw has there.
+// Exact outline of a cylinder (channel or screw) on a slice.
 import { beyondMm, downOf, normalOf, rightOf, type PixelGrid } from "../slices/place";
 import { cross, dot, lengthOf, minus, plus, times, unit, type Vec3 } from "../slices/vectors";
 
 const STATIONS = 60;
 const CORNERS = 48;
-/** The sine below which the slice counts as square to the axis. */
+/** Sine below which the slice counts as perpendicular to the axis. */
 const SQUARE = 1e-3;
 
-/** The corners of the cut, around; none where the slice misses the cylinder. */
+/** Corners of the outline in order; empty if the slice misses the cylinder. */
 export function cylinderOnSlice(place: PixelGrid, entry: Vec3, target: Vec3, radiusMm: number): Vec3[] {
   const way = minus(target, entry);
   const axis = unit(way);
   const normal = normalOf(place);
-  // From the axis towards the slice, within the section across the cylinder.
+  // From the axis towards the slice, within the cross-section.
   const toSlice = minus(normal, times(axis, dot(normal, axis)));
   const sine = lengthOf(toSlice);
   if (sine < SQUARE) return sectionOf(place, entry, axis, lengthOf(way), radiusMm);
   const inward = times(toSlice, 1 / sine);
   const aside = unit(cross(axis, normal));
-  // The distance of the slice from the axis grows evenly along it; the outline lies where it is below the radius.
+  // The distance of the slice from the axis is linear along it; the outline exists where it is below the radius.
   const [atEntry, atTarget] = [beyondMm(place, entry) / sine, beyondMm(place, target) / sine];
   const [from, to] = ratiosWithin(atEntry, atTarget, radiusMm);
   if (from > to) return [];
   const left: Vec3[] = [];
   const right: Vec3[] = [];
   for (let i = 0; i <= STATIONS; i += 1) {
-    // Closest together towards the ends, where the outline is round.
+    // Denser towards the ends, where the outline is round.
     const ratio = from + ((to - from) * (1 - Math.cos((Math.PI * i) / STATIONS))) / 2;
     const away = atEntry + (atTarget - atEntry) * ratio;
     const foot = minus(plus(entry, times(way, ratio)), times(inward, away));
@@ -36,7 +36,7 @@ export function cylinderOnSlice(place: PixelGrid, entry: Vec3, target: Vec3, rad
   return [...left, ...right];
 }
 
-/** From which part of the way to which one a value that grows evenly from `first` to `last` is within the limit. */
+/** Interval of 0..1 in which a value that is linear from `first` to `last` is within the limit. */
 function ratiosWithin(first: number, last: number, limit: number): readonly [number, number] {
   const step = last - first;
   if (Math.abs(step) < 1e-9) return Math.abs(first) <= limit ? [0, 1] : [1, 0];
@@ -44,7 +44,7 @@ function ratiosWithin(first: number, last: number, limit: number): readonly [num
   return [Math.max(0, Math.min(...ends)), Math.min(1, Math.max(...ends))];
 }
 
-/** The circle that a slice square to the axis shows, where it lies between the ends. */
+/** The circle on a slice perpendicular to the axis, if it is between the ends. */
 function sectionOf(place: PixelGrid, entry: Vec3, axis: Vec3, lengthMm: number, radiusMm: number): Vec3[] {
   const along = -beyondMm(place, entry) * Math.sign(dot(axis, normalOf(place)));
   if (along < 0 || along > lengthMm) return [];

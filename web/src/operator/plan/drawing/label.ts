@@ -1,19 +1,19 @@
-// What is written beside a point on a slice: never cut off, and never over what it names.
+// Label of a point on a slice: never cut off, and never over its point.
 
 export const GAP_PX = 10;
-/** In a smaller picture even numbers lie over one another. */
+/** Smaller pictures have no room even for numbers. */
 const NUMBERED_FROM_PX = 220;
 const NAMED_FROM_PX = 300;
-/** Of a letter, about; wider letters than most fonts have. */
+/** Approximate width of a letter; wider than in most fonts. */
 const LETTER_PX = 8.6;
 
 export interface Label {
   text: string;
-  /** Whether it stands left of its point. */
+  /** Whether it is to the left of its point. */
   isLeft: boolean;
 }
 
-/** At `x` of a picture this wide; without a name its number alone, and null where there is no room at all. */
+/** Label at `x` in a picture of this width; only its number if the name does not fit, null if neither does. */
 export function labelAt(x: number, widthPx: number, number: string, name: string): Label | null {
   if (widthPx < NUMBERED_FROM_PX) return null;
   const isLeft = x > widthPx / 2;

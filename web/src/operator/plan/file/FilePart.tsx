@@ -5,7 +5,7 @@ import { useTexts } from "../../../texts/TextsContext";
 import { FileButtons } from "../ct/FileButtons";
 import { usePlanning } from "../state/PlanContext";
 
-/** The plan out to a file, and in from one. */
+/** Export and import of the plan as a file. */
 export function FilePart(): ReactNode {
   const texts = useTexts().plan.file;
   const { plan, vertebrae, change, busy, forget, rejection } = usePlanning();

@@ -9,7 +9,7 @@ interface LandmarkNamesProps {
   onName: (name: string) => void;
 }
 
-/** A name for a landmark: one of the usual ones by a tap, or typed. */
+/** Name of a landmark: a usual one by a tap, or typed. */
 export function LandmarkNames({ opened, usedNames, onClose, onName }: LandmarkNamesProps): ReactNode {
   const texts = useTexts().plan.landmarks;
   const [typed, setTyped] = useState("");

@@ -13,7 +13,7 @@ import type { Landmark } from "../state/shape";
 import { LandmarkNames } from "./LandmarkNames";
 import { RehearsedLandmarks } from "./RehearsedLandmarks";
 
-/** Points of the bone that are found again on the patient: set at the cross, named, listed. */
+/** Landmarks: points of the bone that can be found on the patient; set at the cross, named, listed. */
 export function LandmarksPart(): ReactNode {
   const texts = useTexts().plan.landmarks;
   const { vertebra, change, busy } = usePlanning();

@@ -8,7 +8,7 @@ import { useTexts } from "../../../texts/TextsContext";
 import { vec3 } from "../slices/vectors";
 import type { Landmark } from "../state/shape";
 
-/** In a rehearsal: the landmarks that its drill will touch, so that the registration can be practised. */
+/** In a rehearsal: uses the landmarks that its drill touches. */
 export function RehearsedLandmarks({
   busy,
   onTake,

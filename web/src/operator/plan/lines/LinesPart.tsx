@@ -17,7 +17,7 @@ import { Stepper } from "../Stepper";
 
 const STEP_MM = 0.5;
 
-/** The slice that stands for a vertebra, and the three lines by which needles are registered. */
+/** The reference slice of a vertebra and its three needle lines. */
 export function LinesPart(): ReactNode {
   const texts = useTexts().plan.lines;
   const { plan, vertebra, change, busy } = usePlanning();

@@ -1,11 +1,11 @@
-// The three lines before they are laid, as the server will lay them: vertical on the slice, a distance apart.
+// Preview of the three lines as the server will lay them: vertical on the slice, at a distance.
 import type { SliceLine } from "../state/shape";
 import type { Vec3 } from "../slices/vectors";
 
 const AHEAD_MM = 50;
 const MAX_BEHIND_ENTRY_MM = 60;
 
-/** Middle, left and right (of the patient) through a point of an axial slice. */
+/** Middle, left and right line (of the patient) through a point of an axial slice. */
 export function draftLines(middle: Vec3, apartMm: number): SliceLine[] {
   const [x, y, z] = middle;
   const shifts = { middle: 0, left: apartMm, right: -apartMm };
@@ -20,7 +20,7 @@ export function draftLines(middle: Vec3, apartMm: number): SliceLine[] {
 
 const SAME_MM = 0.05;
 
-/** Whether lines that were laid lie where these would. */
+/** Whether stored lines equal these. */
 export function areSame(lines: readonly SliceLine[], laid: readonly SliceLine[]): boolean {
   return lines.every((line) => {
     const other = laid.find((one) => one.name === line.name);

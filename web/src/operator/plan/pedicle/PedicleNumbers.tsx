@@ -11,7 +11,7 @@ import { Stepper } from "../Stepper";
 const STEP: Numbers = { width_mm: 0.5, height_mm: 0.5, transverse_deg: 1, sagittal_deg: 1, length_mm: 1 };
 const unitOf = (name: NumberName): string => (name.endsWith("_deg") ? "°" : "mm");
 
-/** What was measured, how sure it is, what to know of it; and other numbers in its place, by hand. */
+/** Measured values with uncertainty and warnings, and corrections by hand. */
 export function PedicleNumbers({ record, vertebra }: { record: PedicleRecord; vertebra: string }): ReactNode {
   const texts = useTexts().plan.pedicle;
   const { change, busy } = usePlanning();

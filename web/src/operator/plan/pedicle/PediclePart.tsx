@@ -17,7 +17,7 @@ import { PedicleNumbers } from "./PedicleNumbers";
 import { SideChooser } from "./SideChooser";
 import { VertebraChooser } from "./VertebraChooser";
 
-/** A level is named, its pedicle tapped on, adjusted, measured. */
+/** Names a level, and measures a pedicle at the cross. */
 export function PediclePart(): ReactNode {
   const texts = useTexts().plan.pedicle;
   const { plan, vertebra, side, by, change, changedTo, busy } = usePlanning();

@@ -3,7 +3,7 @@ import type { ReactNode } from "react";
 import { useTexts } from "../../../texts/TextsContext";
 import { usePlanning } from "../state/PlanContext";
 
-/** Of the patient; the right one first, because it stands on the left of an axial slice. */
+/** Side of the patient; right first, because it is on the left of an axial slice. */
 export function SideChooser(): ReactNode {
   const texts = useTexts().plan.side;
   const { side, setSide } = usePlanning();

@@ -8,7 +8,7 @@ const range = (letter: string, last: number): string[] =>
   Array.from({ length: last }, (_, i) => `${letter}${i + 1}`);
 const LEVELS = [range("C", 7), range("T", 12), range("L", 5), ["S1"]];
 
-/** Which vertebra is planned, and one more by a tap on its level. */
+/** Choice of the vertebra, and of a level to add. */
 export function VertebraChooser(): ReactNode {
   const texts = useTexts().plan.vertebra;
   const { vertebrae, vertebra, setVertebra, change, busy } = usePlanning();

@@ -12,11 +12,11 @@ interface ArrowPadProps {
   name: string;
   label: string;
   disabled?: boolean;
-  /** In steps to the right and down in the large picture. */
+  /** Steps to the right and down in the large picture. */
   onMove: (right: number, down: number) => void;
 }
 
-/** Four buttons around, each as large as a gloved finger. */
+/** Four buttons, each as large as a gloved finger. */
 export function ArrowPad({ name, label, disabled = false, onMove }: ArrowPadProps): ReactNode {
   const texts = useTexts().plan.arrows;
   return (

@@ -8,7 +8,7 @@ import { plus, times } from "./vectors";
 
 const STEP_MM = 0.5;
 
-/** The cross moved by half a millimetre on the large slice: what a glove covers is set with these. */
+/** Moves the cross by 0.5 mm on the large slice, for what a finger would hide. */
 export function CursorPad(): ReactNode {
   const texts = useTexts().plan.cross;
   const { look, goTo, largePlace } = useSlices();

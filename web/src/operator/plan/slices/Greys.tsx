@@ -3,7 +3,7 @@ import type { ReactNode } from "react";
 import { useTexts } from "../../../texts/TextsContext";
 import { useSlices } from "./SlicesContext";
 
-/** Which Hounsfield units are black and which white: by name, or by two sliders. */
+/** Window of Hounsfield units: a preset, or two sliders. */
 export function Greys(): ReactNode {
   const texts = useTexts().plan.slices;
   const { ct, look, setGreys } = useSlices();

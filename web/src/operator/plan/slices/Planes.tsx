@@ -13,7 +13,7 @@ interface PlanesProps {
   drawing: (plane: PlaneName, projection: Projection) => ReactNode;
 }
 
-/** One plane large, the others small beside it; all go through the cross. */
+/** One plane large, the others small beside it, all through the cross. */
 export function Planes({ drawing }: PlanesProps): ReactNode {
   const texts = useTexts().plan.slices;
   const { plane, setPlane, look } = useSlices();

@@ -8,13 +8,13 @@ import { rulerMm } from "./zoom";
 interface SliceLabelsProps {
   plane: PlaneName;
   projection: Projection;
-  /** Under which the shown picture was asked for. */
+  /** Key under which the displayed picture was requested. */
   address: string;
   isLate: boolean;
   isLarge: boolean;
 }
 
-/** Which side of the patient lies where, how long a millimetre is, and where the shown slice lies. */
+/** Orientation labels, ruler and position of the displayed slice. */
 export function SliceLabels({ plane, projection, address, isLate, isLarge }: SliceLabelsProps): ReactNode {
   const texts = useTexts().plan.slices;
   const { edges, at_mm } = projection.place;

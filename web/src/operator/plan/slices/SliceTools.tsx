@@ -6,7 +6,7 @@ import { useSlices, type Hand } from "./SlicesContext";
 
 const HANDS: readonly Hand[] = ["scroll", "greys", "move"];
 
-/** What one finger does, one slice on or back, the greys, and the whole picture. */
+/** Function of one finger, slice by slice, grey window, and full view. */
 export function SliceTools(): ReactNode {
   const texts = useTexts().plan.slices;
   const { plane, hand, setHand, scroll, setZoom } = useSlices();

@@ -24,7 +24,7 @@ import { showing, whole, zoomedAt, type Stage, type Zoom } from "./zoom";
 interface SliceViewProps {
   plane: PlaneName;
   isLarge: boolean;
-  /** What is drawn over it, in pixels of the stage. */
+  /** Drawing over the slice, in pixels of the stage. */
   drawing: (projection: Projection) => ReactNode;
 }
 
@@ -35,7 +35,7 @@ const KEY_STEPS = new Map([
   ["PageDown", 5],
 ]);
 
-/** One slice, scrolled, zoomed and tapped on; what is printed on it is its own place, not the asked one. */
+/** One slice with scrolling, zoom and taps. Its labels are its own position, not the requested one. */
 export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNode {
   const texts = useTexts().plan.slices;
   const slices = useSlices();
@@ -146,7 +146,7 @@ export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNod
   );
 }
 
-/** Where the cross went out of sight, the picture follows it; where somebody moves the picture, it stays. */
+/** The view follows the cross when it leaves the picture; it stays where the user moves it. */
 function useFollowedCross(
   plane: PlaneName,
   isLarge: boolean,
@@ -166,7 +166,7 @@ function useFollowedCross(
   });
 }
 
-/** Draws in the same turn in which the labels change, so that both are always of one slice. */
+/** Draws in the same frame in which the labels change, so that both are always of one slice. */
 function usePaintedSlice(
   canvas: RefObject<HTMLCanvasElement | null>,
   pixels: ImageBitmap | null,

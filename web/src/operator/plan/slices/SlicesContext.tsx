@@ -1,4 +1,4 @@
-// What all views of the CT share: the cross, the greys, the plane that is shown large.
+// Shared state of all CT views: cross, grey window, large plane.
 import { createContext, use, useCallback, useMemo, useRef, useState, type ReactNode } from "react";
 import {
   depthOf,
@@ -19,7 +19,7 @@ export type Hand = "scroll" | "greys" | "move";
 
 interface SlicesValue {
   ct: Ct;
-  /** The case has another CT: begin with that one. */
+  /** The case has another CT: switches to it. */
   lookAnew: () => void;
   look: Look;
   /** The plane that is shown large. */
@@ -29,12 +29,12 @@ interface SlicesValue {
   setPlane: (plane: PlaneName) => void;
   setHand: (hand: Hand) => void;
   setZoom: (plane: PlaneName, zoom: Zoom | null) => void;
-  /** Put the cross there: all planes go through it. */
+  /** Moves the cross, and all planes with it. */
   goTo: (point: Vec3) => void;
   scroll: (plane: PlaneName, steps: number) => void;
   setGreys: (greys: Greys) => void;
   setWay: (way: Way | null) => void;
-  /** Where the displayed large picture lies; set by it, read when somebody touches something. */
+  /** Transform of the displayed large picture; written by it, read on a touch. */
   largePlace: () => Place | null;
   setLargePlace: (place: Place | null) => void;
 }

@@ -34,15 +34,15 @@ test("an oblique slice names the channel; without one there is none", () => {
   expect(addressOf("along", { ...LOOK, way: null }, CT)).toBeNull();
 });
 
-test("scrolling goes to the scanner's own slices, and ends at the last", () => {
-  // 7 mm lies between the slices at 6 and 8 mm.
+test("scrolling follows the scanner's slices and ends at the last", () => {
+  // 7 mm is between the slices at 6 and 8 mm.
   expect(scrolled("axial", LOOK, CT, 1).cursor).toEqual([1.25, -3, 10]);
   expect(scrolled("axial", LOOK, CT, -1).cursor).toEqual([1.25, -3, 6]);
   expect(scrolled("axial", LOOK, CT, 99).cursor[2]).toBe(30);
   expect(scrolled("sagittal", LOOK, CT, -2).cursor).toEqual([0.5, -3, 7]);
 });
 
-test("along a channel one turns, across it one goes deeper", () => {
+test("scrolling rotates along a channel, and moves in depth across it", () => {
   expect(scrolled("along", LOOK, CT, 2).turnDeg).toBe(-175);
   expect(scrolled("across", LOOK, CT, 3).depthMm).toBe(15);
   expect(depthOf({ entry: [15, 14, 2], target: [15, -26, 2] }, [3, 4, 9])).toBe(10);

@@ -1,4 +1,4 @@
-// Which picture shows what is looked at: its address at the server is what it is known by.
+// Address of a slice picture on the server, which also identifies it.
 import type { components } from "../../../schema";
 import { minus, unit, dot, type Vec3 } from "./vectors";
 
@@ -12,20 +12,20 @@ export const AXIS: Record<Flat, 0 | 1 | 2> = { sagittal: 0, coronal: 1, axial: 2
 
 export const isFlat = (plane: PlaneName): plane is Flat => plane !== "along" && plane !== "across";
 
-/** The line that the oblique slices are cut along and across. */
+/** The line that oblique slices follow. */
 export interface Way {
   entry: Vec3;
   target: Vec3;
 }
 
-/** What is looked at. */
+/** What is displayed. */
 export interface Look {
   cursor: Vec3;
   greys: Greys;
   way: Way | null;
-  /** Of the slice along the channel, about the drilling direction. */
+  /** Angle of the slice along the channel about the drilling direction. */
   turnDeg: number;
-  /** Of the slice across it, from the entry. */
+  /** Depth of the slice across the channel, from the entry. */
   depthMm: number;
 }
 
@@ -38,13 +38,13 @@ const DEPTH_STEP_MM = 1;
 const short = (value: number): string => String(Math.round(value * 1000) / 1000);
 const point = (one: Vec3): string => one.map(short).join(",");
 
-/** The address of a plane's picture; null where there is no channel to cut along. */
+/** Address of a plane's picture; null without a channel to cut along. */
 export function addressOf(plane: PlaneName, look: Look, ct: Ct): string | null {
   const query = new URLSearchParams({
     window: short(look.greys.window_hu),
     level: short(look.greys.level_hu),
   });
-  // What stands behind # is not sent; it keeps apart what was cut from another CT.
+  // The part after # is not sent; it separates slices of different CTs.
   const of = `#${ct.heading.id}`;
   if (isFlat(plane)) {
     query.set("at_mm", short(placeOf(plane, look, ct)));
@@ -62,7 +62,7 @@ export function addressOf(plane: PlaneName, look: Look, ct: Ct): string | null {
   return `/api/ct/oblique.png?${query.toString()}${of}`;
 }
 
-/** Where a flat slice lies: the cursor's coordinate, held within the CT. */
+/** Position of a flat slice: the cursor's coordinate, clamped to the CT. */
 function placeOf(plane: Flat, look: Look, ct: Ct): number {
   const { from_mm, to_mm } = reachOf(plane, ct);
   return Math.min(to_mm, Math.max(from_mm, look.cursor[AXIS[plane]]));
@@ -72,7 +72,7 @@ export function reachOf(plane: Flat, ct: Ct): { from_mm: number; to_mm: number; 
   return ct.planes[plane] ?? { from_mm: 0, to_mm: 0, step_mm: 1 };
 }
 
-/** So many slices further: flat ones by the scanner's own steps, along a channel by turning, across by depth. */
+/** Moves by slices: flat ones by the scanner's spacing, along a channel by angle, across it by depth. */
 export function scrolled(plane: PlaneName, look: Look, ct: Ct, steps: number): Look {
   if (steps === 0) return look;
   if (plane === "along") return { ...look, turnDeg: wrapped(look.turnDeg + steps * TURN_STEP_DEG) };
@@ -85,7 +85,7 @@ export function scrolled(plane: PlaneName, look: Look, ct: Ct, steps: number): L
   return { ...look, cursor };
 }
 
-/** Slices on both sides, the nearest first. */
+/** Neighbouring slices on both sides, nearest first. */
 export function neighboursOf(plane: PlaneName, look: Look, ct: Ct, reach: number): string[] {
   const steps = Array.from({ length: 2 * reach }, (_, i) => (i % 2 === 0 ? 1 : -1) * (Math.floor(i / 2) + 1));
   return steps
@@ -93,7 +93,7 @@ export function neighboursOf(plane: PlaneName, look: Look, ct: Ct, reach: number
     .filter((one): one is string => one !== null);
 }
 
-/** The cursor as a depth along the way: where the slice across it passes through the cursor. */
+/** The cursor's depth along the channel. */
 export function depthOf(way: Way, cursor: Vec3): number {
   return dot(minus(cursor, way.entry), unit(minus(way.target, way.entry)));
 }

@@ -1,4 +1,4 @@
-// A slice as it is shown: pixels and place out of one answer of the server.
+// Loads a slice: pixels and position from one answer.
 import { Rejection, type Problem } from "../../../rest/client";
 import type { Place } from "./place";
 import { SliceRepository } from "./sliceLoader";
@@ -11,14 +11,14 @@ export interface Slice {
 // About 1 MB each.
 const MAX_STORED = 80;
 
-/** One shelf for all views: the same slice is never fetched twice while it is there. */
+/** Cache shared by all views, so that a slice is not fetched twice. */
 export const sliceRepository = new SliceRepository<Slice>(MAX_STORED);
 
-/** The case has another CT now than the one that is looked at. */
+/** The case now has another CT than the displayed one. */
 export class OtherCt extends Error {}
 
 /**
- * The slice at this address.
+ * Returns the slice at this address.
  *
  * @throws Rejection
  * @throws OtherCt
@@ -33,7 +33,7 @@ export async function loadSlice(address: string): Promise<Slice> {
   if (!answer.ok) throw new Rejection((await answer.json()) as Problem);
   const placeHeader = answer.headers.get("slice-place");
   if (placeHeader === null) throw new Error("a slice came without its place");
-  // Somebody may have sent another CT meanwhile: its slices must not stand under this one's numbers.
+  // Another CT may have been sent meanwhile; its slices must not appear with this CT's values.
   const { hash } = new URL(address, location.origin);
   if (answer.headers.get("slice-ct") !== hash.slice(1)) throw new OtherCt();
   const place = JSON.parse(placeHeader) as Place;

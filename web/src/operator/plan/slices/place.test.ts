@@ -40,7 +40,7 @@ const SAGITTAL: Place = {
   at_mm: -7,
 };
 
-/** Of a scanner whose frame was tilted: its rows run backwards and a little to the head. */
+/** From a scanner with a tilted gantry: rows run backwards and slightly to the head. */
 const TILTED: Place = {
   ...AXIAL,
   pixel_mm: [1, 1],
@@ -71,10 +71,10 @@ describe("a pixel's place in the patient", () => {
     expect(frameOf(AXIAL)).toEqual({ x: -0.25, y: -0.375, width: 100, height: 75 });
   });
 
-  test("a point off the slice is drawn at the foot of its perpendicular, and says how far it is", () => {
+  test("a point off the slice is drawn at its projection, with its distance", () => {
     expect(pxFromLps(AXIAL, [0, 0, 99])).toEqual([80, 40]);
     expect(beyondMm(AXIAL, [3, 4, 14])).toBe(2);
-    // Back to the right and feet down: one looks to the patient's right, where x falls.
+    // Back is right and feet are down: the view is to the patient's right, where x decreases.
     expect(beyondMm(SAGITTAL, [-9, 0, 0])).toBe(2);
     expect(beyondMm(TILTED, [10, 20 - 0.6, 30 + 0.8])).toBeCloseTo(1, 9);
   });

@@ -1,12 +1,12 @@
-// Where the pixels of a slice lie in the patient, as the server says it with the picture.
+// Position of a slice's pixels in the patient, as sent with the picture.
 //
-// Three coordinates of one point: LPS in mm; (u, v) in pixels, the centre of the top-left one at (0, 0); and
-// (x, y) in mm on the slice's plane, u and v times the distance of columns and rows, in which drawings are made.
+// Three coordinates of one point: LPS in mm; (u, v) in pixels, with (0, 0) at the centre of the top-left pixel; and
+// (x, y) in mm on the slice's plane (u and v times the spacing of columns and rows), in which drawings are made.
 import type { components } from "../../../schema";
 import { cross, dot, lengthOf, minus, plus, times, unit, type Vec3 } from "./vectors";
 
 export type Place = components["schemas"]["SliceMessage"];
-/** What places the pixels of a picture: all that drawing on it needs. */
+/** Placement of a picture's pixels: all that drawing needs. */
 export type PixelGrid = Pick<Place, "lps_from_px" | "pixel_mm" | "width_px" | "height_px">;
 export type Vec2 = readonly [number, number];
 
@@ -19,11 +19,11 @@ export function lpsFromPx(place: PixelGrid, [u, v]: Vec2): Vec3 {
   return plus(column(place, 2), plus(times(column(place, 0), u), times(column(place, 1), v)));
 }
 
-/** The pixel of the foot of the perpendicular from a point onto the slice. */
+/** Pixel of the orthogonal projection of a point onto the slice. */
 export function pxFromLps(place: PixelGrid, point: Vec3): Vec2 {
   const [right, down] = [column(place, 0), column(place, 1)];
   const away = minus(point, column(place, 2));
-  // The columns need not stand at right angles where the scanner's frame was tilted.
+  // With a tilted gantry the columns need not be perpendicular to the rows.
   const [rr, rd, dd] = [dot(right, right), dot(right, down), dot(down, down)];
   const [r, d] = [dot(right, away), dot(down, away)];
   const determinant = rr * dd - rd * rd;
@@ -43,7 +43,7 @@ export function lpsFromPlane(place: PixelGrid, [x, y]: Vec2): Vec3 {
   return lpsFromPx(place, [x / across, y / along]);
 }
 
-/** How far a point lies behind the slice, as one looks; negative in front of it. */
+/** Signed distance of a point from the slice; positive is behind it for the viewer. */
 export function beyondMm(place: PixelGrid, point: Vec3): number {
   return dot(minus(point, column(place, 2)), normalOf(place));
 }
@@ -52,7 +52,7 @@ export function normalOf(place: PixelGrid): Vec3 {
   return unit(cross(column(place, 0), column(place, 1)));
 }
 
-/** Unit directions to the right and down in the picture. */
+/** Unit directions right and down in the picture. */
 export function rightOf(place: PixelGrid): Vec3 {
   return unit(column(place, 0));
 }
@@ -61,7 +61,7 @@ export function downOf(place: PixelGrid): Vec3 {
   return unit(column(place, 1));
 }
 
-/** Left, top, width and height of the picture on its plane, from the outer edges of its pixels. */
+/** Bounds of the picture on its plane, from the outer edges of its pixels. */
 export function frameOf(place: PixelGrid): { x: number; y: number; width: number; height: number } {
   const [across, along] = pitch(place);
   return {
@@ -72,7 +72,7 @@ export function frameOf(place: PixelGrid): { x: number; y: number; width: number
   };
 }
 
-/** The part of a segment that lies within this distance of the slice; null where none does. */
+/** Part of a segment within this distance of the slice; null if none. */
 export function nearPart(
   place: PixelGrid,
   from: Vec3,

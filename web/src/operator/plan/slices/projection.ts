@@ -1,4 +1,4 @@
-// From the patient to the pixels of the page, for what is drawn over a slice.
+// Transform from the patient to page pixels, for drawings over a slice.
 import { beyondMm, lpsFromPlane, planeFromLps, type Place, type Vec2 } from "./place";
 import type { Vec3 } from "./vectors";
 import { planeFromStage, stageFromPlane, type Stage, type Zoom } from "./zoom";
@@ -7,9 +7,9 @@ export interface Projection {
   place: Place;
   pxPerMm: number;
   stage: Stage;
-  /** Where a point (the foot of its perpendicular) lies on the page, from the stage's top left. */
+  /** Page position of a point's projection, from the stage's top left. */
   at: (point: Vec3) => Vec2;
-  /** The point of the slice under this pixel. */
+  /** Point of the slice at this pixel. */
   lpsAt: (px: Vec2) => Vec3;
   beyondMm: (point: Vec3) => number;
 }

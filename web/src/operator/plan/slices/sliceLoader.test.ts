@@ -1,7 +1,7 @@
 import { beforeEach, describe, expect, test } from "vitest";
 import { SliceLoader, SliceRepository } from "./sliceLoader";
 
-/** A server that answers when it is told to. */
+/** A server that answers on command. */
 class Slow {
   requested: string[] = [];
   private waiting = new Map<string, { give: (slice: string) => void; reject: (why: Error) => void }>();
@@ -65,7 +65,7 @@ describe("slices while a finger moves", () => {
     expect(server.requested).toEqual(["1", "2", "0"]);
   });
 
-  test("while one is fetched ahead, what is wanted comes right after it", async () => {
+  test("during a prefetch, the wanted slice is loaded next", async () => {
     loader.request("1", ["2", "3"]);
     await server.answer("1");
     loader.request("9", []);
@@ -76,7 +76,7 @@ describe("slices while a finger moves", () => {
 });
 
 describe("a slice that cannot be had", () => {
-  test("leaves the one before it, says so, and is asked for again when somebody wishes", async () => {
+  test("keeps the previous slice, reports the failure, and is retried on request", async () => {
     loader.request("1");
     await server.answer("1");
     loader.request("2");
@@ -87,7 +87,7 @@ describe("a slice that cannot be had", () => {
     expect(loader.snapshot()).toMatchObject({ shown: { key: "2" }, problem: null });
   });
 
-  test("is no trouble where only a neighbour is refused", async () => {
+  test("is ignored if only a neighbour is rejected", async () => {
     loader.request("1", ["2", "3"]);
     await server.answer("1");
     await server.reject("2");
@@ -96,7 +96,7 @@ describe("a slice that cannot be had", () => {
   });
 });
 
-test("the longest unused slice goes first", () => {
+test("the least recently used slice is evicted first", () => {
   const repository = new SliceRepository<number>(2);
   repository.put("a", 1);
   repository.put("b", 2);

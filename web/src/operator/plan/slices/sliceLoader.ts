@@ -2,11 +2,11 @@
 // When idle, it prefetches the neighbours.
 
 export interface SliceState<Slice> {
-  /** What was asked for last. */
+  /** The last request. */
   requested: string | null;
-  /** The picture that stands there, and under which key it was asked for. */
+  /** The displayed picture and its key. */
   shown: { key: string; slice: Slice } | null;
-  /** Why the one that is wanted cannot be had. */
+  /** Why the requested slice could not be loaded. */
   problem: unknown;
 }
 
@@ -47,7 +47,7 @@ export class SliceLoader<Slice> {
     private readonly repository: SliceRepository<Slice>,
   ) {}
 
-  /** Ask for a slice, and say which may be asked for next. */
+  /** Requests a slice, with likely next ones for prefetching. */
   request(key: string, ahead: readonly string[] = []): void {
     this.ahead = [...ahead];
     if (key !== this.state.requested) {
@@ -58,7 +58,7 @@ export class SliceLoader<Slice> {
     void this.next();
   }
 
-  /** Ask again for what could not be had. */
+  /** Retries a failed request. */
   retry(): void {
     this.publish({ ...this.state, problem: null });
     void this.next();
@@ -92,8 +92,8 @@ export class SliceLoader<Slice> {
   private take(key: string, slice: Slice, wasRequested: boolean): void {
     this.repository.put(key, slice);
     const { requested, shown } = this.state;
-    // Between the one that stands and the one that is wanted it shows that something moves; its own place is
-    // printed with it. Where the wanted one stands already, it came from the repository: nothing older follows it.
+    // Intermediate slices may be shown while loading, since each has its own position labels. A slice from the cache is
+    // already the requested one, so nothing older may follow it.
     if (key === requested || (wasRequested && shown?.key !== requested)) {
       this.publish({ ...this.state, shown: { key, slice } });
     }

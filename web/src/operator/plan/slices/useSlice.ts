@@ -2,7 +2,7 @@ import { useEffect, useState, useSyncExternalStore } from "react";
 import { loadSlice, sliceRepository, type Slice } from "./loadSlice";
 import { SliceLoader, type SliceState } from "./sliceLoader";
 
-/** The slice at this address as soon as it is there; until then the one before, which says its own place. */
+/** The slice at this address; until it is loaded, the previous one, which shows its own position. */
 export function useSlice(
   address: string | null,
   ahead: readonly string[],

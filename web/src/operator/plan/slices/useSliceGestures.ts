@@ -1,4 +1,4 @@
-// One finger scrolls, changes the greys or moves the picture, two pinch; a tap is a tap however gloved.
+// Gestures: one finger scrolls, changes the window or moves the picture, two pinch. Taps tolerate gloves.
 import { useGesture } from "@use-gesture/react";
 import { useRef, type RefObject } from "react";
 import type { Greys } from "./address";
@@ -6,7 +6,7 @@ import type { Vec2 } from "./place";
 import type { Hand } from "./SlicesContext";
 import { moved, zoomedAt, type Stage, type Zoom } from "./zoom";
 
-/** A finger goes this far from one slice to the next. */
+/** Finger travel per slice. */
 const PX_A_SLICE = 9;
 const WHEEL_PX_A_SLICE = 60;
 const HU_A_PX = 4;
@@ -48,7 +48,7 @@ export function useSliceGestures(of: Gestures): void {
         return undefined;
       },
       onPinch: ({ origin, da: [distance], first, memo, event }) => {
-        // The wheel with Ctrl is seen to below.
+        // The wheel with Ctrl is handled below.
         if (event.type === "wheel") return null;
         const at = on(...origin);
         const last = first ? null : (memo as { distance: number; at: Vec2 } | null);

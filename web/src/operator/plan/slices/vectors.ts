@@ -16,14 +16,14 @@ export const cross = (a: Vec3, b: Vec3): Vec3 => [
   a[0] * b[1] - a[1] * b[0],
 ];
 
-/** Turned about a unit axis by the right hand (Rodrigues). */
+/** Rotation about a unit axis by the right-hand rule (Rodrigues). */
 export function turned(a: Vec3, axis: Vec3, angleDeg: number): Vec3 {
   const angle = (angleDeg * Math.PI) / 180;
   const along = times(axis, dot(axis, a) * (1 - Math.cos(angle)));
   return plus(plus(times(a, Math.cos(angle)), times(cross(axis, a), Math.sin(angle))), along);
 }
 
-/** Three finite numbers, or null: what a document holds is not known before it is looked at. */
+/** Three finite numbers, or null: document content is not trusted. */
 export function vec3(value: unknown): Vec3 | null {
   if (!Array.isArray(value) || value.length !== 3) return null;
   const numbers = value.map(Number);

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { indexFromLps, sliceIndexAt } from "./voxels";
 
-/** Columns run to the patient's right, slices 2 mm apart and a little tilted. */
+/** Columns run to the patient's right; slices are 2 mm apart and slightly tilted. */
 const CT = {
   size_ijk: [100, 100, 30],
   lps_from_ijk: [

@@ -31,7 +31,7 @@ test("the slice cannot be pushed out of sight", () => {
   expect(moved(FIT, FRAME, [9999, -9999]).centre).toEqual([0, 100]);
 });
 
-test("a point out of sight comes into the middle, one in sight moves nothing", () => {
+test("a hidden point is centred, a visible one moves nothing", () => {
   const close = { centre: [50, 50] as const, pxPerMm: 20 };
   expect(showing(close, STAGE, [52, 51])).toBe(close);
   expect(showing(close, STAGE, [80, 51]).centre).toEqual([80, 51]);

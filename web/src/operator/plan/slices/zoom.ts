@@ -1,10 +1,10 @@
-// What part of a slice's plane is seen: its middle in mm of the plane, and how large it is shown.
+// View of a slice's plane: its centre in mm of the plane, and its scale.
 import type { Vec2 } from "./place";
 
 export interface Zoom {
-  /** The middle of the stage, in mm of the plane. */
+  /** Centre of the stage, in mm of the plane. */
   centre: Vec2;
-  /** Pixels of the page to a millimetre. */
+  /** Page pixels per mm. */
   pxPerMm: number;
 }
 
@@ -45,7 +45,7 @@ export function stageFromPlane(zoom: Zoom, stage: Stage, [x, y]: Vec2): Vec2 {
   ];
 }
 
-/** Closer or farther, with the point under the fingers staying where it is. */
+/** Zooms about the point under the fingers. */
 export function zoomedAt(zoom: Zoom, stage: Stage, frame: Box, at: Vec2, factor: number): Zoom {
   const fixed = planeFromStage(zoom, stage, at);
   const minPxPerMm = whole(frame, stage).pxPerMm * FARTHEST_RATIO;
@@ -69,7 +69,7 @@ export function moved(zoom: Zoom, frame: Box, [dx, dy]: Vec2): Zoom {
   );
 }
 
-/** The middle of the stage stays on the slice: nobody loses it. */
+/** Clamps the centre of the stage to the slice. */
 function clampZoom(zoom: Zoom, frame: Box): Zoom {
   const within = (value: number, low: number, size: number): number =>
     Math.min(low + size, Math.max(low, value));
@@ -79,7 +79,7 @@ function clampZoom(zoom: Zoom, frame: Box): Zoom {
   };
 }
 
-/** Moved just so far that this point is seen, with a margin; the same where it is seen already. */
+/** Moves the minimum needed to show this point with a margin; unchanged if it is visible. */
 export function showing(zoom: Zoom, stage: Stage, [x, y]: Vec2, marginRatio = 0.1): Zoom {
   const half: Vec2 = [
     ((0.5 - marginRatio) * stage.width) / zoom.pxPerMm,
@@ -90,7 +90,7 @@ export function showing(zoom: Zoom, stage: Stage, [x, y]: Vec2, marginRatio = 0.
   return isSeen ? zoom : { ...zoom, centre: [x, y] };
 }
 
-/** The length of a ruler that is easily read: 1, 2 or 5 times a power of ten, at most so many pixels long. */
+/** Ruler length of 1, 2 or 5 times a power of ten, at most this many pixels long. */
 export function rulerMm(pxPerMm: number, maxPx: number): number {
   const maxMm = maxPx / pxPerMm;
   const ten = 10 ** Math.floor(Math.log10(maxMm));

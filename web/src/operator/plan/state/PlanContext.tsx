@@ -1,4 +1,4 @@
-// The plan, one change at a time, and the way back.
+// The plan: one change at a time, with undo.
 import { createContext, use, useCallback, useState, type ReactNode } from "react";
 import { answered, Rejection, server } from "../../../rest/client";
 import { useAction } from "../../../rest/useAction";
@@ -16,11 +16,11 @@ interface PlanValue {
   caseId: string;
   plan: PlanAnswer | null;
   planRejection: Rejection | null;
-  /** Whether the first answer is still awaited. */
+  /** Whether the first answer is pending. */
   isLoading: boolean;
   askAgain: () => void;
   vertebrae: Vertebra[];
-  /** The vertebra that is worked on; null while there is none. */
+  /** The selected vertebra; null if there is none. */
   vertebra: Vertebra | null;
   side: Side;
   busy: boolean;
@@ -29,9 +29,9 @@ interface PlanValue {
   conflict: PlanAnswer["heading"] | null;
   setVertebra: (name: string) => void;
   setSide: (side: Side) => void;
-  /** Makes a change on the version that is shown; true when it was kept. */
+  /** Applies a change to the displayed version; true if it was stored. */
   change: (action: (by: By) => Promise<PlanAnswer>) => Promise<boolean>;
-  /** Long work has changed the plan: it made this version. */
+  /** A job has changed the plan and made this version. */
   changedTo: (madeVersion: number, documentBefore: string | null) => void;
   by: By;
   canUndo: boolean;
@@ -119,13 +119,13 @@ export function PlanProvider({ caseId, children }: { caseId: string; children: R
     vertebra: vertebrae.find((one) => one.name === chosen) ?? vertebrae[0] ?? null,
     busy: doing.busy,
     rejection: doing.rejection,
-    // On another CT an older plan would be taken over unseen.
+    // Undo across CTs would transfer an older plan unseen.
     canUndo: step !== null && !doing.busy && plan?.heading.current !== false,
   };
   return <PlanContext value={value}>{children}</PlanContext>;
 }
 
-/** The plan as it stood in an older document; an empty one where there was none. */
+/** The plan of an older document; empty if there was none. */
 async function contentOf(
   caseId: string,
   documentId: string | null,

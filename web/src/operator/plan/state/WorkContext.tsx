@@ -1,4 +1,4 @@
-// What is being done on the page: which part of the plan, and what is moved but not kept yet.
+// Unsaved state of the page: the selected part and drafts.
 import { createContext, use, useCallback, useMemo, useState, type ReactNode } from "react";
 import type { Draft } from "../channel/draft";
 
@@ -8,13 +8,13 @@ export type Part = (typeof PARTS)[number];
 interface WorkValue {
   part: Part;
   setPart: (part: Part) => void;
-  /** The channel that is moved by hand; of this vertebra and side alone. */
+  /** The draft channel, of this vertebra and side only. */
   draft: { of: string; channel: Draft } | null;
   setDraft: (draft: { of: string; channel: Draft } | null) => void;
-  /** Distance of the outer lines from the middle one, on the way to be laid. */
+  /** Draft distance of the outer lines from the middle one. */
   apartMm: number;
   setApartMm: (apartMm: number) => void;
-  /** How often a surface was made while this page is open. */
+  /** Number of surfaces made since the page was opened. */
   surfaces: number;
   refreshSurfaces: () => void;
 }

@@ -1,14 +1,14 @@
-// What a case holds: asked before it is asked for, so that what is not there yet is no error.
+// Documents of a case. Existence is checked first, so that a missing document is no error.
 import { answered, server } from "../../../rest/client";
 import type { components } from "../../../schema";
 
 type Kind = components["schemas"]["DocumentKind"];
 
-/** The case's one CT, plan or surface has this name. */
+/** Name of the case's only CT, plan or surface. */
 const MAIN = "main";
 
 /**
- * Whether the case has one of this kind.
+ * Whether the case has a document of this kind.
  *
  * @throws Rejection
  */

@@ -1,7 +1,7 @@
 import { useSession } from "../../../app/session";
 import { useTexts } from "../../../texts/TextsContext";
 
-/** The name under which a change is stored: of who is signed in. */
+/** Author of a change: the signed-in user. */
 export function useMadeBy(): string {
   const { session } = useSession();
   const texts = useTexts().plan;

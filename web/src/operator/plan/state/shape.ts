@@ -1,4 +1,4 @@
-// A plan as `GET /api/plan` answers it: the server's schema calls it an object, its records are these.
+// Type of the plan in `GET /api/plan`, which the server's schema describes only as an object.
 import type { components } from "../../../schema";
 import type { Vec3 } from "../slices/vectors";
 
@@ -81,7 +81,7 @@ export function vertebraeOf(answer: PlanAnswer | null): Vertebra[] {
   return Array.isArray(vertebrae) ? (vertebrae as Vertebra[]) : [];
 }
 
-/** The pedicle with its corrections worked in, by the server. */
+/** The pedicle with corrections applied by the server. */
 export function usedPedicle(answer: PlanAnswer | null, vertebra: string, side: Side): Pedicle | null {
   return (answer?.used[vertebra]?.[side] as Pedicle | undefined) ?? null;
 }

@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import { lastStep, read, withChange, withoutLast } from "./undo";
 
 test("changes are taken back one after the other, each as a new version", () => {
-  // Version 1 was there; two changes here made 2 and 3.
+  // Version 1 existed; two changes here made 2 and 3.
   let steps = withChange(withChange([], "one", 2), "two", 3);
   expect(lastStep(steps, 3)?.documentId).toBe("two");
   steps = withoutLast(steps, 4);

@@ -1,12 +1,12 @@
-// The way back: which version of the plan stood before each change that was made on this page.
+// Undo: the version of the plan before each change on this page.
 //
-// A step back stores the older content as a new version. It is offered only while the newest version is the one
-// that the last change here made: what somebody else did since is never taken back unseen.
+// Undo stores the older content as a new version. It is offered only while the newest version is the last one made
+// here, so that nobody else's change is undone unseen.
 
 export interface Step {
-  /** The document that held before the change; null where there was no plan. */
+  /** Document before the change; null if there was no plan. */
   documentId: string | null;
-  /** The version that the change made. */
+  /** Version made by the change. */
   madeVersion: number;
 }
 
@@ -16,13 +16,13 @@ export function withChange(steps: readonly Step[], documentId: string | null, ma
   return [...steps, { documentId, madeVersion }].slice(-MAX_STEPS);
 }
 
-/** What can be taken back while this version is the newest; null where nothing can. */
+/** What can be undone while this version is the newest; null if nothing. */
 export function lastStep(steps: readonly Step[], newestVersion: number): Step | null {
   const last = steps.at(-1);
   return last?.madeVersion === newestVersion ? last : null;
 }
 
-/** After a step back made this version: the change before can be taken back next. */
+/** After undo made this version: the previous change becomes the next to undo. */
 export function withoutLast(steps: readonly Step[], madeVersion: number): Step[] {
   const left = steps.slice(0, -1);
   const last = left.at(-1);

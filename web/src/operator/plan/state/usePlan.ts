@@ -1,4 +1,4 @@
-// The newest plan, asked for every few seconds, because two tablets may plan at once.
+// The newest plan, polled every few seconds, because two tablets may plan at once.
 import { useCallback, useEffect, useRef, useState } from "react";
 import { answered, Rejection, server } from "../../../rest/client";
 import { hasDocument } from "./documents";
@@ -8,11 +8,11 @@ const ASK_EVERY_MS = 3000;
 
 export interface PlanQuery {
   plan: PlanAnswer | null;
-  /** Why there is none that could be shown; null where there simply is none yet. */
+  /** Why the plan cannot be shown; null if there is none yet. */
   rejection: Rejection | null;
-  /** Whether the first answer is still awaited. */
+  /** Whether the first answer is pending. */
   isLoading: boolean;
-  /** The answer to a change: what was asked before it does not count any more. */
+  /** Result of a change; older pending answers are ignored. */
   take: (plan: PlanAnswer) => void;
   refetch: () => Promise<PlanAnswer | null>;
 }

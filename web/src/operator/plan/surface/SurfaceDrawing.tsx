@@ -2,7 +2,7 @@ import { useMemo, type ReactNode } from "react";
 import type { Projection } from "../slices/projection";
 import { outlineOn, type Triangles } from "./triangles";
 
-/** The surface's outline on a slice: where the bone's edge should be. */
+/** Outline of the surface on a slice, which should follow the edge of the bone. */
 export function SurfaceDrawing({
   projection,
   triangles,

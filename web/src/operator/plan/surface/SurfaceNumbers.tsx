@@ -12,7 +12,7 @@ interface Remark {
   remedy: string;
 }
 
-/** Where the surface comes from, how large it is, and what to know of it. */
+/** Source, size and warnings of the surface. */
 export function SurfaceNumbers({ surface }: { surface: Surface }): ReactNode {
   const texts = useTexts().plan.surface;
   const { content, heading } = surface;

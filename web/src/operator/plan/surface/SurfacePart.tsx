@@ -20,7 +20,7 @@ import { SurfaceNumbers } from "./SurfaceNumbers";
 
 const UNITS = ["mm", "cm", "m", "inch", "um"] as const;
 
-/** The bone's surface, made out of the CT or sent as triangles; shown in the 3-D scene beside. */
+/** The bone surface, created from the CT or uploaded, and shown in the 3-D scene. */
 export function SurfacePart(): ReactNode {
   const texts = useTexts().plan.surface;
   const madeBy = useMadeBy();

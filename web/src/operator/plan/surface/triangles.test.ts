@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import type { Place } from "../slices/place";
 import { outlineOn, trianglesOf } from "./triangles";
 
-/** A pyramid of 10 mm height on a square of 8 mm, its tip to the head. */
+/** A pyramid 10 mm high on a square of 8 mm, its tip to the head. */
 const POINTS = [-4, -4, 0, 4, -4, 0, 4, 4, 0, -4, 4, 0, 0, 0, 10];
 const CORNERS = [0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 0, 2, 1, 0, 3, 2];
 

@@ -1,20 +1,19 @@
-// The bone's surface on the page: read from the server's PLY, and cut by a slice, so that it can be held against
-// the CT that it was made from.
+// The bone surface on the page: parsed from the server's PLY and cut by a slice, to compare it with the CT.
 import type { Place } from "../slices/place";
 import { beyondMm } from "../slices/place";
 import type { Vec3 } from "../slices/vectors";
 
 export interface Triangles {
-  /** Three numbers to a point, LPS in mm. */
+  /** Three coordinates per point, LPS in mm. */
   points: Float64Array;
-  /** Three indices to a triangle. */
+  /** Three indices per triangle. */
   corners: Int32Array;
 }
 
 const NUMBER_BYTES = 8;
 const FACE_BYTES = 13;
 
-/** The triangles of a binary PLY as the server writes it; null where it is something else. */
+/** Parses a binary PLY of the server; null if it is anything else. */
 export function trianglesOf(content: ArrayBuffer): Triangles | null {
   const head = new TextDecoder("ascii").decode(content.slice(0, 1024));
   const end = head.indexOf("end_header\n");
@@ -34,7 +33,7 @@ export function trianglesOf(content: ArrayBuffer): Triangles | null {
   return { points, corners };
 }
 
-/** Where a slice passes through the triangles: pairs of points. */
+/** Intersection of a slice with the triangles: pairs of points. */
 export function outlineOn(place: Place, { points, corners }: Triangles): [Vec3, Vec3][] {
   const at = (n: number): Vec3 => [points[3 * n] ?? 0, points[3 * n + 1] ?? 0, points[3 * n + 2] ?? 0];
   const beyond = Float64Array.from({ length: points.length / 3 }, (_, n) => beyondMm(place, at(n)));

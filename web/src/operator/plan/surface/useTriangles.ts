@@ -3,10 +3,10 @@ import { useQuery } from "../../../rest/useQuery";
 import { hasDocument } from "../state/documents";
 import { trianglesOf, type Triangles } from "./triangles";
 
-/** The last that was fetched: all views of the CT draw the same one. */
+/** Last fetched surface, shared by all views. */
 let cache: { id: string; triangles: Promise<Triangles | null> } | null = null;
 
-/** The triangles of the surface in the case; asked for again when another one was made on this page. */
+/** Triangles of the case's surface; fetched again when this page made another one. */
 export function useTriangles(caseId: string, surfacesMade: number): Triangles | null {
   return useQuery(
     async (signal) => {
@@ -24,7 +24,7 @@ async function fetched(): Promise<Triangles | null> {
     const answer = await fetch("/api/surface.ply");
     if (answer.ok) return trianglesOf(await answer.arrayBuffer());
   } catch {
-    // Told below, as any other line that is lost.
+    // Reported elsewhere, like any lost connection.
   }
   cache = null;
   throw new Rejection({ code: "NO_ANSWER", message: "", remedy: "", context: {} });

@@ -27,7 +27,7 @@ interface ConcludeNeedlesProps {
   children: ReactNode;
 }
 
-/** Registers by what was laid, picked or marked: always by the newest live image, never by a frozen one. */
+/** Registers from the overlay, proposal or marks, always with the newest live image, never a frozen one. */
 export function ConcludeNeedles({
   order,
   overlay = null,

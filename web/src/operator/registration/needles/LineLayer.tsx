@@ -10,7 +10,7 @@ interface LineLayerProps {
   names: readonly string[];
 }
 
-/** The needles' planned lines, from the bone outwards, on which the needles shall lie. */
+/** Planned lines of the needles, from the bone outwards. */
 export function LineLayer({ controller, names }: LineLayerProps): ReactNode {
   const texts = useTexts().registration.needles;
   const nameOf = useNeedleNames();
@@ -26,7 +26,7 @@ export function LineLayer({ controller, names }: LineLayerProps): ReactNode {
           draw(group.current?.children[index] ?? null, points);
         });
       }),
-    // The lines are drawn anew when there are others.
+    // Redrawn when the lines change.
     [controller, names.length],
   );
   return (

@@ -12,7 +12,7 @@ interface MagnifierProps {
   name: string;
 }
 
-/** The live picture around a mark, five times as large, with the mark in its middle. */
+/** The live picture around a mark, magnified five times, centred on the mark. */
 export function Magnifier({ picture, at, name }: MagnifierProps): ReactNode {
   const lens = useRef<HTMLCanvasElement>(null);
   const { widthPx } = useImageSize();
@@ -22,7 +22,7 @@ export function Magnifier({ picture, at, name }: MagnifierProps): ReactNode {
     context.fillRect(0, 0, SIDE_PX, SIDE_PX);
     const from = picture.current;
     if (at === null || from === null || !video.live) return;
-    // The picture may come smaller than the camera's image.
+    // The picture may be smaller than the camera's image.
     const ratio = from.width / widthPx;
     const shown = (SIDE_PX / TIMES) * ratio;
     const [x = 0, y = 0] = at;

@@ -7,11 +7,11 @@ import { useNeedleNames } from "./useNeedleNames";
 interface MarkLayerProps {
   marks: readonly Marking[];
   names: readonly string[];
-  /** Planned lines after the fit, where there are any. */
+  /** Planned lines after the fit, if any. */
   lines?: readonly number[][][];
 }
 
-/** Needles in the picture: a ring where each comes out of the bone, a line, a disc at its head, its name. */
+/** Marked needles: a ring at the bone, a line, a disc at the head, and the name. */
 export function MarkLayer({ marks, names, lines = [] }: MarkLayerProps): ReactNode {
   const texts = useTexts().registration.needles;
   const nameOf = useNeedleNames();

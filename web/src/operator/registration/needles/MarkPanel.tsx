@@ -28,7 +28,7 @@ interface MarkPanelProps {
   isFrozen: boolean;
 }
 
-/** Needles touched in the picture one after the other: where each leaves the bone, then its head. */
+/** Marks the needles one after another: first at the bone, then at the head. */
 export function MarkPanel({
   order,
   names,
@@ -50,7 +50,7 @@ export function MarkPanel({
   useMarkOnStage(stage, marks, {
     onPlace: (at) => {
       if (next === null) return;
-      // Until its head is touched a needle is as short as a point.
+      // Until its head is marked, a needle has zero length.
       if (next.end === "entry_px") onMarks([...marks, { entry_px: [...at], head_px: [...at] }]);
       else onMarks(withEnd(marks, next, at));
       setChosen(next);

@@ -12,7 +12,7 @@ import { RulerForm } from "./RulerForm";
 import { FIRST_VIEW, storeView, storedView } from "./ruler";
 import type { NeedleRequest } from "./order";
 
-/** Registration by three needles: first what a ruler says and where the needles stand, then the picture. */
+/** Registration with three needles: first camera position and needle places, then the picture. */
 export function NeedlesPage(): ReactNode {
   const texts = useTexts().registration.needles;
   const caseId = useCaseId() ?? "";

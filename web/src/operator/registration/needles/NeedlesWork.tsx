@@ -27,7 +27,7 @@ interface NeedlesWorkProps {
   onLandmarks: (landmarks: string[]) => void;
 }
 
-/** The slice over the live picture, needles that the software found, or needles marked by hand. */
+/** Slice overlay, detected needles, or needles marked by hand. */
 export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWorkProps): ReactNode {
   const texts = useTexts().registration.needles;
   const [controller] = useState(

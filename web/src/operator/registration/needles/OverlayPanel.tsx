@@ -21,7 +21,7 @@ interface OverlayPanelProps {
   onRelease: () => void;
 }
 
-/** Small steps for what fingers do roughly: move, turn, scale; fade, undo, and at last register. */
+/** Fine steps for the overlay: move, rotate, scale; opacity, undo, and register. */
 export function OverlayPanel({
   controller,
   state,

@@ -9,11 +9,11 @@ const NEEDLES = 3;
 interface PlacesFormProps {
   vertebra: PlannedVertebra;
   chosen: readonly string[];
-  /** None: the lines of the reference slice. */
+  /** Empty: the lines of the reference slice. */
   onChosen: (landmarks: string[]) => void;
 }
 
-/** Where the needles stand: on the three lines of the reference slice, or on landmarks of the plan. */
+/** Places of the needles: the three lines of the reference slice, or landmarks of the plan. */
 export function PlacesForm({ vertebra, chosen, onChosen }: PlacesFormProps): ReactNode {
   const texts = useTexts().registration.places;
   const [names, setNames] = useState<readonly string[]>(chosen);

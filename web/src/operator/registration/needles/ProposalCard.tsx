@@ -12,7 +12,7 @@ interface ProposalCardProps {
   onPick: () => void;
 }
 
-/** One naming of the needles that were found: how far each lies from its place, in the image and in mm. */
+/** One assignment of names to detected needles, with their distances from the plan in the image and in mm. */
 export function ProposalCard({ number, proposal, isPicked, onPick }: ProposalCardProps): ReactNode {
   const texts = useTexts().registration.proposal;
   const nameOf = useNeedleNames();

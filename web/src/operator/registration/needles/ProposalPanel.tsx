@@ -20,7 +20,7 @@ interface ProposalPanelProps {
   onAdjust: (proposal: Proposal) => void;
 }
 
-/** What the software takes for the needles, each likely naming of its own; only a person picks one. */
+/** Detected needles with their likely assignments of names; the user must pick one. */
 export function ProposalPanel({ order, picked, isFrozen, onPick, onAdjust }: ProposalPanelProps): ReactNode {
   const texts = useTexts().registration.proposal;
   const [proposals, setProposals] = useState<Proposal[] | null>(null);

@@ -8,13 +8,13 @@ import { viewOfTruth, type RuledView } from "./ruler";
 interface RulerFormProps {
   view: RuledView;
   onView: (view: RuledView) => void;
-  /** Of the needles, for the rehearsal's ruler. */
+  /** Of the needles, for the rehearsal's simulated ruler. */
   middleMm: readonly number[];
   done: boolean;
   onDone: () => void;
 }
 
-/** What a ruler says of the camera: how far above and beside the vertebra, and at which end of the patient. */
+/** Camera position by ruler: height above and distance beside the vertebra, and the patient's end. */
 export function RulerForm({ view, onView, middleMm, done, onDone }: RulerFormProps): ReactNode {
   const texts = useTexts().registration.ruler;
   const fields = [

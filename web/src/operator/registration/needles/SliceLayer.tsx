@@ -9,7 +9,7 @@ interface SliceLayerProps {
   vertebra: string;
 }
 
-/** The plan's picture of the reference slice, translucent over the live picture, where the server lays it. */
+/** Reference slice, translucent over the live picture, placed by the server. */
 export function SliceLayer({ controller, slice, vertebra }: SliceLayerProps): ReactNode {
   const texts = useTexts().registration.needles;
   const image = useRef<HTMLImageElement>(null);

@@ -13,7 +13,7 @@ test("the bone's end is asked for, then the head, needle after needle", () => {
   expect(nextEnd(MARKS, null, 2)).toBeNull();
 });
 
-test("the nearest end is taken hold of, and only from near", () => {
+test("the nearest end is grabbed, but only within the tolerance", () => {
   expect(endNear(MARKS, [310, 215], 40)).toEqual({ needle: 1, end: "head_px" });
   expect(endNear(MARKS, [200, 300], 40)).toBeNull();
 });

@@ -1,4 +1,4 @@
-// Needles marked by hand: the end at the bone, then the head, one needle after the other.
+// Needles marked by hand: first the end at the bone, then the head.
 import type { Px } from "./overlay";
 
 export interface Mark {
@@ -6,16 +6,16 @@ export interface Mark {
   head_px: number[];
 }
 
-/** Which end of which needle. */
+/** An end of a needle. */
 export interface End {
   needle: number;
   end: "entry_px" | "head_px";
 }
 
-/** Marks while the last of them may have but its first end. */
+/** Marks; the last needle may have only its first end. */
 export type Marking = Partial<Mark> & { entry_px: number[] };
 
-/** The end that is asked for next; null when all needles have both. */
+/** The next end to mark; null when all needles are complete. */
 export function nextEnd(marks: readonly Mark[], open: number[] | null, needles: number): End | null {
   if (open !== null) return { needle: marks.length, end: "head_px" };
   return marks.length < needles ? { needle: marks.length, end: "entry_px" } : null;
@@ -25,7 +25,7 @@ export function withEnd(marks: readonly Mark[], { needle, end }: End, at: Px): M
   return marks.map((mark, index) => (index === needle ? { ...mark, [end]: [...at] } : mark));
 }
 
-/** The end nearest to a touch, where one is near enough for a glove. */
+/** The end nearest to a touch, within the tolerance for gloves. */
 export function endNear(marks: readonly Mark[], [x, y]: Px, withinPx: number): End | null {
   let [best, nearest]: [End | null, number] = [null, withinPx];
   marks.forEach((mark, needle) => {

@@ -1,9 +1,9 @@
 import type { RuledView } from "./ruler";
 
-/** Which needles, seen how: the part that all questions about needles share. */
+/** Needles and camera position: the common part of all needle requests. */
 export interface NeedleRequest {
   view: RuledView;
-  /** None: the three lines of the reference slice. */
+  /** Empty: the three lines of the reference slice. */
   landmarks: string[];
 }
 

@@ -25,7 +25,7 @@ describe("the slice in the hand", () => {
     expect(translateOverlay(AT, [12, -5])).toEqual({ ...AT, shift_px: [652, 355] });
   });
 
-  test("turns clockwise about a point: what is right of it goes below it", () => {
+  test("rotates clockwise about a point: right of it moves below it", () => {
     const after = rotateOverlay(AT, 90, [540, 360]);
     near(placeOf(after), [540, 460]);
     expect(after.rotation_deg).toBe(100);
@@ -90,11 +90,11 @@ describe("what is drawn between two answers", () => {
 });
 
 test("a picture's first pixel is drawn half a pixel from its corner", () => {
-  // Doubled and moved: the centre of the pixel (0, 0) is to lie on the centre of (10, 20).
+  // Doubled and moved: the centre of pixel (0, 0) shall be at the centre of (10, 20).
   const style = cssMatrix([2, 0, 10, 0, 2, 20, 0, 0, 1]);
   const numbers = style.slice("matrix3d(".length, -1).split(",").map(Number);
   const [a, , , , , e] = numbers;
   expect([a, e]).toEqual([2, 2]);
-  // Its corner (0, 0) then lies a whole doubled half pixel before that centre: 10.5 - 1.
+  // Its corner (0, 0) is half a doubled pixel before that centre: 10.5 - 1.
   expect([numbers[12], numbers[13]]).toEqual([9.5, 19.5]);
 });

@@ -1,8 +1,8 @@
-// The slice in the hand: moved, turned and scaled in pixels of the camera's image, as the server does it.
-// What lies between two of the server's answers is a similarity; each answer makes it exact again.
+// The slice overlay: moved, rotated and scaled in pixels of the camera's image, as on the server. Between two answers
+// it is a similarity; each answer makes it exact.
 
 export type Px = readonly [number, number];
-/** 3 rows of 3, one after the other. */
+/** 3 x 3, row by row. */
 export type Matrix = readonly number[];
 
 export interface Overlay {
@@ -33,7 +33,7 @@ export function rotateOverlay(overlay: Overlay, byDeg: number, about: Px): Overl
   };
 }
 
-/** Held within what the server takes, with the place that belongs to the scale that it then has. */
+/** Clamped to the server's limits, with the position adjusted to the clamped scale. */
 export function scaleOverlay(overlay: Overlay, byRatio: number, about: Px): Overlay {
   const scale = clamp(overlay.scale_px_per_mm * byRatio, MIN_SCALE, MAX_SCALE);
   const ratio = scale / overlay.scale_px_per_mm;
@@ -49,7 +49,7 @@ export function fadeOverlay(overlay: Overlay, toRatio: number): Overlay {
   return { ...overlay, fade_ratio: clamp(toRatio, 0, 1) };
 }
 
-/** Two fingers: what was under them stays under them. */
+/** Two fingers: the points under them stay under them. */
 export function pinchOverlay(
   overlay: Overlay,
   { from, to, ratio, turnDeg }: { from: Px; to: Px; ratio: number; turnDeg: number },
@@ -58,7 +58,7 @@ export function pinchOverlay(
   return translateOverlay(turnedThere, [to[0] - from[0], to[1] - from[1]]);
 }
 
-/** Takes what is drawn for one overlay to where another has it. */
+/** Transform from the drawing of one overlay to another. */
 export function similarity(from: Overlay, to: Overlay): Matrix {
   const ratio = to.scale_px_per_mm / from.scale_px_per_mm;
   const radians = ((to.rotation_deg - from.rotation_deg) * Math.PI) / 180;
@@ -82,7 +82,7 @@ export function applyMatrix(matrix: Matrix, [x, y]: Px): Px {
   return [u / w, v / w];
 }
 
-/** For an element whose top-left corner is the origin: half a pixel lies between it and a pixel's centre. */
+/** For an element with its origin at the top-left corner, half a pixel from the pixel's centre. */
 export function cssMatrix(imageFromPicture: Matrix): string {
   const [a, b, c, d, e, f, g, h, i] = multiply(
     multiply([1, 0, 0.5, 0, 1, 0.5, 0, 0, 1], imageFromPicture),

@@ -3,7 +3,7 @@ import { Rejection } from "../../../rest/client";
 import { applyMatrix, translateOverlay, placeOf, type Overlay } from "./overlay";
 import { OverlayController, type OverlayDrawing } from "./overlayController";
 
-// Before anything is imported: the client of the server asks where the page came from.
+// Before any import, since the API client reads the page's origin.
 vi.hoisted(() => {
   vi.stubGlobal("location", { origin: "http://127.0.0.1" });
 });
@@ -14,7 +14,7 @@ function laid(overlay: Overlay): OverlayDrawing {
   return { vertebra: "L3", image_number: 1, overlay, slice: null, needles: [], directions: [], numbers: {} };
 }
 
-/** A server that answers when it is let. */
+/** A server that answers on command. */
 function slow(): {
   requests: (Overlay | null)[];
   ask: (overlay: Overlay | null) => Promise<OverlayDrawing>;
@@ -76,7 +76,7 @@ test("what a hand did is undone as a whole, and so is the way back to the ruler"
   expect(controller.newest?.hand).toEqual(RULER);
 });
 
-test("a refusal is kept with what the server said last, and nothing asks for ever", async () => {
+test("a rejection keeps the server's last answer and ends the requests", async () => {
   const rejection = new Rejection({ code: "NO_PICTURE", message: "no", remedy: "Wait.", context: {} });
   let count = 0;
   const controller = new OverlayController((overlay) => {

@@ -1,5 +1,4 @@
-// Controls the overlay that a hand moves: painted at once, requested from the server as fast as it answers,
-// exact again with each answer.
+// Controls the overlay: painted at once, requested from the server as fast as it answers, exact with each answer.
 import { Rejection } from "../../../rest/client";
 import type { components } from "../../../schema";
 import { isSameOverlay, similarity, type Matrix, type Overlay } from "./overlay";
@@ -10,7 +9,7 @@ export interface OverlayState {
   hand: Overlay | null;
   laid: OverlayDrawing | null;
   rejection: Rejection | null;
-  /** What is drawn is what the server has, exactly. */
+  /** Whether the drawing is exact. */
   settled: boolean;
   canUndo: boolean;
 }
@@ -36,7 +35,7 @@ export class OverlayController {
 
   constructor(private readonly fetchOverlay: (overlay: Overlay | null) => Promise<OverlayDrawing>) {}
 
-  /** Called whenever something is to be drawn elsewhere, past React's state. */
+  /** Called when the overlay must be repainted, without React. */
   onPaint(paint: () => void): () => void {
     this.painters.add(paint);
     paint();
@@ -50,7 +49,7 @@ export class OverlayController {
 
   readonly state = (): OverlayState => this.published;
 
-  /** Where the ruler has it. */
+  /** Position from the ruler. */
   start(): void {
     this.stopped = false;
     if (this.laid === null) void this.requestNow(true);
@@ -60,7 +59,7 @@ export class OverlayController {
     this.stopped = true;
   }
 
-  /** Remembers where the slice is, before a hand moves it. */
+  /** Remembers the position before a gesture. */
   begin(): void {
     if (this.hand === null) return;
     this.before = [...this.before.slice(-MAX_UNDO), this.hand];
@@ -73,7 +72,7 @@ export class OverlayController {
     void this.requestNow(false);
   }
 
-  /** A step that is begun and over at once. */
+  /** A single step as a complete gesture. */
   step(next: (hand: Overlay) => Overlay): void {
     this.begin();
     this.change(next);
@@ -85,13 +84,13 @@ export class OverlayController {
     this.change(() => last);
   }
 
-  /** Back to where the ruler has it; can be undone. */
+  /** Resets to the ruler's position; can be undone. */
   reset(): void {
     this.begin();
     void this.requestNow(true);
   }
 
-  /** Takes what the server drew last to where the hand has it. */
+  /** Transforms the server's last drawing to the present position. */
   get sinceAnswer(): Matrix | null {
     return this.laid === null || this.hand === null ? null : similarity(this.laid.overlay, this.hand);
   }
@@ -109,7 +108,7 @@ export class OverlayController {
       const laid = await this.fetchOverlay(requested);
       this.laid = laid;
       this.rejection = null;
-      // What the hand did meanwhile goes on from there.
+      // Changes made in the meantime are applied next.
       if (requested === null) this.hand = laid.overlay;
     } catch (error) {
       if (!(error instanceof Rejection)) throw error;

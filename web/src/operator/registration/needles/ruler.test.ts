@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import { viewOfTruth } from "./ruler";
 
 test("a camera 380 mm behind and 240 mm towards the feet of the vertebra is 380 above and 240 beside it", () => {
-  // Not turned, so that its centre is minus its translation: left 0, back 420, head -240.
+  // No rotation, so its centre is minus its translation: left 0, back 420, head -240.
   const matrix = [
     [1, 0, 0, 0],
     [0, 1, 0, -420],

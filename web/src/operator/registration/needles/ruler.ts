@@ -1,4 +1,4 @@
-// What a ruler beside the table measures of the camera, and where it is remembered.
+// Camera position measured with a ruler beside the table, and its storage.
 import type { components } from "../../../schema";
 
 export type RuledView = components["schemas"]["ViewMessage"];
@@ -14,13 +14,13 @@ export const FIRST_VIEW: RuledView = {
   prone_sd_deg: 5,
 };
 
-/** What a ruler would say in the rehearsal, of the camera above and beside a vertebra that lies flat. */
+/** Simulated ruler of the rehearsal, for a vertebra that lies flat. */
 export function viewOfTruth(
   cameraFromVertebra: readonly (readonly number[])[],
   middleMm: readonly number[],
 ): RuledView {
   const at = (row: number, column: number): number => cameraFromVertebra[row]?.[column] ?? 0;
-  // The camera's centre in the vertebra's frame: -R^T t.
+  // Centre of the camera in the vertebra frame: -R^T t.
   const centre = [0, 1, 2].map((axis) => [0, 1, 2].reduce((sum, row) => sum - at(row, axis) * at(row, 3), 0));
   const [left, back, head] = centre.map((mm, axis) => mm - (middleMm[axis] ?? 0)) as [number, number, number];
   return {
@@ -33,7 +33,7 @@ export function viewOfTruth(
 
 const KEY = "coaxial-ruler";
 
-/** As it was last given on this tablet for this case; null where it never was. */
+/** Last input on this tablet for this case; null if none. */
 export function storedView(caseId: string): RuledView | null {
   try {
     const stored: unknown = JSON.parse(localStorage.getItem(`${KEY} ${caseId}`) ?? "null");
@@ -47,6 +47,6 @@ export function storeView(caseId: string, view: RuledView): void {
   try {
     localStorage.setItem(`${KEY} ${caseId}`, JSON.stringify(view));
   } catch {
-    // A browser that keeps nothing asks again.
+    // Without storage the page asks again.
   }
 }

@@ -6,7 +6,7 @@ import type { OverlayController } from "./overlayController";
 
 const WHEEL_PER_PX = 0.001;
 
-/** Where two fingers and the slice were when they began. */
+/** Two fingers and the overlay at the start of a gesture. */
 interface Pinch {
   hand: Overlay;
   from: Px;
@@ -14,7 +14,7 @@ interface Pinch {
   turnDeg: number;
 }
 
-/** One finger moves the slice; two move, turn and scale it; a wheel scales it where it points. */
+/** One finger moves the slice; two move, rotate and scale it; the wheel scales about the pointer. */
 export function useHandOnStage(
   controller: OverlayController,
   stage: RefObject<HTMLDivElement | null>,
@@ -54,7 +54,7 @@ export function useHandOnStage(
         return begun;
       },
       onWheel: ({ event, delta: [, y], first, ctrlKey }) => {
-        // With the key held it comes as a pinch.
+        // With Ctrl it is reported as a pinch.
         if (ctrlKey) return;
         if (first) controller.begin();
         const about = pxAt([event.clientX, event.clientY]);
@@ -69,7 +69,7 @@ export function useHandOnStage(
     },
   );
 
-  // The page must not scroll under a hand that lays the slice.
+  // The page must not scroll during a gesture.
   useEffect(() => {
     const element = stage.current;
     if (element === null) return;

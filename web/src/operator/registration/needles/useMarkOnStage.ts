@@ -4,7 +4,7 @@ import { useImageSize } from "../useImageSize";
 import { endNear, type End, type Mark } from "./marks";
 import type { Px } from "./overlay";
 
-/** How near a glove must come to take hold of a mark, on the screen. */
+/** Distance within which a touch grabs a mark, on the screen. */
 const GRIP_CSS_PX = 36;
 
 interface Hands {
@@ -13,7 +13,7 @@ interface Hands {
   onMove: (end: End, at: Px) => void;
 }
 
-/** A touch on the picture sets a mark, or takes hold of one that is near and drags it. */
+/** A touch sets a mark, or grabs one nearby and drags it. */
 export function useMarkOnStage(
   stage: RefObject<HTMLDivElement | null>,
   marks: readonly Mark[],
@@ -43,7 +43,7 @@ export function useMarkOnStage(
         }
         const now = pxAt(xy);
         if (grip.current !== null) {
-          // By as much as the finger moves, so that a mark does not jump under it.
+          // Relative movement, so that a mark does not jump under the finger.
           const { end, off } = grip.current;
           if (!tap) onMove(end, [now[0] + off[0], now[1] + off[1]]);
         } else if (last && tap) onPlace(now);

@@ -4,7 +4,7 @@ import type { components } from "../../../schema";
 import { useTexts } from "../../../texts/TextsContext";
 import { formatSecond } from "../../parts/format";
 
-/** Every nudge that holds, the newest first: what, who, when. */
+/** Valid nudges, newest first: what, who, when. */
 export function NudgeLog({ nudges }: { nudges: components["schemas"]["NudgeRecord"][] }): ReactNode {
   const all = useTexts();
   const texts = all.registration.nudges;

@@ -5,7 +5,7 @@ import { useTexts } from "../../../texts/TextsContext";
 
 export type Kind = components["schemas"]["NudgeKind"];
 export type Axis = components["schemas"]["NudgeAxis"];
-/** Each axis with its two ways, the one that the server counts as negative first. */
+/** The two directions of each axis, negative first. */
 const AXES: readonly Axis[] = ["left", "back", "head"];
 
 interface NudgePadProps {
@@ -14,7 +14,7 @@ interface NudgePadProps {
   onNudge: (axis: Axis, way: 1 | -1) => void;
 }
 
-/** Six ways, in the patient's directions. */
+/** Six directions of the patient. */
 export function NudgePad({ kind, disabled, onNudge }: NudgePadProps): ReactNode {
   const texts = useTexts().registration.nudges;
   return (

@@ -4,7 +4,7 @@ import { formatNumber } from "../../../live/rounding";
 import type { components } from "../../../schema";
 import { useTexts } from "../../../texts/TextsContext";
 
-/** How far all nudges together lead, against what is allowed. */
+/** Sum of all nudges, with its limit. */
 export function NudgeSums({ nudges }: { nudges: components["schemas"]["NudgesMessage"] }): ReactNode {
   const texts = useTexts().registration.nudges;
   const sums = [

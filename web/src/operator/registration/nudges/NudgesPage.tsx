@@ -5,7 +5,7 @@ import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
 import { NudgesWork } from "./NudgesWork";
 
-/** Small steps by hand, with the drawn vertebra in sight. */
+/** Small corrections by hand, with the overlaid vertebra in view. */
 export function NudgesPage(): ReactNode {
   const texts = useTexts().registration.nudges;
   const procedure = useProcedure();

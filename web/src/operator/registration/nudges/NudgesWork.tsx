@@ -15,7 +15,7 @@ import { NudgeSums } from "./NudgeSums";
 
 const STEPS = ["0.1", "0.5", "1"];
 
-/** One step at a time, the sum of all against its bound, and the last one taken back. */
+/** One step at a time, the total with its limit, and undo. */
 export function NudgesWork(): ReactNode {
   const texts = useTexts().registration;
   const procedure = useProcedure();

@@ -11,13 +11,13 @@ interface CapturePanelProps {
   points: Points;
   wanted: string | null;
   busy: boolean;
-  /** The landmark that was taken last. */
+  /** The landmark captured last. */
   last: string | null;
   onCapture: (landmark: string) => void;
   onUndo: (landmark: string) => void;
 }
 
-/** The landmark that is asked for, and the one large button that takes it. */
+/** The current landmark with its capture button. */
 export function CapturePanel({
   points,
   wanted,

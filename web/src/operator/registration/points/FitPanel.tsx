@@ -6,7 +6,7 @@ import { RegistrationRejection } from "../RegistrationRejection";
 import { useSides } from "../useSides";
 import type { Points } from "./PointsWork";
 
-/** How well the points fit together, what error that leaves at the entry points, and what is missing. */
+/** Fit of the landmarks, resulting error at the entry points, and what is missing. */
 export function FitPanel({ points }: { points: Points }): ReactNode {
   const texts = useTexts().registration;
   const sideName = useSides();

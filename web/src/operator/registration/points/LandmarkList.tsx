@@ -12,7 +12,7 @@ interface LandmarkListProps {
   onForget: (landmark: string) => void;
 }
 
-/** Every landmark with its residual; a touch on one asks for it, or for it again. */
+/** Landmarks with their residuals; a tap selects one for capture. */
 export function LandmarkList({ points, wanted, onPick, onUse, onForget }: LandmarkListProps): ReactNode {
   const texts = useTexts().registration.points;
   const outliers = new Set(points.missing.flatMap((one) => one.context["possible_outliers"] ?? []));

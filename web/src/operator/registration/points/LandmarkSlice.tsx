@@ -6,7 +6,7 @@ import { pxInSlice } from "./sliceView";
 
 const PLANES = { axial: 2, sagittal: 0 } as const;
 const PIXEL_MM = 0.4;
-/** How much of the patient is shown around the landmark. */
+/** Displayed size around the landmark. */
 const SHOWN_MM = 90;
 
 interface LandmarkSliceProps {
@@ -14,7 +14,7 @@ interface LandmarkSliceProps {
   pointMm: readonly number[];
 }
 
-/** A slice of the CT through a landmark, with a ring where it lies. */
+/** CT slice through a landmark, marked by a ring. */
 export function LandmarkSlice({ plane, pointMm }: LandmarkSliceProps): ReactNode {
   const texts = useTexts().registration.points;
   const atMm = pointMm[PLANES[plane]] ?? 0;
@@ -31,7 +31,7 @@ export function LandmarkSlice({ plane, pointMm }: LandmarkSliceProps): ReactNode
   if (data === null) return <div className="landmark-slice" />;
   const [u, v] = pxInSlice(data.lps_from_px, pointMm);
   const shownPx = SHOWN_MM / PIXEL_MM;
-  // In shares of the frame, which shows so many millimetres whatever its size on the screen.
+  // As shares of the frame, whose size in mm is fixed.
   const style = {
     width: `${(100 * data.width_px) / shownPx}%`,
     left: `${50 - (100 * (u + 0.5)) / shownPx}%`,

@@ -9,7 +9,7 @@ import { ToolChoice } from "../ToolChoice";
 import { ToolSeen } from "../ToolSeen";
 import { useTools } from "../useTools";
 
-/** Before the first landmark: what is to come, and with which tool. */
+/** Before the first landmark: instructions and choice of the tool. */
 export function PointsBegin({ onBegun }: { onBegun: () => void }): ReactNode {
   const texts = useTexts().registration;
   const first = useTools()?.[0]?.name ?? "";

@@ -6,7 +6,7 @@ import { useActiveProcedures } from "../useActiveProcedures";
 import { PointsBegin } from "./PointsBegin";
 import { PointsWork } from "./PointsWork";
 
-/** Registration by points: the tip on landmarks of the plan. */
+/** Registration with landmarks. */
 export function PointsPage(): ReactNode {
   const running = useActiveProcedures();
   return (

@@ -20,7 +20,7 @@ import { WhereToTouch } from "./WhereToTouch";
 export type Points = components["schemas"]["PointsMessage"];
 const ASK_EVERY_MS = 250;
 
-/** The landmarks one after the other: captured, judged, left out, touched again, and at last kept. */
+/** Captures the landmarks, shows their fit, excludes or repeats some, and registers. */
 export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
   const texts = useTexts().registration;
   const procedure = useProcedure();

@@ -7,7 +7,7 @@ interface WhereToTouchProps {
   pointMm: readonly number[];
 }
 
-/** Where the landmark lies on the CT, in two slices through it. */
+/** Position of the landmark in two CT slices. */
 export function WhereToTouch({ name, pointMm }: WhereToTouchProps): ReactNode {
   const texts = useTexts().registration.points;
   return (

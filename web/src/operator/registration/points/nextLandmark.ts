@@ -1,4 +1,4 @@
-// Which landmark is asked for next.
+// Chooses the next landmark.
 
 interface Touchable {
   landmarks: { name: string; touched: boolean }[];
@@ -6,8 +6,8 @@ interface Touchable {
 }
 
 /**
- * The one that somebody has picked, else the one whose capture runs or was rejected, else the first that was
- * not touched, but for the last of all: the check needs one that was not used.
+ * Returns the selected landmark, else the one whose capture runs or was rejected, else the first one not touched,
+ * except the last: the check needs an unused landmark.
  */
 export function nextLandmark({ landmarks, capture }: Touchable, picked: string | null): string | null {
   if (picked !== null && landmarks.some((one) => one.name === picked)) return picked;

@@ -1,7 +1,7 @@
-// Where a point of the patient lies in the picture of a slice.
+// Position of a patient point in a slice picture.
 import type { Px } from "../needles/overlay";
 
-/** `lpsFromPx`: 3 rows of 3, (u, v, 1) to LPS in mm; its first two columns stand at right angles. */
+/** `lpsFromPx`: 3 x 3, (u, v, 1) to LPS in mm; its first two columns are orthogonal. */
 export function pxInSlice(lpsFromPx: readonly (readonly number[])[], pointMm: readonly number[]): Px {
   const column = (index: number): number[] => [0, 1, 2].map((row) => lpsFromPx[row]?.[index] ?? 0);
   const from = column(2);

@@ -10,7 +10,7 @@ import { ToolChoice } from "../ToolChoice";
 import { ToolSeen } from "../ToolSeen";
 import { useTools } from "../useTools";
 
-/** Before the sweep: what it needs, and how the tip is led. */
+/** Before the sweep: requirements and instructions. */
 export function SweepBegin({ onBegun }: { onBegun: () => void }): ReactNode {
   const texts = useTexts().registration;
   const procedure = useProcedure().data;

@@ -5,7 +5,7 @@ import { useActiveProcedures } from "../useActiveProcedures";
 import { SweepBegin } from "./SweepBegin";
 import { SweepWork } from "./SweepWork";
 
-/** Registration refined by a sweep of the tip over bare bone. */
+/** Refines a registration with a sweep of the tip over bare bone. */
 export function SweepPage(): ReactNode {
   const running = useActiveProcedures();
   return (

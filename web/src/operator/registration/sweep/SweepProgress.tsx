@@ -3,7 +3,7 @@ import { formatNumber } from "../../../live/rounding";
 import type { components } from "../../../schema";
 import { useTexts } from "../../../texts/TextsContext";
 
-/** How many places the tip was taken at, and how far they reach. */
+/** Number of measured points and their extent. */
 export function SweepProgress({ sweep }: { sweep: components["schemas"]["SweepMessage"] }): ReactNode {
   const texts = useTexts().registration.sweep;
   const reach = sweep.reach_mm.map((mm) => formatNumber(mm, 0)).join(" × ");

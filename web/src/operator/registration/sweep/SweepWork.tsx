@@ -20,7 +20,7 @@ import { SweepProgress } from "./SweepProgress";
 type Fit = components["schemas"]["SweepFitMessage"];
 const ASK_EVERY_MS = 300;
 
-/** The sweep as it goes: taken or lifted, laid on the bone to see what it gives, kept or begun again. */
+/** Runs the sweep: capture or pause, fit to the bone, register or repeat. */
 export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
   const texts = useTexts().registration;
   const procedure = useProcedure();
@@ -44,7 +44,7 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
   };
   const lay = (): void => {
     void fitting.run(async () => {
-      // Off the bone while it is looked at: the hand need not hold still for that.
+      // Paused during the fit, so that the tip need not be held still.
       if (data.taking) await answered(server.PUT("/api/registration/sweep", { body: { taking: false } }));
       query.refetch();
       setFit(null);
