@@ -21,6 +21,7 @@ from tracker.pipeline import Tracker
 from tracker.pipeline.warm_up_image import WarmUpImage, warm_up_image
 from tracker.plan import Channel, Surface
 from tracker.plan.pedicle.wall_kernels import walls_around
+from tracker.rehearsal.layer_kernels import Axis, Portrait, composite, draw_body
 
 # Start of the occluded corner, from the marker's centre to its top right corner, in sides.
 OCCLUDED_FROM_RATIO = 0.3
@@ -31,7 +32,7 @@ class Part(StrEnum):
 
     SEARCH = "search"  # search and tracking of a marker
     FIT = "fit"  # photometric refinement of a pose, the last step of tracking
-    REST = "rest"  # verification under uneven illumination, distances to bone, sections of a CT
+    REST = "rest"  # verification under uneven illumination, distances to bone, sections of a CT, the rehearsal's drill
 
 
 def warm_up(*parts: Part) -> None:
@@ -57,6 +58,7 @@ def warm_up(*parts: Part) -> None:
                 _verify(model, picture, half_shadowed)
                 _judge()
                 _outline()
+                _draw()
 
 
 def _search(model: MarkerModel, picture: WarmUpImage, camera: CameraModel) -> None:
@@ -70,6 +72,28 @@ def _outline() -> None:
     """Compute the outline of a section through a block without bone."""
     block = np.zeros((2, 2, 2), np.float32)
     walls_around(block, np.zeros((1, 3)), np.ones((1, 1, 3)), 2, 1.0, 1, np.empty((1, 1)))
+
+
+def _draw() -> None:
+    """Draw a rehearsal's drill without a pixel, and lay it over an image."""
+    layer, places = np.zeros((8, 8, 4), np.uint8), np.zeros((1, 2), np.int64)
+    portrait = Portrait(
+        picture=layer,
+        bulge_mm=np.zeros((8, 8), np.float32),
+        first_row=0,
+        last_row=7,
+        near_columns=8,
+        start_mm=0.0,
+        half_mm=4.0,
+        per_mm=1.0,
+    )
+    pose: Rigid[Camera, Tool] = Rigid.identity()
+    axis = Axis(pose.translation_mm, -pose.rotation[:, 2])
+    rays, still_mm = np.zeros((8, 8, 3), np.float32), np.zeros((8, 8), np.float32)
+    draw_body(layer, places, rays, portrait, axis, still_mm)
+    bank = np.zeros((9, 9, 3), np.int16)
+    light = (np.ones((8, 8), np.float32), 1.0)
+    composite(layer[..., :3].copy(), places, layer, 0, light, (np.zeros(256, np.int16), bank[1:, 1:], 1.0))
 
 
 def _judge() -> None:

@@ -15,7 +15,7 @@ SETTINGS: dict[str, Any] = {
     "rehearsal": {"seed": 3, "skill": "good", "reference": True, "width": 960, "height": 540},
     "alarms": {"screen_lost_after_s": 600, "drill_unseen_after_ms": 400, "reference_unseen_after_ms": 400},
 }
-# Each loss lasts several times what a busy machine needs for one image: a shorter one may pass between two messages.
+# A busy machine may send no message for more than a second: a shorter loss could pass between two.
 EVENTS = (
     RehearsalEventConfig(kind="drill_occluded", at_s=3.0, lasts_s=4.0),
     RehearsalEventConfig(kind="reference_occluded", at_s=9.0, lasts_s=4.0),
