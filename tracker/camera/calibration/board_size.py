@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from tracker.camera.boards import Board, CharucoBoard, CheckerBoard
+from tracker.camera.boards import Board, CheckerBoard, DotBoard
 from tracker.camera.calibration.report import CalibrationReport, CalibrationWarning
 from tracker.camera.detection.view import BoardView
 
@@ -40,7 +40,7 @@ def likely_size(views: Sequence[BoardView], board: Board) -> tuple[int, int] | N
     Given where half of the views or more, and at least three, show one and the same whole rectangle, and none
     shows more of the board. A ChArUco board's corners are named by their markers, so its size is not given.
     """
-    if isinstance(board, CharucoBoard) or not views:
+    if not isinstance(board, DotBoard | CheckerBoard) or not views:
         return None
     spans = []
     for view in views:
