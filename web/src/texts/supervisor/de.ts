@@ -69,7 +69,7 @@ export const supervisorDe: SupervisorTexts = {
       across_sd_mm: "Quer, Standardabweichung",
       tilt_sd_deg: "Kippung, Standardabweichung",
       turn_sd_deg: "Drehung, Standardabweichung",
-      surface_rms_mm: "Abfahren zur Oberfläche (RMS)",
+      rms_mm: "Abfahren zur Oberfläche (RMS)",
       nudges: "Von Hand verschoben",
       nudged_mm: "Verschoben um",
       nudged_deg: "Gedreht um",

@@ -73,7 +73,7 @@ export const supervisorEn = {
       across_sd_mm: "Across, standard deviation",
       tilt_sd_deg: "Tilt, standard deviation",
       turn_sd_deg: "Turn, standard deviation",
-      surface_rms_mm: "Sweep to the surface (RMS)",
+      rms_mm: "Sweep to the surface (RMS)",
       nudges: "Nudged by hand",
       nudged_mm: "Nudged by",
       nudged_deg: "Turned by",
