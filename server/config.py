@@ -114,6 +114,11 @@ class RehearsalEventConfig(Section):
     size_deg: Annotated[float, Field(ge=0.0, le=20.0)] = 2.0
 
 
+RehearsalScene: TypeAlias = Literal["operation", "pivot", "spin", "board", "landmarks", "sweep", "check"]
+RehearsalSkill: TypeAlias = Literal["wandering", "good", "breaching"]
+RehearsalBoard: TypeAlias = Literal["dots", "checkerboard", "charuco"]
+
+
 class RehearsalConfig(Section):
     """The simulated operating theatre."""
 
@@ -125,10 +130,10 @@ class RehearsalConfig(Section):
     blur: Strength = 1.0
     clutter: Strength = 1.0
     light: Annotated[float, Field(gt=0.0, le=10.0)] = 1.0
-    scene: Literal["operation", "pivot", "spin", "board", "landmarks", "sweep", "check"] = "operation"
+    scene: RehearsalScene = "operation"
     """operation: drilling; pivot: tilting about the tip; spin: rotation about the axis; board: camera
     calibration; landmarks, sweep, check: the tip on landmarks, on the bone surface, on the check landmark."""
-    skill: Literal["wandering", "good", "breaching"] = "wandering"
+    skill: RehearsalSkill = "wandering"
     """Drilling in the operation: drifts off by millimetres, follows the channel, or breaches the wall."""
     rest_s: Annotated[float, Field(ge=0.5, le=60.0)] = 3.0
     """Dwell time of the tip on a landmark."""
@@ -136,7 +141,7 @@ class RehearsalConfig(Section):
     """Add a marker on the patient."""
     events: Annotated[list[RehearsalEventConfig], Field(max_length=20)] = []
     """Simulated faults."""
-    board: Literal["dots", "checkerboard", "charuco"] = "dots"
+    board: RehearsalBoard = "dots"
     """The calibration board in the scene."""
     provides_setup: bool = True
     """false: camera, tool, plan and registration have to be set up first."""

@@ -265,6 +265,12 @@ class Preparation:
         )
 
 
+def drill_limits(config: Config) -> DrillLimits:
+    """Return the limits of a drill that the settings have."""
+    alarms = config.alarms
+    return DrillLimits(warning_distance_mm=alarms.warning_distance_mm, breach_ratio=alarms.breach_ratio)
+
+
 def build_setup(config: Config) -> Preparation:
     """Build the setup from the settings.
 
@@ -295,9 +301,7 @@ def build_setup(config: Config) -> Preparation:
         reference=config.reference.marker or "",
         score_settings=scores,
         max_tip_sd_mm=config.limits.max_tip_sd_mm,
-        limits=DrillLimits(
-            warning_distance_mm=config.alarms.warning_distance_mm, breach_ratio=config.alarms.breach_ratio
-        ),
+        limits=drill_limits(config),
         smoothing=smoothing,
         readout_s=(config.camera.readout_ms or (camera.readout_ms if camera else None) or 0.0) / 1000.0,
     )

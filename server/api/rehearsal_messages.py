@@ -1,10 +1,10 @@
 """Messages of the rehearsal."""
 
-from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
+from typing import TYPE_CHECKING, Annotated, TypeVar
 
 from pydantic import Field
 
-from server.config import RehearsalEventConfig
+from server.config import RehearsalBoard, RehearsalEventConfig, RehearsalScene, RehearsalSkill
 from server.stream.messages import Message
 from tracker.geometry import Rigid
 
@@ -20,9 +20,9 @@ From = TypeVar("From")
 class SceneRequest(Message):
     """Another scene in the same theatre; omitted values except events stay unchanged."""
 
-    scene: Literal["operation", "pivot", "spin", "board", "landmarks", "sweep", "check"]
-    skill: Literal["wandering", "good", "breaching"] | None = None
-    board: Literal["dots", "checkerboard", "charuco"] | None = None
+    scene: RehearsalScene
+    skill: RehearsalSkill | None = None
+    board: RehearsalBoard | None = None
     events: Annotated[list[RehearsalEventConfig], Field(default_factory=list, max_length=20)]
     """Times are relative to the start of the scene."""
 

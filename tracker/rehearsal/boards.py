@@ -86,14 +86,7 @@ class PrintedBoard:
 
 def printed(board: Board) -> PrintedBoard:
     """Return the printed board with a white rim."""
-    points = board.object_points_mm[:, :2]
-    match board:
-        case DotBoard():
-            reach = board.pitch_mm
-        case CheckerBoard():
-            reach = board.square_mm
-        case CharucoBoard():
-            reach = board.square_mm
+    points, reach = board.object_points_mm[:, :2], _reach_mm(board)
     low = points.min(axis=0) - reach - RIM_MM
     high = points.max(axis=0) + reach + RIM_MM
     width, height = (int(v) for v in np.ceil((high - low) * PER_MM))
@@ -107,6 +100,15 @@ def printed(board: Board) -> PrintedBoard:
         case CharucoBoard():
             _print_charuco(face, board, origin)
     return PrintedBoard(board=board, face=face, origin_px=(float(origin[0]), float(origin[1])))
+
+
+def _reach_mm(board: Board) -> float:
+    """Return how far the ink may reach beyond the outermost points."""
+    match board:
+        case DotBoard():
+            return board.pitch_mm
+        case CheckerBoard() | CharucoBoard():
+            return board.square_mm
 
 
 class BoardHand:

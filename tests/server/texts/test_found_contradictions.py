@@ -196,11 +196,12 @@ def test_the_risk_of_one_drill_is_not_reported_of_another() -> None:
     assert theatre.sentence(Condition.BREACH_LIKELY).startswith(f"awl: Risk of breach {risks['awl']:.0f} %")
 
 
-@pytest.mark.parametrize(("key", "value"), [("warning_distance_mm", 1.04), ("breach_ratio", 0.055)])
-def test_alarm_and_figure_have_one_limit(key: str, value: float) -> None:
+@pytest.mark.parametrize(
+    ("key", "value", "limit"), [("warning_distance_mm", 1.04, 1.1), ("breach_ratio", 0.055, 0.05)]
+)
+def test_alarm_and_figure_have_one_limit(key: str, value: float, limit: float) -> None:
     limits = alarm_limits(Config.model_validate({"alarms": {key: value}}))
-    assert limits.warning_distance_mm == pytest.approx(1.1 if key == "warning_distance_mm" else 1.0)
-    assert limits.breach_ratio == pytest.approx(0.05)
+    assert getattr(limits, key) == pytest.approx(limit)
 
 
 def test_an_alarm_with_the_smallest_limit_can_be_cleared() -> None:

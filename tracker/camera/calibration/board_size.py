@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from tracker.camera.boards import Board, CharucoBoard, CheckerBoard
+from tracker.camera.boards import Board, CheckerBoard, DotBoard
 from tracker.camera.calibration.report import CalibrationReport, CalibrationWarning
 from tracker.camera.detection.view import BoardView
 
@@ -41,7 +41,7 @@ def likely_size(views: Sequence[BoardView], board: Board) -> tuple[int, int] | N
     and none contains more of the board. None for a ChArUco board, whose corners are identified by their
     markers.
     """
-    if isinstance(board, CharucoBoard) or not views:
+    if not isinstance(board, DotBoard | CheckerBoard) or not views:
         return None
     spans = []
     for view in views:

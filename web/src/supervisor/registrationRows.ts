@@ -15,7 +15,7 @@ const LIMIT_OF: Partial<Record<NumberName, string>> = {
   fre_rms_mm: "max_fre_mm",
   leave_one_out_mm: "max_left_out_mm",
   tre_at_entry_mm: "max_tre_mm",
-  surface_rms_mm: "max_surface_rms_mm",
+  rms_mm: "max_rms_mm",
 };
 const NAMES: readonly NumberName[] = [
   "points",
@@ -23,7 +23,7 @@ const NAMES: readonly NumberName[] = [
   "fre_rms_mm",
   "leave_one_out_mm",
   "worst_offset_mm",
-  "surface_rms_mm",
+  "rms_mm",
   "tre_at_entry_mm",
   "depth_sd_mm",
   "across_sd_mm",

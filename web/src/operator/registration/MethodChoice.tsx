@@ -5,7 +5,6 @@ import { SetupCheckNote } from "../SetupCheckNote";
 import { RegistrationNow } from "./RegistrationNow";
 import { useActiveProcedures } from "./useActiveProcedures";
 
-export const METHODS = ["points", "needles", "surface"] as const;
 const PATH = { points: "points", needles: "needles", surface: "sweep" } as const;
 
 /** Registration methods, with what each determines and misses, and their state. */
@@ -19,7 +18,7 @@ export function MethodChoice(): ReactNode {
       <SetupCheckNote />
       <p className="quiet">{texts.choice.ends}</p>
       <ul className="methods">
-        {METHODS.map((method) => (
+        {(Object.keys(PATH) as (keyof typeof PATH)[]).map((method) => (
           <li key={method}>
             <Link href={`/operator/register/${PATH[method]}`} data-testid={`method-${method}`}>
               <strong>{texts.method[method]}</strong>

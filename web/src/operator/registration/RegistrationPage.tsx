@@ -36,7 +36,7 @@ export function RegistrationPage(): ReactNode {
         <Link href="/operator/register" data-testid="back-to-ways">
           ← {texts.overview}
         </Link>
-        {(["points", "needles", "sweep", "nudges"] as const).map((one) => (
+        {(Object.keys(WAYS) as Way[]).map((one) => (
           <Link
             key={one}
             href={`/operator/register/${one}`}

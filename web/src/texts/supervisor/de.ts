@@ -69,7 +69,7 @@ export const supervisorDe: SupervisorTexts = {
       across_sd_mm: "Quer, Standardabweichung",
       tilt_sd_deg: "Kippung, Standardabweichung",
       turn_sd_deg: "Drehung, Standardabweichung",
-      surface_rms_mm: "Abstand zur Knochenoberfläche (RMS)",
+      rms_mm: "Abstand zur Knochenoberfläche (RMS)",
       nudges: "Korrekturen von Hand",
       nudged_mm: "Verschoben um",
       nudged_deg: "Gedreht um",

@@ -73,7 +73,7 @@ export const supervisorEn = {
       across_sd_mm: "Across, standard deviation",
       tilt_sd_deg: "Tilt, standard deviation",
       turn_sd_deg: "Rotation, standard deviation",
-      surface_rms_mm: "Distance to the bone surface (RMS)",
+      rms_mm: "Distance to the bone surface (RMS)",
       nudges: "Nudges by hand",
       nudged_mm: "Shifted by",
       nudged_deg: "Rotated by",
