@@ -22,7 +22,8 @@ def migrate(engine: Engine, home: Home, *, now: Callable[[], datetime], migratio
     """Migrate the database to the newest schema in this folder.
 
     Raises:
-        StoreError: STORE_SCHEMA_UNKNOWN, the database is newer than this program or older than its first schema.
+        StoreError: STORE_SCHEMA_UNKNOWN, the database is newer than this program or older than its first
+            schema.
     """
     config = Config()
     config.set_main_option("script_location", str(migrations).replace("%", "%%"))
