@@ -21,6 +21,8 @@ from server.tool_file import tool_from_config, tool_mistakes
 from tracker.errors import NavigationError
 
 DEFAULT_FILE = Path("config.yaml")
+# COAXIAL__CAMERA__RATE_HZ is the key camera.rate_hz.
+ENVIRONMENT_PREFIX, ENVIRONMENT_SEPARATOR = "COAXIAL__", "__"
 Key: TypeAlias = tuple[str | int, ...]
 
 
@@ -50,7 +52,8 @@ def load_config(
 ) -> Config:
     """Load the settings from `path`, else ./config.yaml if it exists, else the defaults.
 
-    The environment (COAXIAL_PORT) overrides the file, and `overrides` (the command line) overrides both.
+    The environment (COAXIAL__CAMERA__RATE_HZ for `camera.rate_hz`, its value in YAML; COAXIAL_PORT) overrides
+    the file, and `overrides` (the command line) overrides both.
     Paths in the file are relative to the file, paths in overrides to the working directory.
 
     Raises:
@@ -147,11 +150,30 @@ def _yaml_error(file: Path, error: Exception) -> ConfigError:
 
 
 def _from_environment(environment: Mapping[str, str]) -> dict[tuple[str, ...], Override]:
+    settings: dict[tuple[str, ...], Override] = {}
     port = environment.get("COAXIAL_PORT", "").strip()
-    if not port:
-        return {}
-    value: object = int(port) if port.isdecimal() and port.isascii() else port
-    return {("server", "port"): Override(value=value, origin="COAXIAL_PORT")}
+    if port:
+        value: object = int(port) if port.isdecimal() and port.isascii() else port
+        settings[("server", "port")] = Override(value=value, origin="COAXIAL_PORT")
+    # Sorted: a section comes before the keys in it.
+    for name in sorted(environment):
+        text = environment[name].strip()
+        if name.startswith(ENVIRONMENT_PREFIX) and text:
+            key = tuple(name.removeprefix(ENVIRONMENT_PREFIX).lower().split(ENVIRONMENT_SEPARATOR))
+            settings[key] = Override(value=_yaml_value(name, text), origin=name)
+    return settings
+
+
+def _yaml_value(name: str, text: str) -> object:
+    try:
+        return yaml.load(text, Loader=_StrictLoader)  # noqa: S506  a SafeLoader
+    except (ValueError, RecursionError, yaml.YAMLError) as error:
+        raise ConfigError(
+            "CONFIG_INVALID",
+            f"{name} is not valid YAML: {getattr(error, 'problem', None) or error}",
+            "Write the value as in config.yaml, a list as [1, 2].",
+            {"name": name},
+        ) from None
 
 
 def _set(raw: dict[str, Any], key: tuple[str, ...], value: object) -> None:

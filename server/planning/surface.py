@@ -1,4 +1,4 @@
-"""Job functions that create the bone surface from a CT or a mesh file."""
+"""Job functions that create the bone surface from a CT or a mesh file, and measure distances to it."""
 
 import dataclasses
 from dataclasses import dataclass
@@ -8,6 +8,8 @@ from server.imaging.meshes import mesh_from_bytes, ply_from_surface
 from server.jobs import Report
 from server.planning.volume import load_volume
 from tracker.errors import InvalidInput
+from tracker.navigation.clearance import WallSelection, select_wall
+from tracker.plan import Channel, PedicleMeasure
 from tracker.plan.bone import BoneSettings, BoneSurface, bone_surface
 from tracker.plan.document import plain
 from tracker.plan.mesh import MeshSurface
@@ -53,6 +55,15 @@ def surface_of_file(report: Report, *, order: MeshRequest, folder: str) -> dict[
     )
     (Path(folder) / PLY).write_bytes(ply_from_surface(found.surface))
     return {"source": "file", **_summary(found)}
+
+
+def measure_wall(
+    report: Report, *, path: str, channel: Channel, measure: PedicleMeasure | None, radius_mm: float
+) -> WallSelection:
+    """Job: choose the wall around a channel from a stored bone surface (PLY, mm, LPS)."""
+    report(0.1, "measuring the distances to the bone")
+    found = mesh_from_bytes(Path(path).read_bytes(), file_format="ply", unit="mm", space=Space.LPS)
+    return select_wall(channel, found.surface, measure, radius_mm=radius_mm)
 
 
 def format_of(content: bytes) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import structlog
 
 from server.jobs import Jobs
-from server.planning.wall import measure_wall
+from server.planning.surface import measure_wall
 from server.procedure.plan import ActiveChannel, active_channel_from_document
 from server.procedure.surface import MAIN_SURFACE
 from server.store import CaseStore, Current, Document, DocumentKind

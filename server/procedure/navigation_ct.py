@@ -13,7 +13,7 @@ from functools import cached_property
 
 from server.errors import SetupOrderError
 from server.jobs import Jobs
-from server.planning.rehearsal_ct import scan_rehearsal
+from server.planning.volume import scan_rehearsal
 from server.procedure.ct import CtProvider
 from server.procedure.open_case import require_open_case
 from server.procedure.plan import active_channel_document, active_channel_from_document, planned_ct_id

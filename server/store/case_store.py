@@ -38,7 +38,7 @@ class CaseStore:
 
     Raises (every method):
         StoreError: STORE_FULL, STORE_READ_ONLY, STORE_BUSY, STORE_DAMAGED, STORE_FAILED; at the start also
-            STORE_NEWER.
+            STORE_SCHEMA_UNKNOWN.
         NotFound: CASE_UNKNOWN, DOCUMENT_UNKNOWN, FILE_UNKNOWN.
     """
 

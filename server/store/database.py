@@ -33,7 +33,7 @@ def open_database(home: Home, *, now: Callable[[], datetime], migrations: Path =
     """Open the database of a home, after an integrity check and migration to the current schema.
 
     Raises:
-        StoreError: STORE_DAMAGED, STORE_NEWER, or as the disk says.
+        StoreError: STORE_DAMAGED, STORE_SCHEMA_UNKNOWN, or as the disk says.
     """
     engine = create_engine(f"sqlite:///{home.database}")
     event.listen(engine, "connect", _prepare)

@@ -22,7 +22,8 @@ def migrate(engine: Engine, home: Home, *, now: Callable[[], datetime], migratio
     """Migrate the database to the newest schema in this folder.
 
     Raises:
-        StoreError: STORE_NEWER.
+        StoreError: STORE_SCHEMA_UNKNOWN, the database is newer than this program or older than its first
+            schema.
     """
     config = Config()
     config.set_main_option("script_location", str(migrations).replace("%", "%%"))
@@ -33,23 +34,23 @@ def migrate(engine: Engine, home: Home, *, now: Callable[[], datetime], migratio
     if revision == wanted:
         return
     if revision is not None:
-        _reject_newer(ScriptDirectory.from_config(config), revision, home)
+        _reject_unknown(ScriptDirectory.from_config(config), revision, home)
         _back_up(engine, home, name=f"coaxial-{revision}-{now():%Y%m%dT%H%M%SZ}.sqlite3")
     with with_immediate_transactions(engine).begin() as connection:
         config.attributes["connection"] = connection
         command.upgrade(config, "head")
 
 
-def _reject_newer(scripts: ScriptDirectory, revision: str, home: Home) -> None:
+def _reject_unknown(scripts: ScriptDirectory, revision: str, home: Home) -> None:
     try:
         scripts.get_revision(revision)
     except CommandError as error:
         raise StoreError(
-            "STORE_NEWER",
-            f"the database in {home.folder} was made by a newer Coaxial (its schema is {revision}, this "
-            f"program supports schemas up to {scripts.get_current_head()})",
-            "Start the newer program again, or name another folder with COAXIAL_HOME.",
-            {"found": revision, "known": scripts.get_current_head()},
+            "STORE_SCHEMA_UNKNOWN",
+            f"the database in {home.folder} has schema {revision}, this program supports schemas "
+            f"{scripts.get_base()} to {scripts.get_current_head()}",
+            "Start the version of Coaxial that made it, or name another folder with COAXIAL_HOME.",
+            {"found": revision, "first": scripts.get_base(), "newest": scripts.get_current_head()},
         ) from error
 
 

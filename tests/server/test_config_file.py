@@ -1,5 +1,6 @@
 """Settings: their sources, and error messages for all mistakes."""
 
+import operator
 from pathlib import Path
 
 import cv2
@@ -176,3 +177,57 @@ def test_typed_beats_environment_beats_file_and_each_is_named_when_it_is_wrong(t
     typed = {("server", "port"): Override(value=-3, origin="--port")}
     with pytest.raises(ConfigError, match=r"^--port: 'server\.port' is -3"):
         load_config(file, overrides=typed, environment={})
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "key", "value"),
+    [
+        pytest.param("COAXIAL__CAMERA__RATE", "fast", "camera.rate", "fast", id="a-word"),
+        pytest.param("COAXIAL__CAMERA__RATE_HZ", "25", "camera.rate_hz", 25.0, id="a-rate"),
+        pytest.param("COAXIAL__CAMERA__LOOP", "false", "camera.loop", False, id="a-flag"),
+        pytest.param("COAXIAL__SECURITY__SIGN_IN", "off", "security.sign_in", "off", id="off-is-no-flag"),
+        pytest.param("COAXIAL__SERVER__PORT", "9", "server.port", 9, id="a-number"),
+        pytest.param("COAXIAL__PLUGINS__SINKS", "[]", "plugins.sinks", [], id="a-list"),
+        pytest.param("COAXIAL__CAMERA__RATE_HZ", "null", "camera.rate_hz", None, id="null"),
+        pytest.param("COAXIAL__SERVER__PORT", " ", "server.port", 1, id="empty-is-not-set"),
+    ],
+)
+def test_every_setting_comes_from_the_environment(
+    tmp_path: Path, name: str, text: str, key: str, value: object
+) -> None:
+    file = settings(tmp_path, {"server": {"port": 1}, "camera": {"loop": True, "rate_hz": 20}})
+    config = load_config(file, environment={name: text, "COAXIAL_HOME": "elsewhere"})
+    assert operator.attrgetter(key)(config) == value
+
+
+def test_an_entry_of_a_section_comes_from_the_environment(tmp_path: Path) -> None:
+    picture = np.zeros((20, 20), np.uint8)
+    picture[5:9, 5:9] = 255
+    cv2.imwrite(str(tmp_path / "m.png"), picture)
+    file = settings(tmp_path, {"markers": {"m": {"image": "m.png", "side_mm": 4}}})
+    assert load_config(file, environment={"COAXIAL__MARKERS__M__SIDE_MM": "5.5"}).markers["m"].side_mm == 5.5
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        pytest.param(
+            "COAXIAL__CAMERA__RATES",
+            "fast",
+            r"^COAXIAL__CAMERA__RATES: 'camera\.rates' is not a known key, did you mean 'camera\.rate'\?",
+            id="no-such-key",
+        ),
+        pytest.param(
+            "COAXIAL__SERVER__PORT",
+            "x",
+            r"^COAXIAL__SERVER__PORT: 'server\.port' is 'x', allowed: a whole number from 0",
+            id="no-such-value",
+        ),
+        pytest.param("COAXIAL__CAMERA__RATE", "[", "^COAXIAL__CAMERA__RATE is not valid YAML", id="no-yaml"),
+    ],
+)
+def test_a_wrong_setting_of_the_environment_is_named(
+    tmp_path: Path, name: str, text: str, message: str
+) -> None:
+    with pytest.raises(ConfigError, match=message):
+        load_config(settings(tmp_path, {}), environment={name: text})

@@ -8,7 +8,7 @@ import numpy as np
 
 from server.config import PlanConfig
 from server.jobs import Job, Jobs
-from server.planning.pedicle import measure_in_ct
+from server.planning.volume import measure_in_ct
 from server.procedure.ct import CtProvider
 from server.procedure.plan.repository import PlanRepository, StoredPlan
 from server.store import CaseStore

@@ -1,1 +1,1 @@
-"""The changes of the database, in the order that `down_revision` tells; none is ever edited again."""
+"""Migrations of the database, in the order of their `down_revision`; none is edited after a release."""

@@ -1,14 +1,28 @@
-"""Cases, documents with what they stand on, and files."""
+"""The first schema that is migrated: cases, documents with their bases, and files.
+
+Schema 1 existed only during development; its databases are rejected.
+"""
 
 import sqlalchemy as sa
 from alembic import op
 
-revision = "1"
+revision = "2"
 down_revision = None
 branch_labels = None
 depends_on = None
 
-NEVER_CHANGED = ("case_id", "id", "kind", "name", "version", "content", "made_at", "made_by")
+NEVER_CHANGED = (
+    "case_id",
+    "id",
+    "kind",
+    "name",
+    "version",
+    "content",
+    "made_at",
+    "made_by",
+    "imported_by",
+    "imported_at",
+)
 
 
 def upgrade() -> None:
@@ -42,6 +56,8 @@ def upgrade() -> None:
         sa.Column("withdrawn_at", sa.String),
         sa.Column("withdrawn_by", sa.String),
         sa.Column("withdrawn_reason", sa.String),
+        sa.Column("imported_by", sa.String),
+        sa.Column("imported_at", sa.String),
         sa.UniqueConstraint("case_id", "kind", "name", "version", name="one_document_a_version"),
         sa.CheckConstraint("version >= 1", name="versions_count_from_one"),
     )

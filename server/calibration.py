@@ -1,0 +1,152 @@
+"""Reports of a camera calibration and an accuracy check: values and plots for the command line and cases."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from tracker.camera.accuracy import AccuracyReport
+from tracker.camera.calibration import CalibrationReport, ViewReport
+
+ROW_COLUMNS = ("x1_mm", "y1_mm", "x2_mm", "y2_mm", "u1_px", "v1_px", "u2_px", "v2_px")
+# The longest usual arrow, as a part of the image's width.
+ARROW_RATIO = 0.03
+GRID = (8, 6)
+INK, DOT, CELL = "#1d2430", "#c2410c", "#93c5fd"
+
+
+def report_values(report: CalibrationReport) -> dict[str, object]:
+    """Return the report without its views; unknown values are None."""
+    return {
+        "rms_px": report.rms_px,
+        "matrix": report.camera.matrix.tolist(),
+        "distortion": report.camera.distortion.tolist(),
+        "size_wh_px": list(report.camera.size_wh_px),
+        "noise_px": report.noise_px,
+        "noise_is_alike": report.is_noise_correlated,
+        "pixel_aspect_ratio": report.pixel_aspect_ratio,
+        "parameters": [
+            {
+                "name": one.name,
+                "value": one.value,
+                "sd": one.sd,
+                "low_95": one.low_95,
+                "high_95": one.high_95,
+                "degrees_of_freedom": one.degrees_of_freedom,
+            }
+            for one in report.parameters
+        ],
+        "covariance": report.covariance.tolist(),
+        "coverage": {
+            "cells_ratio": report.coverage.cells_ratio,
+            "hull_ratio": report.coverage.hull_ratio,
+            "corner_reach_ratios": list(report.coverage.corner_reach_ratios),
+        },
+        "model": {
+            "coefficients": report.choice.coefficients,
+            "held_out_rms_px": {str(model): rms for model, rms in report.choice.held_out_rms_px},
+            "reason": report.choice.reason,
+        },
+        "warnings": [
+            {"code": one.code, "message": one.message, "remedy": one.remedy} for one in report.warnings
+        ],
+    }
+
+
+def view_values(view: ViewReport) -> dict[str, object]:
+    """Return the result of one view of the board."""
+    return {
+        "image": view.name,
+        "used": view.used,
+        "rms_px": None if math.isnan(view.rms_px) else view.rms_px,
+        "reason": view.reason,
+        "points": view.points,
+        "dropped_points": view.dropped_points,
+        "tilt_deg": view.tilt_deg,
+        "distance_mm": view.distance_mm,
+    }
+
+
+def accuracy_values(report: AccuracyReport, *, limit_mm: float) -> dict[str, object]:
+    """Return the check, and whether it is within its limit."""
+    seen = ("pixel_distance_px", "pixels_per_mm", "measured_mm", "error_mm")
+    names = (*ROW_COLUMNS[:4], "known_mm", *ROW_COLUMNS[4:], *seen)
+    return {
+        "passed": report.maximum_error_mm <= limit_mm,
+        "limit_mm": limit_mm,
+        "maximum_error_mm": report.maximum_error_mm,
+        "rms_error_mm": report.rms_error_mm,
+        "plane_distance_mm": report.plane_distance_mm,
+        "fit_points": report.fit_points,
+        "fit_rms_px": report.fit_rms_px,
+        "rows": [dict(zip(names, row, strict=True)) for row in accuracy_rows(report)],
+    }
+
+
+def accuracy_rows(report: AccuracyReport) -> list[list[float]]:
+    """The rows of the paper's Table 2: X1 Y1 X2 Y2 Rd in mm, X1 Y1 X2 Y2 Pd in px, Pd/Rd, measured, error."""
+    of = report.displacements
+    return [
+        [*first_mm, *second_mm, known, *first_px, *second_px, seen, ratio, measured, error]
+        for first_mm, second_mm, known, first_px, second_px, seen, ratio, measured, error in zip(
+            of.first_mm.tolist(),
+            of.second_mm.tolist(),
+            report.known_mm.tolist(),
+            of.first_px.tolist(),
+            of.second_px.tolist(),
+            report.pixel_distances_px.tolist(),
+            report.pixels_per_mm.tolist(),
+            report.measured_mm.tolist(),
+            report.errors_mm.tolist(),
+            strict=True,
+        )
+    ]
+
+
+def residuals_svg(report: CalibrationReport) -> str:
+    """Plot the residual of each point as a magnified arrow from the projected to the detected point."""
+    used = [view for view in report.views if view.used]
+    lengths = np.concatenate([np.linalg.norm(view.residuals_px, axis=1) for view in used])
+    usual = max(float(np.percentile(lengths, 95)), 1e-6)
+    width = report.camera.size_wh_px[0]
+    scale = ARROW_RATIO * width / usual
+    title = f"Residuals, {scale:.0f} times enlarged: RMS {report.rms_px:.3f} px in {len(used)} views"
+
+    def arrows() -> Iterator[str]:
+        for view in used:
+            for (x, y), (dx, dy) in zip(view.image_points_px, view.residuals_px * scale, strict=True):
+                yield f'<path d="M{x:.1f} {y:.1f}l{dx:.1f} {dy:.1f}"/>'
+                yield f'<circle cx="{x:.1f}" cy="{y:.1f}" r="1.5"/>'
+
+    body = f'<g stroke="{DOT}" stroke-width="{width / 900:.2f}" fill="{INK}">{"".join(arrows())}</g>'
+    return _page(report, title, body)
+
+
+def coverage_svg(report: CalibrationReport) -> str:
+    """Plot all points, and the cells of the image that contain any."""
+    used = [view for view in report.views if view.used]
+    points = np.concatenate([view.image_points_px for view in used])
+    size = np.array(report.camera.size_wh_px, dtype=np.float64)
+    cells = np.unique(np.clip((points / size * GRID).astype(int), 0, np.array(GRID) - 1), axis=0)
+    wide, high = size / GRID
+    filled = "".join(
+        f'<rect x="{x * wide:.1f}" y="{y * high:.1f}" width="{wide:.1f}" height="{high:.1f}"/>'
+        for x, y in cells
+    )
+    dots = "".join(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{size[0] / 400:.1f}"/>' for x, y in points)
+    share = 100 * report.coverage.cells_ratio
+    body = f'<g fill="{CELL}" fill-opacity="0.5">{filled}</g><g fill="{DOT}">{dots}</g>'
+    return _page(report, f"Coverage: points in {share:.0f} % of the cells, {len(used)} views", body)
+
+
+def _page(report: CalibrationReport, title: str, body: str) -> str:
+    width, height = report.camera.size_wh_px
+    letter = height / 30
+    top, whole = -2 * letter, height + 2 * letter
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 {top:.1f} {width} {whole:.1f}">'
+        f'<rect y="{top:.1f}" width="{width}" height="{whole:.1f}" fill="white"/>'
+        f'<rect width="{width}" height="{height}" fill="none" stroke="{INK}"/>{body}'
+        f'<text y="{-0.6 * letter:.1f}" font-family="sans-serif" font-size="{letter:.1f}">{title}</text>'
+        "</svg>\n"
+    )
