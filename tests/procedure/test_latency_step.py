@@ -219,7 +219,7 @@ def test_a_page_that_left_ends_it(server: Server) -> None:
     problem = measurement.status().problem
     assert problem is not None
     assert problem.code == "LATENCY_PAGE_LEFT"
-    assert problem.message == "the page that shows the codes was silent for 10.0 s, allowed 5 s"
+    assert problem.message == "the page that shows the codes was silent for 10.0 s, limit 5 s"
     measurement.stop()
 
 
