@@ -22,7 +22,7 @@ def accuracy_values(report: AccuracyReport, *, limit_mm: float) -> dict[str, obj
 
 
 def accuracy_rows(report: AccuracyReport) -> list[list[float]]:
-    """The rows of the paper's Table 2: X1 Y1 X2 Y2 Rd in mm, X1 Y1 X2 Y2 Pd in px, Pd/Rd, measured, error."""
+    """Return the rows of Table 2: X1 Y1 X2 Y2 Rd in mm, X1 Y1 X2 Y2 Pd in px, Pd/Rd, measured, error."""
     of = report.displacements
     return [
         [*first_mm, *second_mm, known, *first_px, *second_px, seen, ratio, measured, error]

@@ -6,7 +6,7 @@ import numpy as np
 
 from tracker.camera.calibration import CalibrationReport
 
-# The longest usual arrow, as a part of the image's width.
+# Length of the longest usual arrow, relative to the image width.
 ARROW_RATIO = 0.03
 GRID = (8, 6)
 INK, DOT, CELL = "#1d2430", "#c2410c", "#93c5fd"

@@ -7,7 +7,7 @@ from tracker.plan.crop import cropped_around
 
 def scan_rehearsal(report: Report) -> Volume:
     """Return the part around both pedicles of the CT that `GET /api/rehearsal/ct` returns."""
-    # Imported here: the server itself needs no simulation.
+    # Imported here, because only this job needs the simulation.
     from tracker.rehearsal.anatomy import pedicle_channels  # noqa: PLC0415
     from tracker.rehearsal.ct import rehearsal_ct  # noqa: PLC0415
 

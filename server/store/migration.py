@@ -48,7 +48,7 @@ def _reject_newer(scripts: ScriptDirectory, revision: str, home: Home) -> None:
             "STORE_NEWER",
             f"the database in {home.folder} was made by a newer Coaxial (its schema is {revision}, this "
             f"program supports schemas up to {scripts.get_current_head()})",
-            "Start the newer program again, or name another folder with COAXIAL_HOME.",
+            "Start the newer program, or set COAXIAL_HOME to another folder.",
             {"found": revision, "known": scripts.get_current_head()},
         ) from error
 

@@ -1,1 +1,1 @@
-"""The changes of the database, in the order that `down_revision` tells; none is ever edited again."""
+"""Migrations in the order of `down_revision`; an existing migration is never edited."""

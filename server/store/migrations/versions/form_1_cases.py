@@ -1,4 +1,4 @@
-"""Cases, documents with what they stand on, and files."""
+"""Cases, documents with their dependencies, and files."""
 
 import sqlalchemy as sa
 from alembic import op
@@ -12,7 +12,7 @@ NEVER_CHANGED = ("case_id", "id", "kind", "name", "version", "content", "made_at
 
 
 def upgrade() -> None:
-    """Make the tables."""
+    """Create the tables."""
     op.create_table(
         "cases",
         sa.Column("id", sa.String, primary_key=True),
@@ -68,7 +68,7 @@ def _case() -> sa.Column[str]:
 
 
 def _link(name: str, *, to: str, column: str, index: str) -> None:
-    """A table that ties documents to something else of their case."""
+    """Create a table that links documents to other records of their case."""
     op.create_table(
         name,
         sa.Column("case_id", sa.String, primary_key=True),

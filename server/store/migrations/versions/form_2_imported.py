@@ -1,4 +1,4 @@
-"""Which documents came in with an archive: who took them in, and when."""
+"""Import of documents with an archive: person and time."""
 
 import sqlalchemy as sa
 from alembic import op
@@ -20,8 +20,8 @@ NEVER_CHANGED = (
     "imported_by",
     "imported_at",
 )
-# Of what was taken in before anybody wrote it down: all documents of such a case, because which of them were
-# made here later is not known.
+# Name for imports before this migration. It marks all documents of an imported case, because it is unknown
+# which of them were made here later.
 NOT_WRITTEN_DOWN = "somebody (not written down)"
 
 
