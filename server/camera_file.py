@@ -29,7 +29,7 @@ class CameraFile:
         controls: Camera controls at the calibration, in driver units; empty if not stated.
         device: `CameraStatus.device` at the calibration; empty if not stated.
         readout_ms: Readout time from the first to the last row; None if not stated.
-        report: What is stated of the calibration (rms_px, sd, warnings); see `server.camera_remarks`.
+        report: Results of the calibration (rms_px, sd, warnings); see `server.camera_remarks`.
     """
 
     model: CameraModel
@@ -82,7 +82,7 @@ def controls_in(camera: Mapping[str, object]) -> Mapping[CameraControl, int]:
     """Return the camera controls under `controls`; empty without this key.
 
     Raises:
-        InvalidInput: CAMERA_FILE_INVALID, a control that is not known, or a value that is no whole number.
+        InvalidInput: CAMERA_FILE_INVALID, a control is unknown, or a value is not an integer.
     """
     values = camera.get("controls", {})
     known = [control.value for control in CameraControl]
@@ -103,7 +103,7 @@ def readout_in(camera: Mapping[str, object]) -> float | None:
     """Return the readout time under `readout_ms`; None without this key.
 
     Raises:
-        InvalidInput: CAMERA_FILE_INVALID, it is no number from 0 to 200.
+        InvalidInput: CAMERA_FILE_INVALID, the value is not a number from 0 to 200.
     """
     value = camera.get("readout_ms")
     if value is None:

@@ -1,4 +1,4 @@
-"""Warnings about cameras whose own calibration report makes them doubtful."""
+"""Warnings about cameras whose calibration report has poor results."""
 
 import math
 from collections.abc import Mapping
@@ -17,10 +17,10 @@ REMEDY = (
 
 
 def warn_of_doubtful_camera(file: CameraFile, *, title: str, max_rms_px: float) -> None:
-    """Log a warning where the report that came with a camera contradicts it."""
+    """Log a warning if the calibration report of a camera has poor results."""
     doubts = doubts_of(file, max_rms_px=max_rms_px)
     if doubts:
-        message = f"{title} is doubtful by its own report: {'; '.join(doubts)}"
+        message = f"the calibration report of {title} has poor results: {'; '.join(doubts)}"
         log.warning(message, code="CAMERA_DOUBTFUL", remedy=REMEDY)
 
 
@@ -38,15 +38,13 @@ def warn_of_configured_camera(config: Config) -> None:
 
 
 def doubts_of(file: CameraFile, *, max_rms_px: float) -> list[str]:
-    """Return what the report of a camera says against it: RMS, standard deviations, its own warnings."""
+    """Return the poor results in the report of a camera: RMS, standard deviations, warnings."""
     report, doubts = file.report, []
     if "rms_px" in report:
         rms_px = _number(report["rms_px"])
-        # Real points never fit exactly.
+        # An RMS of 0 is implausible, because real points never fit exactly.
         if not 0.0 < rms_px <= max_rms_px:
-            doubts.append(
-                f"rms_px is {report['rms_px']}, accepted are values above 0 up to {max_rms_px:g} px"
-            )
+            doubts.append(f"rms_px is {report['rms_px']}, allowed: above 0 to {max_rms_px:g} px")
     matrix = file.model.matrix
     middle_px = MAX_MIDDLE_SD_WARNING_RATIO * max(file.model.size_wh_px)
     limits = {
@@ -57,16 +55,18 @@ def doubts_of(file: CameraFile, *, max_rms_px: float) -> list[str]:
     }
     for name, sd in _standard_deviations(report).items():
         if name in limits and not 0.0 <= _number(sd) <= limits[name]:
-            doubts.append(f"the standard deviation of {name} is {sd} px, advised is {limits[name]:.1f} px")
+            doubts.append(
+                f"the standard deviation of {name} is {sd} px, recommended up to {limits[name]:.1f} px"
+            )
     warned = report.get("warnings")
     if isinstance(warned, list) and warned:
         codes = [one.get("code") if isinstance(one, Mapping) else one for one in warned]
-        doubts.append(f"its calibration warned of {', '.join(map(str, codes))}")
+        doubts.append(f"it has the warnings {', '.join(map(str, codes))}")
     return doubts
 
 
 def _standard_deviations(report: Mapping[str, object]) -> Mapping[str, object]:
-    """Return them by name: `sd` of a camera file, `parameters` of a case's report."""
+    """Return the standard deviations by name: `sd` of a camera file, or `parameters` of a case's report."""
     sd, parameters = report.get("sd"), report.get("parameters")
     if isinstance(sd, Mapping):
         return sd

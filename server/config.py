@@ -1,7 +1,7 @@
-"""The settings: what config.yaml may say, with the ranges that are allowed.
+"""The settings of config.yaml with their allowed ranges.
 
-Every limit has its one home here; screen, overlay and alarm read the same field. How a file becomes these
-records, and how a mistake in it is reported, is in `server.config_file`.
+Each limit is defined only here; screen, overlay and alarm read the same field. `server.config_file` loads a
+file into these records and reports its errors.
 """
 
 from pathlib import Path
@@ -304,7 +304,7 @@ class OpenIgtLinkConfig(Section):
     """Poses for other programs by OpenIGTLink, which knows neither encryption nor sign-in."""
 
     port: Annotated[int, Field(ge=0, le=65535)] | None = None
-    """18944 is usual, 0 selects a free port; default: off."""
+    """18944 is the standard port, 0 selects a free port; default: off."""
     host: Annotated[str, StringConstraints(min_length=1)] = "127.0.0.1"
     unencrypted: Literal["anybody who reaches this port reads the poses"] | None = None
     """Exactly this text allows a host that is not loopback."""
@@ -313,18 +313,19 @@ class OpenIgtLinkConfig(Section):
     header_version: Literal[1, 2] = 1
     """1 is read by every client; 2 adds metadata."""
     max_rate_hz: Annotated[float, Field(ge=1.0, le=240.0)] = 60
-    """Images a second for each client; of more the newest are sent."""
+    """Maximum rate per client; above it only the newest images are sent."""
     max_clients: Annotated[int, Field(ge=1, le=32)] = 4
     camera_frame: FrameName = "Camera"
     vertebra_frame: FrameName = "Vertebra"
     tool_names: dict[Name, DeviceName] = {}
-    """Names of tools in the names of messages, at most 10 characters; default: the tool's own."""
+    """Names of tools in message names, at most 10 characters; default: the name of the tool."""
 
 
 class CosignConfig(Section):
-    """What a second person signs. required: nobody navigates before; offered: it may be done.
+    """Documents that a second person signs. required: navigation waits for it; offered: it is optional.
 
-    An operator can invite a second self: a signature tells who invited the signer, and cannot rule that out.
+    An operator could invite themselves as a second person. A signature states who invited the signer, but
+    cannot exclude this.
     """
 
     plan: Literal["required", "offered"] = "offered"
@@ -356,14 +357,13 @@ class RecordingConfig(Section):
     """Recordings of images, results and alarms in the folder of the case."""
 
     when: Literal["navigating", "manual", "never"] = "manual"
-    """navigating: from the first figures until navigation ends or the case is closed; manual: when somebody
-    starts it."""
+    """navigating: from the first figures until navigation ends or the case is closed; manual: on request."""
     max_total_gb: Annotated[float, Field(gt=0.0, le=100_000.0)] = 200
-    """Of all recordings of all cases; a recording that would exceed it is stopped, and nothing is deleted."""
+    """Limit for all recordings of all cases; a recording that would exceed it is stopped; none is deleted."""
     min_free_gb: Annotated[float, Field(ge=0.0, le=100_000.0)] = 2
     """Free space on the disk at which a recording is stopped."""
     consent: Literal["required", "not_required"] = "required"
-    """required: nothing is recorded until somebody has stated in the case that the patient consented."""
+    """required: nothing is recorded until the patient's consent is stated in the case."""
 
 
 class PluginsConfig(Section):

@@ -1,4 +1,4 @@
-"""Large files: disk space before they are written, and their name only when they are complete."""
+"""Writing of large files: check of the disk space, and renaming when they are complete."""
 
 import errno
 import os
@@ -63,10 +63,10 @@ def reserve_space(path: Path) -> None:
 
 @contextmanager
 def named_when_complete(target: Path) -> Iterator[Path]:
-    """Yield where to write a file; it gets its name after the block, and is removed if that raises.
+    """Yield a temporary path for a file; it is renamed after the block, or removed if the block raises.
 
     Raises:
-        OSError: it cannot be named.
+        OSError: The file cannot be renamed.
     """
     unfinished = target.with_name(f"{target.name}.part")
     try:

@@ -3,7 +3,7 @@
 tracker.errors.NavigationError
 ├── ConfigError       a setting is invalid                            the server does not start
 ├── CaptureError      the image source delivers no images             HTTP 503, retried automatically
-├── RecordingError    a recording cannot be written or read          it stops; navigation goes on
+├── RecordingError    a recording cannot be written or read          it stops; navigation continues
 └── SetupOrderError   a step is requested before its prerequisite     HTTP 409
 """
 

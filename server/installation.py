@@ -26,7 +26,7 @@ def file_candidates(packaged: str, in_checkout: str) -> tuple[Path, Path]:
 
 def service_unit(executable: Path) -> str:
     """Return a systemd unit that starts this `coaxial`."""
-    # Systemd splits at spaces, and replaces what follows a per cent sign.
+    # systemd splits at spaces, and expands specifiers after a per cent sign.
     quoted = str(executable).replace("%", "%%")
     quoted = f'"{quoted}"' if " " in quoted else quoted
     return (PACKAGE / "coaxial.service").read_text(encoding="utf-8").replace(UNIT_EXECUTABLE, quoted)
@@ -39,7 +39,7 @@ def default_settings() -> str:
 
 
 def isolate_imports(environment: MutableMapping[str, str], path: Sequence[str]) -> None:
-    """Let child processes ignore the current folder on import, unless this process imports from it.
+    """Make child processes ignore the current folder on import, unless this process imports from it.
 
     Otherwise a `server.py` in the folder in which an installed `coaxial` is started replaces the package in
     the tracking process. Python reads the variable before it extends the import path.
@@ -53,7 +53,7 @@ def place_code_cache(environment: MutableMapping[str, str], record: str | None) 
 
     Numba checks only the file of a function, not those of its callees, so each content of the tracker has a
     folder of its own and an update cannot run old code. A checkout compiles beside its sources, and `make`
-    deletes what is old.
+    deletes outdated code.
 
     Args:
         environment: The environment of this process. A folder that is set there already is used as it is.

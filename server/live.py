@@ -28,7 +28,7 @@ class SourceState(StrEnum):
 
     OPENING = "opening"
     RUNNING = "running"
-    RECONNECTING = "reconnecting"  # it failed or stopped; it is tried again by itself
+    RECONNECTING = "reconnecting"  # it failed or stopped; it is retried automatically
     ENDED = "ended"  # a file that is not looped has been played to its end
 
 
@@ -72,11 +72,11 @@ class CameraMode:
 class ImageClock(StrEnum):
     """Source of the capture time of an image."""
 
-    DRIVER = "driver"  # the camera's driver stamped it
-    DEVICE = "device"  # the camera itself stamped it, by its own clock
-    SENDER = "sender"  # the stream's sender stamped it; the least delay of its way is not known
-    BROWSER = "browser"  # the browser of the phone that sends it said when it was captured
-    ARRIVAL = "arrival"  # it was read when the image arrived: later, by exposure, transfer and buffers
+    DRIVER = "driver"  # time stamp of the camera's driver
+    DEVICE = "device"  # time stamp of the camera by its own clock
+    SENDER = "sender"  # time stamp of the stream's sender; the minimum network delay is unknown
+    BROWSER = "browser"  # capture time stated by the browser of the phone
+    ARRIVAL = "arrival"  # time of arrival, which is later by exposure, transfer and buffers
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -92,7 +92,7 @@ class CameraStatus:
         flicker: Detected lamp flicker; None if there is none or it is unknown.
         is_predicted: Whether its codec predicts images from earlier ones.
         exposure_unit_ms: Unit of the control EXPOSURE.
-        device: Which camera it is: its model, or its serial number where it has one; empty if unknown.
+        device: Identity of the camera: its model, or its serial number if it has one; empty if unknown.
     """
 
     clock: ImageClock
@@ -173,8 +173,8 @@ class Instant:
         snapshot: Result of the newest image; None before the first image and while capture or tracking is
             stopped, so that an old result is not shown as live.
         image: The camera image without overlay, (h, w, 3) uint8 BGR; None without a snapshot. Read-only.
-        jpeg: A picture that stands in for the image with its overlay, where there is one already; empty for
-            images of a source, whose overlay is drawn for who watches (`server/stream/scaling`).
+        jpeg: A picture to show instead of the image with overlay, if there is one; empty for images of a
+            source, whose overlay is drawn on demand (`server/stream/scaling`).
         alarms: Alarms, including this image.
     """
 

@@ -7,17 +7,17 @@ from typing import Any
 
 import structlog
 
-# Per-request and per-frame lines of these would bury what matters.
+# Loggers whose lines per request or per frame would hide other messages.
 QUIET_LOGGERS = ("alembic", "uvicorn.access", "websockets", "asyncio", "numba", "multipart", "PIL")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LogSettings:
-    """How to log; handed to the tracking process too.
+    """Log settings, also passed to the tracking process.
 
     Attributes:
-        as_json: JSON lines instead of human ones.
-        debug: per-image detail too.
+        as_json: JSON lines instead of text lines.
+        debug: Also log details of each image.
     """
 
     as_json: bool
@@ -25,12 +25,12 @@ class LogSettings:
 
     @classmethod
     def for_terminal(cls, *, as_json: bool | None = None, debug: bool = False) -> "LogSettings":
-        """Human lines when standard error is a terminal, unless asked otherwise."""
+        """Return settings with text lines if standard error is a terminal, unless `as_json` is given."""
         return cls(as_json=not sys.stderr.isatty() if as_json is None else as_json, debug=debug)
 
 
 def configure_logging(settings: LogSettings, *, process: str = "server") -> None:
-    """Send structlog and the standard library's logging the same way, once for this process."""
+    """Configure structlog and the logging of the standard library for this process."""
     level = logging.DEBUG if settings.debug else logging.INFO
     shared: list[Any] = [
         structlog.contextvars.merge_contextvars,
@@ -50,7 +50,7 @@ def configure_logging(settings: LogSettings, *, process: str = "server") -> None
     root.setLevel(level)
     for name in QUIET_LOGGERS:
         logging.getLogger(name).setLevel(logging.WARNING)
-    # Its own lines say the same as ours, in its own words.
+    # Its lines repeat those of this server.
     logging.getLogger("uvicorn.error").setLevel(logging.WARNING)
     structlog.contextvars.bind_contextvars(process=process)
 

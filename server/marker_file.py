@@ -82,7 +82,7 @@ def _grey(content: bytes, named: str) -> npt.NDArray[np.uint8]:
     if decoded is None:
         raise InvalidInput(
             "MARKER_IMAGE_UNREADABLE",
-            f"the marker picture {named} ({len(content)} bytes) is no picture that can be decoded",
+            f"the marker picture {named} ({len(content)} bytes) cannot be decoded",
             REMEDY,
             {"file": named, "bytes": len(content)},
         )

@@ -10,5 +10,5 @@ def point_settings(limits: RegistrationConfig) -> PointSettings:
 
 
 def point_gate(limits: RegistrationConfig) -> PointGate:
-    """Return what the fit must meet before its use."""
+    """Return the limits that the fit must meet before its use."""
     return PointGate(max_fre_mm=limits.max_fre_mm, max_tre_mm=limits.max_tre_mm)

@@ -1,24 +1,24 @@
-"""Priority of work that may wait: figures and alarms of the newest image come first on a busy machine."""
+"""Lower priority for background work, so that figures and alarms of the newest image are not delayed."""
 
 import contextlib
 import os
 import sys
 import threading
 
-# Of a thread or process with this niceness the scheduler takes a tenth of the weight of others.
+# The scheduler gives a thread or process with this niceness a tenth of the weight of others.
 NICENESS = 10
 
 
 def lower_process_priority() -> None:
-    """Let every other process go first."""
+    """Lower the priority of this process below all others."""
     with contextlib.suppress(OSError):
         os.nice(NICENESS)
 
 
 def lower_thread_priority() -> None:
-    """Let every other thread and process go first, where the system knows priorities of threads (Linux)."""
+    """Lower the priority of this thread below all others, if the system supports it (Linux)."""
     if sys.platform == "linux":
         with contextlib.suppress(OSError):
             thread = threading.get_native_id()
-            # What is more than the largest niceness is set to it.
+            # A value above the largest niceness is clipped to it.
             os.setpriority(os.PRIO_PROCESS, thread, os.getpriority(os.PRIO_PROCESS, thread) + NICENESS)

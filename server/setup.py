@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 # An ordinary lens with a field of view of about 45 degrees. Used to detect markers, never for distances.
 NOMINAL_FOCAL_BY_WIDTH = 1.2
-# Of the simulated CT of the rehearsal's vertebra, which is no document of a case.
+# Id of the simulated CT of the rehearsal's vertebra, which is not a document of a case.
 REHEARSAL_CT_ID = "rehearsal"
 
 
@@ -191,7 +191,7 @@ class Preparation:
         if device and self.camera_device and device != self.camera_device:
             raise CalibrationError(
                 "CAMERA_DIFFERS",
-                f"the calibration is of the camera '{self.camera_device}', and images come from '{device}'",
+                f"the camera '{self.camera_device}' was calibrated, but images come from '{device}'",
                 "Connect the calibrated camera, or calibrate this one.",
                 {"calibrated": self.camera_device, "camera": device},
             )

@@ -1,7 +1,7 @@
 """`AlarmEvaluation`: the alarms as a function of images, circumstances, commands and their times.
 
-It has no clock and asks nobody, so that a recording of its calls gives the same alarms again. `AlarmService`
-collects the circumstances and is the only one who calls it in a server.
+It uses no clock and no other input, so that replaying recorded calls gives the same alarms. `AlarmService`
+collects the circumstances and is its only caller in a server.
 """
 
 from dataclasses import dataclass, replace
@@ -23,15 +23,15 @@ from tracker.navigation.alarms import (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Circumstances:
-    """What the alarms depend on beside images and time.
+    """Inputs of the alarms other than images and time.
 
     Attributes:
-        camera_works, tracker_works: state of source and tracking process.
-        navigating, registration_current, calibration_current, checked_at_s: see `ProcedureFacts`.
-        armed_screens, lost_screens: see `AlarmInputs`.
+        camera_works, tracker_works: State of source and tracking process.
+        navigating, registration_current, calibration_current, checked_at_s: See `ProcedureFacts`.
+        armed_screens, lost_screens: See `AlarmInputs`.
         free_disk_mb: None if unknown.
-        recording_runs: everything that has to be written is being written.
-        hold_requested_by: who asks to hold; empty if nobody does.
+        recording_runs: Everything that has to be recorded is being recorded.
+        hold_requested_by: Person who requests a hold; empty if nobody does.
     """
 
     camera_works: bool = True
@@ -48,7 +48,7 @@ class Circumstances:
 
 
 class AlarmCall(StrEnum):
-    """What is done in a step."""
+    """Kind of a step."""
 
     STEP = "step"
     ACKNOWLEDGE = "acknowledge"
@@ -61,13 +61,13 @@ class AlarmStep:
     """One call of the alarms.
 
     Attributes:
-        call: what is done.
-        at_s: monotonic time.
-        image_number: of the image that is new in this step; None without one.
-        circumstances: of this step; those of the last one for a command.
-        numbers: of the alarms that are acknowledged.
-        pause_s: of a pause.
-        by: who did it; empty if nobody did.
+        call: Kind of the step.
+        at_s: Monotonic time.
+        image_number: Number of the new image of this step; None without one.
+        circumstances: Circumstances of this step; for a command those of the previous step.
+        numbers: Numbers of the acknowledged alarms.
+        pause_s: Duration of a pause.
+        by: Person who caused the step; empty if nobody did.
     """
 
     call: AlarmCall
@@ -81,13 +81,13 @@ class AlarmStep:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AlarmState:
-    """Everything that the next step depends on, and the alarms.
+    """State that determines the next step, with the present alarms.
 
     Attributes:
-        limits, put_away_after_s: as set.
-        engine: attributes of the engine.
-        history: of the images.
-        snapshot: of the newest image; None before the first.
+        limits, put_away_after_s: Arguments of `AlarmEvaluation`.
+        engine: Attributes of the engine.
+        history: History of the images.
+        snapshot: Result of the newest image; None before the first image.
     """
 
     limits: AlarmLimits
@@ -101,8 +101,8 @@ class AlarmEvaluation:
     """The alarms of one theatre. Mutable; the caller locks.
 
     Args:
-        limits: of the alarms.
-        put_away_after_s: a drill unseen for longer was put away.
+        limits: Alarm limits.
+        put_away_after_s: A drill that is unseen for longer counts as put away.
     """
 
     def __init__(self, limits: AlarmLimits, *, put_away_after_s: float) -> None:
@@ -114,7 +114,7 @@ class AlarmEvaluation:
 
     @classmethod
     def restored(cls, state: AlarmState) -> "AlarmEvaluation":
-        """Return the alarms as they were when `state` was taken."""
+        """Return an evaluation in the given state."""
         made = cls(state.limits, put_away_after_s=state.put_away_after_s)
         vars(made._engine).update(state.engine)
         made._history, made._snapshot = state.history, state.snapshot
@@ -122,7 +122,7 @@ class AlarmEvaluation:
 
     @property
     def state(self) -> AlarmState:
-        """The present state; it shares nothing that changes."""
+        """A copy of the present state."""
         engine = {
             name: value.copy() if isinstance(value, dict | list) else value
             for name, value in vars(self._engine).items()
@@ -147,11 +147,11 @@ class AlarmEvaluation:
 
     @property
     def is_navigating(self) -> bool:
-        """Whether the images say that navigation is on."""
+        """Whether navigation is on according to the images."""
         return self._history.navigating
 
     def apply(self, step: AlarmStep, snapshot: NavigationSnapshot | None = None) -> AlarmSnapshot:
-        """Do one step; `snapshot` is the result of its image.
+        """Perform one step; `snapshot` is the result of its image.
 
         Raises:
             InvalidInput: ALARM_PAUSE_TOO_LONG.
@@ -175,7 +175,7 @@ class AlarmEvaluation:
             self._snapshot,
             self._history,
             now_s=at_s,
-            # With a failed camera or tracker no result is current.
+            # A failed camera or tracker leaves no current result.
             fresh_s=self.limits.camera_silent_after_s if works else -inf,
             put_away_after_s=self._put_away_after_s,
             navigating=now.navigating,

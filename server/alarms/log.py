@@ -212,7 +212,7 @@ class StoredAlarmLog:
         except InvalidInput as rejected:
             if rejected.code != "NAME_INVALID" or made_by == NOBODY:
                 raise
-            # The line contains the name, so that a name rejected by the store does not lose the alarm.
+            # The name is part of the line, so that an alarm is stored even if the store rejects the name.
             self._store.put(case.id, DocumentKind.ALARM, NAME, {"lines": lines}, made_by=NOBODY)
 
 

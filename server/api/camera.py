@@ -134,8 +134,8 @@ def _picture(content: bytes, name: str) -> npt.NDArray[np.uint8]:
     if picture is None:
         raise InvalidInput(
             "IMAGE_UNREADABLE",
-            f"{name} is no picture ({len(content)} bytes)",
-            "Send a PNG or JPEG as the camera made it, neither cut nor scaled.",
+            f"{name} is not a readable image ({len(content)} bytes)",
+            "Send an original PNG or JPEG of the camera, neither cropped nor scaled.",
             {"image": name, "size_bytes": len(content)},
         )
     return picture

@@ -83,7 +83,7 @@ def _add_one(router: APIRouter, store: CaseStore) -> None:
             raise StoreConflict(
                 "CASE_NOT_OPEN",
                 f"the case {case_id} is not open",
-                "Look at the list of cases for the one that is.",
+                "GET /api/cases shows which case is open.",
                 {"case_id": case_id},
             )
         store.close()

@@ -101,7 +101,7 @@ def _add_uploads(router: APIRouter, step: CtStep, home: Home) -> None:
         response_class=FileResponse,
         responses={
             **PNG_ANSWER,
-            204: {"description": "No slice is read yet; ask again in a moment."},
+            204: {"description": "No slice has been read yet; request it again after a moment."},
             **rejections(404, 503),
         },
     )
@@ -111,7 +111,7 @@ def _add_uploads(router: APIRouter, step: CtStep, home: Home) -> None:
         try:
             return Response(path.read_bytes(), media_type=PNG)
         except FileNotFoundError:
-            # Nothing went wrong: a page that asks early must not look as if it did.
+            # 204 instead of 404, because an early request is no error.
             return Response(status_code=204)
 
 
@@ -216,7 +216,7 @@ class Oblique:
         )
 
     def of(self, volume: Volume, channel: Channel) -> Slice:
-        """The slice of this volume."""
+        """Return the slice of this volume."""
         size_mm = (self.width_mm, self.height_mm)
         if self.view == "across":
             return across_channel(

@@ -133,7 +133,7 @@ def _schema(name: str, schema: Schema) -> str:
     needed = set(schema.get("required", []))
     rows = [
         _row(
-            f"<code>{escape(key)}</code>{'' if key in needed else ' (may be left out)'}",
+            f"<code>{escape(key)}</code>{'' if key in needed else ' (optional)'}",
             f"{_type(value)} {escape(value.get('description', ''))}",
         )
         for key, value in schema.get("properties", {}).items()

@@ -24,7 +24,7 @@ from server.security import page_policy
 
 GUIDE_FOLDERS = file_candidates("guide", "docs/site")
 ADDRESS = "/docs"
-# Scripts without attributes run; those with a type of JSON are data, which no policy is about.
+# Only scripts without attributes are executed; the policy does not apply to JSON data.
 INLINE_SCRIPT = re.compile(rb"<script>(.*?)</script>", re.DOTALL)
 
 NOT_BUILT = """<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Coaxial guide</title></head>
@@ -55,7 +55,7 @@ class GuideFiles(StaticFiles):
         if os.fspath(full_path).endswith(".html"):
             hashes = inline_script_hashes(os.fspath(full_path), stat_result.st_mtime_ns)
             host = Headers(scope=scope).get("host", "")
-            # Also on a 304: a browser takes over the headers that come with it.
+            # Also on a 304, because a browser updates its stored headers from it.
             response.headers["Content-Security-Policy"] = page_policy(host, scripts=hashes)
         return response
 

@@ -22,9 +22,9 @@ from server.stream.messages import (
 class HealthState(StrEnum):
     """Overall health."""
 
-    OK = "ok"  # images come and are tracked
-    DEGRADED = "degraded"  # not now, but the server goes on trying, or a file has come to its end
-    FAILED = "failed"  # it does not try any more: only a restart helps
+    OK = "ok"  # images arrive and are tracked
+    DEGRADED = "degraded"  # no tracking now, but the server keeps trying; or a file has ended
+    FAILED = "failed"  # no further attempts: a restart is needed
 
 
 class SinkMessage(Message):
@@ -34,9 +34,9 @@ class SinkMessage(Message):
     problem: ProblemMessage | None
     """null while it works."""
     messages: int
-    """Number of messages that it was sent."""
+    """Number of messages sent to it."""
     skipped: int
-    """Number of instants that it was not sent, because it was not ready."""
+    """Number of instants not sent to it because it was not ready."""
 
 
 class HealthMessage(Message):
@@ -91,7 +91,7 @@ def health_router(
 
     @router.get(
         "/health",
-        responses={503: {"model": HealthMessage, "description": "Tracking has been given up."}},
+        responses={503: {"model": HealthMessage, "description": "All restarts of tracking have failed."}},
     )
     async def health(request: Request, response: Response) -> HealthMessage:
         """Return the health: `ok`, `degraded` (the server keeps trying) or `failed`.

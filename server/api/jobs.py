@@ -49,7 +49,7 @@ def jobs_router(jobs: Jobs) -> APIRouter:
 
     @router.get("")
     def all_jobs() -> JobsMessage:
-        """All remembered jobs, newest first."""
+        """Return all remembered jobs, newest first."""
         return JobsMessage(jobs=[job_message(job) for job in jobs.list()])
 
     @router.get("/{job_id}", responses=rejections(404))

@@ -146,8 +146,8 @@ class LatencyMessage(Message):
     result: LatencyResultMessage | None
     """The newest result of this camera; null if never measured."""
     applies: bool
-    """Whether it holds for the present images: they have its size, and come no more slowly. False without a
-    result, true while no images come."""
+    """Whether the result is valid for the present images: they have the same size and at least the same rate.
+    False without a result, true while there are no images."""
 
 
 def codes_message(measurement: LatencyMeasurement) -> LatencyCodesMessage:

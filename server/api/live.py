@@ -24,8 +24,8 @@ def live_router(hub: LiveHub) -> APIRouter:
         if instant is None:
             raise NotYetAvailable(
                 "NOTHING_YET",
-                "the tracking process has not said anything since the server started",
-                "Ask again in a second; if it stays so, look at /health and at the server's log.",
+                "the tracking process has sent no message since the server started",
+                "Try again in a second; if the error persists, check /health and the server log.",
             )
         return live_message(instant, now_s=time.monotonic())
 

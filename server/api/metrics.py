@@ -34,7 +34,7 @@ class Metrics:
         self._captured_at_s: float | None = None
         self._stages = Histogram(
             "coaxial_stage_seconds",
-            "Time of each stage for one image, by the name it has in the code.",
+            "Time of each stage for one image, by its name in the code.",
             ["stage"],
             buckets=STAGE_BUCKETS_S,
             registry=self.registry,
@@ -47,7 +47,7 @@ class Metrics:
         )
         self._unseen = Counter(
             "coaxial_marker_unseen",
-            "Images in which the marker was not found, by the reason.",
+            "Images in which the marker was not found, by reason.",
             ["marker", "reason"],
             registry=self.registry,
         )
@@ -92,7 +92,7 @@ class _Now(Collector):
         yield from _viewer_metrics(self._viewers)
         encoded = CounterMetricFamily(
             "coaxial_pictures_encoded",
-            "Pictures encoded for those who watch, by size.",
+            "Images encoded for viewers, by size.",
             labels=["size"],
         )
         for size in PictureSize:
@@ -106,10 +106,10 @@ class _Now(Collector):
 def _viewer_metrics(viewers: Viewers) -> Iterable[Metric]:
     watching = GaugeMetricFamily("coaxial_viewers", "Viewers connected now, by kind.", labels=["kind"])
     dropped = CounterMetricFamily(
-        "coaxial_viewer_dropped", "Instants that viewers skipped because they were slower.", labels=["kind"]
+        "coaxial_viewer_dropped", "Instants skipped by slow viewers.", labels=["kind"]
     )
     let_go = CounterMetricFamily(
-        "coaxial_viewer_let_go", "Viewers cut off because nothing could be sent to them.", labels=["kind"]
+        "coaxial_viewer_let_go", "Viewers disconnected because sending to them timed out.", labels=["kind"]
     )
     for kind in ViewerKind:
         watching.add_metric([kind.value], viewers.count(kind))
@@ -120,26 +120,26 @@ def _viewer_metrics(viewers: Viewers) -> Iterable[Metric]:
 
 def _instant_metrics(instant: Instant, *, now_s: float) -> Iterable[Metric]:
     source, process = instant.source, instant.process
-    yield CounterMetricFamily("coaxial_images", "Images that the source gave.", value=source.images)
+    yield CounterMetricFamily("coaxial_images", "Images delivered by the source.", value=source.images)
     yield CounterMetricFamily(
         "coaxial_images_skipped",
-        "Images never looked at, because a newer one was there.",
+        "Images not tracked because a newer one was available.",
         value=source.skipped_images,
     )
     yield CounterMetricFamily(
         "coaxial_images_dropped",
-        "Tracked images that the server was too slow to show.",
+        "Tracked images that the server was too slow to publish.",
         value=process.dropped_images,
     )
     yield GaugeMetricFamily(
-        "coaxial_image_rate_hertz", "Images a second, over the last second or so.", value=source.rate_hz
+        "coaxial_image_rate_hertz", "Images per second, averaged over about one second.", value=source.rate_hz
     )
     if instant.snapshot is not None:
-        # Left out when there is no image: an age of 0 or of an old image would say that all is well.
+        # Omitted without an image, because an age of 0 or of an old image would look healthy.
         age_s = now_s - instant.snapshot.captured_at_s
         yield GaugeMetricFamily("coaxial_image_age_seconds", "Age of the newest image.", value=age_s)
     yield CounterMetricFamily(
-        "coaxial_tracking_restarts", "Times the tracking process was started again.", value=process.restarts
+        "coaxial_tracking_restarts", "Restarts of the tracking process.", value=process.restarts
     )
     yield _one_of(
         "coaxial_tracking_process_state",
@@ -147,9 +147,7 @@ def _instant_metrics(instant: Instant, *, now_s: float) -> Iterable[Metric]:
         ProcessState,
         process.state,
     )
-    yield _one_of(
-        "coaxial_source_state", "1 for the state of the source of images.", SourceState, source.state
-    )
+    yield _one_of("coaxial_source_state", "1 for the state of the image source.", SourceState, source.state)
 
 
 def _one_of(
@@ -168,7 +166,7 @@ def metrics_router(metrics: Metrics) -> APIRouter:
     @router.get(
         "/metrics",
         response_class=Response,
-        responses={200: {"content": {"text/plain": {}}, "description": "Prometheus' text format."}},
+        responses={200: {"content": {"text/plain": {}}, "description": "Prometheus text format."}},
     )
     async def prometheus() -> Response:
         """Return rates, stage durations, drops and viewers in the Prometheus text format."""

@@ -18,10 +18,10 @@ class VolumeMessage(Message):
     """Geometry of the voxels of a response, and the display windows by name."""
 
     ct_id: str
-    """As the channel in the live message states it: voxels of another CT do not belong to its pose."""
+    """Id of the CT as in the channel of the live message; voxels of another CT do not fit its pose."""
     size_ijk: list[int]
     lps_from_ijk: list[list[float]]
-    """4x4 matrix, from the index of a voxel to mm in LPS of the CT, which is the vertebra frame."""
+    """4x4 matrix from voxel indices to LPS in mm, which is the vertebra frame."""
     presets: dict[str, WindowMessage]
 
 
@@ -44,7 +44,9 @@ def navigation_ct_router(provider: NavigationCtProvider) -> APIRouter:
                     }
                 },
             },
-            204: {"description": "The rehearsal's CT is being simulated; ask again in some seconds."},
+            204: {
+                "description": "The CT of the rehearsal is being simulated; try again after a few seconds."
+            },
             **rejections(409, 422, 503),
         },
     )
@@ -55,7 +57,7 @@ def navigation_ct_router(provider: NavigationCtProvider) -> APIRouter:
         """
         found = provider.current()
         if isinstance(found, BeingScanned):
-            # Nothing went wrong: a page that asks early must not look as if it did.
+            # 204 instead of 404, because an early request is no error.
             return Response(status_code=204)
         return _answer(request, found)
 

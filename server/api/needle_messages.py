@@ -61,7 +61,7 @@ class NeedlesRequest(Message):
 
     @property
     def order(self) -> NeedleRequest:
-        """The same for the step."""
+        """Return the request for the step."""
         return NeedleRequest(
             vertebra=self.vertebra,
             landmarks=self.landmarks,
@@ -82,7 +82,7 @@ class OverlayMessage(Message):
 
     @property
     def record(self) -> SliceOverlay:
-        """The same for the step."""
+        """Return the overlay for the step."""
         return SliceOverlay(
             shift_px=np.array(self.shift_px),
             rotation_deg=self.rotation_deg,
@@ -103,7 +103,11 @@ class MarkedNeedleMessage(Message):
 
     @property
     def record(self) -> NeedleObservation:
-        """The same for the step; InvalidInput NEEDLE_SEEN_INVALID."""
+        """Return the observation for the step.
+
+        Raises:
+            InvalidInput: NEEDLE_SEEN_INVALID.
+        """
         clicked = needle_from_clicks(self.entry_px, self.head_px, entry_is_seen=self.entry_is_seen)
         return replace(clicked, along_sd_px=self.along_sd_px)
 
@@ -127,11 +131,9 @@ class NeedlesConclusion(LaidRequest):
     @model_validator(mode="after")
     def _one_way(self) -> Self:
         if (self.overlay is None) == (not self.marked):
-            raise ValueError(
-                "give the overlay or the marked needles, and not both; a proposal is picked first"
-            )
+            raise ValueError("give either the overlay or the marked needles; confirm a proposal first")
         if self.picked and not self.marked:
-            raise ValueError("give the needles of the proposal that was picked as marked")
+            raise ValueError("give the needles of the confirmed proposal as marked")
         return self
 
 

@@ -119,5 +119,5 @@ def _add_picture(router: APIRouter, steps: RegistrationSteps, opened: CtProvider
         drawn = overlay_picture(laid, opened.current().volume, window_from_query(None, None, None))
         encoded, content = cv2.imencode(".jpg", drawn)
         if not encoded:
-            raise RuntimeError("a picture could not be encoded")
+            raise RuntimeError("the image could not be encoded")
         return Response(content.tobytes(), media_type=JPEG, headers={"Cache-Control": "no-store"})

@@ -14,10 +14,10 @@ from server.installation import file_candidates
 from server.security.headers import CAMERA_PAGE_PERMISSIONS
 
 PAGE_FOLDERS = file_candidates("page", "web/dist")
-# Addresses that the page itself understands: they all show its one file.
+# Client-side routes of the page, all served by its one HTML file.
 CAMERA_VIEW = "camera"
 VIEWS = frozenset({"theatre", "operator", "supervisor", "enter", CAMERA_VIEW})
-# Vite writes the hash of the content into the names of these.
+# File names of these assets contain a hash of their content.
 FOREVER = "public, max-age=31536000, immutable"
 REVALIDATE = "no-cache"
 

@@ -1,4 +1,4 @@
-"""The plan in files of 3D Slicer: landmarks, channels and screws out, landmarks and a channel in."""
+"""Export of a plan to files of 3D Slicer, and import of landmarks and channels from them."""
 
 from pathlib import Path
 from typing import Annotated
@@ -27,7 +27,7 @@ MAX_MARKUPS_BYTES = 2 * 2**20
 JSON = "application/json"
 SENT = {"requestBody": {"required": True, "content": {JSON: {}}}}
 IMPORT_ERRORS = rejections(404, 409, 413, 422, 503, 507)
-# A person may have given the file any name; the server does not see it.
+# The server does not know the name of the uploaded file.
 FILE = "the file"
 
 
@@ -40,7 +40,7 @@ def add_markups(router: APIRouter, step: PlanStep, home: Home) -> None:
     def write() -> Response:
         """Export landmarks, channels and screws as markups of 3D Slicer, in LPS of the plan's CT.
 
-        A plan that is out of date is not exported: its CT is not that of the case any more.
+        A plan that is out of date is rejected, because its CT is no longer the CT of the case.
         """
         stored = step.repository.latest_valid()
         markups = plan_markups(stored.plan)
@@ -48,7 +48,7 @@ def add_markups(router: APIRouter, step: PlanStep, home: Home) -> None:
             raise SetupOrderError(
                 "PLAN_EMPTY",
                 f"the plan has {len(stored.plan.vertebrae)} vertebrae, but no landmark and no channel",
-                "Set landmarks or lay a channel first.",
+                "Set landmarks or place a channel first.",
             )
         return Response(
             markups_to_bytes(markups),
@@ -69,7 +69,7 @@ def add_markups(router: APIRouter, step: PlanStep, home: Home) -> None:
     ) -> PlanMessage:
         """Set all landmarks of a vertebra from the point list of a markups file in the request body.
 
-        They replace the previous ones. The file does not state its CT: look at each point on this one.
+        They replace the previous ones. The file does not state its CT: verify each point on this CT.
         """
         markups = await _markups(request, home)
         by = Author(made_by=made_by, expected_version=expected_version)
@@ -96,7 +96,7 @@ def add_markups(router: APIRouter, step: PlanStep, home: Home) -> None:
         """Set a channel by hand from the line of a markups file in the request body.
 
         It runs from the first point to the second, or from the one labelled `entry` to the one labelled
-        `target`. The file does not state its CT: look at the channel on this one.
+        `target`. The file does not state its CT: verify the channel on this CT.
         """
         markups = await _markups(request, home)
         by = Author(made_by=made_by, expected_version=expected_version)

@@ -35,7 +35,7 @@ class ChangeRequest(Message):
 
     @property
     def author(self) -> Author:
-        """The same for the step."""
+        """Return the author for the step."""
         return Author(made_by=self.made_by, expected_version=self.expected_version)
 
 
@@ -110,7 +110,7 @@ class LandmarksRequest(ChangeRequest):
 
     @property
     def records(self) -> list[Landmark]:
-        """The same for the step."""
+        """Return the landmarks for the step."""
         return [Landmark(name=one.name, point_lps_mm=np.array(one.point_lps_mm)) for one in self.landmarks]
 
 

@@ -85,9 +85,9 @@ class ProcedureMessage(Message):
     confirmation: ConfirmationMessage | None
     """The required confirmation; null if none is."""
     setup_check: SetupCheckMessage | None
-    """Of the active channel; null without a screw, or with neither a registration nor four landmarks."""
+    """Check of the active channel; null without a screw, or without registration and four landmarks."""
     recording: RecordingStateMessage | None
-    """What is being recorded; null without recordings."""
+    """State of the recording; null if recordings are off."""
 
 
 def procedure_router(
@@ -101,7 +101,7 @@ def procedure_router(
     router = APIRouter(prefix="/api/procedure", tags=["procedure"])
 
     def message() -> ProcedureMessage:
-        # Each page asks for this already, so that none asks for the state of recordings apart.
+        # Included because every page requests this message already.
         recording = None if recordings is None else recording_state_message(recordings)
         return procedure_message(procedure.state(), recording, setup_check.check())
 

@@ -1,4 +1,4 @@
-"""Review of recordings: their timeline, and any of their instants."""
+"""Review of recordings: timeline and single images."""
 
 from collections.abc import Sequence
 from datetime import UTC, datetime
@@ -25,7 +25,7 @@ from tracker.navigation import AbsentReason, Status
 from tracker.navigation.alarms import ALARM_RULES, Condition, Priority
 
 MAX_SAMPLES = 4000
-# Another version may have had others, which have no title here.
+# A recording of another version may contain reasons without a title here.
 CONDITIONS = {one.value: one for one in Condition}
 REASONS = {one.value: one for one in AbsentReason}
 # The images of a recording do not change.
@@ -33,26 +33,26 @@ CACHE = {"Cache-Control": "private, max-age=3600"}
 
 
 class RecordedEventMessage(Message):
-    """Something that happened."""
+    """An event or a period of a recording."""
 
     kind: EventKind | Literal["comment"]
-    """navigation: it was on; withheld: no figures; note: about the recording itself."""
+    """navigation: navigation was on; withheld: no figures; note: a remark on the recording itself."""
     from_s: float
-    """Since the first image, as all times."""
+    """Time since the first image, like all times here."""
     to_s: float | None
-    """Null for what has no duration."""
+    """null for an event without duration."""
     code: str
     """Condition of an alarm, reason of withheld figures, code of a note, shape of a mark, id of a comment."""
     title: TextMessage | None
-    """Of an alarm and of withheld figures, in capitals; text of a comment; null for all else."""
+    """Title of an alarm or of withheld figures, in capitals; text of a comment; otherwise null."""
     priority: Priority | None
-    """Of an alarm; null for all else."""
+    """Priority of an alarm; otherwise null."""
     by: str
-    """Who did it; empty if nobody did."""
+    """Person who caused it; empty if nobody did."""
 
 
 class CurveMessage(Message):
-    """One figure; null where it was withheld or undefined."""
+    """Values of one figure; null where withheld or undefined."""
 
     values: list[float | None]
     limits: list[float | None]
@@ -60,10 +60,10 @@ class CurveMessage(Message):
 
 
 class CurvesMessage(Message):
-    """The displayed figures; where several images share a sample, the worst of each, and the newest depth."""
+    """The displayed figures; a sample of several images has the worst of each, and the newest depth."""
 
     numbers: list[int]
-    """Of the first image of each sample."""
+    """Time of the first image of each sample."""
     at_s: list[float]
     entry: CurveMessage
     angle: CurveMessage
@@ -72,17 +72,17 @@ class CurvesMessage(Message):
 
 
 class TimelineMessage(Message):
-    """What a recording has."""
+    """Content of a recording."""
 
     began_at: str
-    """Of the first image; UTC, ISO 8601."""
+    """Time of the first image; UTC, ISO 8601."""
     duration_s: float
     images: int
     is_whole: bool
-    """False for a file that was cut; it is read up to there."""
+    """false for an incomplete file, which is readable up to its end."""
     events: list[RecordedEventMessage]
     curves: CurvesMessage
-    """Between the requested times."""
+    """Figures between the requested times."""
 
 
 class RecordingReviewMessage(Message):
@@ -99,14 +99,14 @@ class RecordedInstantMessage(Message):
     at_s: float
     snapshot: SnapshotMessage
     alarms: AlarmsMessage | None
-    """Null where they were not recorded."""
+    """null if they were not recorded."""
 
 
 class CommentRequest(Message):
     """A comment on an instant of a recording."""
 
     at_s: Annotated[float, Field(ge=0.0, le=1e7, allow_inf_nan=False)]
-    """Since the first image."""
+    """Time since the first image."""
     text: Annotated[
         str,
         StringConstraints(
@@ -128,11 +128,11 @@ class CommentMessage(Message):
 
 
 Seconds = Annotated[float, Query(ge=0.0, le=1e7)]
-Number = Annotated[int, Path(ge=0, description="Of the image in the recording, from 0.")]
+Number = Annotated[int, Path(ge=0, description="Index of the image in the recording, from 0.")]
 
 
 def recording_review_router(review: RecordingReview, comments: RecordingComments) -> APIRouter:
-    """Return the router of what is in recordings. Its routes are synchronous: they wait for the disk."""
+    """Return the router of the contents of recordings; synchronous, because it waits for the disk."""
     router = APIRouter(prefix="/api/recordings/{name}", tags=["recordings"])
 
     @router.get("/timeline", responses=rejections(404, 409, 422, 503))
@@ -142,9 +142,9 @@ def recording_review_router(review: RecordingReview, comments: RecordingComments
         to_s: Seconds = 1e7,
         samples: Annotated[int, Query(ge=1, le=MAX_SAMPLES)] = 1000,
     ) -> RecordingReviewMessage:
-        """Return what happened in a recording, and its figures between two times.
+        """Return the events of a recording, and its figures between two times.
 
-        The first request starts a job that reads the recording; ask again when it is done.
+        The first request starts a job that reads the recording; repeat the request when the job is done.
         """
         index = review.index(name)
         if isinstance(index, Job):
@@ -157,9 +157,9 @@ def recording_review_router(review: RecordingReview, comments: RecordingComments
 
     @router.post("/comments", status_code=201, responses=rejections(404, 409, 422, 503, 507))
     def comment(name: str, requested: CommentRequest, request: Request) -> CommentMessage:
-        """Write a comment on an instant; it is stored in the case with its author, and is in the timeline.
+        """Comment on an instant; the comment is stored in the case with its author and shown in the timeline.
 
-        To take it back, withdraw its document.
+        To remove it, withdraw its document.
         """
         stored = comments.add(
             name, at_s=requested.at_s, text=requested.text, made_by=person_of(request.scope).name
@@ -185,9 +185,9 @@ def recording_review_router(review: RecordingReview, comments: RecordingComments
         except ValidationError as error:
             raise RecordingError(
                 "RECORDING_OTHER_VERSION",
-                f"the results of image {number} cannot be read: {error.error_count()} of their values have "
-                "another form",
-                "Look at the recording with the version of Coaxial that made it.",
+                f"the results of image {number} cannot be read: {error.error_count()} values have an unknown "
+                "format",
+                "Review the recording with the version of Coaxial that recorded it.",
                 {"name": name},
             ) from None
 

@@ -43,23 +43,23 @@ class ConsentRequest(Message):
 
 
 class RecordingStateMessage(Message):
-    """What is being recorded."""
+    """State of the recording."""
 
     when: Literal["navigating", "manual", "never"]
-    """When recordings start: by themselves, when somebody starts one, or never."""
+    """When recordings start: automatically, on request, or never."""
     consent: ConsentMessage
     is_recording: bool
     name: str | None
-    """Of the running recording; null without one."""
+    """Start of the running recording; null without one."""
     duration_s: float
     size_bytes: int
     images: int
     missing_images: int
     """Tracked images that are not in the file; a replay is not exact until some seconds after them."""
     remaining_s: float | None
-    """How long disk and budget last at the present rate; null where unknown."""
+    """Time until disk or budget are used up at the present rate; null if unknown."""
     problem: ProblemMessage | None
-    """Why the last recording ended by itself; null if it did not."""
+    """Why the last recording ended without a request; null if it did not."""
 
 
 class RecordingMessage(Message):
@@ -69,23 +69,23 @@ class RecordingMessage(Message):
     began_at: str
     """UTC, ISO 8601."""
     duration_s: float | None
-    """Null while it runs, and for a file that was cut by a crash and is readable up to there."""
+    """null while it runs, and for an incomplete file after a crash, which is readable up to its end."""
     size_bytes: int
     is_protected: bool
     is_running: bool
 
 
 class RecordingsMessage(Message):
-    """The recordings of the open case, the oldest first."""
+    """The recordings of the open case, oldest first."""
 
     recordings: list[RecordingMessage]
 
 
 class VideoRequest(Message):
-    """The video of a recording."""
+    """Video of a recording to write."""
 
     language: Language = "en"
-    """Of the words in it."""
+    """Language of the texts in it."""
 
 
 class CutRequest(Message):
@@ -96,19 +96,19 @@ class CutRequest(Message):
 
 
 class ExportMessage(Message):
-    """A video or a piece of a recording."""
+    """A video or a part of a recording."""
 
     file: str
-    """Its name, to be downloaded by."""
+    """File name for the download."""
     size_bytes: int
 
 
 class ExportsMessage(Message):
-    """What was made from a recording, and is being made."""
+    """Exports of a recording, complete and in progress."""
 
     files: list[ExportMessage]
     job: JobMessage | None
-    """The newest for this recording; null if the server remembers none."""
+    """The newest job for this recording; null if there is none."""
 
 
 class ProtectionMessage(Message):
@@ -128,16 +128,16 @@ def recordings_router(service: RecordingService) -> APIRouter:
 
     @router.get("/state", responses=rejections(503))
     def state() -> RecordingStateMessage:
-        """Return what is being recorded, in any case."""
+        """Return the state of the recording, whichever case it belongs to."""
         return recording_state_message(service)
 
     @router.post("/start", responses=rejections(409, 503, 507))
     def start() -> RecordingStateMessage:
-        """Start a recording of the open case; a running one goes on.
+        """Start a recording of the open case; a running recording continues.
 
-        It has every tracked image with the state before it, so that `coaxial replay --check` gives the same
-        results again. Where the settings require it, somebody has to state the patient's consent first. Where
-        the disk or the budget ends, the recording stops with an alarm, and navigation goes on.
+        It contains every tracked image with the state before it, so that `coaxial replay --check` reproduces
+        the results. If the settings require it, the patient's consent must be stated first. When disk or
+        budget are used up, the recording stops with an alarm; navigation continues.
         """
         service.start()
         return recording_state_message(service)
@@ -157,13 +157,13 @@ def recordings_router(service: RecordingService) -> APIRouter:
 
     @router.post("/stop", responses=rejections(503))
     def stop() -> RecordingStateMessage:
-        """Stop the recording; the answer comes when its file is closed."""
+        """Stop the recording; the response is sent when its file is closed."""
         service.stop()
         return recording_state_message(service)
 
     @router.get("/{name}/file", response_class=FileResponse, responses=rejections(404, 409, 503))
     def download(name: str) -> FileResponse:
-        """Return the file of a recording (MCAP). It has images of the operation and names of staff."""
+        """Return the file of a recording (MCAP). It contains images of the operation and names of staff."""
         return FileResponse(service.path(name), media_type=MCAP, filename=name)
 
     @router.get(
@@ -178,7 +178,7 @@ def recordings_router(service: RecordingService) -> APIRouter:
 
     @router.put("/{name}/protection", responses=rejections(404, 409, 503))
     def protect(name: str, requested: ProtectionMessage) -> ProtectionMessage:
-        """Protect a recording from deletion, or end that. It is deleted with its case all the same."""
+        """Protect a recording from deletion, or remove the protection. It is still deleted with its case."""
         service.protect(name, is_protected=requested.is_protected)
         return requested
 
@@ -192,31 +192,31 @@ def recordings_router(service: RecordingService) -> APIRouter:
 
 
 def recording_exports_router(exports: RecordingExports) -> APIRouter:
-    """Return the router of what is made from recordings, by jobs."""
+    """Return the router of the exports of recordings, which are made by jobs."""
     router = APIRouter(prefix="/api/recordings/{name}", tags=["recordings"])
 
     @router.post("/video", status_code=202, responses=rejections(404, 409, 422, 503, 507))
     def video(name: str, requested: VideoRequest) -> JobMessage:
         """Write a recording as a video (MP4) with the overlay, in a job.
 
-        Its result has `file`, to be downloaded, `images`, `gaps` (times without an image, shown as such) and
-        `undrawn` (images that say why they are without results). Needs PyAV.
+        Its result contains `file` for the download, `images`, `gaps` (periods without images, marked as such)
+        and `undrawn` (images without recorded results, marked with the reason). Requires PyAV.
         """
         return job_message(exports.start_video(name, requested.language))
 
     @router.post("/cut", status_code=202, responses=rejections(404, 409, 422, 503, 507))
     def cut(name: str, requested: CutRequest) -> JobMessage:
-        """Cut out a part of a recording as a recording that replays exactly, in a job.
+        """Write a part of a recording as a recording that replays exactly, in a job.
 
-        It begins at the stored state of tracking before `from_s`, up to a minute earlier: `from_s` of the
-        result. `is_exact` is false where none is stored, and `missing_images` were not recorded between its
-        `images`; `file` is to be downloaded.
+        It starts at the stored tracking state before `from_s`, up to a minute earlier; `from_s` of the result
+        is its start. `is_exact` is false if no state is stored there. `missing_images` is the number of
+        images between its `images` that were not recorded. `file` is for the download.
         """
         return job_message(exports.start_cut(name, requested.from_s, requested.to_s))
 
     @router.get("/exports", responses=rejections(404, 409, 503))
     def made(name: str) -> ExportsMessage:
-        """Return the video and the piece that were made from a recording, and the newest job for one."""
+        """Return the video and the part made from a recording, and the newest job for it."""
         found = exports.exports(name)
         return ExportsMessage(
             files=[ExportMessage.model_validate(one, from_attributes=True) for one in found.files],
@@ -225,7 +225,7 @@ def recording_exports_router(exports: RecordingExports) -> APIRouter:
 
     @router.get("/exports/{file}", response_class=FileResponse, responses=rejections(404, 409, 503))
     def download(name: str, file: str) -> FileResponse:
-        """Return a file that a job made. It has images of the operation."""
+        """Return an exported file. It contains images of the operation."""
         path = exports.path(name, file)
         kind = MP4 if path.suffix == VIDEO_SUFFIX else MCAP
         return FileResponse(path, media_type=kind, filename=file)
@@ -246,7 +246,7 @@ def _consent(consent: Consent) -> ConsentMessage:
 
 
 def recording_state_message(service: RecordingService) -> RecordingStateMessage:
-    """Return the message of what is being recorded."""
+    """Return the message of the recording state."""
     state = service.state
     status = state.status
     return RecordingStateMessage(

@@ -17,7 +17,7 @@ from starlette.requests import HTTPConnection
 from server.security import LOCAL_USER, Person, person_of
 from server.store.validation import validate_name
 
-BY_SESSION = "Where people sign in, their session says it, and this is not looked at; elsewhere it is needed."
+BY_SESSION = "Name of the person. With sign-in the name of the session is used and this one is ignored."
 
 _asking: ContextVar[Person] = ContextVar("asking", default=LOCAL_USER)
 

@@ -1,4 +1,4 @@
-"""Responses that a browser keeps, and asks each time whether they have changed."""
+"""Responses that a browser caches and revalidates on each request."""
 
 from collections.abc import Callable, Mapping
 
@@ -20,7 +20,7 @@ def unless_known(
         request: The request, with the ETags that the browser has.
         tag: ETag without its quotes; it changes with the content.
         respond: Returns the response with these headers.
-        headers: Further headers of both.
+        headers: Further headers of both responses.
     """
     known = {"ETag": f'"{tag}"', "Cache-Control": CACHE_CONTROL, **(headers or {})}
     if known["ETag"] in request.headers.get("if-none-match", ""):

@@ -8,7 +8,7 @@ from tracker.registration import Method
 
 
 class ChannelErrorMessage(Message):
-    """The error on a channel and what the screw leaves, rounded as navigation rounds them."""
+    """Error on a channel and tolerance of the screw, rounded as in navigation."""
 
     entry_95_mm: float
     """95 % radius of the drill's axis at the entry, rounded up."""
@@ -17,40 +17,40 @@ class ChannelErrorMessage(Message):
     error_95_mm: float
     """The larger of both."""
     tolerance_mm: float
-    """From the screw on its planned axis to the nearest wall, rounded down."""
+    """Distance from the screw on its planned axis to the nearest wall, rounded down."""
     suffices: bool
     """The error is within the tolerance."""
 
 
 class RemedyMessage(Message):
-    """What would reduce the error or leave more room for it."""
+    """A measure that reduces the error or increases the tolerance."""
 
     kind: RemedyKind
     expected: ChannelErrorMessage | None
-    """With this remedy alone; null where it cannot be predicted."""
+    """Error with this remedy alone; null if it cannot be predicted."""
     landmarks: int | None
-    """Their number; null for other remedies."""
+    """Number of landmarks; null for other remedies."""
     diameter_mm: float | None
-    """Of the screw; null for other remedies."""
+    """Diameter of the screw; null for other remedies."""
 
 
 class SetupCheckMessage(Message):
-    """Whether the planned screw of the active channel can be navigated, and what would help."""
+    """Whether the planned screw of the active channel can be navigated, and measures that would help."""
 
     basis: Basis
-    """registration, or landmarks as planned, before there is one."""
+    """registration, or landmarks as planned if there is no registration yet."""
     method: Method | None
-    """Of the registration; null before there is one."""
+    """Method of the registration; null without one."""
     vertebra: str
     side: Side
     diameter_mm: float
-    """Of the planned screw."""
+    """Diameter of the planned screw."""
     tool: str | None
-    """The one with the least error; null where no tool is included."""
+    """The tool with the smallest error; null if no tool is included."""
     found: ChannelErrorMessage
-    """The least error of every image with the drill on the channel."""
+    """Smallest possible error of an image with the drill on the channel."""
     remedies: list[RemedyMessage]
-    """Empty if it suffices."""
+    """Empty if the error is within the tolerance."""
 
 
 def setup_check_message(check: SetupCheck) -> SetupCheckMessage:

@@ -27,12 +27,12 @@ SLICE_ANSWER: dict[int | str, dict[str, object]] = {
         "content": {PNG: {}},
         "headers": {
             SLICE_PLACE: {
-                "description": "A SliceMessage as JSON: where the pixels lie in the patient.",
+                "description": "A SliceMessage as JSON: positions of the pixels in the patient.",
                 "required": True,
                 "schema": {"type": "string"},
             },
             SLICE_CT: {
-                "description": "The id of the document of the CT that was cut.",
+                "description": "Id of the document of the CT.",
                 "required": True,
                 "schema": {"type": "string"},
             },
@@ -59,7 +59,7 @@ def window_from_query(window: float | None, level: float | None, preset: str | N
         raise InvalidInput(
             "PRESET_UNKNOWN",
             f"there is no preset '{name[:40]}', available are {', '.join(WINDOWS)}",
-            "Choose one of them, or give window and level in HU.",
+            "Use one of them, or give window and level in HU.",
             {"preset": name[:40], "presets": list(WINDOWS)},
         )
     chosen = WINDOWS[name]
@@ -94,7 +94,7 @@ def picture(request: Request, made_from: str, draw: Callable[[], npt.NDArray[np.
 
     Args:
         request: Its address is part of the ETag.
-        made_from: Ids of the documents that it is drawn from.
+        made_from: Ids of the documents from which it is drawn.
         draw: Returns the image: (height, width) grey or (height, width, 3) BGR.
     """
     return image_with_headers(request, made_from, lambda: (draw(), {}))
@@ -105,14 +105,14 @@ def image_with_headers(
     made_from: str,
     draw: Callable[[], tuple[npt.NDArray[np.uint8], Mapping[str, str]]],
 ) -> Response:
-    """As `picture`, with additional headers that the browser caches with the image."""
+    """Return the same as `picture`, with additional headers that the browser caches with the image."""
     known_by = hashlib.sha256(f"{made_from} {request.url.path}?{request.url.query}".encode()).hexdigest()
 
     def respond(headers: Mapping[str, str]) -> Response:
         pixels, reported = draw()
         encoded, content = cv2.imencode(".png", pixels)
         if not encoded:
-            raise RuntimeError("a picture could not be encoded")
+            raise RuntimeError("the image could not be encoded")
         return Response(content.tobytes(), media_type=PNG, headers={**headers, **reported})
 
     return unless_known(request, known_by[:32], respond)

@@ -44,7 +44,7 @@ the same limits beside those of the video.
 
 
 def streams_router(*, camera_name: str, video: Video, view: ViewContext, phone: PhoneEndpoint) -> APIRouter:
-    """`GET /video/{camera}.mjpg`, `WS /ws/live`, `WS /ws/view` and `WS /ws/camera`."""
+    """Return the router of `GET /video/{camera}.mjpg`, `WS /ws/live`, `WS /ws/view` and `WS /ws/camera`."""
     router = APIRouter(tags=["streams"])
 
     @router.get(
@@ -53,7 +53,7 @@ def streams_router(*, camera_name: str, video: Video, view: ViewContext, phone: 
         responses={
             200: {
                 "content": {"multipart/x-mixed-replace": {}},
-                "description": "JPEG after JPEG, without end.",
+                "description": "An endless sequence of JPEG images.",
             },
             **rejections(404, 422, 503),
         },
@@ -62,10 +62,9 @@ def streams_router(*, camera_name: str, video: Video, view: ViewContext, phone: 
         """Return the video with overlay as MJPEG.
 
         Each frame is the newest image; a slow viewer receives fewer and, with `size=auto`, smaller ones.
-        Without a recent image, a card NO VIDEO with reason and time is sent once a second. Each JPEG has
-        a comment with
-        `image_number` (null for that picture), `captured_at_s` (monotonic clock of the server), `age_ms`
-        (at sending) and `shown_scale_ratio` (1, 0.5 or 0.25) as JSON.
+        Without a recent image, a card NO VIDEO with reason and time is sent once a second. Each JPEG has a
+        comment with `image_number` (null for the card), `captured_at_s` (monotonic clock of the server),
+        `age_ms` (at sending) and `shown_scale_ratio` (1, 0.5 or 0.25) as JSON.
         """
         if camera != camera_name:
             raise CameraUnknown(camera, [camera_name])

@@ -203,7 +203,7 @@ class ClientMessage(Message):
     @model_validator(mode="after")
     def _one_thing(self) -> Self:
         if sum(getattr(self, name) is not None for name in type(self).model_fields) != 1:
-            raise ValueError("say one thing at a time")
+            raise ValueError("send one command per message")
         return self
 
 

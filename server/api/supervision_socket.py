@@ -35,7 +35,7 @@ async def serve_room(websocket: WebSocket, *, room_hub: RoomHub, viewers: Viewer
     await websocket.accept()
     requested_view = websocket.query_params.get("view", "")
     if requested_view not in set(View):
-        await websocket.close(REJECTED, f"view is one of {', '.join(View)}")
+        await websocket.close(REJECTED, f"view must be one of {', '.join(View)}")
         return
     person = person_of(websocket.scope)
     try:
@@ -95,11 +95,11 @@ def _said(text: str) -> ClientMessage:
     try:
         return ClientMessage.model_validate_json(text, strict=True)
     except ValidationError as error:
-        raise ProtocolViolation(REJECTED, f"not understood: {error.errors()[0]['msg']}"[:120]) from None
+        raise ProtocolViolation(REJECTED, f"invalid message: {error.errors()[0]['msg']}"[:120]) from None
 
 
 def _mark_json(said: ClientMessage, here: RoomSubscription) -> str:
-    """Return what was done, and who did it."""
+    """Return a command and its author as JSON."""
     person = here.session.person
     done = said.model_dump(mode="json", exclude_unset=True)
     return json.dumps({"by": person.name, "role": person.role.value, **done}, ensure_ascii=False)

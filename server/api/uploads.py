@@ -11,7 +11,7 @@ from starlette.requests import ClientDisconnect
 from server.store import Home, translate_errors
 from tracker.errors import InvalidInput
 
-# Handed to the disk in pieces of this size.
+# Size of the writes to the disk.
 PIECE_BYTES = 2**20
 
 
@@ -51,14 +51,14 @@ async def _write(request: Request, path: Path, home: Home, *, max_bytes: int) ->
             raise InvalidInput(
                 "UPLOAD_CUT",
                 f"the connection ended after {taken_bytes / 2**20:.1f} MB",
-                "Send it again; nothing of it was kept.",
+                "Send it again; the received part was discarded.",
                 {"taken_bytes": taken_bytes},
             ) from None
         finally:
             await to_thread.run_sync(stream.close)
     if not taken_bytes:
         raise InvalidInput(
-            "UPLOAD_EMPTY", "nothing was sent", "Send the file itself as the body of the request."
+            "UPLOAD_EMPTY", "the request body is empty", "Send the file as the body of the request."
         )
 
 
@@ -71,7 +71,7 @@ def _reject_above(size_bytes: int, max_bytes: int) -> None:
     if size_bytes > max_bytes:
         raise InvalidInput(
             "UPLOAD_TOO_LARGE",
-            f"the file has {size_bytes / 2**20:.1f} MB or more, allowed are {max_bytes / 2**20:g} MB",
-            "Send a smaller one.",
+            f"the file has {size_bytes / 2**20:.1f} MB or more, the maximum is {max_bytes / 2**20:g} MB",
+            "Send a smaller file.",
             {"size_bytes": size_bytes, "allowed_bytes": max_bytes},
         )

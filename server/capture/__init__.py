@@ -1,1 +1,1 @@
-"""Image sources: cameras, phone, video file, network stream, folder, rehearsal; the newest image wins."""
+"""Image sources: cameras, phone, video file, network stream, folder, rehearsal. The newest image is used."""

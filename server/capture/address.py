@@ -1,4 +1,4 @@
-"""Kind of a source, from its text alone; nothing is opened."""
+"""Parsing of the address of a source, without opening the source."""
 
 import re
 from dataclasses import dataclass
@@ -15,12 +15,12 @@ class SourceKind(StrEnum):
     """Kinds of sources."""
 
     REHEARSAL = "rehearsal"
-    PHONE = "phone"  # or a tablet: a page there sends its camera's images
+    PHONE = "phone"  # phone or tablet, whose page sends the images of its camera
     LOCAL_CAMERA = "local camera"
     INDUSTRIAL_CAMERA = "industrial camera"
     STREAM = "stream"
-    PLUGIN = "plugin"  # of another package
-    PATH = "path"  # a video file or a folder: known when it is opened, it may not be there yet
+    PLUGIN = "plugin"  # source of another package
+    PATH = "path"  # video file or folder, decided when it is opened, because it may not exist yet
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,9 +28,9 @@ class SourceAddress:
     """A requested source of images.
 
     Attributes:
-        kind: its kind.
-        text: the text with any password; never displayed.
-        name: display name: the text with passwords masked.
+        kind: Its kind.
+        text: The text with any password; never displayed.
+        name: Display name: the text with passwords masked.
     """
 
     kind: SourceKind
@@ -66,8 +66,8 @@ def source_from_text(text: str | int) -> SourceAddress:
 def mask_secrets(address: str) -> str:
     """Return an address with its credentials and secret query parameters replaced by ***.
 
-    A user name is shown only if a password follows: alone it may be the secret itself. A password with / ? or
-    # in it ends the host part of the address early; then all before the @ is masked.
+    A user name is shown only if a password follows, because alone it may be the secret. If a password
+    contains / ? or #, which end the host part of the address early, everything before the @ is masked.
     """
     try:
         parts = urlsplit(address)

@@ -1,18 +1,16 @@
-"""Detects delayed images of a stream by their arrival rhythm.
+"""Detection of delayed images of a stream by their arrival times.
 
-A stream has no reliable timestamps of its own: after a pause of the network or of this machine, buffered
-images arrive all at once, and would look new by their arrival time.
-
-The cost is one image after each pause. Bursts closer than a quarter of a second look like the rhythm itself
-and are not detected.
+A stream has no reliable timestamps. After a pause of the network or of this machine, buffered images arrive
+all at once and would look new by their arrival time. The detection costs one image after each pause. Bursts
+less than a quarter of a second apart cannot be distinguished from the image rate and are not detected.
 """
 
-# A gap longer than both is a pause.
+# A gap longer than both limits is a pause.
 PAUSE_PERIODS = 3.0
 MIN_PAUSE_S = 0.25
 # An image that arrives earlier than this share of a period was buffered.
 RHYTHM_RATIO = 0.5
-# Before the rhythm is known. Many servers start with what they have buffered since the last key frame.
+# Until the period is known. Many servers start with the images buffered since the last key frame.
 MIN_PERIOD_S = 0.02
 LEARNING_RATE = 0.1
 
@@ -35,8 +33,8 @@ class Backlog:
     def is_old(self, arrived_s: float) -> bool:
         """Return whether an image was buffered before it arrived.
 
-        The first image after a pause may have been taken at its beginning, so it counts as old, like those
-        that follow closely. The first one in rhythm is live.
+        The first image after a pause may have been taken at the start of the pause, so it counts as old, like
+        those that follow closely. The first image after a full period is live.
         """
         if self._last_s is None:
             self._last_s = self._live_at_s = arrived_s
@@ -49,7 +47,7 @@ class Backlog:
             return True
         if self._catching_up and interval_s < RHYTHM_RATIO * self._period_s:
             return True
-        # Two pauses in a row: nothing was buffered, the camera has become slow.
+        # Two pauses in a row mean that nothing was buffered: the camera has become slow.
         self._catching_up = False
         rate = LEARNING_RATE if self._is_learnt else 1.0
         self._period_s += rate * (interval_s - self._period_s)

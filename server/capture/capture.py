@@ -14,10 +14,10 @@ from server.live import CameraStatus, Problem, SourceState, SourceStatus
 from server.priority import lower_thread_priority
 from tracker.camera import FlickerMonitor
 
-# Half a second to connect and this to wait: a source that is back is found within a second.
+# With half a second to connect, a source is found within a second after its return.
 RETRY_AFTER_S = 0.3
 STALLED_AFTER_S = 2.0
-# A capture card may repeat each image of a slower camera; a repetition for longer is no live image.
+# A capture card may repeat each image of a slower camera; an image repeated for longer is not live.
 FROZEN_AFTER_S = 0.25
 RATE_WINDOW_S = 1.0
 
@@ -27,9 +27,9 @@ log = structlog.get_logger(__name__)
 class Capture:
     """The newest image of a source, which is reopened automatically when it fails.
 
-    Nothing is queued: an image that was not taken before the next one is skipped, and counted. If a camera
-    repeats the same image, nothing is passed on after `FROZEN_AFTER_S`. Images of a camera are searched for
-    flicker of lamps. Simulated images are made at low priority.
+    Nothing is queued: an image that was not taken before the next one arrives is skipped and counted. An
+    image that a camera repeats for longer than `FROZEN_AFTER_S` is not passed on. Images of a camera are
+    searched for lamp flicker. Simulated images are rendered at low priority.
     """
 
     def __init__(
@@ -116,14 +116,14 @@ class Capture:
         if camera is not None and camera.trigger:
             return Problem(
                 code="CAMERA_NOT_TRIGGERED",
-                message=f"{self._source.name} waits for a pulse on {camera.trigger}, and got none for "
+                message=f"{self._source.name} waits for a pulse on {camera.trigger}, but received none for "
                 f"{STALLED_AFTER_S:g} s",
                 remedy="Start the trigger source, and check its cable; or set camera.trigger to null.",
                 context={"source": self._source.name, "trigger": camera.trigger, "limit_s": STALLED_AFTER_S},
             )
         return Problem(
             code="SOURCE_STALLED",
-            message=f"the source {self._source.name} is open, but gave no image for {STALLED_AFTER_S:g} s",
+            message=f"the source {self._source.name} is open, but sent no image for {STALLED_AFTER_S:g} s",
             remedy="Check the camera, its power and its cable; it is retried automatically.",
             context={"source": self._source.name, "limit_s": STALLED_AFTER_S},
         )
@@ -175,9 +175,9 @@ class Capture:
         if silent_s > STALLED_AFTER_S:
             raise CaptureError(
                 "SOURCE_FROZEN",
-                f"the source {self._source.name} gave the same image for {STALLED_AFTER_S:g} s",
-                "Uncover its lens; else restart the camera, or the device between it and this machine, and "
-                "check its cable. It is reopened automatically.",
+                f"the source {self._source.name} repeated the same image for {STALLED_AFTER_S:g} s",
+                "Uncover the lens. If that does not help, restart the camera and any device between it and "
+                "this machine, and check its cable. It is reopened automatically.",
                 {"source": self._source.name, "limit_s": STALLED_AFTER_S},
             )
         return True
@@ -196,10 +196,10 @@ class Capture:
                 camera=self._source.name,
                 mains_hz=flicker.mains_hz,
                 depth_percent=round(100.0 * flicker.depth_ratio, 1),
-                remedy="The page lists exposure times that cancel it.",
+                remedy="The page lists exposure times that avoid it.",
             )
         elif flicker is None and before is not None:
-            log.info("lamps do not flicker any more", camera=self._source.name)
+            log.info("lamps no longer flicker", camera=self._source.name)
 
     def _publish(self, shot: Shot) -> None:
         defect = self._source.defect
@@ -252,14 +252,14 @@ class Capture:
         height, width = shot.image.shape[:2]
         size = f"{width}x{height}"
         if self._failed_at_s is None:
-            log.info("source runs", source=self._source.name, size_px=size)
+            log.info("source started", source=self._source.name, size_px=size)
         else:
             away_s = round(time.monotonic() - self._failed_at_s, 1)
-            log.info("source is back", source=self._source.name, size_px=size, away_s=away_s)
+            log.info("source reconnected", source=self._source.name, size_px=size, away_s=away_s)
         self._failed_at_s = None
         if shot.is_predicted:
             log.warning(
-                "the video predicts its images from earlier ones: the stated errors are larger",
+                "the video codec predicts images from earlier ones: the stated errors are larger",
                 code="VIDEO_PREDICTED",
                 source=self._source.name,
                 remedy="Set the camera to MJPEG, or to uncompressed images.",

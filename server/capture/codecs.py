@@ -10,7 +10,7 @@ import cv2
 OPTIONS_VARIABLE = "OPENCV_FFMPEG_CAPTURE_OPTIONS"
 OPEN_TIMEOUT_MS = 3000
 READ_TIMEOUT_MS = 2000
-# Codecs that code each image by itself, as OpenCV names them, in capitals; uncompressed video has no name.
+# Intra-only codecs by their OpenCV names in capitals; uncompressed video has no name.
 INTRA_CODECS = {"", "MJPG", "LJPG", "MJP2", "MPNG", "FFV1", "FFVH", "HFYU", "MAGY", "V210", "AVDN", "DVSD"}
 INTRA_CODECS |= {
     "APCH",
@@ -64,9 +64,9 @@ def open_stream(address: str) -> cv2.VideoCapture:
 
 
 def is_predicted(video: cv2.VideoCapture) -> bool:
-    """Return whether an open file or stream predicts its images from earlier ones, as H.264 does.
+    """Return whether the codec of an open file or stream predicts images from earlier ones, as H.264 does.
 
-    An unknown codec counts as one that does: the stated error is then rather too large than too small.
+    True for an unknown codec, because an error stated too large is safer than one stated too small.
     """
     fourcc = int(video.get(cv2.CAP_PROP_FOURCC))
     name = "".join(chr((fourcc >> shift) & 0xFF) for shift in (0, 8, 16, 24))
@@ -90,6 +90,6 @@ def open_device(device: str) -> cv2.VideoCapture:
     silence_codecs()
     backend = cv2.CAP_V4L2 if sys.platform == "linux" else cv2.CAP_ANY
     camera = cv2.VideoCapture(int(device) if device.isdecimal() else device, backend)
-    # With a single buffer the driver has none to fill while an image is decoded: every second one is lost.
+    # With a single buffer every second image is lost, because none is free while an image is decoded.
     camera.set(cv2.CAP_PROP_BUFFERSIZE, 2)
     return camera

@@ -1,8 +1,8 @@
-"""A camera's focus, exposure, gain and white balance: locked at the start, and read once a second.
+"""Focus, exposure, gain and white balance of a camera: locked at the start, and read once a second.
 
-Values are stored with the calibration, set when the camera is opened or a calibration is adopted, and read
-once a second. They are compared in the tracking process, so that picture, numbers and alarm agree. A change
-of exposure, gain or white balance invalidates nothing: each pose estimates brightness itself.
+Values are stored with the calibration, and set when the camera is opened or a calibration is adopted. The
+tracking process compares them, so that image, numbers and alarm agree. A change of exposure, gain or white
+balance invalidates nothing, because each pose estimates the brightness.
 """
 
 from collections.abc import Iterable, Mapping
@@ -39,16 +39,17 @@ class Controls(Protocol):
 class ControlLock:
     """Sets a camera's controls once, and monitors them from then on. Times are passed in.
 
-    A later change by somebody is reported, and not reverted: a focus that moves twice helps nobody.
+    A later change by a person is reported but not reverted, because a second focus move would not restore the
+    calibrated state.
 
     Args:
-        device: the camera.
-        name: of the camera.
-        lock_focus: switch autofocus off: at once where the calibration has a focus, which is then set
-            together with its zoom, pan and tilt; else once it has settled.
-        lock_light: switch automatic exposure and white balance off once they have settled.
-        calibrated: values at the calibration in use; empty where unknown.
-        at_s: present time.
+        device: The camera.
+        name: Name of the camera.
+        lock_focus: Switch autofocus off: at once if the calibration has a focus, which is then set with its
+            zoom, pan and tilt; otherwise once it has settled.
+        lock_light: Switch automatic exposure and white balance off once they have settled.
+        calibrated: Values at the calibration in use; empty if unknown.
+        at_s: Present time.
     """
 
     def __init__(
@@ -109,7 +110,7 @@ class ControlLock:
             return
         self._values = self._read(self._values)
         if not self._focus_locked:
-            # Set even to its present value: the lens may be elsewhere than the value, and the value stored
+            # Set even to its present value: the lens position may differ from the value, but the value stored
             # with a calibration must be that of the lens.
             self._fix_focus(self._values.get(CameraControl.FOCUS, 0))
         if not self._light_locked:
@@ -147,5 +148,5 @@ class ControlLock:
                 control=control.value,
                 value=value,
                 reason=(error.strerror or str(error)).lower(),
-                remedy="Set it by hand, as with v4l2-ctl, and calibrate as it then is.",
+                remedy="Set it manually, for example with v4l2-ctl, and then calibrate.",
             )

@@ -1,10 +1,10 @@
-"""Maps a device's clock to this machine's monotonic clock.
+"""Maps the clock of a device to the monotonic clock of this machine.
 
-Its origin is arbitrary, and its rate slightly off: a crystal drifts by up to 0.1 ms a second. Where the
-device's time can be read, the offset between the clocks is known. Otherwise the offset is the minimum
-difference between arrival and device time within a window: some image always arrives nearly undelayed, so the
-lower envelope of the delays is the minimum delay, and any excess of an image is its own delay. The minimum of
-exposure, transfer and encoding stays unknown, so an image looks younger by it, never older.
+The device clock has an arbitrary origin, and its crystal drifts by up to 0.1 ms per second. If the device
+time can be read, the offset between the clocks is known. Otherwise the offset is the minimum difference
+between arrival and device time within a window: some image always arrives nearly undelayed, and the excess of
+another image is its own delay. The minimum of exposure, transfer and encoding remains unknown; an image looks
+younger by it, never older.
 """
 
 import math
@@ -40,7 +40,7 @@ class DeviceClock:
         self._min_s: dict[int, float] = {}
 
     def latch(self, device_s: float, *, monotonic_s: float) -> None:
-        """Set the offset from a simultaneous reading of both clocks, in place of the lower envelope."""
+        """Set the offset from a simultaneous reading of both clocks, instead of the minimum difference."""
         self._latched_s = monotonic_s - device_s
 
     def monotonic_s(self, device_s: float, *, arrived_s: float) -> float:

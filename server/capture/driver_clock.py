@@ -1,8 +1,8 @@
-"""Capture times: the driver's where plausible, else the arrival time.
+"""Capture times: those of the driver if plausible, otherwise the arrival times.
 
-OpenCV's V4L2 backend reports the buffer's time as `CAP_PROP_POS_MSEC`. A time in the future, not after the
-last one, or older than a second is replaced by the arrival; after 15 of those the clock is not used again. An
-image that waited while the machine was suspended keeps its age.
+OpenCV's V4L2 backend reports the time of the buffer as `CAP_PROP_POS_MSEC`. A time that is in the future, not
+after the previous one, or older than a second is replaced by the arrival time; after 15 such times the clock
+is no longer used. An image that waited while the machine was suspended keeps its age.
 """
 
 import math
@@ -13,7 +13,7 @@ from server.live import ImageClock
 MAX_AHEAD_S = 0.005
 # Maximum age of an undelayed image: exposure, transfer and a few buffers of a slow camera.
 MAX_AGE_S = 1.0
-# After this many plausible times in a row, an old image is old and no clock error.
+# After this many plausible times in a row, an old time is an old image and not a clock error.
 TRUSTED_AFTER = 30
 # Excess of implausible over plausible times at which the clock is abandoned.
 GIVEN_UP_AFTER = 15
@@ -39,7 +39,7 @@ class DriverClock:
 
     @property
     def gave_up(self) -> bool:
-        """Whether the driver's clock was implausible so often that it is not used any more."""
+        """Whether the driver's clock was implausible so often that it is no longer used."""
         return self._gave_up
 
     def restart(self) -> None:
@@ -68,7 +68,7 @@ class DriverClock:
             self._plausible_in_row += 1
             self._implausible = max(0, self._implausible - 1)
             return True
-        # An image that was buffered while this machine was busy: by its arrival it would look new.
+        # An image that was buffered while this machine was busy; its arrival time would make it look new.
         is_late = grows and age_s > MAX_AGE_S and self._plausible_in_row >= TRUSTED_AFTER
         self._implausible += 1
         if not is_late:

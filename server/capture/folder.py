@@ -53,7 +53,7 @@ class FolderSource:
 
     @property
     def defect(self) -> CaptureError | None:
-        """Which images are unusable, and why; None without any."""
+        """The unusable images with reasons; None if all are usable."""
         return _unreadable(self._reason_from_unusable) if self._reason_from_unusable else None
 
     def open(self) -> None:
@@ -97,7 +97,7 @@ class FolderSource:
         return shot
 
     def close(self) -> None:
-        """Do nothing: no file stays open."""
+        """Do nothing, because no file stays open."""
 
     def _list(self) -> None:
         try:
@@ -128,7 +128,7 @@ class FolderSource:
         try:
             content = file.read_bytes()
             image = decoded(content)
-            reason = f"its {len(content)} bytes are no decodable image"
+            reason = f"its {len(content)} bytes are not a decodable image"
         except OSError as error:
             reason = (error.strerror or "it cannot be read").lower()
         if image is None:
@@ -142,13 +142,13 @@ class FolderSource:
         return CaptureError(
             "FOLDER_WITHOUT_IMAGES",
             f"the folder {self.name} has 0 images ({', '.join(IMAGE_SUFFIXES)})",
-            "Put images into the folder, or name another one; it is retried automatically.",
+            "Put images into the folder, or give another folder; it is retried automatically.",
             {"folder": self.name, "images": 0},
         )
 
 
 def _unreadable(reason_from_file: Mapping[Path, str]) -> CaptureError:
-    """Return one error for all of them; the first ones by name."""
+    """Return one error for all unusable images, with the names of the first ones."""
     first = list(itertools.islice(reason_from_file.items(), MAX_NAMED))
     context = {"file": str(first[0][0]), "files": [str(file) for file, _ in first]}
     count = len(reason_from_file)
@@ -156,14 +156,14 @@ def _unreadable(reason_from_file: Mapping[Path, str]) -> CaptureError:
         return CaptureError(
             "FOLDER_IMAGE_UNREADABLE",
             f"the image {first[0][0]} cannot be used: {first[0][1]}",
-            "Replace it or take it out of the folder; it is left out until then.",
+            "Replace it or remove it from the folder; it is skipped until then.",
             {**context, "images": count},
         )
     rest = f" and {count - MAX_NAMED} more" if count > MAX_NAMED else ""
     return CaptureError(
         "FOLDER_IMAGE_UNREADABLE",
         f"{count} images cannot be used: {', '.join(f'{file} ({reason})' for file, reason in first)}{rest}",
-        "Replace them or take them out of the folder; they are left out until then.",
+        "Replace them or remove them from the folder; they are skipped until then.",
         {**context, "images": count},
     )
 

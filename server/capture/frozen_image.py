@@ -1,4 +1,4 @@
-"""Detects a camera that repeats one image: frozen, or a capture card without a signal.
+"""Detection of a camera that repeats one image: a frozen camera, or a capture card without a signal.
 
 A capture card repeats its last image, or a test picture, when the camera is unplugged; its timestamps are
 current, so video and numbers would look live. After a quarter of a second repeated images are dropped, and

@@ -123,7 +123,7 @@ class LocalCameraSource:
     def adopt(self, calibration: CalibratedCamera | None) -> None:
         """Use the camera settings of this calibration from the next image on. From any thread.
 
-        Where the settings name no size, the camera is reopened in the calibration's.
+        If the settings state no size, the camera is reopened in that of the calibration.
         """
         self._adopted = calibration
 
@@ -157,7 +157,7 @@ class LocalCameraSource:
         if image is None:
             raise CaptureError(
                 "CAMERA_STOPPED",
-                f"{self.name} gave no image",
+                f"{self.name} sent no image",
                 "Check its cable and power; it is retried automatically.",
                 {"camera": self.name},
             )
@@ -214,17 +214,17 @@ class LocalCameraSource:
         if self._device is None:
             return arrived_s
         had_given_up = self._timestamps.gave_up
-        # OpenCV's V4L2 backend has the buffer's timestamp there, from the monotonic clock with most drivers.
+        # OpenCV's V4L2 backend returns the time stamp of the buffer, for most drivers on the monotonic clock.
         driver_s = camera.get(cv2.CAP_PROP_POS_MSEC) / 1000.0
         captured_at_s = self._timestamps.captured_at_s(driver_s, arrived_s=arrived_s)
         if self._timestamps.gave_up and not had_given_up:
             log.warning(
-                "the times of the camera's driver are implausible; images count from their arrival",
+                "the time stamps of the camera driver are implausible; arrival times are used instead",
                 code="CAMERA_CLOCK_IMPLAUSIBLE",
                 camera=self.name,
                 driver_s=round(driver_s, 3),
                 arrived_s=round(arrived_s, 3),
-                remedy="Ages lack exposure and transfer now, some 10 to 100 ms. Try another port or kernel.",
+                remedy="Ages now lack exposure and transfer, some 10 to 100 ms. Try another port or kernel.",
             )
         return captured_at_s
 
@@ -261,7 +261,7 @@ class LocalCameraSource:
         log.info(
             "camera mode requested",
             camera=self.name,
-            requested=str(requested or "its own mode"),
+            requested=str(requested or "default mode"),
             granted=str(granted),
         )
 
@@ -275,7 +275,7 @@ class LocalCameraSource:
         return choose_mode(offered, self._wanted, calibrated_size_wh_px=calibrated)
 
     def _granted_mode(self, camera: Video) -> CameraMode:
-        """Return the present mode, by the device, else by OpenCV."""
+        """Return the present mode as reported by the device, otherwise by OpenCV."""
         if self._device is not None:
             with contextlib.suppress(OSError):
                 return self._device.mode()

@@ -1,4 +1,4 @@
-"""Checks a camera's mode: requested against granted and measured size, format and rate."""
+"""Comparison of the requested camera mode with granted and measured size, format and rate."""
 
 from collections import deque
 
@@ -15,8 +15,8 @@ CLEARS_AT_RATIO = 0.10
 
 CHOOSE = "Choose a mode that coaxial cameras lists, with camera.width, camera.height and camera.rate_hz."
 FASTER = (
-    "Give it more light or a fixed, shorter exposure (automatic exposure slows a camera down in the dark), a "
-    "USB port of its own, or ask for smaller images with camera.width and camera.height."
+    "Use more light or a fixed, shorter exposure (automatic exposure slows a camera down in the dark), a "
+    "separate USB port, or smaller images with camera.width and camera.height."
 )
 
 
@@ -24,10 +24,10 @@ class ModeCheck:
     """Compares requested, granted and measured mode. The times are those of the images.
 
     Args:
-        name: of the camera.
-        wanted: mode of the settings.
-        requested: the offered mode that was requested; None where the modes are unknown.
-        granted: mode granted by the driver.
+        name: Name of the camera.
+        wanted: Mode of the settings.
+        requested: The offered mode that was requested; None if the modes are unknown.
+        granted: Mode granted by the driver.
     """
 
     def __init__(
@@ -51,7 +51,7 @@ class ModeCheck:
 
     @property
     def problem(self) -> CaptureError | None:
-        """The difference, with all numbers; None without one."""
+        """The difference between the modes, with all numbers; None without one."""
         return self._problem
 
     def take(self, size_wh_px: tuple[int, int], at_s: float) -> None:
@@ -75,7 +75,7 @@ class ModeCheck:
         was_off, self._is_off_rate = self._is_off_rate, False
         if expected_hz > 0.0:
             self._is_off_rate = abs(rate_hz - expected_hz) > limit * expected_hz
-        # An open problem is not reported again for every tenth of a hertz.
+        # A reported problem is not reported again for every change by a tenth of a hertz.
         reported_hz = self._measured_hz
         if (
             was_off
@@ -88,7 +88,7 @@ class ModeCheck:
         self._problem = self._find_problem()
 
     def _expected_hz(self) -> float:
-        """Return the requested rate, not the granted one: a granted 5 Hz is a problem, too."""
+        """Return the requested rate, because a granted rate of 5 Hz is a problem as well."""
         requested_hz = 0.0 if self._requested is None else self._requested.rate_hz
         return self._wanted.rate_hz or requested_hz or self._granted.rate_hz
 
@@ -130,16 +130,16 @@ class ModeCheck:
         wanted, requested, granted = self._wanted, self._requested, self._granted
         parts = []
         if wanted.size_wh_px is not None or wanted.rate_hz is not None:
-            parts.append(f"the settings ask for {wanted}")
+            parts.append(f"the settings request {wanted}")
         if requested is not None:
             parts.append(f"{requested} was requested")
         if granted.size_wh_px != (0, 0):
             parts.append(f"{granted} was granted")
         width, height = self._size_wh_px
         if self._measured_hz is not None:
-            parts.append(f"images come as {width}x{height} at {self._measured_hz:.1f} Hz")
+            parts.append(f"images arrive as {width}x{height} at {self._measured_hz:.1f} Hz")
         elif self._size_wh_px != granted.size_wh_px:
-            parts.append(f"images come as {width}x{height}")
+            parts.append(f"images arrive as {width}x{height}")
         context: dict[str, object] = {
             "camera": self._name,
             "requested": None if requested is None else str(requested),
@@ -147,5 +147,5 @@ class ModeCheck:
             "measured_hz": self._measured_hz,
         }
         return CaptureError(
-            code, f"{self._name} gives other images than requested: {', '.join(parts)}", remedy, context
+            code, f"{self._name} sends other images than requested: {', '.join(parts)}", remedy, context
         )

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 from server.live import CameraMode
 
-# Rate for the tracker: more images cost time for little gain, with fewer the markers jump between images.
+# Rate for the tracker: a higher rate costs time for little gain; at a lower rate markers move far per image.
 WANTED_RATE_HZ = 30.0
 MIN_RATE_HZ = 25.0
 MAX_SIZE_WH_PX = (1920, 1080)
-# Lossless, so at equal size and rate better than MJPG, whose block artefacts lie on the marker's edges.
+# Lossless, so at equal size and rate better than MJPG, which has block artefacts at marker edges.
 UNCOMPRESSED = ("YUYV", "UYVY", "NV12", "NV21", "YU12", "YV12", "BGR3", "RGB3", "GREY")
 # Formats that OpenCV's V4L2 backend converts to BGR.
 DECODED = (*UNCOMPRESSED, "MJPG", "JPEG")

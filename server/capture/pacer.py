@@ -1,14 +1,14 @@
-"""Plays images at the rate at which they were taken."""
+"""Playback of images at their original rate."""
 
 import threading
 import time
 
 
 class Pacer:
-    """Waits until an image is due, by the source's own clock.
+    """Waits until an image is due by the clock of its source.
 
-    A source that falls behind by more than `slack_s` is not caught up: its clock is reset, so that a pause of
-    the machine does not end in a burst.
+    If a source falls behind by more than `slack_s`, its clock is reset, so that a pause of the machine is not
+    followed by a burst of images.
     """
 
     def __init__(self, *, stop: threading.Event, slack_s: float = 0.5) -> None:

@@ -1,4 +1,4 @@
-"""A phone, tablet or other computer as a source: a page on it sends its camera's images over a WebSocket.
+"""A phone, tablet or other computer as a source: its page sends the images of its camera over a WebSocket.
 
 The web process receives them, the tracking process reads them through an inbox in shared memory. Each image
 has the browser's capture time, converted to this machine's monotonic clock by the receiver
@@ -25,7 +25,7 @@ from tracker.camera import CameraControl
 NAME = "phone"
 # Timeout of `open` for a sender, and interval of the stop check in `read`.
 WAIT_S = 0.5
-# Below capture.STALLED_AFTER_S, so that this reason is reported and not the one of a wired camera.
+# Below capture.STALLED_AFTER_S, so that this reason is reported instead of that of a wired camera.
 SILENT_AFTER_S = 1.5
 
 
@@ -224,8 +224,8 @@ def broken_image() -> Problem:
     """Return the problem of an incomplete or invalid JPEG."""
     return Problem(
         code="PHONE_IMAGE_BROKEN",
-        message="an image of the phone is no complete JPEG",
-        remedy="Reload the page on the phone; if it happens again, use another browser there.",
+        message="an image of the phone is not a complete JPEG",
+        remedy="Reload the page on the phone; if the error persists, use another browser.",
     )
 
 
@@ -233,7 +233,7 @@ def _absent() -> CaptureError:
     return CaptureError(
         "PHONE_ABSENT",
         "no phone or tablet sends images",
-        "Open this server's page /camera on it and touch START; the page for people invites it as a camera.",
+        "Open the page /camera of this server on it and touch START. The page People invites it as a camera.",
         {"source": NAME},
     )
 
@@ -241,8 +241,9 @@ def _absent() -> CaptureError:
 def _gone() -> CaptureError:
     return CaptureError(
         "PHONE_GONE",
-        "the phone that sent images has disconnected: its page was closed or stopped, or its network is down",
-        "Look at the phone: its page /camera must be open, in front and started, and its network must work.",
+        "the phone has disconnected: its page was closed or stopped, or its network is down",
+        "Check the phone: its page /camera must be open, in the foreground and started, and its network must "
+        "work.",
         {"source": NAME},
     )
 
@@ -251,7 +252,8 @@ def _silent() -> CaptureError:
     return CaptureError(
         "PHONE_SILENT",
         f"the phone is connected, but sent no image for {SILENT_AFTER_S:g} s",
-        "Look at the phone: its page must be in front, its screen on, and its camera not used elsewhere.",
+        "Check the phone: its page must be in the foreground, its screen on, and its camera not in use by "
+        "another app.",
         {"source": NAME, "limit_s": SILENT_AFTER_S},
     )
 
@@ -262,7 +264,7 @@ def _unusable(problem: Problem) -> CaptureError:
 
 def _mode_not_granted(camera: PhoneCamera, wanted: WantedMode) -> CaptureError | None:
     size, rate_hz = wanted.size_wh_px, wanted.rate_hz
-    # Held upright, it gives the same size with its sides exchanged.
+    # In portrait orientation width and height are exchanged.
     is_other_size = size is not None and sorted(size) != sorted(camera.size_wh_px)
     is_other_rate = bool(rate_hz and camera.rate_hz) and not is_same_rate(rate_hz or 0.0, camera.rate_hz)
     if not is_other_size and not is_other_rate:
@@ -270,8 +272,8 @@ def _mode_not_granted(camera: PhoneCamera, wanted: WantedMode) -> CaptureError |
     granted = CameraMode(fourcc="", size_wh_px=camera.size_wh_px, rate_hz=camera.rate_hz)
     return CaptureError(
         "CAMERA_MODE_NOT_GRANTED",
-        f"the phone gives other images than requested: the settings ask for {wanted}, {granted} was granted",
-        "Set camera.width, camera.height and camera.rate_hz to what the phone's camera has, or to null.",
+        f"the phone sends other images than requested: the settings request {wanted}, {granted} was granted",
+        "Set camera.width, camera.height and camera.rate_hz to a mode of the phone's camera, or to null.",
         {"camera": NAME, "requested": str(wanted), "granted": str(granted)},
     )
 
@@ -282,7 +284,7 @@ def _focus_not_locked(camera: PhoneCamera) -> CaptureError:
         "PHONE_FOCUS_NOT_LOCKED",
         f"the focus of the phone's camera {how}: when it changes, the calibration is invalid, "
         "and the change may go unnoticed",
-        "Keep the distance from phone to field as it was at the calibration, and check on a landmark often; "
-        "Chrome on Android locks the focus of most phones.",
+        "Keep the distance from the phone to the field as during the calibration, and check on a landmark "
+        "often. Chrome on Android can lock the focus of most phones.",
         {"focus": camera.focus.value},
     )

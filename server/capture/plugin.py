@@ -1,6 +1,6 @@
 """An image source of another package (`plugin:NAME` or `plugin:NAME:ADDRESS`).
 
-Nothing of a plug-in is trusted but its pixels: image and time are checked before they count as live.
+The output of a plug-in is not trusted: image and time are validated before they count as live.
 """
 
 import contextlib
@@ -19,7 +19,7 @@ from server.plugins import IMAGE_SOURCES, PluginError, load_plugin
 
 
 class PluginSource:
-    """A live camera that a plug-in reads; `docs/guide/plugins.md` states its interface."""
+    """A live camera read by a plug-in; `docs/guide/plugins.md` describes the interface."""
 
     def __init__(self, address: SourceAddress, *, first_number: int) -> None:
         self.name = address.name
@@ -51,7 +51,7 @@ class PluginSource:
         try:
             image, captured_at_s = self._source.read()
         except Exception as error:
-            raise self._failed("gave no image", error) from error
+            raise self._failed("returned no image", error) from error
         self._captured_at_s = self._checked_time_s(captured_at_s, arrived_at_s=time.monotonic())
         shot = Shot(
             image=self._checked_image(image),
@@ -66,7 +66,7 @@ class PluginSource:
         return shot
 
     def close(self) -> None:
-        """Close the plug-in's source; its errors are of no consequence any more."""
+        """Close the source of the plug-in; its errors are ignored."""
         source, self._source = self._source, None
         if source is not None:
             with contextlib.suppress(Exception):
@@ -84,7 +84,7 @@ class PluginSource:
         )
 
     def _checked_time_s(self, captured_at_s: object, *, arrived_at_s: float) -> float:
-        """Return the capture time. One of the future would let an old image look live."""
+        """Return the capture time; rejects a time in the future, which would make an old image look live."""
         if captured_at_s is None:
             return arrived_at_s
         if (
@@ -106,7 +106,7 @@ class PluginSource:
     def _invalid(self, code: str, what: str) -> CaptureError:
         return CaptureError(
             code,
-            f"the plug-in {self._plugin} gave {what}",
+            f"the plug-in {self._plugin} returned {what}",
             "Correct or update the plug-in; it is retried automatically.",
             {"plugin": self._plugin},
         )

@@ -15,7 +15,7 @@ FALLBACK_PERIOD_S = 1.0 / 30.0
 
 
 class RecordingSource:
-    """Images of a recording at their capture times; a cut file is played up to the cut."""
+    """Images of a recording at their capture times; an incomplete file is played up to its end."""
 
     def __init__(
         self, path: Path, *, loop: bool, fast: bool, stop: threading.Event, first_number: int = 0
@@ -66,7 +66,7 @@ class RecordingSource:
             raise CaptureError(
                 "RECORDING_IMAGE_BROKEN",
                 f"image {message.sequence} of {self.name} cannot be decoded",
-                "Use another recording; coaxial replay says what is in it.",
+                "Use another recording; coaxial replay prints the contents of this one.",
                 {"file": self.name, "image_number": message.sequence},
             )
         if self._read_in_pass == 0:
@@ -114,6 +114,6 @@ class RecordingSource:
         return CaptureError(
             "RECORDING_WITHOUT_IMAGES",
             f"the recording {self.name} has no image",
-            "Use another recording; coaxial replay says what is in it.",
+            "Use another recording; coaxial replay prints the contents of this one.",
             {"file": self.name},
         )

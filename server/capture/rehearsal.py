@@ -30,7 +30,7 @@ class Renderer(Protocol):
 
 
 class CameraOutage(Protocol):
-    """A time at which the theatre's camera gives no image."""
+    """A period in which the camera of the theatre sends no images."""
 
     @property
     def kind(self) -> str:
@@ -40,7 +40,7 @@ class CameraOutage(Protocol):
         """Return whether the event is active."""
 
     def over_at_s(self, at_s: float) -> float:
-        """Return when an active event ends."""
+        """Return the end of an active event."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,8 +60,8 @@ class RehearsalSource:
     """Images of a simulated theatre.
 
     Image `number` always shows the theatre at `(number - first_number) / rate_hz` seconds of its own clock,
-    where the first number is that of the scene's beginning, so that the ground truth of an image follows from
-    its number. A machine too slow for the rate skips numbers (they count as skipped); the motion keeps its
+    where the first number is that of the start of the scene, so that the ground truth of an image follows
+    from its number. On a machine too slow for the rate, images are skipped and counted; the motion keeps its
     speed.
     """
 
@@ -110,7 +110,7 @@ class RehearsalSource:
         with self._lock:
             self._renderer = renderer
             self._outages = tuple(outages)
-            # The next image may be in rendering already.
+            # The next image may already be in rendering.
             self._played_scene = PlayedScene(scene_number=scene_number, first_number=self._due() + 1)
 
     def open(self) -> None:
@@ -122,7 +122,7 @@ class RehearsalSource:
         """Return the next image when it is due.
 
         Raises:
-            CaptureError: REHEARSAL_CAMERA_STOPPED, as the events say.
+            CaptureError: REHEARSAL_CAMERA_STOPPED, during an event of the scene.
         """
         while not self._stop.is_set():
             if self._last_number is not None and self._number > self._last_number:
@@ -139,7 +139,7 @@ class RehearsalSource:
         return None
 
     def close(self) -> None:
-        """Do nothing: nothing is open."""
+        """Do nothing, because nothing is open."""
 
     def _due(self) -> int:
         """Return the number of the next image."""
@@ -178,8 +178,8 @@ class RehearsalSource:
         if outage.kind == STOPS:
             raise CaptureError(
                 "REHEARSAL_CAMERA_STOPPED",
-                f"the rehearsal's camera gives no images since {at_s:.1f} s, as its events say",
-                "Wait until the event is over, or play a scene without it.",
+                f"an event of the rehearsal stopped its camera at {at_s:.1f} s",
+                "Wait until the event has ended, or play a scene without it.",
                 {"at_s": at_s},
             )
         self._stop.wait(POLL_INTERVAL_S)

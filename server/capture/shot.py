@@ -16,7 +16,7 @@ class Shot:
 
     Attributes:
         image: (h, w, 3), BGR.
-        number: counts all images of the source; grows over repeats of a file and reconnections.
+        number: Counts all images of the source, also over repeats of a file and reconnections.
         captured_at_s: monotonic time of the capture.
         source_time_s: the source's own time: a file's timestamp, the theatre's clock; for a live source
             the same as captured_at_s.
@@ -42,7 +42,7 @@ class Source(Protocol):
         waits_for_consumer: whether each image must be taken before the next is read (as fast as possible,
             none skipped); otherwise the newest image wins.
         stalls: whether missing images mean an error (a camera), not that the next image is not due.
-        defect: problem of a source that still gives images (a truncated file, an unreadable image in a
+        defect: Problem of a source that still delivers images (a truncated file, an unreadable image in a
             folder); None without one.
         camera: status of the camera; None for files and rendered images.
     """
@@ -56,7 +56,7 @@ class Source(Protocol):
 
     @property
     def defect(self) -> CaptureError | None:
-        """Problem of a source that still gives images."""
+        """Problem of a source that still delivers images."""
 
     @property
     def camera(self) -> CameraStatus | None:
@@ -73,8 +73,8 @@ class Source(Protocol):
         """Return the next image; None at the end of a file that is not looped.
 
         Raises:
-            CaptureError: it gives no more images.
+            CaptureError: The source delivers no more images.
         """
 
     def close(self) -> None:
-        """Release the device or file; harmless when it is not open."""
+        """Release the device or file; does nothing if it is not open."""

@@ -1,4 +1,4 @@
-"""Makes the image source that the settings name."""
+"""Creation of the image source of the settings."""
 
 import threading
 from collections.abc import Sequence
@@ -55,7 +55,7 @@ def source_from_config(
             raise CaptureError(
                 "REHEARSAL_WITHOUT_THEATRE",
                 "the rehearsal was requested, but its theatre was not built",
-                "Restart the program; if it happens again, report it with the log.",
+                "Restart the program; if the error persists, send the server log to the maintainer.",
             )
         return RehearsalSource(
             renderer,
@@ -109,7 +109,7 @@ def _phone(inbox: Inbox | None, stop: threading.Event, wanted: WantedMode, first
     if inbox is None:
         raise CaptureError(
             "PHONE_WITHOUT_SERVER",
-            "a phone sends its images to a running server, and there is none here",
+            "the source 'phone' needs a running server",
             "Start it with coaxial run --source phone.",
         )
     return PhoneSource(inbox, stop=stop, wanted=wanted, first_number=first_number)
@@ -140,7 +140,7 @@ class PathSource:
 
     @property
     def defect(self) -> CaptureError | None:
-        """Problem of a source that still gives images."""
+        """Problem of a source that still delivers images."""
         return self._defect if self._source is None else self._source.defect
 
     def open(self) -> None:
@@ -170,7 +170,7 @@ class PathSource:
         self._source = source
 
     def read(self) -> Shot | None:
-        """The next image."""
+        """Return the next image."""
         shot = None if self._source is None else self._source.read()
         if shot is not None:
             self._number = shot.number + 1

@@ -35,7 +35,7 @@ from server.live import CameraStatus, ImageClock
 # RTSP packets carry the sender's time (RTP); HTTP has none, and FFmpeg derives it from a rate.
 TIMED_SCHEMES = ("rtsp", "rtsps")
 DEFAULT_PORTS = {"rtsp": 554, "rtsps": 322, "rtmp": 1935, "http": 80, "https": 443}
-# Short, so that a host that comes back is found within a second: the decoder's own attempt takes 3 s.
+# Short, so that a host is found within a second after its return; an attempt of the decoder takes 3 s.
 CONNECT_TIMEOUT_S = 0.5
 MAX_OLD_S = 2.0
 MAX_TORN = 30
@@ -100,7 +100,7 @@ class StreamSource:
             stream.release()
             raise CaptureError(
                 "STREAM_WITHOUT_VIDEO",
-                f"the stream {self.name} answers, but gives no video within {OPEN_TIMEOUT_MS / 1000:g} s",
+                f"the stream {self.name} is reachable, but sent no video within {OPEN_TIMEOUT_MS / 1000:g} s",
                 "Check path, user and password of the stream; it is retried automatically.",
                 {"stream": self.name, "timeout_ms": OPEN_TIMEOUT_MS},
             )
@@ -179,10 +179,10 @@ class StreamSource:
         captured_at_s = self._timestamps.captured_at_s(at_s, arrived_s=arrived_s)
         if self._timestamps.gave_up and not had_given_up:
             log.warning(
-                "the times in the stream are implausible; images count from their arrival",
+                "the time stamps of the stream are implausible; arrival times are used instead",
                 code="STREAM_CLOCK_IMPLAUSIBLE",
                 stream=self.name,
-                remedy="Ages have the network's jitter now. Restart the camera, and update its firmware.",
+                remedy="Ages now include network jitter. Restart the camera, and update its firmware.",
             )
         elif self._sender_clock.jumps > jumps and not had_given_up:
             log.warning(
@@ -190,7 +190,7 @@ class StreamSource:
                 code="STREAM_CLOCK_JUMPED",
                 stream=self.name,
                 sender_s=round(sender_s, 3),
-                remedy="See that the camera's time server sets its clock once, and not again and again.",
+                remedy="Configure the camera's time server so that it does not set the clock repeatedly.",
             )
         return captured_at_s
 
@@ -207,17 +207,17 @@ class StreamSource:
     def _in_bursts(self) -> CaptureError:
         return CaptureError(
             "STREAM_IN_BURSTS",
-            f"the stream {self.name} sends its images in bursts, and for {MAX_OLD_S:g} s none that was not "
+            f"the stream {self.name} sends its images in bursts; for {MAX_OLD_S:g} s all images were "
             "buffered on the way",
-            "Set the camera to low latency, and connect it by cable; see that this machine is not busy. It "
-            "is reopened automatically.",
+            "Set the camera to low latency, connect it by cable, and check that this machine is not "
+            "overloaded. It is reopened automatically.",
             {"stream": self.name, "limit_s": MAX_OLD_S},
         )
 
     def _all_torn(self) -> CaptureError:
         return CaptureError(
             "STREAM_TORN",
-            f"the stream {self.name} gave {self._torn} truncated images in a row",
+            f"the stream {self.name} sent {self._torn} truncated images in a row",
             "Restart the camera, or the device between it and this machine; it is reopened automatically.",
             {"stream": self.name, "images": self._torn},
         )
@@ -225,7 +225,7 @@ class StreamSource:
     def _stopped(self) -> CaptureError:
         return CaptureError(
             "STREAM_STOPPED",
-            f"the stream {self.name} stopped: no image within {READ_TIMEOUT_MS / 1000:g} s, or it was closed",
+            f"the stream {self.name} stopped: no image within {READ_TIMEOUT_MS / 1000:g} s, or closed",
             "Check the camera, its power and the network; it is retried automatically.",
             {"stream": self.name, "timeout_ms": READ_TIMEOUT_MS},
         )
@@ -236,13 +236,13 @@ class StreamSource:
             parts = urlsplit(self._address)
             port = parts.port or DEFAULT_PORTS.get(parts.scheme.lower())
         except ValueError:
-            # Neither the error's text nor its cause: they contain what is in place of the port, which is a
-            # password when that has / ? or # in it.
+            # The text and the cause of the error are not used: they may contain a part of the password, if it
+            # contains / ? or #.
             raise CaptureError(
                 "STREAM_ADDRESS_INVALID",
                 f"the stream's address {self.name} is invalid: it has no valid host or port",
-                "Give an address like rtsp://user:password@camera:554/path, in which / ? # @ of a password "
-                "are written as %2F %3F %23 %40.",
+                "Give an address such as rtsp://user:password@camera:554/path; write / ? # @ in a password "
+                "as %2F %3F %23 %40.",
                 {"stream": self.name},
             ) from None
         if parts.hostname is None or port is None:

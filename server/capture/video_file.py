@@ -14,7 +14,7 @@ from server.errors import CaptureError
 from server.live import CameraStatus
 
 FALLBACK_RATE_HZ = 30.0
-# A container's number of images may be an estimate; a file that lacks more than this is truncated.
+# The number of images in a container may be an estimate; a file that lacks more than this is truncated.
 CUT_RATIO = 0.05
 CUT_IMAGES = 2
 
@@ -130,7 +130,7 @@ class VideoFileSource:
             self.defect = CaptureError(
                 "VIDEO_FILE_CUT",
                 f"the video file {self.name} ends after {self._read_in_pass} of {self._claimed} images",
-                "Copy or export the file again; what is there is played.",
+                "Copy or export the file again; the existing images are played.",
                 {"file": self.name, "images": self._read_in_pass, "claimed_images": self._claimed},
             )
 
@@ -138,15 +138,14 @@ class VideoFileSource:
         size = self._path.stat().st_size if self._path.is_file() else 0
         return CaptureError(
             "VIDEO_FILE_UNREADABLE",
-            f"{self.name} ({size} bytes) is no usable video file: {reason}",
-            "Give a complete video file (MP4, MOV, AVI or MKV); one that was truncated must be "
-            "copied or exported again.",
+            f"{self.name} ({size} bytes) is not a usable video file: {reason}",
+            "Give a complete video file (MP4, MOV, AVI or MKV); copy or export a truncated file again.",
             {"file": self.name, "bytes": size},
         )
 
 
 def _check_readable(path: Path) -> None:
-    """Check for simple errors before the decoder fails without a reason."""
+    """Raise for simple errors, for which the decoder would fail without a reason."""
     reason = ""
     if not path.exists():
         reason = "it does not exist"

@@ -1,6 +1,6 @@
-"""The command line: what can be typed after `coaxial`, a file or room for each group of commands.
+"""The command line: one module or package for each group of commands of `coaxial`.
 
-Nothing heavy is imported until a command needs it, so that `coaxial --help` answers at once.
+Large packages are imported only by the command that needs them, so that `coaxial --help` is fast.
 """
 
 from server.cli.commands import app, main

@@ -39,7 +39,7 @@ def background_from(text: str, *, images: int, steps: Steps) -> BackgroundImages
     """Read at most `images` evenly spaced images of a finite source.
 
     Raises:
-        InvalidInput: BACKGROUND_WITHOUT_END, or as the source's own error where it gives no image.
+        InvalidInput: BACKGROUND_WITHOUT_END, or the code of the source's error if it has no image.
     """
     address = source_from_text(text)
     if address.kind not in (SourceKind.PATH, SourceKind.REHEARSAL):

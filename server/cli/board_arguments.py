@@ -13,15 +13,19 @@ _SIZE = typer.Option(
     show_default=False,
 )
 
-# Where there is nothing to look at but a board.
+# For commands that always detect a board.
 PatternArgument = Annotated[Pattern, _PATTERN]
 SizeArgument = Annotated[str, _SIZE]
-# Where there may be something else.
+# For commands with an alternative to a board.
 PatternOption = Annotated[Pattern | None, _PATTERN]
 SizeOption = Annotated[str | None, _SIZE]
 PitchOption = Annotated[
     float | None,
-    typer.Option("--pitch-mm", help="From dot to dot; asymmetric: half of it in a row.", metavar="MM"),
+    typer.Option(
+        "--pitch-mm",
+        help="Distance between neighbouring dots; asymmetric: between rows.",
+        metavar="MM",
+    ),
 ]
 SquareOption = Annotated[float | None, typer.Option("--square-mm", help="Side of a square.", metavar="MM")]
 MarkerOption = Annotated[

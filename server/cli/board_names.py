@@ -13,7 +13,7 @@ class Pattern(StrEnum):
 
 
 class Layout(StrEnum):
-    """Of dots: symmetric or asymmetric; of ChArUco: newer or older."""
+    """Layout of dots (symmetric, asymmetric) or of a ChArUco board (newer, older)."""
 
     SYMMETRIC = "symmetric"
     ASYMMETRIC = "asymmetric"

@@ -1,4 +1,4 @@
-"""What `coaxial register points` says of a planned screw: does this registration suffice, and what would."""
+"""The check of `coaxial register points` whether a registration is accurate enough for a planned screw."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -11,7 +11,7 @@ from tracker.navigation.uncertainty import PedicleTolerance, UncertainPose
 from tracker.plan import Channel
 from tracker.registration.points import PointRegistration
 
-# So many more landmarks a person may still touch.
+# Numbers of additional landmarks that a person can still touch.
 MORE_LANDMARKS = (2, 4, 8)
 
 
@@ -20,8 +20,8 @@ class ChannelCheck:
     """The check of a registration on one channel, and the expected one with more landmarks.
 
     Attributes:
-        now: with the covariance as stated.
-        with_more: by number of additional landmarks, spread as these, as precise, and none mistaken.
+        now: With the stated covariance.
+        with_more: By number of additional landmarks of the same spread and precision, without a gross error.
     """
 
     now: RegistrationCheck
@@ -47,21 +47,21 @@ class ChannelCheck:
         now = self.now
         found = [
             f"On the channel: {now.entry_95_mm:.2f} mm at the entry, {now.isthmus_95_mm:.2f} mm at the "
-            f"isthmus (95 %, of the registration alone); the screw leaves {now.tolerance_mm:.2f} mm."
+            f"isthmus (95 %, registration only); tolerance of the screw {now.tolerance_mm:.2f} mm."
         ]
         if now.suffices:
             return found
-        # Marker and tool add to each figure: none of them promises enough.
+        # The errors of marker and tool are added to each figure, so that "enough" holds at best.
         found.append(
             "This screw cannot be navigated with this registration: every image is SET-UP INSUFFICIENT."
         )
         found += [
-            f"  {more} more landmarks, spread as these and none mistaken: {check.error_95_mm:.2f} mm, "
+            f"  {more} more landmarks of the same spread, all correct: {check.error_95_mm:.2f} mm, "
             f"{'enough at best' if check.suffices else 'not enough'}"
             for more, check in self.with_more.items()
         ]
         if now.diameter_excess_mm is None:
-            found.append("  a thinner screw: the planned one leaves nothing, plan it again first")
+            found.append("  a thinner screw: the planned screw has no tolerance, plan it again first")
         else:
             found.append(f"  a screw on the same axis, thinner by at least {now.diameter_excess_mm:.1f} mm")
         return found
@@ -78,7 +78,7 @@ def check_channel(found: PointRegistration, channel_text: str, tolerance_text: s
     allowed = _numbers(tolerance_text, 2, "TOLERANCE_TEXT_INVALID", "--tolerance", "mm,deg")
     if not (allowed[0] >= 0.0 and 0.0 <= allowed[1] < 90.0):
         raise _invalid("TOLERANCE_TEXT_INVALID", "--tolerance", tolerance_text, "mm,deg")
-    # The radius of the channel takes no part: the tolerance says what the screw leaves.
+    # The radius of the channel is not used: the tolerance already accounts for the screw.
     channel = Channel(name="", entry_in_vertebra_mm=ends[:3], target_in_vertebra_mm=ends[3:], radius_mm=1.0)
     tolerance = PedicleTolerance.of_limits(float(allowed[0]), float(allowed[1]))
 
@@ -104,5 +104,5 @@ def _invalid(code: str, option: str, text: str, form: str) -> InvalidInput:
     return InvalidInput(
         code,
         f"{option} is '{text}', expected {form}",
-        "Copy the numbers that 'coaxial plan measure --json' prints.",
+        "Copy the numbers from the output of 'coaxial plan measure --json'.",
     )

@@ -159,7 +159,8 @@ def run(
 
     # The tracker loads in its own process meanwhile.
     forking_context()
-    # What is imported stays: collecting garbage takes a sixth of a start. `run_dashboard` enables it again.
+    # Imported modules are never freed, and garbage collection takes a sixth of the start. `run_dashboard`
+    # enables it again.
     gc.disable()
     try:
         from server.cli.options import SettingOptions  # noqa: PLC0415
@@ -243,7 +244,7 @@ def service_file() -> None:
 
 
 def coaxial_version() -> str:
-    """The installed version."""
+    """Return the installed version."""
     try:
         return version("coaxial")
     except PackageNotFoundError:

@@ -25,7 +25,7 @@ REMEDY = (
 )
 AXES = ("x", "y", "z")
 NAMED = ("label", "name", "id", "landmark", "point", "no", "nr", "index")
-# "x_mm", "X (mm)", "x [mm]", "pos_x" and "l" of LPS are all x.
+# "x_mm", "X (mm)", "x [mm]", "pos_x" and the "l" of LPS all name x.
 HEADING = re.compile(r"^(?:pos_?|p_?|coord_?)?([xyz])(?:[_ ]?[(\[]?mm[)\]]?)?$")
 
 
@@ -80,8 +80,8 @@ def _rows_of_markups(path: Path) -> LandmarkRows:
     if len(markups) != 1:
         raise InvalidInput(
             "POINTS_INCOMPLETE",
-            f"{path} has {len(markups)} point lists, lines and curves with points, needed 1",
-            "Save the one point list or curve alone as Markups JSON (.mrk.json).",
+            f"{path} has {len(markups)} point lists, lines and curves with points, expected 1",
+            "Save only the point list or curve to be used as Markups JSON (.mrk.json).",
             {"file": str(path), "markups": len(markups)},
         )
     markup = markups[0]
@@ -105,7 +105,7 @@ def _rows(path: Path, points_mm: Array, labels: list[str]) -> LandmarkRows:
 def _content(path: Path) -> bytes:
     try:
         if path.stat().st_size > MAX_BYTES:
-            message = f"{path} has more than {MAX_BYTES / 2**20:.0f} MB, too large for a list of points"
+            message = f"the points file {path} has more than {MAX_BYTES / 2**20:.0f} MB, the maximum"
             raise InvalidInput("POINTS_UNREADABLE", message, REMEDY, {"file": str(path)})
         return path.read_bytes()
     except OSError as error:
@@ -130,7 +130,7 @@ def _lines(text: str) -> list[_Line]:
     rows = [(number, line.strip()) for number, line in enumerate(text.splitlines(), start=1)]
     rows = [(number, line) for number, line in rows if line and not line.startswith(COMMENT)]
     split = next((mark for mark in (";", "\t", ",") if any(mark in line for _, line in rows)), None)
-    # Blanks part the numbers where every comma stands inside one: "1,5 2,5 3,5".
+    # Blanks separate the numbers if every comma is a decimal point: "1,5 2,5 3,5".
     if split == "," and rows and all(re.fullmatch(r"(\S+\s+){2,}\S+", line) for _, line in rows):
         bare = [word for _, line in rows[-1:] for word in line.split()]
         if all("," in word and not word.endswith(",") for word in bare):
@@ -139,7 +139,7 @@ def _lines(text: str) -> list[_Line]:
 
 
 def _words(line: str, split: str | None) -> list[str]:
-    # A comment may also stand behind the numbers.
+    # A comment may follow the numbers.
     words = [word.strip().strip("\"'").strip() for word in line.split(" #", maxsplit=1)[0].split(split)]
     while words and not words[-1]:
         words.pop()
@@ -175,7 +175,7 @@ def _columns_of_header(words: list[str]) -> tuple[list[int], int | None] | None:
 
 
 def _columns_of_numbers(lines: list[_Line], path: Path) -> tuple[list[int], int | None]:
-    """Where x, y and z stand in lines without headings, and where the name."""
+    """Return the columns of x, y and z, and that of the name, in lines without a header."""
     if not lines:
         return [0, 1, 2], None
     words = lines[0].words
@@ -196,7 +196,7 @@ def _columns_of_numbers(lines: list[_Line], path: Path) -> tuple[list[int], int 
 
 
 def _counts(lines: list[_Line], place: int) -> bool:
-    """Whether a column counts 0, 1, 2, ... or 1, 2, 3, ..."""
+    """Return whether a column is 0, 1, 2, ... or 1, 2, 3, ..."""
     words = [line.words[place] if place < len(line.words) else "" for line in lines]
     return any(words == [str(start + step) for step in range(len(words))] for start in (0, 1))
 

@@ -17,8 +17,8 @@ def write_markups(path: Path, markups: Sequence[Markup]) -> None:
     if not is_markups_name(path.name):
         raise InvalidInput(
             "MARKUPS_NAME_INVALID",
-            f"{path} does not end in .mrk.json, by which 3D Slicer knows markups",
-            f"Give {path.with_suffix('.mrk.json').name}, for example.",
+            f"{path} does not end in .mrk.json, the suffix that 3D Slicer requires for markups",
+            f"Give a name such as {path.with_suffix('.mrk.json').name}.",
             {"file": str(path)},
         )
     write_atomically(path, markups_to_bytes(markups))

@@ -61,7 +61,7 @@ def measure(
 
 @plan_app.command()
 def markups(
-    plan: Annotated[Path, typer.Argument(help="A plan that the page has written.", metavar="PLAN.JSON")],
+    plan: Annotated[Path, typer.Argument(help="A plan exported from the page.", metavar="PLAN.JSON")],
     output: Annotated[
         Path, typer.Option(help="File for 3D Slicer, ending in .mrk.json.", metavar="MRK.JSON")
     ],

@@ -18,16 +18,16 @@ def write_plan_markups(plan: Path, output: Path) -> None:
     """Write the landmarks, channels and screws of an exported plan as markups.
 
     Raises:
-        InvalidInput: PLAN_FILE_INVALID, it is no exported plan or has nothing to show;
-            MARKUPS_NAME_INVALID, OUTPUT_NOT_WRITABLE.
-        PlanError: its numbers cannot be a plan.
+        InvalidInput: PLAN_FILE_INVALID, the file is not an exported plan or has neither landmarks nor
+            channels; MARKUPS_NAME_INVALID, OUTPUT_NOT_WRITABLE.
+        PlanError: The plan is invalid.
     """
     try:
         mapped = json.loads(plan.read_text(encoding="utf-8"))
     except OSError as error:
         raise _invalid(plan, f"cannot be read: {(error.strerror or str(error)).lower()}") from error
     except (ValueError, RecursionError) as error:
-        raise _invalid(plan, "is no JSON") from error
+        raise _invalid(plan, "is not valid JSON") from error
     if not isinstance(mapped, dict) or "plan" not in mapped:
         raise _invalid(plan, "has no field 'plan'")
     document = plan_from_mapping(mapped["plan"])

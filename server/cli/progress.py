@@ -37,7 +37,7 @@ def shown_steps() -> Iterator[Steps]:
 
 @contextlib.contextmanager
 def shown_ratio(step: str) -> Iterator[Callable[[float], None]]:
-    """Show one progress bar while the block runs; what is yielded takes the share that is done, 0 to 1."""
+    """Show one progress bar while the block runs; yield a function that sets the completed share, 0 to 1."""
     console = Console(stderr=True)
     if not console.is_terminal:
         yield lambda _: None

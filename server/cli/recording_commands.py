@@ -1,4 +1,4 @@
-"""`coaxial recording`: a recording as CSV and as video, and a piece of it."""
+"""`coaxial recording`: export a recording as CSV or video, and cut out a part of it."""
 
 from pathlib import Path
 from typing import Annotated, Literal
@@ -22,7 +22,9 @@ def export(
     file: Annotated[Path, typer.Argument(help="A recording of Coaxial (.mcap).", metavar="FILE")],
     to: Annotated[
         Path | None,
-        typer.Option("--to", help="Folder of the CSV files; made if needed.", metavar="DIR", file_okay=False),
+        typer.Option(
+            "--to", help="Folder for the CSV files; created if missing.", metavar="DIR", file_okay=False
+        ),
     ] = None,
     video: Annotated[
         Path | None,
@@ -31,16 +33,16 @@ def export(
         ),
     ] = None,
     language: Annotated[
-        Literal["en", "de"], typer.Option("--language", help="Of the words in the video.")
+        Literal["en", "de"], typer.Option("--language", help="Language of the texts in the video.")
     ] = "en",
 ) -> None:
     """Write poses.csv, deviations.csv and alarms.csv of a recording, or a video of it.
 
-    Columns are named with their units. The video has each image at its capture time, with the overlay of its
+    Column names include the units. The video shows each image at its capture time with the overlay of its
     results, and is marked as a recording.
     """
     if to is None and video is None:
-        raise typer.BadParameter("Name a folder for CSV (--to), a video (--video), or both.")
+        raise typer.BadParameter("Give a folder for CSV (--to), a video file (--video), or both.")
     if video is not None:
         _reject_same(file, video)
     if to is not None:
@@ -52,16 +54,18 @@ def export(
 @recording_app.command()
 def cut(
     file: Annotated[Path, typer.Argument(help="A recording of Coaxial (.mcap).", metavar="FILE")],
-    target: Annotated[Path, typer.Argument(help="The piece (.mcap).", metavar="OUT", dir_okay=False)],
+    target: Annotated[Path, typer.Argument(help="The new recording (.mcap).", metavar="OUT", dir_okay=False)],
     from_s: Annotated[
-        float, typer.Option("--from", min=0.0, help="Begin, in s since the first image.", metavar="S")
+        float, typer.Option("--from", min=0.0, help="Start, in s after the first image.", metavar="S")
     ],
-    to_s: Annotated[float, typer.Option("--to", min=0.0, help="End, likewise.", metavar="S")],
+    to_s: Annotated[
+        float, typer.Option("--to", min=0.0, help="End, in s after the first image.", metavar="S")
+    ],
 ) -> None:
-    """Write a piece of a recording as a recording of its own.
+    """Write a part of a recording to a new recording.
 
-    It begins at the state of tracking that is stored before its begin, up to a minute earlier, so that it
-    replays exactly (coaxial replay OUT --check).
+    It starts at the stored tracking state before --from, up to a minute earlier, so that it replays exactly
+    (coaxial replay OUT --check).
     """
     from server.cli.progress import shown_ratio  # noqa: PLC0415  loaded when needed
     from server.recording.cut import cut_recording  # noqa: PLC0415
@@ -72,11 +76,11 @@ def cut(
     typer.echo(str(target))
     typer.echo(f"{summary.images} images, from {summary.from_s:.2f} to {summary.to_s:.2f} s")
     if summary.missing_images:
-        typer.echo(f"{summary.missing_images} tracked images between them were not recorded")
+        typer.echo(f"{summary.missing_images} tracked images in this time were not recorded")
     if not summary.is_exact:
-        typer.echo("no state of tracking is stored before them, so that they cannot be replayed")
+        typer.echo("these images cannot be replayed, because no tracking state is stored before them")
     elif summary.from_s < from_s:
-        typer.echo(f"it begins at {summary.from_s:.2f} s, where a state of tracking is stored")
+        typer.echo(f"it starts at {summary.from_s:.2f} s, where a tracking state is stored")
 
 
 def _reject_same(file: Path, target: Path) -> None:
@@ -103,7 +107,7 @@ def _write_tables(file: Path, folder: Path) -> None:
             raise RecordingError(
                 "TABLE_NOT_WRITTEN",
                 f"{target} cannot be written: {(error.strerror or str(error)).lower()}",
-                "Check the folder and the space on its disk, then export again.",
+                "Check that the folder is writable and its disk has free space, then export again.",
             ) from error
         typer.echo(str(target))
 
@@ -117,8 +121,8 @@ def _write_video(file: Path, target: Path, language: Literal["en", "de"]) -> Non
     typer.echo(str(target))
     typer.echo(f"{summary.images} images")
     if summary.gaps:
-        typer.echo(f"{summary.gaps} times without images, shown as such")
+        typer.echo(f"{summary.gaps} gaps without images, marked in the video")
     if summary.undrawn:
-        typer.echo(f"{summary.undrawn} images without their results, as each of them says")
+        typer.echo(f"{summary.undrawn} images without recorded results, marked in the video")
     if not summary.is_whole:
-        typer.echo(f"the recording was cut: {summary.why_cut}; read up to there")
+        typer.echo(f"the recording is incomplete: {summary.why_cut}; it was read up to that point")

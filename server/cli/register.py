@@ -49,7 +49,7 @@ def register_from_files(options: PointsOptions, *, as_json: bool) -> int:
     """Register and print the result. Return the exit status: 0, or 1 if a limit is exceeded.
 
     FRE and leave-one-out error have the limits of the settings, as on the server, unless others are given.
-    The TRE is limited only if a limit is given: a target may lie anywhere, the server's are entry points.
+    The TRE has no default limit, because a target may lie anywhere; the server's targets are entry points.
 
     Raises:
         NavigationError: a file cannot be used, or the points do not determine a transform.
@@ -87,7 +87,7 @@ def _channel_check(found: PointRegistration, options: PointsOptions) -> ChannelC
         raise InvalidInput(
             "CHANNEL_INCOMPLETE",
             "only one of --channel-mm and --tolerance is given",
-            "Give both, as 'coaxial plan measure --json' prints them.",
+            "Give both, from the output of 'coaxial plan measure --json'.",
         )
     return check_channel(found, options.channel, options.tolerance)
 
@@ -234,4 +234,4 @@ def _outlier_share(found: PointRegistration, target: Array) -> str:
     alone = found.tre_without_outlier_mm(target)
     if not found.tre_stated_mm(target) > alone:
         return ""
-    return f" and a mistaken landmark that the others do not exclude; {alone:.2f} mm without one"
+    return f" and a gross error of one landmark that the others do not exclude; {alone:.2f} mm without it"

@@ -23,7 +23,7 @@ MovingOption = Annotated[
     Path,
     typer.Option(
         "--moving",
-        help="The tip on the same landmarks, in the same order or with the same names.",
+        help="Tip positions on the same landmarks, in the same order or with the same names.",
         metavar="FILE",
     ),
 ]
@@ -60,8 +60,8 @@ ChannelOption = Annotated[
     str | None,
     typer.Option(
         "--channel-mm",
-        help="Planned channel, entry and target in the frame of --fixed: says whether the registration "
-        "suffices for the screw, and what would. Needs --tolerance.",
+        help="Planned channel, entry and target in the frame of --fixed: report whether the registration is "
+        "accurate enough for the screw, and what would be. Needs --tolerance.",
         metavar="X,Y,Z,X,Y,Z",
     ),
 ]
@@ -69,7 +69,7 @@ ToleranceOption = Annotated[
     str | None,
     typer.Option(
         "--tolerance",
-        help="Tolerance of the screw in that channel, as 'coaxial plan measure' prints it.",
+        help="Tolerance of the screw in that channel, from the output of 'coaxial plan measure'.",
         metavar="MM,DEG",
     ),
 ]
@@ -176,7 +176,7 @@ def surface(
         typer.Option("--fixed", help="Landmarks on the CT, for the initial transform.", metavar="CSV"),
     ] = None,
     moving: Annotated[
-        Path | None, typer.Option("--moving", help="The tip on the same landmarks.", metavar="CSV")
+        Path | None, typer.Option("--moving", help="Tip positions on the same landmarks.", metavar="CSV")
     ] = None,
     start: Annotated[
         Path | None,

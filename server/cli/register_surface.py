@@ -65,7 +65,7 @@ def register_sweep(options: SurfaceOptions, *, as_json: bool) -> int:
     start, landmarks = _start(options, limits)
     mesh = read_mesh(options.surface, unit=options.unit)
     settings = SurfaceSettings(tip_radius_mm=options.tip_radius_mm)
-    # A target may lie anywhere, the server's are entry points: its error has no limit here.
+    # No limit for the TRE, because a target may lie anywhere; the server's targets are entry points.
     gate = SurfaceGate(max_rms_mm=limits.max_surface_rms_mm, max_tre_mm=np.inf)
     found = register_surface(
         ClosestPointQuery(mesh.surface),
@@ -109,7 +109,7 @@ def _start(
         )
     pairs = pairs_of_files(read_landmarks(options.fixed), read_landmarks(options.moving))
     found = register_points(pairs, settings=point_settings(limits))
-    # Their error at the targets is not limited: the sweep is there to reduce it.
+    # Their TRE is not limited, because the sweep reduces it.
     for failure in found.failures(point_gate(limits), ()):
         raise failure
     return found.fixed_from_moving, pairs

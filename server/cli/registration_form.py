@@ -1,4 +1,4 @@
-"""What the JSON of both registration commands has in common."""
+"""JSON fields shared by both registration commands."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any

@@ -1,4 +1,4 @@
-"""The file for 3D Slicer and ITK that both registration commands write."""
+"""Writing of a registration as a transform for 3D Slicer and ITK."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""`coaxial replay`: what a recording holds, and whether it gives the same results again."""
+"""`coaxial replay`: describe a recording, and check that replaying it gives the same results."""
 
 import json
 from pathlib import Path
@@ -17,10 +17,10 @@ EQUAL, DIFFERENT = 0, 1
 
 
 def describe_file(path: Path, *, as_json: bool) -> int:
-    """Print what is in a recording; return the exit status.
+    """Print the contents of a recording. Return the exit status.
 
     Raises:
-        RecordingError: it cannot be read.
+        RecordingError: The recording cannot be read.
     """
     reader = RecordingReader(path)
     session: SessionMessage | None = None
@@ -55,13 +55,13 @@ def describe_file(path: Path, *, as_json: bool) -> int:
 
 
 def check_file(path: Path, *, config: Path | None, as_json: bool) -> int:
-    """Replay a recording, print the first and the worst difference, and return the exit status.
+    """Replay a recording and print the first and the largest difference. Return the exit status.
 
     Raises:
-        NavigationError: the recording or the settings cannot be read.
+        NavigationError: The recording or the settings cannot be read.
     """
     limits = None if config is None else alarm_limits(load_config(config))
-    # As while it was recorded.
+    # The same number of threads as during the recording.
     cv2.setNumThreads(OPENCV_THREADS)
     report = check_recording(path, limits=limits)
     if as_json:
@@ -78,32 +78,32 @@ def _print(report: ReplayReport) -> None:
     _print_differences("alarms", report.alarms, f"{report.steps} steps", "steps")
     if report.unchecked_images or report.missing_images:
         typer.echo(
-            f"not compared: {report.unchecked_images} images, because the state before them is not in the "
-            f"file; {report.missing_images} images are missing"
+            f"not compared: {report.unchecked_images} images, because the tracking state before them is not "
+            f"in the file; {report.missing_images} images are missing"
         )
     if report.unchecked_steps:
-        typer.echo(f"not compared: {report.unchecked_steps} steps of the alarms")
+        typer.echo(f"not compared: {report.unchecked_steps} alarm steps")
     if not report.images:
         typer.echo("no image could be compared")
     if report.is_damaged:
-        typer.echo(f"the file is damaged: {report.why_cut}; nothing after that was compared")
+        typer.echo(f"the file is damaged: {report.why_cut}; nothing after that point was compared")
     _print_end(report.remarks, is_whole=report.is_whole or report.is_damaged, why_cut=report.why_cut)
 
 
 def _print_differences(what: str, found: Differences, compared: str, unit: str) -> None:
     if found.first is None or found.worst is None:
-        typer.echo(f"{what}: equal to the last digit in {compared}")
+        typer.echo(f"{what}: identical in {compared}")
         return
     typer.echo(f"{what}: {found.images} of {compared} differ")
-    typer.echo(f"  the first of these {unit}: {found.first}")
-    typer.echo(f"  the worst: {found.worst}")
+    typer.echo(f"  first of these {unit}: {found.first}")
+    typer.echo(f"  largest difference: {found.worst}")
 
 
 def _print_end(remarks: list[str], *, is_whole: bool, why_cut: str) -> None:
     for remark in remarks:
         typer.echo(f"note: {remark}")
     if not is_whole:
-        typer.echo(f"the file was cut: {why_cut}; read up to there")
+        typer.echo(f"the file is incomplete: {why_cut}; it was read up to that point")
 
 
 def _values(report: ReplayReport) -> dict[str, object]:

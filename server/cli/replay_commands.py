@@ -12,7 +12,7 @@ def replay(
         bool,
         typer.Option(
             "--check",
-            help="Track the images again, and compare every pose and alarm with what was recorded.",
+            help="Track the images again, and compare every pose and alarm with the recorded one.",
             show_default=False,
         ),
     ] = False,
@@ -20,7 +20,7 @@ def replay(
         Path | None,
         typer.Option(
             "--config",
-            help="Use the alarm limits of this settings file, not the recorded ones.",
+            help="Use the alarm limits of this settings file instead of the recorded ones.",
             metavar="FILE",
         ),
     ] = None,
@@ -28,7 +28,7 @@ def replay(
         bool, typer.Option("--json", help="Write the result as JSON.", show_default=False)
     ] = False,
 ) -> None:
-    """Say what is in a recording, or check that it gives the same poses and alarms again.
+    """Print the contents of a recording, or check that replaying it gives the same poses and alarms.
 
     Exit status 1 if anything differs, if the file is damaged, or if nothing could be compared. To watch a
     recording, use it as a source: coaxial run --source FILE.

@@ -40,7 +40,7 @@ def run_dashboard(
     """Start everything, serve until Ctrl+C or SIGTERM, and stop everything.
 
     Raises:
-        NavigationError: a setting cannot be used, the port is taken, or cases cannot be kept.
+        NavigationError: A setting is invalid, the port is in use, or cases cannot be stored.
     """
     with StopSignal().caught() as stopping:
         config = config_from_options(given)
@@ -190,7 +190,7 @@ def _ready(
     listener: socket.socket, link: socket.socket | None, lines_for: Callable[[str], list[str]]
 ) -> None:
     """Print the addresses of the server and how to sign in, and enable garbage collection."""
-    # A full collection would look at all modules again: a tenth of a second in which no figure is sent.
+    # A full collection of all modules takes a tenth of a second, in which no figures are sent.
     gc.freeze()
     gc.enable()
     typer.echo(f"Coaxial {coaxial_version()} · research software, not a medical device")
@@ -199,7 +199,7 @@ def _ready(
         typer.echo(line)
     if link is not None:
         host, port = link.getsockname()[:2]
-        typer.echo(f"OpenIGTLink: {link_name(host)}:{port}, without sign-in and encryption")
+        typer.echo(f"OpenIGTLink: {link_name(host)}:{port}, without sign-in or encryption")
     typer.echo("Press Ctrl+C to stop")
     sys.stdout.flush()
 

@@ -31,7 +31,7 @@ class TimeOffsetOptions:
 
 
 def calibrate(options: TimeOffsetOptions, *, as_json: bool) -> int:
-    """Find the offset, print it, and return the exit status: 0, or 1 if the recordings do not determine it.
+    """Estimate and print the offset. Return the exit status: 0, or 1 if the recordings do not determine it.
 
     Raises:
         InvalidInput: a file cannot be read or contains no times.

@@ -1,4 +1,4 @@
-"""Plots of a verification as SVG: errors as cumulated shares, and surprise against what it should be."""
+"""Plots of a verification as SVG: cumulative distribution of errors, and observed against stated coverage."""
 
 from collections.abc import Mapping, Sequence
 from html import escape
@@ -17,17 +17,17 @@ MIN_ERROR, MAX_ERROR = 0.01, 100.0
 
 
 def plots_of(theatres: Sequence[TheatreRows], figures: Figures) -> dict[str, str]:
-    """Pictures by name: `errors`, a curve for each variant; `coverage`, stated against observed."""
+    """Return the plots by name: `errors`, a curve per variant; `coverage`, observed against stated."""
     variants = [one.variant for one in figures.variants if one.quantities]
     tool_errors = {variant: _errors_of(theatres, variant) for variant in variants}
     return {
         "errors": _page(
-            "Share of images (up) with at most this error (across)",
+            "Share of images (y) with at most this error (x)",
             variants,
             [_errors_panel(name, variants, tool_errors) for name in QUANTITIES],
         ),
         "coverage": _page(
-            "Share of images whose truth lies in the region (up) stated for this share (across)",
+            "Observed coverage (y) of the confidence region of this level (x)",
             variants,
             [_coverage_panel(name, variants, tool_errors) for name in QUANTITIES],
         ),
@@ -73,7 +73,7 @@ def _coverage_panel(
     for number, variant in enumerate(variants):
         each = tool_errors[variant][name]
         if each:
-            # The least region around what is shown that holds the truth, as a share.
+            # Level of the smallest confidence region that contains the true value.
             minimum = np.sort(scipy.stats.chi2.cdf([one.mahalanobis_squared for one in each], each[0].dof))
             lines.append(_curve(WIDE * minimum, np.arange(1, len(minimum) + 1) / len(minimum), number))
     return lines

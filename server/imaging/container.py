@@ -1,7 +1,7 @@
 """Containers of image files: a folder, a zip or a single file as a list of entries.
 
-Nothing is unpacked onto the disk, and names inside are neither used as paths nor reported, because folders on
-hospital discs are often named after the patient. Messages therefore count files and do not name them.
+Nothing is unpacked to the disk, and member names are neither used as paths nor reported, because folders on
+hospital discs are often named after the patient. Messages therefore state numbers of files but no names.
 """
 
 import lzma
@@ -31,7 +31,7 @@ BAD_ARCHIVE = (
     zlib.error,
     lzma.LZMAError,
 )
-GIVE = "Give a folder or zip of DICOM slices, a DICOM file of many frames, or a NIfTI file."
+GIVE = "Give a folder or zip of DICOM slices, a multi-frame DICOM file, or a NIfTI file."
 HEAD_BYTES = 4096
 
 
@@ -76,7 +76,7 @@ def open_container(path: Path) -> Iterator[Container]:
         InvalidInput: CT_NOT_THERE, CT_UNREADABLE, CT_EMPTY, CT_TOO_MANY_FILES, or what `zip_entries` raises.
     """
     if not path.exists():
-        raise InvalidInput("CT_NOT_THERE", "there is no file or folder of this name", GIVE)
+        raise InvalidInput("CT_NOT_THERE", "the file or folder does not exist", GIVE)
     if path.is_dir():
         yield _checked(_folder(path))
         return
@@ -93,7 +93,7 @@ def open_container(path: Path) -> Iterator[Container]:
     except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError):
         raise InvalidInput(
             "CT_ARCHIVE_BROKEN",
-            f"the zip of {path.stat().st_size} bytes cannot be read: its list of files is damaged or cut off",
+            f"the zip of {path.stat().st_size} bytes cannot be read: its directory is damaged or truncated",
             "Copy or upload the archive again.",
             {"bytes": path.stat().st_size},
         ) from None
@@ -106,7 +106,7 @@ def _checked(container: Container) -> Container:
         found = sum(container.reasons.values())
         raise InvalidInput(
             "CT_EMPTY",
-            f"there are no files to read: {found} were found, and left out as "
+            f"there are no files to read: {found} were found and excluded as "
             f"{', '.join(container.reasons) or 'none'}"
             if found
             else "there are no files to read: 0 were found",
@@ -141,7 +141,7 @@ def _keep_file(container: Container, path: Path) -> None:
         container.reasons["files that cannot be opened"] += 1
         return
     if not stat.S_ISREG(status.st_mode):
-        container.reasons["no ordinary files"] += 1
+        container.reasons["not regular files"] += 1
     elif status.st_size == 0:
         container.reasons["empty files"] += 1
     else:
@@ -157,14 +157,14 @@ def _check_count(count: int) -> None:
     if count > MAX_FILES:
         raise InvalidInput(
             "CT_TOO_MANY_FILES",
-            f"there are {count} files or more, allowed {MAX_FILES}",
-            "Give the folder of the one series alone.",
+            f"there are {count} files or more, the maximum is {MAX_FILES}",
+            "Give a folder that contains only this series.",
             {"files": count, "max_files": MAX_FILES},
         )
 
 
 def _zip(archive: zipfile.ZipFile) -> Container:
-    """The members of an archive that can be read one by one.
+    """Return the members of an archive, which are read one by one.
 
     Raises:
         InvalidInput: CT_ARCHIVE_UNSAFE, CT_ARCHIVE_ENCRYPTED, CT_ARCHIVE_TOO_LARGE.
@@ -195,8 +195,8 @@ def _check_archive(members: list[zipfile.ZipInfo]) -> None:
     if unsafe:
         raise InvalidInput(
             "CT_ARCHIVE_UNSAFE",
-            f"{unsafe} of {len(members)} files in the zip have names that lead out of it",
-            "Make the archive again from the folder of slices; do not use one from an unknown source.",
+            f"{unsafe} of {len(members)} files in the zip have names that point outside of it",
+            "Create the archive again from the folder of slices; do not use one from an unknown source.",
             {"files": unsafe, "of": len(members)},
         )
     encrypted = sum(bool(member.flag_bits & 1) for member in members)
@@ -211,8 +211,8 @@ def _check_archive(members: list[zipfile.ZipInfo]) -> None:
     if size > MAX_BYTES:
         raise InvalidInput(
             "CT_ARCHIVE_TOO_LARGE",
-            f"the zip would unpack to {size / 2**30:.1f} GiB, allowed {MAX_BYTES / 2**30:.0f} GiB",
-            "Give the one series alone.",
+            f"the zip would unpack to {size / 2**30:.1f} GiB, the maximum is {MAX_BYTES / 2**30:.0f} GiB",
+            "Give a zip that contains only this series.",
             {"bytes": size, "max_bytes": MAX_BYTES},
         )
 
@@ -225,5 +225,5 @@ def _leaves(name: str) -> bool:
 
 def _unreadable(error: OSError) -> InvalidInput:
     return InvalidInput(
-        "CT_UNREADABLE", f"the file or folder cannot be read: {error.strerror}", "Check who may read it."
+        "CT_UNREADABLE", f"the file or folder cannot be read: {error.strerror}", "Check its read permission."
     )

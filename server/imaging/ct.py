@@ -15,7 +15,7 @@ from tracker.plan.slices import Slice
 Progress: TypeAlias = Callable[[int, int], None]
 
 
-# Called once with a slice from the middle of the CT, before the others are read.
+# Called once with a slice from the middle of the CT, before the other slices are read.
 FirstSlice: TypeAlias = Callable[[Slice], None]
 
 
@@ -28,29 +28,29 @@ def no_preview(_slice: Slice) -> None:
 
 
 def slice_as_scanned(hu: npt.NDArray[np.int16], lps_from_ijk: Array, k: int) -> Slice:
-    """A slice as it was scanned, hu (rows, columns), before the volume is complete."""
+    """Return an acquired slice, hu (rows, columns), before the volume is complete."""
     affine = np.column_stack([lps_from_ijk[:3, 0], lps_from_ijk[:3, 1], (lps_from_ijk @ [0, 0, k, 1])[:3]])
     return Slice(hu=hu.copy(), lps_from_px=affine)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SeriesDescription:
-    """One series that was found, without anything that names the patient.
+    """A series, without data that identify the patient.
 
     Attributes:
-        series: its identifier: the SeriesInstanceUID, or "nifti".
+        series: Its identifier: the SeriesInstanceUID, or "nifti".
         kind: "dicom" or "nifti".
-        modality: as in DICOM ("CT", "MR"); empty if it is not known.
-        words: the scanner's description of the series; empty where it holds a part of the patient's name.
-        number: the series' number in its study, 0 if it has none.
-        patient: 1 for the first patient that was found, 2 for the second.
-        images: how many slices there are.
-        size_wh_px: columns and rows of a slice; zeros where the slices differ.
-        pixel_mm: distance between columns and between rows; zeros if unknown.
-        thickness_mm: as stated by the scanner, 0 if unknown.
-        kernel: the filter with which it was computed ("Br38f"); empty if unknown.
-        compression: the name of its transfer syntax.
-        problem: why this series cannot be used for a plan; empty if no reason is known.
+        modality: As in DICOM ("CT", "MR"); empty if unknown.
+        words: Series description of the scanner; empty if it contains a part of the patient's name.
+        number: Number of the series in its study; 0 if it has none.
+        patient: 1 for the first patient found, 2 for the second.
+        images: Number of slices.
+        size_wh_px: Columns and rows of a slice; zeros if the slices differ.
+        pixel_mm: Distance between columns and between rows; zeros if unknown.
+        thickness_mm: Slice thickness stated by the scanner; 0 if unknown.
+        kernel: Reconstruction kernel ("Br38f"); empty if unknown.
+        compression: Name of its transfer syntax.
+        problem: Why this series is not usable for planning; empty if no reason is known.
     """
 
     series: str

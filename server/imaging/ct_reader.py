@@ -32,12 +32,12 @@ def read_ct(
     """Read a CT in Hounsfield units, with its affine in LPS mm.
 
     Args:
-        path: a folder or zip of DICOM slices, a DICOM file of many frames, or NIfTI.
-        series: the identifier of one of `list_series`; needed only where there are several CTs.
-        progress: called with how many slices were read, and of how many.
-        first: called with a slice of the middle as soon as it is read; a compressed CT takes seconds.
-        into: a `.npy` that is written whole or not at all, and from which the voxels are then mapped; in
-            memory if left out.
+        path: A folder or zip of DICOM slices, a multi-frame DICOM file, or NIfTI.
+        series: Identifier of a series of `list_series`; required only if there are several CTs.
+        progress: Called with the number of slices read and their total.
+        first: Called with a middle slice as soon as it is read, because a compressed CT takes seconds.
+        into: A `.npy` file that is written atomically and from which the voxels are then memory-mapped; None
+            keeps them in memory.
 
     Raises:
         InvalidInput: a code beginning with CT_; the table of all of them is in the tests.
@@ -49,7 +49,7 @@ def read_ct(
 
 
 def _nifti_of(container: Container) -> bool:
-    """Whether this is one NIfTI file, and nothing else."""
+    """Return whether the container is a single NIfTI file."""
     try:
         return len(container.entries) == 1 and is_nifti(container.entries[0].head())
     except BAD_ARCHIVE:

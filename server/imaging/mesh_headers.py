@@ -1,4 +1,4 @@
-"""What a mesh file says of itself, checked against its length before anything is made room for."""
+"""Validation of the header of a mesh file against its length, before memory is allocated."""
 
 import re
 
@@ -18,7 +18,7 @@ OBJ_REFERENCE = re.compile(rb"^[ \t]*(mtllib|usemtl|maplib|usemap)\b[^\r\n]*", r
 
 
 def checked_content(content: bytes, file_format: str) -> bytes:
-    """The file's bytes without what names other files, if it can be what it says.
+    """Return the content without references to other files, if header and length agree.
 
     Raises:
         InvalidInput: MESH_UNREADABLE.
@@ -46,7 +46,7 @@ def _checked_stl(content: bytes) -> bytes:
     if len(content) < STL_HEADER_BYTES or b"\0" not in content[:MAX_HEADER_BYTES]:
         raise _unreadable("stl", "it is neither text that begins with 'solid' nor binary")
     raise _unreadable(
-        "stl", f"it announces {declared} triangles, which are {needed} bytes, and has {len(content)}"
+        "stl", f"it declares {declared} triangles, which need {needed} bytes, but has {len(content)}"
     )
 
 
@@ -55,7 +55,7 @@ def _checked_ply(content: bytes) -> bytes:
     if not content.startswith(b"ply") or end is None:
         raise _unreadable("ply", "it has no header")
     lines = [line.strip() for line in content[: end.end()].splitlines()]
-    # Comments may name a picture, which is not wanted.
+    # Comments may refer to a texture file, which must not be loaded.
     lines = [line for line in lines if not line.startswith((b"comment", b"obj_info"))]
     body = content[end.end() :]
     words = [line.decode("ascii", errors="replace").split() for line in lines]
@@ -63,14 +63,14 @@ def _checked_ply(content: bytes) -> bytes:
     try:
         needed = _min_bytes(words, binary=binary)
     except (ValueError, KeyError, IndexError) as error:
-        raise _unreadable("ply", "its header cannot be understood") from error
+        raise _unreadable("ply", "its header is invalid") from error
     if needed > len(body):
-        raise _unreadable("ply", f"its header announces at least {needed} bytes, and {len(body)} are there")
+        raise _unreadable("ply", f"its header declares at least {needed} bytes, but it has {len(body)}")
     return b"\n".join(lines) + b"\n" + body
 
 
 def _min_bytes(words: list[list[str]], *, binary: bool) -> int:
-    """How long what follows a PLY header must be at least, if every list in it were empty."""
+    """Return the minimum length of the data after a PLY header, as if all lists were empty."""
     needed, count = 0, 0
     for line in words:
         if line[:1] == ["element"]:
@@ -79,16 +79,16 @@ def _min_bytes(words: list[list[str]], *, binary: bool) -> int:
                 raise ValueError(line[2])
         elif line[:1] == ["property"]:
             size = SIZES[line[2] if line[1] == "list" else line[1]]
-            # In text a number takes a digit and what parts it from the next.
+            # In a text file a number needs a digit and a separator.
             needed += count * (size if binary else 2)
-    # The last number of a text needs nothing behind it.
+    # The last number of a text file needs no separator.
     return max(needed - (0 if binary else 1), 0)
 
 
 def _unreadable(file_format: str, problem: str) -> InvalidInput:
     return InvalidInput(
         "MESH_UNREADABLE",
-        f"the mesh is no {file_format.upper()} file that can be read: {problem}",
-        "Export the bone's surface again as triangles in STL, OBJ or PLY.",
+        f"the mesh is not a readable {file_format.upper()} file: {problem}",
+        "Export the bone surface again as triangles in STL, OBJ or PLY.",
         {"format": file_format},
     )

@@ -1,7 +1,7 @@
 """Reading and writing of surfaces as STL, OBJ and PLY.
 
-trimesh parses bytes only and gets no resolver, so that references to materials, textures or other files are
-not followed. It is imported by the functions that need it: it takes half a second of a server's start.
+trimesh parses bytes only and without a resolver, so that references to materials, textures or other files are
+not followed. It is imported on demand, because it takes half a second of the start.
 """
 
 import io
@@ -21,17 +21,17 @@ if TYPE_CHECKING:
     import trimesh
 
 FORMATS = ("stl", "obj", "ply")
-# A parser of text takes up to twenty times the length of its file.
+# The parser of text files needs up to twenty times the file size of memory.
 MAX_BYTES = 100 * 2**20
 MAX_FACES = 2_000_000
-EXPORT_TRIANGLES = "Export the bone's surface again as triangles in STL, OBJ or PLY."
-# 3D Slicer writes this into the first lines of what it exports.
+EXPORT_TRIANGLES = "Export the bone surface again as triangles in STL, OBJ or PLY."
+# Written by 3D Slicer into the first lines of exported files.
 SPACE = re.compile(rb"SPACE\s*=\s*(LPS|RAS)", re.IGNORECASE)
 WHERE_SPACE_IS = 4096
 
 
 def read_mesh(path: Path, *, unit: str | None = None, space: Space | None = None) -> MeshSurface:
-    """The surface in a file, whose end tells the format.
+    """Read the surface in a file; its suffix states the format.
 
     Raises:
         InvalidInput: MESH_UNREADABLE, and as `mesh_from_bytes`.
@@ -49,13 +49,13 @@ def read_mesh(path: Path, *, unit: str | None = None, space: Space | None = None
 def mesh_from_bytes(
     content: bytes, *, file_format: str, unit: str | None = None, space: Space | None = None
 ) -> MeshSurface:
-    """The surface in a file's bytes.
+    """Parse the surface in the bytes of a file.
 
     Args:
-        content: of an STL (text or binary), OBJ or PLY file.
+        content: Content of an STL (text or binary), OBJ or PLY file.
         file_format: "stl", "obj" or "ply".
-        unit: "mm", "cm", "m", "inch" or "um"; None where the mesh has to show by its size that it is in mm.
-        space: LPS or RAS; None takes what the file says of itself, and LPS if it says nothing.
+        unit: "mm", "cm", "m", "inch" or "um"; None accepts only a mesh whose size is plausible in mm.
+        space: LPS or RAS; None for that stated in the file, or LPS if it states none.
 
     Raises:
         InvalidInput: MESH_FORMAT_UNKNOWN, MESH_TOO_LARGE, MESH_UNREADABLE.
@@ -66,7 +66,7 @@ def mesh_from_bytes(
     if file_format not in FORMATS:
         raise InvalidInput(
             "MESH_FORMAT_UNKNOWN",
-            f"'{file_format}' is no format of a mesh that is read, those are {', '.join(FORMATS)}",
+            f"the mesh format '{file_format}' is not supported, supported are {', '.join(FORMATS)}",
             EXPORT_TRIANGLES,
             {"allowed": list(FORMATS)},
         )
@@ -77,15 +77,15 @@ def mesh_from_bytes(
     if faces.shape[0] > MAX_FACES:
         raise InvalidInput(
             "MESH_TOO_LARGE",
-            f"the mesh has {faces.shape[0]} triangles, allowed {MAX_FACES}",
-            "Export it with fewer triangles; 60000 show a vertebra well.",
+            f"the mesh has {faces.shape[0]} triangles, the maximum is {MAX_FACES}",
+            "Export it with fewer triangles; 60000 are enough for a vertebra.",
             {"faces": int(faces.shape[0])},
         )
     return surface_from_mesh(mesh.vertices, faces, unit=unit, space=space or stated or Space.LPS)
 
 
 def ply_from_surface(surface: Surface) -> bytes:
-    """The surface as a binary PLY file, in mm of LPS, to the last digit."""
+    """Return the surface as a binary PLY file, in LPS mm with double precision."""
     header = (
         "ply\nformat binary_little_endian 1.0\ncomment Coaxial SPACE=LPS UNIT=mm\n"
         f"element vertex {surface.vertices_mm.shape[0]}\n"
@@ -98,7 +98,7 @@ def ply_from_surface(surface: Surface) -> bytes:
 
 
 def stl_from_surface(surface: Surface) -> bytes:
-    """The surface as a binary STL file, in mm of LPS, to seven digits, as STL has no more."""
+    """Return the surface as a binary STL file, in LPS mm with the single precision of STL."""
     import trimesh  # noqa: PLC0415  see above
 
     mesh = trimesh.Trimesh(surface.vertices_mm, surface.faces, process=False)
@@ -110,7 +110,7 @@ def _reject_large(size: int) -> None:
     if size > MAX_BYTES:
         raise InvalidInput(
             "MESH_TOO_LARGE",
-            f"the mesh has {size / 2**20:.0f} MB, allowed {MAX_BYTES / 2**20:.0f}",
+            f"the mesh has {size / 2**20:.0f} MB, the maximum is {MAX_BYTES / 2**20:.0f} MB",
             "Export it with fewer triangles, or as binary STL or PLY.",
             {"bytes": size},
         )
@@ -121,7 +121,7 @@ def _parsed(content: bytes, file_format: str) -> "trimesh.Trimesh":
     import trimesh  # noqa: PLC0415  see above
 
     try:
-        # Coordinates that are no numbers are rejected by name, not warned of in passing.
+        # NaN coordinates are rejected below, so that the warnings of trimesh are suppressed.
         with np.errstate(all="ignore"):
             mesh = trimesh.load_mesh(
                 io.BytesIO(content), file_type=file_format, process=False, resolver=None, skip_materials=True
@@ -133,7 +133,7 @@ def _parsed(content: bytes, file_format: str) -> "trimesh.Trimesh":
     except Exception as error:
         raise InvalidInput(
             "MESH_UNREADABLE",
-            f"the mesh is no {file_format.upper()} file that can be read: {type(error).__name__}",
+            f"the mesh is not a readable {file_format.upper()} file: {type(error).__name__}",
             EXPORT_TRIANGLES,
             {"reason": str(error)[:200]},
         ) from error

@@ -14,7 +14,7 @@ from server.disk import reject_without_space, reserve_space
 from tracker.errors import InvalidInput
 
 MAX_VOXELS = 2**30
-# Value of padding voxels without a measurement: air.
+# Value of padding voxels: air.
 PADDING_HU = -1024
 MIN_HU, MAX_HU = -32768, 32767
 
@@ -36,9 +36,9 @@ def check_voxels(shape: tuple[int, int, int]) -> None:
     if voxels > MAX_VOXELS:
         raise InvalidInput(
             "CT_TOO_LARGE",
-            f"the CT has {shape[2]} x {shape[1]} x {shape[0]} voxels, {voxels / 1e6:.0f} million, allowed "
-            f"{MAX_VOXELS / 1e6:.0f} million",
-            "Export the part around the vertebrae alone, or a series with fewer pixels.",
+            f"the CT has {shape[2]} x {shape[1]} x {shape[0]} voxels, {voxels / 1e6:.0f} million, the "
+            f"maximum is {MAX_VOXELS / 1e6:.0f} million",
+            "Export only the part around the vertebrae, or a series with fewer pixels.",
             {"voxels": voxels, "max_voxels": MAX_VOXELS},
         )
 
@@ -49,7 +49,7 @@ def voxels_to_fill(shape: tuple[int, int, int], into: Path | None) -> Iterator[V
 
     Args:
         shape: slices, rows, columns.
-        into: a `.npy` that appears under its name when every voxel is on the disk, and not before.
+        into: A `.npy` file that gets its name when every voxel is on the disk.
 
     Raises:
         InvalidInput: CT_TOO_LARGE.

@@ -224,7 +224,7 @@ class Jobs:
                 )
             else:
                 entry.job = replace(entry.job, state=JobState.FAILED, doing="", problem=outcome)
-        log.info("job over", job=entry.job.id, state=entry.job.state.value)
+        log.info("job finished", job=entry.job.id, state=entry.job.state.value)
 
     def _store_result(self, entry: _JobProcess, result: Result) -> Result | Problem:
         try:
@@ -258,6 +258,6 @@ class Jobs:
 def _crashed(how: str) -> Problem:
     return Problem(
         code="JOB_ENDED",
-        message=f"the process that did the work {how}",
-        remedy="Start it again. If it ends by SIGKILL each time, the machine has too little memory for it.",
+        message=f"the process of the job {how}",
+        remedy="Start it again. If it is ended by SIGKILL each time, the machine has too little memory.",
     )

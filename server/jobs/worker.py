@@ -63,7 +63,7 @@ def run_work(
     *,
     is_answer: bool,
 ) -> None:
-    """The whole life of the process. `is_answer`: the result is sent as it is, not concluded first."""
+    """Run the process. With `is_answer` the return value is the result, without `conclude`."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     die_with_parent()
     configure_logging(settings, process="job")
@@ -71,7 +71,7 @@ def run_work(
     cv2.setNumThreads(1)
     try:
         value = work(_reporter(messages), **arguments)
-        # Fail here if the value is not JSON-serialisable: later its origin would be unknown.
+        # Fails here if the value is not JSON-serialisable; later its origin would be unknown.
         messages.send(Result(value=to_json_value(value) if is_answer else value))
     except BrokenPipeError:
         # The server has closed the pipe.
@@ -98,7 +98,7 @@ def _problem(error: Exception, arguments: Mapping[str, object]) -> Problem:
     if isinstance(error, MemoryError):
         return Problem(
             code="JOB_OUT_OF_MEMORY",
-            message="the work needed more memory than there is",
+            message="the job needed more memory than is available",
             remedy="Close other programs or use smaller files, then start it again.",
         )
     folder = arguments.get("folder")
@@ -107,7 +107,7 @@ def _problem(error: Exception, arguments: Mapping[str, object]) -> Problem:
     return Problem(
         code="JOB_FAILED",
         message="an internal error occurred in the job",
-        remedy="Try again; if it happens again, send the server's log to the maintainer.",
+        remedy="Try again; if the error persists, send the server log to the maintainer.",
     )
 
 

@@ -1,10 +1,10 @@
 """Latency from the scene to the page, measured with codes on a screen in view of the camera.
 
-codes.py        the codes: the bit patterns that a page draws, and how long each of them stays
-reading.py      the code in an image
-clocks.py       the server's clock on the page's time axis, from questions and answers
-statistics.py   median, 99th percentile and stages from times of painting, capture and showing; pure
-record.py       a result as it is stored
+codes.py        bit patterns of the codes drawn by the page, and their durations
+code_reader.py  detection of the code in an image
+clocks.py       conversion of server times to page times by round trips
+statistics.py   median, 99th percentile and stages from times of painting, capture and display; pure
+record.py       record of a result
 """
 
 from server.latency.clocks import ClockComparison

@@ -1,25 +1,25 @@
-"""The server's monotonic clock on the page's time axis."""
+"""Conversion of the server's monotonic clock to the page's clock."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-# Answers that took longer than the fastest one by more than this say less of the clocks than of the line.
+# Round trips longer than the shortest one by more than this are not used, because of network delay.
 MAX_EXTRA_MS = 2.0
 # Below this span a drift cannot be distinguished from network jitter.
 MIN_SPAN_MS = 5000.0
-# Quartz clocks differ by less; a steeper slope is noise of the line.
+# Quartz clocks differ by less; a larger slope is network jitter.
 MAX_DRIFT_RATIO = 500e-6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ClockComparison:
-    """A question of the page with the server's time in the answer.
+    """A request of the page with the server time in the response.
 
     Attributes:
-        requested_at_ms, responded_at_ms: by the page's clock.
-        server_s: monotonic clock of the server, in between.
+        requested_at_ms, responded_at_ms: Times by the page's clock.
+        server_s: Monotonic time of the server in between.
     """
 
     requested_at_ms: float
@@ -28,18 +28,18 @@ class ClockComparison:
 
     @property
     def round_trip_ms(self) -> float:
-        """How long the answer took."""
+        """Duration of the round trip."""
         return self.responded_at_ms - self.requested_at_ms
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ServerClock:
-    """A line through the comparisons: page_ms = zero_ms + (server_s - zero_s) * ms_per_s.
+    """Linear fit to the comparisons: page_ms = zero_ms + (server_s - zero_s) * ms_per_s.
 
     Attributes:
-        zero_s, zero_ms: a moment by both clocks.
-        ms_per_s: 1000, but for the drift of the clocks.
-        error_ms: by how much the comparison may be off: half of the longest round trip that was used.
+        zero_s, zero_ms: The same moment by both clocks.
+        ms_per_s: 1000 plus the drift between the clocks.
+        error_ms: Bound of the error: half of the longest round trip used.
     """
 
     zero_s: float
@@ -49,7 +49,7 @@ class ServerClock:
 
     @classmethod
     def of(cls, comparisons: Sequence[ClockComparison]) -> "ServerClock":
-        """From the comparisons with the shortest round trips; at least one is needed."""
+        """Fit the comparisons with the shortest round trips; at least one is needed."""
         fastest_ms = min(one.round_trip_ms for one in comparisons)
         used = [one for one in comparisons if one.round_trip_ms <= fastest_ms + MAX_EXTRA_MS]
         server_ms = np.array([one.server_s for one in used]) * 1000.0
@@ -70,5 +70,5 @@ class ServerClock:
         )
 
     def page_ms(self, server_s: float) -> float:
-        """A moment of the server's clock by the page's."""
+        """Convert a server time to a page time."""
         return self.zero_ms + (server_s - self.zero_s) * self.ms_per_s

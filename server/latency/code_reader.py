@@ -1,4 +1,4 @@
-"""The code in an image of a screen."""
+"""Detection of the code in an image of a screen."""
 
 import cv2
 import numpy as np
@@ -8,7 +8,7 @@ from server.latency.codes import DICTIONARY
 
 # Large enough for a code that fills a twentieth of the width; a full-HD image costs no more than a small one.
 MAX_WIDTH_PX = 640
-# Of the image's larger side: a smaller code is another page's, or the picture of the code in the video.
+# Relative to the image's larger side: a smaller code is on another page, or in the displayed video.
 MIN_PERIMETER_RATIO = 0.2
 # About half a cell of a code that fills the image.
 THRESHOLD_WINDOW_PX = 23
@@ -17,8 +17,8 @@ THRESHOLD_WINDOW_PX = 23
 class CodeReader:
     """Reads the largest code in an image. For one thread.
 
-    Bits are not corrected: an image that was exposed over a change shows a mixture of two codes, and a
-    corrected mixture could be a third one.
+    Bits are not corrected, because an image exposed during a change shows a mixture of two codes, which a
+    correction could turn into a third one.
     """
 
     def __init__(self) -> None:
@@ -31,7 +31,7 @@ class CodeReader:
         self._detector = cv2.aruco.ArucoDetector(dictionary, settings)
 
     def read(self, image: npt.NDArray[np.uint8]) -> int | None:
-        """The number of the code in an (h, w, 3) BGR image; None where none is read."""
+        """Return the number of the code in an (h, w, 3) BGR image; None if none is read."""
         height, width = image.shape[:2]
         if width > MAX_WIDTH_PX:
             size = (MAX_WIDTH_PX, max(1, round(height * MAX_WIDTH_PX / width)))

@@ -1,4 +1,4 @@
-"""The codes that the page shows: markers of OpenCV's DICT_4X4_250, one after the other."""
+"""The codes that the page shows in sequence: markers of OpenCV's DICT_4X4_250."""
 
 import math
 from dataclasses import dataclass
@@ -9,24 +9,24 @@ import cv2
 DICTIONARY = cv2.aruco.DICT_4X4_250
 # Cells along a side, without the black border of one cell.
 CELLS = 4
-# At 30 images/s a code stands for three to four and a half image periods, and 160 of them take 20 s.
+# At 30 images/s a code is shown for 3 to 4.5 image periods, and 160 codes take 20 s.
 MIN_CODE_MS = 100.0
-# Of a slower camera a code stands for at least so many image periods: one image may fall on the change.
+# Minimum duration of a code in image periods of a slower camera; one image may coincide with a change.
 MIN_CODE_PERIODS = 2.0
-# Times between the shortest and this many times as long keep codes and images out of step.
+# Ratio of longest to shortest duration; random durations prevent codes and images from being in phase.
 MAX_CODE_RATIO = 1.5
-# Of the codes that are painted; 100 of 160.
+# Fraction of the painted codes, 100 of 160.
 MIN_TIMED_RATIO = 0.625
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CodePlan:
-    """How many codes are shown, and for how long each.
+    """Number and duration of the codes.
 
     Attributes:
-        codes: how many are shown once the first has been read.
-        min_code_ms, max_code_ms: a code stands for a random time between these.
-        min_timed: how many of the codes must be timed.
+        codes: Number of codes shown after the first one was read.
+        min_code_ms, max_code_ms: Bounds of the random duration of a code.
+        min_timed: Minimum number of timed codes.
     """
 
     codes: int
@@ -36,7 +36,7 @@ class CodePlan:
 
 
 def plan_codes(codes: int, *, rate_hz: float) -> CodePlan:
-    """The plan for a camera of this rate."""
+    """Return the plan for a camera of this rate."""
     min_code_ms = max(MIN_CODE_MS, MIN_CODE_PERIODS * 1000.0 / rate_hz)
     return CodePlan(
         codes=codes,
@@ -48,7 +48,7 @@ def plan_codes(codes: int, *, rate_hz: float) -> CodePlan:
 
 @cache
 def code_patterns() -> tuple[str, ...]:
-    """The cells of each code, row by row from the top left: "1" is white. The border is black."""
+    """Return the cells of each code, row by row from the top left: "1" is white. The border is black."""
     dictionary = cv2.aruco.getPredefinedDictionary(DICTIONARY)
     side = CELLS + 2
     patterns = []

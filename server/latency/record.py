@@ -8,23 +8,22 @@ from tracker.navigation import MeasuredLatency
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LatencyReport:
-    """Latency from light to page, with what it rests on.
+    """Latency from exposure to display, with its basis.
 
-    The screen's own delay is in it once. A code that appears between two images is seen half an image period
-    late on average; that is in it, too.
+    It includes the delay of the screen once, and half an image period, by which a code that appears between
+    two images is captured late on average.
 
     Attributes:
-        samples: how many codes were timed.
-        median_ms, p99_ms: from the painting of a code to the first image on the page that shows it, or a
-            later one.
-        stage_ms: median of each stage; medians of parts need not add up to the median of the whole.
-        image_period_ms: median time between two images, the resolution of one sample.
-        late_on_average_ms: half of that.
-        clock_error_ms: by how much page and server clock may be off; it moves time between the stages, and
-            leaves their sum as it is.
-        images: how many were shown on the page.
-        read_images: how many of them showed a code.
-        skipped_images: how many were not shown in between.
+        samples: Number of timed codes.
+        median_ms, p99_ms: Time from the painting of a code to the first image on the page that shows it or a
+            later code.
+        stage_ms: Median of each stage; they need not add up to the median of the total.
+        image_period_ms: Median time between two images, the resolution of one sample.
+        late_on_average_ms: Half the image period.
+        clock_error_ms: Bound of the clock error; it shifts time between the stages but not their sum.
+        images: Number of images shown on the page.
+        read_images: Number of these images with a code.
+        skipped_images: Number of images in between that were not shown.
     """
 
     samples: int
@@ -44,8 +43,8 @@ class Screen:
     """The screen that showed the codes.
 
     Attributes:
-        width_px, height_px: in pixels of the page.
-        period_ms: from one screen image to the next.
+        width_px, height_px: Size in pixels of the page.
+        period_ms: Refresh period.
     """
 
     width_px: int
@@ -55,16 +54,16 @@ class Screen:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LatencyResult:
-    """A report with what it belongs to.
+    """A report with its camera and screen.
 
     Attributes:
         at: UTC, ISO 8601.
-        made_by: who measured.
-        camera: the source of the images, in words.
-        width_px, height_px: of its images.
-        rate_hz: images a second on the page while it was measured.
-        screen: that showed the codes.
-        report: what was measured.
+        made_by: Person who measured.
+        camera: Name of the image source.
+        width_px, height_px: Size of its images.
+        rate_hz: Images per second on the page during the measurement.
+        screen: Screen that showed the codes.
+        report: The measured latency.
     """
 
     at: str
@@ -78,7 +77,7 @@ class LatencyResult:
 
     @property
     def measured(self) -> MeasuredLatency:
-        """What the lag of a moving tip depends on."""
+        """Return the values from which the lag of a moving tip is computed."""
         return MeasuredLatency(
             p99_ms=self.report.p99_ms,
             size_wh_px=(self.width_px, self.height_px),

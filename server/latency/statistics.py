@@ -10,13 +10,13 @@ from server.latency.clocks import ClockComparison, ServerClock
 from server.latency.record import LatencyReport
 from tracker.errors import CalibrationError
 
-# All codes are painted once within 25 s, so an older one of the same number is never meant.
+# All codes are painted once within 25 s, so that an older painting of the same number is excluded.
 MAX_LATENCY_MS = 5000.0
-# Between two codes that were read one image may show a mixture of both; more hide when the second one came.
+# Between two read codes one image may show a mixture of both; more make the start of the second one unknown.
 MAX_UNREAD_IMAGES = 1
-# Of the images between the first and the last one. With more, an image period is no longer the resolution.
+# Fraction of the images from the first to the last. Above it, the resolution is worse than an image period.
 MAX_SKIPPED_RATIO = 0.1
-# Of the images on the page: below it, the camera does not see the code, whatever else is wrong.
+# Fraction of the images on the page. Below it, the camera does not see the code.
 MIN_READ_RATIO = 0.5
 AIM = "Point the camera at the screen, darken the room, or move closer until the code is large."
 
@@ -25,8 +25,8 @@ class Stage(StrEnum):
     """Stages of the latency, in order."""
 
     SCREEN_AND_CAMERA = "screen and camera"  # painted -> stamped as captured
-    TRACKING = "tracking"  # captured -> concluded
-    SERVER = "server"  # concluded -> sent
+    TRACKING = "tracking"  # captured -> tracked
+    SERVER = "server"  # tracked -> sent
     LINE = "line"  # sent -> received
     PAGE = "page"  # received -> painted
 
@@ -36,8 +36,8 @@ class PaintedCode:
     """A code on the screen.
 
     Attributes:
-        code: its number.
-        painted_at_ms: page's clock, at the screen image with which it appeared.
+        code: Its number.
+        painted_at_ms: Page time of the screen refresh with which it appeared.
     """
 
     code: int
@@ -46,12 +46,12 @@ class PaintedCode:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReadImage:
-    """An image in which the server looked for a code.
+    """An image that the server searched for a code.
 
     Attributes:
-        image_number: of the image.
-        captured_at_s, concluded_at_s: monotonic clock of the server.
-        code: in it; None where none was read.
+        image_number: Number of the image.
+        captured_at_s, concluded_at_s: Monotonic times of the server.
+        code: Number of the code; None if none was read.
     """
 
     image_number: int
@@ -65,9 +65,9 @@ class ShownImage:
     """An image that was shown on the page.
 
     Attributes:
-        image_number: of the image.
-        sent_at_s: monotonic clock of the server.
-        received_at_ms, shown_at_ms: page's clock.
+        image_number: Number of the image.
+        sent_at_s: Monotonic time of the server.
+        received_at_ms, shown_at_ms: Times by the page's clock.
     """
 
     image_number: int
@@ -107,17 +107,17 @@ def latency_report(
     comparisons: Sequence[ClockComparison],
     min_timed: int,
 ) -> LatencyReport:
-    """Median, 99th percentile and stages of the latency from painted codes to shown images.
+    """Compute median, 99th percentile and stages of the latency from painted codes to displayed images.
 
-    Each code is timed by the first image on the page that shows it or a later code: an image that was skipped
-    makes the codes of its time late, and does not hide them.
+    Each code is timed by the first image on the page that shows it or a later code, so that a skipped image
+    delays the codes of its period instead of hiding them.
 
     Args:
-        painted: the codes, in the order in which they were painted.
-        read: what the server read, in any order.
-        shown: what stood on the page, in the order in which it did.
-        comparisons: of both clocks; at least one.
-        min_timed: how many codes must be timed.
+        painted: Codes in the order of painting.
+        read: Images read by the server, in any order.
+        shown: Displayed images in order.
+        comparisons: Comparisons of both clocks; at least one.
+        min_timed: Minimum number of timed codes.
 
     Raises:
         CalibrationError: LATENCY_CODE_NOT_READ, LATENCY_IMAGES_SKIPPED.
@@ -141,7 +141,7 @@ def latency_report(
     return LatencyReport(
         samples=len(samples),
         median_ms=_rounded(np.median(latency_ms)),
-        # Not between two samples: the larger of the two was measured.
+        # Not interpolated between two samples: the larger one is used.
         p99_ms=_rounded(np.percentile(latency_ms, 99.0, method="higher")),
         stage_ms={stage.value: _rounded(np.median([one[stage] for one in stages])) for stage in Stage},
         image_period_ms=_rounded(period_ms),
@@ -154,7 +154,7 @@ def latency_report(
 
 
 def _first_shown(shown: Sequence[ShownImage]) -> tuple[ShownImage, ...]:
-    """Each image as it was shown first: an alarm between two images is sent with the one before it again."""
+    """Return the first display of each image; an alarm between two images is sent with the previous image."""
     first: dict[int, ShownImage] = {}
     for one in shown:
         first.setdefault(one.image_number, one)
@@ -164,7 +164,7 @@ def _first_shown(shown: Sequence[ShownImage]) -> tuple[ShownImage, ...]:
 def _samples(
     painted: Sequence[PaintedCode], shown: Sequence[ShownImage], read: Mapping[int, ReadImage]
 ) -> list[_Sample]:
-    """Each code that was painted, with the first image that shows it or a later one."""
+    """Return each painted code with the first image that shows it or a later code."""
     samples: list[_Sample] = []
     last: int | None = None
     unread = 0
@@ -174,7 +174,7 @@ def _samples(
         if reading is None or place is None or (last is not None and place < last):
             unread += 1
             continue
-        # When the first code came into view is not known: it may have stood there before the camera did.
+        # The first code is not timed, because it may have been shown before it was in view of the camera.
         if last is not None and unread <= MAX_UNREAD_IMAGES:
             samples += [
                 _Sample(painted=one, read=reading, shown=image) for one in painted[last + 1 : place + 1]
@@ -184,7 +184,7 @@ def _samples(
 
 
 def _place_of(code: int | None, painted: Sequence[PaintedCode], shown_at_ms: float) -> int | None:
-    """Which painting of this code an image shows: the newest one before it; None where it cannot be any."""
+    """Return the index of the newest painting of this code before the image; None without one."""
     if code is None:
         return None
     for place in range(len(painted) - 1, -1, -1):
@@ -198,7 +198,7 @@ def _place_of(code: int | None, painted: Sequence[PaintedCode], shown_at_ms: flo
 
 
 def _count_skipped(shown: Sequence[ShownImage], read: Mapping[int, ReadImage]) -> int:
-    """How many images were skipped.
+    """Return the number of skipped images.
 
     Raises:
         CalibrationError: LATENCY_IMAGES_SKIPPED.
@@ -213,24 +213,24 @@ def _count_skipped(shown: Sequence[ShownImage], read: Mapping[int, ReadImage]) -
     what = (
         f"{skipped} of {given} images were not shown on this page"
         if skipped > allowed
-        else f"{unlooked} of {len(numbers)} images on this page were not looked at for a code"
+        else f"{unlooked} of {len(numbers)} images on this page were not searched for a code"
     )
     raise CalibrationError(
         "LATENCY_IMAGES_SKIPPED",
-        f"{what}, allowed {allowed}",
-        "Close other pages, choose a smaller picture or lower camera.rate_hz, and measure again.",
+        f"{what}, the maximum is {allowed}",
+        "Close other pages, select a smaller picture or lower camera.rate_hz, and measure again.",
         {"skipped_images": skipped, "unprocessed_images": unlooked, "images": given, "max_images": allowed},
     )
 
 
 def _code_not_read(what: str, min_timed: int) -> CalibrationError:
     return CalibrationError(
-        "LATENCY_CODE_NOT_READ", f"{what}, needed {min_timed}", AIM, {"min_timed": min_timed}
+        "LATENCY_CODE_NOT_READ", f"{what}, the minimum is {min_timed}", AIM, {"min_timed": min_timed}
     )
 
 
 def _image_period_ms(shown: Sequence[ShownImage], read: Mapping[int, ReadImage]) -> float:
-    """Median time between two images on the page, by their capture."""
+    """Return the median time between the captures of two successive images on the page."""
     captured_s = [read[one.image_number].captured_at_s for one in shown if one.image_number in read]
     return float(np.median(np.diff(captured_s))) * 1000.0 if len(captured_s) > 1 else 0.0
 

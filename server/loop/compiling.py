@@ -1,11 +1,11 @@
-"""Compiles the tracker for this machine, on two cores: `python -m server.loop.compiling`.
+"""Compiles the tracker for this machine on two cores: `python -m server.loop.compiling`.
 
-Numba stores compiled code beside the source (or in NUMBA_CACHE_DIR), so this is needed once after an
+Numba stores compiled code beside the source (or in NUMBA_CACHE_DIR), so that this is needed once after an
 installation or update. Several processes may start it at the same time: one compiles, the others wait.
 
-Numba keys its cache by the file of the called function, not by the files of its callees; after a source
-change stale machine code would run. So `make` deletes the cache before it compiles again, which costs a
-minute after each update.
+Numba keys its cache by the file of the called function, not by the files of its callees, so that stale
+machine code would run after a source change. `make` therefore deletes the cache before compiling, which costs
+a minute after each update.
 """
 
 import subprocess
@@ -28,11 +28,11 @@ POLL_INTERVAL_S = 0.5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Progress:
-    """How much of the tracker is compiled for this machine.
+    """Progress of the compilation for this machine.
 
     Attributes:
-        done: how many of its loops.
-        total: how many there are.
+        done: Number of compiled functions.
+        total: Number of functions.
     """
 
     done: int
@@ -40,17 +40,17 @@ class Progress:
 
     @property
     def is_complete(self) -> bool:
-        """Whether nothing is left to be compiled."""
+        """Whether all functions are compiled."""
         return self.done == self.total
 
 
 def progress() -> Progress:
-    """Return how much of the tracker is compiled, by the files of Numba's cache. Takes a few milliseconds."""
+    """Return the progress, from the files of Numba's cache. Takes a few milliseconds."""
     return Progress(done=sum(_is_compiled(loop) for loop in DISPATCHERS), total=len(DISPATCHERS))
 
 
 def compile_tracker(on_progress: Callable[[Progress], None] = lambda _: None) -> None:
-    """Compile what is not compiled yet, and return when done; a second caller waits for the first.
+    """Compile missing functions, and return when done; a second caller waits for the first.
 
     Args:
         on_progress: called about twice a second.
@@ -58,7 +58,7 @@ def compile_tracker(on_progress: Callable[[Progress], None] = lambda _: None) ->
     if not progress().is_complete:
         with filelock.FileLock(_folder() / "coaxial-compiling.lock"):
             _compile(on_progress)
-    # An index entry may be lost when two processes write it at once; errors are raised here.
+    # Repeated here, because an index entry may be lost if two processes write it at once; errors are raised.
     warm_up()
 
 
@@ -84,7 +84,7 @@ def _child(parts: tuple[Part, ...]) -> subprocess.Popen[bytes]:
 
 
 def _folder() -> Path:
-    """Return a cache folder, which this process may write to."""
+    """Return a cache folder that is writable for this process."""
     folder = Path(DISPATCHERS[0].stats.cache_path)
     folder.mkdir(parents=True, exist_ok=True)
     return folder

@@ -16,12 +16,12 @@ die_with_parent()
 import contextlib  # noqa: E402  the lines above come before everything that takes time
 import gc  # noqa: E402
 
-# What is imported stays: to look for garbage in it takes a sixth of the loading, and delays images later.
+# Imported modules are never freed; garbage collection takes a sixth of the loading and would delay images.
 gc.disable()
 
 import cv2  # noqa: E402
 
-# SciPy loads its parts when they are used first, which no image may wait for.
+# SciPy loads its submodules at their first use, which would delay an image.
 import scipy.interpolate  # noqa: E402
 import scipy.ndimage  # noqa: E402
 import scipy.optimize  # noqa: E402

@@ -1,9 +1,9 @@
 """Publishes the newest report of the tracking process as the newest instant.
 
-Newest wins: reports that arrive while one is published are dropped, and counted. An instant is published at
-least once a second, and never with an image that is known to be stale. Alarms are evaluated with every
-image, before it is published, and twenty times a second without one: they go out with the image that raised
-them, and missing images raise an alarm too. Nothing is drawn here (`server/stream/scaling`).
+Reports that arrive while one is published are dropped and counted. An instant is published at least once a
+second, and never with an image that is known to be stale. Alarms are evaluated with every image before it is
+published, so that they are published with the image that raised them, and twenty times a second without an
+image, so that missing images raise an alarm. Overlays are drawn elsewhere (`server/stream/scaling`).
 """
 
 import threading
@@ -107,7 +107,7 @@ class Publisher:
         shown = PublishedImage() if snapshot is None else PublishedImage(snapshot=snapshot, image=image)
         now = self._shared.current
         if now.generation != current.generation:
-            # The process died while its image was looked at.
+            # The process died while its image was processed.
             self._publish_without_image(now)
             return
         self._publish(now.process, report.source, shown)
@@ -178,7 +178,8 @@ class Publisher:
         self._problem = Problem(
             code="ALARMS_FAILED",
             message=message,
-            remedy="Do not navigate. Restart the program; if it happens again, report it with the log.",
+            remedy="Do not navigate. Restart the program; if the error persists, send the server log to the "
+            "maintainer.",
         )
         if self._logged_failure != message:
             self._logged_failure = message

@@ -23,13 +23,13 @@ class Report:
 
     Attributes:
         source: status of the source of images.
-        snapshot: result for the image that is sent with it; None without an image.
-        problem: why it cannot track although it runs; None otherwise.
+        snapshot: Result of the image sent with it; None without an image.
+        problem: Why it cannot track although it runs; None otherwise.
         tracked_images: number of images that this process has reported.
         played_scene: scene of the rehearsal; None for every other source.
-        state: number of the state of tracking before this image, in the ring; 0 where none was stored, -1
-            where it could not be.
-        is_predicted: whether the image comes from video that predicts its images.
+        state: Number of the tracking state before this image in the ring; 0 if none was stored, -1 if storing
+            failed.
+        is_predicted: Whether the image was decoded from video with predicted images.
     """
 
     source: SourceStatus

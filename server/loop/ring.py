@@ -4,8 +4,8 @@ A few slots, one writer, readers that take the newest. The writer never waits fo
 slot's counter before and after a write (a seqlock), so that a reader detects an overwritten slot and takes a
 newer one instead of a torn image. The memory is anonymous: it is freed with the last process that uses it.
 
-A recorder reads every entry in order (`next_after`); it misses those that are overwritten before it comes to
-them. With more slots it may be late for longer; the memory of a slot is taken at its first use.
+A recorder reads every entry in order (`next_after`), except those that are overwritten before it reads them.
+More slots tolerate a longer delay; the memory of a slot is allocated at its first use.
 """
 
 import contextlib
@@ -26,11 +26,11 @@ SLOTS = 4
 # Half a second of 30 images, for a reader of low priority that needs all of them.
 RECORDED_SLOTS = 16
 PAYLOAD_BYTES = 256 * 1024
-# 8K. Pages are allocated at the first write, so a small image costs little.
+# 8K video. Pages are allocated at the first write, so that small images need little memory.
 IMAGE_BYTES = 7680 * 4320 * 3
-# The image as the source sent it: a JPEG. A larger one is left out, and read as pixels only.
+# Maximum size of the source's JPEG; of an image with a larger JPEG only the pixels are stored.
 ENCODED_BYTES = 8 * 2**20
-# Once in a ring, and rarely written: the state of tracking before an image.
+# Maximum size of the tracking state, which is stored once per ring and rarely written.
 STATE_BYTES = 64 * 2**20
 PAGE_BYTES = mmap.ALLOCATIONGRANULARITY
 READ_ATTEMPTS = 8
@@ -49,8 +49,7 @@ class Entry:
         sequence: number of the entry, from 1.
         payload: bytes written with the image.
         image: (h, w, 3), a copy; None without an image.
-        encoded: the JPEG from which the image was decoded; empty where there is none, or where it was not
-            asked for.
+        encoded: The JPEG from which the image was decoded; empty if there is none or it was not requested.
     """
 
     sequence: int
@@ -95,12 +94,12 @@ class ImageRing:
             ValueError: the payload is larger than the maximum.
         """
         if len(payload) > self._payload_bytes:
-            raise ValueError(f"a payload of {len(payload)} bytes, at most {self._payload_bytes}")
+            raise ValueError(f"the payload has {len(payload)} bytes, the maximum is {self._payload_bytes}")
         if image is not None and (image.nbytes > self._image_bytes or image.shape[2:] != (3,)):
             raise CaptureError(
                 "IMAGE_TOO_LARGE",
-                f"an image is {'x'.join(map(str, image.shape[1::-1]))} px with {image.nbytes} bytes, "
-                f"at most {self._image_bytes} bytes",
+                f"an image has {'x'.join(map(str, image.shape[1::-1]))} px and {image.nbytes} bytes, "
+                f"the maximum is {self._image_bytes} bytes",
                 "Set the camera to a smaller size, at most 7680x4320 px.",
                 {"bytes": image.nbytes, "limit_bytes": self._image_bytes},
             )
@@ -120,7 +119,7 @@ class ImageRing:
             pixels = self._images[slot][: image.nbytes].reshape(image.shape)
             np.copyto(pixels, image)
             self._head[IMAGES] += 1
-        head[LOCK] += 1  # even: whole
+        head[LOCK] += 1  # even: complete
         self._head[WRITTEN_AT_US] = int(time.monotonic() * 1e6)
 
     def newest(self, after: int = 0) -> Entry | None:
@@ -138,9 +137,9 @@ class ImageRing:
         return None
 
     def next_after(self, after: int) -> Entry | None:
-        """Return the oldest entry with a sequence above `after` that is still there; None without one.
+        """Return the oldest existing entry with a sequence above `after`; None without one.
 
-        It has the JPEG, where there is one. A gap in the sequence is what was overwritten.
+        It contains the JPEG if there is one. A gap in the sequence means overwritten entries.
         """
         for _ in range(READ_ATTEMPTS):
             found = [
@@ -155,7 +154,7 @@ class ImageRing:
         return None
 
     def write_state(self, content: bytes) -> int:
-        """Store the state of tracking in place of the one before; return its number, 0 if it is too large.
+        """Replace the stored tracking state; return its number, 0 if it is too large.
 
         A report with this number is written after it.
         """
@@ -197,7 +196,7 @@ class ImageRing:
     def _stable_slot(self, slot: int) -> tuple[int, int, int] | None:
         """Return sequence, slot and lock of a slot that is not being written."""
         head = self._heads[slot]
-        # Read once, and first: it may turn odd between the test and the use.
+        # Read only once, because it may change between the test and the use.
         lock = int(head[LOCK])
         return None if lock % 2 else (int(head[SEQUENCE]), slot, lock)
 

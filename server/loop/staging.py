@@ -93,7 +93,7 @@ class Staging:
                 self._play(order)
             except Exception:
                 # The present scene continues; if this thread ended, no other scene could be prepared.
-                log.exception("a scene of the rehearsal could not be made ready")
+                log.exception("a scene of the rehearsal could not be prepared")
 
     def _play(self, order: SceneOrder) -> None:
         theatre = theatre_from_config(order.rehearsal)
@@ -101,4 +101,4 @@ class Staging:
         renderer.prepare()
         self._renderer = renderer
         self._source.play(renderer, scene_number=order.number, outages=theatre.settings.events)
-        log.info("the rehearsal plays another scene", scene=order.rehearsal.scene)
+        log.info("scene of the rehearsal changed", scene=order.rehearsal.scene)

@@ -36,7 +36,7 @@ class StillFiles:
     uses files of another version.
 
     Args:
-        home: the folder that holds theirs; if it is missing, nothing is stored.
+        home: Parent folder; if it is missing, nothing is stored.
     """
 
     def __init__(self, home: Path) -> None:

@@ -1,7 +1,7 @@
 """Starts the tracking process, monitors it, and restarts it when it dies or stops reporting.
 
-At most 5 restarts in 60 s; then it reports GIVEN_UP and waits until the first of them is a minute old: a
-screen in theatre that nobody touches has to recover by itself.
+After 5 restarts in 60 s it reports GIVEN_UP and waits until the first of them is a minute old, because an
+unattended screen in theatre must recover automatically.
 """
 
 import contextlib
@@ -124,7 +124,7 @@ class Supervisor:
 
     def _send(self, order: CaseSetup | SceneOrder | StateRequest) -> None:
         if self._orders is not None:
-            # A process that is ending is followed by one that gets it with its order.
+            # If the process is ending, the next one receives the value in its order.
             with contextlib.suppress(OSError):
                 self._orders.send(order)
 
@@ -186,7 +186,7 @@ class Supervisor:
         self._post(restarting, self._status.current.process.problem, ring)
         log.debug("tracking process started", pid=process.pid, took_s=round(time.monotonic() - started_s, 2))
         ending = self._watch_process(process, ring)
-        # From here on none of its output is live; viewers are informed before the cleanup.
+        # Its output is no longer live; viewers are informed before the cleanup.
         if not self._stop.is_set():
             self._post(ProcessState.RESTARTING, ending)
         self._disconnect(orders)
@@ -270,7 +270,7 @@ def _problem(what: str, **details: object) -> Problem:
     return Problem(
         code="TRACKING_PROCESS_ENDED",
         message=f"the tracking process {what}",
-        remedy="It is restarted automatically; if this repeats, look at the log.",
+        remedy="It is restarted automatically; if this repeats, check the server log.",
         context=details,
     )
 
@@ -280,7 +280,7 @@ def _given_up(watchdog: WatchdogSettings, last: Problem) -> Problem:
         code="TRACKING_GIVEN_UP",
         message=f"the tracking process was restarted {watchdog.restarts} times in {watchdog.window_s:g} s "
         f"and ended again; the last time: {last.message}",
-        remedy=f"Look at the log for the reason. It is retried within {watchdog.window_s:g} s; "
+        remedy=f"Check the server log for the reason. It is retried within {watchdog.window_s:g} s; "
         "to retry at once, restart the program.",
         context={"restarts": watchdog.restarts, "window_s": watchdog.window_s},
     )

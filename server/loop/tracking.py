@@ -1,4 +1,4 @@
-"""From one image to its navigation snapshot: tracker, then navigation, each timed."""
+"""Computation of the navigation snapshot of one image by tracker and navigation, each timed."""
 
 import dataclasses
 import time
@@ -49,12 +49,12 @@ class Tracking:
 
     @property
     def problem(self) -> Problem | None:
-        """Why no measurement is given although images arrive; None otherwise."""
+        """Why there are no measurements although images arrive; None otherwise."""
         return self._camera_problem or (_changed_problem(self._changes[0]) if self._changes else None)
 
     @property
     def device(self) -> str:
-        """The camera that is prepared for; empty if unknown."""
+        """The camera for which it is prepared; empty if unknown."""
         return self._device
 
     @property
@@ -64,7 +64,7 @@ class Tracking:
 
     @property
     def setup(self) -> Setup | None:
-        """What navigation is configured with; None before the first image of a case."""
+        """The setup of navigation; None before the first image of a case."""
         return self._setup
 
     @property
@@ -73,7 +73,7 @@ class Tracking:
         return self._preparation.calibrated_camera
 
     def adopt(self, case: CaseSetup) -> None:
-        """Use the data of this case from the next image on; all state of the one before is discarded."""
+        """Use the data of this case from the next image on; all previous state is discarded."""
         self._preparation = self._base_preparation.with_case(case)
         self._setup = None
 
@@ -89,10 +89,10 @@ class Tracking:
         """Return the navigation snapshot of an image.
 
         `controls` and `device` are those of the camera's status. A calibration of another size or camera is
-        reported as `problem`; the marker is then tracked without calibration, and no measurement is given.
+        reported as `problem`; the marker is then tracked without calibration and without measurements.
 
         Raises:
-            NavigationError: the tracker cannot work on this image.
+            NavigationError: The tracker cannot process this image.
         """
         height, width = shot.image.shape[:2]
         started_s = clock()
@@ -102,7 +102,7 @@ class Tracking:
             self.prepare((width, height), shot.captured_at_s, device=device)
         setup, tracker = self._setup, self._tracker
         if setup is None or tracker is None:
-            raise RuntimeError("no setup was made")
+            raise RuntimeError("there is no setup")
         sightings = tracker.step(shot.image, captured_at_s=shot.captured_at_s, is_predicted=shot.is_predicted)
         tracked_s = clock()
         motion = self._watching.take(setup, shot.image, sightings, at_s=shot.captured_at_s)
@@ -172,10 +172,10 @@ def _changed_problem(change: ControlChange) -> Problem:
     control, calibrated, now = change.control.value, change.calibrated, change.now
     return Problem(
         code="CAMERA_CHANGED",
-        message=f"{control} of the camera changed from {calibrated} to {now} since the calibration in use, "
-        "which is invalid now",
-        remedy=f"Set {control} back to {calibrated} (a new start does, unless camera.lock_controls is false) "
-        "or calibrate the camera again.",
+        message=f"{control} of the camera changed from {calibrated} to {now} since the calibration, "
+        "which is therefore invalid",
+        remedy=f"Set {control} back to {calibrated} (a restart does this, unless camera.lock_controls is "
+        "false), or calibrate the camera again.",
         context={"control": control, "calibrated": calibrated, "now": now},
     )
 

@@ -1,10 +1,10 @@
-"""The state of `Tracking` between two images: a recording that begins in the middle of a stream is exact.
+"""The state of `Tracking` between two images, with which a recording that starts inside a stream is exact.
 
-What follows from the setup (templates, models, kernels' workspaces: 40 MB) is left out and built again. What
-the images before have left is captured attribute by attribute: predicted poses, motion monitors, searches in
-progress, smoothing. `STATE` and `DERIVED` name every attribute of the classes that hold both; objects of any
-other class are captured as a whole. To capture it takes about 2 ms, once in a recording and after each change
-of the case, where the tracker is built anew anyway.
+Data that follow from the setup (templates, models, workspaces of kernels: 40 MB) are rebuilt. Data that
+depend on earlier images are captured attribute by attribute: predicted poses, motion monitors, searches in
+progress, smoothing. `STATE` and `DERIVED` name every attribute of the classes that contain both; objects of
+other classes are captured completely. A capture takes about 2 ms, once per recording and after each change of
+the case, which rebuilds the tracker anyway.
 """
 
 import copyreg
@@ -58,7 +58,7 @@ DERIVED: dict[type, frozenset[str]] = {
     SecondPrints: frozenset({"_fitter", "_templates_of"}),
     ToolSmoothing: frozenset({"_settings"}),
 }
-# Made while images arrive, and restored without their constructors.
+# Classes whose objects are restored without their constructors.
 CAPTURED_ENTIRELY: tuple[type, ...] = (
     LagEstimator,
     MotionMonitor,
@@ -81,8 +81,8 @@ class ObjectState:
     """Attributes of one object.
 
     Attributes:
-        name: of its class, a key of `RESTORABLE`.
-        attributes: by name.
+        name: Name of its class, a key of `RESTORABLE`.
+        attributes: Values by name.
     """
 
     name: str
@@ -94,10 +94,10 @@ class TrackingState:
     """State of tracking before an image.
 
     Attributes:
-        preparation: the setup in use, with the documents of the case; without the rehearsal's theatre.
-        size_wh_px: size of the images that it is prepared for; None if the next image prepares it.
-        device: the camera that it is prepared for; empty if unknown.
-        tracking: what the images before have left.
+        preparation: The setup in use, with the documents of the case; without the theatre of a rehearsal.
+        size_wh_px: Image size for which it is prepared; None if the next image prepares it.
+        device: Camera for which it is prepared; empty if unknown.
+        tracking: Data that depend on earlier images.
     """
 
     preparation: Preparation
@@ -118,7 +118,7 @@ class StateRequest:
 
 
 class StateError(ValueError):
-    """A state cannot be restored: it is of another version of the program."""
+    """A state of another version of the program cannot be restored."""
 
 
 def tracking_state_bytes(tracking: Tracking) -> bytes:
@@ -126,17 +126,17 @@ def tracking_state_bytes(tracking: Tracking) -> bytes:
     try:
         return pickle.dumps(capture_state(tracking), protocol=5)
     except Exception:
-        # Only the recording suffers.
-        log.exception("the state of tracking could not be captured")
+        # This affects only the recording.
+        log.exception("the tracking state could not be captured")
         return b""
 
 
 def capture_state(tracking: Tracking) -> TrackingState:
-    """Return the state; it shares its arrays with tracking, which replaces but never changes them."""
+    """Return the state; it shares arrays with tracking, which never modifies them in place."""
     preparation, setup = tracking.preparation, tracking.setup
     channel = preparation.channel
     if preparation.theatre is not None:
-        # The theatre is a renderer with its scene; tracking needs the bone in it only.
+        # The theatre is a renderer with its scene; tracking needs only its bone.
         bone = preparation.drill_reference_for(channel) if isinstance(channel, Channel) else None
         preparation = replace(preparation, theatre=None, drill_reference=bone)
     return TrackingState(
@@ -148,10 +148,10 @@ def capture_state(tracking: Tracking) -> TrackingState:
 
 
 def restore_state(state: TrackingState, *, at_s: float) -> Tracking:
-    """Return tracking as it was before the image that is captured at `at_s`.
+    """Return tracking in this state, ready for the image captured at `at_s`.
 
     Raises:
-        StateError: the state is of another version.
+        StateError: The state is of another version.
     """
     tracking = Tracking(state.preparation)
     if state.size_wh_px is not None:
@@ -179,19 +179,19 @@ def _captured(value: Value) -> Value:
 
 
 def _overlay(target: Value, state: ObjectState) -> None:
-    """Set the captured attributes of an object; what is derived stays as its constructor made it."""
+    """Set the captured attributes of an object; derived attributes keep the values of the constructor."""
     kind = type(target)
     if kind.__name__ != state.name:
-        raise StateError(f"the state of a {state.name} was recorded, this version has a {kind.__name__}")
+        raise StateError(f"the state of {state.name} was recorded, but this version has {kind.__name__}")
     if kind in STATE and STATE[kind] != set(state.attributes):
         other = sorted(STATE[kind] ^ set(state.attributes))
-        raise StateError(f"the state of a {state.name} differs in {', '.join(other)}")
+        raise StateError(f"the state of {state.name} differs in {', '.join(other)}")
     for name, value in state.attributes.items():
         own = getattr(target, name, None)
         if isinstance(value, ObjectState) and type(own) in STATE:
             _overlay(own, value)
         elif isinstance(own, dict) and isinstance(value, dict):
-            # In place: some of them make their missing entries.
+            # Updated in place, because some mappings create missing entries.
             own.clear()
             own.update({key: _restored(one) for key, one in value.items()})
         else:
@@ -215,7 +215,7 @@ def _restored(value: Value) -> Value:
 
 
 def unpickled_state(content: bytes) -> TrackingState | None:
-    """Return the state that the tracking process of this server has sent; None without one."""
+    """Return the state sent by the tracking process of this server; None without one."""
     if not content:
         return None
     state: TrackingState = pickle.loads(content)  # noqa: S301  own child
@@ -226,5 +226,5 @@ def _proxy_of(values: dict[str, float]) -> MappingProxyType[str, float]:
     return MappingProxyType(values)
 
 
-# `LastSeen` has one, which pickle does not know.
+# `LastSeen` contains one, which pickle does not support.
 copyreg.pickle(MappingProxyType, lambda proxy: (_proxy_of, (dict(proxy),)))

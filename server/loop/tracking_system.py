@@ -1,4 +1,4 @@
-"""Everything between a source and the live hub, started and stopped as one."""
+"""All parts between a source and the live hub, started and stopped together."""
 
 from collections.abc import Callable
 
@@ -51,14 +51,14 @@ class TrackingSystem:
         check_alarms: AlarmCheck = without_alarms,
         picture_problem: Callable[[], Problem | None] = lambda: None,
     ) -> None:
-        """Start publishing; `picture_problem` returns why no picture can be drawn, None while it can."""
+        """Start publishing; `picture_problem` returns why no picture can be drawn, or None."""
         self._publisher = Publisher(
             status=self._status, hub=self.hub, check_alarms=check_alarms, picture_problem=picture_problem
         )
         self._publisher.start()
 
     def wake(self) -> None:
-        """Publish changes beside the images at once. From any thread."""
+        """Publish changes at once, without waiting for an image. From any thread."""
         self._status.wake()
 
     def adopt(self, case: CaseSetup) -> None:
@@ -66,7 +66,7 @@ class TrackingSystem:
         self._supervisor.adopt(case)
 
     def record(self, *, is_recording: bool) -> None:
-        """Let the tracking process send its state, as a recording needs it. From any thread."""
+        """Make the tracking process send its state for a recording. From any thread."""
         self._supervisor.record(is_recording=is_recording)
 
     @property
@@ -89,7 +89,7 @@ class TrackingSystem:
         return self._status.played_scene
 
     def stop(self) -> None:
-        """Stop process and threads; harmless when they were not started."""
+        """Stop process and threads; does nothing if they were not started."""
         if self._publisher is not None:
             self._publisher.stop()
         self._supervisor.stop()

@@ -1,7 +1,7 @@
-"""The tracking process: newest image in, report and image out.
+"""The tracking process: receives the newest image, and returns a report with the image.
 
-Two threads do the work: one captures, the main one tracks. A third listens to the server, for case data and
-for the end of the process: that is when the server closes its end of the pipe, also by dying.
+One thread captures, the main thread tracks, and a third one receives case data from the server. The process
+ends when the server closes its end of the pipe, also when the server dies.
 """
 
 import contextlib
@@ -38,10 +38,10 @@ from server.loop.tracking_state import StateRequest, tracking_state_bytes
 from server.setup import CaseSetup, Preparation, build_setup
 from tracker.errors import NavigationError
 
-# Report interval when no image comes.
+# Report interval without images.
 HEARTBEAT_S = 0.5
 STOP_GRACE_S = 0.7
-# One core is left to the server; with two cores, a second thread of OpenCV spends more than it saves.
+# One core is left to the server; on two cores, a second thread of OpenCV costs more than it saves.
 OPENCV_THREADS = min(2, max(1, (os.cpu_count() or 1) - 1))
 
 Value = TypeVar("Value")
@@ -57,11 +57,11 @@ class WorkerOrder:
         config: settings.
         log: log settings.
         case: data of the open case; later changes come through `WorkerLink.orders`.
-        first_number: the number of its first image, above all that were reported before.
-        skipped_before: number of images skipped before.
-        scene: scene of the rehearsal in place of the settings'; None if no other was ordered.
+        first_number: Number of its first image, above all reported numbers.
+        skipped_before: Number of images skipped before.
+        scene: Scene of the rehearsal that replaces that of the settings; None if none was ordered.
         inbox: images of a phone; None for every other source.
-        is_recording: whether a recording runs, which needs the state before the first image.
+        is_recording: Whether a recording is running, which needs the state before the first image.
     """
 
     config: Config
@@ -127,12 +127,12 @@ LatestRequest: TypeAlias = LatestValue[StateRequest]
 
 
 class StateSender:
-    """Stores the state of tracking in the ring where a recording needs it.
+    """Stores the tracking state in the ring when a recording needs it.
 
     Args:
-        ring: of the reports.
-        requests: of the recording.
-        is_recording: whether one runs from the beginning.
+        ring: Ring of the reports.
+        requests: Requests of the recording.
+        is_recording: Whether a recording is running from the start.
     """
 
     def __init__(self, ring: ImageRing, requests: LatestRequest, *, is_recording: bool) -> None:
@@ -141,7 +141,7 @@ class StateSender:
         self._is_recording = self._is_due = is_recording
 
     def note_changed_case(self) -> None:
-        """The state does not follow from the one before."""
+        """Note that the next state does not follow from the previous one."""
         self._is_due = self._is_recording
 
     def store(self, tracking: Tracking) -> int:
@@ -185,7 +185,7 @@ def run_worker(order: WorkerOrder, link: WorkerLink) -> None:
             states=states,
         )
     except BrokenPipeError:
-        # The server is gone.
+        # The server has exited.
         os._exit(0)
     except Exception:
         log.exception("the tracking process failed")
@@ -193,7 +193,7 @@ def run_worker(order: WorkerOrder, link: WorkerLink) -> None:
 
 
 def _config_of(order: WorkerOrder) -> Config:
-    """Return the settings, with the scene that was ordered last."""
+    """Return the settings with the last ordered scene."""
     if order.scene is None:
         return order.config
     return order.config.model_copy(update={"rehearsal": order.scene.rehearsal})
@@ -243,7 +243,7 @@ def work(
     clock: Callable[[], float] = time.monotonic,
 ) -> None:
     """Track the newest image of the source until `stop` is set."""
-    # A camera's exposure takes no processor time: rendering must not take that of tracking.
+    # A real camera takes no processor time, so that rendering must not slow tracking.
     capture = Capture(
         source,
         stop=stop,
@@ -314,5 +314,5 @@ def _listen(
                 newest.put(message)
     stop.set()
     time.sleep(STOP_GRACE_S)
-    # A hanging driver or stream is not waited for.
+    # Do not wait for a hanging driver or stream.
     os._exit(0)

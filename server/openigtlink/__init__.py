@@ -1,13 +1,13 @@
 """OpenIGTLink: sends poses, points, headline and their absence to 3D Slicer, Plus and other programs.
 
-wire.py      messages as bytes, both ways; pure
-contents.py  the messages of one instant
-feed.py      what one client gets now, and what it must no longer take for valid; pure, time is a number
-requests.py  what a client sends, out of a stream of bytes; pure
-server.py    the listening socket and its clients
+wire.py      encoding and decoding of messages; pure
+contents.py  messages of one instant
+feed.py      messages to one client, including those on expired content; pure, time is passed in
+requests.py  parsing of requests of a client; pure
+server.py    listening socket and clients
 
-The protocol has neither encryption nor sign-in, so the server listens on loopback, unless another address is
-set and the setting `unencrypted` states what that means.
+The protocol has neither encryption nor sign-in. The server therefore listens on loopback, unless another
+address is set and confirmed by the setting `unencrypted`.
 """
 
 from server.openigtlink.server import OpenIgtLinkServer

@@ -1,7 +1,7 @@
-"""The messages of one instant: what is known with its time, and of all else why it is not.
+"""Messages of one instant: known values with their times, and the reasons for unknown values.
 
-A pose that the page would not show is not sent: both read the same fields of the snapshot, in which what is
-unknown or withheld is `Absent`. Whether what is known is too old is decided when it is sent (`feed.py`).
+A pose that the page would not show is not sent: both use the same fields of the snapshot, in which unknown or
+withheld values are `Absent`. The age of a value is checked when it is sent (`feed.py`).
 """
 
 from collections import Counter
@@ -28,7 +28,7 @@ from tracker.navigation import Absent, AbsentReason, NavigationSnapshot
 
 PROGRAM, HEADLINE, PLAN = "Coaxial", "Headline", "Plan"
 TOO_OLD, NO_IMAGE = "TOO_OLD", "NO_IMAGE"
-# Turns LPS into RAS; its own inverse. It is a rotation, so that a pose stays one.
+# Converts LPS to RAS, and is its own inverse. It is a rotation, so that a rigid pose stays rigid.
 LPS_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
 CODES: Mapping[AbsentReason, StatusCode] = {
     AbsentReason.MARKER_UNSEEN: StatusCode.NOT_PRESENT,
@@ -48,20 +48,19 @@ CODES: Mapping[AbsentReason, StatusCode] = {
     AbsentReason.POSE_JUMPED: StatusCode.UNKNOWN_ERROR,
 }
 WELL = Status(code=StatusCode.OK, name="OK", text="OK: images are tracked")
-IS_TOO_OLD = Status(code=StatusCode.TIME_OUT, name=TOO_OLD, text=f"{TOO_OLD}: no newer image has come")
+IS_TOO_OLD = Status(code=StatusCode.TIME_OUT, name=TOO_OLD, text=f"{TOO_OLD}: no newer image has arrived")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeviceContent:
-    """What a device has to say of one image.
+    """Message of a device for one image.
 
     Attributes:
-        device: its name.
+        device: Its name.
         type: TRANSFORM, POINT, STRING or STATUS.
-        content: bytes of the content.
-        has_figures: whether it is too old as soon as the figures of the page are; a reason lasts as long as
-            its picture.
-        coordinates: "RAS", "LPS" or "camera"; empty where there are none.
+        content: Bytes of the content.
+        has_figures: Whether it expires with the figures of the page; a reason expires with the picture.
+        coordinates: "RAS", "LPS" or "camera"; empty without coordinates.
     """
 
     device: str
@@ -76,10 +75,10 @@ class InstantContents:
     """The messages of one instant.
 
     Attributes:
-        captured_at_s: monotonic time of the image; None without one.
-        image: what changes with each image; of no image, the headline alone.
-        plan: the planned channel.
-        program: state of the program.
+        captured_at_s: Monotonic time of the image; None without one.
+        image: Messages that change with each image; without an image, the headline only.
+        plan: The planned channel.
+        program: State of the program.
     """
 
     captured_at_s: float | None
@@ -122,7 +121,7 @@ def status_of_device(device: str, status: Status) -> DeviceContent:
 
 
 def _shown(instant: Instant) -> NavigationSnapshot | None:
-    """Return the snapshot, unless capture or tracking is known not to run: then the page covers it, too."""
+    """Return the snapshot; None while capture or tracking is stopped, as on the page."""
     runs = instant.process.state is ProcessState.RUNNING and instant.source.state is SourceState.RUNNING
     return instant.snapshot if runs else None
 
@@ -155,8 +154,8 @@ def _unsent(tools: Sequence[str]) -> Status:
     return Status(
         code=StatusCode.CONFIG_ERROR,
         name="NAME_UNUSABLE",
-        text=f"NAME_UNUSABLE: not sent are {', '.join(tools)[:200]}: the name has more than 10 "
-        "characters, or is that of another tool; set openigtlink.tool_names",
+        text=f"NAME_UNUSABLE: {', '.join(tools)[:200]} not sent: the name has more than 10 "
+        "characters or is used by another tool; set openigtlink.tool_names",
     )
 
 

@@ -1,8 +1,8 @@
-"""What one client gets now, and what it must no longer take for valid.
+"""Messages to one client, including those on expired content.
 
-A client shows the last pose until it gets another, or a message that there is none. So for each device it is
-known until when what the client has may be shown, by the limits of the page (`limits` in the settings), and
-at that time the client is notified, also when no image comes any more.
+A client shows the last pose until it receives another pose or a message that there is none. The feed
+therefore stores an expiry time for the content of each device, from the limits of the page (`limits` in the
+settings), and notifies the client at that time, also without a new image.
 """
 
 from collections.abc import Iterable
@@ -31,32 +31,32 @@ TAKEN_TYPES = ("GET_STATUS", "GET_CAPABIL", "STT_TRANSFOR", "STP_TRANSFOR")
 # Both spellings are in use: the specification cuts the name at 12 bytes, older clients earlier.
 STARTS, STOPS = ("STT_TRANSFOR", "STT_TRANS"), ("STP_TRANSFOR", "STP_TRANS")
 SUCCESS = b"\0"
-GONE = Status(code=StatusCode.NOT_PRESENT, name="GONE", text="GONE: no image, or no such tool any more")
+GONE = Status(code=StatusCode.NOT_PRESENT, name="GONE", text="GONE: no image, or the tool no longer exists")
 STOPPED = Status(
-    code=StatusCode.NOT_READY, name="STOPPED", text="STOPPED: this client asked for no more poses"
+    code=StatusCode.NOT_READY, name="STOPPED", text="STOPPED: this client has stopped the stream of poses"
 )
 
 
 class Feed:
-    """The messages for one client. Times are monotonic; `unix_offset_s` added to them gives Unix time.
+    """The messages for one client. Times are monotonic; `unix_offset_s` is Unix time minus monotonic time.
 
     Args:
-        limits: when the page covers figures and pictures.
+        limits: Ages from which the page hides figures and pictures.
     """
 
     def __init__(self, limits: LimitsConfig) -> None:
         self._figures_s = limits.pose_stale_after_ms / 1000.0
         self._reasons_s = limits.video_stale_after_ms / 1000.0
-        # By device, until when the client may show what it has.
+        # Expiry time of the client's content, by device.
         self._valid_until_s: dict[str, float] = {}
-        # What is sent when it changes.
+        # Content that is sent only when it changes.
         self._stated: dict[str, DeviceContent] = {}
         self._newest: InstantContents | None = None
         self._is_stopped = False
 
     @property
     def expires_at_s(self) -> float:
-        """When the client must be notified that something is too old; infinity if it has nothing."""
+        """Time at which the client must be notified of expired content; infinity without content."""
         return min(self._valid_until_s.values(), default=inf)
 
     def messages(self, contents: InstantContents, *, now_s: float, unix_offset_s: float) -> list[Message]:
@@ -68,7 +68,7 @@ class Feed:
         program, until_s = self._program(now_s)
         sent = [self._message(one, now_unix_s) for one in self._changed((program, contents.plan))]
         if contents.captured_at_s is None:
-            # Both are stated anew.
+            # Both are sent again.
             for own in (PROGRAM, HEADLINE):
                 self._valid_until_s.pop(own, None)
             sent += self._ended(list(self._valid_until_s), GONE, now_unix_s)
@@ -88,7 +88,7 @@ class Feed:
         return sent
 
     def expired(self, *, now_s: float, unix_offset_s: float) -> list[Message]:
-        """Return the messages about what is too old by now."""
+        """Return the messages on content that has expired."""
         old = [device for device, until_s in self._valid_until_s.items() if not now_s <= until_s]
         self._valid_until_s |= dict.fromkeys(old, inf)
         if PROGRAM in old:
@@ -96,7 +96,7 @@ class Feed:
         return [self._ending(device, IS_TOO_OLD, now_s + unix_offset_s) for device in old]
 
     def answer(self, request: Message, *, now_s: float, unix_offset_s: float) -> list[Message]:
-        """Return the answer to a message of the client; none to what is not known, as specified."""
+        """Return the response to a message of the client; unknown messages are ignored, as specified."""
         now_unix_s = now_s + unix_offset_s
         device = request.device if is_device_name(request.device) else PROGRAM
         if request.type == "GET_STATUS":
@@ -117,7 +117,7 @@ class Feed:
         return [*ended, Message(type=reply, device=device, timestamp_s=now_unix_s, content=SUCCESS)]
 
     def _program(self, now_s: float) -> tuple[DeviceContent, float]:
-        """Return the state of the program, and until when it may be shown."""
+        """Return the state of the program, and its expiry time."""
         if self._newest is None:
             return _NOTHING_YET, inf
         captured_at_s = self._newest.captured_at_s
@@ -138,7 +138,7 @@ class Feed:
 
     def _ending(self, device: str, status: Status, at_s: float) -> Message:
         if device == HEADLINE:
-            # A text stays on a screen until another one comes.
+            # A client shows a text until it receives another one.
             return Message(
                 type="STRING", device=device, timestamp_s=at_s, content=string_content(status.text)
             )

@@ -1,4 +1,4 @@
-"""What a client sends, out of a stream of bytes: requests, and damage with its consequence."""
+"""Parsing of the requests of a client from a byte stream."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -13,25 +13,25 @@ from server.openigtlink.wire import (
     unpack_header,
 )
 
-# A request has no body, or a few bytes; longer messages are none that are known here.
+# Requests have no body or a few bytes; longer messages are not supported.
 MAX_BODY_BYTES = 4096
 MAX_REQUESTS_PER_S, BURST = 20.0, 40.0
 
 
 class OversizeError(WireError):
-    """A body is longer than a client may send."""
+    """The body exceeds the maximum size."""
 
 
 class TooManyRequestsError(WireError):
-    """A client sends more messages than it may."""
+    """The client exceeds the rate limit."""
 
 
 @dataclass(slots=True, kw_only=True)
 class RequestReader:
-    """Parses the bytes of one client. After a `WireError` its stream has no known place any more.
+    """Parses the bytes of one client. After a `WireError` the position in the stream is unknown.
 
     Attributes:
-        damaged: messages with a wrong checksum so far.
+        damaged: Number of messages with a wrong checksum so far.
     """
 
     damaged: int = 0
@@ -41,12 +41,12 @@ class RequestReader:
     _fed_at_s: float | None = None
 
     def feed(self, content: bytes, *, now_s: float) -> Iterator[Message | ChecksumError]:
-        """Yield each message that is complete now, or the error of one whose body was damaged on the way.
+        """Yield each complete message, or the error of a message with a damaged body.
 
         Raises:
-            WireError: where the next message begins is unknown.
-            OversizeError: a header announces a body that is too long; it is never waited for.
-            TooManyRequestsError: more than 20 messages a second on average.
+            WireError: The start of the next message is unknown.
+            OversizeError: A header announces a body that is too long.
+            TooManyRequestsError: More than 20 messages per second on average.
         """
         if self._fed_at_s is not None:
             self._allowance = min(BURST, self._allowance + (now_s - self._fed_at_s) * MAX_REQUESTS_PER_S)
@@ -55,7 +55,7 @@ class RequestReader:
         while (message := self._next()) is not None:
             self._allowance -= 1.0
             if self._allowance < 0.0:
-                raise TooManyRequestsError(f"at most {MAX_REQUESTS_PER_S:g} messages a second are taken")
+                raise TooManyRequestsError(f"at most {MAX_REQUESTS_PER_S:g} messages per second are accepted")
             yield message
 
     def _next(self) -> Message | ChecksumError | None:
@@ -64,7 +64,9 @@ class RequestReader:
                 return None
             header = unpack_header(self._taken(HEADER_BYTES))
             if header.body_bytes > MAX_BODY_BYTES:
-                raise OversizeError(f"a body of {header.body_bytes} bytes, allowed {MAX_BODY_BYTES}")
+                raise OversizeError(
+                    f"the body has {header.body_bytes} bytes, the maximum is {MAX_BODY_BYTES}"
+                )
             self._header = header
         if len(self._waiting) < self._header.body_bytes:
             return None
@@ -72,7 +74,7 @@ class RequestReader:
         try:
             return unpack(header, self._taken(header.body_bytes))
         except ChecksumError as error:
-            # Its length was right, so that the next message begins where it should.
+            # The length was correct, so that the start of the next message is known.
             self.damaged += 1
             return error
 

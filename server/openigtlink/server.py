@@ -1,8 +1,8 @@
-"""The listening socket of OpenIGTLink, and its clients: each has its own newest instant.
+"""The OpenIGTLink server: its listening socket and its clients.
 
-As for the viewers of the page, nothing is queued. A client that is busy skips images, one that reads nothing
-for two seconds is disconnected, and none delays another, because each is a task of its own that waits for its
-own socket. Clients move nothing: what they may ask is answered by their feed.
+As for the viewers of the page, nothing is queued. A slow client skips images, and one that reads nothing for
+two seconds is disconnected. Each client has its own task, so that no client delays another. Requests of
+clients change nothing in this program.
 """
 
 import asyncio
@@ -23,7 +23,7 @@ from server.openigtlink.requests import OversizeError, RequestReader, TooManyReq
 from server.openigtlink.wire import ChecksumError, Message, Status, StatusCode, WireError, pack
 
 SEND_TIMEOUT_S = 2.0
-# In the kernel, so that no old pose waits there. A set of messages has about 1 kB.
+# Send buffer of the kernel, small so that no old pose waits in it. The messages of an instant need 1 kB.
 UNSENT_BYTES = 4096
 READ_BYTES = 4096
 RESET_ON_CLOSE = struct.pack("ii", 1, 0)
@@ -36,9 +36,9 @@ class OpenIgtLinkServer:
     """Sends the newest instant to all clients. For one event loop.
 
     Args:
-        hub: where instants are published.
-        config: the settings; `openigtlink`, `limits` and the language of `video` are used.
-        clock: monotonic time.
+        hub: Source of the instants.
+        config: The settings; `openigtlink`, `limits` and the language of `video` are used.
+        clock: Monotonic clock.
         wall_clock: Unix time.
     """
 
@@ -53,7 +53,7 @@ class OpenIgtLinkServer:
         self._newest: tuple[Instant, InstantContents] | None = None
 
     async def start(self, listener: socket.socket) -> None:
-        """Accept clients on a socket that listens already."""
+        """Accept clients on a listening socket."""
         self._server = await asyncio.start_server(self._connected, sock=listener, limit=READ_BYTES)
 
     async def stop(self) -> None:
@@ -75,7 +75,7 @@ class OpenIgtLinkServer:
             full = Status(
                 code=StatusCode.BUSY,
                 name="TOO_MANY_CLIENTS",
-                text=f"TOO_MANY_CLIENTS: {len(self._clients)} clients are connected already",
+                text=f"TOO_MANY_CLIENTS: {len(self._clients)} clients are connected, the maximum",
             )
             await client.say_goodbye(full)
             return
@@ -92,7 +92,7 @@ class OpenIgtLinkServer:
 
     @property
     def hub(self) -> LiveHub:
-        """Where instants are published."""
+        """Source of the instants."""
         return self._hub
 
     @property
@@ -101,12 +101,12 @@ class OpenIgtLinkServer:
         return self._config
 
     def times(self) -> tuple[float, float]:
-        """Return monotonic time, and what added to it gives Unix time."""
+        """Return monotonic time, and Unix time minus monotonic time."""
         now_s = self._clock()
         return now_s, self._wall_clock() - now_s
 
     def contents(self, instant: Instant) -> InstantContents:
-        """Return the messages of an instant, made once for all clients."""
+        """Return the messages of an instant, computed once for all clients."""
         if self._newest is None or self._newest[0] is not instant:
             made = contents_of(instant, self._config.openigtlink, language=self._config.video.language)
             self._newest = instant, made
@@ -114,7 +114,7 @@ class OpenIgtLinkServer:
 
 
 class _Client:
-    """One client: a task that sends, and one that listens."""
+    """One client, with a sending and a receiving task."""
 
     def __init__(
         self, server: OpenIgtLinkServer, reader: asyncio.StreamReader, writer: asyncio.StreamWriter
@@ -161,7 +161,7 @@ class _Client:
                 await self._writer.wait_closed()
 
     def abort(self) -> None:
-        """Close now; what was not sent is discarded, here and in the kernel."""
+        """Close at once; unsent data are discarded, also in the kernel."""
         transport = self._writer.transport
         raw = cast("socket.socket | None", self._writer.get_extra_info("socket"))
         if raw is not None and not transport.is_closing():
@@ -183,7 +183,7 @@ class _Client:
             await self._write(self._feed.messages(contents, now_s=now_s, unix_offset_s=unix_offset_s))
 
     async def _next_instant(self) -> Instant | None:
-        """Return the newest instant when the rate allows one; None if something gets too old before."""
+        """Return the newest instant when the rate allows one; None if content expires before."""
         now_s, _ = self._server.times()
         expires_at_s = self._feed.expires_at_s
         if now_s < self._next_at_s:
@@ -220,11 +220,11 @@ class _Client:
         await self._write([Message(type="STATUS", device=PROGRAM, timestamp_s=at_s, content=content)])
 
     async def _write(self, messages: Iterable[Message]) -> None:
-        """Send messages whole, and wait until the kernel has taken them.
+        """Send messages, and wait until the kernel has accepted them.
 
         Raises:
-            TimeoutError: the client read nothing for two seconds.
-            OSError: it is gone.
+            TimeoutError: The client read nothing for two seconds.
+            OSError: The client has disconnected.
         """
         version = self._settings.header_version
         content = b"".join(pack(message, version=version) for message in messages)

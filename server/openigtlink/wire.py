@@ -1,8 +1,8 @@
-"""Messages of OpenIGTLink as bytes, by versions 1 and 2 of its header (protocol versions 1 to 3).
+"""Encoding and decoding of OpenIGTLink messages with header versions 1 and 2 (protocol versions 1 to 3).
 
 A message is a header of 58 bytes and a body, all numbers big-endian, with a checksum of the body. In version
-2 the body begins with an extended header and ends with metadata, pairs of texts. Nothing here knows of
-sockets or clocks.
+2 the body starts with an extended header and ends with metadata, pairs of texts. This module uses neither
+sockets nor clocks.
 """
 
 import math
@@ -35,15 +35,15 @@ MASK_64 = 0xFFFF_FFFF_FFFF_FFFF
 
 
 class WireError(Exception):
-    """Bytes are no message: cut, damaged, or of a version that is not known."""
+    """Bytes are not a message: truncated, damaged, or of an unknown version."""
 
 
 class ChecksumError(WireError):
-    """The body is not what its checksum states."""
+    """The body does not match its checksum."""
 
 
 class StatusCode(IntEnum):
-    """Codes of STATUS, as far as they are sent."""
+    """Codes of STATUS that are sent."""
 
     OK = 1
     UNKNOWN_ERROR = 2
@@ -84,8 +84,8 @@ class Message:
     Attributes:
         type: type name.
         device: device name, at most 20 ASCII characters.
-        timestamp_s: Unix time at which its content was true; 0 if unused.
-        content: bytes of the content, by the format of its type.
+        timestamp_s: Unix time for which its content is valid; 0 if unused.
+        content: Bytes of the content, in the format of its type.
         metadata: sent with version 2 only.
     """
 
@@ -98,7 +98,7 @@ class Message:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Status:
-    """Content of STATUS; `name` is the first 20 characters of a code of this program."""
+    """Content of STATUS; `name` is a code of this program, truncated to 20 characters."""
 
     code: int
     sub_code: int = 0
@@ -137,7 +137,7 @@ def crc64(body: bytes) -> int:
 
 
 def is_device_name(name: str) -> bool:
-    """Whether a name fits into a header."""
+    """Return whether a name fits into a header."""
     return name.isascii() and name.isprintable() and 0 < len(name) <= DEVICE_BYTES
 
 
@@ -149,7 +149,7 @@ def pack(message: Message, *, version: int) -> bytes:
     """
     if not is_device_name(message.device):
         raise WireError(
-            f"the device name '{message.device[:40]}' has no 1 to {DEVICE_BYTES} ASCII characters"
+            f"the device name '{message.device[:40]}' is not 1 to {DEVICE_BYTES} ASCII characters"
         )
     if not 0.0 <= message.timestamp_s < 2.0**32:
         raise WireError(f"the time {message.timestamp_s} s does not fit")
@@ -173,13 +173,13 @@ def unpack_header(content: bytes) -> Header:
     """Parse the first 58 bytes of a message.
 
     Raises:
-        WireError: they are too few, of another version, or their names are no ASCII.
+        WireError: There are too few bytes, the version is unknown, or a name is not ASCII.
     """
     if len(content) < HEADER_BYTES:
         raise WireError(f"a header has {HEADER_BYTES} bytes, not {len(content)}")
     version, kind, device, seconds, fraction, body_bytes, crc = HEADER.unpack_from(content)
     if version not in VERSIONS:
-        raise WireError(f"header version {version}, known are {VERSIONS}")
+        raise WireError(f"header version {version} is unknown, supported are {VERSIONS}")
     return Header(
         version=version,
         type=_text(kind),
@@ -195,12 +195,12 @@ def unpack(header: Header, body: bytes) -> Message:
 
     Raises:
         ChecksumError: the body was damaged.
-        WireError: its length or its parts contradict each other.
+        WireError: Its length and its parts contradict each other.
     """
     if len(body) != header.body_bytes:
         raise WireError(f"the body has {len(body)} bytes, its header states {header.body_bytes}")
     if crc64(body) != header.crc:
-        raise ChecksumError(f"the body of {header.type} does not have the checksum of its header")
+        raise ChecksumError(f"the body of {header.type} does not match the checksum in its header")
     content, metadata = (body, {}) if header.version == 1 else _without_metadata(body)
     return Message(
         type=header.type,
@@ -241,21 +241,21 @@ def status_of(content: bytes) -> Status:
         WireError: it is too short, or its texts cannot be decoded.
     """
     if len(content) < STATUS_HEAD.size:
-        raise WireError(f"STATUS has {len(content)} bytes, needed {STATUS_HEAD.size}")
+        raise WireError(f"STATUS has {len(content)} bytes, the minimum is {STATUS_HEAD.size}")
     code, sub_code, name = STATUS_HEAD.unpack_from(content)
     text = _decoded(content[STATUS_HEAD.size :].rstrip(b"\0"), "utf-8")
     return Status(code=code, sub_code=sub_code, name=_text(name), text=text)
 
 
 def string_content(text: str) -> bytes:
-    """Return the content of STRING, in ASCII where that suffices.
+    """Return the content of STRING, in ASCII if possible.
 
     Raises:
         WireError: it is too long.
     """
     encoded = text.encode("utf-8")
     if len(encoded) > MAX_STRING_BYTES:
-        raise WireError(f"a text has {len(encoded)} bytes, allowed {MAX_STRING_BYTES}")
+        raise WireError(f"the text has {len(encoded)} bytes, the maximum is {MAX_STRING_BYTES}")
     return STRING_HEAD.pack(ASCII if text.isascii() else UTF_8, len(encoded)) + encoded
 
 
@@ -263,14 +263,14 @@ def string_of(content: bytes) -> str:
     """Return the text of STRING.
 
     Raises:
-        WireError: another length than stated, or an encoding that is not read.
+        WireError: The length differs from the stated one, or the encoding is not supported.
     """
     if len(content) < STRING_HEAD.size:
-        raise WireError(f"STRING has {len(content)} bytes, needed {STRING_HEAD.size}")
+        raise WireError(f"STRING has {len(content)} bytes, the minimum is {STRING_HEAD.size}")
     encoding, length = STRING_HEAD.unpack_from(content)
     _reject_length("STRING", content, STRING_HEAD.size + length)
     if encoding not in {ASCII, UTF_8}:
-        raise WireError(f"STRING has the encoding {encoding}, read are {ASCII} and {UTF_8}")
+        raise WireError(f"STRING has the encoding {encoding}, supported are {ASCII} and {UTF_8}")
     return _decoded(content[STRING_HEAD.size :], "ascii" if encoding == ASCII else "utf-8")
 
 
@@ -288,10 +288,10 @@ def points_of(content: bytes) -> tuple[Point, ...]:
     """Return the points of POINT.
 
     Raises:
-        WireError: its length is no multiple of a point's.
+        WireError: Its length is not a multiple of the size of a point.
     """
     if len(content) % POINT.size:
-        raise WireError(f"POINT has {len(content)} bytes, needed a multiple of {POINT.size}")
+        raise WireError(f"POINT has {len(content)} bytes, expected a multiple of {POINT.size}")
     return tuple(
         Point(name=_text(one[0]), group=_text(one[1]), position_mm=np.array(one[6:9]))
         for one in POINT.iter_unpack(content)
@@ -319,7 +319,7 @@ def _with_metadata(message: Message) -> bytes:
 
 def _without_metadata(body: bytes) -> tuple[bytes, dict[str, str]]:
     if len(body) < EXTENDED_HEADER.size:
-        raise WireError(f"the extended header has {len(body)} bytes, needed {EXTENDED_HEADER.size}")
+        raise WireError(f"the extended header has {len(body)} bytes, expected {EXTENDED_HEADER.size}")
     head_bytes, index_bytes, text_bytes, _ = EXTENDED_HEADER.unpack_from(body)
     content_bytes = len(body) - head_bytes - index_bytes - text_bytes
     if head_bytes < EXTENDED_HEADER.size or content_bytes < 0:
@@ -333,7 +333,7 @@ def _metadata(index: bytes, texts: bytes) -> dict[str, str]:
     if not index:
         return {}
     if len(index) < METADATA_COUNT.size:
-        raise WireError("the index of the metadata is cut")
+        raise WireError("the index of the metadata is truncated")
     (count,) = METADATA_COUNT.unpack_from(index)
     _reject_length("the index of the metadata", index, METADATA_COUNT.size + count * METADATA_ENTRY.size)
     metadata, at = {}, 0
@@ -348,13 +348,13 @@ def _metadata(index: bytes, texts: bytes) -> dict[str, str]:
 
 def _reject_length(what: str, content: bytes, needed: int) -> None:
     if len(content) != needed:
-        raise WireError(f"{what} has {len(content)} bytes, needed {needed}")
+        raise WireError(f"{what} has {len(content)} bytes, expected {needed}")
 
 
 def _padded(text: str, length: int) -> bytes:
-    """Encode a text for a field of fixed length; `struct` fills it up with zero bytes."""
+    """Encode a text for a field of fixed length; `struct` pads it with zero bytes."""
     encoded = text.encode("utf-8")[:length]
-    # A character that is cut in half is left out.
+    # A truncated character is dropped.
     return encoded.decode("utf-8", errors="ignore").encode("utf-8")
 
 

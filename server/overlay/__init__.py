@@ -1,12 +1,12 @@
-"""The overlay: what is known, burned into a copy of the image, and encoded once for all who watch.
+"""The overlay: navigation results drawn into a copy of the image, encoded once for all viewers.
 
-words.py    which words and numbers the panel shows       (pure: snapshot -> text)
-view.py     points of the camera's frame -> runs of pixels that may be drawn
-ink.py      lines with a dark halo, text on a dark ground
-channel.py, drill.py, panel.py, bullseye.py, headline.py, alarm_band.py   what is drawn
-draw.py     all of it in order
-card.py     the picture that says that there is no picture
-strip.py    the strip under an image of a recording
+panel_readings.py  texts and numbers of the panel (pure: snapshot -> text)
+view.py            points in the camera frame -> visible polylines in pixels
+primitives.py      lines with a dark halo, text on a dark background
+channel.py, drill.py, panel.py, bullseye.py, headline.py, alarm_band.py   drawn elements
+draw.py            all elements in order
+card.py            picture shown instead of an image
+strip.py           strip below an image of a recording
 """
 
 from server.overlay.bullseye import reach_of

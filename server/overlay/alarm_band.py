@@ -1,4 +1,4 @@
-"""The alarm of the highest priority, burned into the picture: marks, word and numbers, at its upper edge."""
+"""The alarm of the highest priority at the upper edge of the image: marks, title and numbers."""
 
 from collections.abc import Mapping
 
@@ -6,7 +6,7 @@ from server.overlay.primitives import REGULAR, SEMIBOLD, WHITE, Box, Image, dark
 from server.texts import Language, Text, alarm_text
 from tracker.navigation.alarms import AlarmSnapshot, AlarmState, Presence, Priority
 
-# BGR; the words say the same, because colour alone says nothing to one man in twelve.
+# BGR; the text repeats the priority, because one man in twelve is colour-blind.
 COLOURS = {Priority.HIGH: (110, 110, 255), Priority.MEDIUM: (77, 216, 255), Priority.LOW: (242, 211, 111)}
 # The font has no triangles: as many exclamation marks as the page has marks.
 MARKS = {Priority.HIGH: "!!!", Priority.MEDIUM: "!!", Priority.LOW: "!"}
@@ -30,26 +30,25 @@ def draw_alarm_band(
     language: Language = "en",
     beside: Box | None = None,
 ) -> None:
-    """Draw the first alarm, and how many more there are; nothing when there is none.
+    """Draw the first alarm and the number of further alarms; nothing without an alarm.
 
     Args:
-        image: drawn into.
-        alarms: of this moment.
+        image: Modified in place.
+        alarms: Present alarms.
         scale: 1 for an image 720 px high.
-        language: of the words.
-        beside: what lies at the left and must not be covered; the band moves to its right where they would
-            meet.
+        language: Language of the text.
+        beside: Box at the left that must not be covered; the band moves to its right if they would overlap.
     """
     top = alarms.top
     if top is None:
         return
     words = alarm_text(top, unix_offset_s=alarms.unix_offset_s)
     more = f"  +{len(alarms.alarms) - 1}" if len(alarms.alarms) > 1 else ""
-    # What was over and shows again is not over.
+    # A latched condition can be present again.
     is_over = top.state is AlarmState.LATCHED and top.presence is not Presence.YES
     has_state = is_over or top.state is AlarmState.ACKNOWLEDGED
     known = f" ({STATES[top.state][language]})" if has_state else ""
-    # What is over is no alarm any more: it has no marks, and no colour.
+    # An alarm whose condition is over has neither marks nor colour.
     marks, colour = ("", WHITE) if is_over else (f"{MARKS[top.priority]} ", COLOURS[top.priority])
     rows = [(f"{marks}{words.title[language]}{known}{more}", STATE_PX, SEMIBOLD)]
     rows += [

@@ -1,4 +1,4 @@
-"""The bull's-eye: the drill as it is seen along the channel, in an inset of the video."""
+"""The bull's-eye: view of the drill along the channel, in an inset of the video."""
 
 from dataclasses import dataclass, replace
 
@@ -22,12 +22,12 @@ from tracker.geometry import Array
 from tracker.navigation import BullseyeView, half_axes_95_mm
 from tracker.plan import Channel
 
-# From the middle to the border: this, or twice the channel; what lies beyond is an arrow at the border.
+# From the centre to the border, at least this or twice the channel's radius; points beyond it are clamped.
 MIN_EXTENT_MM = 7.0
 CROSS_MM, SQUARE_MM = 0.8, 0.45
 LETTER_PX = 17.0
 LETTER_MARGIN_PX = 18.0
-# BGR; a border that nobody needs to read.
+# BGR.
 DIM = (120, 120, 120)
 TURN = np.linspace(0.0, 2.0 * np.pi, 49)
 CIRCLE = np.stack([np.cos(TURN), np.sin(TURN)], axis=1)
@@ -35,18 +35,20 @@ SQUARE = SQUARE_MM * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0
 
 
 def reach_of(channel: Channel) -> float:
-    """How many mm a bull's-eye shows from its middle to its border, burned in or drawn by the page."""
+    """Return the distance in mm from the centre of a bull's-eye to its border, for the video and the page."""
     return max(MIN_EXTENT_MM, 2.0 * channel.radius_mm)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Inset:
-    """A square of the image that shows mm around the channel's axis.
+    """A square of the image that shows the surroundings of the channel's axis.
 
     Attributes:
-        left_px: of the square; likewise top_px and side_px.
-        extent_mm: from its middle to the border.
-        scale: of all that is drawn, 1 for an image 720 px high.
+        left_px: Left edge of the square.
+        top_px: Upper edge of the square.
+        side_px: Side of the square.
+        extent_mm: Distance from the centre to the border.
+        scale: Scale of lines and letters, 1 for an image 720 px high.
     """
 
     left_px: float
@@ -56,7 +58,7 @@ class Inset:
     scale: float
 
     def px(self, view_mm: Array) -> Array:
-        """Pixels (..., 2) of places (..., 2) of the view, right and up in mm."""
+        """Return the pixels (..., 2) of points (..., 2) of the view (mm to the right and up)."""
         per_mm = (self.side_px / 2.0 - LETTER_MARGIN_PX * self.scale) / self.extent_mm
         middle = np.array([self.left_px, self.top_px]) + self.side_px / 2.0
         return np.asarray(middle + np.asarray(view_mm) * [per_mm, -per_mm])
@@ -64,13 +66,13 @@ class Inset:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Target:
-    """What is drawn into the inset.
+    """Content of the inset.
 
     Attributes:
-        seen: the drill in the view along the channel.
-        channel_radius_mm: of the plan.
-        drill_radius_mm: of the drill.
-        tip_covariance_mm2: (2, 2) of the tip in the view; None where it is not known.
+        seen: The drill in the view along the channel.
+        channel_radius_mm: Radius of the planned channel.
+        drill_radius_mm: Radius of the drill.
+        tip_covariance_mm2: (2, 2), covariance of the tip in the view; None if unknown.
     """
 
     seen: BullseyeView
@@ -82,14 +84,13 @@ class Target:
 def draw_bullseye(image: Image, inset: Inset, target: Target) -> None:
     """Draw the view along the channel into a square of the image.
 
-    The blue circle is the channel, its cross the axis; the orange ring is the drill at its tip, in its true
-    size; the orange line runs from where it came in to where it would end, which is a small square. So a
-    parallel drill is a point, and one that is off in angle a line. A thin white ellipse holds the tip with
-    95 in 100.
+    The blue circle is the channel, the cross its axis. The orange ring is the drill at its tip, in true size.
+    The orange line runs from the drill's entry to its predicted end, a small square; it is a point for a
+    drill parallel to the channel. The thin white ellipse is the 95 % confidence region of the tip.
     """
     scale, seen, extent_mm = inset.scale, target.seen, inset.extent_mm
     left, top, side = (max(round(px), 0) for px in (inset.left_px, inset.top_px, inset.side_px))
-    # In a window of its own, so that nothing reaches over its border.
+    # Drawn into a view of the square, so that nothing extends beyond its border.
     image = image[top : top + side, left : left + side]
     inset = replace(inset, left_px=0.0, top_px=0.0)
     darken_box(image, 0, 0, side, side)
@@ -117,7 +118,7 @@ def draw_bullseye(image: Image, inset: Inset, target: Target) -> None:
 
 
 def _clamped(place_mm: Array, tip_mm: Array, extent_mm: float) -> Array:
-    """Clamp a place to the extent along its line from the tip; return the tip itself where there is none."""
+    """Clamp a point to the extent along its line from the tip; return the tip if no point of it is inside."""
     if not np.isfinite(place_mm).all():
         return tip_mm
     way = place_mm - tip_mm
@@ -129,7 +130,7 @@ def _clamped(place_mm: Array, tip_mm: Array, extent_mm: float) -> Array:
 
 
 def _inside(ring_mm: Array, extent_mm: float) -> Array:
-    """A ring with what lies beyond reach put onto the border."""
+    """Return the ring with points outside clamped to the border."""
     away = np.linalg.norm(ring_mm, axis=1, keepdims=True)
     return np.asarray(ring_mm * np.minimum(1.0, extent_mm / np.maximum(away, 1e-9)))
 
@@ -143,7 +144,7 @@ def _arrow(image: Image, inset: Inset, tip_mm: Array) -> None:
 
 
 def _letters(image: Image, inset: Inset) -> None:
-    """The patient's directions at the border, as on a CT: left and right, and S for the head."""
+    """Draw the patient's directions at the border as on a CT: left, right, and S for superior."""
     size = LETTER_PX * inset.scale
     gap = 5.0 * inset.scale
     middle, right = inset.top_px + inset.side_px / 2.0 + 0.35 * size, inset.left_px + inset.side_px

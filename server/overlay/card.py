@@ -1,4 +1,4 @@
-"""The picture that says that there is no picture."""
+"""Picture with a message, shown instead of an image."""
 
 import numpy as np
 
@@ -22,7 +22,7 @@ MAX_LINES = 5
 
 
 def draw_card(*, size_wh_px: tuple[int, int], title: str, lines: tuple[str, ...]) -> Image:
-    """A dark picture with a title and sentences below it, wrapped at words, at most five rows of them."""
+    """Return a dark picture with a title and at most five rows of sentences below it, wrapped at words."""
     width, height = size_wh_px
     card: Image = np.full((height, width, 3), BACKGROUND, dtype=np.uint8)
     scale = min(height / 720.0, width / 1000.0)
@@ -43,7 +43,7 @@ def _fitting(words: str, size_px: float, room_px: float) -> float:
 
 
 def _wrapped(sentence: str, room_px: float, size_px: float) -> list[str]:
-    """The sentence in rows that fit, broken at words (a longer word, such as a path, is broken itself)."""
+    """Wrap a sentence at words; a word that is longer than a row, such as a path, is broken."""
     rows = [""]
     for word in sentence.split():
         longer = f"{rows[-1]} {word}".strip()

@@ -1,4 +1,4 @@
-"""The planned channel: a cylinder with its rings and its dashed axis."""
+"""Drawing of the planned channel: a cylinder with rings and a dashed axis."""
 
 from server.overlay.primitives import PLAN_BLUE, Image, stroke
 from server.overlay.view import View, dashes, straight
@@ -11,7 +11,7 @@ DASH_MM = 2.5
 def draw_channel(
     image: Image, view: View, camera_from_vertebra: Rigid[Camera, Vertebra], channel: Channel, scale: float
 ) -> None:
-    """Draw the channel into the image: outline, ring at entry (heavier) and at target, axis."""
+    """Draw the channel into the image: outline, rings at entry (thicker) and target, axis."""
     entry = camera_from_vertebra.move_points(channel.entry_in_vertebra_mm)
     target = camera_from_vertebra.move_points(channel.target_in_vertebra_mm)
     axis = camera_from_vertebra.rotate_directions(channel.axis_in_vertebra)

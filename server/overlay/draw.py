@@ -1,4 +1,4 @@
-"""Image and snapshot in, a new image out: what the surgeon looks at."""
+"""Drawing of snapshot and alarms into a copy of an image, and its JPEG encoding."""
 
 from enum import StrEnum
 
@@ -22,7 +22,7 @@ from tracker.navigation.alarms import QUIET, AlarmSnapshot
 from tracker.pose import Seen
 
 BASE_HEIGHT_PX = 720.0
-# What the words at the top and in the panel need beside each other.
+# Width that the texts at the top and in the panel need side by side.
 MIN_WIDTH_PX = 880.0
 GAP_PX = 8.0
 AHEAD_MM = 50.0
@@ -33,8 +33,8 @@ FARTHEST_AHEAD_MM = 150.0
 class OverlayContent(StrEnum):
     """What is drawn into the image.
 
-    GEOMETRY is for viewers that display figures and alarms beside the picture: they update those with each
-    image, and the picture more rarely.
+    GEOMETRY is for viewers that display figures and alarms beside the picture: they update figures and
+    alarms with each image, and the picture less often.
     """
 
     FULL = "full"
@@ -49,30 +49,30 @@ def draw_overlay(
     language: Language = "en",
     content: OverlayContent = OverlayContent.FULL,
 ) -> Image:
-    """The image with all that is known at its instant burned in; the image handed in is never written.
+    """Return a copy of the image with the overlay.
 
-    In a camera that is not calibrated only outlines, names and scores are drawn. What is absent is not drawn,
-    and the panel says why in words.
+    Without a camera calibration only outlines, names and scores are drawn. Absent results are not drawn; the
+    panel states the reason.
 
     Args:
-        image: uint8, BGR (h, w, 3) or grey (h, w), the very image of this snapshot.
-        snapshot: what was concluded from it.
-        alarms: of that moment.
-        language: of all words.
-        content: everything, or only markers, drills and channel.
+        image: uint8, BGR (h, w, 3) or grey (h, w); the image from which the snapshot was computed.
+        snapshot: Results of this image.
+        alarms: Alarms of that moment.
+        language: Language of the text.
+        content: Everything, or only markers, drills and channel.
 
     Raises:
-        InvalidInput: OVERLAY_SIZE, image and snapshot do not belong together.
+        InvalidInput: OVERLAY_SIZE, image and snapshot differ in size.
     """
     if (image.shape[1], image.shape[0]) != tuple(snapshot.size_wh_px):
         width, height = snapshot.size_wh_px
         raise InvalidInput(
             "OVERLAY_SIZE",
-            f"the image is {image.shape[1]}x{image.shape[0]} px, its snapshot {width}x{height} px",
-            "Draw each snapshot into the image that it was made from.",
+            f"the image has {image.shape[1]}x{image.shape[0]} px, but its snapshot is of {width}x{height} px",
+            "Draw each snapshot into the image from which it was computed.",
         )
     drawn = np.repeat(image[..., None], 3, axis=2) if image.ndim == 2 else image.copy(order="C")
-    # A portrait image is as legible as its width allows.
+    # The width limits the scale of a portrait image.
     scale = min(drawn.shape[0] / BASE_HEIGHT_PX, drawn.shape[1] / MIN_WIDTH_PX)
     if snapshot.setup.camera_calibrated:
         _draw_theatre(drawn, snapshot, scale)
@@ -96,7 +96,7 @@ def draw_overlay(
 
 
 def _draw_theatre(image: Image, snapshot: NavigationSnapshot, scale: float) -> None:
-    """Draw the channel, and over it every drill that is seen."""
+    """Draw the channel, and every visible drill over it."""
     setup = snapshot.setup
     view = View.of(setup.camera)
     if not isinstance(setup.channel, Absent) and not isinstance(snapshot.vertebra, Absent):
@@ -110,9 +110,9 @@ def _draw_theatre(image: Image, snapshot: NavigationSnapshot, scale: float) -> N
 def _draw_inset(
     image: Image, snapshot: NavigationSnapshot, tool: str, *, below_px: float, scale: float
 ) -> float:
-    """Draw the view along the channel above the panel, for the tool whose numbers stand there.
+    """Draw the view along the channel above the panel, for the tool of the panel.
 
-    Answers the top in px of what is drawn by now.
+    Returns the upper edge in px of panel and inset.
     """
     channel = snapshot.setup.channel
     if isinstance(channel, Absent):
@@ -145,17 +145,17 @@ def _draw_inset(
 
 
 def _ahead_mm(deviation: Deviation | Absent) -> float:
-    """How far ahead of the tip the drill's line is prolonged: a little past the planned end."""
+    """Return how far the drill's line is extended beyond the tip: slightly past the planned end."""
     if isinstance(deviation, Absent):
         return AHEAD_MM
     return float(np.clip(deviation.remaining_mm + PAST_TARGET_MM, PAST_TARGET_MM, FARTHEST_AHEAD_MM))
 
 
 def encode_jpeg(image: npt.NDArray[np.uint8], quality: int) -> bytes:
-    """The image as JPEG of this quality (1 to 100).
+    """Encode the image as JPEG of this quality (1 to 100).
 
     Raises:
-        InvalidInput: IMAGE_NOT_ENCODED, it has no pixels or is too large for JPEG (65,500 px).
+        InvalidInput: IMAGE_NOT_ENCODED, the image has no pixels or is too large for JPEG (65,500 px).
     """
     try:
         done, encoded = cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, int(quality)])

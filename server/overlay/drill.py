@@ -1,4 +1,4 @@
-"""The drill: its line with tip and depth marks, and dashed where it would go; and its marker's outline."""
+"""Drawing of a drill (line, tip, depth marks, dashed extension) and of a marker's outline."""
 
 import numpy as np
 
@@ -23,7 +23,7 @@ TICK_MM = 5.0
 LONG_TICK_EVERY = 2
 TICKED_MM = 60.0
 DASH_MM = 2.0
-# Ticks nearer than this stand for a drill that points at the camera: they would be a smear.
+# Ticks closer than this, of a drill that points at the camera, would merge and are not drawn.
 MIN_TICK_GAP_PX = 4.0
 
 
@@ -32,8 +32,8 @@ def draw_drill(
 ) -> None:
     """Draw the drill's line into the image: solid up to the tip, dashed for `ahead_mm` beyond it.
 
-    Marks every 5 mm from the tip backwards, each second one longer, as engraved on a drill: where one
-    crosses the entry ring it reads as depth.
+    Depth marks follow every 5 mm from the tip, every second one longer, as engraved on a drill. The mark at
+    the entry ring shows the depth.
     """
     pose = in_view.camera_from_tool
     tip = pose.translation_mm
@@ -50,7 +50,7 @@ def draw_drill(
 
 
 def _ticks(view: View, tip: Array, direction: Array, length_mm: float, scale: float) -> list[Array]:
-    """The depth marks (2, 2) in px, across the line as it runs in the image."""
+    """Return the depth marks (2, 2) in px, perpendicular to the drill's line in the image."""
     count = int(length_mm // TICK_MM)
     if count < 1:
         return []
@@ -69,7 +69,7 @@ def _ticks(view: View, tip: Array, direction: Array, length_mm: float, scale: fl
 
 
 def draw_marker(image: Image, name: str, seen: Seen, *, scale: float) -> None:
-    """Draw the marker's outline, with its name and score beside it."""
+    """Draw the marker's outline, with name and score beside it."""
     corners = seen.corners_px
     if not np.isfinite(corners).all():
         return

@@ -1,4 +1,4 @@
-"""The headline of one image, with a shape and a colour for its tone."""
+"""Drawing of the headline, with a symbol and a colour for its tone."""
 
 import cv2
 import numpy as np
@@ -21,9 +21,9 @@ from server.overlay.primitives import (
 from server.texts import Headline, Language, Tone
 from tracker.geometry import Array
 
-# For an image 720 px high; all of it grows with the image.
+# Sizes for an image 720 px high; they scale with the image.
 TITLE_PX = 38.0
-# Wide enough for the panel under it; a longer title widens the box, up to this.
+# The panel below needs the minimum; a longer title widens the box up to the maximum.
 MIN_WIDTH_PX = 240.0
 MAX_WIDTH_PX = 520.0
 DETAIL_PX = 23.0
@@ -41,7 +41,7 @@ COLOURS = {
 }
 
 TURN = np.linspace(0.0, 2.0 * np.pi, 33)
-# Right and down, within a square of 1 to each side of its middle.
+# (right, down) in a square of side 2 centred on the origin.
 DISC = np.stack([np.cos(TURN), np.sin(TURN)], axis=1)
 TRIANGLE = np.array([[0.0, -1.0], [1.1, 0.9], [-1.1, 0.9], [0.0, -1.0]])
 DIAMOND = np.array([[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
@@ -53,9 +53,9 @@ OPEN = {Tone.WARNING: [DIAMOND], Tone.DANGER: CROSS, Tone.NONE: [0.6 * DISC]}
 def draw_headline(
     image: Image, headline: Headline, language: Language, *, left_px: float, bottom_px: float, scale: float
 ) -> Box:
-    """Draw the headline upwards from `bottom_px`: symbol and title, under them its detail and its event.
+    """Draw the headline above `bottom_px`: symbol and title, with detail and event below them.
 
-    Returns what it covers.
+    Returns the covered box.
     """
     title = headline.title[language]
     rows = [words for words in (headline.detail[language], headline.event[language]) if words]

@@ -1,4 +1,4 @@
-"""The panel of numbers in its fixed place, and the small print."""
+"""Drawing of the panel of figures and of the small print."""
 
 from server.overlay.panel_readings import RESEARCH_SOFTWARE, Panel, Reading
 from server.overlay.primitives import (
@@ -16,7 +16,7 @@ from server.overlay.primitives import (
 )
 from tracker.navigation import Absent, NavigationSnapshot, Status
 
-# For an image 720 px high; all of it grows with the image.
+# Sizes for an image 720 px high; they scale with the image.
 MARGIN_PX = 16.0
 WIDTH_PX = 240.0
 ROW_PX = 57.0
@@ -28,16 +28,15 @@ DETAIL_PX = 24.0
 SMALL_PX = 17.0
 PADDING_PX = 14.0
 NOTE_PX = 24.0
-# What a label takes beside its number; a longer number is written smaller.
+# Width of a label beside its number; a longer number is drawn smaller.
 MIN_LABEL_PX = 62.0
 FIGURE_COLOURS = {Status.OVER: YELLOW, Status.THROUGH: RED}
 
 
 def draw_panel(image: Image, panel: Panel, *, scale: float) -> float:
-    """Draw the panel: readings one above the other, or the state in words, in the lower left corner.
+    """Draw the panel in the lower left corner: one reading per row, or the state as text.
 
-    There it hides least: the camera is turned to the wound, which is in the middle. Answers the panel's top
-    in px.
+    The wound is in the middle of the image. Returns the upper edge of the panel in px.
     """
     left, bottom = MARGIN_PX * scale, float(image.shape[0] - MARGIN_PX * scale)
     if panel.readings:
@@ -65,14 +64,14 @@ def draw_panel(image: Image, panel: Panel, *, scale: float) -> float:
 
 
 def _draw_reading(image: Image, reading: Reading, left: float, top: float, scale: float) -> None:
-    """Draw one row: the label on the left, what is meant under it, and the number on the right."""
+    """Draw one row: label on the left with the hint below it, number on the right."""
     right = left + (WIDTH_PX - 1.6 * PADDING_PX) * scale
-    # A degree sign belongs high, and close to its number; the numbers stand in one column all the same.
+    # A degree sign is set directly after its number; the numbers still share one column.
     is_degree = reading.unit == "°"
     unit_size, gap = (NUMBER_PX * scale, scale) if is_degree else (UNIT_PX * scale, 5.0 * scale)
     unit_width = text_width_px("mm", size_px=UNIT_PX * scale, weight=REGULAR) + 5.0 * scale
     width = text_width_px(reading.value, size_px=NUMBER_PX * scale, weight=SEMIBOLD)
-    # A number too long for its place is written smaller, never cut.
+    # A number that is too long is drawn smaller, never truncated.
     room = right - left - unit_width - MIN_LABEL_PX * scale
     number_size = NUMBER_PX * scale * min(1.0, room / max(width, 1.0))
     start = right - unit_width - min(width, room)
@@ -89,7 +88,7 @@ def _draw_reading(image: Image, reading: Reading, left: float, top: float, scale
 
 
 def draw_small_print(image: Image, snapshot: NavigationSnapshot, *, scale: float) -> None:
-    """Draw what must be there and must not disturb: plan and registration left, image and notice right."""
+    """Draw the small print: plan and registration on the left, image and notice on the right."""
     setup = snapshot.setup
     size = SMALL_PX * scale
     base = (MARGIN_PX + SMALL_PX) * scale

@@ -1,4 +1,4 @@
-"""The words and numbers of the panel: the figures as they were assessed, or the reason why there are none."""
+"""Texts and numbers of the panel: the assessed figures, or the reason for their absence."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ UNITS = {FigureName.ANGLE: "°"}
 LIMIT: Mapping[Language, str] = {"en": "limit {}", "de": "Grenze {}"}
 OUTSIDE: Mapping[Language, str] = {"en": "outside bone", "de": "außerhalb"}
 STEADIED: Mapping[Language, str] = {
-    "en": "steadied · {} ms behind",
+    "en": "smoothed · {} ms delay",
     "de": "geglättet · {} ms verzögert",
 }
 
@@ -50,7 +50,7 @@ class Reading:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Panel:
-    """What the panel shows: the headline, the figures of a tool where it has any, and a note about them."""
+    """Content of the panel: headline, figures of a tool if it has any, and a note about them."""
 
     headline: Headline
     language: Language = "en"
@@ -59,7 +59,7 @@ class Panel:
 
 
 def panel_of(snapshot: NavigationSnapshot, alarms: AlarmSnapshot = QUIET, language: Language = "en") -> Panel:
-    """The panel of one image: of the tool whose verdict is the most severe."""
+    """Return the panel of one image, for the tool with the most severe verdict."""
     headline, tool = headline_of(snapshot, alarms), snapshot.displayed_tool
     assessment = snapshot.assessments.get(tool)
     if not isinstance(assessment, Assessment):
@@ -93,7 +93,7 @@ def _reading(name: FigureName, figure: Figure, assessment: Assessment, language:
 
 
 def _note(tool: ToolPose | Absent, language: Language) -> str:
-    """That the numbers were steadied, and by how much they are late for it."""
+    """Return the note on smoothing and its delay; empty without smoothing."""
     if isinstance(tool, Absent) or tool.lag_ms <= 0.0:
         return ""
     return STEADIED[language].format(max(round(tool.lag_ms), 1))

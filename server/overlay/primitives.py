@@ -1,4 +1,4 @@
-"""Lines with a dark halo and text on a dark ground: seen on bone, on blood and on a white drape."""
+"""Lines with a dark halo and text on a dark background, legible on bone, blood and white drapes."""
 
 import threading
 from collections.abc import Sequence
@@ -14,13 +14,13 @@ from tracker.geometry import Array
 Image: TypeAlias = npt.NDArray[np.uint8]
 Colour: TypeAlias = tuple[int, int, int]
 
-# BGR. Blue and orange are distinguished with every kind of colour blindness; each also differs in form.
+# BGR. Blue and orange are distinguishable with every kind of colour blindness; their shapes differ as well.
 PLAN_BLUE: Colour = (245, 185, 80)
 DRILL_ORANGE: Colour = (20, 150, 255)
 WHITE: Colour = (255, 255, 255)
 QUIET: Colour = (205, 205, 205)
 HALO: Colour = (20, 16, 12)
-# To an eye that does not tell red from green, words and shapes say the same.
+# Text and shapes repeat the meaning for red-green colour blindness.
 GREEN: Colour = (176, 224, 111)
 YELLOW: Colour = (77, 216, 255)
 RED: Colour = (110, 110, 255)
@@ -38,25 +38,25 @@ _fonts = threading.local()
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Box:
-    """Top and right edge of a rectangle that is drawn, for what must not lie over it."""
+    """Upper and right edge of a drawn rectangle that must not be covered."""
 
     top_px: float
     right_px: float
 
 
 def stroke(image: Image, runs: Sequence[Array], colour: Colour, *, width_px: float) -> None:
-    """Draw polylines (m, 2) in px, first their halo, then themselves; what is not finite is left out."""
+    """Draw polylines (m, 2) in px over their halo; polylines that are not finite are skipped."""
     drawn = [run for run in runs if len(run) > 1]
     if not drawn:
         return
-    # All at once: what numpy costs for each call is most of it.
+    # In one call, because the overhead per call dominates.
     points = np.concatenate(drawn)
     fixed = np.split(_fixed_point(points), np.cumsum([len(run) for run in drawn])[:-1])
     if not np.isfinite(points).all():
         fixed = [part for part, run in zip(fixed, drawn, strict=True) if np.isfinite(run).all()]
         if not fixed:
             return
-    # A line of one pixel is lost in its own halo.
+    # A line of one pixel would be hidden by its halo.
     width = max(2, round(width_px))
     for ink, thickness in ((HALO, width + 2 * max(1, round(width_px * 0.5))), (colour, width)):
         cv2.polylines(image, fixed, False, ink, thickness, cv2.LINE_AA, SUBPIXEL_BITS)
@@ -73,7 +73,7 @@ def dot(image: Image, at_px: Array, colour: Colour, *, radius_px: float) -> None
 
 
 def darken_box(image: Image, left: float, top: float, right: float, bottom: float) -> None:
-    """Darken a box of the image, so that text on it is legible whatever is behind."""
+    """Darken a box of the image, so that text on it is legible on any background."""
     height, width = image.shape[:2]
     x0, x1 = (min(max(round(x), 0), width) for x in (left, right))
     y0, y1 = (min(max(round(y), 0), height) for y in (top, bottom))
@@ -85,7 +85,7 @@ def darken_box(image: Image, left: float, top: float, right: float, bottom: floa
 def text(
     image: Image, words: str, at_px: tuple[float, float], colour: Colour, *, size_px: float, weight: int
 ) -> float:
-    """Write words with their baseline's left end at (u, v); answers where they end (u)."""
+    """Draw text with the left end of its baseline at (u, v); return the u of its right end."""
     u, v = round(at_px[0]), round(at_px[1])
     size = max(6, round(size_px))
     end, drawn = cv2.putText(image, words, (u, v), colour, _font(), size, weight, LEFT, NEVER_WRAPPED)
@@ -95,14 +95,14 @@ def text(
 
 
 def text_width_px(words: str, *, size_px: float, weight: int) -> float:
-    """How wide words will be."""
+    """Return the width of a text."""
     size = max(6, round(size_px))
     box = cv2.getTextSize((0, 0), words, (0, 0), _font(), size, weight, LEFT, NEVER_WRAPPED)
     return float(box[2])
 
 
 def _font() -> "cv2.FontFace":
-    # One for each thread: writing in another weight changes the font object itself.
+    # One font per thread, because drawing in another weight modifies the font object.
     font: cv2.FontFace | None = getattr(_fonts, "sans", None)
     if font is None:
         font = _fonts.sans = cv2.FontFace("sans")
@@ -110,6 +110,6 @@ def _font() -> "cv2.FontFace":
 
 
 def _fixed_point(run: Array) -> npt.NDArray[np.int32]:
-    """OpenCV's whole numbers for sub-pixel drawing, clamped to what it can draw."""
+    """Return OpenCV's fixed-point coordinates for sub-pixel drawing, clamped to its range."""
     bounded = np.nan_to_num(np.clip(run, -FARTHEST_PX, FARTHEST_PX), copy=False)
     return np.round(bounded * (1 << SUBPIXEL_BITS)).astype(np.int32).reshape(-1, 1, 2)

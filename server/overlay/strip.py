@@ -1,4 +1,4 @@
-"""The strip under an image of a recording: that it is none of now, and of when it is."""
+"""The strip below an image of a recording: states that it is not live, and its time."""
 
 import numpy as np
 
@@ -28,16 +28,16 @@ NOTE_BASE_PX = 84.0
 
 
 def with_strip(image: Image, words: str, *, note: str = "", language: Language = "en") -> Image:
-    """Return the image with a strip below it, which covers none of it.
+    """Return the image with a strip added below it.
 
     Args:
         image: (h, w, 3), BGR.
-        words: of which image and instant it is.
-        note: what is missing from the image, written into it; empty if nothing is.
-        language: of "RECORDING, not live".
+        words: Number and time of the image.
+        note: What is missing from the image, drawn into it; empty if nothing is missing.
+        language: Language of "RECORDING, not live".
 
     Returns:
-        (h + strip, w, 3); the height of the strip follows from the size of the image alone.
+        (h + strip, w, 3); the height of the strip depends only on the size of the image.
     """
     height, width = image.shape[:2]
     scale = min(height / 720.0, width / 880.0)

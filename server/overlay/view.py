@@ -1,4 +1,4 @@
-"""From points in front of the camera to runs of pixels that may be drawn."""
+"""Projection of points and polylines, limited to the part of the lens model that is valid."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -10,21 +10,20 @@ from tracker.camera import CameraModel
 from tracker.geometry import Array
 
 MIN_DEPTH_MM = 1.0
-# A lens polynomial is only true inside the image; far outside it folds back and would draw lines that are
-# not there.
+# The lens polynomial is valid only inside the image; far outside it folds back and would draw false lines.
 FIELD_OF_VIEW_MARGIN = 1.1
 
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """The camera of one image, with how far from its axis its lens may be trusted (as x/z)."""
+    """The camera of one image, with the largest x/z at which its lens model is valid."""
 
     camera: CameraModel
     max_tangent: float
 
     @classmethod
     def of(cls, camera: CameraModel) -> "View":
-        """The view of this camera."""
+        """Return the view of this camera."""
         w, h = (float(size - 1) for size in camera.size_wh_px)
         border: list[list[float]] = [
             [0, 0],
@@ -40,7 +39,7 @@ class View:
         return cls(camera, max_tangent * FIELD_OF_VIEW_MARGIN if np.isfinite(max_tangent) else 1.0)
 
     def project(self, points_mm: npt.ArrayLike) -> tuple[Array, npt.NDArray[np.bool_]]:
-        """Pixels (n, 2) of points (n, 3) of the camera's frame, and which of them (n,) may be drawn."""
+        """Return pixels (n, 2) of points (n, 3) in the camera frame, and which of them (n,) are valid."""
         points = np.asarray(points_mm, dtype=np.float64).reshape(-1, 3)
         shown = np.isfinite(points).all(axis=1) & (points[:, 2] > MIN_DEPTH_MM)
         safe = np.where(shown[:, None], points, [0.0, 0.0, 1.0])
@@ -50,11 +49,11 @@ class View:
         return px, shown
 
     def runs(self, points_mm: npt.ArrayLike) -> list[Array]:
-        """The stretches (m, 2), m >= 2, of a polyline of points (n, 3) that may be drawn."""
+        """Return the valid parts (m, 2), m >= 2, of a polyline of points (n, 3)."""
         return _stretches(*self.project(points_mm))
 
     def runs_of(self, polylines_mm: Iterable[Array]) -> list[Array]:
-        """The same of many polylines: projected at once, because each projection has its price."""
+        """Return the valid parts of many polylines; one projection for all of them is faster."""
         listed = list(polylines_mm)
         if not listed:
             return []
@@ -72,12 +71,12 @@ def _stretches(px: Array, shown: npt.NDArray[np.bool_]) -> list[Array]:
 
 
 def straight(start_mm: npt.ArrayLike, end_mm: npt.ArrayLike, *, count: int = 33) -> Array:
-    """Points (count, 3) from start to end: many, because a lens bends straight lines."""
+    """Return points (count, 3) from start to end; many, because lens distortion bends straight lines."""
     return np.linspace(np.asarray(start_mm, np.float64), np.asarray(end_mm, np.float64), count)
 
 
 def dashes(start_mm: npt.ArrayLike, end_mm: npt.ArrayLike, *, dash_mm: float, points_each: int = 4) -> Array:
-    """Dashes (k, points_each, 3) from start to end, with gaps as long as they are."""
+    """Return dashes (k, points_each, 3) from start to end, with gaps of the same length."""
     start, end = np.asarray(start_mm, np.float64), np.asarray(end_mm, np.float64)
     length = float(np.linalg.norm(end - start))
     count = int(np.clip(round(length / (2.0 * dash_mm)), 1, 60))

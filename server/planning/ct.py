@@ -1,6 +1,6 @@
 """Job function that reads an uploaded CT: a preview slice first, then the voxels into a file.
 
-Only the job imports what reads DICOM: it takes three quarters of a second of a start.
+The DICOM packages are imported by the job only, because they take three quarters of a second of a start.
 """
 
 import dataclasses
@@ -15,7 +15,7 @@ from tracker.errors import InvalidInput
 from tracker.plan.slices import WINDOWS, Slice, shown
 
 VOXELS, PREVIEW = "voxels.npy", "preview.png"
-# Fields of a series in the document of a CT; its UID is left out.
+# Fields of a series in the document of a CT; its UID is omitted.
 SERIES_FIELDS = tuple(
     field.name for field in dataclasses.fields(SeriesDescription) if field.name not in {"series", "patient"}
 )
@@ -35,7 +35,7 @@ def read_upload(report: Report, *, path: str, folder: str, series: str | None) -
     report(0.0, "reading the upload")
 
     def slices_read(done: int, of: int) -> None:
-        report(done / of, f"{done} of {of} slices are read")
+        report(done / of, f"{done} of {of} slices read")
 
     try:
         ct = read_ct(
@@ -66,6 +66,6 @@ def ct_content(ct: Ct) -> dict[str, object]:
 
 def _show(one: Slice, folder: Path) -> None:
     """Write the preview image atomically."""
-    part = folder / f"part-{PREVIEW}"  # its ending tells the format
+    part = folder / f"part-{PREVIEW}"  # the suffix selects the format
     if cv2.imwrite(str(part), shown(one.hu, WINDOWS["bone"])):
         part.replace(folder / PREVIEW)

@@ -28,7 +28,7 @@ class MeshRequest:
     Attributes:
         file_format: "stl", "obj" or "ply"; None detects it from the content.
         unit: unit of the coordinates; None accepts only a mesh whose size is plausible in mm.
-        space: LPS or RAS; None takes what the file states.
+        space: LPS or RAS; None for that stated in the file.
     """
 
     file_format: str | None = None
@@ -89,8 +89,8 @@ def format_of(content: bytes) -> str:
         return "obj"
     raise InvalidInput(
         "MESH_FORMAT_UNKNOWN",
-        f"the file of {len(content)} bytes is neither STL, OBJ nor PLY by what it begins with",
-        "Export the bone's surface again as triangles, or name its format.",
+        f"the start of the file ({len(content)} bytes) is not that of STL, OBJ or PLY",
+        "Export the bone surface again as triangles, or state the format.",
         {"bytes": len(content)},
     )
 

@@ -21,7 +21,7 @@ def load_volume(path: str, lps_from_ijk: object, *, title: str = "the CT") -> Vo
         return Volume(hu=hu, lps_from_ijk=affine).in_patient_order()
     except (PlanError, OSError, ValueError, TypeError, OverflowError) as error:
         raise InvalidInput(
-            "CT_DOCUMENT_INVALID", f"{title} cannot be used: {error}", "Send the CT again."
+            "CT_DOCUMENT_INVALID", f"{title} cannot be used: {error}", "Upload the CT again."
         ) from error
 
 

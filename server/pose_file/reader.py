@@ -36,7 +36,7 @@ class PoseFiles:
 
     @property
     def poses(self) -> Poses:
-        """Poses for a calibration; with covariances if all records have one.
+        """Return the poses for a calibration, with covariances if all records have one.
 
         Raises:
             InvalidInput: POSE_UNIT_SUSPECT or POSE_COVARIANCE_INVALID.
@@ -58,8 +58,8 @@ class PoseFiles:
         if untimed is not None:
             raise InvalidInput(
                 "POSE_TIMES_MISSING",
-                f"{untimed}: there is no time with the pose",
-                "Give the lines of 'coaxial track --json', or a CSV with a header and a column time_s.",
+                f"{untimed}: the pose has no time",
+                "Give the output of 'coaxial track --json', or a CSV with a header and a column time_s.",
                 {"place": untimed},
             )
         return PoseSeries(
@@ -78,7 +78,7 @@ def read_poses(path: Path, *, unit: Unit = Unit.MM, marker: str | None = None) -
             POSE_MATRIX_INVALID; each with file and line.
     """
     if not path.exists():
-        raise InvalidInput("POSES_NOT_FOUND", f"there is no {path}", FORMATS_REMEDY, {"path": str(path)})
+        raise InvalidInput("POSES_NOT_FOUND", f"{path} does not exist", FORMATS_REMEDY, {"path": str(path)})
     records: list[PoseRecord] = []
     ignored: list[str] = []
     unseen = 0
@@ -93,7 +93,7 @@ def read_poses(path: Path, *, unit: Unit = Unit.MM, marker: str | None = None) -
     if not chosen:
         what = f"{unseen} images do not show the marker" if unseen else f"{len(ignored)} other files"
         raise InvalidInput(
-            "POSES_NOT_FOUND", f"{path} holds no pose ({what})", FORMATS_REMEDY, {"path": str(path)}
+            "POSES_NOT_FOUND", f"{path} contains no pose ({what})", FORMATS_REMEDY, {"path": str(path)}
         )
     return PoseFiles(records=tuple(chosen), ignored=tuple(ignored), unseen=unseen)
 
@@ -118,14 +118,16 @@ def _read_file(file: Path, unit: Unit, *, in_folder: bool) -> PoseFileContent | 
     try:
         size = file.stat().st_size
         if size > MAX_BYTES:
-            raise unreadable(str(file), f"it has {size / 1e6:.0f} MB, allowed {MAX_BYTES / 1e6:.0f} MB")
+            raise unreadable(
+                str(file), f"it has {size / 1e6:.0f} MB, the maximum is {MAX_BYTES / 1e6:.0f} MB"
+            )
         if kind in ARRAY:
             return PoseFileContent(poses=poses_from_array(_array(file), name=file.name, unit=unit))
         text = file.read_text(encoding="utf-8-sig")
     except OSError as error:
         raise unreadable(str(file), f"it cannot be read: {(error.strerror or str(error)).lower()}") from error
     except UnicodeDecodeError as error:
-        raise unreadable(str(file), "it is no text") from error
+        raise unreadable(str(file), "it is not a text file") from error
     if kind in JSON or (kind not in TEXT and text.lstrip()[:1] == "{"):
         return poses_from_json(text, name=file.name, unit=unit)
     if in_folder and not contains_numbers(text) and text.strip():
@@ -141,10 +143,10 @@ def _array(file: Path) -> np.ndarray:
         with loaded:
             names = list(loaded)
             if len(names) != 1:
-                raise unreadable(str(file), f"it holds {len(names)} arrays, needed one")
+                raise unreadable(str(file), f"it contains {len(names)} arrays, expected one")
             return np.asarray(loaded[names[0]])
     except (ValueError, EOFError, OSError) as error:
-        raise unreadable(str(file), "it is no whole NumPy file of numbers") from error
+        raise unreadable(str(file), "it is not a complete NumPy file of numbers") from error
 
 
 def _of_one_marker(records: list[PoseRecord], marker: str | None) -> list[PoseRecord]:
@@ -152,15 +154,15 @@ def _of_one_marker(records: list[PoseRecord], marker: str | None) -> list[PoseRe
     if marker is None and len(names) > 1:
         raise InvalidInput(
             "POSES_OF_SEVERAL_MARKERS",
-            f"there are poses of {len(names)} markers: {', '.join(names)}",
-            "Say with --marker which one is on the tool.",
+            f"the file contains poses of {len(names)} markers: {', '.join(names)}",
+            "Give the marker of the tool with --marker.",
             {"markers": names},
         )
     if marker is not None and names and marker not in names:
         raise InvalidInput(
             "POSES_NOT_FOUND",
-            f"there are no poses of '{marker}', only of {', '.join(names)}",
-            "Say with --marker which one is on the tool.",
+            f"the file contains no poses of '{marker}', only of {', '.join(names)}",
+            "Give the marker of the tool with --marker.",
             {"markers": names},
         )
     return [record for record in records if marker is None or record.marker in {None, marker}]

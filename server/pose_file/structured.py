@@ -61,7 +61,7 @@ def poses_from_array(array: np.ndarray, *, name: str, unit: Unit) -> list[PoseRe
         return [_pose(array, name, unit)]
     if not numeric or array.ndim != 3 or array.shape[1:] not in {(3, 4), (4, 4)}:
         what = f"an array of shape {array.shape}" if numeric and array.ndim else "no array of numbers"
-        raise unreadable(name, f"it holds {what}, needed (n, 4, 4)")
+        raise unreadable(name, f"it contains {what}, expected (n, 4, 4)")
     return [_pose(matrix, f"{name}, pose {number}", unit) for number, matrix in enumerate(array, start=1)]
 
 
@@ -72,9 +72,9 @@ def _lines(text: str, name: str) -> list[tuple[str, Any]]:
             try:
                 values.append((f"{name}, line {number}", json.loads(line)))
             except (ValueError, RecursionError):
-                raise unreadable(f"{name}, line {number}", "it is no JSON") from None
+                raise unreadable(f"{name}, line {number}", "it is not valid JSON") from None
     if not values:
-        raise unreadable(name, "there is nothing in it")
+        raise unreadable(name, "it is empty")
     return values
 
 
@@ -95,7 +95,7 @@ def _from_value(place: str, value: Any, unit: Unit) -> PoseRecord:  # noqa: ANN4
     if value.get("seen") is True and value.get("camera_from_marker") is None:
         raise InvalidInput(
             "POSES_NOT_CALIBRATED",
-            f"{place}: the marker was seen, but without a camera file no millimetres are known",
+            f"{place}: the marker was seen, but its pose in mm is unknown without a camera file",
             "Track the video again with --camera FILE.",
             {"place": place},
         )
@@ -134,7 +134,7 @@ def _pose(
     time_s: float | None = None,
 ) -> PoseRecord:
     if matrix.dtype.kind not in "fiu" or matrix.shape not in {(4, 4), (3, 4)}:
-        raise unreadable(place, "it holds no 4x4 matrix of numbers")
+        raise unreadable(place, "it contains no 4x4 matrix of numbers")
     try:
         pose = rigid_from_matrix(matrix, unit_mm=unit.in_mm)
     except InvalidInput as error:
@@ -145,7 +145,7 @@ def _pose(
 
 
 def _numbers(value: Any) -> np.ndarray:  # noqa: ANN401  JSON may be anything
-    """An array of numbers; an empty one where the value is something else."""
+    """Return an array of numbers; empty if the value is not one."""
     try:
         array = np.array(value)
     except ValueError:

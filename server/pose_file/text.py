@@ -1,4 +1,4 @@
-"""Poses in text: rows of numbers, or columns with names."""
+"""Poses in text: rows of numbers, or named columns."""
 
 import re
 from math import isnan
@@ -24,7 +24,7 @@ NAMES = {
     "qy": ("qy", "q_y", "q2", "qj", "rot_y"),
     "qz": ("qz", "q_z", "q3", "qk", "rot_z"),
 }
-# x y z and four parts: the shortest row that is a whole pose.
+# x y z and a quaternion: the shortest row with a complete pose.
 QUATERNION_ROW = 7
 Row = tuple[int, list[float]]
 
@@ -40,7 +40,7 @@ def poses_from_text(text: str, *, name: str, unit: Unit) -> PoseFileContent:
     ]
     lines = [(number, line) for number, line in lines if NO_NUMBERS.sub("", line).strip()]
     if not lines:
-        raise unreadable(name, "there is nothing in it")
+        raise unreadable(name, "it is empty")
     header: list[str] = []
     if _numbers(lines[0][1]) is None:
         header = [word.strip().strip('"').lower() for word in _split(lines[0][1])]
@@ -50,7 +50,7 @@ def poses_from_text(text: str, *, name: str, unit: Unit) -> PoseFileContent:
     for number, line in lines:
         numbers = _numbers(line)
         if numbers is None:
-            raise unreadable(f"{name}, line {number}", f"'{line[:40]}' is no row of numbers")
+            raise unreadable(f"{name}, line {number}", f"'{line[:40]}' is not a row of numbers")
         if _is_unseen(numbers):
             unseen += 1
         else:
@@ -86,13 +86,13 @@ def _from_rows(rows: list[Row], header: list[str], *, name: str, unit: Unit) -> 
     if width == 4:
         return _from_blocks(rows, name=name, unit=unit)
     if width in {13, 17}:
-        # A time stands before the matrix.
+        # A time precedes the matrix.
         times_s = [numbers[0] for _, numbers in rows]
         rows = [(number, numbers[1:]) for number, numbers in rows]
         width -= 1
     if width not in {12, 16}:
-        hint = "; the order of a quaternion's parts must be named by a header" if width in {7, 8} else ""
-        raise unreadable(name, f"its rows have {width} numbers, needed 4, 12 or 16{hint}")
+        hint = "; a header must state the order of the quaternion components" if width in {7, 8} else ""
+        raise unreadable(name, f"its rows have {width} numbers, expected 4, 12 or 16{hint}")
     return [
         _pose(np.array(numbers).reshape(-1, 4), f"{name}, line {number}", unit, time_s=time_s)
         for (number, numbers), time_s in zip(rows, times_s, strict=True)
@@ -100,12 +100,12 @@ def _from_rows(rows: list[Row], header: list[str], *, name: str, unit: Unit) -> 
 
 
 def _from_blocks(rows: list[Row], *, name: str, unit: Unit) -> list[PoseRecord]:
-    """Rows of four: blocks of four rows, or of three where the last row was left out."""
+    """Convert rows of four numbers: blocks of four rows, or of three without the last row."""
     count = len(rows)
     with_last = count % 4 == 0 and (count % 3 != 0 or any(numbers == LAST_ROW for _, numbers in rows))
     size = 4 if with_last else 3
     if count % size != 0:
-        raise unreadable(name, f"it has {count} rows of 4 numbers, which is no whole number of 4x4 matrices")
+        raise unreadable(name, f"it has {count} rows of 4 numbers, which is not a multiple of a 4x4 matrix")
     single = count == size
     found = []
     for start in range(0, count, size):
@@ -119,7 +119,7 @@ def _from_quaternions(rows: list[Row], header: list[str], *, name: str, unit: Un
     for part, names in NAMES.items():
         there = [header.index(one) for one in names if one in header]
         if not there:
-            raise unreadable(name, f"its header ({', '.join(header)}) names no column for {part}")
+            raise unreadable(name, f"its header ({', '.join(header)}) has no column for {part}")
         column_of[part] = there[0]
     time_column = next((header.index(one) for one in TIME_NAMES if one in header), None)
     found = []

@@ -1,4 +1,4 @@
-"""In which unit translations are written."""
+"""Unit of the translations in a pose file."""
 
 from enum import StrEnum
 

@@ -1,4 +1,4 @@
-"""The ink of a calibration board, in millimetres of the board: x right, y down, its first point at 0."""
+"""Marks of a calibration board, in mm: x right, y down, its first point at 0."""
 
 from collections.abc import Iterator
 from itertools import groupby, product
@@ -10,17 +10,17 @@ from server.printing.sheet import Disc, Fill, Mark, Point, rectangle
 from tracker.camera.boards import Board, CharucoBoard, CheckerBoard, DotBoard, DotLayout
 from tracker.errors import InvalidInput
 
-# Of the distance to the nearest other dot.
+# Relative to the distance to the nearest other dot.
 DOT_RATIO, FIDUCIAL_RATIO, MAX_DOT_RATIO = 0.5, 0.75, 0.85
 
 
 def marks_of_board(board: Board, *, dot_mm: float | None = None) -> tuple[Mark, ...]:
-    """The ink of a board.
+    """Return the marks of a board.
 
     Args:
-        board: which one.
-        dot_mm: diameter of its dots; left out, half of the way to the next dot. Larger ones are half as
-            wide again.
+        board: The board.
+        dot_mm: Diameter of its dots; default: half the distance to the next dot. Larger dots have 1.5 times
+            this diameter.
 
     Raises:
         InvalidInput: BOARD_DOTS_UNPRINTABLE, dots would touch or have no width.
@@ -33,7 +33,7 @@ def marks_of_board(board: Board, *, dot_mm: float | None = None) -> tuple[Mark, 
 
 
 def bounding_box(marks: tuple[Mark, ...]) -> tuple[Point, Point]:
-    """The corner with the smallest and that with the largest coordinates of the ink."""
+    """Return the corners of the marks with the smallest and the largest coordinates."""
     low, high = [], []
     for mark in marks:
         if isinstance(mark, Disc):
@@ -49,7 +49,7 @@ def bounding_box(marks: tuple[Mark, ...]) -> tuple[Point, Point]:
 
 
 def translated(mark: Mark, by_mm: Point) -> Mark:
-    """The same ink elsewhere on the page."""
+    """Return the translated mark."""
     dx, dy = by_mm
     if isinstance(mark, Disc):
         x, y = mark.centre_mm
@@ -60,7 +60,7 @@ def translated(mark: Mark, by_mm: Point) -> Mark:
 
 
 def _dots(board: DotBoard, dot_mm: float | None) -> Iterator[Disc]:
-    # In an asymmetric grid the nearest dot is the one across.
+    # In an asymmetric grid the nearest dot is the diagonal one.
     nearest_mm = board.pitch_mm * (np.sqrt(2.0) if board.layout is DotLayout.ASYMMETRIC else 1.0)
     dot_mm = DOT_RATIO * nearest_mm if dot_mm is None else dot_mm
     large_mm = dot_mm * FIDUCIAL_RATIO / DOT_RATIO
@@ -68,9 +68,9 @@ def _dots(board: DotBoard, dot_mm: float | None) -> Iterator[Disc]:
     if not 0.0 < widest_mm <= MAX_DOT_RATIO * nearest_mm:
         raise InvalidInput(
             "BOARD_DOTS_UNPRINTABLE",
-            f"dots {widest_mm:g} mm wide with {nearest_mm:.3g} mm from one to the next cannot be separated, "
-            f"allowed above 0 to {MAX_DOT_RATIO * nearest_mm:.3g} mm",
-            "Give a smaller --dot-mm, or a larger --pitch-mm; larger dots are half as wide again.",
+            f"dots of {widest_mm:g} mm at a distance of {nearest_mm:.3g} mm cannot be separated, "
+            f"allowed: above 0 to {MAX_DOT_RATIO * nearest_mm:.3g} mm",
+            "Give a smaller --dot-mm, or a larger --pitch-mm; larger dots have 1.5 times --dot-mm.",
             {"dot_mm": dot_mm, "nearest_mm": float(nearest_mm)},
         )
     for index, (x, y, _) in enumerate(board.object_points_mm.tolist()):
@@ -103,9 +103,9 @@ def _charuco(board: CharucoBoard) -> Iterator[Fill]:
 
 
 def _modules(white: npt.NDArray[np.bool_], at_mm: Point, module_mm: float) -> Iterator[Fill]:
-    """A black square, and its white modules in runs along rows and again along columns.
+    """Yield a black square, and its white modules as runs along rows and along columns.
 
-    Both, as a viewer would show a grey seam where only one kind of run meets the next.
+    Both are drawn, because viewers show grey seams between adjacent runs of one kind.
     """
     left, top = at_mm
     count = white.shape[0]
@@ -128,7 +128,7 @@ def _modules(white: npt.NDArray[np.bool_], at_mm: Point, module_mm: float) -> It
 
 
 def _runs(white: npt.NDArray[np.bool_]) -> Iterator[tuple[int, tuple[int, int]]]:
-    """The line, the start and the length of each run."""
+    """Yield line, start and length of each run."""
     for line, cells in enumerate(white.tolist()):
         for is_white, group in groupby(enumerate(cells), key=lambda cell: bool(cell[1])):
             run = [at for at, _ in group]

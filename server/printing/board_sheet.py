@@ -1,4 +1,4 @@
-"""The page on which a calibration board is printed: true size, with rulers both ways."""
+"""Printable page of a calibration board at true size, with rulers in both directions."""
 
 from collections.abc import Iterator
 
@@ -9,20 +9,20 @@ from server.printing.sheet import Fill, Label, Point, Sheet, rectangle
 from tracker.camera.boards import Board, CharucoLayout, CheckerBoard, DotBoard, DotLayout
 from tracker.errors import InvalidInput
 
-# Around the board: words above, rulers on the left and below, and what no printer reaches.
+# Margins around the board: text above, rulers on the left and below, and the unprintable area.
 LEFT_MM, RIGHT_MM, TOP_MM, FOOT_MM = 16.0, 8.0, 12.0, 14.0
 RULER_MM = 100
-# White around the board. No more of it, so that the usual board of 9 x 6 corners with 25 mm squares fits A4.
+# White margin, limited so that the common board of 9 x 6 corners with 25 mm squares fits A4.
 QUIET_MM = 4.0
 
 
 def board_sheet(board: Board, *, paper: str = "A4", dot_mm: float | None = None) -> Sheet:
-    """One page with a board in the middle, upright or across, whichever it fits.
+    """Return a page with the board in the centre, in portrait or landscape orientation.
 
     Args:
-        board: which one.
+        board: The board.
         paper: "A4", "A3" or "letter".
-        dot_mm: diameter of dots, see `marks_of_board`.
+        dot_mm: Diameter of dots, see `marks_of_board`.
 
     Raises:
         InvalidInput: PAPER_UNKNOWN, BOARD_TOO_LARGE, BOARD_DOTS_UNPRINTABLE.
@@ -30,8 +30,8 @@ def board_sheet(board: Board, *, paper: str = "A4", dot_mm: float | None = None)
     if paper not in PAPER_MM:
         raise InvalidInput(
             "PAPER_UNKNOWN",
-            f"there is no paper '{paper}' here",
-            f"Give --paper one of {', '.join(PAPER_MM)}.",
+            f"the paper size '{paper}' is unknown",
+            f"Give --paper with one of {', '.join(PAPER_MM)}.",
             {"paper": paper, "allowed": list(PAPER_MM)},
         )
     ink = marks_of_board(board, dot_mm=dot_mm)
@@ -47,7 +47,7 @@ def board_sheet(board: Board, *, paper: str = "A4", dot_mm: float | None = None)
         title=f"Calibration board, {description_of(board)}",
         size_mm=page,
         marks=(
-            # A viewer with a dark ground must not show the margin dark.
+            # White, so that a viewer with a dark background does not show a dark margin.
             Fill(corners_mm=rectangle(0.0, 0.0, *page), white=True),
             *_labels(board),
             *(translated(mark, by) for mark in ink),
@@ -58,7 +58,7 @@ def board_sheet(board: Board, *, paper: str = "A4", dot_mm: float | None = None)
 
 
 def description_of(board: Board) -> str:
-    """The board in a line, as an argument of `coaxial calibrate`."""
+    """Return a one-line description of the board, in the terms of `coaxial calibrate`."""
     size = f"{board.columns}x{board.rows}"
     if isinstance(board, DotBoard):
         asymmetric = " asymmetric" if board.layout is DotLayout.ASYMMETRIC else ""
@@ -74,7 +74,7 @@ def description_of(board: Board) -> str:
 
 
 def _page(needed_mm: Point, paper: str) -> Point:
-    """The paper upright or across; upright if both will do."""
+    """Return the size of the page in portrait or landscape orientation; portrait if both fit."""
     width, height = PAPER_MM[paper]
     for page in ((width, height), (height, width)):
         free = _free(page)
@@ -84,8 +84,8 @@ def _page(needed_mm: Point, paper: str) -> Point:
     raise InvalidInput(
         "BOARD_TOO_LARGE",
         f"the board needs {needed_mm[0]:.1f} x {needed_mm[1]:.1f} mm with its white margin, "
-        f"{paper} has {free[0]:.1f} x {free[1]:.1f} mm upright",
-        "Take fewer or smaller dots or squares, or a larger paper with --paper A3.",
+        f"but {paper} has {free[0]:.1f} x {free[1]:.1f} mm in portrait orientation",
+        "Use fewer or smaller dots or squares, or a larger paper with --paper A3.",
         {"needed_mm": list(needed_mm), "free_mm": list(free), "paper": paper},
     )
 
@@ -100,7 +100,7 @@ def _labels(board: Board) -> Iterator[Label]:
         (
             10.5,
             2.6,
-            "Print at 100 %, glue it flat. Where 100 mm of both rulers are not 100 mm, measure the board.",
+            "Print at 100 % and glue it flat. If 100 mm on both rulers are not 100 mm, measure the board.",
         ),
     )
     for base_mm, size_mm, text in lines:

@@ -1,4 +1,4 @@
-"""The page on which a marker is printed: true size, with what shows whether the printer kept it."""
+"""Printable page of a marker at true size, with rulers to verify the scale."""
 
 from collections.abc import Iterator
 
@@ -9,14 +9,14 @@ from tracker.design import Shape
 from tracker.errors import InvalidInput
 
 EDGE_MM = 20.0
-# White paper around the square, in sides; the cut is made outside of it.
+# White margin around the square, in sides; crop marks are outside of it.
 QUIET_RATIO = 0.25
 CROP_MARK_MM, CROP_OFFSET_MM = 6.0, 1.0
 MIN_SIDE_MM, MAX_SIDE_MM = 5.0, 100.0
 
 
 def marker_sheet(shape: Shape, *, side_mm: float, name: str) -> Sheet:
-    """An A4 page with the marker, crop marks, rulers of 50 mm and 2 inches, and what to do with it.
+    """Return an A4 page with the marker, crop marks, rulers of 50 mm and 2 inches, and instructions.
 
     Raises:
         InvalidInput: MARKER_SIDE_UNPRINTABLE, the square does not fit the page or is too small to cut.
@@ -25,7 +25,7 @@ def marker_sheet(shape: Shape, *, side_mm: float, name: str) -> Sheet:
         raise InvalidInput(
             "MARKER_SIDE_UNPRINTABLE",
             f"a marker of {side_mm:g} mm cannot be printed on A4 with its white margin, "
-            f"allowed {MIN_SIDE_MM:g} to {MAX_SIDE_MM:g} mm",
+            f"allowed: {MIN_SIDE_MM:g} to {MAX_SIDE_MM:g} mm",
             "Give another side with --side-mm.",
             {"side_mm": side_mm},
         )
@@ -36,7 +36,7 @@ def marker_sheet(shape: Shape, *, side_mm: float, name: str) -> Sheet:
         title=f"Marker {name}, {side_mm:g} mm",
         size_mm=A4_MM,
         marks=(
-            # A viewer with a dark ground must not show the margin dark.
+            # White, so that a viewer with a dark background does not show a dark margin.
             Fill(corners_mm=rectangle(0.0, 0.0, *A4_MM), white=True),
             *_labels(name, side_mm),
             Fill(corners_mm=rectangle(left, top, side_mm, side_mm)),
@@ -59,15 +59,15 @@ def _labels(name: str, side_mm: float) -> Iterator[Label]:
         (f"Coaxial marker: {name}", 6.0),
         (f"Side of the black square: {side_mm:g} mm ({side_mm / MM_PER_INCH:.4g} in)", 4.0),
         ("Print at 100 % (actual size, no fitting to the page), on stiff matt paper.", 4.0),
-        ("Then measure the rulers below and the square. Tell Coaxial the side that you measured.", 4.0),
-        ("Cut along the marks: the white margin belongs to the marker. Keep it flat. This side is up.", 4.0),
+        ("Then measure the rulers below and the square. Enter the measured side in Coaxial.", 4.0),
+        ("Cut along the marks: the white margin is part of the marker. Keep it flat. This side up.", 4.0),
     )
     for row, (text, size) in enumerate(lines):
         yield Label(text=text, at_mm=(EDGE_MM, EDGE_MM + 8.0 + 8.0 * row), size_mm=size)
 
 
 def _crop_marks(corner_mm: Point, side_mm: float) -> Iterator[Line]:
-    """Two short lines outside each corner of what is cut out."""
+    """Yield two short lines outside each corner of the cut."""
     (left, top), gap, end = corner_mm, CROP_OFFSET_MM, CROP_OFFSET_MM + CROP_MARK_MM
     for x, outward_x in ((left, -1.0), (left + side_mm, 1.0)):
         for y, outward_y in ((top, -1.0), (top + side_mm, 1.0)):

@@ -1,4 +1,4 @@
-"""The sizes of paper that a page can be made for: width and height in mm, upright."""
+"""Paper sizes: width and height in mm, portrait orientation."""
 
 from server.printing.sheet import Point
 

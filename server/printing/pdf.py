@@ -1,18 +1,18 @@
-"""A sheet as PDF 1.4: one page of filled polygons, lines and words, in points of 1/72 inch."""
+"""Sheet as PDF 1.4: one page of filled polygons, lines and texts, in points of 1/72 inch."""
 
 from itertools import pairwise
 
 from server.printing.sheet import Disc, Fill, Line, Mark, Sheet
 
 POINTS_PER_MM = 72.0 / 25.4
-# Where the inner points of a Bezier curve lie, so that it is nearest to a quarter of a circle.
+# Distance of the inner control points of the Bezier curve that best approximates a quarter circle.
 ARC = 0.552284749831
 
 
 def pdf_from_sheet(sheet: Sheet) -> bytes:
-    """The file's bytes. Its page has the sheet's size, and asks the printer for no scaling."""
+    """Return the PDF. Its page has the size of the sheet, and requests printing without scaling."""
     width, height = (POINTS_PER_MM * size for size in sheet.size_mm)
-    # One matrix turns millimetres from the top into points from the bottom: the numbers below it are mm.
+    # The matrix converts mm from the top to points from the bottom; all numbers below it are in mm.
     content = "\n".join(
         [f"{POINTS_PER_MM:.8f} 0 0 {-POINTS_PER_MM:.8f} 0 {height:.4f} cm", *map(_operators, sheet.marks)]
     ).encode("cp1252", errors="replace")
@@ -30,8 +30,8 @@ def pdf_from_sheet(sheet: Sheet) -> bytes:
 
 
 def _file(objects: list[bytes]) -> bytes:
-    """Numbered objects, the table of where each begins, and where that table is."""
-    # Four bytes above 127 tell programs that this is no text.
+    """Return the file: numbered objects, and the cross-reference table with its offset."""
+    # Four bytes above 127 mark the file as binary.
     file = b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n"
     starts = []
     for number, body in enumerate(objects, start=1):
@@ -62,12 +62,12 @@ def _operators(mark: Mark) -> str:
         (x1, y1), (x2, y2) = mark.start_mm, mark.end_mm
         return f"{mark.width_mm:g} w 0 G {x1:.4f} {y1:.4f} m {x2:.4f} {y2:.4f} l S"
     x, y = mark.at_mm
-    # The page's y runs down here, and letters would stand on their heads.
+    # The y axis points down, so that letters have to be flipped.
     return f"BT 0 g /F {mark.size_mm:g} Tf 1 0 0 -1 {x:.4f} {y:.4f} Tm {_string(mark.text)} Tj ET"
 
 
 def _circle(disc: Disc) -> str:
-    """Four Bezier curves, as PDF knows no circles; they are off by 0.03 % of the radius at most."""
+    """Return four Bezier curves, because PDF has no circles; the error is at most 0.03 % of the radius."""
     (x, y), r = disc.centre_mm, disc.radius_mm
     points = [(1.0, 0.0)]
     for one, next_one in pairwise(((1, 0), (0, 1), (-1, 0), (0, -1), (1, 0))):

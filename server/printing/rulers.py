@@ -1,4 +1,4 @@
-"""Rulers on a printed page: measured with another one, they show whether the printer kept its size."""
+"""Rulers on a printed page, to verify its scale with another ruler."""
 
 from collections.abc import Iterator
 
@@ -10,19 +10,19 @@ MAX_TICK_MM = 5.0
 
 
 def millimetre_ruler(at_mm: Point, *, length_mm: int = RULER_MM) -> Iterator[Line | Label]:
-    """A ruler in mm whose zero stands on this point; its ticks point up."""
+    """Yield a ruler in mm with its zero at this point and its ticks upwards."""
     return _ruler(at_mm, unit_mm=1.0, units=length_mm, long_each=10, word="mm")
 
 
 def inch_ruler(at_mm: Point, *, inches: int = RULER_INCHES) -> Iterator[Line | Label]:
-    """The same in eighths of an inch."""
+    """Yield a ruler in eighths of an inch."""
     return _ruler(at_mm, unit_mm=MM_PER_INCH / 8.0, units=inches * 8, long_each=8, word="in")
 
 
 def vertical_ruler(at_mm: Point, *, length_mm: int = RULER_MM) -> Iterator[Line]:
-    """A ruler in mm down the page from this point, ticks to the right, without numbers.
+    """Yield a ruler in mm down the page from this point, ticks to the right, without numbers.
 
-    Some printers stretch the way of the paper alone.
+    Some printers stretch only in the direction of the paper feed.
     """
     x, top = at_mm
     yield Line(start_mm=(x, top), end_mm=(x, top + length_mm), width_mm=0.15)
@@ -32,7 +32,7 @@ def vertical_ruler(at_mm: Point, *, length_mm: int = RULER_MM) -> Iterator[Line]
 
 
 def _ruler(at_mm: Point, *, unit_mm: float, units: int, long_each: int, word: str) -> Iterator[Line | Label]:
-    """A line with a tick for each unit, longer and numbered ones at every `long_each`."""
+    """Yield a line with a tick per unit, and a longer, numbered tick at every `long_each`."""
     left, base = at_mm
     yield Line(start_mm=(left, base), end_mm=(left + units * unit_mm, base), width_mm=0.15)
     for tick in range(units + 1):

@@ -1,4 +1,4 @@
-"""What is drawn on a sheet of paper: all lengths in mm, from its top-left corner, x right and y down."""
+"""Content of a sheet of paper: all lengths in mm from its top-left corner, x right and y down."""
 
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -33,7 +33,7 @@ class Line:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Label:
-    """A line of text that begins at a point of its base line."""
+    """A line of text that starts at a point of its baseline."""
 
     text: str
     at_mm: Point
@@ -48,9 +48,9 @@ class Sheet:
     """One page.
 
     Attributes:
-        title: of the file.
-        size_mm: width and height of the paper.
-        marks: in the order in which they are drawn.
+        title: Title of the file.
+        size_mm: Width and height of the paper.
+        marks: Marks in drawing order.
     """
 
     title: str
@@ -59,6 +59,6 @@ class Sheet:
 
 
 def rectangle(left_mm: float, top_mm: float, width_mm: float, height_mm: float) -> tuple[Point, ...]:
-    """Its four corners."""
+    """Return the four corners of a rectangle."""
     right, bottom = left_mm + width_mm, top_mm + height_mm
     return ((left_mm, top_mm), (right, top_mm), (right, bottom), (left_mm, bottom))

@@ -1,4 +1,4 @@
-"""A sheet as SVG whose user unit is one millimetre."""
+"""Sheet as SVG with a user unit of one millimetre."""
 
 from xml.sax.saxutils import escape
 
@@ -6,7 +6,7 @@ from server.printing.sheet import Disc, Fill, Line, Mark, Sheet
 
 
 def svg_from_sheet(sheet: Sheet) -> str:
-    """The file's text: width and height in mm, and a viewBox of the same numbers."""
+    """Return the SVG text, with width and height in mm and a viewBox of the same numbers."""
     width, height = sheet.size_mm
     marks = "\n".join(f"  {_element(mark)}" for mark in sheet.marks)
     return (

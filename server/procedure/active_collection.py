@@ -21,8 +21,8 @@ class ActiveCollection(Generic[Collection]):
     """The collection that a step works on, if there is one. Thread-safe.
 
     Args:
-        what: subject and verb of the error message when there is none, as "sweep is".
-        remedy: one sentence that says how to start a collection.
+        what: Subject and verb of the error message if there is none, such as "sweep is".
+        remedy: How to start a collection, one sentence.
     """
 
     def __init__(self, what: str, *, remedy: str) -> None:
@@ -47,7 +47,7 @@ class ActiveCollection(Generic[Collection]):
         """
         with self._lock:
             if self._collection is None:
-                raise SetupOrderError("COLLECTION_MISSING", f"no {self._what} being collected", self._remedy)
+                raise SetupOrderError("COLLECTION_MISSING", f"no {self._what} in progress", self._remedy)
             return self._collection
 
     @property

@@ -17,7 +17,7 @@ from tracker.geometry import Array
 
 # Board detection is expensive; the video needs the rest of the processor.
 MIN_PAUSE_S = 0.1
-# Pause relative to the processing time: also a slow machine must see a board twice while it is held still.
+# Pause relative to the processing time; a slow machine must also detect a board twice while it is held still.
 PAUSE_RATIO = 0.3
 MAX_VIEWS = 60
 NO_POINTS: Array = np.zeros((0, 2))
@@ -63,10 +63,10 @@ class CollectionStatus:
 
 MESSAGES = {
     ViewVerdict.TAKEN: "taken",
-    ViewVerdict.TOO_FEW_POINTS: "too little of the board is seen",
-    ViewVerdict.FIRST_SIGHT: "the board is seen: hold it still",
-    ViewVerdict.MOVING: "the board moves: hold it still",
-    ViewVerdict.NOTHING_NEW: "such a view is taken already: move or tilt the board",
+    ViewVerdict.TOO_FEW_POINTS: "too small a part of the board is visible",
+    ViewVerdict.FIRST_SIGHT: "board found: hold it still",
+    ViewVerdict.MOVING: "the board is moving: hold it still",
+    ViewVerdict.NOTHING_NEW: "a similar view has already been taken: move or tilt the board",
 }
 
 
@@ -135,8 +135,8 @@ class BoardCollection:
         if isinstance(found, BoardNotFound):
             raise InvalidInput(
                 "BOARD_NOT_FOUND",
-                f"the board is not found in {name}: {found.sentence}",
-                "Take the image again, sharp, with the whole board in it and no glare on it.",
+                f"the board was not found in {name}: {found.sentence}",
+                "Take another image that is sharp and shows the whole board without glare.",
                 {"image": name, "reason": found.reason.value},
             )
         with self._lock:
@@ -179,7 +179,7 @@ class BoardCollection:
             raise CalibrationError(
                 "CAMERA_DIFFERS",
                 f"the camera changed from '{self._device}' to '{device}' while views were taken",
-                "Leave one camera connected, and start again.",
+                "Keep only one camera connected, and start again.",
                 {"before": self._device, "now": device},
             )
         self._device = device or self._device
@@ -191,7 +191,7 @@ class BoardCollection:
                 "CAMERA_CHANGED",
                 f"{change.control.value} of the camera changed from {change.calibrated} to {change.now} "
                 "while views were taken",
-                "Leave the camera alone (camera.lock_controls disables autofocus), and start again.",
+                "Do not change the camera (camera.lock_controls disables autofocus), and start again.",
                 {"control": change.control.value, "before": change.calibrated, "now": change.now},
             )
         self._controls = now or self._controls
@@ -200,7 +200,7 @@ class BoardCollection:
         if len(self._taken) >= MAX_VIEWS:
             raise InvalidInput(
                 "VIEWS_ENOUGH",
-                f"{MAX_VIEWS} views are taken, which is the maximum",
+                f"{MAX_VIEWS} views have been taken, the maximum",
                 "Calibrate with them, or start again.",
                 {"views": MAX_VIEWS},
             )
@@ -219,8 +219,8 @@ class BoardCollection:
             before = self._collector.size_wh_px
             raise InvalidInput(
                 "IMAGE_SIZE_CHANGED",
-                f"images are {width}x{height} px now, and were {before[0]}x{before[1]} px",
-                "Set the camera to the size that it works with, and start again.",
+                f"the image size changed from {before[0]}x{before[1]} px to {width}x{height} px",
+                "Set the camera to its working size, and start again.",
                 {"size_wh_px": [width, height], "before_wh_px": list(before)},
             )
         return self._collector
@@ -230,6 +230,6 @@ def _no_picture(instant: Instant) -> str:
     """Return the message for a missing image, with its reason if that is known."""
     problem = instant.source.problem or instant.process.problem
     if problem is not None:
-        return f"there is no picture: {problem.message}"
+        return f"there is no image: {problem.message}"
     ended = instant.source.state is SourceState.ENDED
-    return "there is no picture: the camera's images have ended" if ended else "there is no picture"
+    return "there is no image: the source has ended" if ended else "there is no image"

@@ -55,8 +55,8 @@ class CameraStep:
         self._source = source
         self._same_sensor_area = same_sensor_area
         self._active: ActiveCollection[BoardCollection] = ActiveCollection(
-            "views of a calibration board are",
-            remedy="Start collecting, and say what board it is.",
+            "collection of board views is",
+            remedy="Start a collection for a calibration board.",
         )
 
     def begin(self, board: Board) -> BoardCollection:
@@ -95,7 +95,7 @@ class CameraStep:
             raise SetupOrderError(
                 "COLLECTION_EMPTY",
                 "no view of the board has been taken yet",
-                "Hold the board before the camera until views are taken: at least 3, better 12 or more.",
+                "Show the board to the camera until views are taken: at least 3, better 12 or more.",
             )
 
         def keep(values: Any) -> object:  # noqa: ANN401  what JSON made of the answer of `calibrate_views`
@@ -128,8 +128,8 @@ class CameraStep:
         if newest is None or newest.image is None:
             raise CaptureError(
                 "NO_PICTURE",
-                "there is no picture to measure in",
-                "Wait until the video runs, with the board in it, and try again.",
+                "there is no image for the measurement",
+                "Wait until the video shows the board, and try again.",
             )
         height, width = newest.image.shape[:2]
         camera = camera_for_size(calibrated, (width, height), same_sensor_area=self._same_sensor_area)
@@ -137,8 +137,8 @@ class CameraStep:
         if isinstance(seen, BoardNotFound):
             raise InvalidInput(
                 "BOARD_NOT_FOUND",
-                f"the board is not found in the picture: {seen.sentence}",
-                "Hold the board still, sharp and whole, and try again.",
+                f"the board was not found in the image: {seen.sentence}",
+                "Hold the whole board still and in focus, and try again.",
                 {"reason": seen.reason.value},
             )
         report = accuracy_of_grid(camera, seen.object_points_mm[:, :2], seen.image_points_px)
@@ -180,14 +180,15 @@ class CameraStep:
 
         Raises:
             CalibrationError: CALIBRATION_ABOVE_GATE.
-            InvalidInput: CAMERA_MODEL_INVALID, no lens can be what fits the views.
+            InvalidInput: CAMERA_MODEL_INVALID, the model that fits the views is not a possible lens.
         """
         rms_px = float(report["rms_px"])
         if not rms_px <= self._gate.max_rms_px:
             raise CalibrationError(
                 "CALIBRATION_ABOVE_GATE",
-                f"points lie off by {rms_px} px RMS, allowed {self._gate.max_rms_px:g} px; it is not stored",
-                "Take sharp views of a flat, stiff board, or look at the report for views that do not fit.",
+                f"the reprojection error is {rms_px} px RMS, limit {self._gate.max_rms_px:g} px; the "
+                "calibration was not stored",
+                "Take sharp views of a flat, stiff board, or check the report for views that do not fit.",
                 {"rms_px": rms_px, "max_rms_px": self._gate.max_rms_px},
             )
         CameraModel.from_mapping(report)
@@ -249,8 +250,8 @@ def camera_from_document(document: Document, *, source: str) -> CameraFile:
     if made_for != source:
         raise CalibrationError(
             "CAMERA_DIFFERS",
-            f"{document.title} was calibrated for '{made_for}', and images come from '{source}'",
-            "Calibrate this camera, or start with the one that was calibrated.",
+            f"{document.title} was calibrated for '{made_for}', but images come from '{source}'",
+            "Calibrate this camera, or start with the calibrated one.",
             {"calibrated": made_for, "source": source},
         )
     report = document.content.get("report")

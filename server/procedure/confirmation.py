@@ -20,15 +20,15 @@ from server.store import Document
 from tracker.registration import AnchoredTo
 
 MESSAGES = {
-    ConfirmationReason.SERVER_STARTED: "the server was started again, and nobody has confirmed yet "
-    "that patient, marker and camera are where they were",
-    ConfirmationReason.TRACKING_STARTED: "tracking was started again, and a camera that was moved "
+    ConfirmationReason.SERVER_STARTED: "the server was restarted, and nobody has confirmed yet "
+    "that patient, marker and camera have not moved",
+    ConfirmationReason.TRACKING_STARTED: "tracking was restarted, and a move of the camera "
     "meanwhile was not detected",
 }
 REMEDY = {
-    AnchoredTo.REFERENCE: "Look whether this is the patient and the marker on the bone is untouched; then "
-    "confirm, or check on a landmark.",
-    AnchoredTo.CAMERA: "Look whether the planned channel still lies on the bone in the picture; then "
+    AnchoredTo.REFERENCE: "Verify that this is the patient and that the marker on the bone is untouched. "
+    "Then confirm, or check on a landmark.",
+    AnchoredTo.CAMERA: "Verify in the video that the planned channel is still on the bone. Then "
     "confirm, or check on a landmark.",
 }
 

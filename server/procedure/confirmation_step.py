@@ -10,7 +10,7 @@ from server.procedure.open_case import require_open_case
 from server.procedure.state import Procedure
 from server.store import CaseStore, Document, DocumentKind, OutOfDateError
 
-LOOK_AGAIN = "Look at what is asked now, and confirm that."
+LOOK_AGAIN = "Read the new prompt, and confirm it."
 
 
 class ConfirmStep:
@@ -58,8 +58,8 @@ class ConfirmStep:
         if newest is None or newest.snapshot is None:
             raise SetupOrderError(
                 "CONFIRMATION_UNSEEN",
-                "no picture comes from the camera, and nobody can confirm what they do not see",
-                "Wait until the picture is there again, look at it, then confirm.",
+                "there is no image of the camera, so nothing can be verified",
+                "Wait until the video runs, verify it, then confirm.",
             )
         record = ConfirmationRecord(
             vertebra=needed.vertebra, because=needed.because, run=self._procedure.run, from_s=at_s
@@ -78,7 +78,7 @@ def _reject_another(needed: ConfirmationPrompt, registration_id: str) -> None:
     if registration_id != needed.registration.id:
         raise OutOfDateError(
             "CONFIRMATION_OUT_OF_DATE",
-            f"what was shown is not in use any more, but {needed.registration.title} is",
+            f"the displayed registration is no longer in use; {needed.registration.title} is in use now",
             LOOK_AGAIN,
             {"registration_id": needed.registration.id},
         )

@@ -22,7 +22,7 @@ def parse_document(model: type[Record], document: Document, *, code: str, remedy
     except ValidationError as error:
         raise InvalidInput(
             code,
-            f"{document.title} cannot be read: {error.error_count()} of its values are invalid",
+            f"{document.title} cannot be read: {error.error_count()} values are invalid",
             remedy,
             {"document_id": document.id},
         ) from None

@@ -1,4 +1,4 @@
-"""The reference that the drill is compared with: the bone surface; until it is measured, the plan."""
+"""Reference with which the drill is compared: the bone surface, or the plan until the surface is measured."""
 
 import threading
 from collections.abc import Callable
@@ -18,7 +18,7 @@ from tracker.navigation.uncertainty import PedicleTolerance
 from tracker.plan import PedicleMeasure, ScrewPlan, plan_from_mapping
 from tracker.plan.document.changes import vertebra_named
 
-# What a channel is drilled with, where the wall is judged by whether the plan itself stays within it.
+# Drill radius for testing whether the plan itself stays within the wall.
 USUAL_RADIUS_MM = 2.0
 # Standard deviation of a wall that states none, an imported mesh or the plan's outline: a third of a usual
 # voxel.
@@ -29,7 +29,7 @@ log = structlog.get_logger(__name__)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlannedPedicle:
-    """The planned pedicle and screw of the active channel; None where the plan has none."""
+    """The planned pedicle and screw of the active channel; None if the plan has none."""
 
     active: ActiveChannel
     measure: PedicleMeasure | None
@@ -85,10 +85,10 @@ class DrillReferenceBuilder:
     ) -> None:
         def keep(chosen: object) -> object:
             if not isinstance(chosen, WallSelection):
-                raise TypeError(f"a wall gave {type(chosen).__name__}")
+                raise TypeError(f"the wall job returned {type(chosen).__name__}")
             with self._lock:
                 if self._made is None or self._made[0] != key:
-                    # Another channel is drilled by now, or the bone has another surface.
+                    # The active channel or the surface has changed since.
                     return {"in_use": False}
                 wall_sd_mm = _surface_sd_mm(surface) if chosen.wall.against is WallSource.BONE else WALL_SD_MM
                 self._made = (key, replace(drill_reference, wall=chosen.wall, wall_sd_mm=wall_sd_mm))

@@ -1,4 +1,4 @@
-"""What the alarms need of the procedure: what is out of date, and the time of the last check."""
+"""State of the procedure for the alarms: out-of-date documents, and the time of the last check."""
 
 from server.alarms import ProcedureFacts
 from server.procedure.state import ProcedureState, StepName, StepState
@@ -7,11 +7,11 @@ CALIBRATIONS = (StepName.CAMERA, StepName.TOOL)
 
 
 def facts_of(state: ProcedureState, *, now_s: float) -> ProcedureFacts:
-    """The facts of a procedure that stands like this.
+    """Return the facts of this state.
 
     Args:
-        state: of the open case, or of none.
-        now_s: the clock that images are stamped with.
+        state: State of the procedure, with or without an open case.
+        now_s: Present time on the image clock.
     """
     if not state.case_id:
         return ProcedureFacts()

@@ -28,7 +28,7 @@ from tracker.errors import InvalidInput, NavigationError
 
 # A measuring page polls twice a second; a closed page sends no message.
 MAX_SILENCE_S = 5.0
-# Of 60 images/s for two minutes.
+# Two minutes at 60 images/s.
 MAX_IMAGES = 7200
 # Pause relative to the processing time; short, because every image must be read.
 PAUSE_RATIO = 0.25
@@ -139,9 +139,9 @@ class LatencyMeasurement:
             if self._size_wh_px not in {(0, 0), snapshot.size_wh_px}:
                 raise InvalidInput(
                     "IMAGE_SIZE_CHANGED",
-                    f"images are {snapshot.size_wh_px[0]}x{snapshot.size_wh_px[1]} px now, and were "
-                    f"{self._size_wh_px[0]}x{self._size_wh_px[1]} px",
-                    "Set the camera to the size that it works with, and measure again.",
+                    f"the image size changed from {self._size_wh_px[0]}x{self._size_wh_px[1]} px to "
+                    f"{snapshot.size_wh_px[0]}x{snapshot.size_wh_px[1]} px",
+                    "Set the camera to its working size, and measure again.",
                     {"size_wh_px": list(snapshot.size_wh_px), "before_wh_px": list(self._size_wh_px)},
                 )
             self._size_wh_px = snapshot.size_wh_px
@@ -155,15 +155,15 @@ class LatencyMeasurement:
         if silent_s > MAX_SILENCE_S:
             raise SetupOrderError(
                 "LATENCY_PAGE_LEFT",
-                f"the page that shows the codes was silent for {silent_s:.1f} s, allowed {MAX_SILENCE_S:g} s",
-                "Leave that page open and in view, and measure again.",
+                f"the page that shows the codes was silent for {silent_s:.1f} s, limit {MAX_SILENCE_S:g} s",
+                "Keep that page open and in the foreground, and measure again.",
                 {"silent_s": silent_s, "max_silent_s": MAX_SILENCE_S},
             )
         if images >= MAX_IMAGES:
             raise SetupOrderError(
                 "LATENCY_TOO_LONG",
-                f"the code was looked for in {images} images, which is the maximum",
-                "Measure again, with the camera at the screen before you begin.",
+                f"no result after {images} images, the maximum",
+                "Point the camera at the screen, then measure again.",
                 {"images": images},
             )
 
@@ -201,7 +201,7 @@ class LatencyStep:
         self._on_result = on_result
         self._case_id: str | None = None
         self._active: ActiveCollection[LatencyMeasurement] = ActiveCollection(
-            "codes for the latency are", remedy="Begin a measurement on the camera's page."
+            "latency measurement is", remedy="Start a measurement on the camera's page."
         )
         store.add_commit_listener(self._follow_case)
 
@@ -216,7 +216,7 @@ class LatencyStep:
         if newest is None or newest.is_stopped or rate_hz <= 0.0:
             raise CaptureError(
                 "NO_PICTURE",
-                "the camera gives no images, so nothing can be timed",
+                "the camera delivers no images, so that nothing can be timed",
                 "Wait until the video runs, and try again.",
             )
         self._case_id = self._opened_id()
@@ -285,7 +285,7 @@ class LatencyStep:
         return self._file.of(self._camera)
 
     def applies(self, result: LatencyResult) -> bool:
-        """Whether a result holds for the size and rate of the present images; True while none come."""
+        """Return whether a result is valid for size and rate of the present images; True without images."""
         newest = self._hub.newest
         if newest is None or newest.snapshot is None or newest.source.rate_hz <= 0.0:
             return True
@@ -303,7 +303,7 @@ class LatencyStep:
         self.measurement.end_for(
             SetupOrderError(
                 "LATENCY_CASE_CHANGED",
-                "the open case was closed, or another one opened, while the latency was measured",
-                "Measure again in the case that is open now.",
+                "the open case was closed or changed during the latency measurement",
+                "Measure again in the present case.",
             )
         )

@@ -80,11 +80,11 @@ class LiveListener:
                 self._problem = Problem.from_error(error)
                 return
             except Exception:
-                log.exception("a live image could not be used", step=self._thread.name)
+                log.exception("processing of a live image failed", step=self._thread.name)
                 self._problem = Problem(
                     code="STEP_FAILED",
                     message=f"{self._thread.name} ended because of an error in the server",
-                    remedy="Start it again; if it happens again, send the server's log to the maintainer.",
+                    remedy="Start it again; if the error persists, send the server log to the maintainer.",
                 )
                 return
             took_s = time.monotonic() - began_s

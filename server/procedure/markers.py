@@ -93,8 +93,8 @@ class MarkerStep:
         if found is None:
             raise NotFound(
                 "MARKER_UNKNOWN",
-                f"no marker '{name}' is looked for",
-                "Look at the list of markers.",
+                f"there is no marker '{name}'",
+                "GET /api/markers lists the markers.",
                 {"marker": name},
             )
         return found
@@ -134,7 +134,7 @@ class MarkerStep:
         )
 
     def remove(self, name: str, *, by: str) -> None:
-        """Stop to track a marker of the open case; tools that were calibrated on it become out of date.
+        """Stop tracking a marker of the open case; tools that were calibrated on it become out of date.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, MARKER_OF_SETTINGS.
@@ -145,11 +145,14 @@ class MarkerStep:
         # Also a marker whose image is unreadable.
         document = self._store.latest(case.id, DocumentKind.MARKER, name) or self.one(name).document
         if document is not None:
-            self._store.withdraw(document, by=by, reason="it is not to be looked for any more")
+            self._store.withdraw(document, by=by, reason="the marker was removed")
 
     def _model_of(self, document: Document) -> MarkerModel:
         record = parse_document(
-            MarkerRecord, document, code="MARKER_DOCUMENT_INVALID", remedy="Send the marker's picture again."
+            MarkerRecord,
+            document,
+            code="MARKER_DOCUMENT_INVALID",
+            remedy="Upload the image of the marker again.",
         )
         path = self._store.file(document.case_id, document.files[0]).path
         return _model(path, document.name, record.side_mm)
@@ -158,8 +161,8 @@ class MarkerStep:
         if name in self._defaults:
             raise SetupOrderError(
                 "MARKER_OF_SETTINGS",
-                f"the marker '{name}' comes from the settings, and stays as they have it",
-                "Choose another name, or change it under markers in the settings.",
+                f"the marker '{name}' is defined in the settings and cannot be changed in a case",
+                "Use another name, or change it under markers in the settings.",
                 {"marker": name},
             )
 
@@ -170,8 +173,8 @@ class MarkerStep:
         if len(others) >= MAX_MARKERS:
             raise InvalidInput(
                 "MARKERS_ENOUGH",
-                f"{len(others)} markers are looked for, allowed are {MAX_MARKERS}",
-                "Remove one that is not used any more.",
+                f"{len(others)} markers are tracked, the maximum is {MAX_MARKERS}",
+                "Remove a marker that is no longer used.",
                 {"markers": len(others), "allowed": MAX_MARKERS},
             )
 

@@ -1,7 +1,7 @@
-"""The CT around the navigated vertebra, for viewers that cut it in the drill's own planes.
+"""The CT around the navigated vertebra, for viewers that resample it in the planes of the drill.
 
-A viewer gets the part around the channels once, and cuts it itself: slices that follow the drill would cost
-the server one image for each viewer and pose.
+A viewer receives the part around the channels once and resamples it, because slices that follow the drill
+would cost the server one image per viewer and pose.
 """
 
 import hashlib
@@ -33,8 +33,8 @@ class NavigationCt:
     """Part of a CT around the channels of one vertebra.
 
     Attributes:
-        ct_id: of the CT, as the live message states it with the channel.
-        volume: the part; LPS of the CT, which is the vertebra frame.
+        ct_id: Id of the CT, as in the channel of the live message.
+        volume: Part of the CT, in LPS, which is the vertebra frame.
     """
 
     ct_id: str
@@ -42,7 +42,7 @@ class NavigationCt:
 
     @cached_property
     def digest(self) -> str:
-        """Hash of voxels, affine and id."""
+        """Return a hash of voxels, affine and id."""
         known_by = hashlib.sha256(self.volume.hu.data)
         known_by.update(self.volume.lps_from_ijk.tobytes())
         known_by.update(f"{self.ct_id} {self.volume.shape_ijk}".encode())
@@ -50,7 +50,7 @@ class NavigationCt:
 
     @cached_property
     def gzipped(self) -> bytes:
-        """The voxels as int16, little-endian, i fastest, compressed to about half in 0.1 s for 4 MB."""
+        """Return the voxels as int16, little-endian, i fastest, gzipped to about half (0.1 s for 4 MB)."""
         packing = zlib.compressobj(FASTEST, zlib.DEFLATED, GZIP_FORMAT)
         return packing.compress(self.volume.hu.astype("<i2", copy=False).data) + packing.flush()
 
@@ -101,8 +101,8 @@ class NavigationCtProvider:
                 return self._of_rehearsal()
         raise SetupOrderError(
             "NO_ACTIVE_CHANNEL",
-            "no channel of the open case is to be drilled now",
-            "Choose the channel in the plan.",
+            "the open case has no active channel",
+            "Select the active channel in the plan.",
             {"case_id": require_open_case(self._store).id},
         )
 
@@ -118,8 +118,8 @@ class NavigationCtProvider:
         if ct.document.id != planned_ct_id(self._store, active):
             raise SetupOrderError(
                 "CT_REPLACED",
-                "the channel was planned on another CT than the newest of this case",
-                "Plan it on the newest CT, and choose it again.",
+                "the channel was not planned on the newest CT of this case",
+                "Plan it on the newest CT, and select it again.",
                 {"ct_id": ct.document.id},
             )
         cropped = NavigationCt(ct.document.id, cropped_around(ct.volume, self._channel_ends(active)))
@@ -127,7 +127,7 @@ class NavigationCtProvider:
         return cropped
 
     def _channel_ends(self, active: Document) -> Sequence[Array]:
-        """Return the ends of all channels of the vertebra: changing the side needs no other part."""
+        """Return the ends of all channels of the vertebra, so that a change of side needs no other part."""
         chosen = active_channel_from_document(active)
         plan = plan_from_mapping(self._store.document(active.case_id, active.depends_on[0]).content)
         channels = [chosen.channel, *(one.channel for one in vertebra_named(plan, chosen.vertebra).channels)]
@@ -149,13 +149,13 @@ class NavigationCtProvider:
         raise SetupOrderError(
             "SCAN_FAILED",
             f"the CT of the rehearsal's vertebra could not be simulated: {reason}",
-            "It is tried again with the next request.",
+            "The next request starts another attempt.",
             {"job_id": job.id},
         )
 
     def _keep_scan(self, scanned: object) -> object:
         if not isinstance(scanned, Volume):
-            raise TypeError(f"a scan gave {type(scanned).__name__}")
+            raise TypeError(f"the scan returned {type(scanned).__name__}")
         with self._lock:
             self._rehearsal = NavigationCt(REHEARSAL_CT_ID, scanned)
         return {"size_ijk": list(scanned.shape_ijk)}

@@ -60,7 +60,7 @@ class ReadoutStep:
         self._jobs = jobs
         self._source = source
         self._active: ActiveCollection[ReadoutCollection] = ActiveCollection(
-            "images of a moving board are", remedy="Begin a measurement of the readout."
+            "readout measurement is", remedy="Start a measurement of the readout time."
         )
 
     def begin(self, board: Board) -> ReadoutCollection:
@@ -112,8 +112,8 @@ class ReadoutStep:
         Raises:
             SetupOrderError: NO_CASE_OPEN, COLLECTION_MISSING, COLLECTION_UNREADY.
             OutOfDateError: DOCUMENT_MISSING or DOCUMENT_OUT_OF_DATE.
-            CalibrationError: CAMERA_DIFFERS; CAMERA_SIZE_MISMATCH, images have another size than the
-                calibration's, and so another readout time.
+            CalibrationError: CAMERA_DIFFERS; CAMERA_SIZE_MISMATCH, the image size differs from that of the
+                calibration, and so does the readout time.
         """
         case = require_open_case(self._store)
         collection = self.collection
@@ -121,8 +121,8 @@ class ReadoutStep:
         if status.stage is not BurstStage.READY:
             raise SetupOrderError(
                 "COLLECTION_UNREADY",
-                f"{status.read_images} of the burst's images are read yet",
-                "Move the board until all images are taken and read.",
+                f"{status.read_images} images of the burst have been processed so far",
+                "Move the board until all images are taken and processed.",
             )
         camera = camera_from_document(self._calibration(case), source=self._source).model
         _reject_other_size(collection.size_wh_px, camera)
@@ -172,7 +172,7 @@ def _reject_other_size(size_wh_px: tuple[int, int], camera: CameraModel) -> None
     raise CalibrationError(
         "CAMERA_SIZE_MISMATCH",
         f"images of the board are {width}x{height} px, but the camera was calibrated at "
-        f"{width_before}x{height_before} px, and the readout is stored for that size",
+        f"{width_before}x{height_before} px, and the readout time is stored for that size",
         f"Set the camera to {width_before}x{height_before} px and measure again, or calibrate it at "
         f"{width}x{height} px.",
         {"image_size_wh_px": [width, height], "calibrated_size_wh_px": [width_before, height_before]},

@@ -28,11 +28,11 @@ PAUSE_RATIO = 0.3
 class BurstStage(StrEnum):
     """Stage of a burst."""
 
-    SHOW = "show"  # the board to the camera
-    MOVE = "move"  # it quickly to and fro
-    TAKING = "taking"  # images are taken: go on moving it
-    READING = "reading"  # the board is looked for in them
-    READY = "ready"  # all are read
+    SHOW = "show"  # show the board to the camera
+    MOVE = "move"  # move it quickly to and fro
+    TAKING = "taking"  # images are taken: keep moving it
+    READING = "reading"  # the board is being detected in the images
+    READY = "ready"  # all images are processed
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -138,8 +138,8 @@ class ReadoutCollection:
                     raise CalibrationError(
                         "READOUT_INTERRUPTED",
                         f"after {len(self._images)} images the next one came {at_s - last_s:.1f} s later, "
-                        f"allowed {MAX_PAUSE_S:.1f} s and no other size",
-                        "Wait until the video runs smoothly, and begin again.",
+                        f"limit {MAX_PAUSE_S:.1f} s, or with another size",
+                        "Wait until the video runs smoothly, and start again.",
                         {"images": len(self._images), "pause_s": round(at_s - last_s, 2)},
                     )
             self._images.append((at_s, grey.copy()))

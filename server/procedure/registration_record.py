@@ -55,9 +55,9 @@ class ExpectedCovariance(Section):
     """The covariance that is expected with more landmarks, see `PointRegistration.covariance_with_more`."""
 
     landmarks: int
-    """Their number, with those of the registration."""
+    """Number of landmarks, including those of the registration."""
     covariance: Annotated[list[Row6], Field(min_length=6, max_length=6)]
-    """Of `anchor_from_vertebra`."""
+    """Covariance of `anchor_from_vertebra`."""
 
 
 class RegistrationRecord(Section):
@@ -76,9 +76,9 @@ class RegistrationRecord(Section):
     tool: str = ""
     """The tool whose tip captured the points."""
     tracking_covariance_mm2: Annotated[list[Point], Field(min_length=3, max_length=3)] = [[0.0] * 3] * 3
-    """Of the tip in the anchor frame, from the markers' poses at the best capture; 0 where not known."""
+    """Covariance of the tip in the anchor frame, from the marker poses at the best capture; 0 if unknown."""
     with_more_landmarks: list[ExpectedCovariance] = Field(default_factory=list)
-    """Rising; empty where it cannot be predicted."""
+    """By increasing number of landmarks; empty if it cannot be predicted."""
     run: str
     """Server run in which it was made. A move of the camera between two runs is not detected."""
     from_s: float | None = None
@@ -191,7 +191,9 @@ def registration_from_document(document: Document, *, reference: str) -> Registr
         _ = record.registration
     except (ValidationError, NavigationError) as error:
         why = (
-            error.message if isinstance(error, NavigationError) else f"{error.error_count()} values are wrong"
+            error.message
+            if isinstance(error, NavigationError)
+            else f"{error.error_count()} values are invalid"
         )
         raise InvalidInput(
             "REGISTRATION_DOCUMENT_INVALID",
@@ -201,12 +203,12 @@ def registration_from_document(document: Document, *, reference: str) -> Registr
         ) from None
     record = _as_imported(record, document)
     if record.anchored_to is AnchoredTo.REFERENCE and record.reference != reference:
-        now = f"names '{reference}'" if reference else "names none"
+        now = f"names '{reference}'" if reference else "is not set"
         raise RegistrationError(
             "REFERENCE_DIFFERS",
-            f"{document.title} is fixed to the marker '{record.reference}', "
-            f"and reference in the config {now}",
-            "Name the marker that is on the patient as reference.marker, or register again.",
+            f"{document.title} is anchored to the marker '{record.reference}', "
+            f"but reference.marker in the settings {now}",
+            "Set reference.marker to the marker on the patient, or register again.",
             {"registered": record.reference, "reference": reference},
         )
     return record
@@ -215,15 +217,16 @@ def registration_from_document(document: Document, *, reference: str) -> Registr
 def with_tip_in_common(
     record: RegistrationRecord, document: Document, tools: Iterable[Document]
 ) -> RegistrationRecord:
-    """Return the record, without its tool if the case has calibrated that one otherwise since.
+    """Return the record; its tool is removed if the case has another calibration of that tool since.
 
-    The tip's error cancels only with the calibration that registered. A registration with a tool of the
-    settings depends on none of the case, and stays valid when the case calibrates a tool of that name.
+    The tip error cancels only with the calibration used for the registration. A registration with a tool of
+    the settings depends on no calibration of the case, and stays valid when the case calibrates a tool of the
+    same name.
 
     Args:
-        record: the registration.
-        document: that has it.
-        tools: valid calibrations of the case.
+        record: The registration.
+        document: Its document.
+        tools: Valid tool calibrations of the case.
     """
     if all(one.name != record.tool or one.id in document.depends_on for one in tools):
         return record

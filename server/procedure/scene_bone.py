@@ -25,7 +25,7 @@ class SceneBone:
     Args:
         store: source of the surfaces.
         show: called with the surface to show.
-        own: the initial surface, for use without a case: the rehearsal's.
+        own: The initial surface, that of the rehearsal, for use without a case.
     """
 
     def __init__(
@@ -74,7 +74,7 @@ class SceneBone:
         except NavigationError as error:
             log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
         except OSError:
-            log.warning("the bone's surface cannot be read", document=document.title, exc_info=True)
+            log.warning("the bone surface cannot be read", document=document.title, exc_info=True)
         with self._lock:
             # Another surface may have been requested meanwhile.
             if wanted == self._shown:

@@ -1,8 +1,8 @@
-"""Whether the planned screw can be navigated with the registration, and what would help.
+"""Check whether the planned screw can be navigated with the registration, and measures that would help.
 
-The check is computed when plan, registration, tool or surface changes. It is the one by which navigation
-tells a set-up that does not suffice from an uncertain image (`tracker.navigation.check_setup`). Before there
-is a registration, it is that of landmarks as planned, localised to `LANDMARK_SD_MM`, with an exact tool.
+The check is computed when plan, registration, tool or surface changes. Navigation uses the same check
+(`tracker.navigation.check_setup`) to distinguish an insufficient set-up from an uncertain image. Without a
+registration the check assumes the planned landmarks, localised to `LANDMARK_SD_MM`, and an exact tool.
 """
 
 import threading
@@ -37,39 +37,41 @@ from tracker.pose import ToolModel
 from tracker.registration import Method, Registration
 from tracker.registration.points import expected_covariance
 
-# Fewer do not exclude that one of them is mistaken, whatever their noise.
+# Fewer landmarks cannot exclude a gross error of one of them, whatever their noise.
 MIN_EXPECTED_LANDMARKS = 4
-# An exact tool that lowers the error by less is no remedy.
+# Minimum reduction of the error for which an exact tool is listed as a remedy.
 MIN_TOOL_GAIN_MM = 0.05
 
 log = structlog.get_logger(__name__)
 
 
 class Basis(StrEnum):
-    """What a check is computed from."""
+    """Basis of a check."""
 
-    REGISTRATION = "registration"  # a valid one, with the calibrated tool and the tracking at its captures
-    LANDMARKS = "landmarks"  # as planned, before there is one
+    REGISTRATION = (
+        "registration"  # a valid registration, with the calibrated tool and the tracking at its captures
+    )
+    LANDMARKS = "landmarks"  # the planned landmarks, without a registration
 
 
 class RemedyKind(StrEnum):
-    """What would reduce the error, or leave more room for it."""
+    """Measures that reduce the error or increase the tolerance."""
 
-    MORE_LANDMARKS = "more_landmarks"  # spread as these, as precise, and none mistaken
+    MORE_LANDMARKS = "more_landmarks"  # of the same spread and precision, without a gross error
     EXACT_TOOL = "exact_tool"  # a tool whose tip and axis have no error
-    THINNER_SCREW = "thinner_screw"  # of the catalogue, on the same axis
-    SURFACE_SWEEP = "surface_sweep"  # what it gives depends on where the bone can be swept
+    THINNER_SCREW = "thinner_screw"  # a screw of the catalogue on the same axis
+    SURFACE_SWEEP = "surface_sweep"  # its effect depends on where the bone can be swept
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Remedy:
-    """One remedy, with the figures that it would give.
+    """One remedy with its expected result.
 
     Attributes:
-        kind: of the remedy.
-        check: expected with it; None where that cannot be predicted.
-        landmarks: their number; None for other remedies.
-        diameter_mm: of the screw; None for other remedies.
+        kind: Kind of the remedy.
+        check: Expected check with this remedy; None if it cannot be predicted.
+        landmarks: Number of landmarks; None for other remedies.
+        diameter_mm: Diameter of the screw; None for other remedies.
     """
 
     kind: RemedyKind
@@ -83,13 +85,13 @@ class SetupCheck:
     """The check of the active channel.
 
     Attributes:
-        basis: what it is computed from.
-        method: of the registration; None before there is one.
-        vertebra, side: of the channel.
-        diameter_mm: of the planned screw.
-        tool: the one with the least error; empty if no tool is included.
-        check: its least error, and what the screw leaves.
-        remedies: empty if it suffices.
+        basis: Basis of the computation.
+        method: Method of the registration; None without one.
+        vertebra, side: Vertebra and side of the channel.
+        diameter_mm: Diameter of the planned screw.
+        tool: Tool with the smallest error; empty if no tool is included.
+        check: Smallest possible error, and the tolerance of the screw.
+        remedies: Empty if the error is within the tolerance.
     """
 
     basis: Basis
@@ -106,10 +108,10 @@ class SetupChecker:
     """Checks the active channel of the open case. Thread-safe.
 
     Args:
-        store: source of plan, registration, tools and surface.
-        defaults: the reference of the settings.
-        tools: of the settings, by name; a tool of the case replaces one of the same name.
-        catalogue: the screws that there are.
+        store: Source of plan, registration, tools and surface.
+        defaults: Provides the reference marker of the settings.
+        tools: Tools of the settings by name; a tool of the case replaces one of the same name.
+        catalogue: The available screws.
     """
 
     def __init__(
@@ -130,7 +132,7 @@ class SetupChecker:
     def check(self) -> SetupCheck | None:
         """Return the check; None without a planned screw, or with neither registration nor four landmarks.
 
-        It is computed anew only if a document that it depends on has changed.
+        It is recomputed only if a document that it depends on has changed.
         """
         case = self._store.get_open_case()
         active = None if case is None else active_channel_document(self._store, case.id)
@@ -175,7 +177,7 @@ class SetupChecker:
             return None
 
     def _known(self, documents: list[Document]) -> dict[str, ToolModel]:
-        """Return the tools of settings and case; one that cannot be read is not navigated either."""
+        """Return the tools of settings and case, without those that cannot be read."""
         known = dict(self._tools)
         for document in documents:
             try:
@@ -209,7 +211,7 @@ def check_of_registration(
     *,
     has_surface: bool,
 ) -> SetupCheck | None:
-    """Return the check of a registration with the tool that has the least error; None without a screw."""
+    """Return the check of a registration with the tool of the smallest error; None without a screw."""
     registration, channel, screw = record.registration, planned.active.channel, planned.screw
     if screw is None:
         return None
@@ -300,7 +302,7 @@ def _thinner(
     catalogue: ScrewCatalogue,
     check: Callable[[PedicleTolerance], RegistrationCheck],
 ) -> Iterator[Remedy]:
-    """Yield the thickest screw that suffices, or else the thinnest; none without a measured pedicle."""
+    """Yield the thickest screw that suffices, otherwise the thinnest; none without a measured pedicle."""
     measure, found = planned.measure, None
     for diameter_mm in sorted(catalogue.diameters_mm, reverse=True):
         if measure is None or diameter_mm >= screw.diameter_mm:
@@ -315,7 +317,7 @@ def _thinner(
 
 
 def _with_exact_tool(registration: Registration, tool: ToolModel) -> tuple[Registration, ToolModel]:
-    """Return both without the error of the tool's calibration, also where it is part of the registration."""
+    """Return both without the error of the tool calibration, also where it is part of the registration."""
     exact = replace(tool, tip_covariance_mm2=np.zeros((3, 3)), axis_sd_deg=0.0)
     if registration.tool != tool.name:
         return registration, exact

@@ -1,8 +1,8 @@
 """Publishes the setup of the open case to the tracking process after each change.
 
-A new calibration or plan takes effect with the next image, without a restart, and is part of the setup with
-which a restarted tracking process begins. A registration that was made for one camera, marker or plan is
-never used with another.
+A new calibration or plan takes effect with the next image, without a restart, and is part of the setup of a
+restarted tracking process. A registration that was made for one camera, marker or plan is never used with
+another.
 """
 
 import threading
@@ -53,7 +53,7 @@ class SetupPublisher:
         store: the case store.
         publish_setup: called with the new setup after each change.
         procedure: state of the procedure, which decides whether numbers are withheld.
-        drill_references: builds the reference that the drill is compared with.
+        drill_references: Builds the reference with which the drill is compared.
         defaults: setup from the settings; a calibration of another camera source, or a registration that is
             anchored to another reference, is not used.
         markers: source of the case's markers.
@@ -145,7 +145,7 @@ class SetupPublisher:
                         camera_file, title=document.title, max_rms_px=self._defaults.max_rms_px
                     )
                 elif document.kind is DocumentKind.MARKER:
-                    # Markers are read together, because no two of them may be confusable.
+                    # Markers are read together, because they must be distinguishable from each other.
                     continue
                 elif document.kind is DocumentKind.PLAN:
                     channel = active_channel_from_document(document).channel
@@ -193,7 +193,7 @@ class SetupPublisher:
         """Return the capture time, or that of a later check, on the image clock; None before this run."""
         run = self._procedure.run
         is_fixed = registered.registration.anchored_to is AnchoredTo.REFERENCE
-        # A check on one landmark does not excuse a moved camera: it does not observe a rotation.
+        # A check on one landmark cannot exclude a camera move, because it does not observe a rotation.
         if is_fixed and check is not None and check.passed and check.run == run:
             return check.from_s
         return registered.from_s if registered.run == run else None

@@ -94,7 +94,7 @@ class Steps:
         publish_facts: Callable[[ProcedureFacts], None] = lambda _: None,
         tracked_from_s: Callable[[], float] = lambda: -math.inf,
     ) -> "Steps":
-        """Create the steps. From here on each change of the open case is published.
+        """Create the steps and start publishing each change of the open case.
 
         Args:
             hub: the live images.
@@ -227,7 +227,7 @@ def _tool_step(hub: LiveHub, store: CaseStore, config: Config, markers: MarkerSt
 
 
 def _publish_changes(setup_publisher: SetupPublisher, store: CaseStore) -> None:
-    """Publish each change of the store, and the present state: an open case stays open over a restart."""
+    """Publish each change of the store, and the present state, because a case stays open over a restart."""
     store.add_commit_listener(setup_publisher.refresh)
     setup_publisher.refresh()
 

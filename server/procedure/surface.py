@@ -1,4 +1,4 @@
-"""The surface step: the bone surface is extracted from the CT or imported from a file."""
+"""Surface step: extracts the bone surface from the CT, or imports it from a file."""
 
 import secrets
 import shutil
@@ -37,7 +37,7 @@ class BoneSurfaceRequest:
 
     @property
     def settings(self) -> BoneSettings:
-        """Settings for the tracker; PlanError REGION_INVALID, BONE_SETTINGS_INVALID."""
+        """Return the settings for the tracker; raises PlanError REGION_INVALID, BONE_SETTINGS_INVALID."""
         region = None if self.region_lps_mm is None else Region.between(*self.region_lps_mm)
         return BoneSettings(
             threshold_hu=self.threshold_hu,
@@ -70,7 +70,7 @@ class SurfaceStep:
         ct = self._ct_provider.current()
         settings = order.settings
         return self._start(
-            "making the bone's surface",
+            "extracting the bone surface",
             surface_of_ct,
             {
                 "path": str(ct.file.path),
@@ -115,8 +115,8 @@ class SurfaceStep:
         if document is None or not document.files:
             raise SetupOrderError(
                 "SURFACE_MISSING",
-                "the open case has no surface of the bone",
-                "Make one from the CT, or send one.",
+                "the open case has no bone surface",
+                "Extract one from the CT, or upload one.",
                 {"case_id": case.id},
             )
         return document, self._store.file(case.id, document.files[0])
@@ -140,7 +140,7 @@ class SurfaceStep:
     ) -> Job:
         def keep(values: object) -> object:
             if not isinstance(values, Mapping):
-                raise TypeError(f"a surface gave {type(values).__name__}")
+                raise TypeError(f"the surface job returned {type(values).__name__}")
             with self._store.new_file(case_id, ".ply") as new:
                 shutil.move(folder / PLY, new.path)
             document = self._store.put(

@@ -27,7 +27,7 @@ class ToolRecord(ToolFile):
     """A tool as stored in a case: the content of a tool file, and its shape from the drawing."""
 
     axis_in_marker: Point | None = None
-    """From the drawing; the axis of a spin calibration takes precedence."""
+    """Axis from the drawing; that of a spin calibration takes precedence."""
     radius_mm: Annotated[float, Field(gt=0.0, le=50.0)]
     length_mm: Annotated[float, Field(gt=0.0, le=1000.0)]
 
@@ -102,8 +102,8 @@ class ToolStep:
         self._markers = markers
         self._tools = tools
         self._active: ActiveCollection[ToolCollection] = ActiveCollection(
-            "poses of a tool are",
-            remedy="Start collecting, and say which tool and what for.",
+            "collection of tool poses is",
+            remedy="Start a collection for a tool and a purpose.",
         )
 
     def begin(self, tool: str, *, marker: str | None, purpose: Purpose) -> ToolCollection:
@@ -122,14 +122,14 @@ class ToolStep:
         if marker not in known:
             raise InvalidInput(
                 "MARKER_UNKNOWN",
-                f"the marker '{marker}' is not looked for",
-                f"Known are: {', '.join(sorted(known)) or 'none'}; send its picture on the camera's page.",
+                f"the marker '{marker}' is not tracked",
+                f"Tracked markers: {', '.join(sorted(known)) or 'none'}. Upload it on the camera's page.",
                 {"marker": marker},
             )
         if purpose is not Purpose.PIVOT and record is None:
             raise CalibrationError(
                 "TOOL_TIP_MISSING",
-                f"the tip of '{tool}' is not known in this case",
+                f"the tip of '{tool}' is not calibrated in this case",
                 "Calibrate the tip by pivoting first.",
                 {"tool": tool},
             )
@@ -200,7 +200,7 @@ class ToolStep:
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, COLLECTION_MISSING.
-            CalibrationError: what the poses lack, or the gate that is not passed.
+            CalibrationError: The poses are insufficient, or a limit is exceeded.
             InvalidInput: TOOL_SHAPE_UNKNOWN.
         """
         collection = self.collection
@@ -237,7 +237,9 @@ class ToolStep:
         if isinstance(outcome, SpinCalibration):
             if record is None:
                 raise CalibrationError(
-                    "TOOL_TIP_MISSING", f"the tip of '{tool}' is gone", "Calibrate the tip by pivoting first."
+                    "TOOL_TIP_MISSING",
+                    f"the tip of '{tool}' is no longer available",
+                    "Calibrate the tip by pivoting first.",
                 )
             whole = record.model_copy(update={"spin": spin_part(outcome)})
         else:
@@ -303,7 +305,7 @@ class ToolStep:
         raise InvalidInput(
             "TOOL_MARKER_UNKNOWN",
             f"the marker of the tool '{tool}' is not specified",
-            f"Name it; known are: {', '.join(known) or 'none'}.",
+            f"Give its name. Available markers: {', '.join(known) or 'none'}.",
             {"tool": tool},
         )
 

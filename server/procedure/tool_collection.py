@@ -64,7 +64,7 @@ class ToolCollection:
         self._collector = PoseCollector(purpose, tip_in_marker_mm=tip_in_marker_mm, gate=gate)
         self._newest = Taking.NO_PICTURE
         self._image_number = -1
-        self._listener = LiveListener(hub, self._process, name=f"gathering poses of {tool}")
+        self._listener = LiveListener(hub, self._process, name=f"collecting poses of {tool}")
 
     @property
     def status(self) -> ToolCollectionStatus:
@@ -96,14 +96,14 @@ class ToolCollection:
         if not snapshot.setup.camera_calibrated:
             raise CalibrationError(
                 "CAMERA_NOT_CALIBRATED",
-                "the camera is not calibrated, so poses have no millimetres",
-                "Calibrate the camera first, or name its file as camera.calibration.",
+                "the camera is not calibrated, so that no poses in mm can be measured",
+                "Calibrate the camera first, or set camera.calibration to its file.",
             )
         if self.marker not in snapshot.sightings:
             raise InvalidInput(
                 "MARKER_UNKNOWN",
-                f"the marker '{self.marker}' is not looked for",
-                f"Known are: {', '.join(sorted(snapshot.sightings)) or 'none'}; name it under markers.",
+                f"the marker '{self.marker}' is not tracked",
+                f"Tracked markers: {', '.join(sorted(snapshot.sightings)) or 'none'}. Add it under markers.",
                 {"marker": self.marker},
             )
         with self._lock:

@@ -1,17 +1,17 @@
-"""Recordings: what is written while images arrive, and their exact replay.
+"""Recordings of the tracked images and results, their exact replay, review and export.
 
-comments.py  what people wrote on instants of recordings
-consent.py   whether the patient consented
-cut.py       a piece of a recording as a recording of its own
-export.py    as CSV
-exports.py   videos and pieces, made by jobs
-messages.py  what is in a file beside images and live messages
-process.py   reads the ring in a process of its own and writes the file
-recorder.py  one recording, as the web process sees it
-review.py    timeline, images and results of one that has ended
-service.py   starts and stops recordings of the open case, and lists them
-timeline.py  its index: where images lie, figures as columns, what happened
-recorded_results.py  the results of an image as records again, to draw them
-replay.py    tracks a recording again, and compares
-video.py     as a video, with the overlay
+comments.py  comments of people on instants of recordings
+consent.py   consent of the patient
+cut.py       a part of a recording as a new recording
+export.py    export as CSV
+exports.py   videos and parts of recordings, made by jobs
+messages.py  messages of a file other than images and live messages
+process.py   the recording process: reads the ring and writes the file
+recorder.py  one recording in the web process
+review.py    timeline, images and results of a finished recording
+service.py   starts, stops and lists recordings of the open case
+timeline.py  index of a recording: positions of images, figures as columns, events
+recorded_results.py  records of the results of an image, for drawing
+replay.py    tracks a recording again and compares the results
+video.py     export as a video with the overlay
 """

@@ -24,7 +24,7 @@ class CommentRecord(Section):
 
     recording: str
     at_s: Annotated[float, Field(ge=0.0)]
-    """Since the first image."""
+    """Time since the first image."""
     text: str
 
 
@@ -33,11 +33,11 @@ class Comment:
     """A comment.
 
     Attributes:
-        document_id: of its document.
-        at_s: instant that it is about, since the first image of the recording.
-        text: one line.
+        document_id: Id of its document.
+        at_s: Commented instant, since the first image of the recording.
+        text: One line.
         made_at: UTC, ISO 8601.
-        made_by: who wrote it.
+        made_by: Author.
     """
 
     document_id: str
@@ -79,7 +79,7 @@ class RecordingComments:
         Raises:
             NotFound: RECORDING_UNKNOWN.
             SetupOrderError: NO_CASE_OPEN.
-            StoreError: it cannot be stored.
+            StoreError: The comment cannot be stored.
         """
         self._recordings.path(name)
         case = require_open_case(self._store)

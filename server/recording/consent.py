@@ -1,4 +1,4 @@
-"""The patient's consent to being recorded, as a person stated it; without it nothing is recorded."""
+"""The patient's consent to recordings, as stated by a person; without it nothing is recorded."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -11,7 +11,7 @@ NAME = "recording"
 
 
 class ConsentState(StrEnum):
-    """What is known about the consent."""
+    """State of the consent."""
 
     NOT_REQUIRED = "not_required"  # recording.consent
     NOT_ANSWERED = "not_answered"
@@ -35,9 +35,9 @@ class Consent:
     """The consent of a case.
 
     Attributes:
-        state: what is known.
+        state: State of the consent.
         answered_at: UTC, ISO 8601; empty without an answer.
-        answered_by: who answered; empty without an answer.
+        answered_by: Person who answered; empty without an answer.
     """
 
     state: ConsentState
@@ -48,7 +48,8 @@ class Consent:
 def stored_consent(store: CaseStore, case_id: str) -> Consent:
     """Return the newest answer of a case.
 
-    A withdrawn answer is none, nor is one out of an archive: nobody signed in here gave it.
+    Withdrawn answers are ignored, and so are answers from an archive, because nobody signed in here gave
+    them.
 
     Raises:
         InvalidInput: CONSENT_DOCUMENT_INVALID.

@@ -1,9 +1,8 @@
-"""A piece of a recording as a recording of its own, which replays as exactly as the whole.
+"""Write a part of a recording as a new recording, which replays as exactly as the original.
 
-A recording is exact from a stored state of tracking on, so that a piece begins at the newest state before its
-requested begin: up to `process.STATE_PERIOD_S` before it. Bytes and times of its messages are those of the
-whole; what was in effect before (session, documents, source, alarms) comes first, at the time of the first
-image.
+A replay is exact from a stored tracking state on. A part therefore starts at the newest state before the
+requested start, up to `process.STATE_PERIOD_S` earlier. Bytes and times of its messages are unchanged. The
+last session, documents, source and alarms before the start are written first, at the time of the first image.
 """
 
 from dataclasses import dataclass
@@ -18,25 +17,25 @@ from server.recording_file import RecordedMessage, RecordingReader, Topic
 from server.recording_file.copy import RecordingCopy
 from server.recording_file.locations import Location, MessageLocations
 
-# In effect until the next of them.
+# Topics whose last message is in effect until the next one.
 LASTING = (Topic.DOCUMENTS, Topic.SOURCE, Topic.ALARMS)
-# Steps of the alarms are written by another thread than images, and may stand after later ones.
+# Alarm steps are written by another thread than images, and may follow later images in the file.
 MAX_DISORDER_S = 5.0
-# Times of images that are handed back: Unix time has a quarter of a microsecond in a float.
+# Tolerance for image times: a float resolves Unix time to a quarter of a microsecond.
 ROUNDING_S = 1e-6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CutSummary:
-    """What was cut out.
+    """Summary of a part.
 
     Attributes:
-        images: in the piece.
-        from_s: of its first image, since the first image of the whole; a state is stored there.
-        to_s: of its last image, likewise.
-        missing_images: tracked images between them that are not in the whole; after them a replay is exact
-            from the next state on only.
-        is_exact: whether it begins with a state, without which it cannot be replayed.
+        images: Number of images.
+        from_s: Time of its first image, since the first image of the original.
+        to_s: Time of its last image, since the first image of the original.
+        missing_images: Tracked images in this period that were not recorded; after them the replay is exact
+            only from the next state on.
+        is_exact: Whether it starts with a state, without which it cannot be replayed.
     """
 
     images: int
@@ -48,7 +47,7 @@ class CutSummary:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Begin:
-    """Where a piece begins: `number` is of its first image; `state` whether the state before it is stored."""
+    """Start of a part: number of its first image, and whether the state before it is stored."""
 
     number: int
     unix_s: float
@@ -63,14 +62,14 @@ def cut_recording(
     to_s: float,
     report: Report = lambda _ratio, _doing: None,
 ) -> CutSummary:
-    """Write the piece of a recording between two times.
+    """Write the part of a recording between two times.
 
     Args:
-        recording: the whole.
-        target: the piece; overwritten.
-        from_s: begin, since the first image of the whole.
-        to_s: end, likewise.
-        report: called with the share that is done, and what is being done.
+        recording: The original.
+        target: The part; overwritten.
+        from_s: Start, since the first image of the original.
+        to_s: End, since the first image of the original.
+        report: Called with the completed share (0 to 1) and the present activity.
 
     Raises:
         RecordingError: RECORDING_NOT_READABLE, RECORDING_DAMAGED, CUT_EMPTY, CUT_NOT_WRITTEN.
@@ -98,7 +97,7 @@ def cut_recording(
         raise RecordingError(
             "CUT_NOT_WRITTEN",
             f"{target.name} cannot be written: {what}",
-            "Check that its folder exists and its disk has space, then cut again.",
+            "Check that its folder exists and its disk has free space, then try again.",
         ) from error
     finally:
         reader.close()
@@ -112,7 +111,7 @@ def cut_recording(
 
 
 def _begin(recording: Path, from_s: float, to_s: float) -> tuple[float, _Begin]:
-    """Return the time of the first image of the whole, and where the piece begins.
+    """Return the time of the first image of the original, and the start of the part.
 
     Raises:
         RecordingError: CUT_EMPTY, RECORDING_NOT_READABLE.
@@ -133,7 +132,7 @@ def _begin(recording: Path, from_s: float, to_s: float) -> tuple[float, _Begin]:
         raise RecordingError(
             "CUT_EMPTY",
             f"there is no image from {from_s:.1f} to {to_s:.1f} s; {recording.name} {has}",
-            "Name a part with images, its begin before its end.",
+            "Give a period with images, and a start before its end.",
             {"from_s": from_s, "to_s": to_s},
         )
     start = image if state is None else state
@@ -149,14 +148,14 @@ class _Piece:
         self._last_ns = 0
 
     def take(self, message: RecordedMessage) -> None:
-        """Copy the message if it belongs to the piece."""
+        """Copy the message if it belongs to the part."""
         if not self._has_begun:
             if message.topic is Topic.SESSION or message.topic in LASTING:
                 self._lasting[message.topic] = message
             if not self._is_first(message):
                 return
             self._has_begun = True
-            # SESSION, which came first, is first again.
+            # SESSION stays the first message.
             for lasting in self._lasting.values():
                 self._copy.add(lasting, log_ns=message.log_ns)
         if message.unix_s > self._end_s:
@@ -164,7 +163,7 @@ class _Piece:
         if message.topic is Topic.ALARM_STATE:
             self._has_alarms = True
         elif message.topic is Topic.ALARM_STEP and self._begin.has_state and not self._has_alarms:
-            # Of images before the piece.
+            # Belongs to images before the part.
             return
         elif message.topic is Topic.NOTE:
             self.missing_images += int(message.json()["images"])
@@ -175,13 +174,13 @@ class _Piece:
             self.last_s = message.unix_s
 
     def end(self, name: str, *, first_s: float, from_s: float, to_s: float) -> None:
-        """Add the note that this is a piece, and of what."""
+        """Add a note that this is a part of another recording."""
         begins_s = self._begin.unix_s - first_s
         text = f"cut from {name}: {from_s:.1f} to {to_s:.1f} s after its first image"
         text += (
-            f", begun at the stored state at {begins_s:.1f} s"
+            f", starting at the stored state at {begins_s:.1f} s"
             if self._begin.has_state
-            else "; no state is stored before it, so that it cannot be replayed"
+            else "; it cannot be replayed, because no state is stored before it"
         )
         self._copy.add_json(
             Topic.NOTE,

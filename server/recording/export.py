@@ -1,7 +1,7 @@
-"""A recording as CSV: poses, deviations and alarms. A head line names the columns with their units.
+"""Export of a recording as CSV: poses, deviations and alarms, with a header of column names and units.
 
-`image` counts the recorded results from 0; `image_number` is the camera's. `time_s` is since the first of
-them, `unix_s` Unix time. What is unknown is empty, and `reason` has why.
+`image` counts the recorded results from 0; `image_number` is the number of the camera image. `time_s` is the
+time since the first result, `unix_s` Unix time. Unknown values are empty, and `reason` states why.
 """
 
 import csv
@@ -21,18 +21,18 @@ Row: TypeAlias = Sequence[object]
 
 OF_IMAGE = ("image", "image_number", "time_s", "unix_s")
 ROTATION = tuple(f"r{row}{column}" for row in (1, 2, 3) for column in (1, 2, 3))
-# As in the live message, in its order.
+# In the order of the live message.
 DEVIATION = tuple(name for name in DeviationMessage.model_fields if name != "kind")
 # The displayed figure, rounded.
 WALL = ("wall_mm", "wall_limit_mm", "verdict")
 
 
 class Table(StrEnum):
-    """What is exported."""
+    """Table of an export."""
 
-    POSES = "poses"  # of each marker, tool and the vertebra in the camera frame
-    DEVIATIONS = "deviations"  # of each tool from the channel
-    ALARMS = "alarms"  # each transition, acknowledgement and pause
+    POSES = "poses"  # poses of markers, tools and the vertebra in the camera frame
+    DEVIATIONS = "deviations"  # deviations of each tool from the channel
+    ALARMS = "alarms"  # all transitions, acknowledgements and pauses
 
 
 COLUMNS: Mapping[Table, tuple[str, ...]] = {
@@ -43,7 +43,7 @@ COLUMNS: Mapping[Table, tuple[str, ...]] = {
 
 
 def csv_lines(recording: Path, table: Table) -> Iterator[str]:
-    """Yield a table of a recording line by line, up to where the file was cut.
+    """Yield a table of a recording line by line, up to the end of an incomplete file.
 
     Raises:
         RecordingError: RECORDING_NOT_READABLE.
@@ -70,7 +70,7 @@ def _lines(recording: Path, locations: MessageLocations, table: Table) -> Iterat
                 content = json.loads(read_content(file, location.offset, location.length))
                 rows = _rows(table, content, image, when)
             except (ValueError, LookupError, TypeError, AttributeError):
-                # Damaged, and counted all the same.
+                # A damaged result is counted, so that later numbers stay correct.
                 continue
             for row in rows:
                 yield _line(row)

@@ -1,6 +1,6 @@
-"""`RecordingExports`: videos and pieces of recordings, made by jobs and stored as long as the recording.
+"""`RecordingExports`: videos and parts of recordings, made by jobs and stored as long as the recording.
 
-A new video takes the place of the one before, and a new piece of the one before it.
+A new video replaces the previous video of a recording, and a new part the previous part.
 """
 
 import threading
@@ -24,7 +24,7 @@ VIDEO_SUFFIX = ".mp4"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExportedFile:
-    """A video or a piece of a recording."""
+    """A video or a part of a recording."""
 
     file: str
     size_bytes: int
@@ -32,11 +32,11 @@ class ExportedFile:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Exports:
-    """What was made from a recording.
+    """Exports of a recording.
 
     Attributes:
-        files: stored beside it, by name.
-        job: the newest for this recording; None if the server remembers none.
+        files: Files stored beside it, by name.
+        job: The newest job for this recording; None if there is none.
     """
 
     files: tuple[ExportedFile, ...]
@@ -47,9 +47,9 @@ class RecordingExports:
     """Makes files from recordings of the open case. Thread-safe.
 
     Args:
-        recordings: the recordings.
-        jobs: one for each file.
-        home: has the folder of temporary files.
+        recordings: The recordings.
+        jobs: Runs one job per file.
+        home: Provides the folder of temporary files.
     """
 
     def __init__(self, recordings: RecordingService, jobs: Jobs, home: Home) -> None:
@@ -60,7 +60,7 @@ class RecordingExports:
         self._newest: dict[Path, str] = {}
 
     def start_video(self, name: str, language: Language) -> Job:
-        """Start to write a recording as a video; the result of the job has the name of the file.
+        """Start writing a recording as a video; the result of the job contains the name of the file.
 
         Raises:
             RecordingError: RECORDING_RUNS, RECORDING_DISK_FULL.
@@ -71,7 +71,7 @@ class RecordingExports:
         return self._start("video of a recording", make_video, name, file, {"language": language})
 
     def start_cut(self, name: str, from_s: float, to_s: float) -> Job:
-        """Start to cut out what lies between two times since the first image.
+        """Start writing the part between two times since the first image.
 
         Raises the same errors as `start_video`.
         """
@@ -79,14 +79,14 @@ class RecordingExports:
         return self._start("piece of a recording", make_piece, name, file, {"from_s": from_s, "to_s": to_s})
 
     def exports(self, name: str) -> Exports:
-        """Return what was made from a recording, and is being made.
+        """Return the exports of a recording, complete and in progress.
 
         Raises:
             NotFound: RECORDING_UNKNOWN.
             SetupOrderError: NO_CASE_OPEN.
         """
         recording = self._recordings.path(name)
-        # Before the files: a job that ends meanwhile is stated as running, and asked for again.
+        # Read before the files: a job that ends in between is reported as running, and the page polls again.
         with self._lock:
             newest = self._newest.get(recording)
         job = next((one for one in self._jobs.list() if one.id == newest), None)
@@ -97,19 +97,19 @@ class RecordingExports:
         return Exports(files=tuple(files), job=job)
 
     def path(self, name: str, file: str) -> Path:
-        """Return a file that was made from a recording.
+        """Return an exported file of a recording.
 
         Raises:
             NotFound: RECORDING_UNKNOWN, EXPORT_UNKNOWN.
             SetupOrderError: NO_CASE_OPEN.
         """
         folder = exports_folder(self._recordings.path(name))
-        # Compared, because it comes from outside.
+        # Compared with existing names, because the name comes from a request.
         if not folder.is_dir() or file not in {one.name for one in folder.iterdir()}:
             raise NotFound(
                 "EXPORT_UNKNOWN",
-                f"nothing of this name was made from {name}",
-                "Make it again; a later video or piece takes the place of the one before.",
+                f"{name} has no export of this name",
+                "Export it again; a new video or part replaces the previous one.",
                 {"name": name},
             )
         return folder / file
@@ -131,20 +131,20 @@ class RecordingExports:
         return job
 
     def _stored(self, recording: Path, made: Path, result: Any) -> dict[str, object]:  # noqa: ANN401
-        """Move the file beside its recording, and return its name and size with what the job said."""
+        """Move the file beside its recording; return its name and size with the result of the job."""
         stored = self._recordings.put_export(recording, made)
         return {"file": stored.name, "size_bytes": stored.stat().st_size, **result}
 
 
 def make_video(report: Report, *, recording: str, folder: str, file: str, language: Language) -> object:
-    """Write the video; the work of a job."""
+    """Job: write the video."""
     return asdict(write_video(Path(recording), Path(folder) / file, language=language, report=report))
 
 
 def make_piece(
     report: Report, *, recording: str, folder: str, file: str, from_s: float, to_s: float
 ) -> object:
-    """Write the piece; the work of a job."""
+    """Job: write the part."""
     return asdict(
         cut_recording(Path(recording), Path(folder) / file, from_s=from_s, to_s=to_s, report=report)
     )

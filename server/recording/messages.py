@@ -1,4 +1,4 @@
-"""Messages of a recording beside those of `server.stream`."""
+"""Messages of a recording, in addition to those of `server.stream`."""
 
 import platform
 from collections.abc import Mapping
@@ -22,45 +22,45 @@ from tracker.navigation.alarms import (
     Sound,
 )
 
-# What the digits of a pose depend on, beside the program.
+# Libraries on which the last digits of a pose depend.
 LIBRARIES = ("numpy", "opencv-python-headless", "numba", "scipy")
 
 
 class SessionMessage(Message):
-    """What was recorded, and by which program on which machine."""
+    """Source of a recording, with the program and machine that recorded it."""
 
     format_version: int
     product_version: str
     libraries: dict[str, str]
-    """Versions of what computes poses."""
+    """Versions of the libraries that compute poses."""
     python: str
     machine: str
     """System and processor architecture."""
     started_at: str
     """UTC, ISO 8601."""
     unix_offset_s: float
-    """Added to monotonic times gives Unix time."""
+    """Unix time minus monotonic time."""
     case_id: str
     source: str
     settings: dict[str, object]
 
 
 class TrackedMessage(Message):
-    """What tracking got with one image."""
+    """Input of tracking for one image, other than its pixels."""
 
     image_number: int
     captured_at_s: float
     skipped_images: int
     controls: dict[str, int] | None
-    """Of the camera; null for other sources."""
+    """Controls of the camera; null for other sources."""
     device: str = ""
-    """Which camera it is; empty if unknown."""
+    """Identity of the camera; empty if unknown."""
     is_predicted: bool
-    """Whether the image came from video that predicts its images, such as H.264."""
+    """Whether the image was decoded from video with predicted images, such as H.264."""
 
 
 class CircumstancesMessage(Message):
-    """What the alarms depended on beside images and time."""
+    """Inputs of the alarms other than images and time."""
 
     camera_works: bool
     tracker_works: bool
@@ -114,7 +114,7 @@ class AlarmStepMessage(Message):
 
 
 class DocumentMessage(Message):
-    """One document of the case that is in use."""
+    """A document of the case that is in use."""
 
     id: str
     kind: str
@@ -122,7 +122,7 @@ class DocumentMessage(Message):
     made_at: str
     made_by: str
     sha256: str
-    """Of the content, as JSON with sorted keys and without spaces."""
+    """SHA-256 of the content as JSON with sorted keys and without spaces."""
     content: dict[str, object]
 
 
@@ -133,19 +133,19 @@ class DocumentsMessage(Message):
 
 
 class NoteMessage(Message):
-    """A remark about the recording itself."""
+    """A remark on the recording itself."""
 
     code: str
     """IMAGES_MISSING, STEPS_MISSING, STATE_MISSING, PROCESS_CHANGED, STOPPED."""
     message: str
     images: int = Field(default=0)
-    """How many are missing."""
+    """Number of missing images."""
 
 
 def session_message(
     config: Config, *, case_id: str, started_at: str, unix_offset_s: float, product_version: str
 ) -> SessionMessage:
-    """Return the message with which a recording begins; passwords in the source's address are masked."""
+    """Return the first message of a recording; passwords in the address of the source are masked."""
     settings = config.model_dump(mode="json")
     source = source_from_text(config.camera.source).name
     settings["camera"]["source"] = source

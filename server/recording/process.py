@@ -1,10 +1,10 @@
 """The recording process: reads every entry of the ring in order, and writes the file.
 
-It only reads the shared memory, so that tracking is not slowed; its priority is low, and half a second of
-images waits in the ring for it. What is overwritten before it comes to it is missing: a note says so, and the
-state of tracking is requested again, from which on a replay is exact again.
+It only reads the shared memory and has a low priority, so that it does not slow tracking. The ring buffers
+half a second of images for it. Images that are overwritten before they are read are missing from the file: a
+note records this, and a new tracking state is requested, from which a replay is exact again.
 
-A state takes a tenth of a second to encode. That is done in a thread, while what follows waits in memory.
+Encoding a state takes a tenth of a second. A thread does it, while later messages wait in memory.
 """
 
 import contextlib
@@ -47,11 +47,11 @@ from tracker.navigation.alarms import AlarmSnapshot
 
 POLL_S = 0.01
 STATUS_PERIOD_S = 0.25
-# A request after each lost image would end in states alone.
+# A request after each lost image would fill the file with states.
 MIN_REQUEST_INTERVAL_S = 5.0
-# A piece that is cut out begins with a state. One takes tracking 2 ms, and 4 MB of the file.
+# A part that is cut out starts with a state. A state takes 2 ms of tracking and 4 MB of the file.
 STATE_PERIOD_S = 60.0
-# Packed images that wait for a state; more are dropped and recorded as missing.
+# Limit for packed images that wait for a state; more are dropped and recorded as missing.
 MAX_WAITING_BYTES = 256 * 2**20
 
 Write: TypeAlias = Callable[[], None]
@@ -121,12 +121,12 @@ class Stop:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StateNeeded:
-    """The state of tracking is needed before the next image."""
+    """Request for the tracking state before the next image."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AlarmsNeeded:
-    """The state of the alarms is needed: images are recorded exactly from now on."""
+    """Request for the state of the alarms: images are recorded exactly from now on."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -134,11 +134,11 @@ class RecordingStatus:
     """State of the recording.
 
     Attributes:
-        written_bytes: size of the file.
-        images: number of recorded images.
-        missing_images: number of tracked images that are not in the file.
-        problem: why it was stopped; None while it runs.
-        is_ended: whether the file is closed.
+        written_bytes: Size of the file.
+        images: Number of recorded images.
+        missing_images: Number of tracked images that are not in the file.
+        problem: Why it was stopped; None while it runs.
+        is_ended: Whether the file is closed.
     """
 
     written_bytes: int = 0
@@ -164,7 +164,7 @@ SCHEMAS: dict[Topic, type[Message]] = {
 
 
 def run_recording(order: RecordingOrder, connection: Connection) -> None:
-    """Record until the server says so, or is gone."""
+    """Record until the server requests the end or has exited."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     lower_process_priority()
     configure_logging(order.log, process="recording")
@@ -181,7 +181,7 @@ def run_recording(order: RecordingOrder, connection: Connection) -> None:
         problem = Problem.from_error(error)
     with contextlib.suppress(RecordingError):
         recording.close()
-    # The server may be gone.
+    # The server may have exited.
     with contextlib.suppress(OSError):
         connection.send(recording.status(problem=problem, is_ended=True))
 
@@ -207,12 +207,12 @@ class Recording:
     """One recording, driven by messages of the server and entries of the ring.
 
     Args:
-        order: what is recorded.
-        send: sends a message to the server.
-        clock: monotonic.
+        order: What is recorded.
+        send: Sends a message to the server.
+        clock: Monotonic clock.
 
     Raises:
-        RecordingError: the file cannot be made.
+        RecordingError: The file cannot be created.
     """
 
     def __init__(
@@ -263,7 +263,7 @@ class Recording:
         )
 
     def take(self, message: FromServer) -> None:
-        """Take a message of the server."""
+        """Process a message of the server."""
         match message:
             case RingChanged():
                 self._change_ring(message.ring)
@@ -272,7 +272,7 @@ class Recording:
                 self._write(lambda: self._writer.add_compressed(Topic.ALARM_STATE, at_s, content))
             case StepsTaken():
                 if message.missing:
-                    self.note("STEPS_MISSING", f"{message.missing} steps of the alarms are missing")
+                    self.note("STEPS_MISSING", f"{message.missing} alarm steps are missing")
                 for step, picture in message.steps:
                     self._take_step(step, picture)
             case TextMessage():
@@ -280,7 +280,7 @@ class Recording:
                 self._write(lambda: self._writer.add_json(text.topic, text.at_s, text.text))
 
     def read_all(self) -> None:
-        """Read what is in the ring, and wait for a state that is being encoded."""
+        """Read all entries of the ring, and wait for a state that is being encoded."""
         while self.read_newer():
             pass
         if self._encoding is not None:
@@ -298,10 +298,10 @@ class Recording:
         return entry is not None
 
     def tick(self) -> None:
-        """Write what is due, request a state where one is needed, and report.
+        """Write pending messages, request a state if one is needed, and report.
 
         Raises:
-            RecordingError: the recording cannot go on.
+            RecordingError: The recording cannot continue.
         """
         now_s = self._clock()
         self._writer.tick(now_s)
@@ -315,7 +315,7 @@ class Recording:
             self._send(self.status())
 
     def note(self, code: str, message: str, *, images: int = 0) -> None:
-        """Write a remark about the recording."""
+        """Write a remark on the recording."""
         text, at_s = NoteMessage(code=code, message=message, images=images).model_dump_json(), self._clock()
         self._write(lambda: self._writer.add_json(Topic.NOTE, at_s, text))
 
@@ -323,7 +323,7 @@ class Recording:
         """Close the file.
 
         Raises:
-            RecordingError: it cannot be written.
+            RecordingError: The file cannot be written.
         """
         self._encoder.shutdown(cancel_futures=True)
         self._encoding = None
@@ -341,7 +341,7 @@ class Recording:
         self._ring, self._read = ring, 0 if newest is None else newest.sequence
         self._unpacker, self._tracked = ReportUnpacker(), None
         self._has_state = False
-        # A process that is started while a recording runs sends its state by itself.
+        # A tracking process that starts during a recording sends its state without a request.
         self._requested_at_s = -MIN_REQUEST_INTERVAL_S
 
     def _take_entry(self, entry: Entry) -> None:
@@ -357,7 +357,7 @@ class Recording:
         if report.state:
             self._take_state(report, self._ring)
         if self._images == 0 and not self._has_state:
-            # A recording begins with a state.
+            # A recording starts with a state.
             return
         if self._waiting_bytes > MAX_WAITING_BYTES:
             self._lose(1)
@@ -373,8 +373,8 @@ class Recording:
         content = ring.state(report.state) if report.state > 0 else b""
         if not content:
             if report.state < 0 and not self._has_state:
-                self.note("STATE_MISSING", "the state of tracking could not be captured")
-                # Images are recorded all the same, to be looked at.
+                self.note("STATE_MISSING", "the tracking state could not be captured")
+                # Images are still recorded for review.
                 self._has_state = True
             return
         snapshot = report.snapshot
@@ -382,7 +382,7 @@ class Recording:
             return
         number, at_s = snapshot.image_number, snapshot.captured_at_s
         if self._encoding is not None:
-            # Two in a row: the first must come first.
+            # A second state has to wait for the first one, to keep the order.
             self._encoding.exception()
             self._drain()
         self._has_state, self._state_at_s = True, self._clock()
@@ -396,7 +396,7 @@ class Recording:
     def _write_state(self, encoding: Future[bytes], number: int, at_s: float) -> None:
         error = encoding.exception()
         if error is not None:
-            log.error("the state of tracking could not be recorded", why=str(error))
+            log.error("the tracking state could not be recorded", why=str(error))
             text = NoteMessage(code="STATE_MISSING", message=str(error)).model_dump_json()
             self._writer.add_json(Topic.NOTE, at_s, text)
             return

@@ -1,7 +1,7 @@
-"""The results of an image as records again, from the messages and the setup that are in a recording.
+"""Records of the results of an image, reconstructed from messages and setup of a recording for drawing.
 
-They are made to be drawn. A message has less than its snapshot: covariances of poses and standard deviations
-of clearances are NaN here, and times of stages are left out. The overlay needs none of them.
+A message contains less than its snapshot: covariances of poses and standard deviations of clearances are NaN
+here, and stage times are missing. The overlay needs none of them.
 """
 
 from datetime import datetime
@@ -53,12 +53,12 @@ def setup_of(preparation: Preparation, size_wh_px: tuple[int, int]) -> Setup:
     try:
         return preparation.setup_for(size_wh_px)
     except CalibrationError:
-        # As tracking did: without a calibration for this size it gave no measurement.
+        # As in tracking, which measures nothing without a calibration for this size.
         return preparation.uncalibrated_setup_for(size_wh_px)
 
 
 def belongs_to(setup: Setup, message: SnapshotMessage) -> bool:
-    """Return whether the results were made with this setup, as far as their message says."""
+    """Return whether the results were computed with this setup, as far as their message states it."""
     registration = setup.registration
     return (
         setup.camera.size_wh_px == (message.width_px, message.height_px)
@@ -72,11 +72,11 @@ def belongs_to(setup: Setup, message: SnapshotMessage) -> bool:
 
 
 def snapshot_of(message: SnapshotMessage, setup: Setup) -> NavigationSnapshot:
-    """Return the snapshot of which this is the message.
+    """Return the snapshot of a message.
 
     Args:
-        message: the results of an image.
-        setup: with which they were made, see `belongs_to`.
+        message: Results of an image.
+        setup: Setup with which they were computed, see `belongs_to`.
     """
     vertebra = message.vertebra
     return NavigationSnapshot(
@@ -110,7 +110,7 @@ def snapshot_of(message: SnapshotMessage, setup: Setup) -> NavigationSnapshot:
 
 
 def alarms_of(message: AlarmsMessage) -> AlarmSnapshot:
-    """Return the alarms of which this is the message; their times are Unix times."""
+    """Return the alarms of a message; their times are Unix times."""
     return AlarmSnapshot(
         alarms=tuple(_alarm(one) for one in message.alarms),
         sound=message.sound,
@@ -132,7 +132,7 @@ def _sighting(message: MarkerSeenMessage | MarkerUnseenMessage) -> Sighting:
         return Unseen(reason=message.reason, best_score_ratio=message.best_score_ratio)
     pose = message.camera_from_marker
     return Seen(
-        # Only a calibrated camera gives a pose; nothing is drawn from it.
+        # There is no pose without a calibrated camera; nothing is drawn from this one.
         camera_from_marker=Rigid.identity() if pose is None else _rigid(pose),
         pose_covariance=_unknown(6, 6),
         corners_px=np.array(message.corners_px),
@@ -148,7 +148,7 @@ def _sighting(message: MarkerSeenMessage | MarkerUnseenMessage) -> Sighting:
 def _deviation(message: DeviationMessage | AbsentMessage) -> Deviation | Absent:
     if isinstance(message, AbsentMessage):
         return Absent(reason=message.reason)
-    # Null where the drill lies across the channel.
+    # null for a drill across the channel.
     values = {name: inf if value is None else value for name, value in message if name != "kind"}
     return Deviation(**values)
 

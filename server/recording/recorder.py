@@ -1,7 +1,7 @@
-"""One recording as the web process sees it: its process, and what is sent to it.
+"""One recording in the web process: starts the recording process and sends messages to it.
 
-Publisher and alarms only append to a queue; a thread sends. If the recording process does not read for so
-long that the queue is full, alarm steps are dropped and recorded as missing: nothing here waits for a disk.
+Publisher and alarms only append to a queue; a thread sends, so that they never wait for the disk. If the
+queue is full because the recording process does not read, alarm steps are dropped and recorded as missing.
 """
 
 import contextlib
@@ -48,20 +48,21 @@ class TrackedImages(Protocol):
 
     @property
     def current(self) -> ProcessView:
-        """The tracking process with its ring."""
+        """Return the tracking process with its ring."""
 
     def record(self, *, is_recording: bool) -> None:
-        """Let it send its state before the next image."""
+        """Make it send its state before the next image."""
 
 
 class Recorder:
-    """Records until it is stopped, or cannot go on.
+    """Records until it is stopped or fails.
 
     Args:
-        order: what is recorded where.
-        tracked: the tracking system.
-        alarms: the alarms.
-        on_end: called once, from the recorder's thread, with why it ended; None if it was stopped.
+        order: What is recorded, and where.
+        tracked: The tracking system.
+        alarms: The alarms.
+        on_end: Called once from the thread of the recorder with the reason of the end; None if it was
+            stopped.
     """
 
     def __init__(
@@ -95,12 +96,12 @@ class Recorder:
 
     @property
     def pid(self) -> int | None:
-        """The recording process."""
+        """Process id of the recording process."""
         return self._process.pid
 
     @property
     def status(self) -> RecordingStatus:
-        """State as last reported."""
+        """Last reported state."""
         with self._lock:
             return self._status
 
@@ -206,5 +207,5 @@ def _ended(how: str) -> Problem:
     return Problem(
         code="RECORDING_PROCESS_ENDED",
         message=f"the recording process ended {how}",
-        remedy="Start the recording again; what was written before is readable. Navigation goes on.",
+        remedy="Start the recording again; the part written so far is readable. Navigation continues.",
     )

@@ -1,7 +1,7 @@
-"""Tracks a recording again, with its images, setup and times, and compares results and alarms.
+"""Tracks a recording again with its images, setup and times, and compares results and alarms.
 
-Nothing is estimated: the state of tracking before the first image is in the file, so that every later result
-has to be equal to the last digit. Where images are missing, the check pauses until the next state.
+The file contains the tracking state before the first image, so that every later result must be identical in
+all digits. After missing images the comparison pauses until the next state.
 """
 
 import json
@@ -35,9 +35,9 @@ from tracker.errors import InvalidInput, NavigationError
 from tracker.navigation import NavigationSnapshot
 from tracker.navigation.alarms import AlarmLimits
 
-# How long an image waits for the step of the alarms that observed it.
+# Maximum time for which an image waits for the alarm step that observed it.
 MAX_REMEMBERED = 600
-# Of a snapshot's message: its own age, and how long the stages took.
+# Fields of a snapshot message that are not reproducible: age and stage times.
 NOT_COMPARED = frozenset({"age_ms", "stage_ms"})
 
 log = structlog.get_logger(__name__)
@@ -45,12 +45,12 @@ log = structlog.get_logger(__name__)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Difference:
-    """One value that is not what was recorded.
+    """One value that differs from the recorded one.
 
     Attributes:
-        image_number: of the image; the last one before it for the alarms.
-        what: its place in the message.
-        recorded, replayed: the values.
+        image_number: Number of the image; for alarms the last image before the step.
+        what: Path of the value in the message.
+        recorded, replayed: The values.
     """
 
     image_number: int
@@ -60,7 +60,7 @@ class Difference:
 
     @property
     def size(self) -> float:
-        """Absolute difference of two numbers; infinite for anything else."""
+        """Absolute difference of two numbers; infinite for other values."""
         one, other = self.recorded, self.replayed
         are_numbers = all(
             isinstance(value, int | float) and type(value) is not bool for value in (one, other)
@@ -68,7 +68,7 @@ class Difference:
         return abs(one - other) if are_numbers else math.inf
 
     def __str__(self) -> str:
-        """Return the place and both values."""
+        """Return the path and both values."""
         by = f", {self.size:.3g} apart" if math.isfinite(self.size) else ""
         return (
             f"image {self.image_number}: {self.what} was {_short(self.recorded)} and is now "
@@ -78,14 +78,14 @@ class Difference:
 
 @dataclass(slots=True)
 class Differences:
-    """All differences of one kind: the first and the worst one."""
+    """The first and the largest of all differences of one kind."""
 
     images: int = 0
     first: Difference | None = None
     worst: Difference | None = None
 
     def add(self, found: list[Difference]) -> None:
-        """Add those of one image or step."""
+        """Add the differences of one image or step."""
         if not found:
             return
         self.images += 1
@@ -100,16 +100,16 @@ class ReplayReport:
     """Result of a check.
 
     Attributes:
-        session: what was recorded; None if the file does not say.
-        images: images that were compared.
-        unchecked_images: recorded images for which the state before is not in the file.
-        missing_images: tracked images that are not in the file.
-        steps, unchecked_steps: the same of the steps of the alarms.
-        poses, alarms: what differs.
-        remarks: of the recording, and why something was not checked.
-        is_whole: whether the file has its proper end.
-        is_damaged: whether a part of it is not what was written.
-        why_cut: why it was not read to its end.
+        session: Source of the recording; None if the file does not state it.
+        images: Number of compared images.
+        unchecked_images: Number of recorded images without a state before them in the file.
+        missing_images: Number of tracked images that are not in the file.
+        steps, unchecked_steps: Number of alarm steps that were compared, and that were not.
+        poses, alarms: Differences.
+        remarks: Notes of the recording, and reasons why something was not compared.
+        is_whole: Whether the file is complete.
+        is_damaged: Whether a part of the file is damaged.
+        why_cut: Why it was not read to its end.
     """
 
     session: SessionMessage | None = None
@@ -133,24 +133,24 @@ class ReplayReport:
 
     @property
     def changed_versions(self) -> list[str]:
-        """What differs between the recording machine and this one, on which digits may depend."""
+        """Differences between the recording machine and this one that may change digits."""
         if self.session is None:
             return []
         now = {**library_versions(), "machine": machine_name()}
         then = {**self.session.libraries, "machine": self.session.machine}
         return [
-            f"{name}: recorded with {then.get(name, 'nothing')}, now {now[name]}"
+            f"{name}: recorded with {then.get(name, 'an unknown version')}, now {now[name]}"
             for name in now
             if then.get(name) != now[name]
         ]
 
 
 def check_recording(path: Path, *, limits: AlarmLimits | None = None) -> ReplayReport:
-    """Replay a recording and compare it with what was recorded.
+    """Replay a recording and compare the results with the recorded ones.
 
     Args:
-        path: of the file.
-        limits: of the alarms in place of the recorded ones; None uses those.
+        path: The file.
+        limits: Alarm limits; None for the recorded ones.
 
     Raises:
         RecordingError: RECORDING_NOT_READABLE, RECORDING_TOO_NEW.
@@ -228,7 +228,7 @@ class _Replay:
         try:
             state: AlarmState = decoded_value(message.json())
         except (CodecError, ValueError) as error:
-            self._remark(f"the state of the alarms cannot be used: {error}")
+            self._remark(f"the alarm state cannot be used: {error}")
             return None
         if self._limits is None:
             return state
@@ -296,7 +296,7 @@ class _Replay:
         try:
             return restore_state(state, at_s=tracked.captured_at_s)
         except StateError as error:
-            self._remark(f"tracking begins anew at image {tracked.image_number}, because {error}")
+            self._remark(f"tracking starts again at image {tracked.image_number}, because {error}")
             return Tracking(state.preparation)
 
     def _compare_steps(self) -> None:
@@ -307,7 +307,7 @@ class _Replay:
                 number = step.image_number
                 if self._alarms is not None and number is not None and number not in self._snapshots:
                     if number > self._newest and self._tracking is not None:
-                        # Its image comes later in the file.
+                        # Its image follows later in the file.
                         return
                     self._alarms = None
                 self._steps.popleft()

@@ -1,4 +1,4 @@
-"""`RecordingReview`: the timeline, images and results of a recording that has ended."""
+"""`RecordingReview`: timeline, images and results of a finished recording."""
 
 import threading
 from dataclasses import dataclass
@@ -25,19 +25,19 @@ from server.recording_file.locations import read_content
 from server.store import NotFound
 
 JPEG_QUALITY = 85
-# Figures whose worst value is kept where images share a sample; the sign makes the worst the largest.
+# Figures of which a sample of several images has the worst value; the sign makes the worst the largest.
 WORST_SIGN = {"entry": 1.0, "angle": 1.0, "wall": -1.0}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Samples:
-    """The figures of a part of a recording; images that share a sample give the worst of each figure.
+    """Figures of a part of a recording; a sample of several images has the worst value of each figure.
 
     Attributes:
-        numbers: (m,) the first image of each sample.
+        numbers: (m,) first image of each sample.
         at_s: (m,) its time since the first image.
-        values, limits: (m, 4) of `FIGURES`; NaN where there is none.
-        statuses: (m, 4) place in `STATUSES`; -1 where there is none.
+        values, limits: (m, 4) values and limits of `FIGURES`; NaN if absent.
+        statuses: (m, 4) index in `STATUSES`; -1 if absent.
     """
 
     numbers: Integers
@@ -52,9 +52,9 @@ class RecordedInstant:
     """The results of one image, as JSON of the live messages.
 
     Attributes:
-        at_s: since the first image.
-        snapshot: its `SnapshotMessage`.
-        alarms: the `AlarmsMessage` after it; empty if the alarms were not recorded.
+        at_s: Time since the first image.
+        snapshot: Its `SnapshotMessage`.
+        alarms: The `AlarmsMessage` after it; empty if the alarms were not recorded.
     """
 
     at_s: float
@@ -66,8 +66,8 @@ class RecordingReview:
     """Reads recordings of the open case. Thread-safe; its methods wait for the disk.
 
     Args:
-        recordings: the recordings.
-        jobs: one of them makes the index, the first time that it is needed.
+        recordings: The recordings.
+        jobs: Runs the job that computes the index when it is first needed.
     """
 
     def __init__(self, recordings: RecordingService, jobs: Jobs) -> None:
@@ -78,7 +78,7 @@ class RecordingReview:
         self._newest: tuple[Path, int, RecordingIndex] | None = None
 
     def index(self, name: str) -> RecordingIndex | Job:
-        """Return the index of a recording, or the job that makes it.
+        """Return the index of a recording, or the job that computes it.
 
         Raises:
             RecordingError: RECORDING_RUNS.
@@ -98,7 +98,7 @@ class RecordingReview:
             return job
 
     def jpeg(self, name: str, number: int) -> bytes:
-        """Return an image of a recording as JPEG, `number` from 0; as it came, if it came as JPEG.
+        """Return an image of a recording as JPEG, `number` from 0; the original bytes if it is a JPEG.
 
         Raises:
             RecordingError: RECORDING_NOT_INDEXED, RECORDING_DAMAGED.
@@ -116,7 +116,7 @@ class RecordingReview:
         image = unpacked(packed)
         if image is None:
             raise RecordingError(
-                "RECORDING_DAMAGED", f"image {number} of {name} cannot be decoded", "Look at another image."
+                "RECORDING_DAMAGED", f"image {number} of {name} cannot be decoded", "Open another image."
             )
         return encode_jpeg(image, JPEG_QUALITY)
 
@@ -133,13 +133,15 @@ class RecordingReview:
         index = self.index(name)
         if isinstance(index, Job):
             raise RecordingError(
-                "RECORDING_NOT_INDEXED", f"{name} is being read", "Load its timeline, and wait for it."
+                "RECORDING_NOT_INDEXED",
+                f"{name} is not indexed yet",
+                "Load its timeline, and wait until it is ready.",
             )
         if not 0 <= number < len(index):
             raise NotFound(
                 "RECORDED_IMAGE_UNKNOWN",
-                f"{name} has {len(index)} images, and none has the number {number}",
-                "Name an image from 0 on.",
+                f"{name} has {len(index)} images, but no image {number}",
+                "Give a number from 0 to the number of images minus 1.",
                 {"images": len(index)},
             )
         return self._recordings.path(name), index
@@ -158,7 +160,7 @@ class RecordingReview:
 
 def sampled(index: RecordingIndex, from_s: float, to_s: float, max_samples: int) -> Samples:
     """Return about `max_samples` samples of equal duration, between two times since the first image."""
-    # With one image on either side, so that curves come in from the edge.
+    # With one more image on each side, so that curves reach the edges of the plot.
     first = max(0, int(np.searchsorted(index.at_s, from_s)) - 1)
     last = min(len(index), int(np.searchsorted(index.at_s, to_s, side="right")) + 1)
     numbers = np.arange(first, last, dtype=np.int64)
@@ -186,7 +188,7 @@ def sampled(index: RecordingIndex, from_s: float, to_s: float, max_samples: int)
 
 
 def _worst(index: RecordingIndex, name: str, numbers: Integers) -> int:
-    """Return which of these images has the worst figure; of depths, the newest."""
+    """Return the image with the worst value of this figure; for depths the newest image."""
     if name not in WORST_SIGN:
         return int(numbers[-1])
     values = WORST_SIGN[name] * index.values[numbers, FIGURES.index(name)]

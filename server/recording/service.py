@@ -1,7 +1,7 @@
 """`RecordingService`: starts and stops recordings of the open case, and lists, protects and deletes them.
 
-A recording is a file in the folder of its case, and not one of the store's files: those are complete or
-removed at the next start, while a recording has to be readable after any crash. It is no part of an exported
+A recording is a file in the folder of its case, but not a file of the store: those are removed at the next
+start if they are incomplete, while a recording must be readable after a crash. It is not part of an exported
 archive, and is deleted with its case.
 """
 
@@ -45,9 +45,9 @@ TIME_FORMAT = "%Y%m%dT%H%M%SZ"
 PROTECTED = ".protected"
 EXPORTS = ".exports"
 POLL_S = 0.25
-# After a failure nobody is served by a new attempt four times a second.
+# Waiting time after a failure, instead of an attempt at each of the four polls per second.
 RETRY_AFTER_S = 30.0
-# What tracking and alarms are configured with; everything else of a case is not needed for a replay.
+# Documents that configure tracking and alarms; a replay needs no others.
 RECORDED_KINDS = (
     DocumentKind.CAMERA,
     DocumentKind.MARKER,
@@ -67,12 +67,12 @@ class StoredRecording:
     """A recording of a case.
 
     Attributes:
-        name: of its file.
+        name: Name of its file.
         began_at: UTC, ISO 8601.
-        duration_s: from its first to its last message; None while it runs, and if it was cut.
-        size_bytes: of its file.
-        is_protected: whether it cannot be deleted.
-        is_running: whether it is being written.
+        duration_s: Time from its first to its last message; None while it runs, and if it is incomplete.
+        size_bytes: Size of its file.
+        is_protected: Whether it cannot be deleted.
+        is_running: Whether it is being written.
     """
 
     name: str
@@ -85,14 +85,14 @@ class StoredRecording:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RecordingState:
-    """What is being recorded.
+    """State of the recording.
 
     Attributes:
-        name: of the running recording; empty without one.
-        duration_s: since its begin.
-        status: of the running one, or of the last one.
-        problem: why the last one ended by itself; None if it did not.
-        remaining_s: how long disk and budget last at the present rate; None if unknown.
+        name: Name of the running recording; empty without one.
+        duration_s: Time since its start.
+        status: Status of the running or the last recording.
+        problem: Why the last one ended without a request; None if it did not.
+        remaining_s: Time until disk or budget are used up at the present rate; None if unknown.
     """
 
     name: str = ""
@@ -116,13 +116,13 @@ class RecordingService:
     """Recordings of one server. Thread-safe.
 
     Args:
-        tracked: the tracking system.
-        alarms: the alarms.
-        store: the cases.
-        config: the settings.
-        log_settings: of the recording process.
-        product_version: of this program.
-        make_recorder: makes a recorder; for tests.
+        tracked: The tracking system.
+        alarms: The alarms.
+        store: The cases.
+        config: The settings.
+        log_settings: Log settings of the recording process.
+        product_version: Version of this program.
+        make_recorder: Creates a recorder; replaced in tests.
     """
 
     def __init__(
@@ -145,12 +145,12 @@ class RecordingService:
         self._make_recorder = make_recorder
         self._lock = threading.RLock()
         self._running: _Running | None = None
-        # Names of recordings whose processes still write what is left.
+        # Names of recordings whose processes are still writing.
         self._closing: set[str] = set()
         self._last: RecordingStatus | None = None
         self._problem: Problem | None = None
         self._documents: tuple[str, ...] = ()
-        # By file, with its size and time of change, for which they are true.
+        # By file, with the size and modification time for which they are valid.
         self._durations: dict[Path, tuple[tuple[int, int], float | None]] = {}
         self._failed_at_s = -RETRY_AFTER_S
         self._is_autostart_suspended = False
@@ -158,7 +158,7 @@ class RecordingService:
         self._thread = threading.Thread(target=self._follow, name="recordings", daemon=True)
 
     def follow(self) -> None:
-        """Start and stop recordings by themselves, as the settings say, from now on."""
+        """Start and stop recordings automatically as set, from now on."""
         self._thread.start()
 
     def close(self) -> None:
@@ -170,12 +170,12 @@ class RecordingService:
 
     @property
     def when(self) -> Literal["navigating", "manual", "never"]:
-        """When recordings start, as set."""
+        """When recordings start, from the settings."""
         return self._config.recording.when
 
     @property
     def consent(self) -> Consent:
-        """Whether the patient of the open case consented to recordings."""
+        """Return whether the patient of the open case consented to recordings."""
         case = self._store.get_open_case()
         if self._config.recording.consent == "not_required":
             return Consent(state=ConsentState.NOT_REQUIRED)
@@ -187,20 +187,20 @@ class RecordingService:
         """Store whether the patient consented to recordings of the open case; end the running one if not.
 
         Args:
-            case_id: the case that was open where the question was asked.
-            is_given: the answer.
-            made_by: name of the person who answers.
+            case_id: The case that was open when the question was asked.
+            is_given: The answer.
+            made_by: Name of the person who answers.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, CASE_NOT_OPEN.
-            StoreError: it cannot be stored.
+            StoreError: The answer cannot be stored.
         """
         case = require_open_case(self._store)
         if case.id != case_id:
             raise SetupOrderError(
                 "CASE_NOT_OPEN",
                 "another case was opened since the question was asked",
-                "Answer the question for the case that is open now.",
+                "Answer for the case that is open now.",
                 {"case_id": case.id},
             )
         record = ConsentRecord(is_given=is_given)
@@ -208,12 +208,12 @@ class RecordingService:
             case.id, DocumentKind.CONSENT, CONSENT_NAME, record.model_dump(mode="json"), made_by=made_by
         )
         if not is_given:
-            self._end("the patient does not consent to it")
+            self._end("the patient does not consent to recordings")
         return self.consent
 
     @property
     def state(self) -> RecordingState:
-        """What is being recorded."""
+        """Return the state of the recording."""
         with self._lock:
             running, problem, last = self._running, self._problem, self._last
         if running is None:
@@ -228,7 +228,7 @@ class RecordingService:
         )
 
     def start(self) -> RecordingState:
-        """Start a recording of the open case; return the state if one runs already.
+        """Start a recording of the open case; a running recording continues.
 
         Raises:
             RecordingError: RECORDING_SWITCHED_OFF, RECORDING_BUDGET_EXCEEDED, RECORDING_DISK_FULL.
@@ -244,15 +244,15 @@ class RecordingService:
     def stop(self) -> RecordingState:
         """Stop the recording, wait until its file is closed, and return the state."""
         with self._lock:
-            # Until navigation ends it is not started again by itself.
+            # Not started again automatically before navigation ends.
             self._is_autostart_suspended = True
             self._problem = None
         self._alarms.set_recording_runs(runs=True)
-        self._end("somebody stopped it")
+        self._end("stopped on request")
         return self.state
 
     def list(self) -> Sequence[StoredRecording]:
-        """Return the recordings of the open case, the oldest first.
+        """Return the recordings of the open case, oldest first.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN.
@@ -265,7 +265,7 @@ class RecordingService:
             began_at = _began_at(path.name)
             if began_at is None or not path.is_file():
                 continue
-            # It may be deleted meanwhile.
+            # It may have been deleted meanwhile.
             with suppress(FileNotFoundError):
                 found.append(
                     StoredRecording(
@@ -310,7 +310,7 @@ class RecordingService:
         return path
 
     def require_space(self) -> None:
-        """Reject what would be written beside the recordings where their disk is nearly full.
+        """Reject an export if the disk of the recordings is nearly full.
 
         Raises:
             RecordingError: RECORDING_DISK_FULL.
@@ -327,7 +327,7 @@ class RecordingService:
             )
 
     def protect(self, name: str, *, is_protected: bool) -> None:
-        """Protect a recording from deletion, or end that. Raises the same errors as `path`."""
+        """Protect a recording from deletion, or remove the protection. Raises the same errors as `path`."""
         mark = _protection(self.path(name))
         if is_protected:
             mark.touch(mode=0o600)
@@ -348,26 +348,26 @@ class RecordingService:
             if _protection(path).exists():
                 raise RecordingError(
                     "RECORDING_PROTECTED",
-                    f"{name} is protected",
-                    "End its protection first, if nobody needs it any more.",
+                    f"{name} is protected from deletion",
+                    "Remove its protection first, if it is no longer needed.",
                     {"name": name},
                 )
             path.unlink()
             self._durations.pop(path, None)
-            # With what a killed job left of it.
+            # Including the remains of a killed job.
             for index in path.parent.glob(f"{index_path(path).name}*"):
                 index.unlink(missing_ok=True)
             shutil.rmtree(exports_folder(path), ignore_errors=True)
             sync_folder(path.parent)
 
     def put_export(self, recording: Path, made: Path) -> Path:
-        """Move a file beside the recording that it was made from, in place of the one of its kind; return it.
+        """Move an exported file beside its recording, replacing the previous one; return its path.
 
         Raises:
-            NotFound: RECORDING_UNKNOWN: it was deleted meanwhile.
-            OSError: the file cannot be stored.
+            NotFound: RECORDING_UNKNOWN: The recording was deleted meanwhile.
+            OSError: The file cannot be stored.
         """
-        # Before it has its name, so that a power failure leaves no part of it.
+        # Synced before it is renamed, so that a power failure leaves no incomplete file.
         with made.open("rb") as file:
             sync_file(file.fileno())
         with self._lock:
@@ -387,7 +387,7 @@ class RecordingService:
             return stored
 
     def put_mark(self, text: str) -> None:
-        """Record what a supervisor marked, as JSON. Returns at once."""
+        """Record a mark of a supervisor, as JSON. Returns at once."""
         running = self._running
         if running is not None:
             running.recorder.put_text(Topic.MARKS, text)
@@ -411,7 +411,7 @@ class RecordingService:
             raise SetupOrderError(
                 "RECORDING_CONSENT_MISSING",
                 "nobody has stated that the patient consented to a recording",
-                "Ask, and answer the question on the operator's page or with POST /api/recordings/consent.",
+                "State it on the operator's page, or with POST /api/recordings/consent.",
             )
         folder = self._folder(case)
         left_bytes = settings.max_total_gb * 1e9 - self._total_bytes()
@@ -426,7 +426,7 @@ class RecordingService:
         now = utc_now()
         name = f"{now:{TIME_FORMAT}}-{secrets.token_hex(2)}{SUFFIX}"
         with ExitStack() as stack:
-            # A case is not deleted under a recording.
+            # Prevents the deletion of the case during the recording.
             stack.enter_context(self._store.in_use(case.id))
             folder.mkdir(mode=PRIVATE, parents=True, exist_ok=True)
             sync_folder(folder.parent)
@@ -456,7 +456,7 @@ class RecordingService:
         self._problem, self._documents = None, ()
         self._alarms.set_recording_runs(runs=True)
         self._put_documents()
-        log.info("a recording began", file=name, case=case.id)
+        log.info("recording started", file=name, case=case.id)
 
     def _end(self, reason: str) -> None:
         with self._lock:
@@ -470,14 +470,14 @@ class RecordingService:
             with self._lock:
                 self._closing.discard(running.name)
         path = self._folder(running.case) / running.name
-        # A recording that could not begin has no file.
+        # A recording that failed to start has no file.
         with suppress(FileNotFoundError):
             self._duration_s(path)
         running.in_use.close()
-        log.info("a recording ended", file=running.name, images=self._last.images, why=reason)
+        log.info("recording ended", file=running.name, images=self._last.images, why=reason)
 
     def _note_end(self, problem: Problem | None) -> None:
-        """Raise the alarm for a recording that ended by itself; from the recorder's thread."""
+        """Raise the alarm for a recording that ended without a request; called from the recorder's thread."""
         if problem is None:
             return
         log.error(problem.message, code=problem.code, remedy=problem.remedy)
@@ -493,15 +493,15 @@ class RecordingService:
             except StoreError as error:
                 log.warning(error.message, code=error.code, remedy=error.remedy)
             except Exception:
-                log.exception("recordings cannot be followed")
+                log.exception("starting or stopping a recording failed")
 
     def poll(self) -> None:
-        """Do what is due: end a recording whose case was closed, start one, record changed documents."""
+        """End a recording whose case was closed, start one if due, and record changed documents."""
         case = self._store.get_open_case()
         with self._lock:
             running = self._running
         if running is not None and running.recorder.status.is_ended:
-            self._end("it cannot go on")
+            self._end("it failed")
         elif running is not None and (case is None or case.id != running.case.id):
             self._end("its case was closed")
         elif running is not None and not self.consent.state.permits_recording:
@@ -521,7 +521,7 @@ class RecordingService:
             is_due = (
                 navigates and case is not None and not (is_running or waits or self._is_autostart_suspended)
             )
-        # Without consent it does not start, which is no problem of the recording.
+        # A missing consent prevents the start, but is not a failure of the recording.
         is_due = is_due and self.consent.state.permits_recording
         if is_running and not navigates:
             self._end("navigation ended")
@@ -574,7 +574,7 @@ class RecordingService:
         return max(0.0, left_bytes) * duration_s / status.written_bytes
 
     def _duration_s(self, path: Path) -> float | None:
-        """Return the duration of a recording that has ended; its file is read once, unless it changes."""
+        """Return the duration of a finished recording; its file is read again only if it has changed."""
         found = path.stat()
         version = found.st_size, found.st_mtime_ns
         known = self._durations.get(path)
@@ -595,7 +595,7 @@ class RecordingService:
 
 
 def _began_at(name: str) -> str | None:
-    """Return when a recording began; None for the name of another file."""
+    """Return the start time of a recording; None for the name of another file."""
     if not NAME.fullmatch(name):
         return None
     try:
@@ -605,7 +605,7 @@ def _began_at(name: str) -> str | None:
 
 
 def exports_folder(recording: Path) -> Path:
-    """Return the folder of what was made from a recording, which is deleted with it."""
+    """Return the folder of the exports of a recording, which is deleted with it."""
     return recording.with_name(recording.name + EXPORTS)
 
 

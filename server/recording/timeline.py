@@ -1,6 +1,6 @@
-"""The index of a recording: where its images lie, their figures as columns, and what happened.
+"""Index of a recording: positions of its images, figures as columns, and events.
 
-It is made once, by a job, and stored beside the recording, so that a page gets any instant without a search.
+A job computes it once and stores it beside the recording, so that any instant is found without a search.
 """
 
 import json
@@ -20,15 +20,15 @@ from server.recording_file.locations import Location, MessageLocations, read_con
 from tracker.navigation import Status
 from tracker.navigation.alarms import AlarmState, Change
 
-# Grows with each change of what is stored; an index of another version is made again.
+# Incremented by each change of the format; an index of another version is computed again.
 VERSION = 2
 SUFFIX = ".index.npz"
 FIGURES = ("entry", "angle", "depth", "wall")
 STATUSES = tuple(Status)
 PACKINGS = tuple(Packing)
-# A machine that is too slow loses images again and again, which is one event.
+# Repeated losses of images, as on a machine that is too slow, are merged into one event.
 MAX_NOTE_GAP_S = 5.0
-# Figures that are withheld for a shorter time are a gap of the curves and no event.
+# Figures withheld for a shorter time are a gap in the curves but not an event.
 MIN_WITHHELD_S = 0.3
 
 Floats: TypeAlias = npt.NDArray[np.float64]
@@ -40,14 +40,14 @@ Json: TypeAlias = Any
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TimelineEvent:
-    """Something that happened.
+    """An event or a period of a recording.
 
     Attributes:
-        kind: navigation (it was on), withheld (no figures), alarm, acknowledgement, mark, note (about the
+        kind: navigation (it was on), withheld (no figures), alarm, acknowledgement, mark, note (on the
             recording itself).
-        from_s, to_s: since the first image; to_s is None for what has no duration.
-        code: condition of an alarm, reason of withheld figures, code of a note, shape of a mark.
-        by: who did it; empty if nobody did.
+        from_s, to_s: Time since the first image; to_s is None for an event without duration.
+        code: Condition of an alarm, reason of withheld figures, code of a note, shape of a mark.
+        by: Person who caused it; empty if nobody did.
     """
 
     kind: EventKind
@@ -62,15 +62,15 @@ class RecordingIndex:
     """A recording of n images as columns.
 
     Attributes:
-        begin_unix_s: time of the first image.
-        is_whole: whether the file has its proper end.
-        events: what happened, in the order of their begin.
-        at_s: (n,) since the first image.
-        images, snapshots, alarms: (n, 2) offset and length; length 0 where there is none.
-        packings: (n,) place in `PACKINGS`.
+        begin_unix_s: Time of the first image.
+        is_whole: Whether the file is complete.
+        events: Events in the order of their start.
+        at_s: (n,) time since the first image.
+        images, snapshots, alarms: (n, 2) offset and length; length 0 if absent.
+        packings: (n,) index in `PACKINGS`.
         sizes_px: (n, 2) width, height.
-        values, limits: (n, 4) of `FIGURES`, in their units; NaN where there is none.
-        statuses: (n, 4) place in `STATUSES`; -1 where there is none.
+        values, limits: (n, 4) values and limits of `FIGURES`, in their units; NaN if absent.
+        statuses: (n, 4) index in `STATUSES`; -1 if absent.
     """
 
     begin_unix_s: float
@@ -94,12 +94,12 @@ COLUMNS = tuple(one.name for one in fields(RecordingIndex))[3:]
 
 
 def index_path(recording: Path) -> Path:
-    """Return where the index of a recording is stored."""
+    """Return the path of the index of a recording."""
     return recording.with_name(recording.name + SUFFIX)
 
 
 def store_index(report: Report, *, recording: str) -> dict[str, int]:
-    """Make the index of a recording and store it beside it; the work of a job."""
+    """Job: compute the index of a recording and store it beside the recording."""
     path = Path(recording)
     index = make_index(path, report)
     about = {
@@ -122,7 +122,7 @@ def store_index(report: Report, *, recording: str) -> dict[str, int]:
 
 
 def stored_index(recording: Path) -> RecordingIndex | None:
-    """Return the stored index of a recording; None if there is none of this file and version."""
+    """Return the stored index of a recording; None without an index of this file and version."""
     try:
         with np.load(index_path(recording), allow_pickle=False) as stored:
             about = json.loads(stored["about"].tobytes())
@@ -139,7 +139,7 @@ def stored_index(recording: Path) -> RecordingIndex | None:
 
 
 def make_index(path: Path, report: Report = lambda _ratio, _doing: None) -> RecordingIndex:
-    """Return the index of a recording, up to where it was cut.
+    """Compute the index of a recording, up to the end of an incomplete file.
 
     Raises:
         RecordingError: RECORDING_NOT_READABLE.
@@ -175,7 +175,7 @@ def _json(file: IO[bytes], location: Location) -> Json:
 
 @dataclass(slots=True)
 class _Rows:
-    """The columns while they grow, a row for each image that has its result."""
+    """Columns under construction, with a row for each image that has a result."""
 
     image: Location | None = None
     alarms: list[Location] = field(default_factory=list)
@@ -224,7 +224,7 @@ class _Rows:
         )
 
     def _alarms_of(self, unix_s: Floats) -> Integers:
-        """Return where the alarms of each image lie: the newest before the next image."""
+        """Return the position of the alarms of each image: the newest before the next image."""
         if not self.alarms:
             return np.zeros((len(unix_s), 2), dtype=np.int64)
         places = np.vstack([np.zeros((1, 2), dtype=np.int64), _places(self.alarms)])
@@ -234,7 +234,7 @@ class _Rows:
 
 
 class _Events:
-    """What happened, from the steps of the alarms, the marks and the notes."""
+    """Events from alarm steps, marks and notes."""
 
     def __init__(self) -> None:
         self._moments: list[TimelineEvent] = []
@@ -250,7 +250,7 @@ class _Events:
             self._navigation.append((unix_s, navigating))
         if not self._has_steps:
             self._has_steps = True
-            # Raised before the recording began.
+            # Raised before the start of the recording.
             active = [one for one in step.get("alarms", []) if one.get("state") != AlarmState.LATCHED]
             self._open = {one["number"]: (unix_s, one["condition"]) for one in active}
         for event in step.get("events", []):
@@ -289,7 +289,7 @@ class _Events:
             self._moments.append(TimelineEvent(kind="note", from_s=unix_s, code=code))
 
     def events(self, begin_s: float, end_s: float) -> Iterable[TimelineEvent]:
-        """Yield them in seconds since `begin_s`; what is not over by then ends at `end_s`, since the same."""
+        """Yield the events in seconds since `begin_s`; events in progress end at `end_s`."""
         for one in self._moments:
             yield TimelineEvent(kind=one.kind, from_s=one.from_s - begin_s, code=one.code, by=one.by)
         open_alarms = [(at_s, None, code) for at_s, code in self._open.values()]
@@ -317,7 +317,7 @@ def _withheld(at_s: Floats, reasons: list[str]) -> Iterable[TimelineEvent]:
 
 
 def _displayed_assessment(snapshot: Json) -> Mapping[str, Any]:
-    """Return the assessment of the displayed tool, else of the first: why there is none."""
+    """Return the assessment of the displayed tool, otherwise that of the first tool, with its reason."""
     tools = snapshot["tools"]
     shown = [one for one in tools if one.get("name") == snapshot.get("displayed_tool")] or tools
     return shown[0].get("assessment", {}) if shown else {}

@@ -1,11 +1,12 @@
-"""A recording as a video (MP4, VP9) with the overlay of each image drawn into it.
+"""Export of a recording as a video (MP4, VP9) with the overlay of each image.
 
-The overlay is drawn by `server.overlay` from the recorded results, not computed again. Images keep their
-capture times, so that the rate varies as it did. Where results cannot be drawn, the image says so; where no
-image came for longer than `limits.video_stale_after_ms`, the video shows a card in place of the last image
-with its old figures.
+`server.overlay` draws the recorded results; nothing is recomputed. Images keep their capture times, so that
+the rate varies as recorded. Images whose results cannot be drawn are marked. After
+`limits.video_stale_after_ms` without an image the video shows a card instead of the last image and its old
+figures.
 
-PyAV is an optional dependency: its wheels hold x264 and x265, which are under the GPL. Neither is used.
+PyAV is an optional dependency, because its wheels contain x264 and x265, which are under the GPL. Neither is
+used.
 """
 
 from collections.abc import Iterator
@@ -40,37 +41,37 @@ if TYPE_CHECKING:
     from av.video.stream import VideoStream
 
 CODEC = "libvpx-vp9"
-# Constant quality, at a speed of about 60 images of 1280x720 a second on one core.
+# Constant quality; encodes about 60 images of 1280x720 per second on one core.
 OPTIONS = {"deadline": "realtime", "cpu-used": "8", "row-mt": "1", "crf": "30", "b": "0"}
 TIME_BASE = Fraction(1, 90_000)
 MAX_GAP_S = 0.5
 BT_709 = 1
 
 NO_SETUP: Text = {
-    "en": "RESULTS NOT DRAWN · their setup is not in the recording",
-    "de": "ERGEBNISSE NICHT GEZEICHNET · ihr Aufbau fehlt in der Aufzeichnung",
+    "en": "RESULTS NOT DRAWN · setup missing in the recording",
+    "de": "ERGEBNISSE NICHT DARGESTELLT · Aufbau fehlt in der Aufzeichnung",
 }
 OTHER_VERSION: Text = {
-    "en": "RESULTS NOT DRAWN · another version recorded them",
-    "de": "ERGEBNISSE NICHT GEZEICHNET · von einer anderen Version aufgezeichnet",
+    "en": "RESULTS NOT DRAWN · recorded by another version",
+    "de": "ERGEBNISSE NICHT DARGESTELLT · von einer anderen Version aufgezeichnet",
 }
 NO_ALARMS: Text = {"en": "ALARMS NOT RECORDED", "de": "ALARME NICHT AUFGEZEICHNET"}
 NOT_DECODED: Text = {"en": "IMAGE DAMAGED", "de": "BILD BESCHÄDIGT"}
 NO_IMAGE: Text = {"en": "NO IMAGE", "de": "KEIN BILD"}
-GAP: Text = {"en": "No image came for {} s.", "de": "{} s lang kam kein Bild."}
+GAP: Text = {"en": "No image for {} s.", "de": "{} s lang kein Bild."}
 IMAGE: Text = {"en": "image", "de": "Bild"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VideoSummary:
-    """What was written.
+    """Summary of a video.
 
     Attributes:
-        images: recorded images in the video.
-        gaps: cards beside them, one for each time without an image.
-        undrawn: images of them whose results could not be drawn.
-        is_whole: whether the recording was read to its proper end.
-        why_cut: why not.
+        images: Number of recorded images in the video.
+        gaps: Number of cards, one for each period without an image.
+        undrawn: Number of images whose results could not be drawn.
+        is_whole: Whether the recording is complete.
+        why_cut: Why it is not.
     """
 
     images: int
@@ -87,13 +88,13 @@ def write_video(
     language: Language = "en",
     report: Report = lambda _ratio, _doing: None,
 ) -> VideoSummary:
-    """Write a recording as video, up to where it was cut.
+    """Write a recording as a video, up to the end of an incomplete file.
 
     Args:
-        recording: of the recording.
-        target: of the video; overwritten when it is complete.
-        language: of all words.
-        report: called with the share that is done, and what is being done.
+        recording: File of the recording.
+        target: File of the video; overwritten when the video is complete.
+        language: Language of the text.
+        report: Called with the completed share (0 to 1) and the present activity.
 
     Raises:
         RecordingError: VIDEO_ENCODER_MISSING, VIDEO_NOT_WRITTEN, RECORDING_NOT_READABLE, RECORDING_EMPTY.
@@ -148,7 +149,7 @@ class _Picture:
 
 
 class _Pictures:
-    """The pictures of a video in their order."""
+    """Pictures of a video in order."""
 
     def __init__(self, path: Path, index: RecordingIndex, language: Language) -> None:
         self.undrawn = 0
@@ -170,7 +171,7 @@ class _Pictures:
                 case Topic.STATE:
                     self._state = _state(message)
                 case Topic.NOTE if message.json()["code"] in ("STATE_MISSING", "PROCESS_CHANGED"):
-                    # What follows may have another setup.
+                    # Later images may have another setup.
                     self._state = None
                 case Topic.IMAGE:
                     image = message
@@ -206,7 +207,7 @@ class _Pictures:
         return _Picture(with_strip(pixels, words, note=note, language=self._language), at_s)
 
     def _drawn(self, number: int, pixels: Image, snapshot: RecordedMessage) -> tuple[Image, str]:
-        """Return the image with its results, and what is missing from it."""
+        """Return the image with its results, and a note on what is missing from it."""
         language = self._language
         try:
             message = SnapshotMessage.model_validate_json(snapshot.content)
@@ -232,24 +233,24 @@ class _Pictures:
             return read_content(file, offset, length)
 
     def _card(self, size_wh_px: tuple[int, int], before_s: float, next_s: float) -> _Picture:
-        """Return what is shown from when the image before is too old until the next one comes."""
+        """Return the card shown from the time at which the last image is too old until the next image."""
         at_s = before_s + self._max_gap_s
         lasted = GAP[self._language].format(f"{next_s - before_s:.1f}")
         card = draw_card(size_wh_px=size_wh_px, title=NO_IMAGE[self._language], lines=(lasted,))
         return _Picture(with_strip(card, self._time(at_s), language=self._language), at_s, is_gap=True)
 
     def _time(self, at_s: float) -> str:
-        """Return an instant as time of day, to the millisecond, and since the first image."""
+        """Return an instant as time of day in ms, and as time since the first image."""
         time = utc_text(datetime.fromtimestamp(self._index.begin_unix_s + at_s, tz=UTC))
         minutes, seconds = divmod(at_s, 60.0)
         return f"{time.replace('T', ' ').replace('Z', ' UTC')} · {int(minutes)}:{seconds:06.3f}"
 
 
 class _Encoder:
-    """Encodes pictures of one size at their times; others are fitted into it.
+    """Encodes pictures at their times; all pictures are fitted into the size of the first one.
 
     Raises:
-        OSError: the file cannot be written.
+        OSError: The file cannot be written.
     """
 
     def __init__(self, target: Path) -> None:
@@ -279,7 +280,7 @@ class _Encoder:
         size_wh_px = (self._stream.width, self._stream.height)
         frame = av.VideoFrame.from_ndarray(_fitted(image, size_wh_px), format="bgr24")
         frame = frame.reformat(format="yuv420p", dst_colorspace="ITU709")
-        # Strictly increasing: two images may have come within a tick.
+        # Must increase strictly, but two images may fall within one tick.
         self._pts = max(round(at_s / TIME_BASE), self._pts + 1)
         frame.pts, frame.time_base = self._pts, TIME_BASE
         self._container.mux(self._stream.encode(frame))
@@ -291,7 +292,7 @@ def _opened(target: Path, image: Image) -> "tuple[OutputContainer, VideoStream]"
     container = av.open(str(target), "w", format="mp4", options={"movflags": "faststart"})
     stream = cast("VideoStream", container.add_stream(CODEC, rate=30, options=OPTIONS))
     height, width = image.shape[:2]
-    # Colour has half the resolution.
+    # Chroma has half the resolution, so that the size must be even.
     stream.width, stream.height = width + width % 2, height + height % 2
     stream.pix_fmt = "yuv420p"
     stream.time_base = stream.codec_context.time_base = TIME_BASE
@@ -302,7 +303,7 @@ def _opened(target: Path, image: Image) -> "tuple[OutputContainer, VideoStream]"
 
 
 def _fitted(image: Image, size_wh_px: tuple[int, int]) -> Image:
-    """Return the image in this size, with black at its right and lower edge where its shape is another."""
+    """Return the image in this size, with black at the right or lower edge if the aspect ratio differs."""
     width, height = size_wh_px
     ratio = min(width / image.shape[1], height / image.shape[0])
     if ratio < 1.0 or ratio > 1.01:
@@ -319,12 +320,12 @@ def _not_written(target: Path, error: OSError) -> RecordingError:
     return RecordingError(
         "VIDEO_NOT_WRITTEN",
         f"the video {target.name} cannot be written: {(error.strerror or str(error)).lower()}",
-        "Check that its folder exists and its disk has space, then export again.",
+        "Check that its folder exists and its disk has free space, then export again.",
     )
 
 
 def _state(message: RecordedMessage) -> TrackingState | None:
-    """Return a state of tracking; None if another version made it."""
+    """Return a tracking state; None if another version recorded it."""
     try:
         state = decoded_value(message.json())
     except (CodecError, ValueError):

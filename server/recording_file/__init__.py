@@ -1,12 +1,12 @@
-"""The file of a recording: MCAP, with images, messages, alarms, and the state of tracking.
+"""File format of a recording: MCAP with images, messages, alarms, and the tracking state.
 
-codec.py      values of the program as JSON and back
-copy.py       writes messages of one recording into another
-locations.py  where messages lie in the file
-packing.py    images
-topics.py     what is in the file
-writer.py     writes it, so that a crash loses less than a second
-reader.py     reads it, up to where it was cut
+codec.py      conversion of records of the program to JSON and back
+copy.py       copies messages of one recording to another
+locations.py  positions of messages in the file
+packing.py    encoding of images
+topics.py     topics of the file
+writer.py     writer; a crash loses less than a second
+reader.py     reader, also of an incomplete file
 """
 
 from server.recording_file.codec import CodecError, decoded_value, encoded_value

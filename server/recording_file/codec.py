@@ -1,8 +1,8 @@
-"""Values of the program as JSON and back, exact to the last bit; what a recording has beside its messages.
+"""Exact conversion of records of the program to JSON and back, for the states in a recording.
 
-Floats are written with all digits, arrays with their bytes. A file may come from anybody, so that pickle is
-no choice: only dataclasses, enums and named tuples of `tracker` and of few modules of `server` are made, and
-none of their code runs. A field that this version does not know, or lacks without a default, is an error.
+Floats are written with all digits, arrays with their bytes. Pickle is not used, because a file may come from
+an untrusted source: only dataclasses, enums and named tuples of `tracker` and of a few modules of `server`
+are created, without running their code. Unknown fields, and missing fields without a default, are errors.
 """
 
 import base64
@@ -33,14 +33,14 @@ ARRAY_KINDS = "biuf"
 
 
 class CodecError(ValueError):
-    """A value cannot be written, or was written by another version."""
+    """A value cannot be encoded, or was encoded by another version."""
 
 
 def encoded_value(value: Value) -> Json:
-    """Return a value as JSON.
+    """Encode a value as JSON.
 
     Raises:
-        CodecError: it has a part of an unknown type.
+        CodecError: The value contains an unknown type.
     """
     if value is None or type(value) in (bool, int, str):
         return value
@@ -80,10 +80,10 @@ def _encoded_container(value: Value) -> Json:
 
 
 def decoded_value(content: Json) -> Value:
-    """Return the value of `encoded_value`.
+    """Decode the result of `encoded_value`.
 
     Raises:
-        CodecError: another version wrote it, or it is damaged.
+        CodecError: Another version encoded it, or it is damaged.
     """
     if isinstance(content, list):
         return [decoded_value(one) for one in content]
@@ -125,13 +125,13 @@ def _decoded(content: dict[str, Json]) -> Value:
             return slice(*(decoded_value(one) for one in value))
         case "bytes":
             return base64.b64decode(value, validate=True)
-    raise CodecError(f"{tag!r} is no kind of value")
+    raise CodecError(f"{tag!r} is not a kind of value")
 
 
 def _encoded_array(array: np.ndarray) -> Json:
     if array.dtype.kind not in ARRAY_KINDS:
         raise CodecError(f"an array of {array.dtype} cannot be recorded")
-    # Products of matrices depend on the order of their elements, in the last digit.
+    # The last digit of a matrix product depends on the memory order of the matrices.
     order: Literal["F", "C"] = "F" if array.flags.f_contiguous and not array.flags.c_contiguous else "C"
     return {
         "array": base64.b64encode(array.tobytes(order=order)).decode("ascii"),
@@ -154,7 +154,7 @@ def _decoded_array(content: dict[str, Json]) -> np.ndarray:
 
 def _decoded_fields(kind: type, recorded: dict[str, Json]) -> Value:
     if not dataclasses.is_dataclass(kind):
-        raise CodecError(f"{kind.__qualname__} is no dataclass")
+        raise CodecError(f"{kind.__qualname__} is not a dataclass")
     fields = {one.name: one for one in dataclasses.fields(kind)}
     unknown = sorted(recorded.keys() - fields.keys())
     if unknown:

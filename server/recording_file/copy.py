@@ -1,4 +1,4 @@
-"""Writes messages of one recording into another, byte by byte."""
+"""Byte-by-byte copy of messages from one recording to another."""
 
 import json
 from pathlib import Path
@@ -13,14 +13,14 @@ from server.recording_file.writer import CHUNK_BYTES
 
 
 class RecordingCopy:
-    """A recording with messages of another one; a context manager, which closes the file.
+    """A recording with messages of another one; a context manager that closes the file.
 
     Args:
-        target: the new file.
-        source: where the messages come from.
+        target: The new file.
+        source: Source of the messages.
 
     Raises:
-        OSError: the file cannot be written.
+        OSError: The file cannot be written.
     """
 
     def __init__(self, target: Path, source: RecordingReader) -> None:
@@ -28,7 +28,7 @@ class RecordingCopy:
         self._channels: dict[int, int] = {}
         self._schemas: dict[int, int] = {0: 0}
         self._file = target.open("wb")
-        # Not compressed, as in every recording: its index reads messages where they lie.
+        # Not compressed, because the index reads messages at their position in the file.
         self._writer = Writer(
             self._file,
             chunk_size=CHUNK_BYTES,
@@ -63,7 +63,7 @@ class RecordingCopy:
         )
 
     def add_json(self, topic: Topic, text: str, *, log_ns: int, schema: dict[str, Any]) -> None:
-        """Add a JSON message of the program that copies."""
+        """Add a new JSON message."""
         content = json.dumps(schema, ensure_ascii=False).encode()
         schema_id = self._writer.register_schema(
             name=str(schema["title"]), encoding=SCHEMA_ENCODING, data=content

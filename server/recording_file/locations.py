@@ -1,7 +1,7 @@
-"""Where the messages of a recording lie in its file, found without reading images.
+"""Positions of the messages of a recording in its file, found without reading images.
 
-The chunks of a recording are not compressed, so that the bytes of a message can be read where they lie. What
-is read this way is not checked by its CRC; `RecordingReader` checks it.
+The chunks of a recording are not compressed, so that a message can be read at its position. Such reads do not
+verify the CRC; `RecordingReader` does.
 """
 
 import struct
@@ -27,14 +27,14 @@ STATISTICS = struct.Struct("<QHIIIIQQ")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Location:
-    """The bytes of a message in its file.
+    """Position of a message in its file.
 
     Attributes:
-        topic: what it is.
-        unix_s: when, Unix time.
-        sequence: number of the image, where it is about one.
-        offset, length: of its content, in bytes.
-        packing, size_wh_px: of an image; None for every other message.
+        topic: Its topic.
+        unix_s: Its Unix time.
+        sequence: Number of the image if it refers to one.
+        offset, length: Position of its content, in bytes.
+        packing, size_wh_px: Encoding and size of an image; None for other messages.
     """
 
     topic: Topic
@@ -54,19 +54,19 @@ class _Channel:
 
 
 class MessageLocations:
-    """The messages of a recording in the order of the file, up to where it was cut.
+    """Messages of a recording in the order of the file, up to the end of an incomplete file.
 
     Attributes:
-        is_whole: whether the file has its proper end; known after the last one.
-        position: how many bytes were passed.
-        size_bytes: of the file.
+        is_whole: Whether the file is complete; known after the last message.
+        position: Number of bytes read or skipped.
+        size_bytes: Size of the file.
 
     Raises:
         RecordingError: RECORDING_NOT_READABLE.
     """
 
     def __init__(self, path: Path) -> None:
-        # Rejects what is no recording.
+        # Rejects files that are not recordings.
         RecordingReader(path).close()
         self.is_whole = False
         self.position = len(MAGIC)
@@ -79,7 +79,7 @@ class MessageLocations:
             try:
                 yield from self._records(file, len(MAGIC), self.size_bytes)
             except (struct.error, UnicodeDecodeError, KeyError, ValueError):
-                # Cut or damaged here: what was found before is readable.
+                # Truncated or damaged here; earlier messages are readable.
                 self.is_whole = False
 
     def _records(self, file: IO[bytes], begin: int, end: int) -> Iterator[Location]:
@@ -130,7 +130,7 @@ class MessageLocations:
 
 
 def read_duration_s(path: Path) -> float | None:
-    """Return the time from the first to the last message of a complete recording; None if it was cut."""
+    """Return the time from the first to the last message of a complete recording; None if incomplete."""
     with path.open("rb") as file:
         size = file.seek(0, 2)
         if size < FOOTER_BYTES:

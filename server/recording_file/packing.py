@@ -1,9 +1,9 @@
-"""Images in a recording: the source's own JPEG where it has one, else losslessly packed pixels.
+"""Images in a recording: the JPEG of the source if it has one, otherwise losslessly compressed pixels.
 
-Measured for 1280x720 on one core, an image with the noise of a camera: PNG at its fastest takes 47 ms and
-leaves 1.1 MB, Zstandard at level 1 takes 4.4 ms and leaves 2.1 MB, at level 3 19 ms and 1.8 MB; at 30 Hz only
-the second is near a tenth of a core. Grey cameras need a third: their three channels are equal, and one is
-packed. `make benchmark ARGS=recording` measures it.
+Measured for 1280x720 on one core with camera noise: PNG at its fastest takes 47 ms for 1.1 MB, Zstandard at
+level 1 4.4 ms for 2.1 MB, at level 3 19 ms for 1.8 MB. At 30 Hz only level 1 takes about a tenth of a core.
+Of grey images, whose three channels are equal, one channel is stored. `make benchmark ARGS=recording`
+measures it.
 """
 
 from dataclasses import dataclass
@@ -23,11 +23,11 @@ MAX_IMAGE_BYTES = 7680 * 4320 * 3
 
 
 class Packing(StrEnum):
-    """How an image is packed."""
+    """Encoding of an image."""
 
-    JPEG = "jpeg"  # as the source sent it
+    JPEG = "jpeg"  # JPEG of the source
     ZSTD_BGR = "zstd-bgr8"  # rows of blue, green, red
-    ZSTD_GREY = "zstd-grey8"  # one channel, for three equal ones
+    ZSTD_GREY = "zstd-grey8"  # one of three equal channels
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,9 +35,9 @@ class PackedImage:
     """One image.
 
     Attributes:
-        packing: how it is packed.
-        size_wh_px: width and height.
-        content: the bytes.
+        packing: Encoding.
+        size_wh_px: Width and height.
+        content: Encoded bytes.
     """
 
     packing: Packing
@@ -57,7 +57,7 @@ class ImagePacker:
         self._compressor = zstandard.ZstdCompressor(level=LEVEL)
 
     def pack(self, image: Image, jpeg: bytes = b"") -> PackedImage:
-        """Pack an image (h, w, 3), BGR; `jpeg` is what it was decoded from, if anything."""
+        """Pack an image (h, w, 3), BGR; `jpeg` is the JPEG from which it was decoded, if any."""
         height, width = image.shape[:2]
         if jpeg:
             return PackedImage(packing=Packing.JPEG, size_wh_px=(width, height), content=jpeg)
@@ -91,6 +91,6 @@ def unpacked(packed: PackedImage) -> Image | None:
 
 
 def _has_equal_channels(image: Image) -> bool:
-    # A few pixels differ in nearly every colour image, and are compared first.
+    # A few pixels are compared first, because they differ in nearly every colour image.
     few = image[::16, ::16]
     return all(np.array_equal(part[:, :, 0], part[:, :, other]) for part in (few, image) for other in (1, 2))

@@ -1,4 +1,4 @@
-"""Reads a recording, also one that was cut: up to the last whole chunk."""
+"""Reader of recordings; an incomplete file is read up to its last complete chunk."""
 
 import json
 import struct
@@ -20,7 +20,7 @@ from server.recording_file.topics import PROFILE, ZSTD_JSON, Topic
 NANOSECONDS = 1e9
 MAX_RECORD_BYTES = 256 * 2**20
 MAX_VALUE_BYTES = 512 * 2**20
-# What a read raises for a length that is damaged.
+# Exceptions raised for a damaged length.
 TOO_LONG = (MemoryError, OverflowError)
 TOPICS = {one.value: one for one in Topic}
 
@@ -30,13 +30,13 @@ class RecordedMessage:
     """One message.
 
     Attributes:
-        topic: what it is.
-        channel_id: of its channel, see `RecordingReader.channels`.
-        log_ns: when, Unix time in ns.
-        sequence: number of the image, where it is about one.
-        content: its bytes.
-        packed: the image; None for every other message.
-        is_compressed: whether the content is compressed JSON.
+        topic: Its topic.
+        channel_id: Id of its channel, see `RecordingReader.channels`.
+        log_ns: Unix time in ns.
+        sequence: Number of the image if it refers to one.
+        content: Its bytes.
+        packed: The image; None for other messages.
+        is_compressed: Whether the content is compressed JSON.
     """
 
     topic: Topic
@@ -49,19 +49,19 @@ class RecordedMessage:
 
     @property
     def unix_s(self) -> float:
-        """When, Unix time."""
+        """Unix time of the message."""
         return self.log_ns / NANOSECONDS
 
     @property
     def image(self) -> Image | None:
-        """The image, decoded; None if it cannot be."""
+        """Return the decoded image; None if it cannot be decoded."""
         return None if self.packed is None else unpacked(self.packed)
 
     def json(self) -> Json:
-        """Return the message.
+        """Return the content of the message.
 
         Raises:
-            ValueError: it is no JSON.
+            ValueError: The content is not JSON.
         """
         content = self.content
         if self.is_compressed:
@@ -77,14 +77,14 @@ class RecordingReader:
     """The messages of a recording, in the order in which they were written.
 
     Attributes:
-        is_whole: whether the file was read to its proper end; known after `messages`.
-        is_damaged: whether a part that was read is not what was written.
-        why_cut: why it was not read to its end; empty if it was.
-        library: the program that wrote it, with its version.
-        channels, schemas: by id, of the messages that were read.
+        is_whole: Whether the file is complete; known after `messages`.
+        is_damaged: Whether a part of the file is damaged.
+        why_cut: Why it was not read to its end; empty if it was.
+        library: The program that wrote it, with its version.
+        channels, schemas: Channels and schemas of the messages read so far, by id.
 
     Raises:
-        RecordingError: RECORDING_NOT_READABLE: there is no such file, or it is no recording of Coaxial.
+        RecordingError: RECORDING_NOT_READABLE: The file does not exist or is not a recording of Coaxial.
     """
 
     def __init__(self, path: Path) -> None:
@@ -102,14 +102,14 @@ class RecordingReader:
             header = next(self._records, None)
         except (McapError, ValueError, EOFError, struct.error, *TOO_LONG) as error:
             self._file.close()
-            raise _not_readable(path, "it does not begin like an MCAP file") from error
+            raise _not_readable(path, "it is not an MCAP file") from error
         if not isinstance(header, Header) or header.profile != PROFILE:
             self._file.close()
-            raise _not_readable(path, "it is no recording of Coaxial")
+            raise _not_readable(path, "it is not a recording of Coaxial")
         self.library = header.library
 
     def messages(self) -> Iterator[RecordedMessage]:
-        """Yield the messages up to the end, or to where the file was cut or is damaged."""
+        """Yield the messages up to the end of the file, or to the point where it is truncated or damaged."""
         try:
             for record in self._records:
                 if isinstance(record, Channel):
@@ -125,9 +125,9 @@ class RecordingReader:
         except CRCValidationError:
             self.is_damaged, self.why_cut = True, "a checksum is wrong"
         except (McapError, ValueError, EOFError, struct.error, LookupError, *TOO_LONG):
-            self.why_cut = "it ends in the middle of a chunk"
+            self.why_cut = "it ends inside a chunk"
         else:
-            self.why_cut = "" if self.is_whole else "it has no end"
+            self.why_cut = "" if self.is_whole else "its end record is missing"
         finally:
             self._file.close()
 
@@ -160,6 +160,6 @@ def _not_readable(path: Path, why: str) -> RecordingError:
     return RecordingError(
         "RECORDING_NOT_READABLE",
         f"{path} cannot be read as a recording: {why}",
-        "Name a file that Coaxial recorded; recordings end in .mcap.",
+        "Give a recording of Coaxial (.mcap).",
         {"file": str(path)},
     )

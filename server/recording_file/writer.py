@@ -1,8 +1,8 @@
-"""Writes a recording.
+"""Writer of recordings.
 
-Messages are collected in chunks of at most `CHUNK_S`, each with its CRC; a thread syncs the disk as often, so
-that a killed process loses less than a second and a power failure hardly more. Before the disk or the budget
-is full the writer stops, while the file can still be closed properly.
+Messages are collected in chunks of at most `CHUNK_S`, each with its CRC. A thread syncs the disk at the same
+interval, so that a killed process loses less than a second, and a power failure little more. The writer stops
+before disk or budget are used up, so that the file can still be closed properly.
 """
 
 import errno
@@ -33,11 +33,11 @@ NANOSECONDS = 1e9
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WriterLimits:
-    """When a recording is stopped.
+    """Limits at which a recording is stopped.
 
     Attributes:
-        max_bytes: of this file.
-        min_free_bytes: on its disk.
+        max_bytes: Size of this file.
+        min_free_bytes: Free space on its disk.
     """
 
     max_bytes: float
@@ -53,11 +53,11 @@ class RecordingWriter:
     """One recording. Not thread-safe.
 
     Args:
-        path: a new file.
-        limits: when it is stopped.
-        unix_offset_s: added to monotonic times gives Unix time, which the file states.
-        free_bytes: returns the free space of a folder's disk.
-        open_file: opens the file; unbuffered.
+        path: A new file.
+        limits: Limits at which it is stopped.
+        unix_offset_s: Unix time minus monotonic time; the file contains Unix times.
+        free_bytes: Returns the free space on the disk of a folder.
+        open_file: Opens the file, unbuffered.
 
     Raises:
         RecordingError: RECORDING_NOT_WRITTEN.
@@ -95,13 +95,13 @@ class RecordingWriter:
 
     @property
     def written_bytes(self) -> int:
-        """Size of the file, with what is not flushed yet."""
+        """Size of the file, including data that are not flushed yet."""
         return self._file.written + self._pending
 
     def register(
         self, topic: Topic, schema: Mapping[str, Any] | None = None, *, encoding: str = JSON
     ) -> None:
-        """Make a topic known before its first message, with the JSON schema of its messages."""
+        """Register a topic before its first message, with the JSON schema of its messages."""
         key = (topic.value, encoding)
         if key in self._channels:
             return
@@ -121,7 +121,7 @@ class RecordingWriter:
         self._add(self._channels[(topic.value, JSON)], at_s, data, sequence)
 
     def add_compressed(self, topic: Topic, at_s: float, data: bytes, *, sequence: int = 0) -> None:
-        """Add what `compressed_json` returned."""
+        """Add the result of `compressed_json`."""
         self.register(topic, encoding=ZSTD_JSON)
         self._add(self._channels[(topic.value, ZSTD_JSON)], at_s, data, sequence)
 
@@ -154,10 +154,10 @@ class RecordingWriter:
         self._reject_above_limits()
 
     def close(self) -> None:
-        """Write what is left, with the index, and close the file.
+        """Write the remaining messages and the index, and close the file.
 
         Raises:
-            RecordingError: RECORDING_NOT_WRITTEN; what was written before is readable.
+            RecordingError: RECORDING_NOT_WRITTEN; the part written before is readable.
         """
         self._pending = 0
         try:
@@ -198,15 +198,15 @@ class RecordingWriter:
                 "RECORDING_DISK_FULL",
                 f"{free_bytes / 1e9:.2f} GB are free on the disk of the cases, and "
                 f"{self._limits.min_free_bytes / 1e9:.2f} GB must stay free (recording.min_free_gb)",
-                "Free disk space, then start the recording again. Navigation goes on.",
+                "Free disk space, then start the recording again. Navigation continues.",
                 {"free_bytes": free_bytes},
             )
 
 
 class _CountingFile:
-    """A file that writes all or raises, and knows its length.
+    """A file that writes all data or raises, and counts them.
 
-    It is none of `io`'s classes: their buffers would write again, after an error, when they are deleted.
+    The buffered classes of `io` are not used, because after an error they write again when they are deleted.
     """
 
     def __init__(self, file: RawIOBase) -> None:
@@ -228,7 +228,7 @@ class _CountingFile:
         return self.written
 
     def flush(self) -> None:
-        """Do nothing: nothing is buffered."""
+        """Do nothing, because nothing is buffered."""
 
     def fileno(self) -> int:
         return self._file.fileno()
@@ -238,7 +238,7 @@ class _CountingFile:
 
 
 class _SyncThread:
-    """Syncs a file on request, beside the writing: a slow disk must not delay the next image."""
+    """Syncs a file on request in a separate thread, because a slow disk must not delay the next image."""
 
     def __init__(self, descriptor: int) -> None:
         self._descriptor = descriptor
@@ -252,7 +252,7 @@ class _SyncThread:
         self._due.set()
 
     def stop(self) -> None:
-        """Sync a last time."""
+        """Sync once more and stop."""
         self._stopped = True
         self._due.set()
         self._thread.join()
@@ -264,7 +264,7 @@ class _SyncThread:
             try:
                 os.fsync(self._descriptor)
             except OSError as error:
-                # Pipes and the like cannot be synced.
+                # Pipes, for example, cannot be synced.
                 if error.errno != errno.EINVAL:
                     self.error = error
 
@@ -277,7 +277,7 @@ def _not_written(path: Path, error: OSError) -> RecordingError:
     return RecordingError(
         "RECORDING_NOT_WRITTEN",
         f"the recording {path.name} cannot be written: {what}",
-        "Check the disk of the cases, then start the recording again. Navigation goes on, and what was "
-        "written before is readable.",
+        "Check the disk of the cases, then start the recording again. Navigation continues, and the part "
+        "written so far is readable.",
         free,
     )

@@ -1,9 +1,9 @@
 """The 3-D scene at `/scene/`: vertebra, channel, live drill and camera, drawn by viser in the browser.
 
-The only room that knows viser. viser opens no port here and starts no thread: its producer of messages is
-driven from a WebSocket of the application itself (`door.py`), and nothing that a viewer sends reaches it
-(`gate.py`). What is drawn is decided in `nodes.py`, `drills.py` and `stage.py`, from where in `views.py`, and
-`page.py` with `watch.js` makes the page of viser say which image it has drawn, and look from there.
+Only this package imports viser. viser opens no port and starts no thread here: a WebSocket of the application
+drives its message producer (`door.py`), and no message of a viewer reaches it (`gate.py`). `nodes.py`,
+`drills.py` and `stage.py` define the content, `views.py` the viewpoints. `page.py` and `watch.js` make the
+page of viser report the drawn image and apply a viewpoint.
 """
 
 from server.scene.scene import Scene, mount_scene

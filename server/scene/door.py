@@ -1,11 +1,11 @@
-"""viser without a port, a thread or ears.
+"""viser without a port, a thread or message handlers.
 
 `viser.ViserServer` opens a port on construction, registers handlers for a public share tunnel and for its
-graphical controls, and prints. `Door` is the same object built by hand without any of that: it has a scene
-whose changes are kept in viser's buffer, and a coroutine that sends them to one viewer. It lives in the event
-loop of the application, so that what is drawn for one image can never be cut in two.
+graphical controls, and prints. `Door` builds the same object without these: a scene whose changes are stored
+in viser's buffer, and a coroutine that sends them to one viewer. It runs in the event loop of the
+application, so that the changes of one image are never split.
 
-Private names of viser are used here and nowhere else; `tests/server/scene/test_viser_contract.py` holds them.
+Private names of viser are used only here; `tests/server/scene/test_viser_contract.py` verifies them.
 """
 
 import asyncio
@@ -27,17 +27,17 @@ Send = Callable[[bytes], Awaitable[None]]
 
 
 class _Line:
-    """The one method of a websockets connection that viser's producer calls."""
+    """Connection with the only method that viser's producer calls."""
 
     def __init__(self, send: Send) -> None:
         self.send = send
 
 
 class Door(viser.ViserServer):
-    """viser's server as far as the scene needs it. Make it inside the running event loop."""
+    """The part of viser's server that the scene needs. Create it in the running event loop."""
 
     def __init__(self) -> None:
-        # Not super().__init__(): that opens a port on all interfaces, and a tunnel's handlers with it.
+        # super().__init__() is not called, because it opens a port on all interfaces and registers a tunnel.
         loop = asyncio.get_running_loop()
         server = infra.WebsockServer(
             host="", port=0, message_class=messages.Message, verbose=False, backlog_done_message=None
@@ -53,7 +53,7 @@ class Door(viser.ViserServer):
         self._event_loop = loop
         self._viewer_ids = itertools.count()
         self.scene = SceneApi(self, thread_executor=self._thread_executor, event_loop=loop)
-        # Handlers of clicks, drags and gizmos. Nothing is ever handed to them; without them nothing can be.
+        # Handlers of clicks, drags and gizmos, removed so that no message can reach them.
         server._incoming_handlers.clear()  # noqa: SLF001 held by the contract test
         server.queue_message(
             messages.ThemeConfigurationMessage(
@@ -68,11 +68,11 @@ class Door(viser.ViserServer):
         )
 
     async def serve(self, send: Send) -> None:
-        """Send the whole scene to one viewer and then each change, until `send` raises or the door closes.
+        """Send the whole scene to one viewer and then each change, until `send` raises or `stop` is called.
 
-        A viewer that is slow skips: only the newest of each pose is kept, once for all viewers.
+        A slow viewer skips changes: only the newest value of each pose is stored, once for all viewers.
         """
-        # What was removed from the scene need not be sent to a viewer that never got it.
+        # Removed nodes need not be sent to a new viewer.
         self._run_garbage_collector()
         await _message_producer(
             cast(Any, _Line(send)),
@@ -82,11 +82,11 @@ class Door(viser.ViserServer):
         )
 
     def stop(self) -> None:
-        """End all that is being served."""
+        """End all connections."""
         self._websock_server._broadcast_buffer.set_done()  # noqa: SLF001 held by the contract test
         self._thread_executor.shutdown(wait=False)
 
     def request_share_url(self, verbose: bool = True) -> str | None:
-        """Raise PermissionError: the theatre is not shown through somebody else's tunnel."""
+        """Raise PermissionError, because the scene must not be shown through a public tunnel."""
         del verbose
         raise PermissionError("the scene has no share tunnel")

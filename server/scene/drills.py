@@ -1,4 +1,4 @@
-"""What moves with a drill: the drill itself, how unsure it is, and where its tip was."""
+"""Nodes of a drill: the drill, the uncertainty of its pose, and the trace of its tip."""
 
 from dataclasses import dataclass
 
@@ -16,7 +16,7 @@ TRACE = (255, 196, 120)
 TRACE_PX = 3.0
 TIP_NODE, CONE_NODE = "/tip", "/cone"
 CONE_MM = 45.0
-# What is drawn thinner than this is lost, though it is as sure as that.
+# Minimum drawn half axis: a thinner ellipsoid would be invisible.
 MIN_MM = 0.05
 CORNERS = 24
 NO_SEGMENT = np.zeros((1, 2, 3), np.float32)
@@ -27,10 +27,10 @@ class DrillNow:
     """A drill in one image.
 
     Attributes:
-        world_from_tool: where it is in the scene.
-        spread: how unsure that is, where the world is the vertebra's; None where it is not known.
-        leaves_trace: whether the world is the patient, so that where it was means something.
-        at_s: of the image.
+        world_from_tool: Pose in the scene.
+        spread: Uncertainty of the pose in the vertebra frame; None if unknown.
+        leaves_trace: Whether the world is the vertebra frame, in which earlier positions are meaningful.
+        at_s: Time of the image.
     """
 
     world_from_tool: Rigid[World, Tool]
@@ -40,7 +40,7 @@ class DrillNow:
 
 
 class DrillNodes:
-    """The nodes of one drill, hidden until an image says where it is. Mutable."""
+    """The nodes of one drill, hidden until its pose is known. Mutable."""
 
     def __init__(self, scene: viser.SceneApi, node: str, tool: ToolModel) -> None:
         self._frame = add_tool(scene, node, tool)
@@ -74,7 +74,7 @@ class DrillNodes:
         self._trace = Trace()
 
     def show(self, now: DrillNow | None) -> None:
-        """Draw it as it is in this image; all of it is hidden where it is not seen."""
+        """Show the drill in its present pose; None hides all its nodes."""
         self._frame.visible = now is not None
         self._show_spread(now)
         self._show_trace(now)
@@ -84,7 +84,7 @@ class DrillNodes:
 
     @property
     def visible(self) -> bool:
-        """Whether any part of it is to be seen."""
+        """Whether any of its nodes is visible."""
         return any(node.visible for node in (self._frame, self._cone, self._ellipsoid, self._line))
 
     def _show_spread(self, now: DrillNow | None) -> None:
@@ -110,14 +110,14 @@ class DrillNodes:
 
 
 def _axes(ellipsoid_mm: Array) -> Array:
-    """The rotation (3, 3) whose columns are the directions of the half axes, also of one without length."""
+    """Return the rotation (3, 3) whose columns are the directions of the half axes, also of length 0."""
     directions, _ = np.linalg.qr(np.asarray(ellipsoid_mm).T + 1e-12 * np.eye(3))
     directions[:, 2] *= np.sign(np.linalg.det(directions))
     return np.asarray(directions)
 
 
 def _cone() -> tuple[Array, Array]:
-    """A cone of height and radius 1, its apex at the origin and open at its end."""
+    """Return an open cone of height and radius 1 with its apex at the origin."""
     turn = np.linspace(0.0, 2.0 * np.pi, CORNERS, endpoint=False)
     ring = np.stack([np.cos(turn), np.sin(turn), np.ones(CORNERS)], axis=1)
     corner = np.arange(CORNERS)

@@ -1,4 +1,4 @@
-"""What a viewer of the scene may say. Who is let in at all is `server.security.hosts`' to judge."""
+"""Filter of messages from viewers of the scene. `server.security.hosts` checks who may connect."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -6,41 +6,41 @@ from importlib.metadata import version
 
 import msgspec
 
-# What viser's client names, without an import of viser.
+# Message name of viser's client, repeated here to avoid importing viser.
 SUBPROTOCOL = f"viser-v{version('viser')}"
 CAMERA_MESSAGE = "ViewerCameraMessage"
 LARGEST_MESSAGE_BYTES = 64 * 1024
 # viser's client sends its camera at most 20 times a second while a person turns the view.
 MESSAGES_PER_S = 60.0
 BURST = 120.0
-# A viewer that goes on like this is no viewer.
+# Number of rejected messages after which a viewer is disconnected.
 REJECTIONS_BEFORE_GOODBYE = 500
 
 
 class Verdict(StrEnum):
-    """What became of one message of a viewer."""
+    """Verdict on one message of a viewer."""
 
-    CAMERA = "camera"  # the view was turned
+    CAMERA = "camera"  # the view was rotated
     TOO_LARGE = "too_large"
     TOO_OFTEN = "too_often"
-    UNWANTED = "unwanted"  # any other message that viser knows, and all that is no message
+    UNWANTED = "unwanted"  # any other message of viser, and invalid messages
 
 
 class _Kind(msgspec.Struct):
-    """The one field that is looked at."""
+    """The only field that is read."""
 
     type: str
 
 
 @dataclass(kw_only=True, slots=True)
 class Gate:
-    """Judges the messages of one viewer; time comes in as a number.
+    """Filters the messages of one viewer. Times are passed in.
 
-    Only the camera's messages are let in, and nobody needs them now: what a viewer sends is judged, counted
-    and dropped here, so that no handler of viser can be reached from a browser.
+    All messages are counted and dropped, so that no handler of viser can be reached from a browser; only
+    camera messages are expected.
 
     Attributes:
-        counts: messages by verdict.
+        counts: Number of messages by verdict.
     """
 
     counts: dict[Verdict, int]
@@ -49,7 +49,7 @@ class Gate:
     judged_at_s: float | None = None
 
     def judge(self, message: bytes | str | None, *, now_s: float) -> Verdict:
-        """The verdict on one message that arrived at monotonic time `now_s`."""
+        """Return the verdict on a message that arrived at monotonic time `now_s`."""
         if self.judged_at_s is not None:
             self.allowance = min(BURST, self.allowance + (now_s - self.judged_at_s) * MESSAGES_PER_S)
         self.judged_at_s = now_s
@@ -60,7 +60,7 @@ class Gate:
 
     @property
     def goodbye(self) -> bool:
-        """Whether this viewer is disconnected for too many rejected messages."""
+        """Whether this viewer must be disconnected for too many rejected messages."""
         return self.rejections > REJECTIONS_BEFORE_GOODBYE
 
     def _verdict(self, message: bytes | str | None) -> Verdict:

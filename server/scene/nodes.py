@@ -1,7 +1,7 @@
-"""What stands in the scene: bone, channel, camera, drills. Colours and sizes are decided here.
+"""Nodes of the scene with their colours and sizes: bone, channel, camera, drills.
 
-The world of the scene is the vertebra's frame when plan and patient are registered. When they are not, nobody
-knows where the bone and the channel are, so they are not drawn, and the world is the camera's frame.
+The world of the scene is the vertebra frame if plan and patient are registered. Otherwise the positions of
+bone and channel are unknown, so that they are not drawn, and the world is the camera frame.
 """
 
 import math
@@ -29,8 +29,8 @@ CAMERA = (140, 156, 172)
 
 CAMERA_SIZE_MM = 40.0
 AXIS_RADIUS_MM = 0.35
-CHANNEL_LEAD_MM = 60.0  # how far the channel's axis is drawn out of the bone, towards the hand
-DRILL_LEAD_MM = 60.0  # how far the drill's axis is drawn ahead of its tip
+CHANNEL_LEAD_MM = 60.0  # extension of the channel's axis outside the bone
+DRILL_LEAD_MM = 60.0  # extension of the drill's axis ahead of its tip
 VIEW_ANGLE_RAD = math.radians(40.0)
 ORIENTATION = {
     "L": (1, 0, 0),
@@ -46,23 +46,23 @@ Quaternion = tuple[float, float, float, float]
 
 
 class World:
-    """The frame of the scene: the vertebra's when registered, else the camera's."""
+    """The frame of the scene: the vertebra frame if registered, otherwise the camera frame."""
 
 
 def quaternion(rotation: Array) -> Quaternion:
-    """(w, x, y, z) of a rotation matrix (3, 3)."""
+    """Return the quaternion (w, x, y, z) of a rotation matrix (3, 3)."""
     w, x, y, z = (float(v) for v in SO3.from_matrix(rotation).wxyz)
     return w, x, y, z
 
 
 def vector(values: Array) -> Vector:
-    """Three plain numbers."""
+    """Return three Python floats."""
     x, y, z = (float(v) for v in values)
     return x, y, z
 
 
 def add_bone(scene: viser.SceneApi, root: str, surface: Surface) -> None:
-    """The vertebra, translucent so that the channel is seen inside, with letters for its sides."""
+    """Add the vertebra, translucent so that the channel is visible inside, with letters for its sides."""
     scene.add_mesh_simple(
         f"{root}{BONE_NODE}",
         np.asarray(surface.vertices_mm, dtype=np.float32),
@@ -85,7 +85,7 @@ def add_bone(scene: viser.SceneApi, root: str, surface: Surface) -> None:
 
 
 def add_channel(scene: viser.SceneApi, root: str, channel: Channel) -> None:
-    """The planned channel, and its axis drawn on towards the hand that shall find it."""
+    """Add the planned channel with its axis, extended outside the bone."""
     axis = channel.axis_in_vertebra
     turned = quaternion(rotation_between([0.0, 0.0, 1.0], axis))
     middle = (channel.entry_in_vertebra_mm + channel.target_in_vertebra_mm) / 2
@@ -94,7 +94,7 @@ def add_channel(scene: viser.SceneApi, root: str, channel: Channel) -> None:
         radius=channel.radius_mm,
         height=channel.length_mm,
         color=CHANNEL,
-        # The drill is to be seen inside, and how unsure its tip is.
+        # Translucent, so that the drill and its uncertainty are visible inside.
         opacity=CHANNEL_OPACITY,
         wxyz=turned,
         position=vector(middle),
@@ -114,7 +114,7 @@ def add_channel(scene: viser.SceneApi, root: str, channel: Channel) -> None:
 
 
 def add_screw(scene: viser.SceneApi, root: str, channel: Channel, screw: ScrewSize) -> None:
-    """The planned screw in its channel."""
+    """Add the planned screw in its channel."""
     axis = channel.axis_in_vertebra
     scene.add_cylinder(
         f"{root}/screw",
@@ -130,7 +130,7 @@ def add_screw(scene: viser.SceneApi, root: str, channel: Channel, screw: ScrewSi
 
 
 def add_camera(scene: viser.SceneApi, root: str, camera: CameraModel) -> viser.CameraFrustumHandle:
-    """The camera that sees the marker, hidden until an image says where it is."""
+    """Add the camera, hidden until its pose is known."""
     width, height = camera.size_wh_px
     return scene.add_camera_frustum(
         f"{root}/camera",
@@ -146,15 +146,15 @@ def add_camera(scene: viser.SceneApi, root: str, camera: CameraModel) -> viser.C
 
 
 def add_tool(scene: viser.SceneApi, node: str, tool: ToolModel) -> viser.FrameHandle:
-    """A drill, hidden: its shaft behind the tip, the burr at the tip, and its axis drawn on ahead.
+    """Add a hidden drill: shaft behind the tip, burr at the tip, and its axis extended ahead.
 
-    The frame's origin is the tip and its +z the drilling direction.
+    The origin of its frame is the tip, and +z is the drilling direction.
     """
     frame = scene.add_frame(node, show_axes=False, visible=False)
     burr_mm = 1.25 * tool.radius_mm
     shaft_mm = max(tool.length_mm - burr_mm, burr_mm)
     for part, radius_mm, length_mm, middle_mm in (
-        # The shaft ends inside the burr, whose foremost point is the tip.
+        # The shaft ends inside the burr; the tip is the foremost point of the burr.
         ("shaft", tool.radius_mm, shaft_mm, -burr_mm - shaft_mm / 2),
         ("axis", AXIS_RADIUS_MM, DRILL_LEAD_MM, DRILL_LEAD_MM / 2),
     ):
@@ -179,7 +179,7 @@ def add_tool(scene: viser.SceneApi, node: str, tool: ToolModel) -> viser.FrameHa
 
 
 def add_reference(scene: viser.SceneApi, root: str) -> viser.FrameHandle:
-    """The marker on the patient, hidden until an image shows it: its three axes and what it is."""
+    """Add the axes and the label of the marker on the patient, hidden until an image shows the marker."""
     frame = scene.add_frame(f"{root}/reference", axes_length=14.0, axes_radius=0.7, visible=False)
     scene.add_label(f"{root}/reference/name", "REF", position=(0.0, -16.0, 0.0), anchor="center-center")
     return frame

@@ -1,4 +1,4 @@
-"""The page of viser, made fit for a theatre: hardened, calling nobody outside, watched by `watch.js`."""
+"""The page of viser, hardened, without external requests, and monitored by `watch.js`."""
 
 import gzip
 import hashlib
@@ -16,8 +16,8 @@ from server.scene.nodes import BONE_NODE, CHANNEL_NODE
 from server.scene.stage import NUMBER_BASE, NUMBER_NODE
 from server.scene.views import ANGLE_DEG, VIEWS_NODE
 
-# Hides every control that viser has or will have: nothing but the drawing is visible, and what is not visible
-# takes no touch.
+# Hides all present and future controls of viser: only the drawing is visible, and invisible elements
+# receive no touches.
 STYLE = """
 html, body, #root { background: #0b0f14 !important; }
 body * { visibility: hidden !important; }
@@ -33,12 +33,12 @@ HOST = re.compile(r"[A-Za-z0-9.\-]+(:\d+)?|\[[0-9A-Fa-f:.]+\](:\d+)?")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Page:
-    """The document as it is sent.
+    """The HTML document.
 
     Attributes:
-        plain: as it is.
-        zipped: the same by gzip.
-        etag: changes when it does.
+        plain: Uncompressed content.
+        zipped: Content compressed with gzip.
+        etag: ETag of the content.
     """
 
     plain: bytes
@@ -46,7 +46,7 @@ class Page:
     etag: str
 
     def answer(self, request: Request) -> Response:
-        """The document, or 304 when the browser has it already."""
+        """Return the document, or 304 if the browser has it."""
         headers = {
             "Cache-Control": "no-cache",
             "ETag": self.etag,
@@ -67,11 +67,11 @@ class Page:
 
 
 def content_security_policy(host: str | None) -> str:
-    """What this document may do: run itself, and talk to this server only.
+    """Return the Content-Security-Policy of this document, which allows connections to this server only.
 
-    The page of viser unpacks its own code and style into inline elements, runs WebAssembly, and keeps its
-    WebSocket in a worker made from a blob. It needs no eval: only its sorter of splats does, which is not
-    used here. Not all browsers count ws: as 'self', so the address is written out.
+    The page of viser unpacks code and styles into inline elements, runs WebAssembly, and opens its WebSocket
+    in a worker made from a blob. It does not need eval; only the sorting of splats does, which is not used.
+    The WebSocket address is listed, because some browsers do not count ws: as 'self'.
     """
     lines = f" ws://{host} wss://{host}" if host is not None and HOST.fullmatch(host) else ""
     return (
@@ -82,7 +82,7 @@ def content_security_policy(host: str | None) -> str:
 
 
 def make_page(*, stale_after_ms: float, silent_after_ms: float) -> Page:
-    """The page of viser with the watching script and the style put in before `</head>`."""
+    """Return the page of viser with script and style inserted before `</head>`."""
     source = Path(viser.__file__).parent / "client" / "build" / "index.html"
     script = Path(__file__).with_name("watch.js").read_text(encoding="utf-8")
     values = {
@@ -98,7 +98,7 @@ def make_page(*, stale_after_ms: float, silent_after_ms: float) -> Page:
         script = script.replace(token, json.dumps(value))
     head = f"<script>{script}</script><style>{STYLE}</style>"
     html = source.read_text(encoding="utf-8").replace("<title>Viser</title>", "<title>Coaxial scene</title>")
-    # Before viser's own loader, which stands in the head too: what it finds must be wrapped already.
+    # Before viser's loader, which is in the head as well and must find the wrapped functions.
     html = html.replace("<head>", f"<head>{head}", 1)
     plain = html.encode()
     return Page(

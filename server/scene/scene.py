@@ -1,4 +1,4 @@
-"""The scene as a part of the application: its two addresses, its update task, its viewers."""
+"""The scene in the application: routes, update task and viewers."""
 
 import asyncio
 import contextlib
@@ -26,13 +26,13 @@ if TYPE_CHECKING:
     from server.scene.page import Page
     from server.scene.stage import Stage
 
-# A viewer that takes nothing for 2 s is dropped, beside the time that a thin line needs for the last message.
+# A viewer to which nothing can be sent for 2 s is disconnected; a slow connection gets more time per message.
 SEND_TIMEOUT_S = 2.0
 THINNEST_LINE_BYTES_PER_S = 50_000
-# Above the rate of any camera here; a pause of a full period would miss images of a camera at 60 Hz.
+# Above the rate of any camera; a pause of a full period would miss images of a camera at 60 Hz.
 MIN_INTERVAL_S = 1 / 100
-# The scene says something at least once in the time after which it counts as stale. A page that has heard
-# nothing for much longer asks for a new line.
+# The scene sends a message at least once in the time after which it counts as stale. A page that receives
+# nothing for much longer reconnects.
 MIN_SILENCE_MS = 6000.0
 
 GOING_AWAY, REJECTED, CROWDED = 1001, 1008, 1013
@@ -41,30 +41,30 @@ _log = structlog.get_logger(__name__)
 
 
 Cut: TypeAlias = Callable[[MutableMapping[str, Any]], None]
-# A place for as long as somebody watches, or a NavigationError where there is none for them.
+# Registers a viewer for the duration of its connection; raises a NavigationError if it is not admitted.
 Admit: TypeAlias = Callable[[Person], AbstractContextManager[object]]
 
 
 def anybody(_person: Person) -> AbstractContextManager[object]:
-    """A place for each who comes, where nobody counts them."""
+    """Admit everybody; used if viewers are not limited."""
     return nullcontext()
 
 
 class Application(Protocol):
-    """What is needed of the application: a Starlette or FastAPI object."""
+    """The required part of a Starlette or FastAPI application."""
 
     router: Any
     state: Any
 
 
 class Scene:
-    """Follows the newest instant and shows it to any number of viewers.
+    """Shows the newest instant to any number of viewers.
 
     Attributes:
         routes: `GET /scene/` and `WS /scene`.
-        viewers: how many are watching now.
-        counts: messages from viewers by what became of them, since the start.
-        slow_viewers: how many were dropped because nothing could be sent to them for 2 s.
+        viewers: Present number of viewers.
+        counts: Number of messages from viewers by verdict, since the start.
+        slow_viewers: Number of viewers disconnected because nothing could be sent to them for 2 s.
     """
 
     def __init__(
@@ -109,9 +109,9 @@ class Scene:
         self._update_task.add_done_callback(_log_end)
 
     async def _opened_page(self) -> "Page":
-        """Return the page; the first call loads viser and makes the stage.
+        """Return the page; the first call imports viser and creates the stage.
 
-        To load it takes an eighth of the time of a start, and many servers never show a scene.
+        Imported on demand, because it takes an eighth of the start and many servers never show a scene.
         """
         async with self._opening:
             if self._page is None:
@@ -125,7 +125,7 @@ class Scene:
             return self._page
 
     def show_surface(self, surface: Surface | None) -> None:
-        """Show this bone from now on, or none. From any thread."""
+        """Show this bone, or none, from now on. From any thread."""
         self._surface = surface
         if self._loop is not None and not self._loop.is_closed():
             self._loop.call_soon_threadsafe(self._take_surface)
@@ -152,7 +152,7 @@ class Scene:
                 async with asyncio.timeout(self._stale_after_s):
                     instant = await self._hub.next_after(sequence)
             except TimeoutError:
-                # Nobody says anything any more: what stands in the scene is not true now.
+                # Without updates the content of the scene is no longer valid.
                 self._instant = None
                 if self._stage is not None:
                     self._stage.show_nothing()
@@ -173,7 +173,7 @@ class Scene:
         return (await self._opened_page()).answer(request)
 
     async def _watch(self, websocket: WebSocket) -> None:
-        """One viewer, from its handshake to its end."""
+        """Serve one viewer from the handshake to the end of its connection."""
         rejection = self._rejection(websocket)
         if rejection is None:
             await self._opened_page()
@@ -190,10 +190,10 @@ class Scene:
             await websocket.close(CROWDED)
 
     async def _show(self, door: "Door", websocket: WebSocket) -> None:
-        """One who was let in."""
+        """Serve an admitted viewer."""
         self.viewers += 1
         if self.viewers == 1 and self._stage is not None and self._instant is not None:
-            # Nothing was drawn while nobody watched.
+            # Nothing is drawn without viewers.
             self._draw(self._stage, self._instant)
         try:
             await websocket.accept(subprotocol=SUBPROTOCOL)
@@ -206,11 +206,11 @@ class Scene:
         finally:
             self.viewers -= 1
             if self.viewers == 0 and self._stage is not None:
-                # What stands in it is not renewed, and the next viewer must not find it.
+                # The content is no longer updated, and the next viewer must not see it.
                 self._stage.show_nothing()
 
     async def _serve(self, door: "Door", websocket: WebSocket) -> int | None:
-        """Speak and listen until one of both ends; the close code, or None when nobody is left to close."""
+        """Send and receive until one of both ends; return the close code, or None after a disconnect."""
         tasks = [
             asyncio.create_task(self._speak(door, websocket)),
             asyncio.create_task(self._listen(websocket)),
@@ -220,13 +220,13 @@ class Scene:
         finally:
             for task in tasks:
                 task.cancel()
-            # Not gather(): it would hide from an outer cancel scope that the cancellation was its own.
+            # Not gather(): it would hide from an outer cancel scope the origin of its cancellation.
             await asyncio.wait(tasks)
         return next((code for code in [task.result() for task in done] if code is not None), None)
 
     def _rejection(self, websocket: WebSocket) -> str | None:
         headers = websocket.headers
-        # Asked here too, so that the scene is as safe in an app without the guard.
+        # Checked here as well, so that the scene is also safe in an application without the guard.
         if not is_same_origin(origin=headers.get("origin"), host=headers.get("host", "")):
             return "from another page"
         if SUBPROTOCOL not in websocket.scope.get("subprotocols", []):
@@ -234,7 +234,7 @@ class Scene:
         return None
 
     async def _speak(self, door: "Door", websocket: WebSocket) -> int | None:
-        """Send the scene; the close code, or None when there is nobody left to close."""
+        """Send the scene; return the close code, or None after a disconnect."""
         underway_bytes = 0
 
         async def send(message: bytes) -> None:
@@ -249,7 +249,7 @@ class Scene:
             self.slow_viewers += 1
             _log.info("scene_viewer_dropped", blocked_s=SEND_TIMEOUT_S)
             if self._cut is not None:
-                # Closing would wait for ever behind what the viewer does not take.
+                # A close frame would wait forever behind data that the viewer does not read.
                 self._cut(websocket.scope)
             return None
         except WebSocketDisconnect:
@@ -257,7 +257,7 @@ class Scene:
         return GOING_AWAY
 
     async def _listen(self, websocket: WebSocket) -> int | None:
-        """Judge what comes; the close code for a viewer that must go, or None when it went by itself."""
+        """Filter received messages; return the close code for an abusive viewer, None after a disconnect."""
         gate = Gate(counts=self.counts)
         while True:
             message = await websocket.receive()
@@ -278,7 +278,7 @@ def _loaded_page(stale_after_ms: float) -> "Page":
 
 
 def _log_end(task: asyncio.Task[None]) -> None:
-    """Log why the update task ended by itself, which leaves every viewer with a stale scene."""
+    """Log an unexpected end of the update task, which leaves every viewer with a stale scene."""
     if not task.cancelled() and (error := task.exception()) is not None:
         _log.critical("scene_update_died", exc_info=error)
 
@@ -295,9 +295,9 @@ def mount_scene(
 ) -> None:
     """Add `GET /scene/` and `WS /scene`, and put the scene at `app.state.scene`.
 
-    The application's lifespan calls `app.state.scene.start()` and `.stop()`. The routes go first, so that a
-    catch-all for the page's own addresses does not hide them. `admit` gives places; `cut` ends the connection
-    of a viewer that is stalled.
+    The application's lifespan calls `app.state.scene.start()` and `.stop()`. The routes are inserted first,
+    so that a catch-all route of the page does not hide them. `admit` registers a viewer or rejects it; `cut`
+    aborts the connection of a stalled viewer.
     """
     scene = Scene(
         hub=hub,

@@ -1,4 +1,4 @@
-"""Puts one instant into the scene, all of it or nothing."""
+"""Drawing of one instant into the scene, atomically."""
 
 import viser
 
@@ -24,16 +24,16 @@ from tracker.plan import Channel, Surface
 from tracker.pose import Seen
 
 NUMBER_NODE = "/image_number"
-# viser leaves out a change of position below 1e-5 of its size, which one image in 100000 is. So the number
-# travels in two parts, each small enough: thousands and the rest.
+# viser drops relative changes of a position below 1e-5, so that the image number is sent in two parts:
+# thousands and the rest.
 NUMBER_BASE = 1000
 
 
 def number_position(image_number: int | None, *, beats: int) -> Vector:
-    """The image's number as the position of a hidden node: 1 + thousands, and the rest.
+    """Encode the image number as the position of a hidden node: x = 1 + thousands, y = the rest.
 
-    x is 0 when no image is shown, as it is for the moment before a new node has its first position. z changes
-    with each batch, so that a page can tell a quiet theatre from a dead line.
+    x is 0 if no image is shown, as before a new node has its first position. z changes with each batch, so
+    that a page can distinguish an unchanged scene from a lost connection.
     """
     if image_number is None:
         return 0.0, 0.0, float(beats % NUMBER_BASE)
@@ -42,7 +42,7 @@ def number_position(image_number: int | None, *, beats: int) -> Vector:
 
 
 class Stage:
-    """The scene as it is drawn now. Call it from the event loop only."""
+    """The drawn scene. Call it from the event loop only."""
 
     def __init__(self, door: Door, *, setup: Setup | None, surface: Surface | None) -> None:
         self._door = door
@@ -59,7 +59,7 @@ class Stage:
         self._views = ViewNodes(scene)
         scene.configure_environment_map(hdri=None)
         scene.configure_default_lights(enabled=True, cast_shadow=False)
-        # The map of surroundings is off, so the shaded sides need a light of their own.
+        # The environment map is off, so that the shaded sides need a separate light.
         scene.add_light_ambient("/light", intensity=1.4)
         door.initial_camera.fov = VIEW_ANGLE_RAD
         door.initial_camera.near = 1.0
@@ -69,7 +69,7 @@ class Stage:
         self._count(None)
 
     def show(self, instant: Instant) -> None:
-        """Draw this instant: each drill where it is, hidden where it is not seen, and the image's number."""
+        """Draw this instant: each visible drill in its pose, other drills hidden, and the image number."""
         snapshot = instant.snapshot
         if snapshot is None:
             self.show_nothing()
@@ -88,7 +88,7 @@ class Stage:
         self._door.flush()
 
     def show_nothing(self) -> None:
-        """Hide every drill: no image says where it is."""
+        """Hide every drill, because there is no image."""
         with self._door.atomic():
             if self._reference is not None:
                 self._reference.visible = False
@@ -98,7 +98,7 @@ class Stage:
         self._door.flush()
 
     def show_surface(self, surface: Surface | None) -> None:
-        """This is the bone from now on; what moves comes with the next image."""
+        """Replace the bone; moving nodes follow with the next image."""
         if surface is self._surface:
             return
         self._surface = surface
@@ -133,10 +133,10 @@ class Stage:
         self._reference.visible = isinstance(seen, Seen) and world_from_camera is not None
 
     def _build(self, setup: Setup | None) -> None:
-        """Draw all that does not move, anew; drills are there but hidden."""
+        """Rebuild all static nodes, and the drills as hidden nodes."""
         scene = self._door.scene
-        # Under a new name each time: where a name is removed and given again at once, a viewer keeps the old
-        # pose and visibility for the new node.
+        # Under a new name each time, because a viewer keeps pose and visibility of a node that is removed and
+        # added again under the same name.
         if self._root is not None:
             self._root.remove()
         self._generation += 1
@@ -158,14 +158,14 @@ class Stage:
             self._camera = add_camera(scene, root, setup.camera)
             if setup.reference:
                 self._reference = add_reference(scene, root)
-        # Numbered, because a name may hold a slash, which is viser's sign for a child.
+        # Numbered, because a name may contain a slash, which separates child nodes in viser.
         for index, (name, tool) in enumerate(setup.tools.items()):
             self._tools[name] = DrillNodes(scene, f"{root}/tool_{index}", tool)
 
     def _look(self, setup: Setup | None) -> None:
         view, along = first_view(setup, self._surface), channel_view(setup)
         self._views.put(ViewName.BEHIND, view)
-        # Where there is no channel, along it is as from behind.
+        # Without a channel, the view along it is the view from behind.
         self._views.put(ViewName.CHANNEL, along or view)
         self._door.scene.set_up_direction(view.up)
         camera = self._door.initial_camera
@@ -177,7 +177,7 @@ class Stage:
 
 
 def _world_from_camera(snapshot: NavigationSnapshot) -> Rigid[World, Camera] | None:
-    """Where the camera is in the scene; None while the patient's reference is not seen."""
+    """Return the pose of the camera in the scene; None while the patient's reference is not seen."""
     if isinstance(snapshot.setup.registration, Absent):
         return Rigid.identity()
     if isinstance(snapshot.vertebra, Absent):
@@ -189,7 +189,7 @@ def _world_from_camera(snapshot: NavigationSnapshot) -> Rigid[World, Camera] | N
 def _drill_now(
     snapshot: NavigationSnapshot, name: str, world_from_camera: Rigid[World, Camera] | None
 ) -> DrillNow | None:
-    """Where a drill is drawn; None where its place in the scene is not known."""
+    """Return the state of a drill; None if its pose in the scene is unknown."""
     tool, judged = snapshot.tools[name], snapshot.analyses[name]
     if world_from_camera is None or isinstance(tool, Absent):
         return None
@@ -202,7 +202,7 @@ def _drill_now(
 
 
 def _key(setup: Setup) -> tuple[object, ...]:
-    """Equal for setups that look alike: each image brings a copy of its own through the pipe."""
+    """Return a key that is equal for setups of equal appearance; each image has its own copy of the setup."""
     channel, registration = setup.channel, setup.registration
     return (
         setup.camera_calibrated,

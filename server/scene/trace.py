@@ -1,4 +1,4 @@
-"""Where the drill's tip was in the last seconds."""
+"""Trace of a drill's tip over the last seconds."""
 
 from collections import deque
 
@@ -8,19 +8,19 @@ from tracker.geometry import Array
 
 SPAN_S = 10.0
 EVERY_S = 0.1
-# A tip that was away for longer came back from elsewhere.
+# After a longer absence of the tip its positions are not connected.
 LONGEST_GAP_S = 1.0
 
 
 class Trace:
-    """The places of one tip in the world of the scene. Mutable; time comes in with each place."""
+    """Positions of one tip in the world of the scene. Mutable; times are passed in."""
 
     def __init__(self) -> None:
         self._places: deque[tuple[float, Array]] = deque()
         self._seen_at_s = -np.inf
 
     def take(self, tip_mm: Array, *, at_s: float) -> bool:
-        """One more place (3,); whether the trace is another one now."""
+        """Add a position (3,); return whether the trace has changed."""
         if not 0.0 <= at_s - self._seen_at_s <= LONGEST_GAP_S:
             self._places.clear()
         self._seen_at_s = at_s
@@ -33,6 +33,6 @@ class Trace:
 
     @property
     def segments_mm(self) -> Array:
-        """(n, 2, 3), from place to place; empty with fewer than two."""
+        """Return the segments (n, 2, 3) between positions; empty for fewer than two positions."""
         places = np.array([place for _, place in self._places]).reshape(-1, 3)
         return np.stack([places[:-1], places[1:]], axis=1)

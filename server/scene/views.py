@@ -1,7 +1,7 @@
-"""From where a viewer looks: from behind the patient, along the channel, or as the camera does.
+"""Viewpoints of the scene: from behind the patient, along the channel, or from the camera.
 
-Each view is sent as three hidden nodes, its eye, what it looks at, and what is up; `watch.js` puts the viewer
-there. So a viewer changes the view without asking the server, and follows it when it moves.
+Each view is sent as three hidden nodes (eye, target, up) that `watch.js` applies. A viewer can therefore
+change the view without a request, and follows a moving view.
 """
 
 from dataclasses import dataclass
@@ -16,18 +16,18 @@ from tracker.navigation import Absent, Setup
 from tracker.plan import Channel, Surface
 
 VIEWS_NODE = "/views"
-# From far away under a narrow angle, so that a drill on its axis is a disc, as in the bull's-eye.
+# Distant eye with a narrow field of view, so that a drill on the axis is a disc, as in the bull's-eye.
 ALONG_MM = 500.0
 NARROW_DEG = 11.0
 USUAL_DEG = 40.0
-# The frame of the camera itself is drawn up to here; the eye stands before it.
+# Length of the drawn camera frustum; the eye is in front of it.
 CAMERA_FRAME_MM = 45.0
-# How far in front of the camera the patient usually is.
+# Usual distance of the patient from the camera.
 WORKING_MM = 300.0
 
 
 class ViewName(StrEnum):
-    """The views that there are."""
+    """Available views."""
 
     BEHIND = "behind"
     CHANNEL = "channel"
@@ -36,7 +36,7 @@ class ViewName(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class View:
-    """Where a viewer stands, in the world of the scene, in mm."""
+    """A viewpoint in the world of the scene, in mm."""
 
     position_mm: Array
     look_at_mm: Array
@@ -47,7 +47,7 @@ ANGLE_DEG = {ViewName.BEHIND: USUAL_DEG, ViewName.CHANNEL: NARROW_DEG, ViewName.
 
 
 class ViewNodes:
-    """The nodes of all views. Mutable: their places."""
+    """The nodes of all views. Mutable."""
 
     def __init__(self, scene: viser.SceneApi) -> None:
         self._nodes = {
@@ -59,7 +59,7 @@ class ViewNodes:
         }
 
     def put(self, name: ViewName, view: View) -> None:
-        """This is the view from now on."""
+        """Set a view."""
         up_mm = np.asarray(view.position_mm) + 100.0 * np.asarray(view.up)
         places = (view.position_mm, view.look_at_mm, up_mm)
         for node, place in zip(self._nodes[name], places, strict=True):
@@ -67,9 +67,9 @@ class ViewNodes:
 
 
 def first_view(setup: Setup | None, surface: Surface | None) -> View:
-    """From behind the patient, above and to the side, so that channel and drill are seen at once."""
+    """Return a view from behind the patient, above and to the side, that shows channel and drill."""
     if setup is None or isinstance(setup.registration, Absent):
-        # Camera's frame: stand behind the camera's shoulder and look where the drill works.
+        # In the camera frame: from behind and beside the camera towards the drill.
         return View(
             position_mm=np.array([-260.0, -220.0, -180.0]),
             look_at_mm=np.array([0.0, 0.0, WORKING_MM]),
@@ -91,7 +91,7 @@ def first_view(setup: Setup | None, surface: Surface | None) -> View:
 
 
 def channel_view(setup: Setup | None) -> View | None:
-    """From outside along the channel, as the bull's-eye has it; None where no channel stands in the scene."""
+    """Return the view from outside along the channel, as in the bull's-eye; None without a channel."""
     if setup is None or isinstance(setup.registration, Absent) or not isinstance(setup.channel, Channel):
         return None
     channel = setup.channel
@@ -103,7 +103,7 @@ def channel_view(setup: Setup | None) -> View | None:
 
 
 def camera_view(world_from_camera: Rigid[World, Camera]) -> View:
-    """As the camera sees the patient."""
+    """Return the view of the camera on the patient."""
     return View(
         position_mm=world_from_camera.move_points(np.array([0.0, 0.0, CAMERA_FRAME_MM])),
         look_at_mm=world_from_camera.move_points(np.array([0.0, 0.0, WORKING_MM])),

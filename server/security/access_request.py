@@ -1,4 +1,4 @@
-"""One request or WebSocket handshake, as the access rules need it: who, and for what."""
+"""Attributes of a request or WebSocket handshake for the access rules: person and action."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The one table of permissions. What is not in it is denied to everybody.
+"""The table of permissions. Routes that are not in it are denied to everybody.
 
 A test compares it with the routes of the application: a new route must be added here.
 """

@@ -91,7 +91,9 @@ class _AuditedResponse:
         problem = await self.write()
         if problem is not None and self.keeps_answer:
             log.warning(
-                "it was done, but is not in the audit log yet", what=self.entry.what, code=problem.code
+                "the action was done, but is not in the audit log yet",
+                what=self.entry.what,
+                code=problem.code,
             )
             problem = None
         if problem is not None and self.status is not None and self.status < REJECTED:
@@ -122,7 +124,7 @@ def _code_in(body: bytes) -> str:
 def _not_audited(problem: NavigationError) -> dict[str, object]:
     return {
         "code": "AUDIT_NOT_WRITTEN",
-        "message": f"it was done, but is not in the audit log yet: {problem.message}",
-        "remedy": "Do not do it again; make room on the server's disk, and it is written by itself.",
+        "message": f"the action was done, but is not in the audit log yet: {problem.message}",
+        "remedy": "Do not repeat it. Free space on the server's disk; the entry is then written.",
         "context": problem.context,
     }

@@ -11,11 +11,11 @@ STATE_KEY = "coaxial_person"
 class Role(StrEnum):
     """Role of a person; `access_rules.py` has the permissions."""
 
-    OPERATOR = "operator"  # sets up, registers, confirms
-    SUPERVISOR = "supervisor"  # sees all, points, co-signs, requests a hold; moves nothing
-    VIEWER = "viewer"  # sees
-    SCREEN = "screen"  # the screen in theatre: sees, sounds, acknowledges
-    CAMERA = "camera"  # a phone or tablet that sends its camera's images; sees nothing
+    OPERATOR = "operator"  # full access: sets up, registers, confirms
+    SUPERVISOR = "supervisor"  # reads all data, points, co-signs, requests a hold; changes nothing else
+    VIEWER = "viewer"  # reads the live data
+    SCREEN = "screen"  # the screen in theatre: reads the live data, sounds and acknowledges alarms
+    CAMERA = "camera"  # a phone or tablet that sends the images of its camera; reads nothing
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,7 +35,7 @@ class Person:
     invited_by: str = ""
 
 
-# Person of all requests where sign-in is off (a server on this computer alone).
+# Person of all requests if sign-in is off (a server for this computer only).
 LOCAL_USER = Person(id="anybody", name="this computer", role=Role.OPERATOR)
 # Person of a public request without a session.
 ANONYMOUS = Person(id="nobody", name="nobody", role=Role.VIEWER)

@@ -49,8 +49,8 @@ class RoleRejected(NavigationError):
         may = " or ".join(sorted(role.value for role in roles))
         return cls(
             "ROLE_REJECTED",
-            f"this is for the {may}, and {person.name} is signed in as {person.role.value}",
-            "Ask somebody who is signed in with that role to do it, or to invite you with it.",
+            f"this requires the role {may}, but {person.name} is signed in as {person.role.value}",
+            "Ask a person with this role to do it, or to invite you with this role.",
             {"role": person.role.value, "allowed": sorted(role.value for role in roles)},
         )
 
@@ -64,8 +64,8 @@ class PageRejected(NavigationError):
         return cls(
             "ORIGIN_REJECTED",
             "the browser does not state that this request comes from a page of this server",
-            "Open the dashboard of this server itself; a program sends its token as "
-            "'Authorization: Bearer' in place of a cookie.",
+            "Open the dashboard of this server; a program must send its token as "
+            "'Authorization: Bearer' instead of a cookie.",
         )
 
 
@@ -77,7 +77,7 @@ class AddressUnknown(NavigationError):
         """Names the path."""
         return cls(
             "NOT_FOUND",
-            f"no such address: {path[:200]}",
+            f"{path[:200]} does not exist",
             "See /api/docs for all addresses.",
             {"path": path[:200]},
         )
@@ -91,7 +91,7 @@ class MethodUnknown(NavigationError):
         """Names the path."""
         return cls(
             "METHOD_NOT_ALLOWED",
-            f"{method} is not possible at {path[:200]}",
+            f"{path[:200]} does not support {method}",
             "See /api/docs for all addresses.",
             {"path": path[:200]},
         )
@@ -108,7 +108,9 @@ class InvitationRejected(NavigationError):
     @classmethod
     def used(cls) -> "InvitationRejected":
         """It was single-use."""
-        return cls("INVITATION_USED", "this link was for one sign-in, and was used", ASK_FOR_INVITATION)
+        return cls(
+            "INVITATION_USED", "this link was for a single sign-in and has been used", ASK_FOR_INVITATION
+        )
 
     @classmethod
     def expired(cls) -> "InvitationRejected":
@@ -126,7 +128,7 @@ class InvitationRejected(NavigationError):
         return cls(
             "INVITATION_FULL",
             f"{count} sessions are signed in by this link, the maximum",
-            "Sign out where it is not needed, or ask the operator to end sessions or for a link of your own.",
+            "Sign out on unused devices, or ask the operator to end sessions or for another link.",
             {"sessions": count, "allowed": count},
         )
 
@@ -154,8 +156,8 @@ class TooManyTries(NavigationError):
         wait_s = max(1, math.ceil(seconds))
         return cls(
             "TOO_MANY_TRIES",
-            f"too many unknown links or sessions were tried; the next try counts in {wait_s} s",
-            f"Wait {wait_s} s, then open the link once more.",
+            f"too many unknown links or sessions were tried; the next attempt is possible in {wait_s} s",
+            f"Wait {wait_s} s, then open the link again.",
             {"wait_s": wait_s},
         )
 
@@ -166,8 +168,9 @@ class TooManyTries(NavigationError):
         minutes, left = round(within_s / 60), math.ceil(wait_s / 60)
         return cls(
             "TOO_MANY_SIGN_INS",
-            f"this link has signed in {count} times within {minutes} min, and signs in again in {left} min",
-            "Stay signed in where you are, or ask the operator for a link of your own.",
+            f"this link was used for {count} sign-ins within {minutes} min; the next is possible in "
+            f"{left} min",
+            "Stay signed in, or ask the operator for another link.",
             {"wait_s": wait_s, "sign_ins": count, "within_s": within_s},
         )
 

@@ -1,6 +1,6 @@
 """The process of one sink, in which the plug-in runs.
 
-In a thread of the server it could hold the interpreter, or end it. Its process has a low priority.
+In a thread of the server it could block or crash the interpreter. Its process has a low priority.
 """
 
 import textwrap
@@ -21,8 +21,8 @@ class Report:
     """The sink is ready for a message.
 
     Attributes:
-        error: what it raised for the last one; None if nothing.
-        is_ended: whether it was not loaded, so that this is its only report.
+        error: Error that it raised for the last message; None if none.
+        is_ended: Whether loading failed, so that this is its only report.
     """
 
     error: str | None = None
@@ -30,7 +30,7 @@ class Report:
 
 
 def run_sink(name: str, connection: Connection, settings: LogSettings) -> None:
-    """Load the plug-in and give it each message that comes, until the connection is closed."""
+    """Load the plug-in and pass it each received message, until the connection is closed."""
     die_with_parent()
     configure_logging(settings, process=f"sink {name}")
     lower_process_priority()
@@ -53,7 +53,7 @@ def run_sink(name: str, connection: Connection, settings: LogSettings) -> None:
             except Exception as error:  # noqa: BLE001  as above
                 error_text = _text(error)
     except (EOFError, OSError):
-        # The server stops.
+        # The server is stopping.
         sink.close()
 
 

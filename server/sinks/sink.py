@@ -1,4 +1,4 @@
-"""One sink as the web process sees it: a thread that sends the newest message when the sink is ready."""
+"""One sink in the web process: a thread that sends the newest message when the sink is ready."""
 
 import contextlib
 import multiprocessing
@@ -24,7 +24,7 @@ RESTART_AFTER_S = 5.0
 STOP_TIMEOUT_S = 2.0
 LOG_AGAIN_AFTER_S = 60.0
 REMEDY = (
-    "Navigation goes on. Correct or update the plug-in, or take it out of plugins.sinks, and start again."
+    "Navigation continues. Correct or update the plug-in, or remove it from plugins.sinks, and start again."
 )
 Write: TypeAlias = Callable[[Instant], str]
 log = structlog.get_logger(__name__)
@@ -35,10 +35,10 @@ class SinkStatus:
     """State of a sink.
 
     Attributes:
-        name: of the plug-in.
-        problem: why it receives nothing, or what it raised; None while it works.
-        messages: how many it was sent.
-        skipped: instants that it was not sent, because it was not ready.
+        name: Name of the plug-in.
+        problem: Why it receives nothing, or the error that it raised; None while it works.
+        messages: Number of messages sent to it.
+        skipped: Number of instants not sent to it because it was not ready.
     """
 
     name: str
@@ -51,12 +51,12 @@ class Sink:
     """Sends the newest message to a plug-in; nothing waits for it.
 
     Args:
-        name: of the plug-in.
-        hub: publishes the instants.
-        write: returns the message of an instant as text. Called from the sink's thread.
-        settings: of the log in the sink's process.
-        slow_after_s: time for one message after which the sink counts as slow.
-        restart_after_s: pause before a process that ended is started again.
+        name: Name of the plug-in.
+        hub: Source of the instants.
+        write: Returns the message of an instant as text. Called from the sink's thread.
+        settings: Log settings of the sink's process.
+        slow_after_s: Time for one message after which the sink counts as slow.
+        restart_after_s: Pause before an ended process is restarted.
     """
 
     def __init__(
@@ -85,35 +85,35 @@ class Sink:
         self._thread = threading.Thread(target=self._run, name=f"sink {name}", daemon=True)
 
     def start(self) -> None:
-        """Start; returns at once, also while the fork server still loads."""
+        """Start; returns at once, even while the fork server is still loading."""
         self._thread.start()
 
     def request_stop(self) -> None:
-        """Let the sink close itself; returns at once."""
+        """Request the sink to close; returns at once."""
         self._stop.set()
 
     def stop(self) -> None:
-        """Let the sink close itself, and kill its process if it does not."""
+        """Request the sink to close, and kill its process if it does not."""
         self.request_stop()
         if self._thread.ident is None:
             return
         self._thread.join(STOP_TIMEOUT_S)
         process = self._process
         if self._thread.is_alive() and process is not None:
-            # The thread may be sending to a process that does not read. While the fork server still loads,
-            # there is no process, and the fork server ends with this one.
+            # The thread may be blocked sending to a process that does not read. While the fork server is
+            # loading there is no process, and the fork server ends with this process.
             with contextlib.suppress(ValueError, AttributeError):
                 process.kill()
             self._thread.join(STOP_TIMEOUT_S)
 
     @property
     def is_alive(self) -> bool:
-        """Whether its thread runs."""
+        """Whether its thread is running."""
         return self._thread.is_alive()
 
     @property
     def status(self) -> SinkStatus:
-        """Its state. From any thread."""
+        """State of the sink. From any thread."""
         with self._lock:
             return SinkStatus(
                 name=self.name, problem=self._problem, messages=self._messages, skipped=self._skipped
@@ -176,7 +176,7 @@ class Sink:
                 is_ready, since_s = False, time.monotonic()
                 self._count(instant.sequence)
             elif connection.poll():
-                # It sends nothing unasked, so it has ended, which this raises.
+                # It sends only responses, so it must have ended; receiving raises the error.
                 connection.recv()
         return False
 
@@ -188,10 +188,10 @@ class Sink:
             self._sequence = sequence
 
     def _report(self, code: str, what: str | None) -> None:
-        """Show a problem, or with None that there is none any more.
+        """Set a problem, or clear it with None.
 
-        It is logged once, and logged again only after it was good for a message `LOG_AGAIN_AFTER_S` later: a
-        sink may fail at every other image, each time with other words.
+        A problem is logged once, and again only after a message has succeeded `LOG_AGAIN_AFTER_S` later,
+        because a sink may fail at every other image with a different text.
         """
         problem = None
         if what is not None:
@@ -204,7 +204,7 @@ class Sink:
             log.warning(problem.message, code=code, sink=self.name, remedy=REMEDY)
         elif problem is None and self._logged_code and self._logs_again():
             self._logged_code = ""
-            log.info("a sink works again", sink=self.name)
+            log.info("sink works again", sink=self.name)
 
     def _logs_again(self) -> bool:
         return time.monotonic() - self._logged_at_s >= LOG_AGAIN_AFTER_S

@@ -1,4 +1,4 @@
-"""All sinks that the settings name."""
+"""All sinks of the settings."""
 
 import threading
 import time
@@ -11,7 +11,7 @@ from server.stream.scaling.message_cache import MessageCache
 
 
 class Sinks:
-    """Starts and stops the sinks, and writes each message once for all of them."""
+    """Starts and stops the sinks, and serialises each message once for all of them."""
 
     def __init__(self, names: Sequence[str], hub: LiveHub, settings: LogSettings) -> None:
         self._texts = MessageCache()
@@ -24,7 +24,7 @@ class Sinks:
             sink.start()
 
     def stop(self) -> None:
-        """Stop all of them, side by side."""
+        """Stop all of them concurrently."""
         for sink in self._sinks:
             sink.request_stop()
         for sink in self._sinks:
@@ -32,7 +32,7 @@ class Sinks:
 
     @property
     def status(self) -> list[SinkStatus]:
-        """The state of each sink, in the order of the settings."""
+        """Return the state of each sink, in the order of the settings."""
         return [sink.status for sink in self._sinks]
 
     def _text(self, instant: Instant) -> str:

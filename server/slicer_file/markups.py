@@ -1,11 +1,11 @@
 """Markups of 3D Slicer (`.mrk.json`): point lists, lines, and open and closed curves.
 
-A file states for each markup whether its positions are LPS or RAS. Here they are LPS, the frame of the plan;
-RAS has x and y with the other sign. A file that does not state it is rejected, although the schema has a
-default: a plan that is mirrored twice looks like a plan.
+A file states for each markup whether its positions are LPS or RAS (x and y negated). They are converted to
+LPS, the frame of the plan. A file without this statement is rejected, although the schema has a default,
+because a plan with two negated axes still looks like a plan.
 
-Only control points are read: of a curve not what is interpolated between them. Slicer writes them in the
-frame of their node, without the transform that the node may be under in the scene.
+Only control points are read, not the interpolated points of a curve. Slicer writes them in the frame of their
+node, without the parent transforms of the node in the scene.
 """
 
 import json
@@ -46,10 +46,10 @@ class Markup:
 
     Attributes:
         kind: its kind.
-        name: of its node in the scene; may be empty in a file of one markup.
+        name: Name of its node in the scene; may be empty in a file of one markup.
         points_lps_mm: (n, 3), its control points in order.
-        labels: one for each point; may be empty or equal.
-        description: shown with each point.
+        labels: One per point; may be empty or equal.
+        description: Shown with each point.
     """
 
     kind: MarkupKind
@@ -60,25 +60,25 @@ class Markup:
 
 
 def is_markups_name(name: str) -> bool:
-    """Whether a file of this name holds markups."""
+    """Return whether a file of this name contains markups."""
     return name.lower().endswith(SUFFIX)
 
 
 def markups_from_bytes(content: bytes, *, name: str) -> tuple[Markup, ...]:
-    """Parse a file of markups; those of other kinds and empty ones are left out.
+    """Parse a file of markups; empty markups and those of other kinds are skipped.
 
     Args:
-        content: bytes of the file.
-        name: of the file, for messages.
+        content: Bytes of the file.
+        name: Name of the file, for messages.
 
     Raises:
-        InvalidInput: MARKUPS_UNREADABLE, it is no file of markups; MARKUPS_INVALID, what it states cannot be
-            used, or a point has no position.
+        InvalidInput: MARKUPS_UNREADABLE, the file is not a file of markups; MARKUPS_INVALID, its content is
+            invalid, or a point has no position.
     """
     found = []
     for number, values in enumerate(_listed(content, name), start=1):
         if not isinstance(values, Mapping):
-            raise _invalid(name, f"markup {number} is no mapping")
+            raise _invalid(name, f"markup {number} is not an object")
         kind = values.get("type")
         if isinstance(kind, str) and kind in set(MarkupKind) and values.get("controlPoints"):
             found.append(_markup(values, MarkupKind(kind), f"markup {number}", name))
@@ -86,7 +86,7 @@ def markups_from_bytes(content: bytes, *, name: str) -> tuple[Markup, ...]:
 
 
 def markups_to_bytes(markups: Sequence[Markup]) -> bytes:
-    """Return the content of a file with these markups, in LPS; Slicer loads each as a node of its own."""
+    """Return the content of a file with these markups, in LPS; Slicer loads each as a separate node."""
     return json.dumps(
         {"@schema": SCHEMA, "markups": [_mapping(one) for one in markups]}, indent=1, allow_nan=False
     ).encode()
@@ -120,32 +120,32 @@ def _listed(content: bytes, name: str) -> Sequence[object]:
     try:
         values = json.loads(content.decode("utf-8-sig"), parse_constant=_no_number)
     except (ValueError, RecursionError):
-        raise _unreadable(name, "it is no JSON") from None
+        raise _unreadable(name, "it is not valid JSON") from None
     markups = values.get("markups") if isinstance(values, Mapping) else None
     if not isinstance(markups, list):
         raise _unreadable(name, "it has no list 'markups'")
     if len(markups) > MAX_MARKUPS:
-        raise _unreadable(name, f"it has {len(markups)} markups, allowed {MAX_MARKUPS}")
+        raise _unreadable(name, f"it has {len(markups)} markups, the maximum is {MAX_MARKUPS}")
     return markups
 
 
 def _markup(values: Mapping[str, object], kind: MarkupKind, which: str, name: str) -> Markup:
     title = values.get("name", "")
     if not isinstance(title, str):
-        raise _invalid(name, f"the name of {which} is no text")
+        raise _invalid(name, f"the name of {which} is not a text")
     which = f"'{title[:40]}'" if title else which
     system, units = values.get("coordinateSystem"), values.get("coordinateUnits", "mm")
     if not isinstance(system, str) or system not in LPS_FROM:
-        raise _invalid(name, f"{which} has the coordinate system {_shown(system)}, needed LPS or RAS")
+        raise _invalid(name, f"{which} has the coordinate system {_shown(system)}, expected LPS or RAS")
     if units not in MILLIMETRES:
-        raise _invalid(name, f"{which} has its coordinates in {_shown(units)}, needed mm")
+        raise _invalid(name, f"{which} has its coordinates in {_shown(units)}, expected mm")
     points = values["controlPoints"]
     if not isinstance(points, list) or len(points) > MAX_POINTS:
         count = len(points) if isinstance(points, list) else 0
-        raise _invalid(name, f"{which} has {count} control points in its list, needed 1 to {MAX_POINTS}")
+        raise _invalid(name, f"{which} has {count} control points, expected 1 to {MAX_POINTS}")
     rows = [_point(point, f"point {n} of {which}", name) for n, point in enumerate(points, start=1)]
     if kind is MarkupKind.LINE and len(rows) != 2:
-        raise _invalid(name, f"the line {which} has {len(rows)} control points, needed 2")
+        raise _invalid(name, f"the line {which} has {len(rows)} control points, expected 2")
     return Markup(
         kind=kind,
         name=title,
@@ -156,18 +156,18 @@ def _markup(values: Mapping[str, object], kind: MarkupKind, which: str, name: st
 
 def _point(values: object, which: str, name: str) -> tuple[str, list[float]]:
     if not isinstance(values, Mapping):
-        raise _invalid(name, f"{which} is no mapping")
+        raise _invalid(name, f"{which} is not an object")
     label, status = values.get("label", ""), values.get("positionStatus", "defined")
     if not isinstance(label, str):
-        raise _invalid(name, f"the label of {which} is no text")
+        raise _invalid(name, f"the label of {which} is not a text")
     if status != "defined":
-        # Leaving it out would give all points after it another number.
+        # Skipping it would change the numbers of all later points.
         raise _invalid(name, f"{which} is not placed (its positionStatus is {_shown(status)})")
     position = values.get("position")
     if not isinstance(position, list) or len(position) != 3 or not all(map(_is_coordinate, position)):
         raise _invalid(
             name,
-            f"{which} has the position {_shown(position)}, needed three numbers up to "
+            f"{which} has the position {_shown(position)}, expected three numbers up to "
             f"{MAX_COORDINATE_MM:g} mm",
         )
     return label, [float(number) for number in position]
@@ -186,7 +186,9 @@ def _shown(value: object) -> str:
 
 
 def _unreadable(name: str, why: str) -> InvalidInput:
-    return InvalidInput("MARKUPS_UNREADABLE", f"{name} is no file of markups: {why}", REMEDY, {"file": name})
+    return InvalidInput(
+        "MARKUPS_UNREADABLE", f"{name} is not a file of markups: {why}", REMEDY, {"file": name}
+    )
 
 
 def _invalid(name: str, why: str) -> InvalidInput:

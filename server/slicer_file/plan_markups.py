@@ -1,4 +1,4 @@
-"""The plan as markups of 3D Slicer, and landmarks and a channel's ends out of markups."""
+"""Conversion of a plan to markups of 3D Slicer, and of markups to landmarks and channel ends."""
 
 from collections.abc import Iterator, Sequence
 
@@ -10,9 +10,9 @@ from tracker.geometry import Array
 from tracker.plan import Channel, Landmark, PlanDocument, PlannedChannel, VertebraPlan
 
 ENTRY, TARGET, SCREW_TIP = "entry", "target", "screw tip"
-# The anterior end of a line in LPS, where y points backwards, has the smaller y.
+# In LPS, y points posteriorly, so that the anterior end of a line has the smaller y.
 POSTERIOR = 1
-# A line nearly in a coronal plane does not show by itself where it begins.
+# The direction of a line nearly in a coronal plane is ambiguous.
 MIN_FORWARD_MM = 5.0
 
 
@@ -36,7 +36,7 @@ def channel_markup(channel: Channel) -> Markup:
 
 
 def screw_markup(channel: Channel, *, diameter_mm: float, length_mm: float) -> Markup:
-    """Return the line of a screw that begins at the entry point of its channel."""
+    """Return the line of a screw that starts at the entry point of its channel."""
     tip_mm = channel.entry_in_vertebra_mm + length_mm * channel.axis_in_vertebra
     size = f"{diameter_mm:g} x {length_mm:g} mm"
     return _line(
@@ -48,8 +48,8 @@ def landmarks_from_markups(markups: Sequence[Markup], *, name: str) -> tuple[Lan
     """Return the points of the only point list as landmarks.
 
     Args:
-        markups: of one file.
-        name: of the file, for messages.
+        markups: Markups of one file.
+        name: Name of the file, for messages.
 
     Raises:
         InvalidInput: LANDMARKS_MISSING, there is no point list, or several; LANDMARKS_UNNAMED.
@@ -73,8 +73,8 @@ def landmarks_from_markups(markups: Sequence[Markup], *, name: str) -> tuple[Lan
 def line_from_markups(markups: Sequence[Markup], *, name: str) -> tuple[Array, Array]:
     """Return entry and target (3,) in LPS mm of the only line.
 
-    The first point is the entry, unless the labels say otherwise; without labels, a line that does not run
-    forwards is rejected, because drilling in the opposite direction would pass every later check.
+    The first point is the entry, unless the labels state otherwise. Without labels, a line that does not run
+    in the anterior direction is rejected, because an inverted channel would pass every later check.
 
     Raises:
         InvalidInput: CHANNEL_LINE_MISSING, there is no line, or several; CHANNEL_DIRECTION_UNKNOWN.
@@ -88,8 +88,8 @@ def line_from_markups(markups: Sequence[Markup], *, name: str) -> tuple[Array, A
     if forward_mm < MIN_FORWARD_MM:
         raise InvalidInput(
             "CHANNEL_DIRECTION_UNKNOWN",
-            f"the line in {name} runs {forward_mm:.1f} mm forwards from its first point to its second, "
-            f"needed {MIN_FORWARD_MM:g} mm to take the first for the entry",
+            f"the line in {name} runs {forward_mm:.1f} mm anteriorly from its first point to its second; the "
+            f"first point counts as the entry from {MIN_FORWARD_MM:g} mm on",
             f"Label the two control points '{ENTRY}' and '{TARGET}' in 3D Slicer, or place the entry first.",
             {"file": name, "forward_mm": forward_mm},
         )
@@ -129,8 +129,8 @@ def _only(markups: Sequence[Markup], kind: MarkupKind, what: str, code: str, nam
     if len(found) != 1:
         raise InvalidInput(
             code,
-            f"{name} has {len(found)} markups of the kind {what}, needed 1",
-            f"Save the one {what} alone as Markups JSON (.mrk.json).",
+            f"{name} has {len(found)} markups of the kind {what}, expected 1",
+            f"Save only this {what} as Markups JSON (.mrk.json).",
             {"file": name, "found": len(found)},
         )
     return found[0]

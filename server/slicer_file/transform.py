@@ -1,8 +1,8 @@
 """Rigid transforms in ITK's text format (`.tfm`), as 3D Slicer, SimpleITK, ANTs and Plus write it.
 
 A file maps points of the fixed frame to the moving frame, in LPS mm: the direction in which ITK resamples an
-image. A registration of this program maps the other way, so that both functions invert. In Slicer, data of
-the moving frame that are put under the loaded transform are shown in the fixed frame.
+image. A registration of this program maps in the opposite direction, so that both functions invert. In
+Slicer, data of the moving frame under the loaded transform are displayed in the fixed frame.
 """
 
 import re
@@ -29,12 +29,12 @@ Rotation: TypeAlias = Callable[[Array, Array], Array]
 
 
 def is_itk_name(name: str) -> bool:
-    """Whether a file of this name holds a transform of ITK."""
+    """Return whether a file of this name contains a transform of ITK."""
     return name.lower().endswith(SUFFIX)
 
 
 def itk_text(fixed_from_moving: Rigid[Vertebra, Anchor]) -> str:
-    """Return the content of a file that holds this registration, which ITK states as moving from fixed."""
+    """Return the content of a file with this registration, which ITK states as moving from fixed."""
     moving_from_fixed = fixed_from_moving.inverse
     numbers = [*moving_from_fixed.rotation.ravel(), *moving_from_fixed.translation_mm]
     return (
@@ -48,29 +48,30 @@ def fixed_from_moving_in_itk(content: bytes, *, name: str) -> Rigid[Vertebra, An
     """Parse a file with one rigid transform, and return the registration that it states.
 
     Args:
-        content: bytes of the file.
-        name: of the file, for messages.
+        content: Bytes of the file.
+        name: Name of the file, for messages.
 
     Raises:
-        InvalidInput: TRANSFORM_UNREADABLE, it holds no transform or several, or one of another class;
-            TRANSFORM_INVALID, its numbers are no rigid motion.
+        InvalidInput: TRANSFORM_UNREADABLE, the file contains no transform, several, or one of another class;
+            TRANSFORM_INVALID, its numbers are not a rigid transform.
     """
     fields = _fields(content, name)
     match = NAME.match(fields["Transform"].strip())
     kind = match[1] if match else fields["Transform"].strip()
     if kind not in CLASSES:
         known = ", ".join(CLASSES)
-        raise _unreadable(name, f"it holds a {kind[:40]}, readable are {known} in three dimensions")
+        raise _unreadable(name, f"it contains a {kind[:40]}, supported are {known} in three dimensions")
     count, rotation_of = CLASSES[kind]
     parameters = _numbers(fields["Parameters"], "Parameters", name)
     fixed = _numbers(fields["FixedParameters"], "FixedParameters", name)
     if len(parameters) != count or len(fixed) not in {3, 4}:
         raise _invalid(
             name,
-            f"its {kind} has {len(parameters)} parameters and {len(fixed)} fixed ones, needed {count} and 3",
+            f"its {kind} has {len(parameters)} parameters and {len(fixed)} fixed parameters, expected "
+            f"{count} and 3",
         )
     rotation = rotation_of(parameters[:-3], fixed[3:])
-    # The rotation is about a centre, and the translation is added behind it.
+    # The rotation is about a centre; the translation is added afterwards.
     centre = fixed[:3]
     translation = parameters[-3:] + centre - rotation @ centre
     if not np.abs(translation).max() <= MAX_TRANSLATION_MM:
@@ -91,14 +92,14 @@ def _fields(content: bytes, name: str) -> Mapping[str, str]:
     if not lines or lines[0].strip() != HEADER:
         raise _unreadable(name, f"its first line is not '{HEADER}'")
     if not text.endswith(("\n", "\r")):
-        # A last number that is cut is still a number.
-        raise _unreadable(name, "its last line does not end, as in a file that is cut")
+        # A truncated last number would still be a number.
+        raise _unreadable(name, "its last line has no line end, as in a truncated file")
     found = [(match[1], match[2]) for line in lines if (match := LINE.match(line))]
     names = [key for key, _ in found]
     if names.count("Transform") != 1:
-        raise _unreadable(name, f"it holds {names.count('Transform')} transforms, needed 1")
+        raise _unreadable(name, f"it contains {names.count('Transform')} transforms, expected 1")
     if sorted(names) != ["FixedParameters", "Parameters", "Transform"]:
-        raise _unreadable(name, "its lines Transform, Parameters and FixedParameters are not there once each")
+        raise _unreadable(name, "it does not contain each of Transform, Parameters and FixedParameters once")
     return dict(found)
 
 
@@ -117,15 +118,15 @@ def _of_matrix(parameters: Array, _fixed: Array) -> Array:
 
 
 def _of_angles(parameters: Array, fixed: Array) -> Array:
-    """Z X Y, or Z Y X if the fourth fixed parameter says so."""
+    """Return the rotation of Euler angles Z X Y, or Z Y X if the fourth fixed parameter is set."""
     x, y, z = (rotation_from_vector(angle * axis) for angle, axis in zip(parameters, np.eye(3), strict=True))
     return z @ y @ x if fixed.size and fixed[0] != 0.0 else z @ x @ y
 
 
 def _of_versor(parameters: Array, _fixed: Array) -> Array:
-    """The vector part of a unit quaternion whose scalar part is not negative."""
+    """Return the rotation of the vector part of a unit quaternion with a non-negative scalar part."""
     sine = float(np.linalg.norm(parameters))
-    # Longer than 1 is no rotation; the matrix of NaN is rejected by `Rigid`.
+    # A length above 1 gives a matrix of NaN, which `Rigid` rejects.
     angle = 2.0 * np.arcsin(sine) if sine <= 1.0 else np.nan
     return rotation_from_vector(parameters / sine * angle) if sine > 0.0 else np.eye(3)
 
@@ -140,7 +141,7 @@ CLASSES: Mapping[str, tuple[int, Rotation]] = {
 
 def _unreadable(name: str, why: str) -> InvalidInput:
     return InvalidInput(
-        "TRANSFORM_UNREADABLE", f"{name} is no readable transform: {why}", REMEDY, {"file": name}
+        "TRANSFORM_UNREADABLE", f"{name} is not a readable transform: {why}", REMEDY, {"file": name}
     )
 
 

@@ -53,7 +53,7 @@ class CaseDatabase:
                 listener()
             except Exception:
                 # The transaction is committed: an error in a listener must not undo it.
-                log.exception("a change of the store could not be followed")
+                log.exception("a listener failed after a change of the store")
 
     def add_commit_listener(self, listener: Callable[[], None]) -> None:
         """Register a function to be called after each commit, in the thread that committed."""
@@ -81,8 +81,8 @@ class CaseDatabase:
         if case_id in self._in_use:
             raise StoreConflict(
                 "CASE_IN_USE",
-                f"the case {case_id} is in use: {self._in_use[case_id]} times it is being written or copied",
-                "Wait until that is done, or cancel it, then do it again.",
+                f"the case {case_id} is in use by {self._in_use[case_id]} write or export operations",
+                "Wait until they are done, or cancel them, then try again.",
                 {"case_id": case_id, "in_use": self._in_use[case_id]},
             )
 
@@ -92,5 +92,5 @@ class CaseDatabase:
             truncate_journal(self._engine)
 
     def close(self) -> None:
-        """Close the database; the home stays."""
+        """Close the database; the home stays locked."""
         self._engine.dispose()

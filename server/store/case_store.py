@@ -46,7 +46,7 @@ class CaseStore:
         self.home = home
         self._database = CaseDatabase(home, clock=clock)
         self._reads = ReadCache()
-        # Before any other listener, which may read what was committed.
+        # Registered before all other listeners, which may read the committed data.
         self._database.add_commit_listener(self._reads.clear)
         self._on_change: Callable[[Change], None] = lambda _: None
         try:
@@ -262,13 +262,16 @@ class CaseStore:
         raise OutOfDateError(
             "DOCUMENT_MISSING" if missing else "DOCUMENT_OUT_OF_DATE",
             reason if missing else f"{kind.value} '{name}' is out of date: {reason}",
-            f"Make the {kind.value} first." if missing else f"Make the {kind.value} again.",
+            f"Create the {kind.value} first." if missing else f"Create the {kind.value} again.",
             {"kind": kind.value, "name": name},
         )
 
     def withdraw(self, document: Heading, *, by: str, reason: str) -> Document:
         """Mark a document as withdrawn; withdrawing it again has no effect."""
-        by, reason = validate_name(by, of="name of who withdraws it"), validate_name(reason, of="reason")
+        by, reason = (
+            validate_name(by, of="name of the person who withdraws it"),
+            validate_name(reason, of="reason"),
+        )
         with self._database.write_session() as session:
             case = cases.case_row(session, document.case_id)
             row = documents.document_row(session, document.case_id, document.id)
@@ -327,7 +330,7 @@ class CaseStore:
         Raises:
             InvalidInput: NAME_INVALID, ARCHIVE_INVALID, ARCHIVE_NEWER.
         """
-        by = validate_name(by, of="name of who takes it in")
+        by = validate_name(by, of="name of the person who imports it")
         case = unpack(self._database, archive, by=by)
         self._on_change(Change(case_id=case.id, kind="case", before=None, after="copied in", by=by))
         return case

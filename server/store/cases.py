@@ -39,7 +39,7 @@ def case_row(session: Session, case_id: str) -> CaseRow:
         raise NotFound(
             "CASE_UNKNOWN",
             f"there is no case {case_id[:40]}",
-            "Look at the list of cases; it may have been deleted.",
+            "GET /api/cases lists the cases; this one may have been deleted.",
             {"case_id": case_id[:40]},
         )
     return row
@@ -101,15 +101,15 @@ def reject_removal(session: Session, case_id: str, confirm: str) -> None:
     if opened is not None and opened.case_id == case_id:
         raise StoreConflict(
             "CASE_OPEN",
-            f"the case {case_id} is open, and an open case is not deleted",
+            f"the case {case_id} is open, and an open case cannot be deleted",
             "Close it first.",
             {"case_id": case_id},
         )
     if confirm.strip() != row.name and validate_name(confirm or "-", of="word of confirmation") != row.name:
         raise InvalidInput(
             "CONFIRMATION_WRONG",
-            f"the word of confirmation is not the name of the case {case_id}",
-            "Write the name of the case exactly as the list shows it; nothing was deleted.",
+            f"the confirmation is not the name of the case {case_id}",
+            "Enter the name of the case exactly as in the list; nothing was deleted.",
             {"case_id": case_id},
         )
 
@@ -117,7 +117,7 @@ def reject_removal(session: Session, case_id: str, confirm: str) -> None:
 def mark_deleting(session: Session, case_id: str) -> None:
     """Mark a case as deleted; it is invisible from here on, and its remains are removed at the next start.
 
-    The change is small on purpose: it must succeed on a full disk.
+    The change is small, because it must succeed on a full disk.
     """
     row = case_row(session, case_id)
     row.state, row.name = DELETING, ""

@@ -57,7 +57,7 @@ def remove_case(database: CaseDatabase, case_id: str) -> None:
 
 
 def _log_strays(database: CaseDatabase) -> None:
-    """Log files that the database does not know. They stay: the database may be an older copy."""
+    """Log files that the database does not know. They are kept, because the database may be an older copy."""
     with database.read_session() as session:
         known = {(row.case_id, row.id) for row in session.scalars(select(FileRow))}
         cases = set(session.scalars(select(CaseRow.id)))
@@ -78,5 +78,6 @@ def _log_strays(database: CaseDatabase) -> None:
             code="STORE_STRAYS",
             strays=sorted(strays)[:20],
             count=len(strays),
-            remedy="If the database was replaced by an older one, put the newer one back; else remove them.",
+            remedy="If the database was replaced by an older one, restore the newer one; otherwise remove "
+            "them.",
         )

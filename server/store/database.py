@@ -14,7 +14,7 @@ from server.store.errors import damaged_database, translate_errors
 from server.store.home import Home, sync_folder
 
 MIGRATIONS = Path(__file__).parent / "migrations"
-# Of the newest file in `MIGRATIONS`.
+# Revision of the newest file in `MIGRATIONS`.
 CURRENT_REVISION = "2"
 BUSY_TIMEOUT_MS = 10_000
 # secure_delete overwrites deleted patient data.
@@ -33,7 +33,7 @@ def open_database(home: Home, *, now: Callable[[], datetime], migrations: Path =
     """Open the database of a home, after an integrity check and migration to the current schema.
 
     Raises:
-        StoreError: STORE_DAMAGED, STORE_SCHEMA_UNKNOWN, or as the disk says.
+        StoreError: STORE_DAMAGED, STORE_SCHEMA_UNKNOWN, or the code of a disk error.
     """
     engine = create_engine(f"sqlite:///{home.database}")
     event.listen(engine, "connect", _prepare)
@@ -42,7 +42,7 @@ def open_database(home: Home, *, now: Callable[[], datetime], migrations: Path =
         try:
             _check(engine, home)
             if migrations != MIGRATIONS or _revision(engine) != CURRENT_REVISION:
-                # Alembic takes half a second of a start, and most starts need no migration.
+                # Imported on demand: Alembic takes half a second, and most starts need no migration.
                 from server.store.migration import migrate  # noqa: PLC0415
 
                 migrate(engine, home, now=now, migrations=migrations)

@@ -89,7 +89,7 @@ def add_document(session: Session, case_id: str, new: NewDocument, *, now: str) 
 
 
 def find_document(session: Session, case_id: str, document_id: str) -> Document:
-    """One document.
+    """Return a document.
 
     Raises:
         NotFound: DOCUMENT_UNKNOWN.
@@ -98,7 +98,7 @@ def find_document(session: Session, case_id: str, document_id: str) -> Document:
 
 
 def document_row(session: Session, case_id: str, document_id: str) -> DocumentRow:
-    """The row of one document.
+    """Return the row of a document.
 
     Raises:
         NotFound: DOCUMENT_UNKNOWN.
@@ -110,7 +110,7 @@ def document_row(session: Session, case_id: str, document_id: str) -> DocumentRo
 
 
 def versions(session: Session, case_id: str, kind: DocumentKind, name: str) -> tuple[Document, ...]:
-    """All versions, the first first."""
+    """Return all versions in ascending order."""
     chosen = (
         select(DocumentRow)
         .where(DocumentRow.case_id == case_id, DocumentRow.kind == kind.value, DocumentRow.name == name)
@@ -120,7 +120,7 @@ def versions(session: Session, case_id: str, kind: DocumentKind, name: str) -> t
 
 
 def every_document(session: Session, case_id: str) -> Iterator[Document]:
-    """All documents of a case, one after the other, each after those that it depends on."""
+    """Yield all documents of a case, each after those that it depends on."""
     bases, files = links_of(session, case_id)
     for row in session.scalars(
         select(DocumentRow)
@@ -155,7 +155,7 @@ def newest(session: Session, case_id: str, kind: DocumentKind, name: str | None)
 
 
 def document_of(row: DocumentRow, depends_on: Iterable[str], files: Iterable[str]) -> Document:
-    """The record of a row."""
+    """Return the record of a row."""
     return Document(
         case_id=row.case_id,
         id=row.id,
@@ -173,12 +173,12 @@ def document_of(row: DocumentRow, depends_on: Iterable[str], files: Iterable[str
 
 
 def imported_of(at: str | None, by: str | None) -> ImportRecord | None:
-    """The record of a taking in, if it was not made here."""
+    """Return the record of an import; None if the document was made here."""
     return None if at is None else ImportRecord(by=by or "", at=at)
 
 
 def withdrawal_of(at: str | None, by: str | None, reason: str | None) -> Withdrawal | None:
-    """The record of a withdrawal, if there was one."""
+    """Return the record of a withdrawal; None if there was none."""
     return None if at is None else Withdrawal(at=at, by=by or "", reason=reason or "")
 
 
@@ -193,14 +193,14 @@ def _read(session: Session, rows: Sequence[DocumentRow]) -> tuple[Document, ...]
 def links_of(
     session: Session, case_id: str, ids: Sequence[str] | None = None
 ) -> tuple[Mapping[str, list[str]], Mapping[str, list[str]]]:
-    """What documents stand on, and their files, by the document's id; of all documents if none are named."""
+    """Return dependencies and files by document id; of all documents if no ids are given."""
     bases: Mapping[str, list[str]] = defaultdict(list)
     files: Mapping[str, list[str]] = defaultdict(list)
     of_bases = select(BasisRow).where(BasisRow.case_id == case_id).order_by(BasisRow.place)
     of_files = (
         select(DocumentFileRow).where(DocumentFileRow.case_id == case_id).order_by(DocumentFileRow.place)
     )
-    # A question has room for so many names; more documents than that are most of the case anyway.
+    # A query accepts a limited number of ids; above it, most documents of the case are needed anyway.
     if ids is not None and len(ids) <= 500:
         of_bases = of_bases.where(BasisRow.document_id.in_(ids))
         of_files = of_files.where(DocumentFileRow.document_id.in_(ids))
@@ -219,7 +219,7 @@ def _next_version(session: Session, case_id: str, new: NewDocument) -> int:
             "VERSION_CONFLICT",
             f"{new.kind.value} '{new.name}' is at version {found}, but the change was made on version "
             f"{new.expected_version}",
-            "Look at the newest version, and make the change on it again.",
+            "Load the newest version, and apply the change to it again.",
             {"found_version": found, "expected_version": new.expected_version},
         )
     return found + 1
@@ -234,15 +234,15 @@ def _reject_strange(session: Session, case_id: str, new: NewDocument) -> None:
         if found.kind == DocumentKind.PATIENT:
             raise InvalidInput(
                 "DEPENDS_ON_IDENTITY",
-                "a document may not depend on the patient's identity, because that is not exported",
-                "Leave it out of the document's dependencies.",
+                "a document must not depend on the patient's identity, because that is not exported",
+                "Remove it from the dependencies of the document.",
                 {"document_id": basis},
             )
     if new.files and new.kind is DocumentKind.PATIENT:
         raise InvalidInput(
             "IDENTITY_WITH_FILES",
-            "who the patient is has no files, because files leave with the case",
-            "Put the file under another document.",
+            "the document of the patient's identity must not have files, because files are exported",
+            "Attach the file to another document.",
         )
     for file in new.files:
         row = session.get(FileRow, (case_id, file))
@@ -251,11 +251,11 @@ def _reject_strange(session: Session, case_id: str, new: NewDocument) -> None:
 
 
 def file_unknown(case_id: str, file_id: str) -> NotFound:
-    """The error for a file that is not there."""
+    """Return the error for an unknown file."""
     return NotFound(
         "FILE_UNKNOWN",
         f"there is no file {file_id[:60]} in the case {case_id[:40]}",
-        "Look at the files of the case.",
+        f"GET /api/cases/{case_id[:40]}/files lists the files of the case.",
         {"case_id": case_id[:40], "file_id": file_id[:60]},
     )
 
@@ -264,6 +264,6 @@ def _unknown(case_id: str, document_id: str) -> NotFound:
     return NotFound(
         "DOCUMENT_UNKNOWN",
         f"there is no document {document_id[:40]} in the case {case_id[:40]}",
-        "Look at the documents of the case.",
+        f"GET /api/cases/{case_id[:40]}/documents lists the documents of the case.",
         {"case_id": case_id[:40], "document_id": document_id[:40]},
     )

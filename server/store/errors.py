@@ -1,11 +1,11 @@
 """Errors of the store.
 
 NavigationError
-├── StoreError        the folder or the database cannot be used            HTTP 503, 507
+├── StoreError       the folder or the database cannot be used            HTTP 503, 507
 ├── NotFound         there is no such case, document or file              HTTP 404
-├── StoreConflict     it cannot be done as things stand                    HTTP 409
-├── OutOfDateError    what is needed was changed under it, or is missing   HTTP 409
-└── InvalidInput      a name, a content or an archive cannot be used       HTTP 422
+├── StoreConflict    the state of the store does not allow the action     HTTP 409
+├── OutOfDateError   a dependency of a step has changed or is missing     HTTP 409
+└── InvalidInput     a name, content or archive is invalid                HTTP 422
 """
 
 import errno
@@ -28,19 +28,19 @@ READ_ONLY, BUSY, DAMAGED, FAILED = (
     "STORE_FAILED",
 )
 WHAT = {
-    FULL: "there is no room left on the disk under {folder}: {free_mb:.1f} MB are free",
-    READ_ONLY: "the folder {folder} cannot be written",
-    BUSY: "another program keeps the database in {folder} locked",
+    FULL: "the disk of {folder} is full: {free_mb:.1f} MB are free",
+    READ_ONLY: "the folder {folder} is not writable",
+    BUSY: "another program has locked the database in {folder}",
     DAMAGED: "the database in {folder} is damaged",
     FAILED: "the folder {folder} cannot be used ({why})",
 }
 REMEDY = {
     FULL: FREE_SPACE_REMEDY,
-    READ_ONLY: "Give this user the right to write there, or name another folder with COAXIAL_HOME.",
-    BUSY: "Close the program that has the database open, then do it again.",
-    DAMAGED: "Stop the server and keep a copy of the folder; its folder 'backups' holds the database "
-    "as it was before the last change of version.",
-    FAILED: "Check that the disk is connected and healthy, then try again; acknowledged data is stored.",
+    READ_ONLY: "Give this user write permission, or set COAXIAL_HOME to another folder.",
+    BUSY: "Close the program that has the database open, then try again.",
+    DAMAGED: "Stop the server and copy the folder; its subfolder 'backups' contains the database before the "
+    "last change of version.",
+    FAILED: "Check that the disk is connected and healthy, then try again; acknowledged data are stored.",
 }
 BY_SQLITE = {
     sqlite3.SQLITE_FULL: FULL,
@@ -69,7 +69,7 @@ class NotFound(NavigationError):
 
 
 class StoreConflict(NavigationError):
-    """The state of the store does not allow it: a concurrent change, or something is in use."""
+    """The state of the store does not allow the action: a concurrent change, or something is in use."""
 
 
 class OutOfDateError(NavigationError):
@@ -80,7 +80,8 @@ class OutOfDateError(NavigationError):
 def translate_errors(folder: Path, *, known_only: bool = False) -> Iterator[None]:
     """Context manager that translates errors of disk and database into a StoreError with a remedy.
 
-    `known_only` passes on an OSError that is not known to be about the disk, for blocks with foreign code.
+    With `known_only`, an OSError that is not known to come from the disk is passed on; used around code of
+    other packages.
 
     Raises:
         StoreError: STORE_FULL, STORE_READ_ONLY, STORE_BUSY, STORE_DAMAGED or STORE_FAILED.
@@ -105,7 +106,7 @@ def damaged_database(folder: Path, found: str) -> StoreError:
 def _code_of(error: BaseException | None) -> str:
     if isinstance(error, OSError):
         return BY_SYSTEM.get(error.errno or 0, FAILED)
-    # The low byte is the kind, the rest its detail.
+    # The low byte is the primary result code of SQLite, the rest its detail.
     return BY_SQLITE.get(getattr(error, "sqlite_errorcode", 0) & 0xFF, FAILED)
 
 

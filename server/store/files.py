@@ -68,7 +68,7 @@ def new_file(database: CaseDatabase, case_id: str, suffix: str) -> Iterator[NewF
                 yield new
             with translate_errors(database.home.folder):
                 size_bytes, sha256 = commit_file(new.path, folder / file_id)
-            new._stored = _record(database, case_id, file_id, size_bytes, sha256)  # noqa: SLF001  same room
+            new._stored = _record(database, case_id, file_id, size_bytes, sha256)  # noqa: SLF001  same module
         except BaseException:
             # This can fail on a full disk; the next start then removes it.
             with suppress(StoreError):
@@ -124,7 +124,7 @@ def discard(database: CaseDatabase, case_id: str, file_id: str) -> None:
 
 
 def file_of(database: CaseDatabase, row: FileRow) -> StoredFile:
-    """The record of a row."""
+    """Return the record of a row."""
     return StoredFile(
         case_id=row.case_id,
         id=row.id,
@@ -136,7 +136,7 @@ def file_of(database: CaseDatabase, row: FileRow) -> StoredFile:
 
 
 def find_file(database: CaseDatabase, session: Session, case_id: str, file_id: str) -> StoredFile:
-    """One file.
+    """Return a file.
 
     Raises:
         NotFound: CASE_UNKNOWN, FILE_UNKNOWN.
@@ -156,8 +156,8 @@ def file_damaged(file: StoredFile, why: str) -> StoreError:
     """Return the error for a file that differs from what was stored."""
     return StoreError(
         "FILE_DAMAGED",
-        f"the file {file.id} of the case {file.case_id} is not as it was stored: {why}",
-        "Restore the file from a copy; until then nothing that needs it can be done.",
+        f"the file {file.id} of the case {file.case_id} is damaged: {why}",
+        "Restore the file from a copy; steps that need it are not possible until then.",
         {"case_id": file.case_id, "file_id": file.id},
     )
 
@@ -197,7 +197,7 @@ def _problem(file: StoredFile) -> tuple[str, str] | None:
     except OSError as error:
         return "missing", f"the file {file.id} cannot be read: {(error.strerror or str(error)).lower()}"
     if size_bytes != file.size_bytes:
-        return "size", f"the file {file.id} has {size_bytes} bytes, it was stored with {file.size_bytes}"
+        return "size", f"the file {file.id} has {size_bytes} bytes, but was stored with {file.size_bytes}"
     if sha256 != file.sha256:
-        return "content", f"the file {file.id} has other bytes than those that were stored (SHA-256 differs)"
+        return "content", f"the content of the file {file.id} differs from the stored one (SHA-256)"
     return None

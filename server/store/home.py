@@ -14,9 +14,9 @@ import filelock
 from server.disk import reject_without_space
 from server.store.errors import StoreError, translate_errors
 
-# Patient data is accessible to the user who runs the server only.
+# Patient data are accessible only to the user who runs the server.
 PRIVATE = 0o700
-# In the folder of a case, beside its files; see `server.recording`.
+# Subfolder of a case for recordings; see `server.recording`.
 RECORDINGS = "recordings"
 RESERVE_BYTES = 2**20
 # Errors of file systems without locks, such as some network disks and container volumes.
@@ -132,7 +132,7 @@ def _without_locks(folder: Path) -> StoreError:
         "HOME_NOT_LOCKABLE",
         f"the disk of the folder {folder} does not support file locks (as some network disks), so that "
         "another Coaxial could write into it at the same time",
-        "Name a folder on a disk of this computer with COAXIAL_HOME.",
+        "Set COAXIAL_HOME to a folder on a disk of this computer.",
         {"folder": str(folder)},
     )
 
@@ -140,7 +140,7 @@ def _without_locks(folder: Path) -> StoreError:
 def _in_use(folder: Path) -> StoreError:
     return StoreError(
         "HOME_IN_USE",
-        f"another Coaxial is running with the folder {folder}, and a folder serves one at a time",
-        "Stop the other one, or name another folder with COAXIAL_HOME.",
+        f"another Coaxial is running with the folder {folder}, which only one may use at a time",
+        "Stop the other one, or set COAXIAL_HOME to another folder.",
         {"folder": str(folder)},
     )

@@ -1,4 +1,4 @@
-"""File of measured latencies in the home: they belong to a camera and a screen, not to a case."""
+"""File of measured latencies in the home folder; they refer to a camera and a screen, not to a case."""
 
 import json
 import os
@@ -16,7 +16,7 @@ from server.store.home import sync_file, sync_folder
 
 FORM = 1
 LATENCY_FILE = "latency.json"
-# One a camera; of the cameras that were used before, so many are remembered.
+# Maximum number of cameras, each with one result.
 MAX_CAMERAS = 20
 OWNER_ONLY = 0o600
 
@@ -28,7 +28,7 @@ class LatencyFile:
     """The newest result of each camera.
 
     Args:
-        folder: of the home.
+        folder: The home folder.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -48,11 +48,11 @@ class LatencyFile:
         try:
             stored = json.loads(content)
             if stored["form"] != FORM:
-                raise ValueError(f"its form is {stored['form']!r}")  # noqa: TRY301  logged below with all others
+                raise ValueError(f"its format is {stored['form']!r}")  # noqa: TRY301  logged below with all others
             return _RESULTS.validate_python(stored["results"])
         except (ValueError, KeyError, TypeError, ValidationError) as error:
             _log.error(
-                "the file of latencies is damaged: measure again", file=str(self._file), why=str(error)
+                "the file of latencies is damaged; measure again", file=str(self._file), why=str(error)
             )
             return ()
 
@@ -65,10 +65,10 @@ class LatencyFile:
         return next((one for one in self.results() if one.camera == camera), None)
 
     def put(self, result: LatencyResult) -> None:
-        """Store this in place of what was measured with the same camera; it is on the disk when this returns.
+        """Replace the result of the same camera; the new one is on the disk on return.
 
         Raises:
-            StoreError: STORE_FULL and others; what was stored before stays.
+            StoreError: STORE_FULL and others; the stored results are kept.
         """
         others = [one for one in self.results() if one.camera != result.camera]
         self._write([result, *others][:MAX_CAMERAS])

@@ -1,7 +1,7 @@
-"""Results of reads, kept until the next commit.
+"""Cache of read results until the next commit.
 
-One server writes a folder, so what was read stays true until this process commits again. The state of the
-procedure asks for the same few documents and their validity dozens of times, and is polled.
+Only one server writes to a folder, so that read results stay valid until this process commits again. The
+state of the procedure is polled, and reads the same few documents and their validity dozens of times.
 """
 
 import threading
@@ -27,13 +27,13 @@ class ReadCache:
             commits = self._commits
         result = read()
         with self._lock:
-            # Otherwise it may be older than a commit during the read.
+            # Otherwise the result may be older than a commit during the read.
             if commits == self._commits:
                 self._results[key] = result
         return result
 
     def clear(self) -> None:
-        """Forget everything, after a commit."""
+        """Clear the cache after a commit."""
         with self._lock:
             self._commits += 1
             self._results.clear()

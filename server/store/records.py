@@ -167,7 +167,7 @@ class Current:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OutOfDate:
-    """The document is not valid any more.
+    """The document is no longer valid.
 
     Attributes:
         reason: the reason, as a sentence without its full stop.

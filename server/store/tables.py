@@ -30,7 +30,7 @@ class CaseRow(Table):
 
 
 class OpenCaseRow(Table):
-    """The one case that is open; it stays so over a restart."""
+    """The open case; it stays open over a restart."""
 
     __tablename__ = "open_case"
     __table_args__ = (CheckConstraint("only = 1", name="one_case_is_open"),)

@@ -27,11 +27,11 @@ def validate_name(name: str, *, of: str) -> str:
     visible = sum(unicodedata.category(letter)[0] not in "CZ" for letter in stored)
     if visible and len(stored) <= MAX_NAME_LENGTH and not odd:
         return stored
-    problem = f"has {len(stored)} letters" if visible else "has 0 letters that can be seen"
+    problem = f"has {len(stored)} characters" if visible else "has 0 visible characters"
     problem = f"has control characters ({', '.join(odd[:3])})" if odd else problem
     raise InvalidInput(
         "NAME_INVALID",
-        f"the {of} {problem}, allowed are 1 to {MAX_NAME_LENGTH} letters on one line",
+        f"the {of} {problem}, allowed are 1 to {MAX_NAME_LENGTH} characters on one line",
         "Give another one.",
         {"letters": len(stored), "allowed": MAX_NAME_LENGTH},
     )
@@ -52,8 +52,8 @@ def validate_suffix(suffix: str) -> str:
         return suffix
     raise InvalidInput(
         "SUFFIX_INVALID",
-        f"'{suffix[:40]}' cannot be the ending of a file's name",
-        "Give one such as .npy or .nii.gz, in small letters and digits.",
+        f"'{suffix[:40]}' is not a valid file name suffix",
+        "Give a suffix such as .npy or .nii.gz, of lower-case letters and digits.",
         {"suffix": suffix[:40]},
     )
 
@@ -74,7 +74,7 @@ def content_to_json(content: Mapping[str, object]) -> str:
     if size > MAX_CONTENT_BYTES:
         raise InvalidInput(
             "CONTENT_TOO_LARGE",
-            f"the document has {size / 2**20:.1f} MB, allowed are {MAX_CONTENT_BYTES / 2**20:g} MB",
+            f"the document has {size / 2**20:.1f} MB, the maximum is {MAX_CONTENT_BYTES / 2**20:g} MB",
             "Put what is large into a file of the case, and its name into the document.",
             {"size_bytes": size, "allowed_bytes": MAX_CONTENT_BYTES},
         )

@@ -9,13 +9,11 @@ class TooManyViewers(NavigationError):
     """The maximum number of viewers, or of connections of one person, is reached."""
 
     def __init__(self, watching: int, maximum: int, name: str | None = None) -> None:
-        message = f"{watching} viewers are connected already, at most {maximum} are allowed"
-        remedy = "Close a view that nobody uses, or raise video.max_viewers in the settings."
+        message = f"{watching} viewers are connected, the maximum is {maximum}"
+        remedy = "Close an unused view, or raise video.max_viewers in the settings."
         if name is not None:
-            message = (
-                f"{name} has {watching} connections open already, at most {maximum} are allowed per person"
-            )
-            remedy = "Close one of your pages that nobody uses."
+            message = f"{name} has {watching} open connections, the maximum per person is {maximum}"
+            remedy = "Close an unused page."
         super().__init__(
             "TOO_MANY_VIEWERS", message, remedy, {"watching": watching, "most": maximum, "name": name}
         )
@@ -32,7 +30,7 @@ class CameraUnknown(NavigationError):
         super().__init__(
             "CAMERA_UNKNOWN",
             f"there is no camera '{requested[:80]}', only {', '.join(known)}",
-            "Ask for one of these cameras, or name another one in the configuration.",
+            "Use one of these cameras, or configure another one in the settings.",
             {"requested": requested[:80], "known": list(known)},
         )
 

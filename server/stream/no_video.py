@@ -1,4 +1,4 @@
-"""The card that is shown without an image, with the reason and the time."""
+"""The card shown without an image, with reason and time."""
 
 from datetime import datetime
 
@@ -11,19 +11,19 @@ CARD_QUALITY = 85
 
 PROCESS_TEXTS = {
     ProcessState.STARTING: "Tracking is starting.",
-    ProcessState.RESTARTING: "Tracking has stopped and is being started again.",
-    ProcessState.GIVEN_UP: "Tracking has stopped too often and is not started again.",
+    ProcessState.RESTARTING: "Tracking has stopped and is being restarted.",
+    ProcessState.GIVEN_UP: "Tracking has stopped too often and is not restarted.",
 }
 SOURCE_TEXTS = {
-    SourceState.OPENING: "The source of images is being opened.",
-    SourceState.RECONNECTING: "The source of images has stopped and is tried again.",
-    SourceState.ENDED: "The source of images has ended.",
+    SourceState.OPENING: "The image source is being opened.",
+    SourceState.RECONNECTING: "The image source has stopped and is being reconnected.",
+    SourceState.ENDED: "The image source has ended.",
     SourceState.RUNNING: "Waiting for the first image.",
 }
 
 
 def reasons_for_no_video(instant: Instant | None, *, now_s: float) -> tuple[str, ...]:
-    """Return in sentences why there is no image: the problem, and what to do.
+    """Return sentences that state why there is no image, and the remedy.
 
     The image of an instant with a snapshot is assumed to be too old.
     """
@@ -35,14 +35,14 @@ def reasons_for_no_video(instant: Instant | None, *, now_s: float) -> tuple[str,
     if instant.process.state in PROCESS_TEXTS:
         return (PROCESS_TEXTS[instant.process.state],)
     if instant.snapshot is not None and instant.source.state is SourceState.RUNNING:
-        # Whole seconds, so that the card is made once a second for all viewers.
+        # Whole seconds, so that the card is drawn once a second for all viewers.
         age_s = int(now_s - instant.snapshot.captured_at_s)
         return (f"No new image for {age_s} s." if age_s >= 1 else "No new image.",)
     return (SOURCE_TEXTS[instant.source.state],)
 
 
 class NoVideoCard:
-    """Makes the card once for all viewers, and again when its text changes."""
+    """Draws the card once for all viewers, and again when its text changes."""
 
     def __init__(self) -> None:
         self._key: tuple[object, ...] = ()

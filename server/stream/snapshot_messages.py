@@ -88,7 +88,7 @@ class SnapshotMessage(Message):
     captured_at_s: float
     """Monotonic clock of the server."""
     age_ms: float
-    """From the capture to the making of this message."""
+    """Time from the capture to the creation of this message."""
     width_px: int
     height_px: int
     camera_calibrated: bool

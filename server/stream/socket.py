@@ -20,7 +20,7 @@ MAX_REASON_BYTES = 120
 
 
 class ProtocolViolation(Exception):
-    """A client sent what it may not; the connection is closed with this code and reason."""
+    """A client violated the protocol; the connection is closed with this code and reason."""
 
     def __init__(self, code: int, reason: str) -> None:
         super().__init__(reason)
@@ -53,7 +53,7 @@ async def run_duplex(
     except Stalled:
         connection = connection_of(websocket.scope)
         if connection is not None:
-            # A close frame would wait behind what the client does not read.
+            # A close frame would wait behind data that the client does not read.
             connection.abort()
         else:
             with contextlib.suppress(Stalled, WebSocketDisconnect, RuntimeError):
@@ -85,6 +85,6 @@ async def _listen(websocket: WebSocket, receive_text: Callable[[str], None]) -> 
         in_second += 1
         if in_second > MAX_MESSAGES_PER_SECOND:
             raise ProtocolViolation(
-                REJECTED, f"at most {MAX_MESSAGES_PER_SECOND} messages a second are taken"
+                REJECTED, f"at most {MAX_MESSAGES_PER_SECOND} messages per second are accepted"
             )
         receive_text(text)

@@ -12,8 +12,7 @@ async def run_until_first_ends(*sides: Coroutine[None, None, None]) -> None:
     finally:
         for task in tasks:
             task.cancel()
-        # Not gather: when cancelled itself it loses the origin, and the server above takes that for a
-        # failure.
+        # Not gather: it loses the origin of its own cancellation, which the server would report as a failure.
         await asyncio.wait(tasks)
         for task in tasks:
             if not task.cancelled():

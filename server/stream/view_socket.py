@@ -12,7 +12,7 @@ images instead of older ones. A second `{"next": true}` before the answer has no
 against its connection. `{"size": "half"}` requests another size from the next image on: full, half, quarter,
 or auto for the one that suits the connection. `{"largest": "half"}`: with auto, send none larger, because the
 client cannot display it. `{"interval_ms": 50}`: send images at least this far apart, on average, because the
-client has no time for more; what is no image, and an alarm that changes, is sent at once.
+client has no time for more; a message without an image and a change of an alarm are sent at once.
 
 Picture and pose cannot belong to different images, and the client sets the rate. MJPEG has neither property,
 and browsers display a part only when the next one begins; it remains for programs that show pictures only.
@@ -66,8 +66,8 @@ class ViewContext:
 class ImagePace:
     """Selects images that are at least `interval_s` apart, on average.
 
-    Of a camera with 33 ms between images an interval of 50 ms takes two of three: a fixed distance would take
-    every second one. A pause of the camera is not made up for.
+    With 33 ms between images an interval of 50 ms selects two of three images, whereas a fixed distance would
+    select every second one. A pause of the camera is not made up for.
     """
 
     def __init__(self) -> None:
@@ -166,7 +166,7 @@ async def watch_view(
     choice: SizeChoice = SizeChoice.AUTO,
     overlay: OverlayContent = OverlayContent.FULL,
 ) -> None:
-    """Answer each request of the client with the newest instant that it has not had, until it disconnects.
+    """Answer each request of the client with the newest instant not sent to it yet, until it disconnects.
 
     A client that requests but reads nothing for 2 s is disconnected; one that sends anything else is closed
     with 1008.

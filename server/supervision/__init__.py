@@ -1,13 +1,13 @@
-"""Presence, marks, hold requests and co-signatures of the people who watch. Nothing here moves anything.
+"""Presence, marks, hold requests and co-signatures of viewers. Nothing here moves anything.
 
-participants.py     who is present, each person once, and the state of their connection
-marks.py            pointers and drawings, in pixels of the image that they were made on
-room.py             both together, with the rules for each role; pure: time is passed in
+participants.py     people present, each once, and the state of their connection
+marks.py            pointers and drawings, in pixels of the image on which they were made
+room.py             participants and marks, with the permissions of each role; pure: time is passed in
 room_updates.py     the state already sent to one connection, so that only changes are sent
 room_hub.py         the room with its clock and its subscribers
 token_bucket.py     rate limit of one page
-hold_requests.py    who requests a hold
-hold_storage.py     the same on the disk, so that it survives a restart
+hold_requests.py    hold requests
+hold_storage.py     storage of hold requests, so that they survive a restart
 signatures.py       co-signatures of plan and registration
 """
 

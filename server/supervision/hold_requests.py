@@ -70,7 +70,7 @@ class HoldRequests:
                 raise SetupOrderError(
                     "HOLD_NOT_YOURS",
                     f"the hold was requested by {self._names()}, not by {person.name}",
-                    "Leave it to who requested it, or to the operator.",
+                    "Ask this person or the operator to release it.",
                     {"requested_by": [one.name for one in self._requests.values()]},
                 )
             others = {key: one for key, one in self._requests.items() if key != person.id and not is_operator}

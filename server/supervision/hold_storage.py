@@ -47,7 +47,7 @@ class HoldStorage(Protocol):
         """Return the stored requests, oldest first."""
 
     def write(self, asking: Iterable[HoldRequest]) -> None:
-        """Store these requests in place of all others; they are on the disk on return."""
+        """Replace all stored requests; they are on the disk on return."""
 
 
 class NoHoldStorage:
@@ -85,14 +85,18 @@ class HoldRequestFile:
         try:
             stored = json.loads(content)
             if stored["form"] != FORM:
-                raise ValueError(f"its form is {stored['form']!r}")  # noqa: TRY301  reported below with all others
+                raise ValueError(f"its format is {stored['form']!r}")  # noqa: TRY301  reported below with all others
             return tuple(_requested(one) for one in stored["asking"])
         except (ValueError, KeyError, TypeError) as error:
-            _log.error("the file of holds is damaged, so a hold stays", file=str(self._file), why=str(error))
+            _log.error(
+                "the file of hold requests is damaged; a hold is assumed",
+                file=str(self._file),
+                why=str(error),
+            )
             return (HoldRequest(person_id=UNREADABLE_ID, name=UNKNOWN_NAME, at=""),)
 
     def write(self, asking: Iterable[HoldRequest]) -> None:
-        """Store these requests in place of all others.
+        """Replace all stored requests.
 
         Raises:
             StoreError: STORE_FULL and others; the stored requests stay.

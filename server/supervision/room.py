@@ -19,8 +19,8 @@ from server.supervision.token_bucket import TokenBucket
 
 MAX_SESSIONS = 200
 MAX_SESSIONS_PER_PERSON = 20
-# A page sends at most 25 pointer and 25 drawing messages a second, and a request for the next message with
-# each.
+# A page sends at most 25 pointer and 25 drawing messages per second, each with a request for the next
+# message.
 MARKS_PER_SECOND, MARKS_AT_ONCE = 60.0, 120.0
 MAY_MARK = frozenset({Role.SUPERVISOR, Role.OPERATOR})
 
@@ -73,7 +73,7 @@ class Room:
         own = sum(session.person.id == person.id for session in self._sessions.values())
         if len(self._sessions) >= MAX_SESSIONS or own >= MAX_SESSIONS_PER_PERSON:
             maximum = MAX_SESSIONS_PER_PERSON if own >= MAX_SESSIONS_PER_PERSON else MAX_SESSIONS
-            raise RoomFull(f"{maximum} pages are open already; close one")
+            raise RoomFull(f"{maximum} pages are open, the maximum; close one")
         bucket = TokenBucket.full(rate_hz=MARKS_PER_SECOND, capacity=MARKS_AT_ONCE, now_s=now_s)
         session = RoomSession(number=next(self._numbers), person=person, view=view, since=at, bucket=bucket)
         self._sessions[session.number] = session
@@ -131,7 +131,7 @@ class Room:
         self._reject(session, now_s)
         if shape is not Shape.PEN and len(points_px) != 2:
             raise RoomPolicyViolation(
-                f"a drawing of the shape {shape.value} has two points, not {len(points_px)}"
+                f"a drawing of shape {shape.value} needs 2 points, not {len(points_px)}"
             )
         if shown is None or not _is_on(shown, points_px) or not _was_shown(moment, shown):
             return False
@@ -184,14 +184,14 @@ class Room:
         """
         self._reject(session, now_s)
         if everybodys and session.person.role is not Role.OPERATOR:
-            raise RoomPolicyViolation("only the operator clears what others drew")
+            raise RoomPolicyViolation("only the operator may clear drawings of others")
         return self.marks.clear(None if everybodys else session.person.id)
 
     def _reject(self, session: RoomSession, now_s: float) -> None:
         if session.person.role not in MAY_MARK:
             raise RoomPolicyViolation(f"a {session.person.role.value} may not mark")
         if not session.bucket.take(now_s):
-            raise RoomPolicyViolation(f"at most {MARKS_PER_SECOND:g} marks a second are taken")
+            raise RoomPolicyViolation(f"at most {MARKS_PER_SECOND:g} marks per second are accepted")
 
 
 def _key(session: RoomSession, key: int) -> str:

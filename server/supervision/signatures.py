@@ -35,9 +35,9 @@ class Signature:
         by: name of the signer.
         signer_id: id of the signer; not sent to others.
         at: UTC, ISO 8601.
-        second_person: whether it is known that another person made what was signed.
-        invited_by: who invited the signer; empty where unknown.
-        invited_by_maker: whether that was the maker of what was signed, who may have invited themselves.
+        second_person: Whether author and signer are known to differ.
+        invited_by: Person who invited the signer; empty if unknown.
+        invited_by_maker: Whether the author invited the signer, and may be the same person.
     """
 
     id: str
@@ -132,7 +132,7 @@ class SignatureService:
         document = self._newest(what, case_id)
         if document is None:
             raise SetupOrderError(
-                f"{what.name}_MISSING", f"there is no {what.value} to be signed", "Make it first, then sign."
+                f"{what.name}_MISSING", f"there is no {what.value} to sign", "Create it first, then sign."
             )
         self._reject(what, document, document_id, person)
         self._store.current(case_id, document.kind, document.name)
@@ -185,25 +185,25 @@ class SignatureService:
             raise SetupOrderError(
                 "SIGNATURE_NOT_YOURS",
                 f"this was signed by {document.made_by}, not by {person.name}",
-                "Leave it to the signer, or to the operator.",
+                "Ask the signer or the operator to withdraw it.",
             )
-        self._store.withdraw(document, by=person.name, reason="the signature was taken back")
+        self._store.withdraw(document, by=person.name, reason="the signature was withdrawn")
         return self.overview()
 
     def _reject(self, what: CosignTarget, document: Document, document_id: str, person: Person) -> None:
         if document.id != document_id:
             raise SetupOrderError(
                 "SIGNED_VERSION_OLD",
-                f"the {what.value} was changed since it was displayed: it is {document.title} now",
-                "Look at the newest version, then sign that one.",
+                f"the {what.value} has changed since it was displayed; it is now {document.title}",
+                "Review the newest version, then sign it.",
                 {"newest_id": document.id, "requested_id": document_id},
             )
         if person.id != LOCAL_USER.id and may_have_made(person.name, document):
-            taken_in = "" if document.imported is None else f", and taken in by {document.imported.by}"
+            taken_in = "" if document.imported is None else f" and imported by {document.imported.by}"
             raise SetupOrderError(
                 "SIGNED_BY_MAKER",
-                f"{document.title} was made by {document.maker}{taken_in}, and who made it cannot co-sign it",
-                "Have somebody else look at it and sign.",
+                f"{document.title} was made by {document.maker}{taken_in}, and its author cannot co-sign it",
+                "Have another person review and sign it.",
                 {"made_by": list(document.makers)},
             )
 

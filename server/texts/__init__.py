@@ -1,12 +1,12 @@
 """Message catalogue (English, German) of headline and alarms, for video, page, API, log and report.
 
-language.py     the languages, and a text in all of them
+language.py     languages, and texts in all of them
 alarms.py       texts of an alarm: present, past, or not observed
 phrases.py      templates of each alarm condition
-headline.py     verdict of an image, or why there are no figures, with unacknowledged alarms
-camera_note.py  what is worth mending about the camera: video that predicts its images
-flicker.py      lamp flicker and the exposures that avoid it
-states.py       why there are no figures
+headline.py     verdict of an image, or the reason for missing figures, with unacknowledged alarms
+camera_note.py  notes about the camera: video codec with prediction between images
+flicker.py      lamp flicker and the exposure times that avoid it
+states.py       reasons for missing figures
 places.py       walls and directions
 
 Headline, alarms and the reasons for missing figures are translated. Error messages are English only, because

@@ -28,11 +28,13 @@ _TIMES = format_number(math.sqrt(VARIANCE_FACTOR), decimals=1)
 PREDICTED_VIDEO = CameraNote(
     code="VIDEO_PREDICTED",
     message={
-        "en": f"The video predicts its images (as H.264): all stated errors are {_TIMES} times as large.",
-        "de": f"Das Video sagt Bilder voraus (wie H.264): alle Fehlerangaben sind {_TIMES}-mal so groß.",
+        "en": f"The video codec predicts images from earlier ones (as H.264 does): all stated errors are "
+        f"{_TIMES} times as large.",
+        "de": f"Der Videocodec sagt Bilder aus früheren voraus (wie H.264): alle Fehlerangaben sind "
+        f"{_TIMES}-mal so groß.",
     },
     remedy={
         "en": "Set the camera to MJPEG, or to uncompressed images.",
-        "de": "Kamera auf MJPEG oder unkomprimierte Bilder stellen.",
+        "de": "Die Kamera auf MJPEG oder unkomprimierte Bilder stellen.",
     },
 )

@@ -37,9 +37,9 @@ def flicker_note(flicker: LampFlicker, *, exposure_ms: float | None, rate_hz: fl
         )
         if not choices:
             return (
-                "Lampen mit Gleichstrom verwenden oder die Bildrate senken."
+                "Gleichstromlampen verwenden oder die Bildrate senken."
                 if language == "de"
-                else "Use lamps on direct current, or a lower image rate."
+                else "Use direct-current lamps, or a lower image rate."
             )
         return (
             f"Belichtung fest auf {choices} stellen." if language == "de" else f"Set exposure to {choices}."
@@ -49,7 +49,7 @@ def flicker_note(flicker: LampFlicker, *, exposure_ms: float | None, rate_hz: fl
 
 
 def even_exposures_ms(mains_hz: int, *, exposure_ms: float | None, rate_hz: float) -> list[float]:
-    """Return one or two exposure times without flicker: whole light periods nearest to the present exposure.
+    """Return up to two exposure times without flicker: the light's periods nearest to the present exposure.
 
     Args:
         mains_hz: 50 or 60; the light flickers at twice this frequency.

@@ -28,7 +28,7 @@ from tracker.pose import Seen, Unseen, is_twice_in_view
 
 
 class Tone(StrEnum):
-    """Colour of a headline; symbol and text carry the same information."""
+    """Colour of a headline; symbol and text carry the same information as the colour."""
 
     GOOD = "good"  # green: on path, and no alarm
     CAUTION = "caution"  # yellow: something is to be corrected, or an alarm is not acknowledged
@@ -54,15 +54,15 @@ TONES: Mapping[Verdict, Tone] = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Headline:
-    """What stands in the largest letters, of one image.
+    """Headline of one image.
 
     Attributes:
-        verdict: of the figures; None where there are none.
-        tone: its colour.
+        verdict: Verdict on the figures; None without figures.
+        tone: Colour.
         title: "CORRECT 1.2 mm medial", "NO TRACKING".
-        detail: the figure with its limit and what to do, or why there are no figures.
-        event: breaches that are over and not acknowledged, that are being cleared, or whose drill is not
-            tracked now: "BREACH 10:41:13 not acknowledged". Empty where there are none.
+        detail: The figure with its limit and what to do, or why there are no figures.
+        event: Latching alarms whose condition is over and not acknowledged, is clearing, or cannot be
+            observed now: "BREACH 10:41:13 not acknowledged". Empty without such alarms.
     """
 
     verdict: Verdict | None
@@ -73,7 +73,7 @@ class Headline:
 
 
 def headline_of(snapshot: NavigationSnapshot | None, alarms: AlarmSnapshot) -> Headline:
-    """The headline of an image with the alarms of that moment; of no image, only the alarms'."""
+    """Return the headline of an image and the alarms of that moment; without an image, of the alarms only."""
     event = text_of(lambda language: _event(alarms, language))
     if snapshot is None:
         return Headline(verdict=None, tone=Tone.NONE, title=NO_IMAGE, detail=NO_TEXT, event=event)
@@ -98,11 +98,11 @@ def headline_of(snapshot: NavigationSnapshot | None, alarms: AlarmSnapshot) -> H
 
 
 def absence_of(snapshot: NavigationSnapshot) -> tuple[AbsentReason, str]:
-    """Why no tool has figures, and the marker that this is about, if it is about one."""
+    """Return why no tool has figures, and the marker concerned; empty if no marker is concerned."""
     for name, assessment in snapshot.assessments.items():
         if isinstance(assessment, Absent):
             return assessment.reason, snapshot.setup.tools[name].marker
-    # No tool belongs to any marker: what is missing first.
+    # No tool belongs to a marker: the first missing prerequisite is the reason.
     for marker, sighting in snapshot.sightings.items():
         if is_twice_in_view(sighting):
             return AbsentReason.MARKER_TWICE, marker
@@ -159,7 +159,7 @@ def _title(assessment: Assessment, language: Language) -> str:
 
 
 def _corrections(corrections: tuple[Correction, ...], unit: str, language: Language) -> str:
-    """As "1.2 mm medial, 0.8 mm caudal"; without amounts where none is known."""
+    """Return a text such as "1.2 mm medial, 0.8 mm caudal"; unknown amounts are left out."""
     return ", ".join(
         TOWARDS[language][correction.towards]
         if isnan(correction.amount)
@@ -199,7 +199,7 @@ def _event(alarms: AlarmSnapshot, language: Language) -> str:
 
 
 def _one_event(alarm: Alarm, unix_offset_s: float, language: Language) -> str:
-    # A warning that has passed goes by itself; only what somebody has to acknowledge is named.
+    # Other alarms end without an acknowledgement.
     if not ALARM_RULES[alarm.condition].latches or alarm.presence is Presence.YES:
         return ""
     title = alarm_title(alarm.condition)[language]
@@ -228,7 +228,7 @@ EVENTS: Mapping[Language, Mapping[str, str]] = {
     "de": {
         "latched": "{title} {time} nicht quittiert",
         "clearing": "{title} {time} klingt ab",
-        "lost": "{title} als zuletzt gesehen",
+        "lost": "{title} bei letzter Sichtung",
     },
 }
 TITLES: Mapping[Language, Mapping[Verdict, str]] = {
@@ -282,7 +282,7 @@ DETAILS: Mapping[Language, Mapping[Verdict, str]] = {
         Verdict.CORRECT_ENTRY: "entry {entry_mm}, limit {entry_limit}",
         Verdict.CORRECT_ANGLE: "angle {angle_deg}, limit {angle_limit}",
         Verdict.CORRECT_END: "at the end: {end_wall} {end}, limit {end_limit}",
-        Verdict.NOT_ASSESSED: "no pedicle to measure against",
+        Verdict.NOT_ASSESSED: "no planned pedicle to compare with",
         Verdict.ON_PATH: "",
     },
     "de": {
@@ -290,13 +290,13 @@ DETAILS: Mapping[Language, Mapping[Verdict, str]] = {
         Verdict.TOO_DEEP: "Anhalten. Bohrer zurückziehen.",
         Verdict.UNCERTAIN: "95-%-Fehler, Grenze {error_limit}",
         Verdict.BREACH_LIKELY: "innerhalb von 2 mm, Grenze {risk_limit}",
-        Verdict.SETUP_INSUFFICIENT: "95-%-Fehler, mit Registrierung und Werkzeug bestenfalls {min_error_mm}, "
-        "Grenze {error_limit}",
+        Verdict.SETUP_INSUFFICIENT: "95-%-Fehler, mit dieser Registrierung und diesem Werkzeug bestenfalls "
+        "{min_error_mm}, Grenze {error_limit}",
         Verdict.NEAR_WALL: "Grenze {wall_limit}{move}",
         Verdict.CORRECT_ENTRY: "Eintritt {entry_mm}, Grenze {entry_limit}",
         Verdict.CORRECT_ANGLE: "Winkel {angle_deg}, Grenze {angle_limit}",
         Verdict.CORRECT_END: "am Ende: {end_wall} {end}, Grenze {end_limit}",
-        Verdict.NOT_ASSESSED: "kein Pedikel zum Vergleich",
+        Verdict.NOT_ASSESSED: "kein geplanter Pedikel zum Vergleich",
         Verdict.ON_PATH: "",
     },
 }

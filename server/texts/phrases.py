@@ -118,7 +118,8 @@ ENGLISH: Mapping[Condition, Phrases] = {
     ),
     Condition.SETUP_INSUFFICIENT: Phrases(
         title="SET-UP INSUFFICIENT",
-        present="95 % error ±{value}, limit {limit}. No view meets it with this registration and tool.",
+        present="95 % error ±{value}, limit {limit}. No camera view meets it with this registration "
+        "and tool.",
         past="95 % error was ±{worst}.",
         remedy="Register with more landmarks, or plan a thinner screw.",
     ),
@@ -149,7 +150,7 @@ ENGLISH: Mapping[Condition, Phrases] = {
     ),
     Condition.REGISTRATION_OUT_OF_DATE: Phrases(
         title="REGISTRATION OUT OF DATE",
-        present="Something that the registration depends on was changed.",
+        present="Data that the registration depends on have changed.",
         past="The registration was out of date.",
         remedy="Stop. Register again.",
     ),
@@ -174,7 +175,7 @@ ENGLISH: Mapping[Condition, Phrases] = {
     Condition.DISK_NEARLY_FULL: Phrases(
         title="DISK NEARLY FULL",
         present="{value} free for cases, limit {limit}.",
-        past="The disk was down to {worst}.",
+        past="Free disk space was down to {worst}.",
         remedy="Free space on the disk.",
     ),
     Condition.VIEWER_LOST: Phrases(
@@ -193,7 +194,7 @@ ENGLISH: Mapping[Condition, Phrases] = {
         title="HOLD REQUESTED",
         present="{by} requests a hold.",
         past="{by} requested a hold.",
-        remedy="Talk to the person before you continue.",
+        remedy="Consult this person before you continue.",
     ),
 }
 
@@ -209,10 +210,10 @@ GERMAN: Mapping[Condition, Phrases] = {
     ),
     Condition.PAST_DEPTH: Phrases(
         title="ZU TIEF",
-        present="{tool}Spitze {value} über der geplanten Tiefe.",
-        past="{worst_tool}War {worst} über der geplanten Tiefe, {time}.",
+        present="{tool}Spitze {value} tiefer als geplant.",
+        past="{worst_tool}War {worst} tiefer als geplant, {time}.",
         over=" Jetzt nicht mehr.",
-        lost="Nicht verfolgt. {worst_tool}War {worst} über der geplanten Tiefe, {time}.",
+        lost="Nicht verfolgt. {worst_tool}War {worst} tiefer als geplant, {time}.",
         remedy=_WITHDRAW["de"],
         lost_remedy=_STOP["de"],
     ),
@@ -260,7 +261,7 @@ GERMAN: Mapping[Condition, Phrases] = {
         title="KAMERA GETRENNT",
         present="Keine Bilder von der Kamera.",
         past="Die Kamera lieferte zeitweise keine Bilder.",
-        remedy="Kamera und Kabel prüfen. Neuer Versuch läuft.",
+        remedy="Kamera und Kabel prüfen. Die Verbindung wird erneut aufgebaut.",
     ),
     Condition.TRACKING_STOPPED: Phrases(
         title="TRACKING ANGEHALTEN",
@@ -272,19 +273,20 @@ GERMAN: Mapping[Condition, Phrases] = {
         title="LAGE UNSICHER",
         present="95-%-Fehler ±{value}, Grenze {limit}.",
         past="95-%-Fehler war ±{worst}.",
-        bare="Spitze zu unsicher, um sie zu zeigen.",
-        bare_past="Spitze war zu unsicher, um sie zu zeigen.",
-        remedy="Marker näher, ruhiger, schräger zeigen.",
+        bare="Position der Spitze für eine Anzeige zu unsicher.",
+        bare_past="Position der Spitze war für eine Anzeige zu unsicher.",
+        remedy="Marker näher, ruhiger und schräger halten.",
     ),
     Condition.SETUP_INSUFFICIENT: Phrases(
         title="AUFBAU REICHT NICHT",
-        present="95-%-Fehler ±{value}, Grenze {limit}. Mit Registrierung und Werkzeug unerreichbar.",
+        present="95-%-Fehler ±{value}, Grenze {limit}. Mit dieser Registrierung und diesem Werkzeug "
+        "nicht erreichbar.",
         past="95-%-Fehler war ±{worst}.",
         remedy="Mit mehr Landmarken registrieren oder dünnere Schraube planen.",
     ),
     Condition.POSE_JUMPED: Phrases(
         title="LAGE NICHT EINDEUTIG",
-        present="Zwei Lagen passen zum Bild, oder sie ist gesprungen.",
+        present="Zwei Lagen passen zum Bild, oder die Lage ist gesprungen.",
         past="Die Lage war nicht eindeutig.",
         remedy="Ruhig halten. Marker zur Kamera neigen.",
     ),
@@ -309,7 +311,7 @@ GERMAN: Mapping[Condition, Phrases] = {
     ),
     Condition.REGISTRATION_OUT_OF_DATE: Phrases(
         title="REGISTRIERUNG VERALTET",
-        present="Etwas, wovon die Registrierung abhängt, wurde geändert.",
+        present="Daten, von denen die Registrierung abhängt, wurden geändert.",
         past="Die Registrierung war veraltet.",
         remedy="Anhalten. Neu registrieren.",
     ),
@@ -334,26 +336,26 @@ GERMAN: Mapping[Condition, Phrases] = {
     Condition.DISK_NEARLY_FULL: Phrases(
         title="PLATTE FAST VOLL",
         present="{value} frei für Fälle, Grenze {limit}.",
-        past="Auf der Platte waren nur {worst} frei.",
+        past="Auf der Platte waren nur noch {worst} frei.",
         remedy="Platz auf der Platte schaffen.",
     ),
     Condition.VIEWER_LOST: Phrases(
         title="BILDSCHIRM VERLOREN",
-        present="Ein Bildschirm mit bereitem Ton ist getrennt.",
-        past="Ein Bildschirm mit bereitem Ton war getrennt.",
+        present="Ein Bildschirm mit eingeschaltetem Ton ist getrennt.",
+        past="Ein Bildschirm mit eingeschaltetem Ton war getrennt.",
         remedy="Prüfen, ob der OP-Bildschirm die Seite zeigt.",
     ),
     Condition.RECORDING_STOPPED: Phrases(
         title="NICHT AUFGEZEICHNET",
         present="Ereignisse werden nicht auf die Platte geschrieben.",
-        past="Ereignisse wurden zeitweise nicht geschrieben.",
+        past="Ereignisse wurden zeitweise nicht auf die Platte geschrieben.",
         remedy="Prüfen, ob die Platte voll oder getrennt ist.",
     ),
     Condition.HOLD_REQUESTED: Phrases(
         title="BITTE ANHALTEN",
-        present="{by} bittet anzuhalten.",
-        past="{by} bat anzuhalten.",
-        remedy="Vor dem Weitermachen Rücksprache halten.",
+        present="{by} bittet um einen Halt.",
+        past="{by} bat um einen Halt.",
+        remedy="Vor dem Fortfahren Rücksprache halten.",
     ),
 }
 PHRASES: Mapping[Language, Mapping[Condition, Phrases]] = {"en": ENGLISH, "de": GERMAN}

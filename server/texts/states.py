@@ -31,8 +31,8 @@ STATES: Mapping[Language, Mapping[AbsentReason, State]] = {
         AbsentReason.REFERENCE_MOVED: State("PATIENT MOVED", "check on a landmark, or register again"),
         AbsentReason.POSE_JUMPED: State("POSE AMBIGUOUS", "hold the drill still for a moment"),
         AbsentReason.NOT_CHECKED: State("NOT CHECKED", "touch a landmark to check the registration"),
-        AbsentReason.NOT_CONFIRMED: State("NAVIGATION STOPPED", "restarted: the operator confirms first"),
-        AbsentReason.NOT_COSIGNED: State("NOT CO-SIGNED", "a second person signs plan and registration"),
+        AbsentReason.NOT_CONFIRMED: State("NAVIGATION STOPPED", "restarted: the operator must confirm"),
+        AbsentReason.NOT_COSIGNED: State("NOT CO-SIGNED", "a second person must sign plan and registration"),
     },
     "de": {
         AbsentReason.MARKER_UNSEEN: State("KEIN TRACKING", "Marker nicht gesehen"),
@@ -41,8 +41,8 @@ STATES: Mapping[Language, Mapping[AbsentReason, State]] = {
         ),
         AbsentReason.CAMERA_NOT_CALIBRATED: State("KAMERA NICHT KALIBRIERT", "zuerst die Kamera kalibrieren"),
         AbsentReason.CAMERA_CHANGED: State("KAMERA VERSTELLT", "zurückstellen oder neu kalibrieren"),
-        AbsentReason.POSE_UNCERTAIN: State("LAGE UNSICHER", "Marker näher, ruhiger, schräger zeigen"),
-        AbsentReason.TOOL_NOT_DEFINED: State("WERKZEUG NICHT BESTIMMT", "zuerst das Werkzeug kalibrieren"),
+        AbsentReason.POSE_UNCERTAIN: State("LAGE UNSICHER", "Marker näher, ruhiger und schräger halten"),
+        AbsentReason.TOOL_NOT_DEFINED: State("WERKZEUG NICHT DEFINIERT", "zuerst das Werkzeug kalibrieren"),
         AbsentReason.NOT_REGISTERED: State("NICHT REGISTRIERT", "Plan und Patient registrieren"),
         AbsentReason.NO_PLAN: State("KEIN PLAN", "einen Kanal im CT planen"),
         AbsentReason.REFERENCE_UNSEEN: State(
@@ -55,23 +55,25 @@ STATES: Mapping[Language, Mapping[AbsentReason, State]] = {
         AbsentReason.POSE_JUMPED: State("LAGE NICHT EINDEUTIG", "den Bohrer kurz ruhig halten"),
         AbsentReason.NOT_CHECKED: State("NICHT GEPRÜFT", "zum Prüfen eine Landmarke berühren"),
         AbsentReason.NOT_CONFIRMED: State(
-            "NAVIGATION ANGEHALTEN", "neu gestartet: erst bestätigt der Bediener"
+            "NAVIGATION ANGEHALTEN", "neu gestartet: der Bediener muss bestätigen"
         ),
-        AbsentReason.NOT_COSIGNED: State("NICHT GEGENGEZEICHNET", "eine zweite Person unterschreibt"),
+        AbsentReason.NOT_COSIGNED: State(
+            "NICHT GEGENGEZEICHNET", "eine zweite Person muss Plan und Registrierung unterschreiben"
+        ),
     },
 }
 UNSEEN: Mapping[Language, Mapping[UnseenReason, str]] = {
     "en": {
-        UnseenReason.NO_CANDIDATE: "not seen, no similar square",
-        UnseenReason.SCORE_TOO_LOW: "not seen, too few of its edges",
-        UnseenReason.TARGET_SCORE_TOO_LOW: "not seen, edges that do not belong to it",
-        UnseenReason.SHAPE_DIFFERS: "not seen, similar object with another shape",
+        UnseenReason.NO_CANDIDATE: "not seen, no similar square in the image",
+        UnseenReason.SCORE_TOO_LOW: "not seen, too few of its edges found",
+        UnseenReason.TARGET_SCORE_TOO_LOW: "not seen, edges found that are not the marker's",
+        UnseenReason.SHAPE_DIFFERS: "not seen, similar object of another shape",
         UnseenReason.MARKER_TWICE: "in view twice, cover or remove all but one",
     },
     "de": {
-        UnseenReason.NO_CANDIDATE: "nicht gesehen, kein ähnliches Quadrat",
-        UnseenReason.SCORE_TOO_LOW: "nicht gesehen, zu wenige seiner Kanten",
-        UnseenReason.TARGET_SCORE_TOO_LOW: "nicht gesehen, Kanten, die nicht dazugehören",
+        UnseenReason.NO_CANDIDATE: "nicht gesehen, kein ähnliches Quadrat im Bild",
+        UnseenReason.SCORE_TOO_LOW: "nicht gesehen, zu wenige seiner Kanten gefunden",
+        UnseenReason.TARGET_SCORE_TOO_LOW: "nicht gesehen, Kanten gefunden, die nicht zum Marker gehören",
         UnseenReason.SHAPE_DIFFERS: "nicht gesehen, ähnliches Objekt mit anderer Form",
         UnseenReason.MARKER_TWICE: "doppelt im Bild, alle bis auf einen abdecken oder entfernen",
     },

@@ -201,7 +201,7 @@ def test_who_took_an_archive_in_cannot_co_sign_what_they_may_have_written_into_i
     for person in ("o1", "s2"):
         rejected = sign(server, "plan", person, 409)
         assert rejected["code"] == "SIGNED_BY_MAKER"
-        assert "made by Dr Kim, says the archive, and taken in by ito" in rejected["message"]
+        assert "made by Dr Kim, says the archive and imported by ito" in rejected["message"]
     sign(server, "plan", "s1")
     assert signable(server, "plan")["is_cosigned"]
 

@@ -149,7 +149,7 @@ def test_a_camera_that_looks_elsewhere_is_rejected_in_numbers_and_leaves_what_wa
         said["shown"].append({**said["shown"][-1], "image_number": last})
     rejected = server.ask("POST", CONCLUSION, 409, json=said)
     assert rejected["code"] == "LATENCY_CODE_NOT_READ"
-    assert rejected["message"] == "the code was read in 5 of 29 images, needed 13"
+    assert rejected["message"] == "the code was read in 5 of 29 images, the minimum is 13"
     assert rejected["remedy"].startswith("Point the camera at the screen, darken the room")
     assert server.ask("GET", "/api/latency", 200) == {"measuring": False, "result": stored, "applies": True}
     assert server.ask("POST", CONCLUSION, 409, json=said)["code"] == "COLLECTION_MISSING"
@@ -219,7 +219,7 @@ def test_a_page_that_left_ends_it(server: Server) -> None:
     problem = measurement.status().problem
     assert problem is not None
     assert problem.code == "LATENCY_PAGE_LEFT"
-    assert problem.message == "the page that shows the codes was silent for 10.0 s, allowed 5 s"
+    assert problem.message == "the page that shows the codes was silent for 10.0 s, limit 5 s"
     measurement.stop()
 
 

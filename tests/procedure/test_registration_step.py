@@ -173,7 +173,7 @@ def test_a_failed_check_is_stored_and_navigation_is_locked(server: Server) -> No
     assert states(server)["check"] == "failed"
     procedure = server.ask("GET", "/api/procedure", 200)
     assert not procedure["may_navigate"]
-    assert "allowed 2.00 mm" in procedure["steps"][4]["message"]
+    assert "limit 2.00 mm" in procedure["steps"][4]["message"]
     assert len(server.store.history(case_id, DocumentKind.CHECK, "registration of L3")) == 2
 
 
@@ -333,5 +333,5 @@ def test_a_move_of_the_camera_withdraws_the_registration_once_it_lasts(server: S
     server.until(lambda: registered(server) is None)
     register = server.ask("GET", "/api/procedure", 200)["steps"][3]
     assert register["state"] == "out_of_date"
-    assert "the camera stands elsewhere" in register["message"]
+    assert "the camera has moved since" in register["message"]
     server.ask("POST", POINTS, 201, json=DRILL)

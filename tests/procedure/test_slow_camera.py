@@ -148,7 +148,7 @@ def test_a_check_saved_too_early_states_the_remaining_time(server: Server) -> No
     rejected = server.ask("POST", f"{CHECK}/conclusion", 409, json={"made_by": "ito"})
     assert rejected["code"] == "CHECK_NOT_CAPTURED"
     assert rejected["message"] == "the tip was seen in 4 images at 5.0 images/s, needed 12"
-    assert rejected["remedy"] == "Hold the tip still on the landmark for another 1.6 s, until it is taken."
+    assert rejected["remedy"] == "Hold the tip still on the landmark for another 1.6 s, until it is captured."
 
 
 def test_a_tool_is_calibrated_with_a_slow_camera(server: Server) -> None:

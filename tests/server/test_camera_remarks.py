@@ -34,15 +34,15 @@ def test_a_credible_report_or_none_is_not_warned_of(report: dict[str, object], t
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"rms_px": 2.31}, "rms_px is 2.31, accepted are values above 0 up to 1 px"),
+        ({"rms_px": 2.31}, "rms_px is 2.31, allowed: above 0 to 1 px"),
         ({"rms_px": 0.0}, "rms_px is 0.0"),
         ({"rms_px": float("nan")}, "rms_px is nan"),
         ({"rms_px": "small"}, "rms_px is small"),
-        ({"sd": {"fx": 14.1}}, "standard deviation of fx is 14.1 px, advised is 14.0 px"),
-        ({"sd": {"cy": -1.0}}, "standard deviation of cy is -1.0 px, advised is 19.2 px"),
+        ({"sd": {"fx": 14.1}}, "standard deviation of fx is 14.1 px, recommended up to 14.0 px"),
+        ({"sd": {"cy": -1.0}}, "standard deviation of cy is -1.0 px, recommended up to 19.2 px"),
         ({"parameters": [{"name": "fy", "sd": 50.0}], "sd": None}, "standard deviation of fy is 50.0 px"),
-        ({"warnings": ["CORNERS_UNCOVERED"]}, "its calibration warned of CORNERS_UNCOVERED"),
-        ({"warnings": [{"code": "TWO_CAMERAS"}]}, "its calibration warned of TWO_CAMERAS"),
+        ({"warnings": ["CORNERS_UNCOVERED"]}, "it has the warnings CORNERS_UNCOVERED"),
+        ({"warnings": [{"code": "TWO_CAMERAS"}]}, "it has the warnings TWO_CAMERAS"),
     ],
 )
 def test_a_report_that_contradicts_its_camera_is_warned_of(

@@ -1,8 +1,8 @@
-"""The alarm sounds, made by arithmetic to the table that manuals quote of IEC 60601-1-8.
+"""Synthesis of the alarm sounds, with the timing that manuals quote from IEC 60601-1-8.
 
-Each alarm is one buffer with its pause in it, looped by the browser's audio hardware: timers of a page
-stall when it is busy or hidden, and the gaps of the table would not hold. A sound cannot change with the
-distance.
+Each alarm is one buffer that includes its pause and is looped by the browser's audio hardware. Timers of a
+page stall when it is busy or hidden, and could not keep the specified gaps. A sound does not change with the
+distance to the wall.
 """
 
 from server.alarms.sound.burst import BURSTS, RATE_HZ, Burst

@@ -1,7 +1,6 @@
-"""What each alarm sound is: so many pulses, so long, so far apart, and when all comes again.
+"""Timing of the alarm sounds: number and length of the pulses, gaps, and repetition.
 
-Lengths of pulses and gaps lie inside the table for each way of measuring them: where the sound is over nine
-tenths of its height, and where there is any sound at all.
+Pulses and gaps meet the table whether a pulse is measured above 90 % of its amplitude or where it is audible.
 """
 
 from collections.abc import Mapping
@@ -15,14 +14,14 @@ RATE_HZ = 16_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Burst:
-    """One sound.
+    """One burst of pulses.
 
     Attributes:
-        fundamental_hz: of every pulse.
-        pulse_s: from the first to the last of a pulse.
-        rise_s: of it, until it is at its full height, and the same at its end.
-        gaps_s: silence after each pulse but the last; one more pulse than gaps.
-        repeat_every_s: from the beginning of a burst to the beginning of the next one.
+        fundamental_hz: Fundamental frequency of the pulses.
+        pulse_s: Length of a pulse, including its rise and fall.
+        rise_s: Rise time of a pulse, equal to its fall time.
+        gaps_s: Silence after each pulse except the last one.
+        repeat_every_s: Time from the start of a burst to the start of the next one.
     """
 
     fundamental_hz: float
@@ -33,11 +32,11 @@ class Burst:
 
     @property
     def length_s(self) -> float:
-        """From its first pulse to the end of its last."""
+        """Time from the start of the first pulse to the end of the last one."""
         return self.pulse_s * (len(self.gaps_s) + 1) + sum(self.gaps_s)
 
 
-# Three and two: the gap between them is longer, as far as the table allows.
+# Three pulses and two pulses, separated by the longest gap that the table allows.
 _FIVE_S = (0.052, 0.052, 0.076, 0.052)
 
 BURSTS: Mapping[Priority, Burst] = MappingProxyType(

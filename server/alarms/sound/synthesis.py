@@ -1,4 +1,4 @@
-"""From the description of a sound to its samples, and to a WAV file."""
+"""Samples and WAV files of the alarm sounds."""
 
 import io
 import wave
@@ -10,15 +10,15 @@ import numpy.typing as npt
 from server.alarms.sound.burst import BURSTS, RATE_HZ, Burst
 from tracker.navigation.alarms import Priority
 
-# Amplitudes of the fundamental and its harmonics: within 10 dB of each other, so that small loudspeakers,
-# which have no low tones, and old ears, which have no high ones, get enough of them.
+# Amplitudes of the fundamental and its harmonics. They are within 10 dB of each other, because small
+# loudspeakers lack low frequencies and elderly listeners do not hear high ones.
 HARMONICS = (1.0, 0.8, 0.65, 0.5, 0.4, 0.32)
 PEAK = 0.8
 LARGEST_SAMPLE = 32767
 
 
 def samples_of(burst: Burst) -> npt.NDArray[np.float64]:
-    """One burst as samples between -1 and 1, at `RATE_HZ`."""
+    """Return one burst as samples between -1 and 1 at `RATE_HZ`."""
     pulse = _pulse(burst)
     parts = []
     for gap_s in burst.gaps_s:
@@ -28,7 +28,7 @@ def samples_of(burst: Burst) -> npt.NDArray[np.float64]:
 
 @cache
 def burst_wav(priority: Priority) -> bytes:
-    """One burst of this priority as a WAV file: one channel of 16 bit."""
+    """Return one burst of this priority as a WAV file, mono, 16 bit."""
     samples = np.rint(samples_of(BURSTS[priority]) * LARGEST_SAMPLE).astype("<i2")
     file = io.BytesIO()
     with wave.open(file, "wb") as written:
@@ -44,7 +44,7 @@ def _pulse(burst: Burst) -> npt.NDArray[np.float64]:
     time_s = np.arange(count) / RATE_HZ
     tone = np.zeros(count)
     for number, amplitude in enumerate(HARMONICS, start=1):
-        # Each begins at another phase, or their peaks would all fall together.
+        # Different phases, so that the peaks of the harmonics do not coincide.
         phase = 0.7 * number * number
         tone += amplitude * np.sin(2.0 * np.pi * number * burst.fundamental_hz * time_s + phase)
     rise = round(burst.rise_s * RATE_HZ)

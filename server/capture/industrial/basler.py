@@ -98,7 +98,7 @@ class BaslerCamera:
     def grab(self, timeout_s: float) -> GrabbedImage | None:
         """Return the newest image not returned yet.
 
-        Pylon ends its wait by a timer that sends SIGALRM to this process, and has a handler for it.
+        Pylon ends its wait with a timer that sends SIGALRM to this process; pylon handles the signal.
         """
         with _as_os_error():
             if not self._camera.IsGrabbing() or self._camera.IsCameraDeviceRemoved():

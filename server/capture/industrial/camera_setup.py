@@ -1,7 +1,7 @@
 """Capabilities of an industrial camera, and the requested and granted mode.
 
-A smaller image of such a camera is a centred region of its sensor, and no scaled image: it has the same
-pixels per degree and another camera matrix.
+A smaller image of such a camera is a centred region of its sensor, not a scaled image: it has the same pixels
+per degree, but another camera matrix.
 """
 
 import contextlib
@@ -46,7 +46,7 @@ def read_capabilities(features: Features) -> CameraCapabilities:
     """Return a camera's present capabilities. Raises OSError if it does not state its image size."""
     width, height = _full_range(features, "Width"), _full_range(features, "Height")
     if width is None or height is None:
-        raise OSError("it does not name the size of its images")
+        raise OSError("it does not state the size of its images")
     rates = (features.bounds(name) for name in RATE_NAMES)
     return CameraCapabilities(
         pixel_formats=features.options("PixelFormat"),
@@ -135,7 +135,7 @@ def set_trigger(features: Features, name: str, trigger: str | None) -> str:
         raise CaptureError(
             "CAMERA_TRIGGER_NOT_OFFERED",
             f"{name} has no trigger '{trigger}'",
-            f"Set camera.trigger to one that it has: {', '.join(sources) or 'none'}; or to null.",
+            f"Set camera.trigger to an available trigger ({', '.join(sources) or 'none'}), or to null.",
             {"camera": name, "trigger": trigger, "offered": list(sources)},
         )
     _try(features, "TriggerSelector", "FrameStart")

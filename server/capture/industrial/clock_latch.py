@@ -8,7 +8,7 @@ from server.capture.industrial.device import Features
 
 # Interval in which a crystal drifts by up to a millisecond.
 RENEWED_EVERY_S = 10.0
-# Of this many readings the one with the shortest round trip is used: its two ends bound the error.
+# Of this many readings the one with the shortest round trip is used, which bounds the error.
 READINGS = 3
 NANOSECONDS_PER_S = 1e9
 # Command and value: SFNC 2.1 in nanoseconds, GigE Vision 1 in ticks.

@@ -86,7 +86,7 @@ def _opened() -> _Library:
 def _index(devices: Sequence[Any], serial: str) -> int:
     index = next((n for n, device in enumerate(devices) if _serial(device) == serial), None)
     if index is None:
-        raise OSError("it is not there")
+        raise OSError("it is not connected")
     return index
 
 
@@ -197,7 +197,7 @@ def _device_s(buffer: Any) -> float | None:  # noqa: ANN401  the library has no 
 
 @contextlib.contextmanager
 def _as_os_error() -> Iterator[None]:
-    """The library raises exceptions of GenApi and of GenTL."""
+    """Convert exceptions of GenApi and GenTL to OSError."""
     from genicam.genapi import GenericException as FeatureError  # noqa: PLC0415  an extra, loaded when needed
     from genicam.gentl import GenericException as TransportError  # noqa: PLC0415
 

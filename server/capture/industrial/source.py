@@ -178,7 +178,7 @@ class IndustrialCameraSource:
         found = self._cameras.descriptions()
         if len(found) != 1:
             raise OSError(
-                f"{len(found)} cameras are connected: {', '.join(one.address for one in found)}; name one"
+                f"{len(found)} cameras are connected: {', '.join(one.address for one in found)}; select one"
                 if found
                 else "no camera is connected"
             )
@@ -249,10 +249,10 @@ class IndustrialCameraSource:
         captured_at_s = self._timestamps.captured_at_s(at_s, arrived_s=arrived_s)
         if self._timestamps.gave_up and not had_given_up:
             log.warning(
-                "the camera's own times are implausible; images count from their arrival",
+                "the time stamps of the camera are implausible; arrival times are used instead",
                 code="CAMERA_CLOCK_IMPLAUSIBLE",
                 camera=self.name,
-                remedy="Ages lack exposure and transfer now. Restart the camera, and update its firmware.",
+                remedy="Ages now lack exposure and transfer. Restart the camera, and update its firmware.",
             )
         return captured_at_s
 
@@ -269,7 +269,7 @@ class IndustrialCameraSource:
         return CaptureError(
             "CAMERA_NOT_OPENED",
             f"{self.name} cannot be opened: {reason}",
-            "See what coaxial cameras lists; check its cable and power, and that no other program has it. "
+            "Run 'coaxial cameras'; check its cable and power, and that no other program uses it. "
             "It is retried automatically.",
             {"camera": self.name, "reason": reason},
         )
@@ -277,7 +277,7 @@ class IndustrialCameraSource:
     def _stopped(self, reason: str) -> CaptureError:
         return CaptureError(
             "CAMERA_STOPPED",
-            f"{self.name} gave no image: {reason}",
+            f"{self.name} sent no image: {reason}",
             "Check its cable and power; it is retried automatically.",
             {"camera": self.name, "reason": reason},
         )
@@ -285,7 +285,7 @@ class IndustrialCameraSource:
     def _torn(self, images: int, grabbed: GrabbedImage) -> CaptureError:
         return CaptureError(
             "CAMERA_TORN",
-            f"{self.name} gave {images} images in a row that are incomplete or cannot be decoded",
-            "Give it a USB 3 port or a network card (jumbo frames) of its own, or a lower camera.rate_hz.",
+            f"{self.name} sent {images} images in a row that are incomplete or cannot be decoded",
+            "Use a separate USB 3 port or network card (jumbo frames) for it, or a lower camera.rate_hz.",
             {"camera": self.name, "images": images, "pixel_format": grabbed.pixel_format},
         )

@@ -173,7 +173,7 @@ class KernelDevice:
         self._ioctl(self._descriptor, S_CTRL, Control(id=CONTROL_IDS[control], value=value))
 
     def close(self) -> None:
-        """Close it; harmless when it is closed."""
+        """Close the device; does nothing if it is closed."""
         if self._descriptor >= 0:
             os.close(self._descriptor)
             self._descriptor = -1
@@ -203,7 +203,7 @@ class KernelDevice:
         ):
             rates.append(_rate_hz(record.values[0], record.values[1]))
             if record.type != DISCRETE:
-                # A range begins with its shortest interval.
+                # A range starts with its shortest interval.
                 break
         return rates or [0.0]
 

@@ -9,14 +9,14 @@ U32 = ctypes.c_uint32
 S32 = ctypes.c_int32
 Field: TypeAlias = tuple[str, type]
 
-VIDEO_CAPTURE = 1  # the type of buffer that cameras have
+VIDEO_CAPTURE = 1  # buffer type of cameras
 CAN_CAPTURE = 0x0000_0001
 HAS_DEVICE_CAPS = 0x8000_0000
-DISCRETE = 1  # of sizes and of intervals: listed one by one, not as a range
+DISCRETE = 1  # sizes or intervals are listed individually, not as a range
 FLAG_DISABLED = 0x0001
 FLAG_INACTIVE = 0x0010
 
-EXPOSURE_MANUAL = 1  # of automatic exposure, a menu; 0 and 3 are what cameras have for on
+EXPOSURE_MANUAL = 1  # menu value of automatic exposure; cameras use 0 or 3 for on
 
 _USER, _CAMERA = 0x0098_0900, 0x009A_0900
 CONTROL_IDS: dict[CameraControl, int] = {

@@ -1,1 +1,1 @@
-"""`coaxial calibrate` and `coaxial calibrate-rig`: from images of a board to a camera file."""
+"""`coaxial calibrate` and `coaxial calibrate-rig`: calibrate cameras from images of a board."""

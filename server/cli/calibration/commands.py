@@ -1,4 +1,4 @@
-"""What can be typed after `coaxial calibrate`."""
+"""The commands `coaxial calibrate` and `coaxial calibrate-rig`."""
 
 from pathlib import Path
 from typing import Annotated
@@ -19,39 +19,49 @@ from server.cli.board_names import BoardOptions
 
 InsetOption = Annotated[
     str | None,
-    typer.Option(help="Inner corners of a checkerboard that is set into the board.", metavar="13x8"),
+    typer.Option(help="Inner corners of a checkerboard inside the board, columns x rows.", metavar="13x8"),
 ]
 InsetSquareOption = Annotated[
     float | None, typer.Option("--inset-square-mm", help="Side of its squares.", metavar="MM")
 ]
 OutputOption = Annotated[
-    Path | None, typer.Option(help="Camera file that is written, as camera.yaml.", metavar="FILE")
+    Path | None, typer.Option(help="Camera file to write, such as camera.yaml.", metavar="FILE")
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Write the report as JSON.", show_default=False)]
 PlotsOption = Annotated[
-    Path | None, typer.Option(help="Folder for residuals.svg and coverage.svg.", metavar="FOLDER")
+    Path | None, typer.Option(help="Write residuals.svg and coverage.svg into this folder.", metavar="FOLDER")
 ]
 CameraNameOption = Annotated[
     str | None,
-    typer.Option(help="The camera's name in the settings; another one is rejected later.", metavar="NAME"),
+    typer.Option(
+        help="Name of the camera in the settings; the file is rejected for other names.", metavar="NAME"
+    ),
 ]
 CameraSourceOption = Annotated[
     str | None,
     typer.Option(
-        help="The camera's source in the settings; another one is rejected later.", metavar="SOURCE"
+        help="Source of the camera in the settings; the file is rejected for other sources.",
+        metavar="SOURCE",
     ),
 ]
 CoefficientsOption = Annotated[
     int | None,
-    typer.Option(help="Of the lens: 4, 5 or 8; the best on views held out if left out.", metavar="N"),
+    typer.Option(
+        help="Number of distortion coefficients: 4, 5 or 8; default: selected by cross-validation.",
+        metavar="N",
+    ),
 ]
 RmsOption = Annotated[
     float | None,
-    typer.Option("--max-rms-px", help="Allowed RMS; calibration.max_rms_px if left out.", metavar="PX"),
+    typer.Option(
+        "--max-rms-px",
+        help="Largest permitted RMS; default: calibration.max_rms_px of the settings.",
+        metavar="PX",
+    ),
 ]
 ConfigOption = Annotated[
     Path | None,
-    typer.Option("--config", help="Settings file; ./config.yaml is taken if it is there.", metavar="FILE"),
+    typer.Option("--config", help="Settings file; default: ./config.yaml if it exists.", metavar="FILE"),
 ]
 
 
@@ -82,9 +92,9 @@ def calibrate(
     json: JsonOption = False,
     config: ConfigOption = None,
 ) -> None:
-    """Calibrate a camera from images of a board, and tell how far it can be trusted.
+    """Calibrate a camera from images of a board, and report its uncertainty.
 
-    Exit status 1 says that the points lie off by more than is allowed; then no camera file is written.
+    Exit status 1 if the RMS reprojection error exceeds its limit; no camera file is written then.
     """
     from server.cli.calibration.run import CalibrationOrder, calibrate_camera  # noqa: PLC0415  loaded when needed
 
@@ -117,7 +127,8 @@ def calibrate_rig(
     camera: Annotated[
         list[str],
         typer.Option(
-            help="A camera's name and its images (folder or pattern), in the same order; repeat it.",
+            help="Name of a camera and its images (folder or pattern); the order of the images is the same "
+            "for all cameras. Repeatable.",
             metavar="NAME=IMAGES",
         ),
     ],
@@ -130,13 +141,13 @@ def calibrate_rig(
     fiducials: FiducialsOption = None,
     layout: LayoutOption = None,
     output: Annotated[
-        Path | None, typer.Option(help="Rig file that is written, as rig.yaml.", metavar="FILE")
+        Path | None, typer.Option(help="Rig file to write, such as rig.yaml.", metavar="FILE")
     ] = None,
     max_rms_px: RmsOption = None,
     json: JsonOption = False,
     config: ConfigOption = None,
 ) -> None:
-    """Calibrate several cameras that stand still to each other; the first one is the origin."""
+    """Calibrate several cameras that do not move relative to each other; the first one is the origin."""
     from server.cli.calibration.rig import RigOrder, calibrate_cameras  # noqa: PLC0415  loaded when needed
 
     board = BoardOptions(

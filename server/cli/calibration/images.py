@@ -22,8 +22,8 @@ class Picture:
     """One image file.
 
     Attributes:
-        name: as shown in reports.
-        image: (h, w, 3), as the sensor gave it: what a file says about its turning is left aside.
+        name: Name in reports.
+        image: (h, w, 3), in the orientation of the sensor; the EXIF orientation is ignored.
     """
 
     name: str
@@ -32,14 +32,14 @@ class Picture:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Unusable:
-    """An image file in which no board can be looked for, and why, in a sentence."""
+    """An image file that cannot be used, with the reason as a sentence."""
 
     name: str
     sentence: str
 
 
 def files_of(given: Sequence[str]) -> list[Path]:
-    """The image files that are meant, in order, each once.
+    """Return the image files of paths, folders and patterns, in order and without duplicates.
 
     Raises:
         InvalidInput: IMAGES_MISSING.
@@ -55,7 +55,9 @@ def files_of(given: Sequence[str]) -> list[Path]:
             found = [Path(one) for one in sorted(glob.glob(text, recursive=True)) if Path(one).is_file()]  # noqa: PTH207  a pattern may be absolute
         if not found:
             what = (
-                "holds no image" if path.is_dir() else "is no file, no folder, and no pattern that fits one"
+                "contains no image"
+                if path.is_dir()
+                else "is not a file, a folder or a pattern that matches one"
             )
             raise InvalidInput("IMAGES_MISSING", f"{text} {what}", REMEDY, {"given": text})
         files += found
@@ -69,33 +71,33 @@ def names_of(files: Sequence[Path]) -> list[str]:
 
 
 def read_picture(file: Path, name: str) -> Picture | Unusable:
-    """The image in a file, or why there is none."""
+    """Return the image in a file, or the reason why it cannot be used."""
     try:
         content = file.read_bytes()
     except OSError as error:
         return Unusable(name=name, sentence=f"it cannot be read: {(error.strerror or str(error)).lower()}")
     image = decoded(content)
     if image is None:
-        return Unusable(name=name, sentence=f"its {len(content)} bytes are no image")
+        return Unusable(name=name, sentence=f"its {len(content)} bytes are not a readable image")
     if min(image.shape[:2]) < MIN_SIDE_PX:
         size = f"{image.shape[1]}x{image.shape[0]}"
-        return Unusable(name=name, sentence=f"it has {size} px, needed are {MIN_SIDE_PX}x{MIN_SIDE_PX}")
+        return Unusable(name=name, sentence=f"it has {size} px, the minimum is {MIN_SIDE_PX}x{MIN_SIDE_PX}")
     return Picture(name=name, image=image)
 
 
 def usual_size(sizes_wh_px: Mapping[str, tuple[int, int]], unusable: Sequence[Unusable]) -> tuple[int, int]:
-    """The size of more than half of the images, by their names: one camera has one size.
+    """Return the size that more than half of the images have; `sizes_wh_px` is by image name.
 
     Raises:
-        InvalidInput: IMAGE_UNREADABLE, there is no image at all.
-        CalibrationError: IMAGE_SIZES_DIFFER, no size is that of more than half.
+        InvalidInput: IMAGE_UNREADABLE, no image is readable.
+        CalibrationError: IMAGE_SIZES_DIFFER, no size is in the majority.
     """
     if not sizes_wh_px:
         first = unusable[0]
-        more = f", nor are {len(unusable) - 1} more" if unusable[1:] else ""
+        more = f" ({len(unusable) - 1} more images cannot be used)" if unusable[1:] else ""
         raise InvalidInput(
             "IMAGE_UNREADABLE",
-            f"{first.name} is no image that can be used: {first.sentence}{more}",
+            f"{first.name} cannot be used: {first.sentence}{more}",
             REMEDY,
             {"image": first.name, "unusable": len(unusable)},
         )
@@ -106,7 +108,7 @@ def usual_size(sizes_wh_px: Mapping[str, tuple[int, int]], unusable: Sequence[Un
     reported = [f"{named[size]} has {size[0]}x{size[1]} px" for size in (usual, others[0][0])]
     raise CalibrationError(
         "IMAGE_SIZES_DIFFER",
-        f"{', and '.join(reported)}: one camera, one size",
+        f"the images have different sizes: {', and '.join(reported)}",
         "Give images of one camera at one setting, not cropped or scaled.",
         {"sizes": {f"{size[0]}x{size[1]}": n for size, n in Counter(sizes_wh_px.values()).items()}},
     )

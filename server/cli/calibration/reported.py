@@ -1,4 +1,4 @@
-"""A calibration's report: for a person on a terminal, and for a machine as JSON."""
+"""Report of a camera calibration as tables and as JSON."""
 
 import json
 import math
@@ -16,21 +16,22 @@ from server.cli.calibration.images import Unusable
 from tracker.camera.calibration import CalibrationReport, ViewReport
 from tracker.camera.detection import BoardNotFound, BoardView
 
-# What one image shows of each board.
+# For each board its view in one image, or why there is none.
 Sight: TypeAlias = tuple[BoardView | BoardNotFound | Unusable, ...]
 WIDTH_WITHOUT_TERMINAL = 110
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ImageEntry:
-    """What became of one image.
+    """Result of one image.
 
     Attributes:
-        image: its name.
-        used: whether the camera stands on any board in it.
-        rms_px: over what is used of it; where nothing is, as the best pose leaves it; NaN without a board.
-        reason: why it, or a part of it, is not used; or an empty string.
-        views: of the boards in it.
+        image: Name of the image.
+        used: Whether the calibration uses at least one board in the image.
+        rms_px: RMS over the used points; over all points at the best pose if none is used; NaN without a
+            board.
+        reason: Why the image, or a part of it, is not used; empty if all of it is used.
+        views: Views of the boards in the image.
     """
 
     image: str
@@ -45,7 +46,7 @@ def entries_of(
     seen: Sequence[Sight],
     report: CalibrationReport,
 ) -> list[ImageEntry]:
-    """The report's views gathered by image."""
+    """Return the views of the report grouped by image."""
     reports = iter(report.views)
     entries = []
     for name, found in zip(names, seen, strict=True):
@@ -73,7 +74,7 @@ def json_of(
     boards: Sequence[Mapping[str, object]],
     more: Mapping[str, object],
 ) -> str:
-    """The report as one JSON object; what is not known is null."""
+    """Return the report as a JSON object; unknown values are null."""
     whole = {
         **report_values(report),
         "views": [_entry(entry) for entry in entries],
@@ -89,9 +90,9 @@ def tell(report: CalibrationReport, entries: Sequence[ImageEntry], *, max_rms_px
     console = Console(file=sys.stdout, width=None if sys.stdout.isatty() else WIDTH_WITHOUT_TERMINAL)
     used = sum(entry.used for entry in entries)
     views = Table(title=f"{used} of {len(entries)} images used", title_justify="left")
-    for heading in ("image", "RMS px", "points", "out", "tilt deg", "distance mm"):
+    for heading in ("image", "RMS px", "points", "dropped", "tilt deg", "distance mm"):
         views.add_column(heading, justify="left" if heading == "image" else "right")
-    views.add_column("not used, because")
+    views.add_column("reason if not used")
     for entry in entries:
         shown = [one for one in entry.views if one.used] or list(entry.views)
         views.add_row(
@@ -104,7 +105,7 @@ def tell(report: CalibrationReport, entries: Sequence[ImageEntry], *, max_rms_px
             entry.reason,
         )
     console.print(views, markup=False)
-    numbers = Table(title="the camera", title_justify="left")
+    numbers = Table(title="camera parameters", title_justify="left")
     for heading in ("", "value", "sd", "95 % from", "to"):
         numbers.add_column(heading, justify="right")
     for one in report.parameters:
@@ -121,16 +122,18 @@ def _sentences(report: CalibrationReport, max_rms_px: float) -> list[str]:
     coverage = report.coverage
     width, height = report.camera.size_wh_px
     said = [
-        f"RMS {report.rms_px:.3f} px (allowed {max_rms_px:g} px), {width}x{height} px, "
+        f"RMS {report.rms_px:.3f} px (limit {max_rms_px:g} px), {width}x{height} px, "
         f"fy/fx {report.pixel_aspect_ratio:.4f}.",
-        f"Points lie in {100 * coverage.cells_ratio:.0f} % of the image's cells, and reach to its corners "
+        f"Points cover {100 * coverage.cells_ratio:.0f} % of the image cells, and this share of the way to "
+        "the corners: "
         + ", ".join(f"{100 * reach:.0f} %" for reach in coverage.corner_reach_ratios)
-        + " (from the top left, clockwise).",
+        + " (clockwise from the top left).",
         f"Lens: {report.choice.coefficients} coefficients; {report.choice.reason}.",
     ]
     if report.is_noise_correlated:
         said.append(
-            "Errors of neighbouring points are alike, so the standard deviations come from how views differ."
+            "Errors of neighbouring points are correlated; the standard deviations are therefore computed "
+            "from the differences between views."
         )
     return said + [f"Warning: {one.message}. {one.remedy}" for one in report.warnings]
 

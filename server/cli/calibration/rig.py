@@ -1,4 +1,4 @@
-"""`coaxial calibrate-rig`: several cameras from images that pair up."""
+"""`coaxial calibrate-rig`: calibrate several cameras from simultaneous images."""
 
 import json
 import math
@@ -24,7 +24,7 @@ from tracker.errors import InvalidInput
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RigOrder:
-    """What was requested; see the options of `coaxial calibrate-rig`."""
+    """Options of `coaxial calibrate-rig`."""
 
     cameras: tuple[str, ...]
     board: BoardOptions
@@ -34,10 +34,10 @@ class RigOrder:
 
 
 def calibrate_cameras(order: RigOrder, *, as_json: bool) -> int:
-    """Write the rig file, tell the report, and give the exit status: 0, or 1 if the RMS is too large.
+    """Write the rig file and print the report. Return the exit status: 0, or 1 if the RMS is too large.
 
     Raises:
-        NavigationError: images, board or views cannot be used, or a file cannot be written.
+        NavigationError: Images, board or views cannot be used, or a file cannot be written.
     """
     config = load_config(order.config)
     max_rms_px = config.calibration.max_rms_px if order.max_rms_px is None else order.max_rms_px
@@ -47,7 +47,7 @@ def calibrate_cameras(order: RigOrder, *, as_json: bool) -> int:
         looked = {}
         for name, files in files_from_camera.items():
             looked[name] = looked_at(files, boards, steps)
-            # What the first camera tells of the board holds for all.
+            # The properties of the board found with the first camera apply to all.
             boards = looked[name].boards
     reports = {name: _alone(one) for name, one in looked.items()}
     names = next(iter(looked.values())).names
@@ -67,15 +67,15 @@ def calibrate_cameras(order: RigOrder, *, as_json: bool) -> int:
         _tell(report, max_rms_px)
     if not passed:
         typer.echo(
-            f"Error: points lie off by {report.rms_px:.3f} px RMS, allowed {max_rms_px:g} px.\n"
-            "Take images of all cameras at the same instant, or allow more with --max-rms-px.",
+            f"Error: the reprojection error is {report.rms_px:.3f} px RMS, limit {max_rms_px:g} px.\n"
+            "Take the images of all cameras at the same instant, or raise the limit with --max-rms-px.",
             err=True,
         )
     return 0 if passed else FAILED
 
 
 def _files(cameras: Sequence[str]) -> dict[str, list[Path]]:
-    """The images of each camera, as many of each.
+    """Return the images of each camera; all cameras have the same number of images.
 
     Raises:
         InvalidInput: RIG_OPTION_INVALID or RIG_IMAGES_UNEVEN.
@@ -86,8 +86,8 @@ def _files(cameras: Sequence[str]) -> dict[str, list[Path]]:
         if not equals or not name.strip() or not images or name in found:
             raise InvalidInput(
                 "RIG_OPTION_INVALID",
-                f"--camera {text} is no camera with its images, or its name is there twice",
-                "Write --camera left=left/ --camera right='right*.png', each name once.",
+                f"--camera {text} is not of the form NAME=IMAGES, or its name is used twice",
+                "Write --camera left=left/ --camera right='right*.png', each with a different name.",
                 {"given": text},
             )
         found[name.strip()] = files_of([images])
@@ -96,7 +96,7 @@ def _files(cameras: Sequence[str]) -> dict[str, list[Path]]:
         raise InvalidInput(
             "RIG_IMAGES_UNEVEN",
             "cameras have different numbers of images: " + ", ".join(f"{n} {c}" for n, c in counts.items()),
-            "Give of each instant one image of each camera, in the same order.",
+            "Give one image of each camera for each instant, in the same order.",
             {"images": counts},
         )
     return found
@@ -142,8 +142,8 @@ def _camera(camera: RigCamera) -> dict[str, object]:
 
 def _tell(report: RigReport, max_rms_px: float) -> None:
     typer.echo(
-        f"RMS {report.rms_px:.3f} px (allowed {max_rms_px:g} px), {report.shared_shots} shared views of "
-        f"{len(report.shots)}."
+        f"RMS {report.rms_px:.3f} px (limit {max_rms_px:g} px), {report.shared_shots} of "
+        f"{len(report.shots)} views are shared."
     )
     for camera in report.cameras:
         typer.echo(

@@ -1,4 +1,4 @@
-"""`coaxial calibrate`: boards found in images, a camera fitted, a file written, a report printed."""
+"""`coaxial calibrate`: detect boards in images, calibrate a camera, and write its file and report."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -27,13 +27,13 @@ from tracker.camera.detection import BoardNotFound, BoardView, board_as_seen, fi
 from tracker.errors import CalibrationError, InvalidInput
 
 FAILED = 1
-# So many images tell what the description of a board leaves open.
+# Images from which unspecified properties of a board are determined.
 LOOKED_AT_FIRST = 8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CalibrationOrder:
-    """What was asked for; see the options of `coaxial calibrate`."""
+    """Options of `coaxial calibrate`."""
 
     images: tuple[str, ...]
     board: BoardOptions
@@ -48,13 +48,13 @@ class CalibrationOrder:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Looked:
-    """What was found in the images.
+    """Boards found in the images.
 
     Attributes:
-        boards: as the images show them.
-        names: of the images.
-        seen: for each image and board a view, or why not; one reason where the image cannot be used.
-        size_wh_px: of all images.
+        boards: The boards, with the properties determined from the images.
+        names: Names of the images.
+        seen: For each image and board a view, or why there is none; one reason for an unusable image.
+        size_wh_px: Size of all images.
     """
 
     boards: tuple[Board, ...]
@@ -64,10 +64,10 @@ class Looked:
 
 
 def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
-    """Write the camera file, tell the report, and give the exit status: 0, or 1 if the RMS is too large.
+    """Write the camera file and print the report. Return the exit status: 0, or 1 if the RMS is too large.
 
     Raises:
-        NavigationError: the images, the board or the views cannot be used, no lens can fit them, or a
+        NavigationError: The images, the board or the views cannot be used, no lens model fits them, or a
             file cannot be written.
     """
     config = load_config(order.config)
@@ -90,7 +90,7 @@ def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
     entries = entries_of(looked.names, looked.seen, report)
     passed = report.rms_px <= max_rms_px
     if passed:
-        # Before a file is written, because no other command would take it.
+        # Checked before a file is written, because all other commands would reject the file.
         report.camera.require_plausible()
     written = _write(order, report, entries, looked.boards) if passed else ()
     if as_json:
@@ -107,22 +107,22 @@ def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
         if written:
             typer.echo(f"Wrote {', '.join(map(str, written))}.")
         if passed and order.output is None:
-            typer.echo("No camera file was written: name one with --output camera.yaml.")
+            typer.echo("No camera file was written. To write one, give --output camera.yaml.")
     if not passed:
         typer.echo(
-            f"Error: points lie off by {report.rms_px:.3f} px RMS, allowed {max_rms_px:g} px.\n"
-            "Take sharp images of a flat, stiff board, or allow more with --max-rms-px.",
+            f"Error: the reprojection error is {report.rms_px:.3f} px RMS, limit {max_rms_px:g} px.\n"
+            "Take sharp images of a flat, stiff board, or raise the limit with --max-rms-px.",
             err=True,
         )
     return 0 if passed else FAILED
 
 
 def looked_at(files: Sequence[Path], boards: Sequence[Board], steps: Steps) -> Looked:
-    """Every board looked for in every image; what is no image, or another camera's, is reported and left out.
+    """Search every image for every board; unreadable images and those of another size are unusable.
 
     Raises:
-        InvalidInput: IMAGE_UNREADABLE, there is no image at all.
-        CalibrationError: IMAGE_SIZES_DIFFER, no size is that of more than half of the images.
+        InvalidInput: IMAGE_UNREADABLE, no image is readable.
+        CalibrationError: IMAGE_SIZES_DIFFER, no size is in the majority.
     """
     names = names_of(files)
     every = max(1, len(files) // LOOKED_AT_FIRST)
@@ -133,13 +133,13 @@ def looked_at(files: Sequence[Path], boards: Sequence[Board], steps: Steps) -> L
     size_of: dict[str, tuple[int, int]] = {}
     name_of: dict[bytes, str] = {}
     for n, (file, name) in enumerate(zip(files, names, strict=True)):
-        steps.advance("looking for the board", len(files))
-        # Each is decoded once, and those that were looked at first are let go one by one.
+        steps.advance("detecting the board", len(files))
+        # Each image is decoded once; the images decoded above are released one by one.
         one = some.pop(n) if n in some else read_picture(file, name)
         if isinstance(one, Picture):
             twin = name_of.setdefault(blake2b(one.image.tobytes()).digest(), name)
             if twin != name:
-                one = Unusable(name=name, sentence=f"the same picture as {twin}: twice it would count as two")
+                one = Unusable(name=name, sentence=f"duplicate of {twin}, counted once")
         if isinstance(one, Unusable):
             seen.append((one,))
             continue
@@ -160,16 +160,15 @@ def looked_at(files: Sequence[Path], boards: Sequence[Board], steps: Steps) -> L
 def _other_size(name: str, size: tuple[int, int], usual: tuple[int, int]) -> Unusable:
     return Unusable(
         name=name,
-        sentence=f"it has {size[0]}x{size[1]} px, and most images {usual[0]}x{usual[1]} px: one camera, one "
-        "size",
+        sentence=f"it has {size[0]}x{size[1]} px, but most images have {usual[0]}x{usual[1]} px",
     )
 
 
 def flattened(looked: Looked) -> tuple[list[BoardView], list[int]]:
-    """All views, and for each the index of its image.
+    """Return all views, and for each the index of its image.
 
     Raises:
-        CalibrationError: BOARD_NOT_FOUND, it is in no image.
+        CalibrationError: BOARD_NOT_FOUND, no image shows the board.
     """
     views, owners = [], []
     for index, found in enumerate(looked.seen):
@@ -186,7 +185,7 @@ def flattened(looked: Looked) -> tuple[list[BoardView], list[int]]:
         )
         raise CalibrationError(
             "BOARD_NOT_FOUND",
-            f"the board is in none of {len(looked.names)} images ({looked.names[at]}: {why.sentence})",
+            f"the board was found in none of {len(looked.names)} images ({looked.names[at]}: {why.sentence})",
             "Check --pattern and --size (dots, inner corners of a checkerboard, squares of a ChArUco board), "
             "and that the board is sharp and evenly lit.",
             {"images": len(looked.names), "reason": why.reason.value},
@@ -227,7 +226,7 @@ def _reject_writing_over(output: Path | None, files: Sequence[Path]) -> None:
     if output is not None and any(output.exists() and file.samefile(output) for file in files):
         raise InvalidInput(
             "OUTPUT_IS_INPUT",
-            f"--output {output} would write over an image",
-            "Name a file of its own, as camera.yaml.",
+            f"--output {output} would overwrite an image",
+            "Give another file, such as camera.yaml.",
             {"file": str(output)},
         )

@@ -44,14 +44,14 @@ def _check_geometry(frames: list[Frame]) -> None:
             raise InvalidInput(
                 "CT_GEOMETRY_MISSING",
                 f"{sum(missing)} of {len(frames)} slices do not state their {attribute}",
-                "Export the series again with its geometry; pictures of slices cannot be planned on.",
+                "Export the series again with its geometry; pictures of slices are not usable for planning.",
                 {"slices": sum(missing), "of": len(frames)},
             )
     sizes = _counted(f"{frame.shared.size_wh_px[0]} x {frame.shared.size_wh_px[1]}" for frame in frames)
     if len(sizes) > 1:
         raise InvalidInput(
             "CT_SIZES_DIFFER",
-            f"the slices differ in size: {_in_words(sizes)} pixels",
+            f"the slices have different sizes: {_in_words(sizes)} pixels",
             EXPORT_AGAIN,
             {"sizes": {str(size): count for size, count in sizes.items()}},
         )
@@ -69,7 +69,7 @@ def _check_geometry(frames: list[Frame]) -> None:
         raise InvalidInput(
             "CT_PIXELS_INVALID",
             f"the slices are declared as {columns} x {rows} pixels of {minimum:g} to {maximum:g} mm, "
-            f"allowed 2 to {MAX_SIDE_PX} pixels a side of {MIN_PIXEL_MM} to {MAX_PIXEL_MM:.0f} mm",
+            f"allowed: 2 to {MAX_SIDE_PX} pixels per side of {MIN_PIXEL_MM} to {MAX_PIXEL_MM:.0f} mm",
             EXPORT_AGAIN,
             {"columns": columns, "rows": rows, "min_mm": minimum, "max_mm": maximum},
         )
@@ -78,7 +78,7 @@ def _check_geometry(frames: list[Frame]) -> None:
     if len(spaces) > 1:
         raise InvalidInput(
             "CT_SPACES_DIFFER",
-            f"the slices lie in {len(spaces)} frames of reference, allowed 1: the patient may have moved",
+            f"the slices have {len(spaces)} frames of reference, expected 1: the patient may have moved",
             EXPORT_AGAIN,
             {"spaces": len(spaces)},
         )
@@ -95,8 +95,8 @@ def _check_values(frames: list[Frame]) -> None:
         tables = sum(frame.shared.has_table for frame in frames)
         raise InvalidInput(
             "CT_RESCALE_MISSING",
-            f"{unscaled} of {len(frames)} slices do not state how their numbers become Hounsfield units "
-            f"(Rescale Slope and Intercept){', but by a table' if tables else ''}",
+            f"{unscaled} of {len(frames)} slices do not state their conversion to Hounsfield units "
+            f"(Rescale Slope and Intercept){', but a lookup table' if tables else ''}",
             "Export the original CT series again.",
             {"slices": unscaled, "of": len(frames)},
         )
@@ -104,7 +104,7 @@ def _check_values(frames: list[Frame]) -> None:
     if kinds:
         raise InvalidInput(
             "CT_NOT_HU",
-            f"the numbers of {sum(kinds.values())} of {len(frames)} slices are no Hounsfield units, but "
+            f"the values of {sum(kinds.values())} of {len(frames)} slices are not Hounsfield units, but "
             f"{_in_words(kinds)}",
             "Export the CT series in Hounsfield units (not iodine, density or effective atomic number).",
             {"slices": sum(kinds.values()), "of": len(frames)},
@@ -120,25 +120,25 @@ def _in_words(counts: Counter[Hashable]) -> str:
 
 
 def series_warnings(frames: list[Frame], stack: Stack, beyond: int) -> list[str]:
-    """What to know about a series that can be used, a sentence each."""
+    """Return warnings about a usable series, one sentence each."""
     first = frames[0].shared
     warnings = []
     doubles = len(frames) - len(stack.slices)
     if doubles:
-        warnings.append(f"{doubles} slices were there twice with the same pixels, and are used once.")
+        warnings.append(f"{doubles} slices are duplicates with equal pixels, and are used once.")
     if stack.jitter_mm > REPORTED_JITTER_MM:
         warnings.append(
-            f"A slice lies up to {stack.jitter_mm:.2f} mm from its even place; up to {MAX_JITTER_MM:.1f} mm "
-            "are tolerated."
+            f"Slice positions deviate by up to {stack.jitter_mm:.2f} mm from even spacing; up to "
+            f"{MAX_JITTER_MM:.1f} mm are accepted."
         )
     if stack.tilt_deg > 0.05:
         warnings.append(
-            f"The gantry was tilted by {stack.tilt_deg:.1f} deg; the slices are used as they lie."
+            f"The gantry was tilted by {stack.tilt_deg:.1f} deg; the tilted slices are used unchanged."
         )
     if abs(abs(first.tilt_deg) - stack.tilt_deg) > 1.0 and first.tilt_deg:
         warnings.append(
-            f"The scanner states a gantry tilt of {first.tilt_deg:.1f} deg, the places of the slices "
-            f"{stack.tilt_deg:.1f} deg; the places are used."
+            f"The scanner states a gantry tilt of {first.tilt_deg:.1f} deg, but the slice positions give "
+            f"{stack.tilt_deg:.1f} deg; the positions are used."
         )
     if max(stack.spacing_mm, first.thickness_mm) > THICK_MM:
         warnings.append(
@@ -151,15 +151,15 @@ def series_warnings(frames: list[Frame], stack: Stack, beyond: int) -> list[str]
             f"({first.thickness_mm:.2f} mm thick, {stack.spacing_mm:.2f} mm apart)."
         )
     if any(frame.shared.is_lossy for frame in frames):
-        warnings.append("The pixels were compressed with loss; thin walls of bone may be altered.")
+        warnings.append("The pixels were compressed lossily; thin walls of bone may be altered.")
     if any(frame.rescale_type in {"US", "HU_MOD"} for frame in frames):
         warnings.append(
-            "The scanner does not call its numbers plain Hounsfield units; they are taken as such."
+            "The scanner does not declare its values as plain Hounsfield units; they are used as such."
         )
     if beyond:
         warnings.append(
-            f"{beyond} voxels lay beyond {MIN_HU} to {MAX_HU} HU and were set to the nearest of both."
+            f"{beyond} voxels were outside {MIN_HU} to {MAX_HU} HU and were clipped to this range."
         )
     if not first.patient_identity.identifier and not first.patient_identity.name:
-        warnings.append("The files do not state whose CT this is; make sure that it is this patient's.")
+        warnings.append("The files do not identify the patient; make sure that this is the patient's CT.")
     return warnings

@@ -1,7 +1,7 @@
-"""Compressed images decoded on several cores, in processes that may die of a damaged one.
+"""Decoding of compressed images in separate processes, which a damaged image may crash.
 
-GDCM ends its process on some damaged streams and holds the interpreter lock while it decodes. Two workers
-use both cores and run at a lower priority than the tracker; they take half a second to start.
+GDCM ends its process on some damaged streams, and holds the interpreter lock while it decodes. Two workers
+use both cores at a lower priority than the tracker; they take half a second to start.
 """
 
 import os
@@ -21,11 +21,11 @@ import numpy.typing as npt
 
 from server.imaging.dicom import worker
 
-# Whole numbers of any size, with or without sign, as the file holds them.
+# Integers of any size, signed or unsigned, as stored in the file.
 StoredPixels: TypeAlias = npt.NDArray[np.integer[Any]]
-# Each holds 75 MiB while it runs.
+# Number of processes; each needs 75 MiB while it runs.
 MAX_PROCESSES = 2
-# A decoder that is silent for so long is stuck.
+# A decoder without a response for this time hangs.
 MAX_SECONDS = 60.0
 
 
@@ -34,9 +34,9 @@ class Encoded:
     """One compressed image.
 
     Attributes:
-        index: by which it is known to whoever asks.
-        options: what its file says of its pixels, by pydicom's names.
-        content: encapsulated, as in the file.
+        index: Index that identifies it for the caller.
+        options: Pixel attributes of its file, by pydicom's names.
+        content: Encapsulated, as in the file.
     """
 
     index: int
@@ -45,17 +45,17 @@ class Encoded:
 
 
 class DecoderCrashed(Exception):
-    """The process that decoded an image has died of it, or hangs."""
+    """The decoding process has crashed or hangs."""
 
 
 @dataclass(slots=True)
 class _Process:
-    """One decoding process, and who talks to it."""
+    """One decoding process with its pipes."""
 
     process: subprocess.Popen[bytes]
 
     def decode(self, one: Encoded) -> StoredPixels | None:
-        """The pixels (rows, columns), or None where they cannot be decoded."""
+        """Return the pixels (rows, columns); None if they cannot be decoded."""
         timer = threading.Timer(MAX_SECONDS, self.process.kill)
         timer.start()
         try:
@@ -80,13 +80,13 @@ class _Process:
 
 @dataclass(slots=True)
 class _Decoders:
-    """Processes that are started when they are first needed."""
+    """Decoding processes, started on demand."""
 
     idle: queue.SimpleQueue[_Process] = field(default_factory=queue.SimpleQueue)
     started: list[_Process] = field(default_factory=list)
 
     def decode(self, one: Encoded) -> tuple[int, StoredPixels | None]:
-        """Decodes one image in a process that has nothing else to do."""
+        """Decode one image in an idle process."""
         try:
             process = self.idle.get_nowait()
         except queue.Empty:
@@ -119,7 +119,7 @@ def _decoders() -> Iterator[_Decoders]:
 
 
 def decode_images(images: Iterable[Encoded]) -> Iterator[tuple[int, StoredPixels | None]]:
-    """Each image's index and its pixels (rows, columns), in their order; None where one cannot be decoded."""
+    """Yield the index and the pixels (rows, columns) of each image in order; None if it cannot be decoded."""
     count = max(1, min(MAX_PROCESSES, os.cpu_count() or 1))
     waiting: deque[Future[tuple[int, StoredPixels | None]]] = deque()
     with _decoders() as decoders, ThreadPoolExecutor(count, thread_name_prefix="decode") as threads:

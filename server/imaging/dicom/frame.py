@@ -62,7 +62,7 @@ class Frame:
 
 
 def frames_of(entry: Entry, header: Dataset) -> list[Frame] | UnusedFile:
-    """The slices of one file, or why it holds none."""
+    """Return the slices of one file, or why it has none."""
     reason = _no_slice(header)
     if reason:
         return UnusedFile(reason=reason)
@@ -77,8 +77,8 @@ def frames_of(entry: Entry, header: Dataset) -> list[Frame] | UnusedFile:
     except BAD_DICOM:
         groups, common = [], None
     if len(groups) != shared.frames:
-        # Frames without a place of their own (a film, a turntable) are no slices.
-        return UnusedFile(reason="files of many images that do not state where each lies")
+        # Frames without individual positions (a film, a turntable) are not slices.
+        return UnusedFile(reason="multi-frame files without positions of their images")
     return [_grouped_frame(shared, index, group, common, header) for index, group in enumerate(groups)]
 
 
@@ -132,19 +132,19 @@ def _shared(entry: Entry, header: Dataset) -> FileAttributes:
 
 
 def _plain(value: str) -> str:
-    """Without what differs between two ways to write one name."""
+    """Normalise a name, so that different spellings of it compare equal."""
     return " ".join(value.replace("^", " ").split()).casefold()
 
 
 def _padding(header: Dataset) -> tuple[int, int] | None:
-    """The stored numbers, least and most, that stand for no measurement."""
+    """Return the range of stored values that mark padding pixels."""
     first = numbers(header, "PixelPaddingValue", 1)
     if not first:
         return None
     second = numbers(header, "PixelPaddingRangeLimit", 1) or first
     ends = [int(first[0]), int(second[0])]
     if int(number(header, "PixelRepresentation", 0)) == 0:
-        # Written as a negative number, meant as the same bits.
+        # A negative value denotes the same bit pattern.
         ends = [end % 2 ** int(number(header, "BitsAllocated", 16)) for end in ends]
     return min(ends), max(ends)
 
@@ -166,7 +166,7 @@ def _frame(shared: FileAttributes, index: int, place: Dataset, values: Dataset) 
 def _grouped_frame(
     shared: FileAttributes, index: int, group: Dataset, common: Dataset | None, header: Dataset
 ) -> Frame:
-    """A frame whose place stands in functional groups of its own, or in those that all share."""
+    """Return a frame whose geometry is in its own or in the shared functional groups."""
 
     def found(keyword: str) -> Dataset:
         for holder in (group, common):
@@ -190,7 +190,7 @@ def _grouped_frame(
 
 
 def _only(holder: Dataset, keyword: str) -> Dataset | None:
-    """The first item of a sequence."""
+    """Return the first item of a sequence."""
     try:
         items = holder.get(keyword)
         return items[0] if items else None

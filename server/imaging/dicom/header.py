@@ -17,7 +17,7 @@ from pydicom.errors import BytesLengthException, InvalidDicomError
 from server.imaging.container import BAD_ARCHIVE, MAX_BYTES, Entry
 from server.imaging.nifti import is_nifti
 
-# pydicom's words may quote what a file holds, and that may be the patient's name.
+# Messages of pydicom may quote the content of a file, which may be the patient's name.
 logging.getLogger("pydicom").setLevel(logging.CRITICAL + 1)
 pydicom.config.settings.reading_validation_mode = pydicom.config.IGNORE
 
@@ -60,7 +60,7 @@ IMAGE = [
     "SharedFunctionalGroupsSequence",
     "PerFrameFunctionalGroupsSequence",
 ]
-# What pydicom raises on values and files that are not as they should be.
+# Exceptions of pydicom for invalid values and files.
 BAD_DICOM = (
     InvalidDicomError,
     BytesLengthException,
@@ -85,28 +85,28 @@ DEFLATED = b"1.2.840.10008.1.2.1.99"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UnusedFile:
-    """A file that is no slice, and what it is instead."""
+    """A file that is not a slice, with its kind."""
 
     reason: str
 
 
 @contextmanager
 def without_warnings() -> Iterator[None]:
-    """What pydicom would warn of is judged here by what it leads to."""
+    """Context manager that suppresses pydicom's warnings; problems are detected from the values."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         yield
 
 
 def read_header(entry: Entry) -> Dataset | UnusedFile:
-    """The attributes of a slice that are needed here, or why this file is none."""
+    """Return the required attributes of a slice, or why the file is not a slice."""
     try:
         head = entry.head()
         if not _is_dicom(head):
-            return UnusedFile(reason="NIfTI files" if is_nifti(head) else "files that are no DICOM")
+            return UnusedFile(reason="NIfTI files" if is_nifti(head) else "files that are not DICOM")
         with entry.open() as file:
             if DEFLATED in head and not _inflates(file):
-                return UnusedFile(reason="files that would unpack to more than is allowed")
+                return UnusedFile(reason="files that exceed the maximum size when unpacked")
             file.seek(0)
             header = pydicom.dcmread(file, stop_before_pixels=True, specific_tags=IMAGE, force=True)
             return header if _is_complete(header) else UnusedFile(reason=BROKEN)
@@ -114,11 +114,11 @@ def read_header(entry: Entry) -> Dataset | UnusedFile:
         return UnusedFile(reason=BROKEN)
 
 
-BROKEN = "DICOM files that break off or are damaged"
+BROKEN = "truncated or damaged DICOM files"
 
 
 def _is_dicom(head: bytes) -> bool:
-    """With the mark that such files carry since 1993, or beginning at once with a plausible attribute."""
+    """Return whether a file starts with the DICOM prefix, or, as before 1993, with a plausible attribute."""
     if head[128:132] == b"DICM":
         return True
     group, element = int.from_bytes(head[:2], "little"), int.from_bytes(head[2:4], "little")
@@ -126,7 +126,7 @@ def _is_dicom(head: bytes) -> bool:
 
 
 def _is_complete(header: Dataset) -> bool:
-    """Whether it is an image, or something that need not be one; a CT slice without its size is cut off."""
+    """Return whether the header is complete; a CT slice without its size is truncated."""
     if "Rows" in header and "Columns" in header:
         return True
     kind = text(header, "SOPClassUID") or text(header.file_meta, "MediaStorageSOPClassUID")
@@ -134,7 +134,7 @@ def _is_complete(header: Dataset) -> bool:
 
 
 def _inflates(file: BinaryIO) -> bool:
-    """Whether a deflated file stays within bounds; pydicom would unpack it whole to find out."""
+    """Return whether a deflated file stays within the limit; pydicom would unpack all of it."""
     file.seek(128 + 4)
     group_length = file.read(12)
     file.seek(128 + 4 + 12 + int.from_bytes(group_length[8:12], "little"))
@@ -150,7 +150,7 @@ def _inflates(file: BinaryIO) -> bool:
 
 
 def text(dataset: Dataset, keyword: str) -> str:
-    """An attribute as text, empty where it is missing or cannot be read."""
+    """Return an attribute as text; empty if it is missing or unreadable."""
     try:
         value = dataset.get(keyword)
         return "" if value is None else str(value).strip().strip("\0")
@@ -159,7 +159,7 @@ def text(dataset: Dataset, keyword: str) -> str:
 
 
 def numbers(dataset: Dataset, keyword: str, count: int) -> tuple[float, ...]:
-    """An attribute of so many numbers; empty where it is missing, has another count, or cannot be read."""
+    """Return an attribute of `count` numbers; empty if it is missing, unreadable, or has another count."""
     try:
         value = dataset.get(keyword)
         if value is None or value == "":
@@ -175,13 +175,13 @@ def _is_several(value: object) -> bool:
 
 
 def number(dataset: Dataset, keyword: str, otherwise: float) -> float:
-    """An attribute that is one number."""
+    """Return an attribute that is a number; `otherwise` if it is missing or unreadable."""
     found = numbers(dataset, keyword, 1)
     return found[0] if found and math.isfinite(found[0]) else otherwise
 
 
 def words(dataset: Dataset, keyword: str) -> tuple[str, ...]:
-    """An attribute of several words."""
+    """Return an attribute of several texts."""
     try:
         value = dataset.get(keyword)
         if value is None:

@@ -10,7 +10,7 @@ from server.imaging.voxels import MAX_HU, MIN_HU, PADDING_HU
 
 
 def hounsfield(stored: StoredPixels, frame: Frame) -> tuple[npt.NDArray[np.int16], int]:
-    """HU (rows, columns) int16 of the stored numbers, and how many lay beyond what int16 holds."""
+    """Return HU (rows, columns) int16 of the stored values, and the number of values outside the range."""
     shared = frame.shared
     padded = None
     if shared.padding is not None:
@@ -29,7 +29,7 @@ def hounsfield(stored: StoredPixels, frame: Frame) -> tuple[npt.NDArray[np.int16
 
 
 def _without_unused_bits(stored: StoredPixels, shared: FileAttributes) -> StoredPixels:
-    """The bits above those stored may hold anything: overlays, or nothing."""
+    """Return the values without the bits above those stored, which may contain overlays."""
     unused = stored.dtype.itemsize * 8 - shared.bits[1]
     if unused <= 0 or is_encoded(shared):
         return stored

@@ -1,4 +1,4 @@
-"""Stored pixels of slices: uncompressed ones are read here, compressed ones in a decoder process."""
+"""Stored pixels of slices; compressed ones are decoded in a separate process."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -14,10 +14,10 @@ from server.imaging.dicom.frame import FileAttributes, Frame
 from server.imaging.dicom.header import BAD_DICOM, without_warnings
 from tracker.errors import InvalidInput
 
-# Of one slice, whatever else its file holds; more would be read into memory at once.
+# Maximum size of the file of one slice, which is read into memory at once.
 MAX_SLICE_BYTES = 2**29
 END_OF_IMAGE = b"\xff\xd9"
-SEND_AGAIN = "Copy or export the series again; a slice that breaks off cannot be repaired."
+SEND_AGAIN = "Copy or export the series again; a truncated slice cannot be repaired."
 UNCOMPRESSED = "Export the series again uncompressed, or with lossless JPEG 2000, JPEG-LS, JPEG or RLE."
 ENDS_ITSELF = frozenset(
     [
@@ -50,7 +50,7 @@ def check_readable(shared: FileAttributes) -> None:
     if shared.frames == 1 and shared.entry.size > MAX_SLICE_BYTES:
         raise InvalidInput(
             "CT_SLICE_TOO_LARGE",
-            f"a slice has a file of {shared.entry.size / 2**20:.0f} MiB, allowed "
+            f"the file of a slice has {shared.entry.size / 2**20:.0f} MiB, the maximum is "
             f"{MAX_SLICE_BYTES / 2**20:.0f} MiB",
             UNCOMPRESSED,
             {"bytes": shared.entry.size, "max_bytes": MAX_SLICE_BYTES},
@@ -58,14 +58,14 @@ def check_readable(shared: FileAttributes) -> None:
     if allocated not in {8, 16, 32} or not 1 <= stored <= allocated or high != stored - 1:
         raise InvalidInput(
             "CT_PIXELS_UNKNOWN",
-            f"the slices store {stored} of {allocated} bits with {high} as the highest, which is no CT",
+            f"the slices store {stored} of {allocated} bits with {high} as the highest, which is not a CT",
             UNCOMPRESSED,
             {"bits_allocated": allocated, "bits_stored": stored, "high_bit": high},
         )
 
 
 def stored_images(frames: list[Frame]) -> Iterator[tuple[int, StoredPixels]]:
-    """The index of each slice among these, and its stored numbers (rows, columns); compressed ones last.
+    """Yield index and stored values (rows, columns) of each slice; compressed slices last.
 
     Raises:
         InvalidInput: CT_SLICE_TRUNCATED, CT_SLICE_DAMAGED.
@@ -91,14 +91,14 @@ def stored_images(frames: list[Frame]) -> Iterator[tuple[int, StoredPixels]]:
 
 
 def is_encoded(shared: FileAttributes) -> bool:
-    """Whether its pixels are decoded by compiled code in another process."""
+    """Return whether its pixels are decoded by compiled code, which runs in another process."""
     syntax = UID(shared.compression)
     return syntax.is_encapsulated and syntax != pydicom.uid.RLELossless
 
 
 def _plain(shared: FileAttributes, indexes: list[int]) -> Iterator[StoredPixels]:
-    """The images of one file that pydicom reads by itself."""
-    # pydicom would clear the bits above those stored, and with them the mark of what was not measured.
+    """Yield the images of one file that pydicom decodes in Python: uncompressed or RLE."""
+    # Clearing the bits above those stored would destroy the padding value.
     options: dict[str, Any] = {"correct_unused_bits": False}
     try:
         with without_warnings(), shared.entry.open() as file:
@@ -118,7 +118,7 @@ def _plain(shared: FileAttributes, indexes: list[int]) -> Iterator[StoredPixels]
 
 
 def _encoded(shared: FileAttributes, members: list[int], indexes: list[int]) -> Iterator[Encoded]:
-    """The compressed images of one file."""
+    """Yield the encoded images of one file."""
     options: dict[str, object] = {
         "transfer_syntax_uid": shared.compression,
         "rows": shared.size_wh_px[1],
@@ -140,7 +140,7 @@ def _encoded(shared: FileAttributes, members: list[int], indexes: list[int]) -> 
         raise _damaged(shared) from None
     for member, index in zip(members, indexes, strict=True):
         if index >= len(images) or END_OF_IMAGE not in images[index][-64:]:
-            # Some decoders would fill in what is missing.
+            # Some decoders would fill in missing pixels.
             raise _truncated(shared, len(content))
         yield Encoded(index=member, options=options, content=encapsulate([images[index]], has_bot=False))
 
@@ -172,11 +172,11 @@ def _damaged(shared: FileAttributes) -> InvalidInput:
 
 def _truncated(shared: FileAttributes, found: int = 0, needed: int = 0) -> InvalidInput:
     columns, rows = shared.size_wh_px
-    numbers = f" ({found} bytes of pixels" + (f" of {needed})" if needed else ")") if found else ""
+    numbers = f" ({found} bytes of pixels" + (f", expected {needed})" if needed else ")") if found else ""
     return InvalidInput(
         "CT_SLICE_TRUNCATED",
-        f"a slice breaks off: its file of {shared.entry.size} bytes does not hold the {columns} x {rows} "
-        f"pixels that it declares{numbers}",
+        f"a slice is truncated: its file of {shared.entry.size} bytes lacks a part of the declared "
+        f"{columns} x {rows} pixels{numbers}",
         SEND_AGAIN,
         {"bytes": shared.entry.size, "columns": columns, "rows": rows, "pixel_bytes": found},
     )

@@ -20,14 +20,14 @@ from tracker.plan.stack import Stack, stack_slices
 
 
 def list_dicom(container: Container, progress: Progress) -> tuple[SeriesDescription, ...]:
-    """Every series among these files."""
+    """Return all series in these files."""
     return describe(group_frames_by_series(container, progress))
 
 
 def read_dicom(
     container: Container, *, series: str | None, progress: Progress, first: FirstSlice, into: Path | None
 ) -> Ct:
-    """The series that was asked for, or the only CT, as Hounsfield units in LPS mm."""
+    """Return the requested series, or the only CT, as Hounsfield units in LPS mm."""
     found = group_frames_by_series(container, lambda _done, _of: None)
     every = [frame for frames in found.values() for frame in frames]
     check_one_patient(every, what="the folder")
@@ -37,7 +37,7 @@ def read_dicom(
     stack = stack_slices(
         positions_lps_mm=np.array([frame.position_lps_mm for frame in frames]),
         directions=np.array([frame.directions for frame in frames]).reshape(-1, 2, 3),
-        # DICOM tells the distance between rows first.
+        # DICOM states the distance between rows first.
         pixels_mm=np.array([frame.pixel_mm for frame in frames])[:, ::-1],
         size_wh_px=(columns, rows),
     )
@@ -47,8 +47,8 @@ def read_dicom(
     description = next(one for one in describe(found) if one.series == frames[0].shared.series)
     warnings = [*series_warnings(frames, stack, beyond), *value_warnings(voxels.hu)]
     if len(found) > 1:
-        warnings.append(f"{len(found) - 1} other series lie beside this one and take no part.")
-    warnings += [f"Left out: {one.reason} ({one.count})." for one in container.left_out]
+        warnings.append(f"{len(found) - 1} other series were found and are not used.")
+    warnings += [f"Excluded: {one.reason} ({one.count})." for one in container.left_out]
     return Ct(
         volume=Volume(hu=voxels.hu, lps_from_ijk=stack.lps_from_ijk),
         series=description,
@@ -58,7 +58,7 @@ def read_dicom(
 
 
 def _fill(voxels: Voxels, frames: list[Frame], stack: Stack, progress: Progress, first: FirstSlice) -> int:
-    """Reads every slice to its place; gives how many values were beyond what is kept."""
+    """Read every slice to its position; return the number of values outside the range."""
     place = {index: k for k, members in enumerate(stack.slices) for index in members}
     middle = len(stack.slices) // 2
     order = sorted(place, key=lambda index: (place[index] != middle, place[index]))
@@ -82,9 +82,9 @@ def _fill(voxels: Voxels, frames: list[Frame], stack: Stack, progress: Progress,
     if places:
         raise InvalidInput(
             "CT_SLICES_CONTRADICT",
-            f"at {places} of {len(stack.slices)} places lie slices with different pixels: the series holds "
-            "more than one pass (phase, energy or filter)",
-            "Export one of its passes as a series of its own, and give that alone.",
+            f"{places} of {len(stack.slices)} positions have several slices with different pixels: the "
+            "series contains more than one pass (phase, energy or kernel)",
+            "Export one pass as a separate series, and give only that series.",
             {"places": places, "slices": len(frames)},
         )
     return beyond

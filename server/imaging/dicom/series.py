@@ -12,13 +12,13 @@ from server.imaging.dicom.frame import Frame, PatientIdentity, frames_of
 from server.imaging.dicom.header import BAD_DICOM, BROKEN, UnusedFile, read_header, without_warnings
 from tracker.errors import InvalidInput
 
-# Fewer slices than this are a scout or a sample, where there is a series with more.
+# A series with fewer slices counts as a scout or a sample if there is a series with more.
 FEW_SLICES = 4
-GIVE_ONE = "Give the folder of one patient alone."
+GIVE_ONE = "Give a folder with the images of one patient only."
 
 
 def group_frames_by_series(container: Container, progress: Progress) -> dict[str, list[Frame]]:
-    """All slices that were found, by series; what takes no part is recorded in the container.
+    """Return all slices by series; excluded files are recorded in the container.
 
     Raises:
         InvalidInput: CT_FILE_DAMAGED, CT_NO_DICOM.
@@ -37,8 +37,8 @@ def group_frames_by_series(container: Container, progress: Progress) -> dict[str
     if damaged:
         raise InvalidInput(
             "CT_FILE_DAMAGED",
-            f"{damaged} of {len(container.entries)} files are DICOM, but break off or are damaged",
-            "Copy or export the series again; a slice that is damaged cannot be repaired.",
+            f"{damaged} of {len(container.entries)} files are truncated or damaged DICOM files",
+            "Copy or export the series again; a damaged slice cannot be repaired.",
             {"damaged": damaged, "files": len(container.entries)},
         )
     if not series:
@@ -60,7 +60,7 @@ def _frames(entry: Entry, header: Dataset) -> list[Frame] | UnusedFile:
 
 
 def _beforehand(container: Container) -> int:
-    """Files that were left out before any was opened."""
+    """Return the number of files excluded before any was opened."""
     return max(0, sum(container.reasons.values()) - len(container.entries))
 
 
@@ -80,14 +80,14 @@ def check_one_patient(frames: list[Frame], *, what: str) -> None:
         if len(different) > 1:
             raise InvalidInput(
                 "CT_PATIENTS_MIXED",
-                f"{what} holds images with {len(different)} different {kind_of_value}, allowed 1",
+                f"{what} contains images with {len(different)} different {kind_of_value}, expected 1",
                 GIVE_ONE,
                 {"patients": len(different), "images": len(frames)},
             )
 
 
 def describe(series: dict[str, list[Frame]]) -> tuple[SeriesDescription, ...]:
-    """Every series that was found, by its number, without anything that names the patient."""
+    """Return all series, ordered by number, without data that identify the patient."""
     identities: list[PatientIdentity] = []
     described = []
     for identifier, frames in sorted(series.items(), key=lambda one: (one[1][0].shared.number, one[0])):
@@ -117,7 +117,7 @@ def describe(series: dict[str, list[Frame]]) -> tuple[SeriesDescription, ...]:
 
 
 def _without_names(words: str, identities: list[PatientIdentity]) -> str:
-    """The scanner's description, or nothing where somebody wrote who it is."""
+    """Return the series description; empty if it contains a part of the patient's name."""
     parts = {
         part
         for patient_identity in identities
@@ -133,14 +133,14 @@ def _problem(frames: list[Frame]) -> str:
     if modality != "CT":
         return f"it is {modality or 'of unknown kind'}, not CT"
     if len(frames) < 2:
-        return "it has 1 slice, needed at least 2"
+        return "it has 1 slice, the minimum is 2"
     if not all(frame.position_lps_mm and frame.directions and frame.pixel_mm for frame in frames):
-        return "its slices do not state where they lie"
+        return "its slices do not state their positions"
     return ""
 
 
 def choose(series: dict[str, list[Frame]], requested: str | None) -> list[Frame]:
-    """The slices of the series that was asked for, or of the only CT.
+    """Return the slices of the requested series, or of the only CT.
 
     Raises:
         InvalidInput: CT_SERIES_UNKNOWN, CT_NOT_CT, CT_SERIES_UNCLEAR.
@@ -164,14 +164,14 @@ def choose(series: dict[str, list[Frame]], requested: str | None) -> list[Frame]
         _check_modality(only)
         raise InvalidInput(
             "CT_TOO_FEW_SLICES",
-            f"the CT has {len(only)} slice, needed at least 2",
+            f"the CT has {len(only)} slice, the minimum is 2",
             "Export the whole series again.",
             {"slices": len(only)},
         )
     raise InvalidInput(
         "CT_SERIES_UNCLEAR",
         f"there are {len(found)} CT series, of {', '.join(str(len(frames)) for frames in found)} slices",
-        "Name the one to plan on: "
+        "Select the series for planning: "
         + ", ".join(one.series for one in describe(series) if not one.problem)
         + ".",
         {"series": {one.series: one.words for one in describe(series) if not one.problem}},
@@ -186,7 +186,7 @@ def _check_modality(frames: list[Frame]) -> None:
         )
         raise InvalidInput(
             "CT_NOT_CT",
-            f"the images are no CT: {kind_of_value}",
+            f"the images are not a CT: {kind_of_value}",
             "Give a CT; MR, PET and others have no Hounsfield units.",
             {"modalities": dict(kinds)},
         )

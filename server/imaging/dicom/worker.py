@@ -1,9 +1,8 @@
-"""A program that decodes compressed images, run in a process of its own by `decoding`.
+"""Program that decodes compressed images, run in a separate process by `decoding`.
 
-GDCM's decoders are compiled code that ends the whole process when a stream is damaged; here that is this
-process, and nobody else. It is started as a file, so that it loads pydicom and nothing of ours. It reads
-requests from its standard input until that ends (two lengths, a JSON header, the encapsulated pixels), and
-answers alike.
+GDCM's decoders may crash their process on a damaged stream. The program is started as a file, so that it
+loads only pydicom. It reads requests from standard input until its end (two lengths, a JSON header, the
+encapsulated pixels), and writes responses in the same format.
 """
 
 import contextlib
@@ -17,7 +16,7 @@ from typing import Any, BinaryIO
 from pydicom.pixels.decoders.base import get_decoder
 from pydicom.uid import UID
 
-# What a stream may make a decoder take, however large an image it claims to hold.
+# Memory limit of a decoder, whatever image size a stream declares.
 MAX_MEMORY_BYTES = 4 * 2**30
 LENGTHS = struct.Struct("<II")
 
@@ -29,7 +28,7 @@ def main() -> None:
 
         resource.setrlimit(resource.RLIMIT_AS, (MAX_MEMORY_BYTES, MAX_MEMORY_BYTES))
     with contextlib.suppress(OSError):
-        os.nice(10)  # The tracker's images come first.
+        os.nice(10)  # Tracking has priority.
     warnings.simplefilter("ignore")
     while request := read_message(sys.stdin.buffer):
         header, encapsulated = request
@@ -44,7 +43,7 @@ def main() -> None:
 
 
 def read_message(stream: BinaryIO) -> tuple[dict[str, object], bytes] | None:
-    """A header and the bytes that belong to it; None where the other side has ended."""
+    """Return a header and its content; None at the end of the stream."""
     lengths = stream.read(LENGTHS.size)
     if len(lengths) < LENGTHS.size:
         return None
@@ -56,7 +55,7 @@ def read_message(stream: BinaryIO) -> tuple[dict[str, object], bytes] | None:
 
 
 def write_message(stream: BinaryIO, header: dict[str, object], content: bytes) -> None:
-    """The counterpart of `read_message`."""
+    """Write a header and its content, see `read_message`."""
     encoded = json.dumps(header).encode()
     stream.write(LENGTHS.pack(len(encoded), len(content)))
     stream.write(encoded)

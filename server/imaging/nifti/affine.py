@@ -11,18 +11,18 @@ from tracker.geometry import Array
 LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
 UNITS = {0: ("unknown", 1.0), 1: ("metres", 1000.0), 2: ("mm", 1.0), 3: ("micrometres", 0.001)}
 MIN_VOXEL_MM, MAX_VOXEL_MM = 0.02, 20.0
-# Talairach and MNI: stretched onto an atlas, so that their millimetres are not the patient's.
+# Talairach and MNI: deformed to an atlas, so that lengths are not those of the patient.
 ATLAS_CODES = {3, 4, 5}
 CONVERT = "Convert the CT again with its geometry (dcm2niix does), or give its DICOM slices."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NiftiPlacement:
-    """Where voxels lie.
+    """Geometry of the voxels.
 
     Attributes:
         lps_from_ijk: (4, 4), in mm.
-        warnings: what to know about it, a sentence each.
+        warnings: Warnings about it, one sentence each.
     """
 
     lps_from_ijk: Array
@@ -30,17 +30,17 @@ class NiftiPlacement:
 
 
 def placement_from_header(header: nib.Nifti1Header, shape_ijk: tuple[int, ...]) -> NiftiPlacement:
-    """The affine of a NIfTI header in LPS mm.
+    """Return the affine of a NIfTI header in LPS mm.
 
     Raises:
         InvalidInput: CT_AFFINE_MISSING, CT_AFFINES_CONTRADICT, CT_AFFINE_INVALID, CT_ATLAS_SPACE or
             CT_VOXEL_SIZE_ODD.
     """
     ras, warnings = _ras(header, shape_ijk)
-    # Read here, because nibabel stumbles over an unknown unit of time in the same byte.
+    # Read here, because nibabel fails on an unknown time unit in the same byte.
     unit, scale = UNITS.get(int(header["xyzt_units"]) % 8, ("unknown", 1.0))
     if scale != 1.0:
-        warnings.append(f"The file gives its geometry in {unit}; it was taken times {scale:g} into mm.")
+        warnings.append(f"The file states its geometry in {unit}; it was multiplied by {scale:g} to mm.")
     affine = LPS_FROM_RAS @ ras
     affine[:3] *= scale
     _check_size(affine, unit)
@@ -48,13 +48,13 @@ def placement_from_header(header: nib.Nifti1Header, shape_ijk: tuple[int, ...]) 
 
 
 def _ras(header: nib.Nifti1Header, shape_ijk: tuple[int, ...]) -> tuple[Array, list[str]]:
-    """The affine to take, as it is written, and what to know about it."""
+    """Return the affine to use, as stored, with warnings about it."""
     s_code, q_code = int(header["sform_code"]), int(header["qform_code"])
     if s_code == 0 and q_code == 0:
         raise InvalidInput(
             "CT_AFFINE_MISSING",
-            "the NIfTI does not tell where its voxels lie (sform and qform code are both 0), so left and "
-            "right, and sizes, are unknown",
+            "the NIfTI does not state the positions of its voxels (sform and qform code are both 0), so that "
+            "left, right and sizes are unknown",
             CONVERT,
             {"sform_code": 0, "qform_code": 0},
         )
@@ -63,16 +63,16 @@ def _ras(header: nib.Nifti1Header, shape_ijk: tuple[int, ...]) -> tuple[Array, l
     if not usable:
         raise InvalidInput(
             "CT_ATLAS_SPACE",
-            f"the NIfTI is stretched onto an atlas (code {candidates[0][1]}), so its millimetres are not "
-            "the patient's",
-            "Give the CT as it was scanned.",
+            f"the NIfTI is deformed to an atlas (code {candidates[0][1]}), so that lengths are not those of "
+            "the patient",
+            "Give the original CT.",
             {"code": candidates[0][1]},
         )
     for name, affine in usable:
         if not np.isfinite(affine).all() or abs(_determinant(affine)) < 1e-3:
             raise InvalidInput(
                 "CT_AFFINE_INVALID",
-                f"the NIfTI's {name} is flat or holds numbers that are not finite",
+                f"the {name} of the NIfTI is singular or not finite",
                 CONVERT,
                 {"affine": name},
             )
@@ -82,7 +82,7 @@ def _ras(header: nib.Nifti1Header, shape_ijk: tuple[int, ...]) -> tuple[Array, l
 
 
 def _candidates(header: nib.Nifti1Header, s_code: int, q_code: int) -> list[tuple[str, int, Array]]:
-    """The affines that the file declares, the one that programs prefer first."""
+    """Return the affines of the file, the one that programs prefer first."""
     found = []
     if s_code > 0:
         found.append(("sform", s_code, np.array(header.get_sform(), dtype=np.float64)))
@@ -100,7 +100,7 @@ def _determinant(affine: Array) -> float:
 
 
 def _compared(sform: Array, qform: Array, shape_ijk: tuple[int, ...]) -> list[str]:
-    """What to know where a file declares two affines; they may place, but not size or mirror, differently."""
+    """Return warnings about two affines of a file; they may differ in position, not in size or mirroring."""
     sizes = [np.linalg.norm(affine[:3, :3], axis=0) for affine in (sform, qform)]
     mirrored = _determinant(sform) * _determinant(qform) < 0.0
     if mirrored or np.abs(sizes[0] / sizes[1] - 1.0).max() > 0.005:
@@ -120,7 +120,7 @@ def _compared(sform: Array, qform: Array, shape_ijk: tuple[int, ...]) -> list[st
     apart = float(np.linalg.norm(((sform - qform) @ corners)[:3], axis=0).max())
     if apart <= 0.1:
         return []
-    return [f"The NIfTI's sform and qform place it up to {apart:.1f} mm apart; the sform was taken."]
+    return [f"The sform and qform of the NIfTI differ by up to {apart:.1f} mm; the sform is used."]
 
 
 def _check_size(affine: Array, unit: str) -> None:
@@ -131,10 +131,10 @@ def _check_size(affine: Array, unit: str) -> None:
     guess = ""
     for name, factor in (("metres", 1000.0), ("micrometres", 0.001)):
         if sizes.min() * factor >= MIN_VOXEL_MM and sizes.max() * factor <= MAX_VOXEL_MM:
-            guess = f"; they would fit if they were in {name}"
+            guess = f"; they would be plausible in {name}"
     raise InvalidInput(
         "CT_VOXEL_SIZE_ODD",
-        f"the voxels are {size_text} mm large (unit in the file: {unit}), allowed {MIN_VOXEL_MM} to "
+        f"the voxels have {size_text} mm (unit in the file: {unit}), allowed: {MIN_VOXEL_MM} to "
         f"{MAX_VOXEL_MM:.0f} mm{guess}",
         CONVERT,
         {"voxel_mm": sizes.tolist(), "unit": unit},

@@ -20,7 +20,7 @@ from server.imaging.nifti.affine import NiftiPlacement, placement_from_header
 from server.imaging.voxels import check_voxels
 from tracker.errors import InvalidInput
 
-# nibabel's words may quote what a file holds.
+# Messages of nibabel may quote the content of a file.
 logging.getLogger("nibabel.global").setLevel(logging.CRITICAL + 1)
 BAD_NIFTI = (
     HeaderDataError,
@@ -39,14 +39,14 @@ CONVERT_AGAIN = "Convert or export the CT again as NIfTI, or give its DICOM slic
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NiftiHeader:
-    """A NIfTI file that can be read.
+    """Header of a readable NIfTI file.
 
     Attributes:
-        shape_ijk: number of voxels along its three axes.
-        stored: the type of its numbers, with their byte order.
-        offset: of the first number, in bytes.
-        slope, intercept: take stored numbers to HU.
-        place: where its voxels lie, and what to know about that.
+        shape_ijk: Number of voxels along its three axes.
+        stored: Type of its values, with byte order.
+        offset: Offset of the first value in bytes.
+        slope, intercept: Conversion of stored values to HU.
+        place: Geometry of its voxels, with warnings.
     """
 
     shape_ijk: tuple[int, int, int]
@@ -58,7 +58,7 @@ class NiftiHeader:
 
 
 def is_nifti(head: bytes) -> bool:
-    """Whether a file beginning with these bytes is NIfTI, packed by gzip or not."""
+    """Return whether a file that starts with these bytes is NIfTI, with or without gzip."""
     if head[:2] == b"\x1f\x8b":
         try:
             head = zlib.decompressobj(16 + zlib.MAX_WBITS).decompress(head, 1024)
@@ -69,7 +69,7 @@ def is_nifti(head: bytes) -> bool:
 
 @contextmanager
 def decompressed(entry: Entry) -> Iterator[IO[bytes]]:
-    """The file's bytes from the beginning, unpacked on the way."""
+    """Context manager for the decompressed content of the file."""
     is_packed = entry.head()[:2] == b"\x1f\x8b"
     with entry.open() as file:
         if not is_packed:
@@ -80,11 +80,11 @@ def decompressed(entry: Entry) -> Iterator[IO[bytes]]:
 
 
 def read_nifti_header(entry: Entry) -> NiftiHeader:
-    """What the file says of itself, checked.
+    """Read and validate the header.
 
     Raises:
         InvalidInput: CT_FILE_DAMAGED, CT_NIFTI_PAIR, CT_NOT_ONE_VOLUME, CT_PIXELS_UNKNOWN, CT_TOO_LARGE, or
-            what `placed` raises.
+            as `placement_from_header`.
     """
     try:
         with decompressed(entry) as file:
@@ -122,9 +122,9 @@ def _check_shape(shape: tuple[int, ...]) -> None:
     if len(shape) < 3 or any(size != 1 for size in shape[3:]) or min(shape[:3]) < 2:
         raise InvalidInput(
             "CT_NOT_ONE_VOLUME",
-            f"the NIfTI has {' x '.join(str(size) for size in shape) or 'no'} voxels, needed one volume of "
+            f"the NIfTI has {' x '.join(str(size) for size in shape) or 'no'} voxels, expected one volume of "
             "three axes with at least 2 each",
-            "Export one volume of the CT; a series over time holds several.",
+            "Export one volume of the CT; a time series contains several.",
             {"shape": list(shape)},
         )
     check_voxels((shape[2], shape[1], shape[0]))
@@ -135,17 +135,17 @@ def _check_kind(stored: npt.DTypeLike) -> None:
     if kind.names or kind.kind not in "iuf":
         raise InvalidInput(
             "CT_PIXELS_UNKNOWN",
-            f"the NIfTI stores {'colours' if kind.names else kind.name}, which are no Hounsfield units",
+            f"the NIfTI stores {'colours' if kind.names else kind.name}, which are not Hounsfield units",
             CONVERT_AGAIN,
             {"stored": "colours" if kind.names else kind.name},
         )
 
 
 def damaged(entry: Entry, why: str) -> InvalidInput:
-    """A file that is NIfTI, and cannot be read to its end."""
+    """Return the error for a truncated or damaged NIfTI file."""
     return InvalidInput(
         "CT_FILE_DAMAGED",
-        f"the NIfTI file of {entry.size} bytes breaks off or is damaged: {why}",
+        f"the NIfTI file of {entry.size} bytes is truncated or damaged: {why}",
         "Copy or convert the file again.",
         {"bytes": entry.size},
     )

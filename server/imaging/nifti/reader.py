@@ -1,4 +1,4 @@
-"""The voxels of a NIfTI file as Hounsfield units, a few slices at a time."""
+"""Reading of the voxels of a NIfTI file as Hounsfield units, a few slices at a time."""
 
 from pathlib import Path
 from typing import IO
@@ -22,13 +22,13 @@ from server.imaging.voxels import MAX_HU, MIN_HU, PADDING_HU, Voxels, voxels_to_
 from tracker.errors import InvalidInput
 from tracker.plan import Volume
 
-# Slices that are read at once: few, so that their unpacked numbers stay small beside the volume.
+# Number of slices read at once; few, so that their values need little memory compared with the volume.
 SLICES_PER_READ = 8
 MAX_NAN_RATIO = 0.5
 
 
 def describe_nifti(entry: Entry) -> SeriesDescription:
-    """What a NIfTI file holds."""
+    """Return the description of a NIfTI file."""
     return _described(read_nifti_header(entry), entry)
 
 
@@ -52,7 +52,7 @@ def _described(header: NiftiHeader, entry: Entry) -> SeriesDescription:
 
 
 def read_nifti(entry: Entry, *, progress: Progress, first: FirstSlice, into: Path | None) -> Ct:
-    """A NIfTI file as Hounsfield units in LPS mm; its axes stay, and the affine tells their directions.
+    """Read a NIfTI file as Hounsfield units in LPS mm; its axes are kept, with directions in the affine.
 
     Raises:
         InvalidInput: CT_VALUES_MISSING, CT_VALUES_BEYOND, CT_FILE_DAMAGED, or what `read_nifti_header`
@@ -64,19 +64,19 @@ def read_nifti(entry: Entry, *, progress: Progress, first: FirstSlice, into: Pat
         try:
             with decompressed(entry) as file:
                 missing, beyond = _fill(voxels, header, file, progress, first)
-                file.read(1)  # The end of a packed file holds a checksum of all of it.
+                file.read(1)  # Reads the checksum at the end of a gzip file.
         except BAD_NIFTI:
-            raise damaged(entry, f"it does not hold its {columns} x {rows} x {slices} voxels") from None
+            raise damaged(entry, f"it lacks a part of its {columns} x {rows} x {slices} voxels") from None
         _check_missing(missing, voxels.hu.size)
         reject_beyond(beyond, voxels.hu.size)
     warnings = [*header.place.warnings, *value_warnings(voxels.hu)]
     if missing:
-        warnings.append(f"{missing} voxels are no numbers (NaN) and were set to {PADDING_HU} HU.")
+        warnings.append(f"{missing} voxels are NaN and were set to {PADDING_HU} HU.")
     if beyond:
         warnings.append(
-            f"{beyond} voxels lay beyond {MIN_HU} to {MAX_HU} HU and were set to the nearest of both."
+            f"{beyond} voxels were outside {MIN_HU} to {MAX_HU} HU and were clipped to this range."
         )
-    warnings.append("A NIfTI file does not tell whose CT this is; make sure that it is this patient's.")
+    warnings.append("A NIfTI file does not identify the patient; make sure that this is the patient's CT.")
     return Ct(
         volume=Volume(hu=voxels.hu, lps_from_ijk=header.place.lps_from_ijk),
         series=_described(header, entry),
@@ -88,7 +88,7 @@ def read_nifti(entry: Entry, *, progress: Progress, first: FirstSlice, into: Pat
 def _fill(
     voxels: Voxels, header: NiftiHeader, file: IO[bytes], progress: Progress, first: FirstSlice
 ) -> tuple[int, int]:
-    """Reads all slices in order; gives how many voxels were no numbers, and how many beyond what is kept."""
+    """Read all slices in order; return the number of NaN voxels and of voxels outside the range."""
     slices = header.shape_ijk[2]
     stored = ArrayProxy(file, (header.shape_ijk, header.stored, header.offset, 1.0, 0.0), mmap=False)
     missing = beyond = 0
@@ -107,7 +107,7 @@ def _fill(
 def _hounsfield(
     stored: npt.NDArray[np.generic], header: NiftiHeader
 ) -> tuple[npt.NDArray[np.int16], int, int]:
-    """HU of stored numbers, how many of them were none, and how many lay beyond what int16 holds."""
+    """Return HU of stored values, the number of NaN values, and the number outside the range."""
     if header.slope == 1.0 and header.intercept == 0.0 and stored.dtype == np.int16:
         return stored.astype(np.int16), 0, 0
     values = stored.astype(np.float64) * header.slope + header.intercept
@@ -124,7 +124,7 @@ def _check_missing(missing: int, voxels: int) -> None:
     if missing > MAX_NAN_RATIO * voxels:
         raise InvalidInput(
             "CT_VALUES_MISSING",
-            f"{missing} of {voxels} voxels are no numbers (NaN), allowed {MAX_NAN_RATIO:.0%}",
+            f"{missing} of {voxels} voxels are NaN, the maximum is {MAX_NAN_RATIO:.0%}",
             CONVERT_AGAIN,
             {"missing": missing, "voxels": voxels},
         )

@@ -7,14 +7,14 @@ import numpy as np
 
 from tracker.plan import Volume
 
-# Fast rather than small: it is made while somebody waits.
+# Fast compression, because a person waits for the result.
 COMPRESSION = 1
 RAS_FROM_LPS = np.diag([-1.0, -1.0, 1.0, 1.0])
 
 
 def nifti_bytes(volume: Volume) -> bytes:
-    """The volume as the bytes of a .nii.gz: signed 16 bit, millimetres, its place in the scanner's RAS."""
-    # A volume's slices come first in memory, a NIfTI's columns.
+    """Return the volume as the bytes of a .nii.gz: signed 16 bit, mm, with its position in scanner RAS."""
+    # The slowest axis in memory is that of the slices; NIfTI stores columns fastest.
     voxels = np.asarray(volume.hu, dtype=np.int16).transpose(2, 1, 0)
     affine = RAS_FROM_LPS @ volume.lps_from_ijk
     image = nib.Nifti1Image(voxels, affine)

@@ -1,4 +1,4 @@
-"""The step in which a CT comes into the case, and the CT of the open case as it is looked at."""
+"""Import of a CT into the case, and access to the CT of the open case."""
 
 from server.procedure.ct.provider import CtProvider, MappedCt
 from server.procedure.ct.step import CtStep, CtUpload, UploadUnknown

@@ -50,7 +50,7 @@ class CtProvider:
             raise SetupOrderError(
                 "CT_MISSING",
                 "the open case has no CT",
-                "Send one.",
+                "Upload a CT.",
                 {"case_id": case.id},
             )
         with self._lock:
@@ -69,7 +69,7 @@ class CtProvider:
 
     def _mapped(self, document: Document) -> MappedCt:
         if len(document.files) != 1:
-            raise _invalid(document, f"it has {len(document.files)} files, needed 1")
+            raise _invalid(document, f"it has {len(document.files)} files, expected 1")
         file = self._store.file(document.case_id, document.files[0])
         return MappedCt(
             document=document,
@@ -82,6 +82,6 @@ def _invalid(document: Document, why: str) -> InvalidInput:
     return InvalidInput(
         "CT_DOCUMENT_INVALID",
         f"{document.title} cannot be used: {why}",
-        "Send the CT again.",
+        "Upload the CT again.",
         {"document_id": document.id},
     )

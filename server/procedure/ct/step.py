@@ -135,7 +135,7 @@ class CtStep:
     def _read(self, upload: _Upload, *, series: str | None) -> CtUpload:
         def keep(values: object) -> object:
             if not isinstance(values, Mapping):
-                raise TypeError(f"reading a CT gave {type(values).__name__}")
+                raise TypeError(f"reading a CT returned {type(values).__name__}")
             if "series" in values:
                 return self._keep_upload(upload, values["series"])
             return self._keep_ct(upload, values["ct"])
@@ -162,7 +162,7 @@ class CtStep:
 
     def _keep_ct(self, upload: _Upload, content: Mapping[str, object]) -> object:
         with self._store.new_file(upload.case_id, ".npy") as new:
-            # Both lie in one folder, so that nothing is copied.
+            # Both are on one file system, so that nothing is copied.
             shutil.move(upload.working / VOXELS, new.path)
         document = self._store.put(
             upload.case_id,
@@ -208,7 +208,7 @@ class CtStep:
 def _unknown(upload_id: str) -> UploadUnknown:
     return UploadUnknown(
         "UPLOAD_UNKNOWN",
-        f"there is no upload {upload_id[:40]} that is being read or waits for a choice",
-        "Look at the job that read it; the CT may be in the case already.",
+        f"no upload {upload_id[:40]} is being read or waits for the choice of a series",
+        "Check the job that read it; the CT may already be stored in the case.",
         {"upload_id": upload_id[:40]},
     )

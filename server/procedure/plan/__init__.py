@@ -1,4 +1,4 @@
-"""The step in which channels and screws are planned on the CT of the open case."""
+"""Planning of channels and screws on the CT of the open case."""
 
 from server.procedure.plan.active_channel import (
     ACTIVE_CHANNEL,

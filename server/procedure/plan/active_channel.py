@@ -12,7 +12,7 @@ from tracker.plan import Channel
 from tracker.plan.document import channel_from_mapping
 from tracker.plan.pedicle import Side, checked_side
 
-# Name of the document; its kind is PLAN, as that of the plan itself.
+# Name of the document; its kind is PLAN, like the plan itself.
 ACTIVE_CHANNEL = "active channel"
 
 
@@ -21,9 +21,9 @@ class ActiveChannel:
     """The channel that is to be drilled now.
 
     Attributes:
-        vertebra: its name in the plan.
-        side: of the patient.
-        channel: as the plan had it when it was chosen.
+        vertebra: Name of the vertebra in the plan.
+        side: Side of the patient.
+        channel: The channel of the plan at the time of the selection.
     """
 
     vertebra: str

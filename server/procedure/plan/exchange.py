@@ -1,8 +1,8 @@
 """Export and import of plans as files, with author, date and the checksum of their CT.
 
-The import reads only what a person chose. Grades, clearances, bone, tolerances and lines are computed again
-on the CT of the case, which must be the CT that the file names by the checksum of its voxels. A plan cannot
-be viewed without its CT.
+The import reads only the values that a person chose. Grades, clearances, bone densities, tolerances and lines
+are recomputed on the CT of the case, whose voxels must have the checksum stated in the file. A plan cannot be
+viewed without its CT.
 """
 
 import json
@@ -57,15 +57,15 @@ def import_plan(content: bytes, ct: MappedCt, *, is_for_other_ct: bool = False) 
     if mapped.get("format_version") != FORMAT_VERSION:
         raise InvalidInput(
             "PLAN_FILE_VERSION",
-            f"the file has format version {repr(mapped.get('format_version'))[:20]}, this program reads "
-            f"{FORMAT_VERSION}",
+            f"the file has format version {repr(mapped.get('format_version'))[:20]}, but this program reads "
+            f"version {FORMAT_VERSION}",
             "Export the plan with a program of the same version.",
         )
     if not is_for_other_ct and not _is_same(mapped.get("ct"), ct):
         raise InvalidInput(
             "PLAN_OF_ANOTHER_CT",
-            "the plan was made on another CT than that of the open case, or does not tell on which",
-            "Open the case of its CT, or say that it is meant for this one and check every channel.",
+            "the plan was made on another CT than that of the open case, or does not state its CT",
+            "Open the case of its CT, or set for_other_ct to import it for this CT and check every channel.",
         )
     return plan_from_mapping(mapped.get("plan"))
 
@@ -93,10 +93,10 @@ def _parsed(content: bytes) -> Mapping[str, object]:
     try:
         mapped = json.loads(content.decode("utf-8"), parse_constant=_no_number)
     except (UnicodeDecodeError, ValueError, RecursionError) as error:
-        why = "it is nested too deeply" if isinstance(error, RecursionError) else "it is no JSON"
+        why = "it is nested too deeply" if isinstance(error, RecursionError) else "it is not valid JSON"
         raise _invalid(why) from None
     if not isinstance(mapped, Mapping):
-        raise _invalid("it is no mapping")
+        raise _invalid("it is not a JSON object")
     return mapped
 
 
@@ -105,4 +105,4 @@ def _no_number(word: str) -> NoReturn:
 
 
 def _invalid(why: str) -> InvalidInput:
-    return InvalidInput("PLAN_FILE_INVALID", f"the file is no plan: {why}", AGAIN)
+    return InvalidInput("PLAN_FILE_INVALID", f"the file is not a plan: {why}", AGAIN)

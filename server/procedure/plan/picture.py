@@ -1,4 +1,4 @@
-"""The picture of a reference slice with its three lines and the path of each channel, as in the paper."""
+"""Picture of a reference slice with its three lines and the trajectory of each channel, as in the paper."""
 
 import cv2
 import numpy as np
@@ -9,15 +9,15 @@ from tracker.geometry import Array
 from tracker.plan import SliceLine, VertebraPlan, Volume
 from tracker.plan.slices import Slice, Window, shown
 
-# BGR: the colours that stand out on grey, the same as the paper's for lines and paths.
+# BGR; the colours of lines and trajectories in the paper, distinct on grey.
 LINE, PATH = (80, 220, 255), (90, 255, 90)
 SMALLEST_SIDE_PX = 512
-# Fractions of a pixel, as bits, for lines that do not jump.
+# Fractional bits of OpenCV's sub-pixel coordinates.
 BITS = 4
 
 
 def reference_slice(vertebra: VertebraPlan, volume: Volume) -> Slice:
-    """The slice as a surgeon looks at it: the patient's left to the right, the back down.
+    """Return the slice in radiological orientation: the patient's left on the right, posterior down.
 
     Raises:
         PlanError: REFERENCE_MISSING.
@@ -26,7 +26,7 @@ def reference_slice(vertebra: VertebraPlan, volume: Volume) -> Slice:
         raise PlanError(
             "REFERENCE_MISSING",
             f"{vertebra.name} has no reference slice",
-            "Choose the slice that stands for it.",
+            "Select its reference slice.",
             {"vertebra": vertebra.name},
         )
     k = vertebra.references[0].slice_index
@@ -34,7 +34,7 @@ def reference_slice(vertebra: VertebraPlan, volume: Volume) -> Slice:
         raise PlanError(
             "SLICE_OUTSIDE_CT",
             f"the reference slice is number {k}, the CT has {volume.shape_ijk[2]}",
-            "Choose the slice again on this CT.",
+            "Select the slice again on this CT.",
             {"slice_index": k},
         )
     hu, start = volume.hu[k], np.array([0.0, 0.0, float(k)])
@@ -50,7 +50,7 @@ def reference_slice(vertebra: VertebraPlan, volume: Volume) -> Slice:
 
 
 def reference_picture(vertebra: VertebraPlan, volume: Volume, window: Window) -> npt.NDArray[np.uint8]:
-    """The slice (height, width, 3) in BGR, enlarged to square pixels, with lines and paths.
+    """Return the slice (height, width, 3), BGR, enlarged to square pixels, with lines and trajectories.
 
     Raises:
         PlanError: REFERENCE_MISSING, SLICE_OUTSIDE_CT.
@@ -77,7 +77,7 @@ def reference_picture(vertebra: VertebraPlan, volume: Volume, window: Window) ->
 
 
 def _ends_px(one: Slice, line: SliceLine, zoom: Array) -> Array:
-    # Pixels grow about their corner, and coordinates begin at a pixel's centre.
+    # The resize scales about the corner of a pixel, but coordinates refer to its centre.
     return np.asarray((one.pixel_from_lps(line.ends_lps_mm) + 0.5) * zoom - 0.5)
 
 

@@ -69,7 +69,7 @@ class PlanRepository:
             raise SetupOrderError(
                 "PLAN_MISSING",
                 "the open case has no plan",
-                "Start one with a vertebra, or import one from a file.",
+                "Add a vertebra to start a plan, or import a plan from a file.",
                 {"case_id": case_id},
             )
         return StoredPlan(
@@ -107,7 +107,7 @@ class PlanRepository:
             raise OutOfDateError(
                 "PLAN_OUT_OF_DATE",
                 f"the plan is out of date: {validity.reason}",
-                "Send the whole plan again, after looking at it on this CT, or an empty one to begin anew.",
+                "Review the plan on this CT and store it again completely, or store an empty plan.",
                 {"version": document.version},
             )
         return plan_from_mapping(document.content), document.version, ct
@@ -178,7 +178,7 @@ class PlanRepository:
         return self.latest()
 
     def deactivate(self, *, made_by: str) -> StoredPlan:
-        """Have no active channel.
+        """Unset the active channel.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, PLAN_MISSING.
@@ -186,7 +186,7 @@ class PlanRepository:
         stored = self.latest()
         document = self._store.latest(stored.document.case_id, DocumentKind.PLAN, ACTIVE_CHANNEL)
         if document is not None:
-            self._store.withdraw(document, by=made_by, reason="no channel is to be drilled now")
+            self._store.withdraw(document, by=made_by, reason="the active channel was unset")
         return self.latest()
 
     def _active(self, case_id: str) -> ActiveChannel | None:

@@ -1,4 +1,4 @@
-"""The step in which pedicles are measured, channels laid and screws chosen; each change is a new version."""
+"""Planning step: measures pedicles, places channels and selects screws; each change is a new version."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -33,7 +33,7 @@ Change: TypeAlias = Callable[[PlanDocument, Volume], PlanDocument]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Author:
-    """Who changes the plan, and which version was looked at; the newest if None."""
+    """Author of a change, and the version on which it is based; None for the newest."""
 
     made_by: str
     expected_version: int | None = None
@@ -41,12 +41,12 @@ class Author:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Proposal:
-    """The slice that may stand for a vertebra.
+    """Proposed reference slice of a vertebra.
 
     Attributes:
-        slice_index: its number, from 0.
-        at_mm: where it lies, as the axial slice nearest to it.
-        middle_lps_mm: (3,) half-way between the isthmuses; None while one of them is not measured.
+        slice_index: Index of the slice, from 0.
+        at_mm: Position of the nearest axial slice.
+        middle_lps_mm: (3,) midpoint between the isthmuses; None until both are measured.
     """
 
     slice_index: int
@@ -55,13 +55,13 @@ class Proposal:
 
 
 class PlanStep:
-    """Plans on the CT of the open case; safe to use from any thread.
+    """Plans on the CT of the open case. Thread-safe.
 
     Args:
-        store: where the plan is stored.
-        jobs: where pedicles are measured.
-        opened: the CT.
-        config: catalogue and margins.
+        store: Where the plan is stored.
+        jobs: Runs the measurement of pedicles.
+        opened: The CT.
+        config: Screw catalogue and margins.
     """
 
     def __init__(self, *, store: CaseStore, jobs: Jobs, ct_provider: CtProvider, config: PlanConfig) -> None:
@@ -75,12 +75,12 @@ class PlanStep:
         )
 
     def replace(self, plan: PlanDocument, by: Author) -> StoredPlan:
-        """Store a whole plan, on the CT that is there now; what follows from its numbers is made anew.
+        """Store a complete plan on the present CT; derived values are recomputed.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, CT_MISSING.
             StoreConflict: VERSION_CONFLICT.
-            PlanError: what cannot be a plan on this CT.
+            PlanError: The plan is invalid on this CT.
         """
         validate_plan(plan)
         ct = self._ct_provider.current()
@@ -88,15 +88,15 @@ class PlanStep:
         return self.repository.put(whole, ct, made_by=by.made_by, expected_version=by.expected_version)
 
     def add_vertebra(self, name: str, by: Author) -> StoredPlan:
-        """One vertebra more; PlanError PLAN_INVALID if there is one of this name."""
+        """Add a vertebra; raises PlanError PLAN_INVALID if the name exists."""
         return self._change(by, lambda plan, _: _rejected_odd(changes.with_vertebra(plan, name)))
 
     def remove_vertebra(self, name: str, by: Author) -> StoredPlan:
-        """One vertebra less; PlanError VERTEBRA_UNKNOWN."""
+        """Remove a vertebra; raises PlanError VERTEBRA_UNKNOWN."""
         return self._change(by, lambda plan, _: changes.without_vertebra(plan, name))
 
     def measure(self, name: str, side: Side, seed_lps_mm: Sequence[float], by: Author) -> Job:
-        """Measure the pedicle that was clicked on, in a job, and put it into the plan.
+        """Measure the pedicle at a seed point in a job, and add it to the plan.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, CT_MISSING.
@@ -114,8 +114,8 @@ class PlanStep:
                 if self._ct_provider.current().document.id != measured_on:
                     raise PlanError(
                         "CT_CHANGED",
-                        "the CT was replaced while the pedicle was measured; nothing was stored",
-                        "Click into the pedicle on the new CT.",
+                        "the CT was replaced during the measurement of the pedicle; nothing was stored",
+                        "Click on the pedicle in the new CT.",
                     )
                 return changes.with_measure(
                     now, name, measure, volume=volume, front_margin_mm=self._front_margin_mm
@@ -137,7 +137,7 @@ class PlanStep:
         )
 
     def correct(self, name: str, side: Side, corrected: Mapping[str, float], by: Author) -> StoredPlan:
-        """These numbers in place of the measured ones, which are kept; none takes the corrections back."""
+        """Store corrections of measured values; an empty mapping removes all corrections."""
         return self._change(
             by,
             lambda plan, volume: changes.with_corrections(
@@ -148,7 +148,7 @@ class PlanStep:
     def lay_channel(
         self, name: str, side: Side, ends: tuple[Sequence[float], Sequence[float], float] | None, by: Author
     ) -> StoredPlan:
-        """The channel of the measured pedicle, or one by hand: entry and target in LPS mm, diameter in mm."""
+        """Place the channel of the measured pedicle, or set it by hand: ends in LPS mm, diameter in mm."""
         channel: Channel | None = None
         if ends is not None:
             channel = channel_from_points(
@@ -167,11 +167,11 @@ class PlanStep:
         )
 
     def remove_channel(self, name: str, side: Side, by: Author) -> StoredPlan:
-        """No channel on this side; PlanError CHANNEL_MISSING."""
+        """Remove the channel of this side; raises PlanError CHANNEL_MISSING."""
         return self._change(by, lambda plan, volume: changes.without_channel(plan, name, side, volume=volume))
 
     def propose_screw(self, name: str, side: Side) -> tuple[float, float]:
-        """Diameter and length of the largest screw of the catalogue that keeps the margins.
+        """Return diameter and length of the largest screw of the catalogue that keeps the margins.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, PLAN_MISSING.
@@ -182,7 +182,7 @@ class PlanStep:
     def choose_screw(
         self, name: str, side: Side, size_mm: tuple[float, float] | None, by: Author
     ) -> StoredPlan:
-        """A screw of the catalogue in this channel; the proposed one if no size is given.
+        """Select a screw of the catalogue for this channel; by default the proposed one.
 
         Raises:
             PlanError: SCREW_NOT_IN_CATALOGUE, NO_SCREW_FITS, CHANNEL_MISSING, PEDICLE_MISSING.
@@ -197,13 +197,13 @@ class PlanStep:
         )
 
     def remove_screw(self, name: str, side: Side, by: Author) -> StoredPlan:
-        """No screw in this channel; PlanError CHANNEL_MISSING."""
+        """Remove the screw of this channel; raises PlanError CHANNEL_MISSING."""
         return self._change(
             by, lambda plan, volume: changes.with_screw(plan, name, side, None, volume=volume)
         )
 
     def propose_slice(self, name: str) -> Proposal:
-        """The slice nearest to the isthmuses of a vertebra; PlanError NO_PEDICLE_MEASURED."""
+        """Return the slice nearest to the isthmuses of a vertebra; raises PlanError NO_PEDICLE_MEASURED."""
         volume = self._ct_provider.current().volume
         vertebra = changes.vertebra_named(self.repository.latest().plan, name)
         measures = [record.used for record in vertebra.pedicles]
@@ -226,7 +226,7 @@ class PlanStep:
         apart_mm: float,
         by: Author,
     ) -> StoredPlan:
-        """The slice that stands for a vertebra, with its lines; what is not given is as proposed.
+        """Set the reference slice of a vertebra with its lines; omitted values are those proposed.
 
         Raises:
             PlanError: NO_PEDICLE_MEASURED, MIDDLE_UNKNOWN, SLICE_OUTSIDE_CT, LINES_INVALID or
@@ -247,7 +247,7 @@ class PlanStep:
         return self._change(by, change)
 
     def set_landmarks(self, name: str, landmarks: Sequence[Landmark], by: Author) -> StoredPlan:
-        """These landmarks in place of the old ones; PlanError LANDMARK_TWICE or LANDMARK_OUTSIDE_CT."""
+        """Replace all landmarks; raises PlanError LANDMARK_TWICE or LANDMARK_OUTSIDE_CT."""
         return self._change(
             by,
             lambda plan, volume: _rejected_odd(changes.with_landmarks(plan, name, landmarks, volume=volume)),
@@ -273,9 +273,9 @@ class PlanStep:
         if size_mm[0] not in catalogue.diameters_mm or size_mm[1] not in catalogue.lengths_mm:
             raise PlanError(
                 "SCREW_NOT_IN_CATALOGUE",
-                f"there is no screw of {size_mm[0]:g} x {size_mm[1]:g} mm in the catalogue",
+                f"the catalogue has no screw of {size_mm[0]:g} x {size_mm[1]:g} mm",
                 f"Choose a diameter of {_reported(catalogue.diameters_mm)} and a length of "
-                f"{_reported(catalogue.lengths_mm)} mm, or add yours under plan in the config.",
+                f"{_reported(catalogue.lengths_mm)} mm, or add this size under plan in the settings.",
                 {"diameter_mm": size_mm[0], "length_mm": size_mm[1]},
             )
 

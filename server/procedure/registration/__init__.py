@@ -1,4 +1,4 @@
-"""The steps in the theatre that find the plan's vertebra on the patient, and check that it was found."""
+"""Registration of the planned vertebra to the patient, and the check of a registration."""
 
 from server.procedure.registration.check import CheckSession, CheckStatus, CheckStep
 from server.procedure.registration.context import RegistrationContext, RegistrationContextFinder

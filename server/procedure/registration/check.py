@@ -79,7 +79,7 @@ class CheckSession:
         )
 
     def stop(self) -> None:
-        """Look no more."""
+        """Stop the capture."""
         self._capture.stop()
 
     def _outcome(self, capture: CaptureStatus, touched: CapturedLandmark) -> CheckRecord:
@@ -139,14 +139,14 @@ class CheckStep:
         self._procedure = procedure
         self._gate = gate
         self._active: ActiveCollection[CheckSession] = ActiveCollection(
-            "check is", remedy="Begin the check, and say on which landmark."
+            "check is", remedy="Start a check on a landmark."
         )
 
     def begin(self, landmark: str, *, tool: str) -> CheckSession:
         """Start to capture the tip on this landmark of the active vertebra.
 
         Raises:
-            SetupOrderError: NO_CASE_OPEN, or what it waits for.
+            SetupOrderError: NO_CASE_OPEN, or the code of a missing earlier step.
             PlanError: LANDMARK_UNKNOWN.
             InvalidInput: TOOL_UNKNOWN.
             RegistrationError: LANDMARK_WAS_USED.
@@ -176,11 +176,11 @@ class CheckStep:
 
     @property
     def running(self) -> bool:
-        """Whether a check was begun."""
+        """Whether there is an active check."""
         return self._active.is_active
 
     def end(self) -> None:
-        """Look no more."""
+        """Stop the check."""
         self._active.end()
 
     def conclude(self, *, made_by: str) -> Document:
@@ -188,7 +188,7 @@ class CheckStep:
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, COLLECTION_MISSING.
-            OutOfDateError: REGISTRATION_CHANGED, the checked registration is not the newest any more.
+            OutOfDateError: REGISTRATION_CHANGED, the checked registration is no longer the newest.
             RegistrationError: CHECK_NOT_CAPTURED, or why the capture was rejected.
         """
         session = self.session
@@ -202,8 +202,8 @@ class CheckStep:
         if document.id != session.stored.document.id:
             raise OutOfDateError(
                 "REGISTRATION_CHANGED",
-                f"{session.stored.document.title} was checked, and now there is version {document.version}",
-                "Check the registration that holds now.",
+                f"{session.stored.document.title} was checked, but the newest version is {document.version}",
+                "Check the newest registration.",
                 {"checked_version": session.stored.document.version, "version": document.version},
             )
         record = self._store.put(
@@ -226,13 +226,13 @@ def _not_captured(capture: CaptureStatus) -> RegistrationError:
     return RegistrationError(
         "CHECK_NOT_CAPTURED",
         f"the tip was seen in {capture.images} images{at_rate}, needed {capture.wanted}",
-        f"Hold the tip still on the landmark{how_long} until it is taken.",
+        f"Hold the tip still on the landmark{how_long} until it is captured.",
         {"images": capture.images, "needed": capture.wanted, "rate_hz": capture.rate_hz},
     )
 
 
 def used_mm(stored: StoredRegistration) -> dict[str, list[float]]:
-    """Return the landmarks (LPS mm, by name) that a registration was fitted to."""
+    """Return the landmarks (LPS mm, by name) that were used for a registration."""
     points = stored.record.made_from.get("points")
     return {
         str(one["landmark"]): [float(mm) for mm in one["point_lps_mm"]]
@@ -242,7 +242,7 @@ def used_mm(stored: StoredRegistration) -> dict[str, list[float]]:
 
 
 def _reject_used(stored: StoredRegistration, landmark: Landmark) -> None:
-    """Reject a landmark that was used, before its capture: checked as if the tip were exactly on it."""
+    """Reject a landmark that was used, before its capture: tested as if the tip were exactly on it."""
     registration = stored.record.registration
     check_landmark(
         registration,

@@ -83,15 +83,15 @@ class RegistrationContextFinder:
     def find(
         self, *, vertebra: str | None, tool: str | None, step: StepName = StepName.REGISTER
     ) -> RegistrationContext:
-        """The ground to do a step on, if all earlier ones hold.
+        """Return the context of a step, if all earlier steps are valid.
 
         Args:
-            vertebra: its name in the plan; that of the active channel if None.
-            tool: tool whose tip captures points; None if none is used.
-            step: the step to be done.
+            vertebra: Name of the vertebra in the plan; None for that of the active channel.
+            tool: Tool whose tip captures points; None if none is used.
+            step: The step to be done.
 
         Raises:
-            SetupOrderError: NO_CASE_OPEN, or what the step waits for.
+            SetupOrderError: NO_CASE_OPEN, or the code of a missing earlier step.
             PlanError: VERTEBRA_UNKNOWN.
             InvalidInput: TOOL_UNKNOWN.
         """
@@ -116,14 +116,14 @@ class RegistrationContextFinder:
         """Raise if the context has changed since the registration was started.
 
         Raises:
-            SetupOrderError: NO_CASE_OPEN, or what the registration waits for.
+            SetupOrderError: NO_CASE_OPEN, or the code of a missing earlier step.
             OutOfDateError: REGISTRATION_CONTEXT_CHANGED.
         """
         now = self.find(vertebra=context.vertebra.name, tool=context.tool or None)
         if (now.case_id, now.documents) != (context.case_id, context.documents):
             raise OutOfDateError(
                 "REGISTRATION_CONTEXT_CHANGED",
-                "the case, its plan, its camera or its tool was changed since this registration was started",
+                "case, plan, camera or tool has changed since this registration was started",
                 "Start the registration again with the current plan, camera and tool.",
                 {"began_on": list(context.documents), "now": list(now.documents)},
             )
@@ -135,7 +135,7 @@ class RegistrationContextFinder:
             raise InvalidInput(
                 "TOOL_UNKNOWN",
                 f"there is no tool '{tool}' in use",
-                f"Known are: {', '.join(sorted(known)) or 'none'}; calibrate its tip and axis first.",
+                f"Available tools: {', '.join(sorted(known)) or 'none'}. Calibrate tip and axis first.",
                 {"tool": tool},
             )
 
@@ -158,6 +158,6 @@ def landmark_named(landmarks: Sequence[Landmark], name: str) -> Landmark:
     raise PlanError(
         "LANDMARK_UNKNOWN",
         f"the vertebra has no landmark '{name[:60]}'",
-        f"Known are: {', '.join(one.name for one in landmarks) or 'none'}; landmarks are set in the plan.",
+        f"Existing landmarks: {', '.join(one.name for one in landmarks) or 'none'}. Set them in the plan.",
         {"landmark": name[:60]},
     )

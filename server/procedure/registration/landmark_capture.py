@@ -22,9 +22,9 @@ from tracker.registration.tip import tip_in_anchor
 UNSEEN = {
     AbsentReason.MARKER_UNSEEN: "the tool's marker is not seen",
     AbsentReason.MARKER_TWICE: "the tool's marker is in view twice",
-    AbsentReason.POSE_UNCERTAIN: "the tip could be millimetres away from where it seems",
+    AbsentReason.POSE_UNCERTAIN: "the position of the tip is uncertain by millimetres",
     AbsentReason.CAMERA_NOT_CALIBRATED: "the camera is not calibrated",
-    AbsentReason.CAMERA_CHANGED: "the camera's focus or zoom is not as it was calibrated",
+    AbsentReason.CAMERA_CHANGED: "focus or zoom of the camera has changed since the calibration",
 }
 
 
@@ -91,7 +91,7 @@ class LandmarkCapture:
 
     @property
     def status(self) -> CaptureStatus:
-        """How far it has come."""
+        """Progress of the capture."""
         with self._lock:
             problem = self._listener.problem
             state = CaptureState.LOOKING if self._touched is None else CaptureState.TAKEN
@@ -108,7 +108,7 @@ class LandmarkCapture:
             )
 
     def stop(self) -> None:
-        """Look no more."""
+        """Stop the capture."""
         self._listener.stop()
 
     def _process(self, instant: Instant) -> None:
@@ -117,7 +117,7 @@ class LandmarkCapture:
             return
         if instant.is_stopped:
             raise RegistrationError(
-                "NO_PICTURE", "there is no picture any more", "Wait until the video runs, and capture again."
+                "NO_PICTURE", "there are no more images", "Wait until the video runs, and capture again."
             )
         if snapshot is None or snapshot.image_number == self._image_number:
             return
@@ -142,18 +142,18 @@ def tip_of(snapshot: NavigationSnapshot, name: str, reference: str) -> TipSample
     if not setup.camera_calibrated:
         raise CalibrationError(
             "CAMERA_NOT_CALIBRATED",
-            "the camera is not calibrated, so points have no millimetres",
-            "Calibrate the camera first, or name its file as camera.calibration.",
+            "the camera is not calibrated, so that no position in mm can be measured",
+            "Calibrate the camera first, or set camera.calibration to its file.",
         )
     tool = setup.tools.get(name)
     if tool is None:
         raise InvalidInput(
             "TOOL_UNKNOWN",
             f"there is no tool '{name}' in use",
-            f"Known are: {', '.join(sorted(setup.tools)) or 'none'}; calibrate its tip and axis first.",
+            f"Available tools: {', '.join(sorted(setup.tools)) or 'none'}. Calibrate tip and axis first.",
             {"tool": name},
         )
-    # The unfiltered pose: at rest the mean of the samples filters as well, and a motion must remain visible.
+    # The unfiltered pose, because the samples are averaged anyway, and a motion must remain visible.
     sighting = snapshot.sightings[tool.marker]
     view = locate_tool(setup, tool, sighting)
     at_s = snapshot.captured_at_s

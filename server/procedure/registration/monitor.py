@@ -14,8 +14,8 @@ from tracker.errors import NavigationError
 from tracker.navigation import Absent, AbsentReason, NavigationSnapshot
 
 MOVED = {
-    AbsentReason.CAMERA_MOVED: "the camera stands elsewhere than when it was registered",
-    AbsentReason.REFERENCE_MOVED: "the marker on the patient stands elsewhere than when it was registered",
+    AbsentReason.CAMERA_MOVED: "the camera has moved since the registration",
+    AbsentReason.REFERENCE_MOVED: "the marker on the patient has moved since the registration",
 }
 WITHDRAWN_BY = "Coaxial"
 MIN_PAUSE_S = 0.05
@@ -45,7 +45,7 @@ class RegistrationMonitor:
         self._listener = LiveListener(hub, self._process, name="watching for moves", min_pause_s=MIN_PAUSE_S)
 
     def stop(self) -> None:
-        """Look no more."""
+        """Stop monitoring."""
         self._listener.stop()
 
     def _process(self, instant: Instant) -> None:
@@ -61,7 +61,7 @@ class RegistrationMonitor:
                 self._withdraw(reason)
                 self._begin(reason, snapshot.captured_at_s)
         except NavigationError as error:
-            # It is tried again after `after_s`, because the move is still reported.
+            # Retried after `after_s`, because the move is still reported.
             self._reason = None
             log.exception(error.message, code=error.code, remedy=error.remedy)
 
@@ -75,7 +75,7 @@ class RegistrationMonitor:
         # A document made meanwhile is newer than the move that older images still report.
         if lost is not None and lost.id == self._lost_id:
             self._store.withdraw(lost, by=WITHDRAWN_BY, reason=MOVED[reason])
-            log.warning("withdrawn because something moved", document=lost.title, reason=MOVED[reason])
+            log.warning("document withdrawn after a move", document=lost.title, reason=MOVED[reason])
 
     def _lost_by(self, reason: AbsentReason) -> Document | None:
         case = self._store.get_open_case()

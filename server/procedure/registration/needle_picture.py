@@ -11,9 +11,9 @@ from tracker.plan import Volume
 from tracker.plan.slices import Window, shown
 from tracker.registration.needles import image_from_slice
 
-# BGR: the colour of the lines in the picture of the plan.
+# BGR, as the lines in the picture of the plan.
 LINE = (80, 220, 255)
-# Fractions of a pixel, as bits, for lines that do not jump.
+# Fractional bits of OpenCV's sub-pixel coordinates.
 BITS = 4
 
 
@@ -45,18 +45,18 @@ def overlay_picture(placed: PlacedSlice, volume: Volume | None, window: Window) 
 
 
 def slice_in_image(placed: PlacedSlice, volume: Volume) -> tuple[tuple[int, int], Array] | None:
-    """How large the plan's picture of the slice is, in pixels of the CT, and how it lies over the image.
+    """Return the size of the slice picture in CT pixels, and its placement in the image.
 
     Returns:
-        (width, height), and the homography (3, 3) from its pixels, whose centres are whole numbers, to the
-        image's; None where needles stand on landmarks, not on a slice's lines.
+        (width, height), and the homography (3, 3) from its pixels to image pixels, with integer pixel
+        centres; None if the needles are at landmarks instead of lines of a slice.
     """
     reference = placed.scene.reference
     if reference is None:
         return None
     one = reference_slice(placed.scene.context.vertebra, volume)
     homography = image_from_slice(placed.camera_from_vertebra, reference, placed.scene.camera)
-    # The plan's picture shows the patient's left to the right, whichever way the scanner counted.
+    # The picture of the plan shows the patient's left on the right, whatever the order of the scanner.
     corners_px = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     corners_lps = np.column_stack([corners_px, np.ones(3)]) @ one.lps_from_px.T
     own = volume.index_from_lps(corners_lps)[:, :2]

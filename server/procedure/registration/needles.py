@@ -1,7 +1,4 @@
-"""The needle registration step: plan and patient are registered by three needles in the live image.
-
-The method is that of the paper.
-"""
+"""Needle registration step: registers the plan by three needles in the live image, as in the paper."""
 
 from collections.abc import Sequence
 
@@ -63,7 +60,7 @@ class NeedleStep:
         """Return the newest image with the planned needles.
 
         Raises:
-            SetupOrderError: NO_CASE_OPEN, or what registration waits for.
+            SetupOrderError: NO_CASE_OPEN, or the code of a missing earlier step.
             PlanError: VERTEBRA_UNKNOWN, LANDMARK_UNKNOWN, REFERENCE_MISSING.
             CaptureError: NO_PICTURE.
             CalibrationError: CAMERA_NOT_CALIBRATED.
@@ -73,15 +70,15 @@ class NeedleStep:
         if newest is None or newest.image is None or newest.snapshot is None:
             raise CaptureError(
                 "NO_PICTURE",
-                "there is no picture to find needles in",
+                "there is no image in which needles could be detected",
                 "Wait until the video runs, and try again.",
             )
         setup = newest.snapshot.setup
         if not setup.camera_calibrated:
             raise CalibrationError(
                 "CAMERA_NOT_CALIBRATED",
-                "the camera is not calibrated, so needles cannot be measured in millimetres",
-                "Calibrate the camera first, or name its file as camera.calibration.",
+                "the camera is not calibrated, so that needles cannot be measured in mm",
+                "Calibrate the camera first, or set camera.calibration to its file.",
             )
         reference = None if order.landmarks else _reference(context)
         places = (
@@ -104,7 +101,7 @@ class NeedleStep:
         """Detect the needles, and place the slice for each likely assignment; nothing is stored.
 
         Raises:
-            RegistrationError: NEEDLES_NOT_FOUND, or as `register_needles` where nothing fits.
+            RegistrationError: NEEDLES_NOT_FOUND, or as `register_needles` if no assignment fits.
         """
         proposals = propose_needles(
             scene.image,
@@ -145,8 +142,8 @@ class NeedleStep:
         if len(marked) != len(scene.places):
             raise InvalidInput(
                 "NEEDLES_UNPAIRED",
-                f"{len(marked)} needles are marked, {len(scene.places)} are planned",
-                f"Mark one for each of: {', '.join(place.name for place in scene.places)}, in this order.",
+                f"{len(marked)} needles are marked, but {len(scene.places)} are planned",
+                f"Mark one needle each for {', '.join(place.name for place in scene.places)}, in this order.",
                 {"marked": len(marked), "planned": len(scene.places)},
             )
         seen = refine_marked(scene.image, scene.camera, marked)
@@ -158,7 +155,7 @@ class NeedleStep:
     def lay(
         self, scene: NeedleScene, overlay: SliceOverlay | None, marked: Sequence[NeedleObservation] = ()
     ) -> PlacedSlice:
-        """Place the slice by the given overlay, or by the ruler; nothing is fitted or stored."""
+        """Place the slice by the given overlay, or by the ruler measurement; nothing is fitted or stored."""
         at_px = None if overlay is None else overlay.shift_px
         view = scene.view(at_px)
         placed = overlay or first_overlay(scene.places, scene.camera, view)
@@ -173,7 +170,7 @@ class NeedleStep:
         )
 
     def take(self, scene: NeedleScene, overlay: SliceOverlay) -> PlacedSlice:
-        """Fit to needles under the lines that a person has placed over them; nothing is stored.
+        """Fit to the needles under the lines of a manually placed overlay; nothing is stored.
 
         Raises:
             RegistrationError: as `register_needles`.
@@ -189,13 +186,13 @@ class NeedleStep:
         """Store a fit in the open case as the registration of its vertebra.
 
         Raises:
-            SetupOrderError, OutOfDateError: a dependency is missing, or was changed.
+            SetupOrderError, OutOfDateError: A dependency is missing or has changed.
             RegistrationError: NEEDLES_NOT_FITTED, REFERENCE_UNSEEN.
         """
         fit, scene = placed.fit, placed.scene
         if fit is None:
             raise RegistrationError(
-                "NEEDLES_NOT_FITTED", "the slice was laid, and nothing was fitted", "Take the overlay first."
+                "NEEDLES_NOT_FITTED", "the slice was placed without a fit", "Fit the overlay first."
             )
         self._contexts.reject_changed(scene.context)
         registration = fit.registration
@@ -205,7 +202,7 @@ class NeedleStep:
                 raise RegistrationError(
                     "REFERENCE_UNSEEN",
                     f"the marker '{scene.context.reference}' on the patient is not seen in this image",
-                    "Clear the view to the marker on the patient, and register again.",
+                    "Clear the view of the marker on the patient, and register again.",
                     {"reference": scene.context.reference},
                 )
             registration = anchor_to_reference(registration, beside)
@@ -263,7 +260,7 @@ def _made_from(placed: PlacedSlice, fit: NeedleFit, way: str) -> dict[str, objec
             "azimuth_deg": measured.azimuth_deg,
             "patient_end": measured.patient_end.value,
         },
-        # A needle's landmark says nothing of the registration afterwards, as a touched one does not.
+        # A landmark with a needle cannot verify the registration, like a captured one.
         "points": [
             {"landmark": place.name, "point_lps_mm": place.point_lps_mm.tolist(), "used": True}
             for place in placed.scene.places
@@ -292,8 +289,7 @@ def _reference(context: RegistrationContext) -> ReferenceSlice:
         raise PlanError(
             "REFERENCE_MISSING",
             f"{context.vertebra.name} has no reference slice",
-            "Choose the slice that stands for it in the plan, or name "
-            "the landmarks that the needles stand on.",
+            "Select its reference slice in the plan, or give the landmarks at which the needles enter.",
             {"vertebra": context.vertebra.name},
         )
     return context.vertebra.references[0]

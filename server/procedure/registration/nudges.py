@@ -82,7 +82,7 @@ class NudgeStep:
             SetupOrderError: NO_CASE_OPEN, REGISTER_MISSING.
             OutOfDateError: DOCUMENT_OUT_OF_DATE.
             RegistrationError: NUDGE_TOO_FAR.
-            StoreConflict: VERSION_CONFLICT, somebody else nudged it in the same moment.
+            StoreConflict: VERSION_CONFLICT, another person corrected it at the same time.
         """
         stored = self._repository.current()
         nudged, nudges = self._nudged(stored)

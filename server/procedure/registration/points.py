@@ -1,4 +1,4 @@
-"""The point registration step: paired points from the tool tip on landmarks of the plan."""
+"""Point registration step: paired points from the tool tip on landmarks of the plan."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ from tracker.registration.points import PointRegistration
 
 # Fiducial localisation error of a landmark on CT and bone together, per axis.
 LANDMARK_SD_MM = 0.7
-# So many more landmarks a person may still touch.
+# Numbers of additional landmarks that a person can still touch.
 MORE_LANDMARKS = (2, 4, 8)
 # From the entry point to the end of a channel.
 ALONG = (0.0, 0.25, 0.5, 0.75, 1.0)
@@ -71,15 +71,15 @@ class PointsStep:
         self._captures = capture_settings(gate)
         self._settings = point_settings(gate)
         self._active: ActiveCollection[PointsSession] = ActiveCollection(
-            "landmarks are",
-            remedy="Begin with the points, and say with which tool.",
+            "registration by landmarks is",
+            remedy="Start a registration by landmarks with a tool.",
         )
 
     def begin(self, *, tool: str, vertebra: str | None = None) -> PointsSession:
         """Start to capture a vertebra's landmarks with this tool; a previous session is discarded.
 
         Raises:
-            SetupOrderError: NO_CASE_OPEN, or what it waits for.
+            SetupOrderError: NO_CASE_OPEN, or the code of a missing earlier step.
             PlanError: VERTEBRA_UNKNOWN.
             InvalidInput: TOOL_UNKNOWN.
             RegistrationError: LANDMARKS_TOO_FEW.
@@ -89,8 +89,8 @@ class PointsStep:
         if there < needed:
             raise RegistrationError(
                 "LANDMARKS_TOO_FEW",
-                f"the plan has {there} landmarks on {context.vertebra.name}, needed {needed}",
-                "Mark landmarks on the CT, in the plan; one more serves as the check.",
+                f"the plan has {there} landmarks on {context.vertebra.name}, the minimum is {needed}",
+                "Mark more landmarks on the CT in the plan, including one for the check.",
                 {"landmarks": there, "needed": needed},
             )
         return self._active.begin(lambda: PointsSession(self._hub, context, self._captures, self._settings))
@@ -119,15 +119,15 @@ class PointsStep:
             return (
                 RegistrationError(
                     "POINTS_TOO_FEW",
-                    f"{len(status.used)} landmarks are touched and used, needed {self.gate.min_points}",
-                    "Touch another landmark, or use one that was left out.",
+                    f"{len(status.used)} landmarks are captured and used, minimum {self.gate.min_points}",
+                    "Capture another landmark, or include one that was excluded.",
                     {"points": len(status.used), "needed": self.gate.min_points},
                 ),
             )
         if status.fit is None:
             problem = status.problem
             if problem is None:
-                raise RuntimeError("neither a fit nor a problem")
+                raise RuntimeError("there is neither a fit nor a problem")
             return (RegistrationError(problem.code, problem.message, problem.remedy, problem.context),)
         return status.fit.failures(point_gate(self.gate), list(status.context.entries_mm))
 
@@ -135,9 +135,9 @@ class PointsStep:
         """Store the registration in the open case if it is accepted, and end the session.
 
         Raises:
-            SetupOrderError: NO_CASE_OPEN, COLLECTION_MISSING, or what it waits for.
+            SetupOrderError: NO_CASE_OPEN, COLLECTION_MISSING, or the code of a missing earlier step.
             OutOfDateError: REGISTRATION_CONTEXT_CHANGED.
-            RegistrationError: what the points lack, or the gate that is not passed.
+            RegistrationError: The points are insufficient, or a limit is exceeded.
         """
         session = self.session
         self._contexts.reject_changed(session.context)
@@ -182,8 +182,9 @@ def touched_points(step: PointsStep) -> tuple[TouchedPoint, ...]:
     if status.context.reference:
         raise RegistrationError(
             "TOUCHED_BESIDE_REFERENCE",
-            f"the landmarks were touched beside the marker '{status.context.reference}'",
-            "Register by these points alone, or by the needles alone.",
+            f"the landmarks were captured relative to the marker '{status.context.reference}', not to the "
+            "camera",
+            "Register by these points only, or by the needles only.",
             {"reference": status.context.reference},
         )
     return tuple(

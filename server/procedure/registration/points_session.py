@@ -176,7 +176,7 @@ class PointsSession:
         if landmark not in self._touched:
             raise RegistrationError(
                 "LANDMARK_NOT_TOUCHED",
-                f"the landmark '{landmark}' has not been touched",
+                f"the landmark '{landmark}' has not been captured",
                 "Capture it first.",
                 {"landmark": landmark},
             )

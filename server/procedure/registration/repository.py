@@ -66,8 +66,8 @@ class RegistrationRepository:
         if document is None:
             raise SetupOrderError(
                 "REGISTER_MISSING",
-                f"{name or 'the vertebra that is to be drilled'} is not registered",
-                "Register: touch the landmarks of the plan.",
+                f"{name or 'the vertebra of the active channel'} is not registered",
+                "Register by touching the landmarks of the plan.",
                 {"vertebra": name},
             )
         return StoredRegistration(
@@ -130,7 +130,7 @@ class RegistrationRepository:
         """Store a changed registration with the same dependencies, as the next version.
 
         Raises:
-            StoreConflict: VERSION_CONFLICT, somebody else changed it meanwhile.
+            StoreConflict: VERSION_CONFLICT, another person has changed it since.
         """
         document = stored.document
         return self._store.put(

@@ -1,4 +1,4 @@
-"""The surface registration step: a sweep of the tip over the bone refines a point registration."""
+"""Surface registration step: a sweep of the tip over the bone refines a registration."""
 
 import threading
 from dataclasses import dataclass, replace
@@ -150,14 +150,14 @@ class SweepStep:
         self._lock = threading.Lock()
         self._nearest: tuple[str, ClosestPointQuery] | None = None
         self._active: ActiveCollection[SweepSession] = ActiveCollection(
-            "sweep is", remedy="Begin a sweep, and say with which tool."
+            "sweep is", remedy="Start a sweep with a tool."
         )
 
     def begin(self, *, tool: str) -> SweepSession:
         """Start a sweep of the active vertebra, which must be registered.
 
         Raises:
-            SetupOrderError: NO_CASE_OPEN, SURFACE_MISSING, or what it waits for.
+            SetupOrderError: NO_CASE_OPEN, SURFACE_MISSING, or the code of a missing earlier step.
             InvalidInput: TOOL_UNKNOWN.
             RegistrationError: SWEEP_ANCHOR_DIFFERS.
         """
@@ -167,8 +167,8 @@ class SweepStep:
         if start.record.anchored_to is not context.anchored_to:
             raise RegistrationError(
                 "SWEEP_ANCHOR_DIFFERS",
-                f"{start.document.title} is fixed to the {start.record.anchored_to}, a sweep would be to the "
-                f"{context.anchored_to}",
+                f"{start.document.title} is anchored to the {start.record.anchored_to}, but a sweep would be "
+                f"anchored to the {context.anchored_to}",
                 "Register by points again, then sweep.",
             )
         return self._active.begin(lambda: SweepSession(self._hub, context, start))
@@ -216,8 +216,8 @@ class SweepStep:
         """Store the refined registration as the next version if it is accepted, and end the sweep.
 
         Raises:
-            SetupOrderError, OutOfDateError: a dependency is missing, or was changed.
-            RegistrationError: as `fit`, or a limit is exceeded.
+            SetupOrderError, OutOfDateError: A dependency is missing or has changed.
+            RegistrationError: As `fit`, or a limit is exceeded.
             StoreConflict: VERSION_CONFLICT, the registration was changed since the sweep started.
         """
         status = self.session.status
@@ -272,7 +272,10 @@ class SweepStep:
             return self._nearest
 
     def _is_loose(self, record: RegistrationRecord) -> bool:
-        """Return whether the camera may have been moved since: anchored to it in an earlier run."""
+        """Return whether the registration is anchored to the camera and from an earlier run of the server.
+
+        The camera may have been moved since.
+        """
         return record.anchored_to is AnchoredTo.CAMERA and record.run != self._procedure.run
 
     def _from_s(self, status: SweepStatus) -> float | None:

@@ -1,4 +1,4 @@
-"""The state of the procedure: its steps in order, the finding of each, and which of them are allowed."""
+"""State of the procedure: its steps in order, their findings, and which of them are allowed."""
 
 from server.procedure.state.procedure import Procedure, SetupDefaults
 from server.procedure.state.procedure_state import ProcedureState, derive_state, no_case

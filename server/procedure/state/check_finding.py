@@ -57,9 +57,7 @@ def _of(record: CheckRecord, check: Document, *, again_after_min: float, minutes
         "landmark": record.landmark,
         "age_min": minutes,
     }
-    text = (
-        f"the tip on {record.landmark} was {record.distance_mm:.2f} mm from where the plan has it, allowed "
-    )
+    text = f"the tip on {record.landmark} was {record.distance_mm:.2f} mm from the planned landmark, limit "
     text += f"{record.max_mm:.2f} mm"
     if not record.passed:
         state, remedy = StepState.FAILED, "Check again, nudge the registration, or register again."
@@ -77,8 +75,8 @@ def _of(record: CheckRecord, check: Document, *, again_after_min: float, minutes
 def _after_start(vertebra: str, document_id: str) -> Finding:
     return Finding(
         state=StepState.OUT_OF_DATE,
-        message=f"the server was started again after {vertebra} was registered before the camera, and nobody "
-        "saw whether the camera was moved",
+        message=f"the server was restarted after {vertebra} was registered to the camera; a move of the "
+        "camera meanwhile was not detected",
         remedy=CHECK,
         document_id=document_id,
     )

@@ -25,7 +25,7 @@ class CosignTarget(StrEnum):
 
 
 STEP_OF = {CosignTarget.PLAN: StepName.PLAN, CosignTarget.REGISTRATION: StepName.REGISTER}
-REMEDY = "Have a second person look at it and sign it, on the supervisor's page."
+REMEDY = "Have a second person review and sign it on the supervisor's page."
 
 
 class SignatureRecord(Section):

@@ -39,10 +39,10 @@ NOT_DONE = {
     DocumentKind.PLAN: "nothing is planned",
     DocumentKind.REGISTRATION: "{name} is not registered",
 }
-CALIBRATE = "Calibrate the camera: collect views of the board."
-PIVOT = "Calibrate the tool: pivot it, and gather its poses."
-CHOOSE = "Choose in the plan the channel that is to be drilled."
-REGISTER = "Register: touch the landmarks of the plan."
+CALIBRATE = "Calibrate the camera with views of the board."
+PIVOT = "Calibrate the tool by pivoting it."
+CHOOSE = "Select the channel to be drilled in the plan."
+REGISTER = "Register by touching the landmarks of the plan."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,7 +54,7 @@ class SetupDefaults:
         has_camera: whether they provide a camera calibration.
         tools: names of the configured tools.
         reference: the reference marker on the patient; empty if there is none.
-        max_rms_px: limit of a calibration's RMS, above which it is warned of.
+        max_rms_px: RMS of a calibration above which a warning is shown.
     """
 
     source: str
@@ -164,7 +164,7 @@ class Procedure:
         found = self._found(case_id, DocumentKind.CAMERA, MAIN_CAMERA, remedy=CALIBRATE)
         if isinstance(found, Finding):
             if found.state is StepState.MISSING and self._defaults.has_camera:
-                return Finding(state=StepState.DONE, message="the settings bring the camera's calibration")
+                return Finding(state=StepState.DONE, message="the camera calibration is in the settings")
             return found
         try:
             camera_from_document(found, source=self._defaults.source)
@@ -182,7 +182,7 @@ class Procedure:
             return _done(found, "the camera is calibrated and its accuracy checked", numbers)
         return Finding(
             state=StepState.FAILED,
-            message=f"the camera measures a known distance wrong by {error_mm} mm, allowed {maximum} mm",
+            message=f"the error of a known distance is {error_mm} mm, limit {maximum} mm",
             remedy="Check the accuracy again on a flat board, or calibrate the camera again.",
             numbers=numbers,
             document_id=accuracy.id,
@@ -223,7 +223,7 @@ class Procedure:
             case_id,
             DocumentKind.PLAN,
             MAIN_PLAN,
-            remedy="Plan on the CT: send it, and name a vertebra.",
+            remedy="Upload the CT, and add a vertebra to the plan.",
         )
         if isinstance(found, Finding):
             return found
@@ -231,7 +231,7 @@ class Procedure:
         if vertebra is None:
             return Finding(
                 state=StepState.MISSING,
-                message="no channel is chosen to be drilled now",
+                message="no channel is selected for drilling",
                 remedy=CHOOSE,
                 document_id=found.id,
             )
@@ -247,7 +247,7 @@ class Procedure:
         if vertebra is None:
             return Finding(
                 state=StepState.MISSING,
-                message="it is not said which vertebra is to be drilled",
+                message="the vertebra to be drilled is not known",
                 remedy=CHOOSE,
             )
         found = self._found(case_id, DocumentKind.REGISTRATION, vertebra, remedy=REGISTER)
@@ -271,7 +271,7 @@ class Procedure:
         )
         if vertebra is None or registration is None:
             return Finding(
-                state=StepState.MISSING, message="there is no registration to be checked", remedy=REGISTER
+                state=StepState.MISSING, message="there is no registration to check", remedy=REGISTER
             )
         try:
             record = registration_from_document(registration, reference=self._defaults.reference)
@@ -302,7 +302,7 @@ class Procedure:
         return document
 
     def _found(self, case_id: str, kind: DocumentKind, name: str, *, remedy: str) -> Document | Finding:
-        """Return the newest document if it is valid, otherwise the finding that says why not."""
+        """Return the newest document if it is valid, otherwise the finding with the reason."""
         history = self._store.history(case_id, kind, name)
         if not history:
             return Finding(state=StepState.MISSING, message=NOT_DONE[kind].format(name=name), remedy=remedy)
@@ -327,8 +327,8 @@ def _unusable(document: Document, error: NavigationError) -> Finding:
 def _axis_missing(document: Document) -> Finding:
     return Finding(
         state=StepState.MISSING,
-        message=f"nobody knows which way '{document.name}' points",
-        remedy="Spin the tool about its axis.",
+        message=f"the axis of '{document.name}' is not calibrated",
+        remedy="Calibrate the axis by spinning the tool about it.",
         document_id=document.id,
     )
 

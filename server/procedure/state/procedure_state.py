@@ -192,12 +192,12 @@ def _navigation(
     if blocking is None and confirmation is not None:
         return Finding(
             state=StepState.MISSING,
-            message=f"navigation waits for a person: {confirmation.message}",
+            message=f"navigation waits for a confirmation: {confirmation.message}",
             remedy=confirmation.remedy,
             document_id=confirmation.registration.id,
         )
     if blocking is None:
-        return Finding(state=StepState.DONE, message="the tool is shown against the channel")
+        return Finding(state=StepState.DONE, message="the tool is shown relative to the channel")
     first = findings[blocking]
     return Finding(
         state=StepState.MISSING,

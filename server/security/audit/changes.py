@@ -10,7 +10,7 @@ MAX_CHANGES = 100
 
 @contextmanager
 def collect_changes() -> Iterator[list[dict[str, object]]]:
-    """Collect the changes made in this context, in any thread; the list grows meanwhile."""
+    """Collect the changes made in this context, in any thread; the list is extended in place."""
     changes: list[dict[str, object]] = []
     token = _changes.set(changes)
     try:

@@ -77,7 +77,7 @@ class AuditLog:
         """Write one entry, after all pending ones.
 
         Raises:
-            StoreError: it cannot be written now; it is, before anything else, once that goes again.
+            StoreError: It cannot be written now; it is written before any other entry once that is possible.
         """
         line = {"at": self._now(), **entry.to_json()}
         with self._lock:
@@ -95,7 +95,7 @@ class AuditLog:
         if in_minute > MAX_REJECTIONS_PER_MINUTE:
             return
         if in_minute == MAX_REJECTIONS_PER_MINUTE:
-            entry = Entry(who=SERVER, what="more was rejected in this minute than is logged")
+            entry = Entry(who=SERVER, what="more requests were rejected in this minute than are logged")
         try:
             self.append(entry)
         except NavigationError as error:
@@ -188,8 +188,12 @@ class AuditLog:
                 }
             )
         if rest:
-            log.warning("a line of the audit log was cut by a crash", bytes=len(rest))
-            change = {"what": "audit log", "said": "the last line was cut by a crash", "bytes": len(rest)}
+            log.warning("a line of the audit log was truncated by a crash", bytes=len(rest))
+            change = {
+                "what": "audit log",
+                "said": "the last line was truncated by a crash",
+                "bytes": len(rest),
+            }
             self._pending.append(
                 {"at": self._now(), **Entry(who=SERVER, what="start", changes=(change,)).to_json()}
             )

@@ -32,7 +32,7 @@ def read_people(file: Path) -> tuple[list[Invitation], list[Session]]:
     try:
         stored = json.loads(file.read_bytes())
         if stored["form"] != FORM:
-            raise ValueError(f"its form is {stored['form']!r}")  # noqa: TRY301  reported below with all others
+            raise ValueError(f"its format is {stored['form']!r}")  # noqa: TRY301  reported below with all others
         return [_invitation(one) for one in stored["invitations"]], [
             _session(one) for one in stored["sessions"]
         ]
@@ -40,7 +40,7 @@ def read_people(file: Path) -> tuple[list[Invitation], list[Session]]:
         raise StoreError(
             "PEOPLE_DAMAGED",
             f"the file of people {file} cannot be read: {error}",
-            "Move the file away and start again: everybody then has to be invited anew.",
+            "Move the file to another folder and start again; everybody then has to be invited again.",
             {"file": str(file)},
         ) from error
 

@@ -11,8 +11,8 @@ from server.errors import ConfigError
 from server.security.addresses import is_loopback
 
 CERTIFICATE_REMEDY = (
-    "Give certificate and key as PEM files under server.tls, the key without a password; or leave both out, "
-    "and the server makes its own."
+    "Give certificate and key as PEM files under server.tls, the key without a password; or omit both, and "
+    "the server creates its own."
 )
 PROXY_SPEAKS_TLS = "a proxy speaks TLS for this server"
 
@@ -44,16 +44,16 @@ def reject_unsafe(config: Config) -> None:
     if config.security.sign_in == "off" and not is_loopback(_bracketed(host)):
         raise ConfigError(
             "SIGN_IN_NEEDED",
-            f"security.sign_in is off, but server.host is {host}, which others reach: then everybody in the "
-            "network could move the plan",
+            f"security.sign_in is off, but other computers can reach server.host {host}: everybody in the "
+            "network could change the plan",
             "Set security.sign_in to required, or server.host to 127.0.0.1.",
             {"host": host},
         )
     if config.security.sign_in == "off" and config.server.behind_proxy is not None:
         raise ConfigError(
             "SIGN_IN_NEEDED",
-            "security.sign_in is off, but by server.behind_proxy others reach this server through a proxy: "
-            "then everybody who reaches it could move the plan",
+            "security.sign_in is off, but with server.behind_proxy others can reach this server through a "
+            "proxy, and could change the plan",
             "Set security.sign_in to required, or server.behind_proxy to null.",
             {"behind_proxy": config.server.behind_proxy},
         )
@@ -61,7 +61,7 @@ def reject_unsafe(config: Config) -> None:
     if link.port is not None and link.unencrypted is None and not is_loopback(_bracketed(link.host)):
         raise ConfigError(
             "OPENIGTLINK_UNENCRYPTED",
-            f"openigtlink.host is {link.host}, which others reach, and OpenIGTLink has neither encryption "
+            f"other computers can reach openigtlink.host {link.host}, but OpenIGTLink has neither encryption "
             "nor sign-in",
             "Set openigtlink.host to 127.0.0.1, or openigtlink.unencrypted to exactly 'anybody who reaches "
             "this port reads the poses'.",
@@ -71,8 +71,8 @@ def reject_unsafe(config: Config) -> None:
     if config.security.sign_in == "off" and "required" in (cosign.plan, cosign.registration):
         raise ConfigError(
             "SIGN_IN_NEEDED",
-            "supervision.cosign asks for a second person's signature, but security.sign_in is off: then "
-            "nobody is a second person, and navigation would never open",
+            "supervision.cosign requires the signature of a second person, but security.sign_in is off: no "
+            "signer is known to be another person, so that navigation would never start",
             "Set security.sign_in to required, or supervision.cosign to offered.",
             {"plan": cosign.plan, "registration": cosign.registration},
         )
@@ -140,10 +140,10 @@ def _own(certificate: Path, key: Path) -> Tls:
         context.load_cert_chain(certificate, key, password=_no_password)
         fingerprint = fingerprint_of(certificate.read_text(encoding="utf-8"))
     except _PasswordRequired:
-        _reject_certificate(f"the TLS key {key} is locked with a password", key)
+        _reject_certificate(f"the TLS key {key} is protected by a password", key)
     except ssl.SSLError as error:
         mismatch = "MISMATCH" in (error.reason or "")
-        said = f"does not belong to the key {key}" if mismatch else "cannot be used with its key"
+        said = f"does not match the key {key}" if mismatch else "cannot be used with its key"
         _reject_certificate(
             f"the TLS certificate {certificate} {said} ({error.reason or error})", certificate
         )

@@ -1,9 +1,9 @@
 """Export of a case as an archive.
 
-The archive is completed before its first byte is sent: a slow client then does not lock the case, the length
-is known, and a damaged file is reported instead of sent in a partial archive. It needs the disk space of a
-second copy, and seconds for a CT. The patient's identity is a separate kind of document, so that it can be
-left out.
+The archive is completed before its first byte is sent, so that a slow client does not lock the case, the
+length is known, and a damaged file is reported instead of sent in a partial archive. This needs the disk
+space of a second copy, and seconds for a CT. The patient's identity is a separate kind of document, so that
+it can be excluded.
 """
 
 import hashlib
@@ -80,7 +80,7 @@ def pack(database: CaseDatabase, case_id: str, *, with_identity: bool) -> Archiv
 
     Raises:
         NotFound: CASE_UNKNOWN.
-        StoreError: FILE_DAMAGED, a file is not as it was stored.
+        StoreError: FILE_DAMAGED, a file differs from the stored one.
     """
     path = database.home.new_temporary(".zip")
     with database.in_use(case_id), translate_errors(database.home.folder):

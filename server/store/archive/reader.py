@@ -102,13 +102,13 @@ def open_archive(path: Path) -> Iterator[Parts]:
         EOFError,
     ) as error:
         raise archive_error(
-            f"it is no sound zip file ({str(error)[:120] or type(error).__name__})"
+            f"it is not a valid zip file ({str(error)[:120] or type(error).__name__})"
         ) from error
     except OSError as error:
         # Its table of contents points outside of the file.
         if error.errno != errno.EINVAL:
             raise
-        raise archive_error("it is no sound zip file (a part lies outside of it)") from error
+        raise archive_error("it is not a valid zip file (a part is outside of it)") from error
     except ValueError as error:
         raise archive_error(f"it cannot be read ({str(error)[:120]})") from error
 
@@ -126,18 +126,18 @@ def parse_part(form: type[Shape], text: bytes, *, where: str) -> Shape:
 def _entries(archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:
     infos = archive.infolist()
     if len(infos) > MAX_PARTS + 1:
-        raise archive_error(f"it has {len(infos)} parts, allowed are {MAX_PARTS}", parts=len(infos))
+        raise archive_error(f"it has {len(infos)} parts, the maximum is {MAX_PARTS}", parts=len(infos))
     for info in infos:
         known = info.filename == MANIFEST or PART.fullmatch(info.filename)
         if not known or info.flag_bits & 1 or stat.S_IFMT(info.external_attr >> 16) == SYMLINK:
-            raise archive_error(f"its part '{info.filename[:80]}' does not belong into a case")
+            raise archive_error(f"its part '{info.filename[:80]}' does not belong to a case")
     entries = {info.filename: info for info in infos}
     if len(entries) != len(infos):
-        raise archive_error("it has two parts of one name")
+        raise archive_error("it has two parts of the same name")
     total = sum(info.file_size for info in infos)
     if total > MAX_UNPACKED_BYTES:
         raise archive_error(
-            f"it unpacks to {total / 2**30:.1f} GB, allowed are {MAX_UNPACKED_BYTES // 2**30} GB",
+            f"it unpacks to {total / 2**30:.1f} GB, the maximum is {MAX_UNPACKED_BYTES // 2**30} GB",
             unpacked_bytes=total,
         )
     return entries
@@ -145,7 +145,7 @@ def _entries(archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:
 
 def _manifest(archive: zipfile.ZipFile, entries: dict[str, zipfile.ZipInfo]) -> ManifestSchema:
     if MANIFEST not in entries:
-        raise archive_error(f"its part {MANIFEST} is missing, so it is no case", part=MANIFEST)
+        raise archive_error(f"its part {MANIFEST} is missing, so it is not a case", part=MANIFEST)
     with archive.open(MANIFEST) as stream:
         text = stream.read(MAX_MANIFEST_BYTES + 1)
     if len(text) > MAX_MANIFEST_BYTES:
@@ -159,7 +159,7 @@ def _reject_newer(text: bytes) -> None:
     try:
         reported = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise archive_error(f"its part {MANIFEST} is no JSON") from error
+        raise archive_error(f"its part {MANIFEST} is not valid JSON") from error
     version = reported.get("version") if isinstance(reported, dict) else None
     if (
         isinstance(reported, dict)
@@ -169,8 +169,8 @@ def _reject_newer(text: bytes) -> None:
     ):
         raise InvalidInput(
             "ARCHIVE_NEWER",
-            f"the archive has form {version}, this Coaxial reads form {VERSION}",
-            "Take it in with the Coaxial that made it, or a newer one; nothing of it was kept.",
+            f"the archive has format version {version}, but this Coaxial reads version {VERSION}",
+            "Import it with the Coaxial that exported it, or a newer one; nothing of it was stored.",
             {"found": version, "known": VERSION},
         )
 
@@ -187,6 +187,6 @@ def _reject_disagreement(entries: dict[str, zipfile.ZipInfo], parts: dict[str, P
             raise archive_error(f"its part {path[:80]} is missing", part=path[:80])
         if entries[path].file_size != part.size_bytes:
             raise archive_error(
-                f"its part {path} has {entries[path].file_size} bytes, its manifest says {part.size_bytes}",
+                f"its part {path} has {entries[path].file_size} bytes, its manifest states {part.size_bytes}",
                 part=path,
             )

@@ -100,7 +100,7 @@ def archive_error(why: str, **context: object) -> InvalidInput:
     """Return the error for an archive that cannot be imported."""
     return InvalidInput(
         "ARCHIVE_INVALID",
-        f"the archive cannot be taken in: {why}",
-        "Copy the case out again where it came from; nothing of this archive was kept.",
+        f"the archive cannot be imported: {why}",
+        "Export the case again on its server; nothing of this archive was stored.",
         context,
     )

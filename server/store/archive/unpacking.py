@@ -73,10 +73,10 @@ def _validated(parts: Parts) -> tuple[CaseSchema, list[DocumentSchema]]:
     files = [file.id for file in case.files]
     expected = {f"{FILES}{file}" for file in files} | {CASE, DOCUMENTS}
     if len(set(files)) != len(files) or {part.path for part in parts.manifest.parts} != expected:
-        raise archive_error(f"its files are not those that {CASE} names")
+        raise archive_error(f"its files are not those listed in {CASE}")
     lines = parts.text(DOCUMENTS).split(b"\n")
     if lines.pop() != b"":
-        raise archive_error(f"{DOCUMENTS} ends in the middle of a line")
+        raise archive_error(f"{DOCUMENTS} ends inside a line")
     documents = [
         parse_part(DocumentSchema, line, where=f"{DOCUMENTS}, line {number}")
         for number, line in enumerate(lines, 1)
@@ -99,7 +99,7 @@ def _reject_misfits(documents: Iterable[DocumentSchema], files: set[str]) -> Non
         content_to_json(document.content)
         for name in (document.name, document.made_by):
             if validate_name(name, of="name of a document") != name:
-                raise archive_error(f"the name of the document {document.id} is not in its plain form")
+                raise archive_error(f"the name of the document {document.id} is not normalised")
         if document.id in earlier:
             raise archive_error(f"it has two documents {document.id}")
         if newest.get((document.kind, document.name), 0) + 1 != document.version:
@@ -109,12 +109,12 @@ def _reject_misfits(documents: Iterable[DocumentSchema], files: set[str]) -> Non
             )
         for basis in document.stands_on:
             if earlier.get(basis, DocumentKind.PATIENT) is DocumentKind.PATIENT:
-                raise archive_error(f"the document {document.id} depends on {basis}, which is not before it")
+                raise archive_error(
+                    f"the document {document.id} depends on {basis}, which does not precede it"
+                )
         repeated = any(len(set(ids)) != len(ids) for ids in (document.stands_on, document.files))
         if repeated or not files.issuperset(document.files):
-            raise archive_error(
-                f"the document {document.id} has files or bases that are not there, or there twice"
-            )
+            raise archive_error(f"the document {document.id} has missing or duplicate files or dependencies")
         earlier[document.id] = document.kind
         newest[document.kind, document.name] = document.version
 
@@ -127,7 +127,7 @@ def _as_imported(document: DocumentSchema, now: str) -> DocumentSchema:
         return document.model_copy(update={"withdrawn": attributed})
     if document.kind is not DocumentKind.SIGNATURE:
         return document
-    reason = "it came in with an archive, and has to be signed again here"
+    reason = "it was imported with an archive, and has to be signed again here"
     withdrawn = WithdrawalSchema(at=now, by=WITHDRAWN_BY, reason=reason)
     return document.model_copy(update={"withdrawn": withdrawn})
 

@@ -1,1 +1,1 @@
-"""How the database of an older version becomes that of this one: a file in `versions` for each change."""
+"""Migrations of the database to the current schema: one file in `versions` per change."""

@@ -1,4 +1,4 @@
-"""Run by Alembic: the changes, in the transaction that the store has begun. All of them, or none."""
+"""Run by Alembic: applies all migrations atomically, in the transaction started by the store."""
 
 from alembic import context
 

@@ -38,8 +38,8 @@ class PhoneTaken(NavigationError):
     def __init__(self, name: str) -> None:
         super().__init__(
             "PHONE_TAKEN",
-            f"another device sends its camera's images already, signed in as {name}",
-            "Touch STOP on it, or close its page; then touch START here.",
+            f"another device is already sending images, signed in as {name}",
+            "Touch STOP on it or close its page, then touch START here.",
             {"name": name},
         )
 
@@ -169,7 +169,7 @@ class Receiver:
         return Problem(
             code="PHONE_IMAGE_OLD",
             message=f"images of the phone arrive {age_s:.1f} s after their capture, limit {MAX_AGE_S:g} s",
-            remedy="Bring the phone nearer to its access point, or ask for smaller images with camera.width "
-            "and camera.height.",
+            remedy="Move the phone closer to its access point, or set smaller images with camera.width and "
+            "camera.height.",
             context={"limit_s": MAX_AGE_S},
         )

@@ -90,7 +90,7 @@ class Sender:
         elif message.image is not None:
             self._begin(message.image)
         else:
-            raise ProtocolViolation(REJECTED, "hello is sent once, at the beginning")
+            raise ProtocolViolation(REJECTED, "hello must be sent once, as the first message")
 
     def take_part(self, part: bytes, now_s: float) -> Received | Problem | None:
         """Add one part of an image; return the image when complete, its problem, or None until then.
@@ -100,7 +100,7 @@ class Sender:
         """
         image, camera = self._image, self._camera
         if image is None or camera is None or not part:
-            raise ProtocolViolation(REJECTED, "an image is announced before its parts")
+            raise ProtocolViolation(REJECTED, "an image must be announced before its parts")
         self._parts.append(part)
         self._part_bytes += len(part)
         if self._part_bytes > image.bytes:
@@ -120,25 +120,23 @@ class Sender:
     def _take_pong(self, pong: PongMessage, now_s: float) -> None:
         sent_s = self._pings.pop(pong.ping, None)
         if sent_s is None:
-            raise ProtocolViolation(REJECTED, f"ping {pong.ping} was answered before, or never sent")
+            raise ProtocolViolation(REJECTED, f"ping {pong.ping} was already answered, or never sent")
         self.clock.take(sent_s=sent_s, page_s=pong.at_ms / 1000.0, received_s=now_s)
 
     def _begin(self, image: ImageMessage) -> None:
         if self._image is not None:
             raise ProtocolViolation(
-                REJECTED, f"{self._part_bytes} of {self._image.bytes} bytes came of an image"
+                REJECTED, f"only {self._part_bytes} of {self._image.bytes} bytes of the image arrived"
             )
         if self._camera is None:
-            raise ProtocolViolation(REJECTED, "the camera is described before its first image")
+            raise ProtocolViolation(REJECTED, "the camera must be described before its first image")
         if not self.clock.is_known:
-            raise ProtocolViolation(REJECTED, "a ping is answered before the first image")
+            raise ProtocolViolation(REJECTED, "a ping must be answered before the first image")
         if self._announced >= self._credit:
-            raise ProtocolViolation(
-                REJECTED, f"{self._credit} images were allowed by the credit, and one more was sent"
-            )
+            raise ProtocolViolation(REJECTED, f"an image was sent beyond the credit of {self._credit} images")
         if image.bytes > MAX_JPEG_BYTES:
             raise ProtocolViolation(
-                TOO_LARGE, f"an image of {image.bytes} bytes, at most {MAX_JPEG_BYTES} are taken"
+                TOO_LARGE, f"the image has {image.bytes} bytes, the maximum is {MAX_JPEG_BYTES}"
             )
         self._image = image
         self._announced += 1
@@ -155,7 +153,7 @@ def parse_message(text: str) -> PhoneClientMessage:
     try:
         return PhoneClientMessage.model_validate_json(text, strict=True)
     except ValidationError as error:
-        raise ProtocolViolation(REJECTED, f"not understood: {error.errors()[0]['msg']}"[:120]) from None
+        raise ProtocolViolation(REJECTED, f"invalid message: {error.errors()[0]['msg']}"[:120]) from None
 
 
 def parse_hello(text: str) -> HelloMessage:
@@ -166,7 +164,7 @@ def parse_hello(text: str) -> HelloMessage:
     """
     message = parse_message(text)
     if message.hello is None:
-        raise ProtocolViolation(REJECTED, "the first message is hello")
+        raise ProtocolViolation(REJECTED, "the first message must be hello")
     return message.hello
 
 
@@ -181,6 +179,6 @@ def _problem_of(jpeg: bytes) -> Problem | None:
         code="PHONE_IMAGE_SIZE",
         message=f"an image of the phone has {width}x{height} px, "
         f"allowed are {MIN_SIDE_PX} to {MAX_WIDTH_PX}x{MAX_HEIGHT_PX}",
-        remedy="Set camera.width and camera.height to a size that the phone's camera has.",
+        remedy="Set camera.width and camera.height to a size of the phone's camera.",
         context={"width_px": width, "height_px": height},
     )

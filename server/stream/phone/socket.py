@@ -70,7 +70,7 @@ async def receive_phone(websocket: WebSocket, endpoint: PhoneEndpoint) -> None:
     except (Stalled, TimeoutError):
         connection = connection_of(websocket.scope)
         if connection is not None:
-            # A close frame would wait behind what the page does not read.
+            # A close frame would wait behind data that the page does not read.
             connection.abort()
         else:
             with contextlib.suppress(WebSocketDisconnect, RuntimeError):
@@ -146,11 +146,11 @@ class _PhoneConnection:
 
 
 async def _received(websocket: WebSocket) -> dict[str, object]:
-    """The next message.
+    """Return the next message.
 
     Raises:
-        TimeoutError: nothing came for too long.
-        WebSocketDisconnect: the page is gone.
+        TimeoutError: Nothing arrived within the timeout.
+        WebSocketDisconnect: The page has disconnected.
     """
     async with asyncio.timeout(SILENT_AFTER_S):
         message = await websocket.receive()
@@ -162,7 +162,7 @@ async def _received(websocket: WebSocket) -> dict[str, object]:
 async def _text(websocket: WebSocket) -> str:
     text = (await _received(websocket)).get("text")
     if not isinstance(text, str):
-        raise ProtocolViolation(REJECTED, "the first message is hello")
+        raise ProtocolViolation(REJECTED, "the first message must be hello")
     return text
 
 
@@ -181,7 +181,7 @@ async def _reject(websocket: WebSocket, endpoint: PhoneEndpoint, problem: Proble
 def _not_selected(source: str) -> Problem:
     return Problem(
         code="PHONE_NOT_SELECTED",
-        message=f"this server takes its images from {source}, not from a phone",
+        message=f"the image source of this server is {source}, not a phone",
         remedy="Start it with coaxial run --source phone, or set camera.source to phone in its settings.",
         context={"source": source},
     )

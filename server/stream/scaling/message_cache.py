@@ -22,7 +22,7 @@ class MessageCache:
         self._instant: Instant | None = None
         self._parts: tuple[str, ...] = ()
         self.written = 0
-        """How many texts were written."""
+        """Number of serialised messages."""
 
     def of(self, instant: Instant, *, size: PictureSize = PictureSize.FULL, now_s: float) -> str:
         """Return a `LiveMessage` as JSON, sent at monotonic time `now_s` with a picture of this size."""
@@ -43,7 +43,7 @@ def _parts(text: str) -> tuple[str, ...]:
     """Split the text at the numbers that differ between viewers."""
     sent, age = SENT.search(text), AGE.search(text)
     if sent is None:
-        raise ValueError("a live message does not say when it was sent")
+        raise ValueError("the live message has no send time")
     if age is None:
         return text[: sent.start()], text[sent.end() :]
     return text[: sent.start()], text[sent.end() : age.end(1)], text[age.end() :]

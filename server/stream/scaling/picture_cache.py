@@ -28,7 +28,7 @@ _log = structlog.get_logger(__name__)
 
 
 class PictureCache:
-    """Draws and encodes in its own thread, after what makes and sends the figures. For one event loop."""
+    """Draws and encodes in its own thread, at lower priority than the figures. For one event loop."""
 
     def __init__(self, *, quality: int, language: Language = "en") -> None:
         self._quality = quality
@@ -36,9 +36,9 @@ class PictureCache:
         self._made: dict[tuple[PictureSize, OverlayContent], tuple[int, asyncio.Future[bytes]]] = {}
         self._thread = ThreadPoolExecutor(1, thread_name_prefix="pictures", initializer=lower_thread_priority)
         self.encoded = dict.fromkeys(PictureSize, 0)
-        """How many pictures were made, by size."""
+        """Number of encoded pictures by size."""
         self.problem: Problem | None = None
-        """Why the last picture could not be made; None when it was. Any thread may read it."""
+        """Why the last picture failed; None if it did not. Any thread may read it."""
         self.observe_stage: Callable[[str, float], None] = lambda _stage, _spent_s: None
         """Called with the seconds of each stage, "overlay" and "encode", from the thread of the pictures."""
         self._drawn: dict[OverlayContent, tuple[int, npt.NDArray[np.uint8]]] = {}
@@ -71,7 +71,7 @@ class PictureCache:
             started_s = time.monotonic()
             jpeg = self._encoded(drawn, size)
             self.observe_stage("encode", time.monotonic() - started_s)
-        except Exception as error:  # noqa: BLE001  logged here, and the page says that there is no picture
+        except Exception as error:  # noqa: BLE001  logged here, and reported on the page
             self._report(error, size)
             return b""
         self.problem = None
@@ -111,7 +111,7 @@ class PictureCache:
         self.problem = Problem(
             code="OVERLAY_FAILED",
             message=message,
-            remedy="Restart the program; if it happens again, report it with the log.",
+            remedy="Restart the program; if the error persists, send the server log to the maintainer.",
         )
 
 

@@ -1,4 +1,4 @@
-"""Picture sizes, and what a viewer may choose."""
+"""Picture sizes, and the choices of a viewer."""
 
 from collections.abc import Sequence
 from enum import StrEnum
@@ -37,7 +37,7 @@ class PictureSize(StrEnum):
 
 
 class SizeChoice(StrEnum):
-    """A fixed size, or auto for the one that the connection carries."""
+    """A fixed size, or auto for the size that suits the connection."""
 
     AUTO = "auto"
     FULL = "full"
@@ -51,13 +51,13 @@ class SizeChoice(StrEnum):
 
 
 class ChoiceUnknown(NavigationError):
-    """What a viewer requested is none of the choices, as of sizes."""
+    """The requested choice, such as a size, does not exist."""
 
     def __init__(self, kind: str, requested: str, known: Sequence[str]) -> None:
         super().__init__(
             f"{kind.upper()}_UNKNOWN",
-            f"there is no {kind} '{requested[:40]}', only {', '.join(known)}",
-            "Ask for one of these.",
+            f"there is no {kind} '{requested[:40]}', available are {', '.join(known)}",
+            "Use one of these.",
             {"kind": kind, "requested": requested[:40], "known": list(known)},
         )
 

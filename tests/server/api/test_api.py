@@ -27,8 +27,8 @@ def test_there_is_nothing_to_tell_before_the_first_instant(client: TestClient) -
     assert answer.status_code == 503
     assert answer.json() == {
         "code": "NOTHING_YET",
-        "message": "the tracking process has not said anything since the server started",
-        "remedy": "Ask again in a second; if it stays so, look at /health and at the server's log.",
+        "message": "the tracking process has sent no message since the server started",
+        "remedy": "Try again in a second; if the error persists, check /health and the server log.",
         "context": {},
     }
 

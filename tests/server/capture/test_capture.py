@@ -111,11 +111,11 @@ def test_a_fault_is_reported_once_however_often_it_is_tried_and_it_comes_back() 
         source.reported.put(shot(1))
         until(lambda: capture.status().state is SourceState.RUNNING)
         assert capture.status().problem is None
-        until(lambda: any(line["event"] == "source is back" for line in logs))
+        until(lambda: any(line["event"] == "source reconnected" for line in logs))
     stop.set()
     source.reported.put(None)
     capture.close()
-    assert [line["event"] for line in logs][:2] == ["source runs", "cable out"]
+    assert [line["event"] for line in logs][:2] == ["source started", "cable out"]
     assert [line["event"] for line in logs].count("cable out") == 1
 
 
@@ -184,7 +184,7 @@ def test_a_camera_that_waits_for_its_trigger_is_not_taken_for_a_broken_one(
         status = capture.status()
     assert status.problem is not None
     assert status.problem.code == "CAMERA_NOT_TRIGGERED"
-    assert status.problem.message == "scripted waits for a pulse on Line1, and got none for 2 s"
+    assert status.problem.message == "scripted waits for a pulse on Line1, but received none for 2 s"
     stop.set()
     source.reported.put(None)
 
@@ -216,7 +216,7 @@ def test_an_image_that_a_frozen_camera_repeats_is_not_live() -> None:
     source.reported.put(None)
     capture.close()
     assert [line["event"] for line in logs if line["log_level"] == "warning"] == [
-        "the source scripted gave the same image for 2 s"
+        "the source scripted repeated the same image for 2 s"
     ]
 
 

@@ -149,7 +149,7 @@ def test_of_the_images_that_wait_the_newest_is_taken_and_all_buffers_are_given_b
 
 
 def test_a_camera_that_is_not_there_is_reported_and_the_library_let_go(fake_library: FakeAcquirer) -> None:
-    with pytest.raises(OSError, match="not there"):
+    with pytest.raises(OSError, match="not connected"):
         GenTLCameras().open("other")
     assert fake_library.ended == ["reset"]
 

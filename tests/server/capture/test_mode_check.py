@@ -59,7 +59,7 @@ def code_of(checked: ModeCheck) -> str:
             None,
             mode(0, fourcc="", size_wh_px=HD),
             "CAMERA_MODE_NOT_GRANTED",
-            ["the settings ask for 1920x1080", "1280x720 was granted"],
+            ["the settings request 1920x1080", "1280x720 was granted"],
         ),
         (NOTHING, None, mode(0, fourcc="", size_wh_px=(0, 0)), "", []),
     ],
@@ -90,8 +90,8 @@ def test_the_sentence_names_what_was_asked_granted_and_measured_and_what_to_do()
     film(checked, 15.0)
     assert checked.problem is not None
     assert checked.problem.message == (
-        "camera 0 gives other images than requested: 1920x1080 MJPG at 30 Hz was requested, "
-        "1920x1080 MJPG at 30 Hz was granted, images come as 1920x1080 at 15.0 Hz"
+        "camera 0 sends other images than requested: 1920x1080 MJPG at 30 Hz was requested, "
+        "1920x1080 MJPG at 30 Hz was granted, images arrive as 1920x1080 at 15.0 Hz"
     )
     assert "more light" in checked.problem.remedy
 
@@ -120,6 +120,6 @@ def test_images_of_another_size_than_granted_are_reported_at_once() -> None:
     checked = check(mode(30), mode(30))
     checked.take(HD, 0.0)
     assert checked.problem is not None
-    assert "images come as 1280x720" in checked.problem.message
+    assert "images arrive as 1280x720" in checked.problem.message
     checked.take(FULL_HD, 0.03)
     assert checked.problem is None

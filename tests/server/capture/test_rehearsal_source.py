@@ -119,7 +119,7 @@ def test_a_theatre_whose_camera_stops_reports_it_and_its_clock_continues() -> No
     assert source.read() is not None
     clock.now_s += 2.5
     for _ in range(3):
-        with pytest.raises(CaptureError, match="gives no images"):
+        with pytest.raises(CaptureError, match="stopped its camera"):
             source.read()
         source.open()
     clock.now_s += 3.0

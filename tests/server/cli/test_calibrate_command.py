@@ -73,7 +73,7 @@ def test_the_report_is_readable_and_the_gate_fails_with_status_1(images: Path, t
 def test_without_an_output_it_states_that_no_camera_file_was_written(images: Path) -> None:
     status, text = typed(*BOARD, images)
     assert status == 0, text
-    assert "No camera file was written: name one with --output" in text
+    assert "No camera file was written. To write one, give --output" in text
 
 
 def test_a_file_of_another_camera_is_rejected(images: Path, tmp_path: Path) -> None:
@@ -139,11 +139,11 @@ def test_a_bad_file_is_reported_and_affects_no_other(images: Path, tmp_path: Pat
     assert spoilt["passed"]
     reason_of = {view["image"]: view["reason"] for view in spoilt["views"] if not view["used"]}
     assert set(reason_of) == {"a-text.png", "an-empty.jpg", "small.png", "tiny.png", "view0.png", "view9.png"}
-    assert reason_of["a-text.png"] == "its 8 bytes are no image"
-    assert reason_of["an-empty.jpg"] == "its 0 bytes are no image"
-    assert "100x100 px, and most images 640x480 px" in reason_of["small.png"]
+    assert reason_of["a-text.png"] == "its 8 bytes are not a readable image"
+    assert reason_of["an-empty.jpg"] == "its 0 bytes are not a readable image"
+    assert "100x100 px, but most images have 640x480 px" in reason_of["small.png"]
     assert "3x3 px" in reason_of["tiny.png"]
-    assert "the same picture as view0-again.png" in reason_of["view0.png"]
+    assert "duplicate of view0-again.png" in reason_of["view0.png"]
     assert "view0-again.png" in typed(*BOARD, folder)[1]
 
 

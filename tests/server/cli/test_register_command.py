@@ -147,7 +147,7 @@ def test_what_four_landmarks_do_not_exclude_is_noted_and_stated(tmp_path: Path) 
     words = ("points", "--fixed", fixed, "--moving", moving, "--target-mm", "10,-44,4")
     status, text = typed(*words)
     assert status == 0
-    assert "mistaken landmark that the others do not exclude" in text
+    assert "gross error of one landmark that the others do not exclude" in text
     document = json.loads(typed(*words, "--json")[1])
     assert "POINTS_OUTLIER_NOT_EXCLUDED" in [one["code"] for one in document["warnings"]]
     (target,) = document["targets"]

@@ -49,7 +49,7 @@ def test_it_prints_the_contents_of_a_recording(file: Path) -> None:
 
 def test_a_cut_file_is_named_as_one(file: Path) -> None:
     file.write_bytes(file.read_bytes()[:-40])
-    assert "the file was cut" in run(str(file))[1]
+    assert "the file is incomplete" in run(str(file))[1]
 
 
 @pytest.mark.parametrize("as_json", [False, True])
@@ -73,8 +73,8 @@ def test_the_first_and_the_worst_difference_are_printed_with_their_images(
         return
     assert "poses: 2 of 9 images differ" in text
     assert "first of these images: image 5: tools[0].x was 1.0" in text
-    assert "the worst: image 7: tools[0].x was 1.0 and is now 1.5, 0.5 apart" in text
-    assert "alarms: equal to the last digit" in text
+    assert "largest difference: image 7: tools[0].x was 1.0 and is now 1.5, 0.5 apart" in text
+    assert "alarms: identical" in text
 
 
 def test_equal_results_end_with_status_0_and_nothing_compared_with_1(
@@ -87,4 +87,4 @@ def test_equal_results_end_with_status_0_and_nothing_compared_with_1(
         "server.cli.replay.check_recording", lambda *_, **__: ReplayReport(images=3, is_whole=True)
     )
     code, text = run(str(file), "--check")
-    assert (code, "poses: equal to the last digit in 3 images" in text) == (0, True)
+    assert (code, "poses: identical in 3 images" in text) == (0, True)

@@ -94,7 +94,7 @@ def test_slices_come_in_any_order_and_any_folder_among_other_files(tmp_path: Pat
     (tmp_path / ".DS_Store").write_bytes(b"hidden")
     assert_whole(made, tmp_path)
     left_out = {one.reason: one.count for one in read_ct(tmp_path).left_out}
-    assert left_out == {"files that are no DICOM": 1, "empty files": 1}
+    assert left_out == {"files that are not DICOM": 1, "empty files": 1}
 
 
 def test_a_zip_is_read_like_its_folder(tmp_path: Path) -> None:
@@ -160,14 +160,14 @@ def test_slices_that_are_there_twice_are_used_once(tmp_path: Path) -> None:
     folder = made.write(tmp_path)
     (folder / "copy").write_bytes(file_of(made.slices[1]))
     assert_whole(made, folder)
-    assert any("1 slices were there twice" in said for said in read_ct(folder).warnings)
+    assert any("1 slices are duplicates" in said for said in read_ct(folder).warnings)
 
 
 def test_a_small_jitter_is_tolerated_and_reported(tmp_path: Path) -> None:
     made = made_ct()
     made.slices[2].ImagePositionPatient = [-10, 20, 304.05]
     ct = read_ct(made.write(tmp_path))
-    assert any("0.05 mm from its even place" in said for said in ct.warnings)
+    assert any("0.05 mm from even spacing" in said for said in ct.warnings)
 
 
 def test_a_scout_takes_no_part(tmp_path: Path) -> None:

@@ -102,11 +102,11 @@ def test_a_violent_end_is_reported_and_leaves_nothing_behind(jobs: Jobs, folder:
     killed = jobs.wait_for(jobs.start("dying", job_functions.die, {"folder": str(folder)}, folder=folder).id)
     assert killed.state is JobState.FAILED
     assert killed.problem is not None
-    assert killed.problem.message == "the process that did the work ended by signal 9 (SIGKILL)"
+    assert killed.problem.message == "the process of the job ended by signal 9 (SIGKILL)"
     assert not folder.exists()
     left = jobs.wait_for(jobs.start("leaving", job_functions.leave).id)
     assert left.problem is not None
-    assert left.problem.message == "the process that did the work ended with status 3"
+    assert left.problem.message == "the process of the job ended with status 3"
 
 
 def test_cancelled_work_ends_at_once_and_leaves_nothing_behind(jobs: Jobs, folder: Path) -> None:

@@ -194,25 +194,25 @@ def test_a_hand_before_the_camera_leaves_its_codes_out() -> None:
         pytest.param(
             Run(blind=frozenset(range(12, 10_000))),
             "LATENCY_CODE_NOT_READ",
-            "the code was read in 11 of 609 images, needed 100",
+            "the code was read in 11 of 609 images, the minimum is 100",
             id="camera-turned-away",
         ),
         pytest.param(
             Run(codes=40),
             "LATENCY_CODE_NOT_READ",
-            "39 of 40 codes could be timed, needed 100",
+            "39 of 40 codes could be timed, the minimum is 100",
             id="ended-too-early",
         ),
         pytest.param(
             Run(unseen=frozenset(range(0, 10_000, 4))),
             "LATENCY_IMAGES_SKIPPED",
-            "151 of 607 images were not shown on this page, allowed 60",
+            "151 of 607 images were not shown on this page, the maximum is 60",
             id="page-too-slow",
         ),
         pytest.param(
             Run(unlooked=frozenset(range(0, 10_000, 4))),
             "LATENCY_IMAGES_SKIPPED",
-            "153 of 609 images on this page were not looked at for a code, allowed 60",
+            "153 of 609 images on this page were not searched for a code, the maximum is 60",
             id="server-too-slow",
         ),
     ],
@@ -226,5 +226,5 @@ def test_what_cannot_be_timed_is_rejected_in_numbers(run: Run, code: str, said: 
 
 
 def test_nothing_at_all_is_rejected_too() -> None:
-    with pytest.raises(CalibrationError, match="read in 0 of 0 images, needed 100"):
+    with pytest.raises(CalibrationError, match="read in 0 of 0 images, the minimum is 100"):
         latency_report(painted=[], read=[], shown=[], comparisons=Run().comparisons, min_timed=100)

@@ -48,7 +48,7 @@ def test_the_largest_image_fits_and_a_larger_one_does_not() -> None:
     inbox = PhoneInbox()
     inbox.put(sent(1, b"x" * MAX_JPEG_BYTES))
     assert numbered(inbox.newest()) == 1
-    with pytest.raises(ValueError, match="at most"):
+    with pytest.raises(ValueError, match="the maximum is"):
         inbox.put(sent(2, b"x" * (MAX_JPEG_BYTES + 20_000)))
     inbox.close()
 

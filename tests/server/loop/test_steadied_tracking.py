@@ -42,7 +42,7 @@ def test_the_lag_is_in_the_message_in_the_panel_and_in_the_picture(
     tool = plain.tools["drill"]
     assert isinstance(tool, ToolPose)
     late = dataclasses.replace(plain, tools={"drill": dataclasses.replace(tool, lag_ms=49.6)})
-    for snapshot, note, lag_ms in ((plain, "", 0.0), (late, "steadied · 50 ms behind", 49.6)):
+    for snapshot, note, lag_ms in ((plain, "", 0.0), (late, "smoothed · 50 ms delay", 49.6)):
         message = live_message(instant_of(1, snapshot=snapshot), now_s=1.0)
         assert message.snapshot is not None
         pose = message.snapshot.tools[0].pose

@@ -226,7 +226,7 @@ MIRRORED = MATRICES[0] @ np.diag([1.0, 1.0, -1.0, 1.0])
 @pytest.mark.parametrize(
     ("name", "content", "words"),
     [
-        pytest.param("p.txt", "", "nothing in it", id="empty"),
+        pytest.param("p.txt", "", "it is empty", id="empty"),
         pytest.param("p.txt", changed((0, 1), np.nan), "not finite", id="not-a-number"),
         pytest.param("p.txt", rows(SCALED), "scales by 2", id="scaled"),
         pytest.param("p.txt", rows(MIRRORED), "mirror", id="mirrored"),

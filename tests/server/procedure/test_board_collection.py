@@ -71,7 +71,7 @@ def test_each_place_is_taken_once_when_the_board_holds_still(camera: Camera) -> 
     for image in images():
         camera.show(image)
         message.append(camera.collection.status.message)
-    assert message[0] == "the board is seen: hold it still"
+    assert message[0] == "board found: hold it still"
     assert message[1] == "taken"
     assert [one.name for one in camera.collection.taken] == ["image 2", "image 4", "image 6", "image 8"]
     status = camera.collection.status
@@ -88,12 +88,12 @@ def test_without_a_board_or_a_picture_it_reports_that_and_waits(camera: Camera) 
     assert empty.points_px.shape == (0, 2)
     assert "hold it still" not in empty.message
     camera.show(None)
-    assert camera.collection.status.message == "there is no picture"
+    assert camera.collection.status.message == "there is no image"
     gone = Problem(code="CAMERA_GONE", message="the camera 0 gives no image", remedy="Plug it in.")
     camera.show(None, SourceStatus(name="0", state=SourceState.RECONNECTING, problem=gone))
-    assert camera.collection.status.message == "there is no picture: the camera 0 gives no image"
+    assert camera.collection.status.message == "there is no image: the camera 0 gives no image"
     camera.show(None, SourceStatus(name="0", state=SourceState.ENDED))
-    assert camera.collection.status.message == "there is no picture: the camera's images have ended"
+    assert camera.collection.status.message == "there is no image: the source has ended"
     for image in images()[:2]:
         camera.show(image)
     assert len(camera.collection.taken) == 1
@@ -158,5 +158,5 @@ def test_there_is_an_end_to_how_many_are_kept(camera: Camera, monkeypatch: pytes
     monkeypatch.setattr("server.procedure.board_collection.MAX_VIEWS", 2)
     for index in range(2):
         camera.collection.add(images()[0], name=str(index))
-    with pytest.raises(InvalidInput, match="2 views are taken"):
+    with pytest.raises(InvalidInput, match="2 views have been taken"):
         camera.collection.add(images()[0], name="one more")

@@ -74,13 +74,13 @@ def test_a_piece_begins_at_a_state_and_replays_exactly(
     result = CliRunner().invoke(app, words)
     assert result.exit_code == 0, result.output
     assert f"{last - first + 1} images" in result.output
-    assert ("where a state of tracking is stored" in result.output) == (from_s > 0.0)
+    assert ("where a tracking state is stored" in result.output) == (from_s > 0.0)
     whole = images(two_states)
     assert images(piece) == whole[first - 3 : last - 2]
     code, text = replayed(piece)
     assert code == 0, text
-    assert f"poses: equal to the last digit in {last - first + 1} images" in text
-    steps = re.search(r"alarms: equal to the last digit in (\d+) steps", text)
+    assert f"poses: identical in {last - first + 1} images" in text
+    steps = re.search(r"alarms: identical in (\d+) steps", text)
     assert steps is not None
     assert int(steps[1]) >= last - first
     assert "not compared" not in text
@@ -105,7 +105,7 @@ def test_a_changed_byte_is_found(two_states: Path, tmp_path: Path, monkeypatch: 
     piece.write_bytes(content)
     code, text = replayed(piece)
     assert code == 1
-    assert "poses: equal to the last digit in 5 images" in text
+    assert "poses: identical in 5 images" in text
     assert "the file is damaged: a checksum is wrong" in text
     with pytest.raises(RecordingError, match="a checksum is wrong") as found:
         cut_recording(piece, tmp_path / "other.mcap", from_s=0.0, to_s=0.2)

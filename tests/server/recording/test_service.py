@@ -216,7 +216,7 @@ def test_consent_that_is_taken_back_ends_the_recording(store: CaseStore) -> None
     theatre.service.answer_consent(case_id, is_given=True, made_by="Anna")
     theatre.service.start()
     theatre.service.answer_consent(case_id, is_given=False, made_by="Ben")
-    assert theatre.recorders[0].reason == "the patient does not consent to it"
+    assert theatre.recorders[0].reason == "the patient does not consent to recordings"
     theatre.service.answer_consent(case_id, is_given=True, made_by="Anna")
     theatre.service.start()
     (document,) = store.all(case_id, DocumentKind.CONSENT)

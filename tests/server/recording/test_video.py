@@ -128,7 +128,7 @@ def test_without_its_setup_an_image_states_that_its_results_are_not_drawn(tmp_pa
     images = [one.image for one in RecordingReader(recording).messages() if one.topic is Topic.IMAGE]
     image = images[0]
     assert image is not None
-    note = "ERGEBNISSE NICHT GEZEICHNET · ihr Aufbau fehlt in der Aufzeichnung"
+    note = "ERGEBNISSE NICHT DARGESTELLT · Aufbau fehlt in der Aufzeichnung"
     expected = with_strip(image, "", note=note)[: image.shape[0]].astype(int)
     video = frames(tmp_path / "case.mp4")[0][1][: image.shape[0]].astype(int)
     assert np.abs(video - expected).mean() < 8

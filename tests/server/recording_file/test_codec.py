@@ -71,7 +71,7 @@ def test_a_class_of_another_module_is_neither_written_nor_made() -> None:
 
 
 def test_nothing_but_a_dataclass_is_made_as_one() -> None:
-    with pytest.raises(CodecError, match="is no dataclass"):
+    with pytest.raises(CodecError, match="is not a dataclass"):
         decoded_value({"class": "tracker.pipeline.tracker:Tracker", "fields": {}})
 
 

@@ -169,7 +169,7 @@ def test_a_line_that_a_crash_cut_is_taken_away_and_reported(log: AuditLog, folde
     assert again.verify().fault is None
     reported = json.loads(again.newest(1)[0])
     assert reported["changes"] == [
-        {"what": "audit log", "said": "the last line was cut by a crash", "bytes": cut}
+        {"what": "audit log", "said": "the last line was truncated by a crash", "bytes": cut}
     ]
 
 
@@ -232,7 +232,7 @@ def test_rejections_are_written_so_often_and_no_more(log: AuditLog) -> None:
     for _ in range(200):
         log.append_rejection(Entry(who=LOCAL_USER, what="POST /api/session", status=403))
     assert log.head.count == LINES + 60
-    assert b"more was rejected" in log.newest(1)[0]
+    assert b"more requests were rejected" in log.newest(1)[0]
 
 
 def test_what_is_changed_is_noted_in_its_request_and_else_has_a_line_of_its_own(log: AuditLog) -> None:

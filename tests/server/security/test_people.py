@@ -258,7 +258,7 @@ def test_one_link_signs_in_forty_times_an_hour_and_its_audit_lines_end_there(
         service.sign_in(link, address=HERE)
     assert reported.value.code == "TOO_MANY_SIGN_INS"
     assert reported.value.message == (
-        "this link has signed in 40 times within 60 min, and signs in again in 41 min"
+        "this link was used for 40 sign-ins within 60 min; the next is possible in 41 min"
     )
     assert reported.value.context["wait_s"] == 3600 - 39 * 30
     assert reported.value.remedy

@@ -174,8 +174,8 @@ def own(tmp_path: Path) -> dict[str, Path]:
         pytest.param("missing", "key", "cannot be read: no such file", id="no file"),
         pytest.param("text", "key", "is no PEM file", id="no certificate"),
         pytest.param("certificate", "text", "is no PEM file", id="no key"),
-        pytest.param("certificate", "other", "does not belong to the key", id="another key"),
-        pytest.param("certificate", "locked", "is locked with a password", id="a locked key"),
+        pytest.param("certificate", "other", "does not match the key", id="another key"),
+        pytest.param("certificate", "locked", "is protected by a password", id="a locked key"),
         pytest.param("key", "key", "cannot be used with its key", id="a key for a certificate"),
     ],
 )

@@ -89,7 +89,7 @@ def composite(tmp_path: Path) -> bytes:
 @pytest.mark.parametrize(
     ("content", "code", "said"),
     [
-        pytest.param(composite, "TRANSFORM_UNREADABLE", "3 transforms, needed 1", id="composite"),
+        pytest.param(composite, "TRANSFORM_UNREADABLE", "3 transforms, expected 1", id="composite"),
         pytest.param(b"\x89HDF\r\n\x1a\n", "TRANSFORM_UNREADABLE", "first line", id="hdf5"),
         pytest.param(b"", "TRANSFORM_UNREADABLE", "first line", id="empty"),
         pytest.param(
@@ -97,7 +97,10 @@ def composite(tmp_path: Path) -> bytes:
         ),
         pytest.param(AFFINE.replace("_3_3", "_2_2"), "TRANSFORM_UNREADABLE", "_2_2", id="two-dimensions"),
         pytest.param(
-            AFFINE.replace("FixedP", "Fixedp"), "TRANSFORM_UNREADABLE", "once each", id="without-a-centre"
+            AFFINE.replace("FixedP", "Fixedp"),
+            "TRANSFORM_UNREADABLE",
+            "does not contain each of",
+            id="without-a-centre",
         ),
         pytest.param(AFFINE.replace("0 -1 0 1", "0 -2 0 1"), "TRANSFORM_INVALID", "orthonormal", id="scaled"),
         pytest.param(AFFINE.replace("0 -1 0 1", "0 1 0 1"), "TRANSFORM_INVALID", "rigid", id="mirrored"),

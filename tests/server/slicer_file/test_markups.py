@@ -86,14 +86,14 @@ def markup(**changed: object) -> Callable[[dict[str, Any]], None]:
         pytest.param(markup(coordinateSystem="lps"), "coordinate system 'lps'", id="another-system"),
         pytest.param(markup(coordinateSystem=0), "coordinate system 0", id="a-number-of-old-files"),
         pytest.param(markup(coordinateUnits="um"), "coordinates in 'um'", id="micrometres"),
-        pytest.param(markup(name=3), "no text", id="a-name-that-is-a-number"),
+        pytest.param(markup(name=3), "not a text", id="a-name-that-is-a-number"),
         pytest.param(markup(controlPoints={"a": 1}), "control points", id="points-in-a-mapping"),
         pytest.param(point(positionStatus="undefined"), "point 2 of markup 1 is not placed", id="not-placed"),
         pytest.param(point(position=[1.0, 2.0]), "[1.0, 2.0]", id="two-coordinates"),
         pytest.param(point(position=[1.0, 2.0, True]), "three numbers", id="a-truth-value"),
         pytest.param(point(position=[1.0, 2.0, 1e5]), "three numbers up to 10000 mm", id="too-far"),
         pytest.param(point(position=None), "three numbers", id="no-position"),
-        pytest.param(point(label=None), "no text", id="no-label"),
+        pytest.param(point(label=None), "not a text", id="no-label"),
     ],
 )
 def test_what_cannot_be_meant_is_rejected_with_its_place(
@@ -110,7 +110,7 @@ def test_what_cannot_be_meant_is_rejected_with_its_place(
 def test_a_line_has_two_points() -> None:
     values = of_slicer("Line")
     del values["markups"][0]["controlPoints"][1]
-    with pytest.raises(InvalidInput, match="1 control points, needed 2"):
+    with pytest.raises(InvalidInput, match="1 control points, expected 2"):
         read(values)
 
 

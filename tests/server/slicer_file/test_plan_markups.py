@@ -87,9 +87,9 @@ def test_a_line_whose_direction_is_not_known_is_rejected(markup: Markup) -> None
 
 def test_one_line_and_one_list_are_needed() -> None:
     two = [channel_markup(CHANNEL), screw_markup(CHANNEL, diameter_mm=6, length_mm=40)]
-    with pytest.raises(InvalidInput, match="2 markups of the kind line, needed 1"):
+    with pytest.raises(InvalidInput, match="2 markups of the kind line, expected 1"):
         line_from_markups(two, name="a file")
-    with pytest.raises(InvalidInput, match="0 markups of the kind point list, needed 1"):
+    with pytest.raises(InvalidInput, match="0 markups of the kind point list, expected 1"):
         landmarks_from_markups(two, name="a file")
 
 

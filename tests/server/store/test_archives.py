@@ -168,14 +168,18 @@ def first_id(parts: dict[str, bytes]) -> object:
 
 Damaging = Callable[[dict[str, bytes]], object]
 AGREEING: list[tuple[str, Damaging, str]] = [
-    ("traversal", lambda parts: parts.update({"../../evil": b"x"}), "does not belong into a case"),
-    ("absolute", lambda parts: parts.update({"/etc/evil": b"x"}), "does not belong into a case"),
+    ("traversal", lambda parts: parts.update({"../../evil": b"x"}), "does not belong to a case"),
+    ("absolute", lambda parts: parts.update({"/etc/evil": b"x"}), "does not belong to a case"),
     ("in-a-folder", lambda parts: parts.update({"files/../case.json": b"x"}), "does not belong"),
-    ("a-file-more", lambda parts: parts.update({"files/0123456789abcdef.bin": b"x"}), "not those that case"),
-    ("a-file-less", lambda parts: parts.pop(file_of(parts)), "not those that case.json names"),
+    (
+        "a-file-more",
+        lambda parts: parts.update({"files/0123456789abcdef.bin": b"x"}),
+        "not those listed in case",
+    ),
+    ("a-file-less", lambda parts: parts.pop(file_of(parts)), "not those listed in case.json"),
     ("no-documents", lambda parts: parts.pop("documents.jsonl"), "documents.jsonl is missing"),
     ("no-case", lambda parts: parts.pop("case.json"), "case.json is missing"),
-    ("cut-documents", lambda parts: parts.update({"documents.jsonl": b'{"id"'}), "middle of a line"),
+    ("cut-documents", lambda parts: parts.update({"documents.jsonl": b'{"id"'}), "inside a line"),
     ("no-json", lambda parts: parts.update({"documents.jsonl": b"{]\n"}), "documents.jsonl, line 1"),
     ("deep-json", lambda parts: parts.update({"case.json": b"[" * 10**6}), "case.json: "),
     ("unknown-kind", lambda parts: changed_line(parts, 0, kind="spell"), "line 1: kind"),
@@ -184,18 +188,26 @@ AGREEING: list[tuple[str, Damaging, str]] = [
     ("name-with-controls", lambda parts: changed_line(parts, 0, name="a\nb"), "control characters"),
     ("version-missing", lambda parts: changed_line(parts, 0, version=2), "has version 2, but not version 1"),
     ("same-id", lambda parts: changed_line(parts, 1, id=first_id(parts)), "two documents"),
-    ("stands-on-nothing", lambda parts: changed_line(parts, 0, stands_on=["0" * 16]), "not before it"),
-    ("strange-file", lambda parts: changed_line(parts, 0, files=["0" * 16 + ".bin"]), "files or bases that"),
-    ("newer", lambda parts: changed_manifest(parts, version=2, more=1), "form 2, this Coaxial reads form 1"),
+    ("stands-on-nothing", lambda parts: changed_line(parts, 0, stands_on=["0" * 16]), "does not precede it"),
+    (
+        "strange-file",
+        lambda parts: changed_line(parts, 0, files=["0" * 16 + ".bin"]),
+        "missing or duplicate files",
+    ),
+    (
+        "newer",
+        lambda parts: changed_manifest(parts, version=2, more=1),
+        "format version 2, but this Coaxial reads version 1",
+    ),
     ("other-format", lambda parts: changed_manifest(parts, format="recipe"), "manifest.json: format"),
 ]
 DISAGREEING: list[tuple[str, Damaging, str]] = [
     ("changed-file", lambda parts: change_file(parts, lambda part: part[::-1]), "SHA-256 differs"),
-    ("longer-file", lambda parts: change_file(parts, lambda part: part + b"x"), "manifest says"),
+    ("longer-file", lambda parts: change_file(parts, lambda part: part + b"x"), "manifest states"),
     ("changed-case", lambda parts: parts.update({"case.json": parts["case.json"][::-1]}), "SHA-256"),
-    ("no-manifest", lambda parts: parts.pop("manifest.json"), "it is no case"),
-    ("manifest-of-nonsense", lambda parts: parts.update({"manifest.json": b"\xff\xfe"}), "no JSON"),
-    ("deep-manifest", lambda parts: parts.update({"manifest.json": b"[" * 10**6}), "no JSON"),
+    ("no-manifest", lambda parts: parts.pop("manifest.json"), "it is not a case"),
+    ("manifest-of-nonsense", lambda parts: parts.update({"manifest.json": b"\xff\xfe"}), "not valid JSON"),
+    ("deep-manifest", lambda parts: parts.update({"manifest.json": b"[" * 10**6}), "not valid JSON"),
 ]
 CHANGES = [(name, change, said, True) for name, change, said in AGREEING] + [
     (name, change, said, False) for name, change, said in DISAGREEING
@@ -222,7 +234,7 @@ def test_a_hostile_archive_is_rejected_whole(
     with pytest.raises(InvalidInput) as rejected:
         store.import_archive(written(tmp_path, parts, fix_manifest=agreeing), by="M. Ito")
     assert said in rejected.value.message
-    assert rejected.value.code == ("ARCHIVE_NEWER" if "reads form" in said else "ARCHIVE_INVALID")
+    assert rejected.value.code == ("ARCHIVE_NEWER" if "reads version" in said else "ARCHIVE_INVALID")
     assert everything_in(home) == before
     assert store.list() == (store.get(case.id),)
 
@@ -231,7 +243,7 @@ def test_a_hostile_archive_is_rejected_whole(
 def test_what_is_no_zip_is_rejected(store: CaseStore, tmp_path: Path, content: bytes) -> None:
     path = tmp_path / "a.zip"
     path.write_bytes(content)
-    with pytest.raises(InvalidInput, match="no sound zip file"):
+    with pytest.raises(InvalidInput, match="not a valid zip file"):
         store.import_archive(path, by="M. Ito")
 
 

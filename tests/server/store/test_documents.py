@@ -154,7 +154,7 @@ def test_a_bottomless_and_a_huge_content_are_rejected(store: CaseStore, case_id:
         deep = {"a": deep}
     with pytest.raises(InvalidInput, match="more than 64 levels deep"):
         store.put(case_id, PLAN, "a", deep, made_by="ito")
-    with pytest.raises(InvalidInput, match=r"has 17\.0 MB, allowed are 16 MB"):
+    with pytest.raises(InvalidInput, match=r"has 17\.0 MB, the maximum is 16 MB"):
         store.put(case_id, PLAN, "a", {"a": "x" * 17 * 2**20}, made_by="ito")
 
 

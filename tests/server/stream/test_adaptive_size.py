@@ -108,7 +108,7 @@ def test_what_was_chosen_stays_whatever_the_connection_does() -> None:
 
 
 def test_an_unknown_size_is_rejected_with_the_known_ones() -> None:
-    with pytest.raises(ChoiceUnknown, match="no size 'tiny', only auto, full, half, quarter"):
+    with pytest.raises(ChoiceUnknown, match="no size 'tiny', available are auto, full, half, quarter"):
         choice_from_text("size", "tiny", SizeChoice)
 
 

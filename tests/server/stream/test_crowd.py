@@ -41,14 +41,14 @@ def test_the_third_of_two_is_rejected_with_a_remedy(
         answer = client.get("/video/main.mjpg")
         assert answer.status_code == 503
         assert answer.json()["code"] == "TOO_MANY_VIEWERS"
-        assert answer.json()["message"] == "2 viewers are connected already, at most 2 are allowed"
+        assert answer.json()["message"] == "2 viewers are connected, the maximum is 2"
         assert "video.max_viewers" in answer.json()["remedy"]
         for path in ("/ws/view", "/ws/live"):
             with open_socket(path) as third, pytest.raises(WebSocketDisconnect) as reported:
                 third.receive_bytes()
             assert (reported.value.code, reported.value.reason) == (
                 1013,
-                "2 viewers are connected already, at most 2 are allowed",
+                "2 viewers are connected, the maximum is 2",
             )
     # # They have disconnected, so there is room again.
     with open_socket("/ws/live") as live:
@@ -73,10 +73,10 @@ def test_one_person_does_not_take_the_places_of_all(
             with pytest.raises(WebSocketDisconnect) as reported:
                 opened(path, "v1").receive_text()
             assert reported.value.code == 1013
-            assert "Guest has 8 connections open already" in str(reported.value.reason)
+            assert "Guest has 8 open connections" in str(reported.value.reason)
         rejected = client.get("/video/main.mjpg", headers={"x-person": "v1"})
         assert (rejected.status_code, rejected.json()["code"]) == (503, "TOO_MANY_VIEWERS")
-        assert "one of your pages" in rejected.json()["remedy"]
+        assert "Close an unused page" in rejected.json()["remedy"]
         for one in (seats[0], opened("/ws/room?view=operator", "o1")):
             one.send_json({"next": True})
             assert one.receive_json()["people"]

@@ -33,7 +33,7 @@ NOON = datetime(2026, 1, 1, 12, 0, 0).astimezone()
         pytest.param(
             ProcessStatus(state=ProcessState.RESTARTING),
             SourceStatus(name="0", state=SourceState.RUNNING),
-            ("Tracking has stopped and is being started again.",),
+            ("Tracking has stopped and is being restarted.",),
             id="a-state-without-a-problem",
         ),
         pytest.param(

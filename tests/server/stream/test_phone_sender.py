@@ -114,7 +114,7 @@ def test_no_more_is_taken_than_was_granted() -> None:
     for number in range(MAX_IMAGES_IN_FLIGHT):
         announce(sender, jpeg, captured_s=1.0 + number)
         sender.take_part(jpeg, 1.5 + number)
-    with pytest.raises(ProtocolViolation, match="allowed by the credit"):
+    with pytest.raises(ProtocolViolation, match="beyond the credit"):
         announce(sender, jpeg, captured_s=9.0)
     # # Each received image grants one more, as soon as it is acknowledged.
     assert sender.update_credit(9.0).credit == 2 * MAX_IMAGES_IN_FLIGHT
@@ -146,8 +146,8 @@ IMAGE = {"bytes": 1000, "captured_ms": 1.0, "clock": "capture"}
 @pytest.mark.parametrize(
     ("begin", "text", "code", "why"),
     [
-        pytest.param(introduced, "{", 1008, "not understood", id="no-json"),
-        pytest.param(introduced, "[" * 1000, 1008, "not understood", id="deep"),
+        pytest.param(introduced, "{", 1008, "invalid message", id="no-json"),
+        pytest.param(introduced, "[" * 1000, 1008, "invalid message", id="deep"),
         pytest.param(introduced, "{}", 1008, "exactly one", id="nothing"),
         pytest.param(introduced, '{"image": null}', 1008, "exactly one", id="null"),
         pytest.param(introduced, said(camera=CAMERA, image=IMAGE), 1008, "exactly one", id="two-at-once"),
@@ -155,11 +155,17 @@ IMAGE = {"bytes": 1000, "captured_ms": 1.0, "clock": "capture"}
         pytest.param(introduced, '{"pong": {"ping": 0, "at_ms": Infinity}}', 1008, "finite", id="for-ever"),
         pytest.param(introduced, said(image=IMAGE | {"captured_ms": "1"}), 1008, "number", id="no-number"),
         pytest.param(introduced, said(hello={"key": "0" * 32}), 1008, "once", id="hello-twice"),
-        pytest.param(introduced, said(pong={"ping": 0, "at_ms": 1.0}), 1008, "before", id="pong-twice"),
+        pytest.param(
+            introduced, said(pong={"ping": 0, "at_ms": 1.0}), 1008, "already answered", id="pong-twice"
+        ),
         pytest.param(introduced, said(pong={"ping": 9, "at_ms": 1.0}), 1008, "never sent", id="unknown-ping"),
         pytest.param(introduced, "x" * 1025, 1009, "1024", id="too-long"),
         pytest.param(
-            introduced, said(image=IMAGE | {"bytes": MAX_JPEG_BYTES + 1}), 1009, "at most", id="oversized"
+            introduced,
+            said(image=IMAGE | {"bytes": MAX_JPEG_BYTES + 1}),
+            1009,
+            "the maximum is",
+            id="oversized",
         ),
         pytest.param(without_clock, said(image=IMAGE), 1008, "ping", id="before-its-clock-is-known"),
         pytest.param(without_camera, said(image=IMAGE), 1008, "camera", id="before-its-camera-is-known"),

@@ -93,7 +93,7 @@ TIME = clock_text(NOON_S + 3.0)
         ),
         pytest.param(
             alarm(Condition.SETUP_INSUFFICIENT, measure=mm(1.94, 1.5)),
-            "95 % error ±1.94 mm, limit 1.50 mm. No view meets it with this registration and tool.",
+            "95 % error ±1.94 mm, limit 1.50 mm. No camera view meets it with this registration and tool.",
             "Register with more landmarks, or plan a thinner screw.",
             id="what no view mends is not blamed on the view",
         ),

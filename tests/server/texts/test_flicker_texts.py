@@ -47,4 +47,4 @@ def test_unknown_mains_or_exposure_are_stated_in_the_note() -> None:
     assert note.message["en"] == "Lamps flicker by 5.0 % in the image (50 Hz or 60 Hz mains)."
     assert note.remedy["en"] == "Set exposure to 10.0 or 20.0 ms (50 Hz); 8.3 or 16.7 ms (60 Hz)."
     fast = flicker_note(LampFlicker(mains_hz=(50,), depth_ratio=0.05), exposure_ms=2.0, rate_hz=200.0)
-    assert fast.remedy["en"] == "Use lamps on direct current, or a lower image rate."
+    assert fast.remedy["en"] == "Use direct-current lamps, or a lower image rate."

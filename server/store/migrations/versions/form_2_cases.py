@@ -1,4 +1,4 @@
-"""The first schema that is migrated: cases, documents with their bases, and files.
+"""The first schema that is migrated: cases, documents with their dependencies, and files.
 
 Schema 1 existed only during development; its databases are rejected.
 """
@@ -26,7 +26,7 @@ NEVER_CHANGED = (
 
 
 def upgrade() -> None:
-    """Make the tables."""
+    """Create the tables."""
     op.create_table(
         "cases",
         sa.Column("id", sa.String, primary_key=True),
@@ -84,7 +84,7 @@ def _case() -> sa.Column[str]:
 
 
 def _link(name: str, *, to: str, column: str, index: str) -> None:
-    """A table that ties documents to something else of their case."""
+    """Create a table that links documents to other records of their case."""
     op.create_table(
         name,
         sa.Column("case_id", sa.String, primary_key=True),
