@@ -233,14 +233,14 @@ MIRRORED = MATRICES[0] @ np.diag([1.0, 1.0, -1.0, 1.0])
         pytest.param("p.txt", changed((0, 1), 0.9), "orthonormal", id="no-rotation"),
         pytest.param("p.txt", rows(MATRICES[0].T), "transposed", id="transposed"),
         pytest.param("p.txt", rows(MATRICES[0])[:-40], "different lengths", id="cut"),
-        pytest.param("p.txt", rows(MATRICES.reshape(-1, 4)[:5]), "whole number", id="a-row-too-many"),
+        pytest.param("p.txt", rows(MATRICES.reshape(-1, 4)[:5]), "not a multiple", id="a-row-too-many"),
         pytest.param("p.txt", "1 2 3 0 0 0 1\n", "quaternion", id="seven-numbers-without-header"),
         pytest.param(
             "p.csv", "x,y,z,qx,qy,qz,qw\n1,2,3,0,0,0,2\n", "length of its quaternion", id="long-turn"
         ),
         pytest.param("p.csv", "x,z,qx,qy,qz,qw\n1,3,0,0,0,1\n", "no column for y", id="column-missing"),
         pytest.param("p.txt", rows(MATRICES[0]) + "and so on\n", "line 5", id="words-after-numbers"),
-        pytest.param("p.json", "{", "no JSON", id="broken-json"),
+        pytest.param("p.json", "{", "not valid JSON", id="broken-json"),
         pytest.param("p.json", "[" * 100_000, "JSON|deep", id="nested-json"),
         pytest.param("p.json", "[" + "9" * 5000 + "]", "number is too long", id="a-number-without-end"),
         pytest.param(
