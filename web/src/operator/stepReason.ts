@@ -65,7 +65,7 @@ function knownReason(step: Step, procedure: Procedure, texts: Texts): KnownReaso
 const hasChannel = ({ steps }: Procedure): boolean =>
   steps.some((one) => one.step === "plan" && isValid(one));
 
-function registered(method: Step["numbers"][string], texts: Texts): KnownReason | null {
+function registered(method: Step["numbers"][string] | undefined, texts: Texts): KnownReason | null {
   const names: Partial<Record<string, string>> = texts.registration.method;
   const name = typeof method === "string" ? names[method] : undefined;
   return name === undefined ? null : known("registrationDone", { method: name });
