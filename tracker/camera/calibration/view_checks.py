@@ -13,7 +13,6 @@ from tracker.geometry import Array
 MIN_POINTS = 6
 # A lens bends a board by part of a step; points in a wrong order are whole steps off.
 MAX_OFF_STEPS = 0.6
-MIN_SPREAD_RATIO = 0.02
 PARALLEL_DEG, SAME_PLACE_RATIO = 4.0, 0.03
 
 

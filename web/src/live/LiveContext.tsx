@@ -10,8 +10,7 @@ import {
   useState,
   type ReactNode,
 } from "react";
-import type { PictureDelivery } from "./pictureDelivery";
-import type { Ages, View } from "./live";
+import type { View } from "./live";
 import { Live } from "./live";
 import { start, type Dashboard } from "./start";
 import { keyOf } from "./view";
@@ -53,16 +52,6 @@ export function useLive(): LiveValue {
   const value = use(LiveContext);
   if (value === null) throw new Error("useLive must be used inside LiveProvider");
   return value;
-}
-
-/** The true age of everything, a few times a second: for who watches from afar. */
-export function useAges(): Ages {
-  return useLive().view.ages;
-}
-
-/** What this viewer's line carries, a few times a second. */
-export function usePictureDelivery(): PictureDelivery {
-  return useLive().view.pictureDelivery;
 }
 
 /** Paints directly with every look, past React's state, and at once before what is new is seen. */
