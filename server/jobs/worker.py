@@ -52,9 +52,6 @@ class Result:
     value: object
 
 
-WorkerMessage: TypeAlias = Progress | Result | Problem
-
-
 def run_work(
     work: Work,
     arguments: Mapping[str, object],

@@ -4,10 +4,12 @@ Jobs are forked from the same process as tracking, at a lower priority, so they 
 video keep the cores.
 """
 
+import contextlib
 import multiprocessing
 import signal
 from multiprocessing import forkserver, resource_tracker
 from multiprocessing.context import ForkServerContext
+from multiprocessing.process import BaseProcess
 
 PRELOAD = ["server.loop.preload"]
 
@@ -41,3 +43,14 @@ def exit_text(exitcode: int | None) -> str:
         except ValueError:
             return f"by signal {-exitcode}"
     return f"with status {exitcode}"
+
+
+def end_process(process: BaseProcess, *, timeout_s: float) -> None:
+    """Wait for a started process to end, kill it after `timeout_s`, and release it."""
+    process.join(timeout_s)
+    if process.exitcode is None:
+        process.kill()
+        process.join(timeout_s)
+    # Not released while even a killed process remains, in a system call that does not return.
+    with contextlib.suppress(ValueError):
+        process.close()

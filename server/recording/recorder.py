@@ -4,7 +4,6 @@ Publisher and alarms only append to a queue; a thread sends, so that they never 
 queue is full because the recording process does not read, alarm steps are dropped and recorded as missing.
 """
 
-import contextlib
 import multiprocessing
 import threading
 import time
@@ -17,7 +16,7 @@ import structlog
 from server.alarms import AlarmService
 from server.alarms.evaluation import AlarmState, AlarmStep
 from server.live import Problem
-from server.loop.forks import exit_text
+from server.loop.forks import end_process, exit_text
 from server.loop.shared_status import ProcessView
 from server.recording.process import (
     AlarmsBegin,
@@ -195,12 +194,7 @@ class Recorder:
 
     def _end_process(self) -> None:
         self._connection.close()
-        self._process.join(STOP_TIMEOUT_S)
-        if self._process.exitcode is None:
-            self._process.kill()
-            self._process.join(STOP_TIMEOUT_S)
-        with contextlib.suppress(ValueError):
-            self._process.close()
+        end_process(self._process, timeout_s=STOP_TIMEOUT_S)
 
 
 def _ended(how: str) -> Problem:

@@ -14,7 +14,7 @@ import structlog
 
 from server.live import Instant, LiveHub, Problem
 from server.logs import LogSettings
-from server.loop.forks import exit_text
+from server.loop.forks import end_process, exit_text
 from server.priority import lower_thread_priority
 from server.sinks.process import Report, run_sink
 
@@ -212,9 +212,4 @@ class Sink:
     def _end_process(self, process: BaseProcess) -> None:
         if process.pid is None:
             return
-        process.join(STOP_TIMEOUT_S)
-        if process.exitcode is None:
-            process.kill()
-            process.join(STOP_TIMEOUT_S)
-        with contextlib.suppress(ValueError):
-            process.close()
+        end_process(process, timeout_s=STOP_TIMEOUT_S)

@@ -19,13 +19,6 @@ MAX_SLICE_BYTES = 2**29
 END_OF_IMAGE = b"\xff\xd9"
 SEND_AGAIN = "Copy or export the series again; a truncated slice cannot be repaired."
 UNCOMPRESSED = "Export the series again uncompressed, or with lossless JPEG 2000, JPEG-LS, JPEG or RLE."
-ENDS_ITSELF = frozenset(
-    [
-        *pydicom.uid.JPEGTransferSyntaxes,
-        *pydicom.uid.JPEGLSTransferSyntaxes,
-        *pydicom.uid.JPEG2000TransferSyntaxes,
-    ]
-)
 
 
 def check_readable(shared: FileAttributes) -> None:

@@ -68,6 +68,9 @@ class PointsSession:
         self._hub = hub
         self._gate = gate
         self._lock = threading.Lock()
+        self._last_fit: tuple[
+            tuple[LandmarkMeasurement, ...] | None, PointRegistration | None, Problem | None
+        ] = (None, None, None)
         self._touched: dict[str, CapturedLandmark] = {}
         self._from_s: dict[str, float] = {}
         self._left_out: set[str] = set()
@@ -140,11 +143,7 @@ class PointsSession:
             )
             for one in self.context.vertebra.landmarks
         )
-        fit, problem = None, None
-        try:
-            fit = fit_of(landmarks, self.context.tool, self._settings)
-        except RegistrationError as error:
-            problem = Problem.from_error(error)
+        fit, problem = self._fitted(landmarks)
         return PointsStatus(
             context=self.context,
             landmarks=landmarks,
@@ -159,6 +158,26 @@ class PointsSession:
         with self._lock:
             if self._capture is not None:
                 self._capture.stop()
+
+    def _fitted(
+        self, landmarks: tuple[LandmarkMeasurement, ...]
+    ) -> tuple[PointRegistration | None, Problem | None]:
+        """Return the fit of these landmarks or why there is none; computed when one or its use changed."""
+        before, fit, problem = self._last_fit
+        # Identity, because a new capture of a landmark is a new object.
+        if before is not None and all(
+            one.touched is other.touched and one.used == other.used
+            for one, other in zip(landmarks, before, strict=True)
+        ):
+            return fit, problem
+        fit, problem = None, None
+        try:
+            fit = fit_of(landmarks, self.context.tool, self._settings)
+        except RegistrationError as error:
+            problem = Problem.from_error(error)
+        # One assignment: requests poll from several threads.
+        self._last_fit = landmarks, fit, problem
+        return fit, problem
 
     def _take_over(self) -> None:
         """Store the point of a completed capture, and stop a capture that has ended."""

@@ -24,7 +24,6 @@ class CosignTarget(StrEnum):
     REGISTRATION = "registration"
 
 
-STEP_OF = {CosignTarget.PLAN: StepName.PLAN, CosignTarget.REGISTRATION: StepName.REGISTER}
 REMEDY = "Have a second person review and sign it on the supervisor's page."
 
 

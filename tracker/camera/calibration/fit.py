@@ -39,11 +39,6 @@ class Fit:
         k = self.matrix
         return np.concatenate([[k[0, 0], k[1, 1], k[0, 2], k[1, 2]], self.distortion])
 
-    @property
-    def view_rms_px(self) -> Array:
-        """Return the RMS distance of each view."""
-        return np.array([np.sqrt((r**2).sum(axis=1).mean()) for r in self.residuals_px])
-
 
 def fit_camera(views: Sequence[BoardView], size_wh_px: tuple[int, int], coefficients: int) -> Fit:
     """Return the camera fitted to these views with this number of distortion coefficients.

@@ -14,7 +14,6 @@ MIN_POINTS = 6
 # Distortion displaces points by a fraction of a grid step; points in a wrong order are displaced by whole
 # steps.
 MAX_OFF_STEPS = 0.6
-MIN_SPREAD_RATIO = 0.02
 PARALLEL_DEG, SAME_PLACE_RATIO = 4.0, 0.03
 
 

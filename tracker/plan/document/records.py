@@ -12,7 +12,6 @@ from tracker.plan.screw import ScrewPlan
 
 # Version 2 added landmarks; version 1 is read without any.
 FORMAT_VERSION, READABLE_VERSIONS = 2, (1, 2)
-MAX_CHANNELS = 2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

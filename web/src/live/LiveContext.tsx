@@ -10,8 +10,7 @@ import {
   useState,
   type ReactNode,
 } from "react";
-import type { PictureDelivery } from "./pictureDelivery";
-import type { Ages, View } from "./live";
+import type { View } from "./live";
 import { Live } from "./live";
 import { start, type Dashboard } from "./start";
 import { keyOf } from "./view";
@@ -53,16 +52,6 @@ export function useLive(): LiveValue {
   const value = use(LiveContext);
   if (value === null) throw new Error("useLive must be used inside LiveProvider");
   return value;
-}
-
-/** Ages of everything displayed, a few times a second. */
-export function useAges(): Ages {
-  return useLive().view.ages;
-}
-
-/** State of this viewer's connection, a few times a second. */
-export function usePictureDelivery(): PictureDelivery {
-  return useLive().view.pictureDelivery;
 }
 
 /** Registers a painter that runs with every update, without React, and once before the new element is seen. */
