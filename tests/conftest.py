@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, sync_playwright
 
-# # Set before NumPy is loaded, whose threads spin while waiting: workers use the cores already.
+# Set before NumPy is loaded, whose threads spin while waiting: workers use the cores already.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 CHECKOUT = Path(__file__).resolve().parents[1]
@@ -21,11 +21,11 @@ FLAGS = (
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
-    # # SwiftShader renders the scene only; for composing whole pages it needs five times the work of Skia.
+    # SwiftShader renders the scene only; for composing whole pages it needs five times the work of Skia.
     "--disable-gpu-compositing",
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
-    # # A simulated camera, for the only page that may request one.
+    # A simulated camera, for the only page that may request one.
     "--use-fake-device-for-media-stream",
     "--use-fake-ui-for-media-stream",
 )

@@ -23,7 +23,7 @@ ROOT = Path(__file__).parents[2]
 PAGES = sorted((ROOT / "docs" / "guide").glob("*.md"))
 WRITTEN = [ROOT / "README.md", *PAGES]
 HERE = "https://coaxial.invalid/docs/"
-# # Server addresses outside of its route table: the page's views and the guide itself.
+# Server addresses outside of its route table: the page's views and the guide itself.
 VIEWS = {"/", "/theatre", "/operator", "/operator/camera", "/supervisor", "/docs/"}
 NO_ADDRESS = {"/api/...", "/api"}
 

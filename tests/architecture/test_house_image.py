@@ -29,7 +29,7 @@ def last_stage(all_stages: list[tuple[str, str]]) -> list[tuple[str, str]]:
 
 def test_it_runs_as_a_numbered_user_who_is_not_root(last_stage: list[tuple[str, str]]) -> None:
     users = [rest for word, rest in last_stage if word == "USER"]
-    # # A number, because an orchestrator that forbids root cannot resolve a name.
+    # A number, because an orchestrator that forbids root cannot resolve a name.
     assert users
     assert int(users[-1]) > 0
 

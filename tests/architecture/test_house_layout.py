@@ -22,7 +22,7 @@ CODE = (".py", ".ts", ".tsx")
 def files_in_git() -> list[Path]:
     """Files that are tracked or about to be, relative to the top, if they exist."""
     listed = subprocess.run(
-        # # The checkout may belong to another user, as in a container.
+        # The checkout may belong to another user, as in a container.
         ["git", "-c", "safe.directory=*", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
         cwd=ROOT,
         check=True,

@@ -82,7 +82,7 @@ def test_it_has_each_python_package_of_the_lock_and_no_other(bill: dict[str, Any
     for name, number, locked in packages:
         component = stated[f"{name} {number}"]
         assert hashes(component) == locked
-        # # A package that this system does not need is locked but not installed, so its licence is unknown.
+        # A package that this system does not need is locked but not installed, so its licence is unknown.
         assert component.get("licenses") or not is_installed(name, number), f"{name} has no licence"
 
 
@@ -108,7 +108,7 @@ def test_it_names_what_depends_on_what_directly(bill: dict[str, Any]) -> None:
 
 def test_it_follows_the_schema_of_cyclonedx(bill: dict[str, Any]) -> None:
     folder = resources.files("cyclonedx.schema") / "_res"
-    # # The last entry refers to the first two by their file names.
+    # The last entry refers to the first two by their file names.
     names = [f"{name}.SNAPSHOT.schema.json" for name in ("spdx", "jsf-0.82", "bom-1.6")]
     schemas = [json.loads((folder / name).read_text(encoding="utf-8")) for name in names]
     registry = jsonschema_rs.Registry(

@@ -121,7 +121,7 @@ def test_the_machine_s_node_is_taken_only_if_it_can_build_the_page(
     put(bare_path, "node", f"echo v{version}")
     put(bare_path, "npm", "echo 11")
     said = step("with-node", ".", "cat", "/dev/null", path=bare_path, cwd=tmp_path)
-    # # Without the machine's node it uses the environment, which this folder does not have.
+    # Without the machine's node it uses the environment, which this folder does not have.
     assert (said.returncode == 0) is taken
     assert (".venv/bin/python" in said.stderr) is not taken
 

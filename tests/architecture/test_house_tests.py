@@ -14,7 +14,7 @@ FILES = (
     "tests/server/test_page_in_browser.py",
     "tests/browser/test_dashboard.py",
 )
-# # Records the arguments of each pytest run, and fails for files that contain failing tests.
+# Records the arguments of each pytest run, and fails for files that contain failing tests.
 PYTHON = """#!/bin/sh
 echo "$*" >>called
 case "$*" in *"$FAILS"*) exit "$WITH";; esac
@@ -47,12 +47,12 @@ def test_each_file_of_tests_is_run_once(tmp_path: Path) -> None:
     assert len(others) == 2
     scenes = next(requested for requested in others if "-m browser" not in requested)
     browser = next(requested for requested in others if "-m browser" in requested)
-    # # The first part runs everything except browser tests and its exclusions.
+    # The first part runs everything except browser tests and its exclusions.
     assert "-m not browser" in first
     left_out = {word.removeprefix("--ignore=") for word in first.split() if word.startswith("--ignore=")}
     assert left_out == set(FILES[:2]) == {word for word in scenes.split() if word.endswith(".py")}
     assert {"tests/browser", FILES[3]} <= set(browser.split())
-    # # The exclusions run last, on their own.
+    # The exclusions run last, on their own.
     assert f"--ignore={ALONE}" in browser.split()
     assert alone.split()[-1] == ALONE
     assert (ROOT / ALONE).is_file()

@@ -16,7 +16,7 @@ from tests.benchmarks.section_result import SectionResult
 from tests.benchmarks.sections import SECTIONS
 from tracker.errors import NavigationError
 
-# # Sections whose tables state what was measured.
+# Sections whose tables state what was measured.
 ALONE = dict.fromkeys(("calibration", "ct", "pedicles"), "")
 
 

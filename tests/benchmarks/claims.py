@@ -10,7 +10,7 @@ from tracker.navigation import deviation_from_channel
 from tracker.pose import FoundBy, side_px_of
 from tracker.rehearsal import Phase, Theatre, Truth
 
-# # A claim whose corners are further off than this is of something else.
+# A claim whose corners are further off than this is of something else.
 FALSE_PX, FALSE_SIDE_RATIO = 3.0, 0.15
 # Three degrees of freedom, 95 %.
 ELLIPSOID_95 = 7.815

@@ -110,7 +110,7 @@ def _row(name: str, archive: Path, server: RunningServer) -> list[str]:
     client = HttpClient(server.port)
     case = client.mapping("POST", "/api/cases", {"name": "benchmark"})
     client.mapping("POST", f"/api/cases/{case['id']}/open", {})
-    # # Memory that tracking allocates at its start does not belong to the CT.
+    # Memory that tracking allocates at its start does not belong to the CT.
     _until(lambda: _tracks(client))
     with _monitored(server.pid) as memory:
         begun, sent_s = client.send("/api/ct?made_by=benchmark", archive)
@@ -140,7 +140,7 @@ def _tracks(client: HttpClient) -> bool:
 
 def _is_shown(client: HttpClient, begun: Mapping[str, object]) -> bool:
     status, _ = client.request("GET", f"/api/ct/uploads/{begun['upload_id']}/preview.png")
-    # # Once the CT is open, the first slice can no longer be requested.
+    # Once the CT is open, the first slice can no longer be requested.
     return status in {200, 404}
 
 

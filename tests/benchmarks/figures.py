@@ -10,10 +10,10 @@ from typing import TypeAlias
 import numpy as np
 
 FIGURES = Path(__file__).with_name("figures.json")
-# # By chance, one of some thousand figures is off by this many standard deviations.
+# By chance, one of some thousand figures is off by this many standard deviations.
 NOISE_SD = 3.3
 BOOTSTRAPS = 200
-# # Times of two runs differ by this much on a shared machine, whatever the spread within each.
+# Times of two runs differ by this much on a shared machine, whatever the spread within each.
 BETWEEN_RUNS_OF_TIME = 0.08
 
 

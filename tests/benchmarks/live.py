@@ -20,7 +20,7 @@ from tracker.geometry import Rigid
 from tracker.navigation import AbsentReason
 from tracker.rehearsal import Theatre
 
-# # The first images after the start include loading and settling.
+# The first images after the start include loading and settling.
 SETTLING_S = 2.0
 STAGES = ("waiting", *TRACKER_STAGES, "navigation", "overlay", "encode")
 

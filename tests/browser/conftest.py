@@ -26,7 +26,7 @@ def theatre(playhouse: Theatre) -> Iterator[Theatre]:
     """A new server. A test that kills its process starts its own."""
     playhouse.anew()
     yield playhouse
-    # # Unwatched images would take processor time from tests that do not need them.
+    # Unwatched images would take processor time from tests that do not need them.
     playhouse.tell("stop")
 
 

@@ -50,7 +50,7 @@ from tracker.registration import Registration
 SIZE_WH_PX = (1280, 720)
 RATE_HZ = 15.0
 SIDE_MM = 25.0
-# # How long a page that still watches may keep an ending server alive.
+# How long a page that still watches may keep an ending server alive.
 FAREWELL_S = 2
 CORNERS_MM = np.array([[-0.5, 0.5, 0], [0.5, 0.5, 0], [0.5, -0.5, 0], [-0.5, -0.5, 0]]) * SIDE_MM
 CAMERA_FROM_VERTEBRA = Rigid[Camera, Vertebra].from_vector([0.9, 0.35, 0.0], [5, -10, 260])
@@ -134,14 +134,14 @@ def snapshot_at(
 def snapshot_in_bone(mode: str, number: int, now_s: float) -> NavigationSnapshot:
     """A drill in the rod, whose walls are known."""
     if mode == "wander":
-        # # A new place every two seconds, with motion in between.
+        # A new place every two seconds, with motion in between.
         places, along = list(PLACES_IN_BONE.values()), number / RATE_HZ / 2.0
         share = along - int(along)
         first, second = (np.array(places[int(along + step) % len(places)]) for step in (0, 1))
         where = first + share * (second - first)
     else:
         where = np.array(PLACES_IN_BONE.get(mode, PLACES_IN_BONE["path"]))
-    # # 95 % of 0.9 mm is 2.21 mm, and 1.8 mm are left.
+    # 95 % of 0.9 mm is 2.21 mm, and 1.8 mm are left.
     stands = setup_of(registered_sd_mm=0.9 if mode == "insufficient" else 0.0)
     stands = replace(stands, min_errors_95_mm=min_errors_95_mm(stands, drill_reference()))
     sighting = UNSEEN if mode == "hidden" else seen_at(where, stands.tools["drill"])
@@ -182,7 +182,7 @@ def backdrop() -> npt.NDArray[np.uint8]:
     return np.asarray(cv2.resize(noise, SIZE_WH_PX, interpolation=cv2.INTER_CUBIC), dtype=np.uint8)
 
 
-# # On a busy machine images are older than the usual limit, and the page would switch off its 3-D scene.
+# On a busy machine images are older than the usual limit, and the page would switch off its 3-D scene.
 LIMITS = {"pose_stale_after_ms": 700}
 
 

@@ -14,7 +14,7 @@ from tracker.plan.document import PlannedChannel, VertebraPlan
 from tracker.rehearsal import Theatre
 from tracker.rehearsal.ct import rehearsal_ct
 
-# # Coarser than a scanner's, since the tests need positions, not detail.
+# Coarser than a scanner's, since the tests need positions, not detail.
 SPACING_MM = (1.2, 1.2, 1.5)
 APART_MM = 20.0
 SIDES: tuple[Literal["left", "right"], ...] = ("left", "right")

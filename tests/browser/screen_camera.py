@@ -15,10 +15,10 @@ from playwright.sync_api import Page
 from tests.server.capture.http_image_server import ImageServer
 
 SIZE_WH_PX = (640, 400)
-# # Slow enough for a busy machine to deliver every image.
+# Slow enough for a busy machine to deliver every image.
 RATE_HZ = 6.0
 HEAD = b"--x\r\nContent-Type: image/jpeg\r\nContent-Length: %d\r\n\r\n"
-# # Number of stored pictures of the screen; at 60 Hz, more than any delay of a test.
+# Number of stored pictures of the screen; at 60 Hz, more than any delay of a test.
 REMEMBERED = 240
 
 
@@ -49,7 +49,7 @@ class ScreenCamera(ImageServer):
         def take(shown: dict[str, Any]) -> None:
             ago_s = time.time() - float(shown["metadata"]["timestamp"])
             self._seen.append((time.monotonic() - ago_s, base64.b64decode(shown["data"])))
-            # # The last capture may be pending while the page is closed.
+            # The last capture may be pending while the page is closed.
             with contextlib.suppress(PlaywrightError):
                 line.send("Page.screencastFrameAck", {"sessionId": shown["sessionId"]})
 

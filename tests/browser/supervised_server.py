@@ -35,7 +35,7 @@ from tracker.plan.document import plain
 from tracker.plan.document.changes import channel_of, vertebra_named
 from tracker.registration import Registration
 
-# # A busy machine delays images, and marks need live images.
+# A busy machine delays images, and marks need live images.
 PATIENT = {"pose_stale_after_ms": 10_000, "video_stale_after_ms": 10_000, "scene_stale_after_ms": 10_000}
 SUPERVISION = {"cosign": {"plan": "required"}, "drawings_fade_after_s": 600}
 RECORDING = {"min_free_gb": 0.0}
@@ -157,7 +157,7 @@ def main() -> None:
         serving.join(10)
         jobs.close()
         log.stop()
-    # # The feeder may be in the middle of an image and is not joined.
+    # The feeder may be in the middle of an image and is not joined.
     os._exit(0)
 
 

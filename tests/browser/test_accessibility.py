@@ -17,7 +17,7 @@ WEB = CHECKOUT / "web"
 AXE = WEB / "node_modules" / "axe-core" / "axe.min.js"
 STEPS = re.findall(r'\{ name: "(\w+)",', (WEB / "src" / "operator" / "pages.ts").read_text(encoding="utf-8"))
 THEATRE, LYING, UPRIGHT, PHONE = (1920, 1080), (1280, 800), (800, 1280), (390, 844)
-# # The scene's frame contains viser's own page, which this project does not control.
+# The scene's frame contains viser's own page, which this project does not control.
 RUN = """options => axe
     .run(document, { iframes: false, resultTypes: ["violations"], ...options })
     .then(found => found.violations.map(({ id, impact, nodes }) =>
@@ -107,7 +107,7 @@ def test_the_theatre_s_view_while_nothing_is_well(
     expect(page.get_by_test_id("alert")).to_be_visible(timeout=PATIENCE_MS)
     expect(page.get_by_test_id("alarm-top")).to_be_visible(timeout=PATIENCE_MS)
     assert faults(page) == []
-    # # The server's English sentences on a German page are marked with their language.
+    # The server's English sentences on a German page are marked with their language.
     expect(page.get_by_test_id("alert").locator("[lang=en]").first).to_contain_text("camera")
 
 

@@ -12,7 +12,7 @@ pytestmark = pytest.mark.browser
 
 Watch = Callable[..., WatchedPage]
 expect.set_options(timeout=PATIENCE_MS)
-# # Records from outside what the page plays: start and stop of every source.
+# Records from outside what the page plays: start and stop of every source.
 EARS = """window.heard = [];
 const start = AudioBufferSourceNode.prototype.start, stop = AudioBufferSourceNode.prototype.stop;
 AudioBufferSourceNode.prototype.start = function (...at) {
@@ -37,9 +37,9 @@ def test_an_alarm_is_seen_heard_paused_acknowledged_and_goes(theatre: Theatre, w
     sound = page.get_by_test_id("sound")
     expect(sound).to_have_text("SOUND NOT ARMED: touch here")
     arm(page)
-    # # On a slow machine no sound may have been armed for so long that this was an alarm.
+    # On a slow machine no sound may have been armed for so long that this was an alarm.
     band(page, "none", "normal")
-    # # Its sound stops shortly after its band disappears.
+    # Its sound stops shortly after its band disappears.
     page.wait_for_function("() => !window.heard.some(one => one.loop) || window.heard.at(-1) === 'stopped'")
     page.evaluate("window.heard = []")
     theatre.tell("deep")

@@ -15,7 +15,7 @@ FIGURES = ("reading-entry", "reading-angle", "reading-depth", "reading-wall")
 PAGES = {"supervisor": ("hold-ask", "cut-probe"), "operator/navigate": ("cut-probe",)}
 
 
-# # Number of figures with a curve.
+# Number of figures with a curve.
 CURVES = f"""() => [...document.querySelectorAll("canvas[data-trend]")].filter(
     (canvas) => {PIXELS}(canvas).some((value) => value > 0),
 ).length"""
@@ -66,7 +66,7 @@ def test_curves_go_with_the_figures_when_messages_stop(board: Page, shared_theat
     shared_theatre.tell("stop")
     expect(board.get_by_test_id("numbers")).to_have_attribute("data-live", "false")
     expect(board.get_by_test_id("numbers")).to_have_attribute("data-trend", "false")
-    # # Cleared, not only hidden.
+    # Cleared, not only hidden.
     expect(board.locator("canvas[data-trend=entry]")).to_be_hidden()
     assert board.evaluate(CURVES) == 0
     shared_theatre.tell("path")

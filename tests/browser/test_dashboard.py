@@ -14,12 +14,12 @@ pytestmark = pytest.mark.browser
 
 Watch = Callable[..., WatchedPage]
 PANES = ("video", "numbers", "scene")
-# # Beside the scene, which replaces the other cuts.
+# Beside the scene, which replaces the other cuts.
 CUT = "cut-probe"
 
 expect.set_options(timeout=PATIENCE_MS)
 
-# # A digest of the canvas, and whether it is blank.
+# A digest of the canvas, and whether it is blank.
 DIGEST = f"""canvas => {{
     const pixels = {PIXELS}(canvas);
     let digest = 0;
@@ -31,7 +31,7 @@ DIGEST = f"""canvas => {{
 BLACK = f"""canvas => {PIXELS}(canvas)
     .every((value, index) => index % 4 === 3 || value === 0)"""
 
-# # Whether an opaque cover fills the pane and receives a touch in its middle.
+# Whether an opaque cover fills the pane and receives a touch in its middle.
 COVERED = """pane => {
     const cover = pane.querySelector(".cover");
     const [around, within] = [pane.getBoundingClientRect(), cover.getBoundingClientRect()];
@@ -44,7 +44,7 @@ COVERED = """pane => {
 HAS_DRILL = """stage => [...stage.querySelectorAll("[data-part=shaft], [data-part=ring], [data-part=ahead]")]
     .some(path => path.getAttribute("d") !== "")"""
 
-# # Overlapping texts in the header and beside the video's title, in pairs, and truncated facts.
+# Overlapping texts in the header and beside the video's title, in pairs, and truncated facts.
 ILLEGIBLE = """page => {
     const within = ".top :is(dt, dd, h1, p, li), .pane-video .pane-head > *";
     const words = [...page.querySelectorAll(within)].filter(one => one.checkVisibility() && one.textContent);
@@ -66,7 +66,7 @@ def is_live(page: Page, pane: str, *, live: bool = True) -> None:
     expect(page.get_by_test_id(pane)).to_have_attribute("data-live", "true" if live else "false")
 
 
-# # Tests with their own page come first, so that the shared page is not drawn meanwhile.
+# Tests with their own page come first, so that the shared page is not drawn meanwhile.
 
 
 def test_speaks_another_language(shared_theatre: Theatre, watch: Watch) -> None:
@@ -98,7 +98,7 @@ def test_picture_is_empty_when_a_hidden_page_comes_back(shared_theatre: Theatre,
             document.dispatchEvent(new Event("visibilitychange"));
         }"""
     )
-    # # Synchronously: nothing old may remain for the next refresh.
+    # Synchronously: nothing old may remain for the next refresh.
     assert page.get_by_test_id("video").get_attribute("data-live") == "false"
     assert page.get_by_test_id("numbers").get_attribute("data-live") == "false"
     assert page.locator("canvas.sharp").evaluate(BLACK)
@@ -138,7 +138,7 @@ def test_fits_the_screen_with_the_video_first(page: Page, width: int, height: in
     video, numbers, scene = (box for box in boxes if box is not None)
     assert video["y"] <= numbers["y"]
     assert video["y"] < scene["y"] or video["x"] + video["width"] <= scene["x"]
-    # # A phone shows one view under the figures, chosen by a touch, at the height that its width allows.
+    # A phone shows one view under the figures, chosen by a touch, at the height that its width allows.
     if width > 640:
         assert video["width"] * video["height"] > scene["width"] * scene["height"]
     if width == 1920:
@@ -171,13 +171,13 @@ def test_silence_is_said_by_the_page_itself_and_passes(page: Page, shared_theatr
     shared_theatre.tell("stop")
     is_live(page, "numbers", live=False)
     is_live(page, "video", live=False)
-    # # The complete line: its live content must be gone.
+    # The complete line: its live content must be gone.
     expect(page.get_by_test_id("no-tracking")).to_have_text(re.compile(r"^\W*NO TRACKING"))
     expect(page.get_by_test_id("untracked-for")).to_have_text(re.compile(r"\d s$"))
     expect(page.get_by_test_id("reading-depth")).to_have_text("—")
     expect(page.get_by_test_id("video-cover")).to_contain_text("NO VIDEO")
     is_live(page, "scene", live=False)
-    # # The server still answers, so it is not reported as lost.
+    # The server still answers, so it is not reported as lost.
     expect(page.get_by_test_id("link-state")).to_contain_text("connected")
     assert page.locator("canvas.sharp").evaluate(BLACK), "an old picture is still on the canvas"
     shared_theatre.tell("live")
@@ -196,7 +196,7 @@ def test_camera_without_calibration_claims_no_millimetres(page: Page, shared_the
 def test_failure_looks_like_failure(page: Page, shared_theatre: Theatre) -> None:
     page.set_viewport_size({"width": 1920, "height": 1080})
     is_live(page, "scene")
-    # # This theatre has no CT: drill and plan are drawn alone, with a note.
+    # This theatre has no CT: drill and plan are drawn alone, with a note.
     is_live(page, CUT)
     expect(page.get_by_test_id(CUT).get_by_test_id("cut-note")).to_contain_text("NO CT")
     assert page.get_by_test_id(CUT).evaluate(HAS_DRILL)
@@ -217,7 +217,7 @@ def test_failure_looks_like_failure(page: Page, shared_theatre: Theatre) -> None
     expect(page.get_by_test_id("no-tracking")).to_be_visible()
     figures_are_gone(page)
     expect(page.get_by_test_id("verdict")).to_have_count(0)
-    # # It is shown with its remedy, and is an alarm.
+    # It is shown with its remedy, and is an alarm.
     expect(page.get_by_test_id("alert")).to_contain_text("The camera has given no image for 2.0 s")
     expect(page.get_by_test_id("alert")).to_contain_text("Check the camera's cable")
     expect(page.get_by_test_id("alarms")).to_have_attribute("data-priority", "medium")

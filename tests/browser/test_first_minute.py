@@ -17,9 +17,9 @@ from tests.benchmarks.running_server import RunningServer, running_server
 
 pytestmark = pytest.mark.browser
 
-# # The goal is 99 % and 15 images/s; a slow machine reaches less. Earlier faults left 30 to 60 %.
+# The goal is 99 % and 15 images/s; a slow machine reaches less. Earlier faults left 30 to 60 %.
 MIN_LIVE_RATIO, MIN_IMAGES_PER_S = 0.75, 8.0
-# # Share of a core used by others, above which nothing can be concluded. `make test` runs this test alone.
+# Share of a core used by others, above which nothing can be concluded. `make test` runs this test alone.
 MAX_OTHER_WORK = 0.3
 WINDOW_S, SETTLING_S, WINDOWS = 8.0, 6.0, 3
 

@@ -16,9 +16,9 @@ from tests.procedure.real_server import BUSY_MACHINE, RealServer, real_server
 
 pytestmark = pytest.mark.browser
 
-# # Fewer codes than in use; each lasts two to three image periods.
+# Fewer codes than in use; each lasts two to three image periods.
 CODES = 24
-# # Time for aiming, codes and the last images on a busy machine.
+# Time for aiming, codes and the last images on a busy machine.
 MEASURED_WITHIN_MS = 4 * PATIENCE_MS
 TRIES = 5
 SHORT_S, LONG_S = 0.1, 0.9
@@ -43,7 +43,7 @@ def filming(camera: ScreenCamera, tmp_path_factory: pytest.TempPathFactory) -> I
 def page(camera: ScreenCamera, filming: RealServer, watch: Callable[..., WatchedPage]) -> Page:
     """The camera page, with the camera in front of it."""
     camera.delay_s, camera.covered = SHORT_S, False
-    # # A rejected measurement is a 409, which the browser logs.
+    # A rejected measurement is a 409, which the browser logs.
     watched = watch(filming, strict=False)
     page = watched.page
 
@@ -91,7 +91,7 @@ def test_a_known_delay_before_the_camera_is_in_the_latency(
     for result, delay_s in ((short, SHORT_S), (long, LONG_S)):
         report = result["report"]
         assert report["samples"] >= CODES * MIN_TIMED_RATIO
-        # # Everything before the capture time belongs to screen and camera.
+        # Everything before the capture time belongs to screen and camera.
         assert report["stage_ms"]["screen and camera"] >= 1000.0 * delay_s
         assert report["median_ms"] <= report["p99_ms"]
         assert sum(report["stage_ms"].values()) == pytest.approx(

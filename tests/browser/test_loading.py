@@ -43,7 +43,7 @@ PAGES = [
     *(("o1", f"operator{step}") for step in STEPS),
 ]
 
-# # None of this is true of the server, so it may never appear.
+# None of this is true of the server, so it may never appear.
 FALSE = [
     "SERVER LOST",
     "SERVER NOT REACHED",
@@ -67,7 +67,7 @@ FALSE = [
     "Open a case",
     "▲  ",
 ]
-# # Runs before the page's own script, and records every appearance of these texts and every alert.
+# Runs before the page's own script, and records every appearance of these texts and every alert.
 RECORDER = f"""(() => {{
     if (window.parent !== window) return;
     const wrong = {FALSE!r};
@@ -86,12 +86,12 @@ RECORDER = f"""(() => {{
         for (const {{ target }} of records) look(target.nodeName === "#text" ? target.parentNode : target);
     }}).observe(document, {{ subtree: true, childList: true, characterData: true, attributes: true }});
 }})()"""
-# # Loading may take this long on a busy machine; a silent server counts as lost after 0.8 s.
+# Loading may take this long on a busy machine; a silent server counts as lost after 0.8 s.
 LOADS_FOR_MS = 4000
 REACHED_WITHIN_MS = 10_000
-# # The longest delay before a reconnect.
+# The longest delay before a reconnect.
 NEXT_LINE_AFTER_MS = 500
-# # Shorter than the silence after which a server counts as lost.
+# Shorter than the silence after which a server counts as lost.
 MOMENTS, MOMENT_MS = 10, 300
 
 
@@ -112,7 +112,7 @@ class Loading:
     def go(self, path: str) -> None:
         """Load the page with its clock stopped."""
         self.page.goto(path)
-        # # The views are separate files, which are not held back.
+        # The views are separate files, which are not held back.
         for view in sorted((CHECKOUT / "web" / "dist" / "assets").glob("*View-*.js")):
             self.page.evaluate("name => import(name)", f"/assets/{view.name}")
         self.page.clock.pause_at(600_000)
@@ -128,7 +128,7 @@ class Loading:
         if "live" in kinds:
             while self._lines:
                 self._lines.pop().close()
-            # # From here on the clock stands still, so that no image ages and no connection is silent.
+            # From here on the clock stands still, so that no image ages and no connection is silent.
             self.pass_ms(NEXT_LINE_AFTER_MS)
 
     def shows(self, path: str) -> None:
@@ -159,7 +159,7 @@ class Loading:
 
     def _answer(self, route: Route) -> None:
         name = route.request.url.rsplit("/api/", maxsplit=1)[-1]
-        # # The limits arrive with the session; otherwise the first image counts as old on a busy machine.
+        # The limits arrive with the session; otherwise the first image counts as old on a busy machine.
         kind = {"session": "session", "dashboard": "session", "live": "live"}.get(name, "rest")
         if kind in self._open:
             route.continue_()
@@ -183,7 +183,7 @@ def supervised() -> Iterator[Supervised]:
 
 
 def begun(watch: Watch, server: Supervised, person: str, path: str, *, rejects: bool = False) -> Loading:
-    # # This server's CT has no slices, and the browser logs each rejection.
+    # This server's CT has no slices, and the browser logs each rejection.
     watched = watch(server, 1180, 820, strict=path != "operator/plan")
     address = f"http://127.0.0.1:{server.port}"
     watched.page.context.add_cookies([{"name": "person", "value": person, "url": address}])

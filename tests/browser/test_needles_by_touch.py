@@ -31,7 +31,7 @@ SETTINGS = {
     "reference": {"marker": "reference"},
 }
 OVERLAY = "JSON.parse(document.querySelector('[data-testid=overlay-state]').dataset.overlay)"
-# # A slow page processes a gesture late: it has ended after this many refreshes without movement.
+# A slow page processes a gesture late: it has ended after this many refreshes without movement.
 AT_REST = """() => new Promise(resolve => {
     const state = () => document.querySelector("[data-testid=overlay-state]").dataset;
     let [last, still] = ["", 0];
@@ -66,7 +66,7 @@ def test_one_failed_answer_does_not_end_the_work_on_the_plan(tablet: Tablet) -> 
     page = tablet.page
     tablet.go("plan")
     tablet.tap("part-landmarks")
-    # # The button moves when the catalogue has loaded.
+    # The button moves when the catalogue has loaded.
     tablet.reads("landmark-count", "needed at least")
     tablet.tap("set-landmark")
     name = page.get_by_role("button", name="left transverse process", exact=True)
@@ -104,7 +104,7 @@ def test_the_slice_is_dragged_pinched_and_turned_over_the_live_picture(
         page.evaluate(AT_REST)
 
     def until_changed(field: str, *paths: tuple[tuple[float, float], tuple[float, float]]) -> None:
-        # # A slow page may take two fingers that arrive late for one; a user would repeat the gesture.
+        # A slow page may take two fingers that arrive late for one; a user would repeat the gesture.
         for _ in range(3):
             before = overlay_of(page)
             fingers(*paths)

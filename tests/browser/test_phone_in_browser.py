@@ -19,9 +19,9 @@ from server.stream.phone.receiver import Receiver
 from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS
 from tests.served import served
 
-# # Not the default size of the browser's camera.
+# Not the default size of the browser's camera.
 SETTINGS = CameraConfig(source="phone", width=1280, height=720)
-# # Each takes about half a second if nothing arrives.
+# Each takes about half a second if nothing arrives.
 ATTEMPTS = 60
 UPRIGHT, LYING = (390, 844), (1180, 820)
 
@@ -113,7 +113,7 @@ def test_images_of_a_browsers_camera_arrive_in_their_size_and_in_order(
     expect(page.get_by_test_id("phone-server")).to_be_visible()
     page.screenshot(path=SCREENSHOTS / "phone_upright.png")
 
-    # # A second device is rejected with a reason, and the first continues.
+    # A second device is rejected with a reason, and the first continues.
     second = opened(browser, port, LYING)
     second.screenshot(path=SCREENSHOTS / "phone_lying_idle.png")
     touch_start(second)
@@ -121,7 +121,7 @@ def test_images_of_a_browsers_camera_arrive_in_their_size_and_in_order(
     second.screenshot(path=SCREENSHOTS / "phone_lying_rejected.png")
     assert source.read() is not None
 
-    # # After a reload the first device gets its place back.
+    # After a reload the first device gets its place back.
     page.reload()
     touch_start(page)
     expect(page.get_by_test_id("phone")).to_have_attribute("data-state", "sending")

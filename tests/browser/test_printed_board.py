@@ -51,7 +51,7 @@ def test_a_board_is_found_on_the_page_that_a_browser_draws(browser: Browser, boa
     found_mm = found_in(np.asarray(picture), board).reshape(-1, 2) / (CSS_PX_PER_MM * ENLARGED)
     wanted_mm = board.object_points_mm[:, :2]
     assert found_mm.shape == wanted_mm.shape
-    # # A grid with half-turn symmetry may be counted from its other end.
+    # A grid with half-turn symmetry may be counted from its other end.
     found_mm = min(
         (found_mm, found_mm[::-1]), key=lambda points: float(np.ptp(points - wanted_mm, axis=0).max())
     )

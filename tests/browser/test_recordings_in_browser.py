@@ -44,10 +44,10 @@ def test_what_the_operator_records_is_said_on_every_view(supervised: Supervised,
     assert box is not None
     assert box["height"] >= 48
     button.click()
-    # # Before the first recording of a case the patient's consent must be answered.
+    # Before the first recording of a case the patient's consent must be answered.
     expect(operator.get_by_role("dialog")).to_contain_text("Has the patient consented to recording?")
     picture(operator, "consent")
-    # # The question covers no alarm: everything beside it stays visible and usable.
+    # The question covers no alarm: everything beside it stays visible and usable.
     expect(operator.locator(".mantine-Modal-overlay")).to_have_count(0)
     button.click(trial=True)
     operator.get_by_test_id("consent-no").click()
@@ -67,7 +67,7 @@ def test_what_the_operator_records_is_said_on_every_view(supervised: Supervised,
     button.click()
     for page in pages.values():
         expect(page.get_by_test_id("recording-state")).to_have_attribute("data-state", "off")
-    # # After the answer it is not asked again.
+    # After the answer it is not asked again.
     button.click()
     expect(operator.get_by_test_id("recording-state")).to_have_attribute("data-state", "on")
     button.click()
@@ -94,7 +94,7 @@ def test_any_instant_of_a_recording_is_reviewed(
     shows(page, 0)
     expect(page.get_by_test_id("review-wall")).to_have_text(re.compile(r"^\d\.\d$"))
 
-    # # An event leads to its instant: image, figures and alarms.
+    # An event leads to its instant: image, figures and alarms.
     page.get_by_test_id("review-events").get_by_role("button", name="Alarm · BREACH").click()
     breach = DRILLED.index("breach")
     expect(page.get_by_test_id("review-wall")).to_have_text(re.compile(r"^−\d\.\d$"))
@@ -106,7 +106,7 @@ def test_any_instant_of_a_recording_is_reviewed(
     page.get_by_test_id("review-before").click()
     shows(page, number)
 
-    # # A tap on the curves, and a drag over a part of them.
+    # A tap on the curves, and a drag over a part of them.
     plot = page.locator(".review-plot")
     plot.evaluate("plot => plot.scrollIntoView({ block: 'center' })")
     box = plot.bounding_box()
@@ -173,7 +173,7 @@ def test_a_piece_and_a_video_are_saved_and_an_instant_is_commented(
         f"{len(DRILLED)} images, 0 with the overlay. The others state why the overlay is missing."
     )
     picture(page, "exports")
-    # # Exports are listed again after the review was closed.
+    # Exports are listed again after the review was closed.
     page.locator(row).get_by_test_id("review-open").click()
     page.locator(row).get_by_test_id("review-open").click()
     downloads = page.get_by_test_id("review-export-download")
@@ -184,7 +184,7 @@ def test_a_piece_and_a_video_are_saved_and_an_instant_is_commented(
     with av.open(str(tmp_path / "case.mp4")) as video:
         assert sum(1 for _ in video.decode(video=0)) == len(DRILLED)
 
-    # # A supervisor can read and write comments, but not export.
+    # A supervisor can read and write comments, but not export.
     page = opened(watch, supervised, "s1", "supervisor", PHONE)
     page.get_by_test_id("fold-recordings").locator("summary").click()
     page.locator(row).get_by_test_id("review-open").click()

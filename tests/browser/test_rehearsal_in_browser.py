@@ -23,9 +23,9 @@ from tests.browser.theatre import CHECKOUT, SCREENSHOTS, WatchedPage, show_scene
 
 pytestmark = pytest.mark.browser
 
-# # The rehearsal's drill is out of view for nine of its forty seconds.
+# The rehearsal's drill is out of view for nine of its forty seconds.
 ONE_CYCLE_MS = 60_000
-# # Scale of screenshots: legible, and small in the repository.
+# Scale of screenshots: legible, and small in the repository.
 PICTURE: ViewportSize = {"width": 1440, "height": 810}
 
 THREE_DEPTHS = """() => {
@@ -35,12 +35,12 @@ THREE_DEPTHS = """() => {
     return window.depths.size >= 3;
 }"""
 CUTS = ("axial", "sagittal", "probe")
-# # Left, right, top and bottom in the radiological convention.
+# Left, right, top and bottom in the radiological convention.
 ANATOMICAL_CUTS = {"anatomical-axial": "RLAP", "anatomical-coronal": "RLHF"}
 SCAN_MS = 120_000
 LETTERS = """stage => ["left", "right", "top", "bottom"]
     .map(edge => stage.querySelector(`[data-edge=${edge}]`).textContent).join("")"""
-# # Every cut shows bone and soft tissue around the drill, and its image number has advanced.
+# Every cut shows bone and soft tissue around the drill, and its image number has advanced.
 CUT_AND_MOVING = """() => {
     window.cutImages ??= new Map();
     return ["axial", "sagittal", "probe"].every((name) => {
@@ -74,7 +74,7 @@ class Rehearsal:
         if named:
             self.port = urlsplit(named).port or 80
             return
-        # # A busy machine delays images, and late ones are covered; other tests check when.
+        # A busy machine delays images, and late ones are covered; other tests check when.
         (folder / "config.yaml").write_text(
             "limits: {pose_stale_after_ms: 4000, video_stale_after_ms: 5000, scene_stale_after_ms: 5000}\n"
             "security: {sign_in: off}\n"
@@ -152,10 +152,10 @@ def test_rehearsal_is_tracked_and_seen_in_picture_numbers_and_scene(
 def cuts_follow_the_drill(page: Page) -> None:
     """Three cuts of the rehearsal's CT follow the drill, each in its own plane."""
     for name in CUTS:
-        # # The rehearsal's CT is simulated after the first request, at the lowest priority.
+        # The rehearsal's CT is simulated after the first request, at the lowest priority.
         expect(page.get_by_test_id(f"cut-{name}")).to_have_attribute("data-shows", "live", timeout=SCAN_MS)
     page.wait_for_function(CUT_AND_MOVING, timeout=ONE_CYCLE_MS)
-    # # Seen from behind a prone patient: left on the left, head on top; in-line cuts have anterior on top.
+    # Seen from behind a prone patient: left on the left, head on top; in-line cuts have anterior on top.
     assert [page.get_by_test_id(f"cut-{name}").evaluate(LETTERS) for name in CUTS] == ["RLAP", "FHAP", "LRHF"]
     page.get_by_test_id("ahead-10").click()
     page.wait_for_function(CUT_AND_MOVING, timeout=ONE_CYCLE_MS)

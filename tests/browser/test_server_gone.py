@@ -25,14 +25,14 @@ pytestmark = pytest.mark.browser
 Watch = Callable[..., WatchedPage]
 PANES = ("video", "numbers", "scene")
 FIGURES = ("entry", "angle", "depth", "toGo")
-# # Time limits hold on an idle machine only: COAXIAL_TIMES=1 enables them.
+# Time limits hold on an idle machine only: COAXIAL_TIMES=1 enables them.
 ON_A_QUIET_MACHINE = "COAXIAL_TIMES"
 MIN_TRIES = 2
 GONE_FOR_MS, SAID_WITHIN_MS, RIGHT_WITHIN_MS = 5000, 1000, 2000
 
 expect.set_options(timeout=PATIENCE_MS)
 
-# # Runs before the page's own script, and records the time of each change.
+# Runs before the page's own script, and records the time of each change.
 RECORDER = """(() => {
     if (window.parent !== window) return;
     const log = window.log = { panes: [], heardAt: 0, firstHeardAt: null, tries: [], longestPause: 0 };
@@ -121,7 +121,7 @@ def first_changes(page: Page, *, live: bool) -> dict[str, float]:
     """Time of each pane's first such state since the record was reset."""
     wanted = "true" if live else "false"
     changes = page.evaluate("log.panes")
-    # # A pane that was already in this state counts from the reset.
+    # A pane that was already in this state counts from the reset.
     return {
         pane: next(
             (one["at"] for one in changes if one["pane"] == pane and one["live"] == wanted),
@@ -137,7 +137,7 @@ def recorded(watched: WatchedPage) -> Iterator[Page]:
     watched.page.add_init_script(RECORDER)
     with urllib.request.urlopen(f"http://127.0.0.1:{watched.port}/api/dashboard", timeout=60) as answer:
         reported = json.load(answer)
-    # # On a busy machine images exceed the usual age limits for reasons other than the server's absence.
+    # On a busy machine images exceed the usual age limits for reasons other than the server's absence.
     reported["limits"] |= {"pose_stale_after_ms": 700, "video_stale_after_ms": 700}
     watched.page.route("**/api/dashboard", lambda route: route.fulfill(json=reported))
     page = watched.open()
@@ -184,13 +184,13 @@ def judge(what: str, seen: Absence) -> None:
         f"after its return; tried every {seen.try_ms:.0f} ms at most; page paused {seen.pause_ms:.0f} ms\n"
     )
     assert seen.gone_for_ms > GONE_FOR_MS
-    # # The page kept retrying, reported the loss before the server returned, and recovered by itself.
+    # The page kept retrying, reported the loss before the server returned, and recovered by itself.
     assert seen.tries >= MIN_TRIES
     for pane in PANES:
         assert seen.said_ms[pane] < seen.gone_for_ms
         assert seen.right_ms[pane] >= 0.0
     if not os.environ.get(ON_A_QUIET_MACHINE):
-        # # Each pane's report and recovery without a reload were awaited above.
+        # Each pane's report and recovery without a reload were awaited above.
         return
     for pane in PANES:
         assert seen.said_ms[pane] <= SAID_WITHIN_MS + seen.pause_ms

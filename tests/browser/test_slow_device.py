@@ -19,7 +19,7 @@ pytestmark = pytest.mark.browser
 
 Watch = Callable[..., WatchedPage]
 
-# # In the page and in the scene's frame: records reductions in their order.
+# In the page and in the scene's frame: records reductions in their order.
 RECORDER = """
 const given = (top.given ??= []);
 const note = (what, value) => {
@@ -80,16 +80,16 @@ def slowed(watched: WatchedPage, part: str, *, query: str = "") -> Page:
 def gave_way_in_order(page: Page, words: str) -> None:
     """First the rate, then the scene, last the picture's size; and the page reports what is slow."""
     expect(page.get_by_test_id("line-note")).to_have_text(re.compile(f"{words}: .* 640x360"))
-    # # Full size is no step.
+    # Full size is no step.
     given = [one for one in page.evaluate("given") if one != ["scale", 1]]
     assert [ORDER.index(what) for what, _ in given] == sorted(ORDER.index(what) for what, _ in given)
     assert [scale for what, scale in given if what == "scale"] == [0.7, 0.5]
     intervals_ms = [interval_ms for what, interval_ms in given if what == "interval_ms"]
     assert intervals_ms == sorted(intervals_ms)
     assert intervals_ms[-1] == 200
-    # # The note names the requested size; the first picture of that size arrives later.
+    # The note names the requested size; the first picture of that size arrives later.
     page.wait_for_function("() => widths.has(640)")
-    # # The connection is fast enough: the server has not reduced anything by itself.
+    # The connection is fast enough: the server has not reduced anything by itself.
     assert set(page.evaluate("[...widths]")) == {1280, 640}
 
 
@@ -98,13 +98,13 @@ def test_a_device_that_decodes_slowly_keeps_its_picture_longest_and_its_scene_li
 ) -> None:
     page = slowed(watch(theatre, 1280, 900), "decoding")
     gave_way_in_order(page, "Slow decoding")
-    # # At its lowest rate and resolution.
+    # At its lowest rate and resolution.
     is_live(page, "scene")
     frame = page.locator(".scene-stage iframe")
     assert frame.evaluate("e => [e.clientWidth / e.parentElement.clientWidth]")[0] == pytest.approx(
         0.5, abs=0.02
     )
-    # # It is displayed at its former size, without overflow.
+    # It is displayed at its former size, without overflow.
     shown = frame.evaluate("e => e.getBoundingClientRect().width / e.parentElement.clientWidth")
     assert shown == pytest.approx(1.0, abs=0.02)
 
@@ -120,7 +120,7 @@ def test_a_scene_that_makes_the_figures_late_is_switched_off_until_somebody_asks
     watched = watch(theatre, 1280, 800)
     with urllib.request.urlopen(f"http://127.0.0.1:{theatre.port}/api/dashboard", timeout=60) as answer:
         dashboard = json.load(answer)
-    # # Every image exceeds such a limit, on any machine.
+    # Every image exceeds such a limit, on any machine.
     dashboard["limits"]["pose_stale_after_ms"] = 1
     watched.page.route("**/api/dashboard", lambda route: route.fulfill(json=dashboard))
     page = watched.open("theatre")

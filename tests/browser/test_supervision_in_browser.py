@@ -12,7 +12,7 @@ from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, WatchedPage
 pytestmark = pytest.mark.browser
 expect.set_options(timeout=PATIENCE_MS)
 
-# # Whether anything is painted within a radius around a pixel of the image.
+# Whether anything is painted within a radius around a pixel of the image.
 PAINTED = """(canvas, [x, y, radius]) => {
     const ratio = canvas.width / canvas.clientWidth;
     const scale = Math.min(canvas.clientWidth / 1280, canvas.clientHeight / 720);
@@ -62,11 +62,11 @@ def picture(page: Page, name: str) -> None:
 def marks_reach(theatre: Page, sato: Page) -> None:
     marks, own = theatre.get_by_test_id("marks"), sato.get_by_test_id("marks")
 
-    # # A pointer appears at the same place of a picture of another size, and expires.
-    # # It expires when it rests, on a busy machine possibly before it is checked.
+    # A pointer appears at the same place of a picture of another size, and expires.
+    # It expires when it rests, on a busy machine possibly before it is checked.
     for turn in range(1000):
         sato.mouse.move(*on_picture(sato, 900 + turn % 2, 500))
-        # # In the same turn: both the supervisor and theatre see it.
+        # In the same turn: both the supervisor and theatre see it.
         if is_painted(own, 900, 500) and is_painted(marks, 900, 500):
             break
     else:
@@ -74,7 +74,7 @@ def marks_reach(theatre: Page, sato: Page) -> None:
     assert not is_painted(marks, 300, 600)
     expect(marks).to_have_attribute("data-pointers", "0")
 
-    # # A circle and a line, on both pages.
+    # A circle and a line, on both pages.
     sato.get_by_test_id("tool-circle").click()
     sato.mouse.move(*on_picture(sato, 640, 360))
     sato.mouse.down()
@@ -98,7 +98,7 @@ def marks_reach(theatre: Page, sato: Page) -> None:
 
 
 def signature_opens_navigation(supervised: Supervised, theatre: Page, sato: Page) -> None:
-    # # The required signature is missing; after review and two touches it exists, and navigation is allowed.
+    # The required signature is missing; after review and two touches it exists, and navigation is allowed.
     asks = theatre.request.get
     address = f"http://127.0.0.1:{supervised.port}/api/procedure"
     reported: Any = asks(address).json()
@@ -116,7 +116,7 @@ def signature_opens_navigation(supervised: Supervised, theatre: Page, sato: Page
 
 
 def hold_is_heard(theatre: Page, sato: Page) -> None:
-    # # A hold, in two touches, raises an alarm in theatre with the name of its requester.
+    # A hold, in two touches, raises an alarm in theatre with the name of its requester.
     sato.get_by_test_id("hold-ask").click()
     sato.get_by_test_id("hold-ask").click()
     expect(theatre.get_by_test_id("alarms")).to_contain_text("Dr Sato")

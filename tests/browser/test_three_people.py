@@ -31,10 +31,10 @@ SETTINGS = {
         "height": 540,
         "rate_hz": 10,
         "skill": "good",
-        # # On a busy machine a page learns late that the tip rests, and captures late.
+        # On a busy machine a page learns late that the tip rests, and captures late.
         "rest_s": 5.0,
     },
-    # # A busy machine delivers few images; other tests check how still the tip must be.
+    # A busy machine delivers few images; other tests check how still the tip must be.
     "registration": {
         "capture_images": 3,
         "capture_s": 0.8,

@@ -14,7 +14,7 @@ Watch = Callable[..., WatchedPage]
 expect.set_options(timeout=PATIENCE_MS)
 TIME = r"\d\d:\d\d:\d\d"
 
-# # Samples headline, wall figure and alarm with every refresh.
+# Samples headline, wall figure and alarm with every refresh.
 WITNESS = """() => {
     window.witnessed = { looks: 0, verdicts: {}, wrong: [] };
     const text = (id) => document.querySelector(`[data-testid="${id}"]`)?.textContent ?? "";
@@ -113,7 +113,7 @@ def test_a_breach_from_the_path_to_its_acknowledgement(page: Page, shared_theatr
         re.compile(rf"Was 0\.8 mm through the medial wall at 29\.0 mm depth, {TIME}\. Not through now\.")
     )
     expect(alarm).not_to_contain_text("Stop.")
-    # # An alarm that is over does not flash and is not lit.
+    # An alarm that is over does not flash and is not lit.
     unlit = "getComputedStyle(document.querySelector('.alarms-top .alarms-state')).backgroundColor"
     assert page.evaluate(unlit) == "rgba(0, 0, 0, 0)"
     headline(page, "▲ ON PATH", "caution")

@@ -15,7 +15,7 @@ from playwright.sync_api import ConsoleMessage, Page, Request, expect
 
 CHECKOUT = Path(__file__).resolve().parents[2]
 SCREENSHOTS = CHECKOUT / ".screenshots"
-# # Timeout of each wait on a busy machine.
+# Timeout of each wait on a busy machine.
 PATIENCE_MS = 30_000
 
 
@@ -97,8 +97,8 @@ class WatchedPage:
             self._complain(message.text)
 
     def _complain(self, text: str) -> None:
-        # # viser's client tries to evaluate a string, which the scene's policy rejects (the page's policy
-        # # does not allow wasm), and continues without it.
+        # viser's client tries to evaluate a string, which the scene's policy rejects (the page's policy
+        # does not allow wasm), and continues without it.
         if not ("Evaluating a string as JavaScript" in text and "wasm-unsafe-eval" in text):
             self.complaints.append(text)
 

@@ -16,10 +16,10 @@ ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("tracker", "server", "tests", "web/src")
 SMALL_LINES = 40
 MAX_PARAMETERS = 8
-# # Sizes above which a file needs a reason; none is forbidden.
+# Sizes above which a file needs a reason; none is forbidden.
 LONG_FILE_LINES = 400
 LONG_FUNCTION_LINES = 60
-# # This many equal lines in two places are a copy.
+# This many equal lines in two places are a copy.
 COPIED_LINES = 6
 IGNORED = {"schema.d.ts"}
 

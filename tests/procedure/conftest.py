@@ -113,7 +113,7 @@ def _prepared(config: str) -> Preparation:
 @contextmanager
 def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> Iterator[Server]:
     """All parts of a server with this home folder."""
-    # # Few images per capture, to save half a second per landmark.
+    # Few images per capture, to save half a second per landmark.
     few = {"rehearsal": {"provides_setup": False}, "registration": {"capture_images": 4, "capture_s": 0.06}}
     config = Config.model_validate({**few, **(settings or {})})
     hub, adopted, tracked_from_s = LiveHub(), list[CaseSetup](), [-math.inf]

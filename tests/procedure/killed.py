@@ -134,7 +134,7 @@ class Theatre:
 
     def _process(self) -> dict[str, Any]:
         live: dict[str, Any] = self._server.ask("GET", "/api/live", 200)
-        # # A message from before the kill does not count.
+        # A message from before the kill does not count.
         is_another = family_of(self._server.process.pid).tracking is not None and live["snapshot"] is not None
         return {**live["process"], "state": live["process"]["state"] if is_another else "none"}
 

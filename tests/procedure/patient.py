@@ -30,7 +30,7 @@ USED = list(LANDMARKS)[:4]
 SPARE = list(LANDMARKS)[4]
 CAMERA_FROM_VERTEBRA: Rigid[Camera, Vertebra] = Rigid.from_vector([1.3, 0.2, -0.1], [12.0, -20.0, 460.0])
 SIDES: tuple[tuple[Side, float], ...] = (("left", 1.0), ("right", -1.0))
-# # Facing the camera, with its tool below it.
+# Facing the camera, with its tool below it.
 FACING = rotation_from_vector([np.pi, 0.0, 0.0])
 
 

@@ -17,15 +17,15 @@ import yaml
 from websockets.sync.client import connect
 
 CHECKOUT = Path(__file__).resolve().parents[2]
-# # Timeout of each wait on a busy machine.
+# Timeout of each wait on a busy machine.
 PATIENCE_S = 600.0
 LOOK_AGAIN_S = 0.02
-# # A busy machine delays images; other tests check that alarm. A screen is armed once and stays armed.
+# A busy machine delays images; other tests check that alarm. A screen is armed once and stays armed.
 BUSY_MACHINE: Mapping[str, object] = {
     "limits": {"pose_stale_after_ms": 10_000, "video_stale_after_ms": 10_000, "scene_stale_after_ms": 10_000},
     "alarms": {"screen_lost_after_s": 600},
 }
-# # Access rules are tested elsewhere.
+# Access rules are tested elsewhere.
 OPEN_DOOR: Mapping[str, object] = {"security": {"sign_in": "off"}}
 
 

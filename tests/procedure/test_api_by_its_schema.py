@@ -20,7 +20,7 @@ from schemathesis.specs.openapi.checks import (
 from tests.procedure.conftest import serving
 from tests.served import served
 
-# # A rejection of schema-valid input is correct: what a case allows is not part of the schema.
+# A rejection of schema-valid input is correct: what a case allows is not part of the schema.
 CHECKS = [
     not_a_server_error,
     status_code_conformance,
@@ -28,7 +28,7 @@ CHECKS = [
     response_schema_conformance,
 ]
 TRIES = 12
-# # An endless stream.
+# An endless stream.
 ENDLESS = "/video/{camera}.mjpg"
 FILES = ("application/zip", "model/stl", "model/obj", "model/ply")
 

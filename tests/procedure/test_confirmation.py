@@ -92,14 +92,14 @@ def test_a_second_word_is_no_second_document_and_holds_for_one_run(
     opened = server.store.get_open_case()
     assert opened is not None
     assert len(server.store.history(opened.id, DocumentKind.CONFIRMATION, "going on with L3")) == 1
-    # # Opened within the same run, it stays confirmed; the next start asks again.
+    # Opened within the same run, it stays confirmed; the next start asks again.
     server.ask("POST", f"/api/cases/{opened.id}/close", 200)
     server.ask("POST", f"/api/cases/{opened.id}/open", 200)
     assert withheld(server) is None
     turns.close()
     again = turns.enter_context(serving(tmp_path, REFERENCE))
     assert withheld(again) is AbsentReason.NOT_CONFIRMED
-    # # Closing and opening the case does not replace a confirmation either.
+    # Closing and opening the case does not replace a confirmation either.
     again.ask("POST", f"/api/cases/{opened.id}/close", 200)
     assert requested(again) is None
     again.ask("POST", f"/api/cases/{opened.id}/open", 200)
@@ -137,7 +137,7 @@ def test_a_new_tracking_process_did_not_watch_the_camera_before(server: Server) 
     assert needed["because"] == "tracking_started"
     assert needed["reference"] is None
     assert states(server)["navigate"] == "missing"
-    # # A registration adopted before is not used for navigation, whatever is published meanwhile.
+    # A registration adopted before is not used for navigation, whatever is published meanwhile.
     before = server.adopted[-1]
     assert before.withheld is None
     assert before.tracked_from(server.tracked_from_s[-1]).withheld is AbsentReason.NOT_CONFIRMED

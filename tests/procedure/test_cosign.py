@@ -72,7 +72,7 @@ def test_required_signatures_withhold_navigation_until_a_second_person_signed(
     server = guarded(REQUIRED)
     ready(server)
     patient = Patient(server=server)
-    # # The plan lacks a signature; registration is allowed nevertheless.
+    # The plan lacks a signature; registration is allowed nevertheless.
     assert "not signed by a second person" in step(server, "plan")["missing_cosignature"]["message"]
     patient.register()
     patient.check()
@@ -106,7 +106,7 @@ def test_a_changed_plan_is_unsigned_at_once(guarded: Callable[..., Server]) -> N
     change_plan(server, case_id)
     now = signable(server, "plan")
     assert (now["is_cosigned"], now["signatures"], now["was_signed"]) == (False, [], True)
-    # # The reviewed version is not the one that would be signed.
+    # The reviewed version is not the one that would be signed.
     rejected = sign(server, "plan", "s2", 409, document_id=looked_at)
     assert rejected["code"] == "SIGNED_VERSION_OLD"
     assert "version 2" in rejected["message"]
@@ -228,7 +228,7 @@ def test_a_signature_states_who_invited_the_signer_and_whether_that_was_the_auth
         "from": None,
         "to": "signed",
     }
-    # # It counts: often the person who invites also plans. If somebody else made it, no note is added.
+    # It counts: often the person who invites also plans. If somebody else made it, no note is added.
     assert signable(server, "plan")["is_cosigned"]
     change_plan(server, case_id, made_by="abe")
     (reported,) = sign(server, "plan", "s3")["signable"][0]["signatures"]

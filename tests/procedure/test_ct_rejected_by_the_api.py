@@ -122,7 +122,7 @@ def test_a_surface_from_the_ct_and_one_in_metres(server: Server) -> None:
     )
     wrong = {**requested, "region": {**region, "high_lps_mm": [-40, 0, 0]}}
     assert server.ask("POST", "/api/surface/from-ct", 409, json=wrong)["code"] == "REGION_INVALID"
-    # # Another CT: documents based on the old one are out of date.
+    # Another CT: documents based on the old one are out of date.
     sent(server, dicom_zip())
     assert not server.ask("GET", "/api/surface", 200)["heading"]["current"]
     in_metres = server.ask("POST", "/api/surface", 202, content=stl(0.05), params={**BY, "unit": "m"})

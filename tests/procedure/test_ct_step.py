@@ -137,7 +137,7 @@ def test_the_ct_is_there_again_after_a_restart(server: Server, restarted: Callab
     again = restarted()
     assert again.ask("GET", "/api/ct", 200) == before
     assert again.door.get("/api/ct/slices/coronal.png").content == shown_before.content
-    # # An upload that waits for a choice does not survive a restart.
+    # An upload that waits for a choice does not survive a restart.
     again.ask("POST", f"/api/ct/uploads/{begun['upload_id']}/series/1.2.3.9", 404)
     assert leftovers(again) == []
 

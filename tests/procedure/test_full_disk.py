@@ -51,7 +51,7 @@ def test_a_full_disk_is_an_alarm_and_navigation_goes_on(small_disk: Path) -> Non
         assert "MB are free" in rejected["message"]
         assert rejected["context"]["free_mb"] < 1.0
         assert rejected["remedy"].startswith("Free disk space")
-        # # A hold request is shown in theatre although it cannot be stored, and its requester is informed.
+        # A hold request is shown in theatre although it cannot be stored, and its requester is informed.
         assert server.ask("POST", "/api/alarms/hold", 507, json=HOLD)["code"] == "STORE_FULL"
         reported = alarms(server)
         assert {"HOLD_REQUESTED", "RECORDING_STOPPED"} <= reported.keys()

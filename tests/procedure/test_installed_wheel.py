@@ -22,7 +22,7 @@ from tests.procedure.real_server import PATIENCE_S, RealServer, port_of
 
 ROOT = Path(__file__).parents[2]
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-# # Files of an unrelated program in the folder in which Coaxial is started.
+# Files of an unrelated program in the folder in which Coaxial is started.
 DECOYS = ("server.py", "tracker.py", "numpy.py", "yaml.py", "numba.py")
 CODE_PLACES = """
 from server.installation import prepare_process
@@ -97,7 +97,7 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Built:
         "docs/zensical.toml",
     ]
     subprocess.run(guide, cwd=folder, check=True, capture_output=True)
-    # # Neither ignored folders nor stray files may be included.
+    # Neither ignored folders nor stray files may be included.
     (folder / "recording.mcap").touch()
     (folder / ".coaxial").mkdir()
     (folder / ".coaxial/coaxial.sqlite3").touch()

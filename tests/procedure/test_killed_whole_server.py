@@ -20,6 +20,6 @@ def test_killed_in_a_procedure_it_comes_back_into_case_and_step_and_waits_for_a_
         theatre.end()
     assert {target: one.broken for target, one in reported.items()} == {target: [] for target in TARGETS}
     assert sum(one.confirmed for one in reported.values()) > 0
-    # # A registration relative to the patient marker continues if only tracking restarted.
+    # A registration relative to the patient marker continues if only tracking restarted.
     assert reported["web"].stopped_by == reported["both"].stopped_by == "server_started"
     assert reported["tracking"].stopped_by == "-"

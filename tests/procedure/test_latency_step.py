@@ -23,10 +23,10 @@ MEASUREMENT = "/api/latency/measurement"
 CONCLUSION = f"{MEASUREMENT}/conclusion"
 RATE_HZ = 25.0
 PERIOD_MS = 1000.0 / RATE_HZ
-# # Offset of the server's clock from the page's.
+# Offset of the server's clock from the page's.
 BEHIND_MS = 9000.0
 CODES = 20
-# # Time from painting a code to the image that shows it.
+# Time from painting a code to the image that shows it.
 LATENCY_MS = 70.0
 MEASURED = MeasuredLatency(p99_ms=LATENCY_MS, size_wh_px=(1280, 720), image_period_ms=PERIOD_MS)
 SCREEN = {"width_px": 1280, "height_px": 800, "period_ms": 16.7}
@@ -108,7 +108,7 @@ def test_a_latency_is_measured_stored_and_sent_to_all_clients(server: Server) ->
     )
     assert (result["made_by"], result["screen"]) == ("ito", SCREEN)
     assert server.ask("GET", "/api/latency", 200) == {"measuring": False, "result": result, "applies": True}
-    # # Included in each message from the next image on, also without a case.
+    # Included in each message from the next image on, also without a case.
     assert server.adopted[-1].latency == MEASURED
 
 
@@ -188,7 +188,7 @@ def test_a_closed_case_ends_it(server: Server, end: str) -> None:
     server.ask("POST", f"/api/cases/{case['id']}/open", 200)
     begun(server)
     said = film(server, [0, 1])
-    # # Changes of the case itself end nothing.
+    # Changes of the case itself end nothing.
     server.ask("PATCH", f"/api/cases/{case['id']}", 200, json={"name": "L4"})
     film(server, [2])
     if end == "close":

@@ -160,5 +160,5 @@ def test_gates_are_those_of_the_settings(server: Server) -> None:
     assert reported["calibration"] == {"max_rms_px": 1.0, "max_error_mm": 0.5}
     assert reported["collecting"] == {"min_views": 12, "min_coverage_ratio": 0.75, "min_tilt_deg": 20.0}
     assert reported["tracker"]["accept_score_ratio"] == 0.7
-    # # As in the test's settings, not the default.
+    # As in the test's settings, not the default.
     assert reported["registration"]["capture_images"] == 4

@@ -44,7 +44,7 @@ def test_a_case_has_its_ct_with_the_id_that_navigation_states(server: Server) ->
     # NIfTI stores its affine in single precision.
     np.testing.assert_allclose(part.sample_hu(ends), scanned().sample_hu(ends), atol=0.01)
 
-    # # A browser that has it gets no voxels again, in either encoding; another CT is another answer.
+    # A browser that has it gets no voxels again, in either encoding; another CT is another answer.
     for encoding in ("gzip", "identity"):
         first = server.door.get(DOOR, headers={"Accept-Encoding": encoding})
         known = {"Accept-Encoding": encoding, "If-None-Match": first.headers["ETag"]}

@@ -110,7 +110,7 @@ def test_needles_that_are_marked_register_and_say_what_they_cannot_see(server: S
     assert document["content"]["method"] == "needles"
     assert numbers["needles"] == 3
     assert numbers["worst_offset_px"] < 1.0
-    # # Three needles in one image hardly determine their distance; the stated error includes that.
+    # Three needles in one image hardly determine their distance; the stated error includes that.
     assert numbers["depth_sd_mm"] > 2.0 * numbers["across_sd_mm"]
     assert numbers["tre_at_entry_mm"] > numbers["across_sd_mm"]
     found = registered(server)
@@ -147,7 +147,7 @@ def test_the_slice_is_laid_over_the_picture_and_taken(server: Server) -> None:
         "POST", f"{NEEDLES}/overlay", 200, json={"view": VIEW, "overlay": overlay, "marked": needles}
     )
     assert max(one["beside_px"] for one in laid["needles"]) < 2.0
-    # # A page that draws the slice there shows each line's ends where the lens images them.
+    # A page that draws the slice there shows each line's ends where the lens images them.
     assert (laid["slice"]["width_px"], laid["slice"]["height_px"]) == (100, 100)
     for line in reference().lines:
         there = np.column_stack([line.ends_px, np.ones(2)]) @ np.array(laid["slice"]["image_from_slice"]).T
@@ -158,7 +158,7 @@ def test_the_slice_is_laid_over_the_picture_and_taken(server: Server) -> None:
     assert answer.headers["content-type"] == "image/jpeg"
     drawn: Any = cv2.imdecode(np.frombuffer(answer.content, np.uint8), cv2.IMREAD_COLOR)
     assert drawn.shape == IMAGE.shape
-    # # White bone is on the patient's left, black air on the right, both at half opacity.
+    # White bone is on the patient's left, black air on the right, both at half opacity.
     (left, right) = px(np.array([30.0, 30.0, 0.0]), np.array([-30.0, 30.0, 0.0]))
     assert int(drawn[int(left[1]), int(left[0])].mean()) == pytest.approx((90 + 255) / 2, abs=4)
     assert int(drawn[int(right[1]), int(right[0])].mean()) == pytest.approx(90 / 2, abs=4)
@@ -194,7 +194,7 @@ def test_needles_that_the_software_finds_are_proposed_and_kept_when_a_person_has
     assert all(abs(one["offset_mm"]) < 3.0 for one in best["laid"]["needles"])
     for found, true in zip(best["marked"], marked(NEEDLE_LANDMARKS), strict=True):
         assert np.linalg.norm(np.subtract(found["entry_px"], true["entry_px"])) < 6.0
-    # # Nobody has reviewed it yet.
+    # Nobody has reviewed it yet.
     assert (
         server.ask("POST", f"{NEEDLES}/conclusion", 422, json={**requested, **BY})["code"]
         == "REQUEST_INVALID"
@@ -205,7 +205,7 @@ def test_needles_that_the_software_finds_are_proposed_and_kept_when_a_person_has
     picked = {**requested, "marked": best["marked"], "picked": True, **BY}
     document = server.ask("POST", f"{NEEDLES}/conclusion", 201, json=picked)
     assert document["content"]["made_from"]["way"] == "picked"
-    # # With the proposal's uncertainty, although a person's mark is more accurate.
+    # With the proposal's uncertainty, although a person's mark is more accurate.
     proposed, stored = best["laid"]["numbers"], document["content"]["numbers"]
     assert stored["across_sd_mm"] == pytest.approx(proposed["across_sd_mm"], rel=0.05)
     assert stored["tilt_sd_deg"] == pytest.approx(proposed["tilt_sd_deg"], rel=0.05)

@@ -36,7 +36,7 @@ def test_a_nudge_moves_the_vertebra_and_undone_it_is_as_it_was(server: Server) -
     way = moved.anchor_from_vertebra.translation_mm - made.anchor_from_vertebra.translation_mm
     np.testing.assert_allclose(way, made.anchor_from_vertebra.rotation[:, 2], atol=1e-9)
     assert np.trace(moved.covariance) > np.trace(made.covariance)
-    # # It is another registration than the checked one.
+    # It is another registration than the checked one.
     assert withheld(server) is AbsentReason.NOT_CHECKED
     assert states(server)["check"] == "missing"
 

@@ -19,7 +19,7 @@ def test_landmarks_and_a_channel_go_to_slicer_and_come_back(server: Server) -> N
     server.ask("POST", "/api/plan/vertebrae", 201, json={**BY, "name": "L3"})
     assert server.ask("GET", "/api/plan/markups", 409)["code"] == "PLAN_EMPTY"
 
-    # # In Slicer's frame, RAS: x and y with the opposite sign.
+    # In Slicer's frame, RAS: x and y with the opposite sign.
     points = [{"label": "facet", "position": [19.5, -12.5, 9.0]}, {"label": "tip", "position": [0, -30, -5]}]
     line = [{"position": [-15, -14, 2]}, {"position": [-8, 30, 3]}]
     content = json.dumps(
@@ -66,7 +66,7 @@ def test_landmarks_and_a_channel_go_to_slicer_and_come_back(server: Server) -> N
         assert server.ask("POST", address, 422, **given)["code"] == code
     assert server.ask("GET", "/api/plan", 200)["heading"] == again["heading"]
 
-    # # A plan of another CT is not exported: its coordinates are not those of the case's CT.
+    # A plan of another CT is not exported: its coordinates are not those of the case's CT.
     sent(server, dicom_zip())
     assert server.ask("GET", "/api/plan/markups", 409)["code"] == "DOCUMENT_OUT_OF_DATE"
 

@@ -45,7 +45,7 @@ def test_from_an_empty_case_to_a_channel_to_be_drilled(server: Server) -> None:
     assert plan["heading"]["current"]
     assert plan["heading"]["version"] == 5
 
-    # # The proposed reference slice of the vertebra, with its three lines and the channels.
+    # The proposed reference slice of the vertebra, with its three lines and the channels.
     proposal = server.ask("GET", "/api/plan/proposals/slice?vertebra=L3", 200)
     isthmus = scanned().index_from_lps(phantom().truth("left").isthmus_lps_mm)
     assert proposal["slice_index"] == pytest.approx(isthmus[2], abs=1.0)
@@ -57,7 +57,7 @@ def test_from_an_empty_case_to_a_channel_to_be_drilled(server: Server) -> None:
     coloured = (drawn.max(axis=2) - drawn.min(axis=2)) > 60
     assert 0.002 < coloured.mean() < 0.1
 
-    # # A screw from the catalogue, with all of its values.
+    # A screw from the catalogue, with all of its values.
     size = server.ask("GET", "/api/plan/proposals/screw?vertebra=L3&side=left", 200)
     assert 4.0 <= size["diameter_mm"] <= 8.0
     with_screw = server.ask("PUT", "/api/plan/vertebrae/L3/channels/left/screw", 200, json=BY)
@@ -68,7 +68,7 @@ def test_from_an_empty_case_to_a_channel_to_be_drilled(server: Server) -> None:
     assert screw["tolerance"]["max_offset_mm"] > 0.4
     assert screw["bone"]["mean_hu"] > 100
 
-    # # The active channel reaches the tracking process and survives other changes.
+    # The active channel reaches the tracking process and survives other changes.
     assert server.adopted == [] or server.adopted[-1].channel is None
     now = {**BY, "vertebra": "L3", "side": "left"}
     server.ask("POST", "/api/plan/active-channel", 200, json=now)
@@ -86,7 +86,7 @@ def test_from_an_empty_case_to_a_channel_to_be_drilled(server: Server) -> None:
     channels = [case.channel for case in server.adopted[adopted_before:]]
     assert None not in (channels or [None]), "navigation has its channel at every moment of the change"
 
-    # # The corrected value is used, the measured one is kept; the channel changed and must be chosen again.
+    # The corrected value is used, the measured one is kept; the channel changed and must be chosen again.
     corrected = {**BY, "corrected": {"width_mm": 7.0, "transverse_deg": 12.0}}
     after = server.ask("PUT", "/api/plan/vertebrae/L3/pedicles/left/corrections", 200, json=corrected)
     record = next(
@@ -212,7 +212,7 @@ def test_a_plan_is_exported_and_imported_with_its_author(server: Server) -> None
     server.ask("PUT", "/api/plan/vertebrae/L3/channels/left/screw", 200, json=BY)
     file = server.ask("GET", "/api/plan/export", 200)
     assert (file["made_by"], file["version"]) == ("M. Ito", plan["heading"]["version"] + 1)
-    # # Values in a file that follow from others are recomputed, not trusted.
+    # Values in a file that follow from others are recomputed, not trusted.
     file["plan"]["vertebrae"][0]["channels"][1]["screws"][0:0] = []
     lied = json.loads(json.dumps(file))
     for planned_channel in lied["plan"]["vertebrae"][0]["channels"]:

@@ -52,7 +52,7 @@ def test_from_an_open_case_to_numbers_against_the_channel(server: Server) -> Non
         assert reported["capture"]["state"] == "taken"
         assert sum(touched["touched"] for touched in reported["landmarks"]) == count
         if count == 3:
-            # # With three, any may be mistaken: the resulting error is stated and exceeds its limit.
+            # With three, any may be mistaken: the resulting error is stated and exceeds its limit.
             assert [one["code"] for one in reported["missing"]] == ["POINTS_TARGET_UNCERTAIN"]
             assert "POINTS_OUTLIER_NOT_EXCLUDED" in [one["code"] for one in reported["remarks"]]
     assert reported["missing"] == []
@@ -75,7 +75,7 @@ def test_from_an_open_case_to_numbers_against_the_channel(server: Server) -> Non
     off_mm = np.linalg.norm(entry_in_camera - CAMERA_FROM_VERTEBRA.move_points(ENTRY))
     assert 0.0 < off_mm < 0.3
 
-    # # No numbers relative to the channel before the check.
+    # No numbers relative to the channel before the check.
     on_entry = drill_at(CAMERA_FROM_VERTEBRA.move_points(ENTRY))
     assert patient.show(on_entry).deviations["drill"] == Absent(reason=AbsentReason.NOT_CHECKED)
     assert states(server)["check"] == "missing"
@@ -105,7 +105,7 @@ def test_a_mistaken_landmark_is_rejected_with_its_numbers_and_may_be_left_out(se
     assert rejected["code"] == "POINTS_FIT_TOO_LARGE"
     assert rejected["context"]["allowed_mm"] == 1.5
     reported = server.ask("GET", POINTS, 200)["missing"]
-    # # The stated error includes the part of the 8 mm that the fit has absorbed.
+    # The stated error includes the part of the 8 mm that the fit has absorbed.
     assert [one["code"] for one in reported] == [
         "POINTS_FIT_TOO_LARGE",
         "POINT_STRAYS",
@@ -119,7 +119,7 @@ def test_a_mistaken_landmark_is_rejected_with_its_numbers_and_may_be_left_out(se
     left_out = next(one for one in reported["landmarks"] if one["name"] == SPARE)
     assert not left_out["used"]
     assert left_out["residual_mm"] == pytest.approx(8.0, abs=0.7)
-    # # Captured again at its place, it may be used again.
+    # Captured again at its place, it may be used again.
     patient.touch(SPARE)
     reported = server.ask("PUT", f"{POINTS}/use", 200, json={"landmark": SPARE, "used": True})
     assert reported["fre_rms_mm"] < 0.2
@@ -275,11 +275,11 @@ def test_beside_a_reference_patient_and_camera_may_move_and_the_server_start_aga
 
     turns.close()
     again = turns.enter_context(serving(tmp_path, REFERENCE))
-    # # A person must first confirm that it is the same patient and nothing has moved.
+    # A person must first confirm that it is the same patient and nothing has moved.
     assert withheld(again) is AbsentReason.NOT_CONFIRMED
     assert registered(again) is not None
     turns.close()
-    # # Without its marker there is no pose.
+    # Without its marker there is no pose.
     without = turns.enter_context(serving(tmp_path))
     assert registered(without) is None
     assert states(without)["register"] == "out_of_date"
@@ -303,7 +303,7 @@ def test_a_move_of_the_reference_asks_for_another_check(tmp_path: Path, turns: E
     server.until(lambda: withheld(server) is AbsentReason.NOT_CHECKED)
     patient.check()
     assert withheld(server) is None
-    # # Movement before this check no longer counts.
+    # Movement before this check no longer counts.
     again_from_s = server.adopted[-1].registered_from_s
     assert again_from_s is not None
     assert again_from_s > checked_from_s

@@ -89,7 +89,7 @@ def test_before_a_registration_the_planned_landmarks_are_judged(server: Server) 
     # 7.5 mm less 6.5 mm, on each side.
     assert check["found"]["tolerance_mm"] == pytest.approx(0.5, abs=0.02)
     assert check["found"]["suffices"] is False
-    # # Landmarks localised to 0.7 mm along each axis.
+    # Landmarks localised to 0.7 mm along each axis.
     assert 0.9 < check["found"]["error_95_mm"] < 3.0
     more = [one for one in check["remedies"] if one["kind"] == "more_landmarks"]
     assert [one["landmarks"] for one in more] == [7, 9, 13]
@@ -174,14 +174,14 @@ def test_a_tip_that_was_calibrated_since_the_registration_cancels_nothing(server
     tool = store.latest(case_id, DocumentKind.TOOL, "drill")
     assert registered is not None
     assert tool is not None
-    # # As with a tool of the settings that the case had not calibrated.
+    # As with a tool of the settings that the case had not calibrated.
     depends_on = [one for one in registered.depends_on if one != tool.id]
     assert len(depends_on) < len(registered.depends_on)
     store.put(
         case_id, DocumentKind.REGISTRATION, "L3", registered.content, made_by="test", depends_on=depends_on
     )
     assert checked(server)["found"]["error_95_mm"] > before_mm
-    # # Navigation agrees.
+    # Navigation agrees.
     adopted = server.adopted[-1].registration
     assert adopted is not None
     assert adopted.tool == ""

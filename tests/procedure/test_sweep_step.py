@@ -68,7 +68,7 @@ def test_a_sweep_makes_the_next_version_of_the_registration(server: Server) -> N
     assert server.ask("POST", f"{SWEEP}/fit", 409)["code"] == "SURFACE_SWEEP_SMALL"
     reported = swept(server, patient, on_bone(corners_from_behind(), 40))
     assert reported["reach_mm"][0] > 20.0
-    # # A lifted tip is ignored.
+    # A lifted tip is ignored.
     server.ask("PUT", SWEEP, 200, json={"taking": False})
     patient.show(drill_at(np.array([0.0, 0.0, 300.0])))
     fit = server.ask("POST", f"{SWEEP}/fit", 200)
@@ -85,7 +85,7 @@ def test_a_sweep_makes_the_next_version_of_the_registration(server: Server) -> N
     assert withheld(server) is AbsentReason.NOT_CHECKED
     patient.check()
     assert withheld(server) is None
-    # # Another bone surface ends it.
+    # Another bone surface ends it.
     with_bone(server, case_id)
     assert states(server)["register"] == "out_of_date"
 
@@ -96,7 +96,7 @@ def test_a_sweep_that_was_overtaken_or_slides_is_not_kept(server: Server) -> Non
     patient = Patient(server=server)
     patient.register()
     server.ask("POST", SWEEP, 201, json=DRILL)
-    # # One small area of bone determines almost nothing.
+    # One small area of bone determines almost nothing.
     corners = corners_from_behind()
     near = np.argsort(np.linalg.norm(corners.mean(axis=1) - corners[0].mean(axis=0), axis=1))[:6]
     swept(server, patient, on_bone(corners[near], 14))

@@ -13,7 +13,7 @@ from tests.procedure.test_camera_step import open_a_case
 from tracker.rehearsal import Scene, Theatre, TheatreSettings
 
 SHAPE = {"radius_mm": 2.0, "length_mm": 118.0}
-# # Everything about a theatre follows from its settings.
+# Everything about a theatre follows from its settings.
 theatre_from_config = cache(Theatre)
 
 
@@ -77,7 +77,7 @@ def test_tip_and_axis_from_the_live_images_are_the_true_ones(server: Server) -> 
     stored = server.ask("POST", "/api/tools/collection/conclusion", 201, json={"made_by": "ito", **SHAPE})
     tip = stored["content"]["pivot"]["tip_in_marker_mm"]
     assert np.linalg.norm(np.array(tip) - truth.translation_mm) < 0.5
-    # # The axis is not known yet.
+    # The axis is not known yet.
     assert server.adopted[-1].tools == {}
 
     reported = gather(server, Scene.SPIN, "spin")

@@ -22,7 +22,7 @@ def test_the_surface_of_the_case_becomes_the_wall(server: Server) -> None:
     drill_reference = server.adopted[-1].drill_reference
     assert drill_reference is not None
     assert drill_reference.wall.against == "bone"
-    # # The probability of a breach includes this surface's uncertainty, not a default.
+    # The probability of a breach includes this surface's uncertainty, not a default.
     surface = server.ask("GET", "/api/surface", 200)["content"]
     assert drill_reference.wall_sd_mm == surface["sd_mm"]
     assert 0.05 < surface["sd_mm"] < 1.0

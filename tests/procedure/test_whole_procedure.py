@@ -19,9 +19,9 @@ SETTINGS = {
     "reference": {"marker": "reference"},
 }
 CONFIG = Config.model_validate(SETTINGS)
-# # Of the 13 mm drilled before the drill leaves the channel; the number of images depends on the machine.
+# Of the 13 mm drilled before the drill leaves the channel; the number of images depends on the machine.
 MIN_WATCHED_MM = 6.0
-# # Tolerance in standard deviations; the error of a registration is common to all images.
+# Tolerance in standard deviations; the error of a registration is common to all images.
 WITHIN_SD = 3.0
 
 
@@ -65,7 +65,7 @@ def test_from_an_empty_case_to_drilling(tmp_path: Path) -> None:
             breach = breach_in(heard)
             acknowledged(server, heard, breach)
 
-    # # Restarted in the same folder: the case is open and registered, and nothing is lost.
+    # Restarted in the same folder: the case is open and registered, and nothing is lost.
     with real_server(tmp_path, SETTINGS) as server:
         goes_on_once_confirmed(Team(server=server, config=CONFIG))
         lines = server.ask("GET", "/api/alarms/log", 200)["lines"]

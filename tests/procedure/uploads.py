@@ -43,7 +43,7 @@ def scanned() -> Volume:
     grid = ScanGrid.around(
         (0.0, -6.0, 0.0), size_mm=(72.0, 96.0, 40.0), spacing_mm=(0.8, 0.8, 1.0), blur_mm=0.3, noise_hu=15.0
     )
-    # # Few samples per voxel and a blur instead, to save time.
+    # Few samples per voxel and a blur instead, to save time.
     return scan(phantom().hu_at, dataclasses.replace(grid, samples=(2, 2, 2)))
 
 

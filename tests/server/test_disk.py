@@ -27,7 +27,7 @@ def test_a_ct_without_room_is_rejected_before_its_file_is_made(
 
 def test_the_room_of_a_ct_is_its_own_before_the_first_voxel(tmp_path: Path) -> None:
     with voxels_to_fill(VOLUME, tmp_path / "voxels.npy") as voxels:
-        # # A sparse file would end with a signal if the disk is full when it is written.
+        # A sparse file would end with a signal if the disk is full when it is written.
         (partial,) = tmp_path.iterdir()
         assert partial.stat().st_blocks * 512 >= 2 * 64**3
         voxels.hu[:] = 7

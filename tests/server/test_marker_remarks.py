@@ -25,9 +25,9 @@ def marker_of(*strokes: tuple[tuple[int, int], tuple[int, int]]) -> MarkerModel:
 @pytest.mark.parametrize(
     ("marker", "codes"),
     [
-        # # An arrow with its head slightly off-centre: nearly mirror-symmetric, without rotational symmetry.
+        # An arrow with its head slightly off-centre: nearly mirror-symmetric, without rotational symmetry.
         (marker_of(((45, 25), (54, 75)), ((28, 25), (77, 40))), ["MARKER_NEARLY_MIRRORED"]),
-        # # Two opposite corners of nearly equal size: also its own mirror image about a diagonal.
+        # Two opposite corners of nearly equal size: also its own mirror image about a diagonal.
         (
             marker_of(((25, 25), (50, 45)), ((52, 55), (74, 74))),
             ["MARKER_NEARLY_SYMMETRIC", "MARKER_NEARLY_MIRRORED"],

@@ -152,7 +152,7 @@ def test_how_long_a_camera_reads_its_rows_reaches_the_tracker_and_not_the_rehear
         assert preparation.readout_s == readout_s
         assert preparation.setup is not None
         assert preparation.tracker_for(preparation.setup).readout_s == readout_s
-        # # The case's calibration has precedence over the settings, also for a global shutter.
+        # The case's calibration has precedence over the settings, also for a global shutter.
         for stored_ms in (21.0, 0.0):
             expected_s = 0.0 if source == "rehearsal" else stored_ms / 1000.0
             assert preparation.with_case(CaseSetup(readout_ms=stored_ms)).readout_s == expected_s
@@ -190,7 +190,7 @@ def test_a_calibration_is_scaled_only_if_allowed(tmp_path: Path) -> None:
     assert setup.camera_calibrated
     assert setup.camera.size_wh_px == (128, 96)
     assert setup.camera.matrix[0, 0] == 1000.0
-    # # Another aspect ratio is never possible, and the remedy does not suggest it.
+    # Another aspect ratio is never possible, and the remedy does not suggest it.
     with pytest.raises(CalibrationError) as caught:
         stated.setup_for((128, 72))
     assert caught.value.code == "CAMERA_SIZE_MISMATCH"

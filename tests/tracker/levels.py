@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 # `make benchmark` measures with other seeds.
 SEED = 500
-# # No error is ten times the stated one: the wrong planar solution would be off by hundreds of times.
+# No error is ten times the stated one: the wrong planar solution would be off by hundreds of times.
 WORST_SD2 = 100.0
 
 

@@ -19,7 +19,7 @@ RAYS = 6  # a side, in each pixel
 QUIET_RATIO = 0.2
 SIDE_MM = 25.0
 
-# # A 3x3 code in the middle half of the square; white is 1. It has no rotational symmetry.
+# A 3x3 code in the middle half of the square; white is 1. It has no rotational symmetry.
 CODE = ((1, 1, 0), (0, 0, 1), (1, 0, 0))
 OTHER = ((0, 1, 1), (1, 0, 0), (1, 0, 1))
 Fields = tuple[tuple[int, ...], ...]

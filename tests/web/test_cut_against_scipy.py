@@ -17,10 +17,10 @@ from tracker.geometry import rotation_from_vector
 from tracker.plan import Volume
 
 CHECKOUT = Path(__file__).resolve().parents[2]
-# # The machine's Node, or the one in the packages.
+# The machine's Node, or the one in the packages.
 NODE = ["sh", ".make/with-node", "web", "node"]
 BONE = {"window_hu": 1800.0, "level_hu": 400.0}
-# # Node runs the modules with their types stripped. The plane is given, or the page's.
+# Node runs the modules with their types stripped. The plane is given, or the page's.
 MODULES = ["cuts/cut", "cuts/planes", "operator/plan/slices/vectors"]
 PROGRAM = """
 const fs = require("node:fs");
@@ -130,7 +130,7 @@ def test_an_anatomical_cut_is_that_of_scipy_through_the_tip(
     tmp_path: Path, name: str, right: npt.NDArray[np.float64], down: npt.NDArray[np.float64]
 ) -> None:
     sent = NavigationCt("ct", oblique_volume())
-    # # Off the middle of the volume, between voxels.
+    # Off the middle of the volume, between voxels.
     middle = (np.array(sent.volume.shape_ijk) - 1.0) / 2.0
     tip = sent.volume.lps_from_index(middle + np.array([1.3, -0.7, 0.4]))
     cut = {
@@ -138,7 +138,7 @@ def test_an_anatomical_cut_is_that_of_scipy_through_the_tip(
         "pose": {"tip": tip.tolist(), "axis": [-0.6, -0.8, 0.0]},
         "field": {"widthMm": WIDTH_PX * PIXEL_MM, "heightMm": HEIGHT_PX * PIXEL_MM},
     }
-    # # The tip is in the middle of the picture.
+    # The tip is in the middle of the picture.
     corner = tip - PIXEL_MM * ((WIDTH_PX - 1) / 2.0 * right + (HEIGHT_PX - 1) / 2.0 * down)
     lps_from_px = np.column_stack([right * PIXEL_MM, down * PIXEL_MM, corner])
     hold_against_scipy(drawn(tmp_path, sent, {"cut": cut}), sent.volume, lps_from_px)

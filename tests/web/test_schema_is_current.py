@@ -12,7 +12,7 @@ from typing import Any
 
 from tests.procedure.conftest import serving
 
-# # A file to keep; its format version is part of it.
+# A file to keep; its format version is part of it.
 FREE_FORM = {"/api/plan/export", "/api/plan/markups"}
 OPENAPI_FILE = Path(__file__).resolve().parents[2] / "web" / "openapi.json"
 

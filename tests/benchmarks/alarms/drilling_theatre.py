@@ -22,7 +22,7 @@ from tracker.registration import AnchoredTo, Registration
 from tracker.registration.points import PointPairs, register_points
 from tracker.rehearsal import Theatre
 
-# # Between these times the breaching drill moves from well inside to through the wall.
+# Between these times the breaching drill moves from well inside to through the wall.
 BREACH_BETWEEN_S, HALVINGS = (16.0, 23.0), 20
 RUNS = SourceStatus(name="rehearsal", state=SourceState.RUNNING)
 WORKS = ProcessStatus(state=ProcessState.RUNNING)
@@ -71,7 +71,7 @@ class DrillingTheatre:
         self.theatre: Theatre = exact.theatre
         self.channel = exact.channel
         self.random = np.random.default_rng([seed, 0x414C41])
-        # # The wall of the rehearsed bone, which is exact only in the rehearsal's registration.
+        # The wall of the rehearsed bone, which is exact only in the rehearsal's registration.
         self.drill_reference = exact.drill_reference_for(exact.channel)
         registration = captured_registration(self.theatre, self.random)
         self.preparation: Preparation = replace(

@@ -17,9 +17,9 @@ from tracker.navigation.alarms import Condition
 from tracker.plan import Channel
 
 RATE_HZ = 30.0
-# # Periodically the drill is through the wall with its shaft for half a second, while it is in the bone.
+# Periodically the drill is through the wall with its shaft for half a second, while it is in the bone.
 EVERY_S, LASTS_S, JUMP_MM = 1.9, 0.5, 7.0
-# # An alarm clears after a second; an earlier breach is the same one.
+# An alarm clears after a second; an earlier breach is the same one.
 APART_S = 1.2
 # Detection of a shallower breach depends on tracker noise, not on latency.
 MIN_MM = 0.3
@@ -69,7 +69,7 @@ def breach_table(options: BenchmarkOptions, *, seconds: float) -> Table:
 def _breaches(options: BenchmarkOptions, *, seconds: float) -> list[Breach]:
     event = {"kind": "drill_jumps", "at_s": 1.0, "lasts_s": LASTS_S, "every_s": EVERY_S, "size_mm": JUMP_MM}
     played = {"skill": "good", "events": [event]}
-    # # Compilation at the start delays images, which is no stalled camera.
+    # Compilation at the start delays images, which is no stalled camera.
     with running_server(options, seed=options.seeds[0], live_rate_hz=RATE_HZ, rehearsal=played) as server:
         received: dict[int, tuple[int, float, float]] = {}
         first_s = 0.0
@@ -118,7 +118,7 @@ def _true_starts(
 
 
 def _announced(start: int, depth_mm: float, received: list[tuple[int, float, float]]) -> Breach:
-    # # A skipped image was due before the one that arrived.
+    # A skipped image was due before the one that arrived.
     late = [
         (came_s - captured_s) * 1e3 + (image - start) / RATE_HZ * 1e3
         for image, captured_s, came_s in received

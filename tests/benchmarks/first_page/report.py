@@ -6,7 +6,7 @@ from typing import Any, Self
 
 from tests.benchmarks.tables import NOTHING, Table, number, pair
 
-# # Requirements on a machine with two cores and no graphics card.
+# Requirements on a machine with two cores and no graphics card.
 MIN_LIVE_RATIO, MIN_IMAGES_PER_S, MIN_WIDTH_PX, MAX_AGE_P95_MS = 0.99, 15.0, 640, 100.0
 
 

@@ -9,7 +9,7 @@ from tests.benchmarks.limits.evaluation import COVERED, Evaluation
 from tests.benchmarks.limits.pace_tables import RETURNED_WITHIN, ratios
 from tests.benchmarks.limits.run import LimitsRun
 
-# # A tracker that is lost, or on the wrong solution, stays so for some images.
+# A tracker that is lost, or on the wrong solution, stays so for some images.
 LOST_IN_A_ROW = 10
 
 

@@ -16,9 +16,9 @@ from tests.benchmarks.scenes.scene import Scene, image_of
 
 RIGS_BY_SIZE = (RIG_VGA, RIG_A, RIG_HD, RIG_B)
 FOUR = (SAIL, ORBIT, CODE, ANVIL)
-# # Known markers, and markers in view.
+# Known markers, and markers in view.
 LOADS = ((1, 1), (1, 0), (4, 1), (4, 4))
-# # Until all is found, and some more: with a marker out of view, as many as the parts of an idle search.
+# Until all is found, and some more: with a marker out of view, as many as the parts of an idle search.
 STEPS_OF_A_SCENE, IDLE_STEPS_OF_A_SCENE = 6, 17
 
 

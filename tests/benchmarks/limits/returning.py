@@ -13,7 +13,7 @@ from tests.benchmarks.scenes.rigs import Rig
 from tests.benchmarks.scenes.scene import image_of
 
 CONDITIONS = ("base", "cover10", "hard1", "hard2")
-# # Images without the marker, of the first scene and of the others in turn, so that any search phase occurs.
+# Images without the marker, of the first scene and of the others in turn, so that any search phase occurs.
 MIN_EMPTY_IMAGES, PHASES = 2, 16
 MAX_IMAGES = 32
 

@@ -29,7 +29,7 @@ NOTE = (
 def measure_load(options: BenchmarkOptions) -> SectionResult:
     """The requested numbers of viewers, one interval after the other."""
     seconds = USUAL_SECONDS if options.seconds == BenchmarkOptions().seconds else options.seconds
-    # # A drill that stays in view, since a search takes longer regardless of viewers.
+    # A drill that stays in view, since a search takes longer regardless of viewers.
     stays = {"skill": "good"}
     with running_server(options, seed=options.seeds[0], live_rate_hz=RATE_HZ, rehearsal=stays) as server:
         tracker_times = TrackerTimes(server)

@@ -19,7 +19,7 @@ from tests.benchmarks.running_server import CHECKOUT, PATIENCE_S, RunningServer
 from tests.benchmarks.viewer import cpu_s
 
 SETTLING_S = 3.0
-# # Excluded from the tracker's time: waiting for the scheduler, and work of the web server.
+# Excluded from the tracker's time: waiting for the scheduler, and work of the web server.
 NOT_TRACKER = frozenset({"waiting", "overlay", "encode"})
 RESIDENT = re.compile(r"VmRSS:\s+(\d+) kB")
 DISCONNECTED = re.compile(r"^coaxial_viewer_let_go_total\{.*\} ([0-9.]+)$", re.MULTILINE)

@@ -47,7 +47,7 @@ def test_parts_end_where_the_next_one_begins(step: int) -> None:
     sent = b"--coaxial\r\nContent-Type: image/jpeg\r\n\r\n" + part(TEXT + b"\xff" * 9000) + part(b"card")
     sent += part(TEXT)
     ended = sum(parts.read(memoryview(sent[at : at + step]), now_s=10.0) for at in range(0, len(sent), step))
-    # # The first boundary ends no image, and the card is none.
+    # The first boundary ends no image, and the card is none.
     assert ended == 4
     assert [round(age) for age in received.ages_ms] == [20, 20]
 

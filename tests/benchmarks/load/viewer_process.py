@@ -136,7 +136,7 @@ def main() -> None:
         parser.add_argument(f"--{kind}", type=int, default=0)
     parser.add_argument("--slow", action="store_true")
     given = parser.parse_args()
-    # # Real viewers run on other machines: a lower priority keeps these from slowing the server.
+    # Real viewers run on other machines: a lower priority keeps these from slowing the server.
     with contextlib.suppress(OSError):
         os.nice(NICE)
     viewers = [Viewer(kind) for kind in PATHS for _ in range(getattr(given, kind))]

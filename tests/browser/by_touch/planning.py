@@ -48,7 +48,7 @@ def moved_and_undone(tablet: Tablet) -> None:
     tablet.sees("move-channel")
     assert np.array(entry()) - before == pytest.approx([1.0, 0.0, 0.0], abs=1e-6)
     assert _plan(tablet)["active_channel"] is None
-    # # Only its own answer, because the page also reports every few seconds whether it can sound an alarm.
+    # Only its own answer, because the page also reports every few seconds whether it can sound an alarm.
     with tablet.page.expect_response(
         lambda answer: answer.request.method == "PUT" and answer.url.endswith("/api/plan")
     ):
@@ -74,7 +74,7 @@ def with_landmarks(tablet: Tablet, truth: dict[str, Any]) -> None:
     """Set one landmark at the cross by its usual name, then use those of the rehearsal."""
     tablet.tap("part-landmarks")
     cross = _cross(tablet)
-    # # The button moves when the catalogue has loaded.
+    # The button moves when the catalogue has loaded.
     tablet.reads("landmark-count", "needed at least")
     tablet.tap("set-landmark")
     tablet.page.get_by_role("button", name="spinous process, upper end").tap()
@@ -113,7 +113,7 @@ def _put_cross(tablet: Tablet, wanted: Any) -> None:  # noqa: ANN401  an array
         if abs(below) <= 0.5:
             break
         tablet.tap("slice-on" if below > 0 else "slice-back")
-    # # A tap refers to the displayed slice, which may still be an earlier one.
+    # A tap refers to the displayed slice, which may still be an earlier one.
     _slice_stands(tablet)
     place = page.locator(".planes-large [data-testid=cross] circle").bounding_box()
     assert place is not None

@@ -14,7 +14,7 @@ def register_by_points(tablet: Tablet) -> None:
     tablet.tap("points-begin")
     expect(page.get_by_test_id("points-conclude")).to_be_disabled()
     _touch_until_enough(tablet)
-    # # A slip: the last capture is discarded and repeated.
+    # A slip: the last capture is discarded and repeated.
     touched = page.locator("[data-touched=true]").count()
     tablet.tap("undo-last")
     expect(page.locator("[data-touched=true]")).to_have_count(touched - 1)
@@ -36,7 +36,7 @@ def check_on_a_landmark(tablet: Tablet) -> None:
     tablet.tap("check-begin")
     over = page.locator("[data-testid=check-outcome], [data-testid=capture-rejected]")
     over.wait_for()
-    # # If the tip has just left the landmark, it returns later.
+    # If the tip has just left the landmark, it returns later.
     while page.get_by_test_id("capture-rejected").count() > 0:
         tablet.finds("tip-rests", "data-landmark", landmark)
         with page.expect_response(lambda answer: answer.url.endswith("/api/registration/check")):

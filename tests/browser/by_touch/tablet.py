@@ -14,7 +14,7 @@ LANDSCAPE: ViewportSize = {"width": 1280, "height": 800}
 UPRIGHT: ViewportSize = {"width": 800, "height": 1280}
 PHONE: ViewportSize = {"width": 390, "height": 844}
 MIN_TARGET_PX = 48.0
-# # A checkbox is hit by its label; text without an action may be small.
+# A checkbox is hit by its label; text without an action may be small.
 SMALL_TARGETS = f"""() => [...document.querySelectorAll("main :is(button, a, input, select, summary)")]
     .filter(one => one.type !== "file" && one.checkVisibility())
     .map(one => [/radio|checkbox/.test(one.type) ? one.labels[0] : one, one])
@@ -95,7 +95,7 @@ def tablet_at(browser: Browser, port: int, *, patience_ms: float) -> Iterator[Ta
         context.close()
     assert not tablet.faults, tablet.faults
     assert not watched.strangers, watched.strangers
-    # # A collection may end between two requests for it, as may the first slice of an upload;
-    # # the browser logs such rejections.
+    # A collection may end between two requests for it, as may the first slice of an upload;
+    # the browser logs such rejections.
     complaints = [one for one in watched.complaints if "409 (Conflict)" not in one]
     assert not complaints, complaints

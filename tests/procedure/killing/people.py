@@ -131,7 +131,7 @@ class People:
                 self.act()
                 rejected = 0
             except Rejected as why:
-                # # A collection that lost its images is rejected and started again.
+                # A collection that lost its images is rejected and started again.
                 rejected += 1
                 if why.status == SERVERS_MISTAKE or rejected > MAX_REJECTED:
                     raise
@@ -207,7 +207,7 @@ class People:
         """Ask to hold, or release this user's hold, so that kills happen while a hold is active."""
         promised, name = self._server.promised, self._name()
         requested_by = promised.holding
-        # # Nothing is promised before it is confirmed.
+        # Nothing is promised before it is confirmed.
         promised.holding = None
         if requested_by == "":
             self.doing = "asking to hold"

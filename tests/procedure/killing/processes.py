@@ -41,7 +41,7 @@ def family_of(web: int) -> Family:
     """Find the processes of a server."""
     below = tuple(_descendants(web))
     maps = {pid: _maps(pid) for pid in (web, *below)}
-    # # The fork server and jobs map no images.
+    # The fork server and jobs map no images.
     tracking = next((pid for pid in below if RING in maps[pid]), None)
     shared = {line.split()[-1] for text in maps.values() for line in text.splitlines() if "/dev/shm/" in line}  # noqa: S108  it is looked at, not written
     return Family(
@@ -90,5 +90,5 @@ def _is_alive(pid: int) -> bool:
         state = (PROC / str(pid) / "stat").read_text().rpartition(")")[2].split()[0]
     except OSError:
         return False
-    # # A zombie that its parent has not reaped no longer runs.
+    # A zombie that its parent has not reaped no longer runs.
     return state != "Z"

@@ -54,7 +54,7 @@ class Promised:
         self.lines = _lines(server)
         steps = ask("GET", "/api/procedure", 200)["steps"]
         self.steps = {one["step"]: one["state"] for one in steps}
-        # # Alarms are logged at any time and change no step.
+        # Alarms are logged at any time and change no step.
         self.seen_ids = frozenset(_ids(server, self.opened, without="alarm"))
 
     def broken(self, server: RealServer) -> Iterator[str]:

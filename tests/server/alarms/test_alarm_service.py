@@ -277,7 +277,7 @@ def test_a_registration_that_goes_out_of_date_under_the_hand_is_an_alarm_though_
     room.service.set_facts(ProcedureFacts(registration_current=False))
     picture = room.images(2.0, registered=False)
     assert Condition.REGISTRATION_OUT_OF_DATE in conditions(picture)
-    # # A new registration ends it; what was never navigated raises nothing.
+    # A new registration ends it; what was never navigated raises nothing.
     room.service.set_facts(ProcedureFacts())
     room.service.acknowledge([one.number for one in picture.alarms], by="ito")
     assert room.images(2.0, registered=False).alarms == ()

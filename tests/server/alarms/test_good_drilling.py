@@ -26,7 +26,7 @@ def test_a_breach_is_raised_and_no_sooner_than_it_is_true() -> None:
 @pytest.mark.parametrize(
     ("limit_mm", "condition", "times"),
     [
-        # # A warning needs half a second without interruption, which a tremor at the limit never gives.
+        # A warning needs half a second without interruption, which a tremor at the limit never gives.
         pytest.param(1.0, Condition.CLEARANCE_LOW, 0, id="at-the-warning-distance"),
         pytest.param(0.8, Condition.CLEARANCE_LOW, 1, id="under-the-warning-distance"),
         pytest.param(0.0, Condition.BREACH, 1, id="at-the-wall"),

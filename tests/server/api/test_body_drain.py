@@ -16,7 +16,7 @@ from server.config import Config
 from server.live import LiveHub
 from server.store import CaseStore, Home
 
-# # More than the buffers of a connection hold.
+# More than the buffers of a connection hold.
 BODY = bytes(48 * 2**20)
 CHUNKED = {"Transfer-Encoding": "chunked"}
 PATH = "/api/cases/archive"
@@ -32,7 +32,7 @@ def sent(port: int, *, chunked: bool = False) -> tuple[int, str]:
     """Status and code of the answer to an upload that is sent completely."""
     line = http.client.HTTPConnection("127.0.0.1", port, timeout=30.0)
     pieces = (BODY[at : at + 2**20] for at in range(0, len(BODY), 2**20))
-    # # On a keep-alive connection the web server keeps reading.
+    # On a keep-alive connection the web server keeps reading.
     line.request(
         "POST",
         PATH,
@@ -65,7 +65,7 @@ def test_who_sends_no_more_is_answered_all_the_same(
     app: FastAPI, serve: Callable[[FastAPI], int], monkeypatch: pytest.MonkeyPatch, *, expect: bool
 ) -> None:
     monkeypatch.setattr(disk, "RESERVED_BYTES", 2**60)
-    # # A client that expects 100-continue is answered at once.
+    # A client that expects 100-continue is answered at once.
     monkeypatch.setattr(body_drain, "DRAIN_TIMEOUT_S", 60.0 if expect else 0.05)
     port = serve(app)
     with socket.create_connection(("127.0.0.1", port), timeout=20.0) as line:

@@ -194,7 +194,7 @@ def test_a_late_sign_in_is_rejected_and_the_connection_closed(
         socket.create_connection(("127.0.0.1", port), timeout=60) as slow,
     ):
         slow.sendall(head + b'{"')
-        # # A connection left open would end this by its own time limit.
+        # A connection left open would end this by its own time limit.
         with contextlib.suppress(ConnectionResetError):
             while some := slow.recv(65_536):
                 reported.extend(some)

@@ -112,7 +112,7 @@ def test_a_body_that_is_no_text_is_rejected_like_one_that_is_no_json(door: TestC
 def test_what_is_not_there_is_reported(door: TestClient, method: str, path: str) -> None:
     for case_id in (UNKNOWN, "..%2f..%2fetc", "😀"):
         answer = door.request(method, f"/api/cases/{case_id}{path}")
-        # # A path with `..` belongs to no case but to the page, which only accepts GET.
+        # A path with `..` belongs to no case but to the page, which only accepts GET.
         assert answer.status_code == 404 or (".." in case_id and answer.status_code == 405)
         assert set(answer.json()) == {"code", "message", "remedy", "context"}
 
@@ -189,7 +189,7 @@ def test_an_upload_that_cannot_be_leaves_nothing_behind(
     monkeypatch.setattr(cases, "MAX_ARCHIVE_BYTES", 1000)
 
     def in_pieces() -> Iterator[bytes]:
-        # # Without a length that could be trusted in advance.
+        # Without a length that could be trusted in advance.
         yield from (content[at : at + 300] for at in range(0, len(content), 300))
 
     for body in (content, in_pieces()):

@@ -63,7 +63,7 @@ def test_what_the_source_and_the_process_count_is_passed_on(
     assert value(metrics, "coaxial_source_state", state="reconnecting") == 1.0
     assert value(metrics, "coaxial_source_state", state="running") == 0.0
     assert value(metrics, "coaxial_tracking_process_state", state="restarting") == 1.0
-    # # Without an image there is no age: neither 0 nor the last one.
+    # Without an image there is no age: neither 0 nor the last one.
     assert value(metrics, "coaxial_image_age_seconds") is None
 
 

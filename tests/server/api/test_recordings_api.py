@@ -246,7 +246,7 @@ def test_a_video_is_made_by_a_job_and_downloaded(door: Door) -> None:
     assert len(content) == result["size_bytes"]
     with av.open(io.BytesIO(content), "r") as video:
         assert len(list(video.decode(video=0))) == len(DRILLED)
-    # # The next one replaces it.
+    # The next one replaces it.
     again = made(door, name, "video", {})["result"]["file"]
     assert again != result["file"]
     assert door.ask("GET", f"/{name}/exports/{result['file']}", 404)["code"] == "EXPORT_UNKNOWN"
@@ -260,7 +260,7 @@ def test_a_piece_is_made_by_a_job_and_deleted_with_its_recording(door: Door) -> 
     result = job["result"]
     assert (result["images"], result["is_exact"]) == (8, False)
     assert downloaded(door, name, result["file"]).startswith(b"\x89MCAP0")
-    # # Not a recording of the case.
+    # Not a recording of the case.
     assert [one["name"] for one in door.ask("GET", "", 200)["recordings"]] == [name]
     assert made(door, name, "cut", {"from_s": 9, "to_s": 10})["problem"]["code"] == "CUT_EMPTY"
     for other in ("..", 300 * "a", "a%00b"):
@@ -295,7 +295,7 @@ def test_nothing_is_stored_of_a_recording_that_was_deleted_meanwhile(
     case = door.store.get_open_case()
     assert case is not None
     folder = door.store.home.cases / case.id / "recordings"
-    # # From a killed job.
+    # From a killed job.
     (folder / f"{name}.index.npz.77").write_bytes(b"half")
     put_export = RecordingService.put_export
 
@@ -355,7 +355,7 @@ def test_a_comment_is_stored_in_the_case_and_is_in_the_timeline(door: Door) -> N
     assert document.content == {"recording": name, "at_s": 2.5, "text": "Wandkontakt: 1 mm medial"}
     door.store.withdraw(document, by="ito", reason="mistaken")
     assert len(shown()) == 1
-    # # It belongs to the case and stays when the recording is deleted.
+    # It belongs to the case and stays when the recording is deleted.
     door.ask("DELETE", f"/{name}", 204)
     assert len(door.store.all(case.id, DocumentKind.COMMENT)) == 1
 
@@ -384,7 +384,7 @@ def test_the_list_opens_no_file_a_second_time(door: Door, monkeypatch: pytest.Mo
 
     monkeypatch.setattr("server.recording.service.read_duration_s", read)
     assert door.ask("GET", "", 200)["recordings"] == [first]
-    # # A changed file is indexed again.
+    # A changed file is indexed again.
     case = door.store.get_open_case()
     assert case is not None
     with (door.store.home.cases / case.id / "recordings" / name).open("ab") as file:

@@ -68,7 +68,7 @@ def test_another_scene_is_played_in_the_same_theatre(door: TestClient, played: P
         assert after[key] == truth[key]
     assert len(after["landmarks"]) >= 6
     assert after["moment"] is None
-    # # Omitted values stay, except the events.
+    # Omitted values stay, except the events.
     door.put("/api/rehearsal", json={"scene": "operation", "skill": "breaching"})
     door.put("/api/rehearsal", json={"scene": "operation"})
     assert played.orders[-1].rehearsal.skill == "breaching"

@@ -82,7 +82,7 @@ def read_as_ito(message: type[Message], field: str) -> list[object]:
 def test_no_body_names_another_than_who_is_signed_in(house: Guarded) -> None:
     described = house.app.openapi()
     messages = {one.__name__: one for one in every(Message)}
-    # # Schemas of equal name are distinguished by their modules.
+    # Schemas of equal name are distinguished by their modules.
     messages |= {f"{one.__module__}.{one.__name__}".replace(".", "__"): one for one in every(Message)}
     requested: set[str] = set()
     for _, operation in operations_of(described):

@@ -19,7 +19,7 @@ def modes(fourcc: str, size_wh_px: tuple[int, int], *rates_hz: float) -> list[Ca
     return [CameraMode(fourcc=fourcc, size_wh_px=size_wh_px, rate_hz=rate_hz) for rate_hz in rates_hz]
 
 
-# # Like webcams on USB 2: full HD without compression at 5 Hz.
+# Like webcams on USB 2: full HD without compression at 5 Hz.
 WEBCAM_MODES = (
     *modes("YUYV", VGA, 30, 15),
     *modes("YUYV", HD, 10, 5),
@@ -159,7 +159,7 @@ class FakeVideo:
     def retrieve(self) -> tuple[bool, np.ndarray | None]:
         width, height = self.size_wh_px or self.camera.granted.size_wh_px
         self._taken += 1
-        # # Another grey level each time, since no two sensor images are equal; one byte in memory.
+        # Another grey level each time, since no two sensor images are equal; one byte in memory.
         image = np.broadcast_to(np.uint8(self._taken % 251), (height, width, 3))
         return True, image
 

@@ -113,7 +113,7 @@ class FakeIndustrialCamera:
         device_s = self.device_s()
         if name != "TimestampLatch" or self.latch_takes_s is None or device_s is None:
             raise OSError(f"{name} is not executable")
-        # # Read halfway between request and answer.
+        # Read halfway between request and answer.
         self.features["TimestampLatchValue"] = round((device_s + self.latch_takes_s / 2.0) * 1e9)
         self.now_s += self.latch_takes_s
 
@@ -138,7 +138,7 @@ class FakeIndustrialCamera:
             taken_s = taken_s if device_s is None else device_s(taken_s)
         self.taken += 1
         height, width = int(self.features["Height"]), int(self.features["Width"])
-        # # Another grey level each time, since no two sensor images are equal; one byte in memory.
+        # Another grey level each time, since no two sensor images are equal; one byte in memory.
         pixels = np.broadcast_to(np.uint8(self.taken % 251), (height, width))
         return GrabbedImage(
             pixels=pixels, pixel_format=str(self.features["PixelFormat"]), device_s=taken_s, skipped=0

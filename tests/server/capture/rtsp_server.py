@@ -157,7 +157,7 @@ def rtp_packets(image: RtpImage, number: int) -> list[bytes]:
     packets: list[bytes] = []
     offset = 0
     while offset < len(scan):
-        # # Type 1 is 4:2:0; quality 255 has its own tables, in the first packet.
+        # Type 1 is 4:2:0; quality 255 has its own tables, in the first packet.
         payload = struct.pack(">I", offset) + bytes((1, 255, width // 8, height // 8))
         if offset == 0:
             payload += struct.pack(">BBH", 0, 0, len(tables)) + tables

@@ -16,7 +16,7 @@ from server.live import CameraMode, ImageClock, Problem, SourceState
 pylon = pytest.importorskip(
     "pypylon.pylon", reason="needs pypylon, which the development lock has for Linux", exc_type=ImportError
 )
-# # While waiting for an image, pylon uses a timer that sends SIGALRM, which must not end the test.
+# While waiting for an image, pylon uses a timer that sends SIGALRM, which must not end the test.
 pytestmark = pytest.mark.timeout(300, method="thread")
 DEADLINE_S = 30.0
 SERIAL = "0815-0000"
@@ -132,7 +132,7 @@ def test_a_camera_that_waits_for_its_trigger_reports_it_until_the_pulse(
     assert "waits for a pulse on Software" in problem.message
 
     def is_running_after_a_pulse() -> bool:
-        # # The camera drops a pulse that arrives before it is ready.
+        # The camera drops a pulse that arrives before it is ready.
         one.cameras.newest.execute("TriggerSoftware")
         return one.capture.status().state is SourceState.RUNNING
 

@@ -137,7 +137,7 @@ def test_a_change_of_the_status_wakes_who_waits_for_an_image() -> None:
     capture = Capture(source, stop=stop)
     source.reported.put(gone())
     capture.start()
-    # # Woken by the change: the timeout is longer than the test may take.
+    # Woken by the change: the timeout is longer than the test may take.
     assert capture.take(1000.0) is None
     assert capture.status().state is SourceState.RECONNECTING
     stop.set()
@@ -193,7 +193,7 @@ def test_an_image_that_a_frozen_camera_repeats_is_not_live() -> None:
     source, stop = ScriptedSource(stalls=True), threading.Event()
     capture = Capture(source, stop=stop)
     began_s = time.monotonic()
-    # # Each image twice, as from a slower camera; then one repeatedly.
+    # Each image twice, as from a slower camera; then one repeatedly.
     greys = [1, 1, 2, 2, *[3] * 40]
     for number, grey in enumerate(greys):
         source.reported.put(shot(number, grey=grey, at_s=began_s + 0.1 * number))
@@ -201,12 +201,12 @@ def test_an_image_that_a_frozen_camera_repeats_is_not_live() -> None:
         capture.start()
         until(lambda: source.opened == 2)
         status = capture.status()
-        # # It first arrived as the fifth; after a quarter of a second it is old.
+        # It first arrived as the fifth; after a quarter of a second it is old.
         assert status.images == 7
         assert status.state is SourceState.RECONNECTING
         assert status.problem is not None
         assert status.problem.code == "SOURCE_FROZEN"
-        # # It does not return after the source was reopened; the next new image is live.
+        # It does not return after the source was reopened; the next new image is live.
         until(source.reported.empty)
         assert capture.status().images == 7
         source.reported.put(shot(99))

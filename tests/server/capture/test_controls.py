@@ -40,7 +40,7 @@ def test_automatic_focus_is_switched_off_once_it_has_found_the_scene() -> None:
     assert camera.was_set == []
     camera.controls[FOCUS] = 38
     keeper.poll(BEGIN_S + SETTLES_S)
-    # # Also set to its present value: in automatic mode the value may not have followed the lens.
+    # Also set to its present value: in automatic mode the value may not have followed the lens.
     assert camera.was_set == [(AUTOFOCUS, 0), (FOCUS, 38)]
     assert keeper.values == {**WEBCAM_CONTROLS, AUTOFOCUS: 0, FOCUS: 38}
     keeper.poll(BEGIN_S + 60.0)
@@ -50,7 +50,7 @@ def test_automatic_focus_is_switched_off_once_it_has_found_the_scene() -> None:
 def test_the_focus_of_the_calibration_is_set_at_once() -> None:
     camera = FakeCamera()
     keeper = keeper_of(camera, calibrated={FOCUS: 45, CameraControl.GAIN: 99, CameraControl.ZOOM: 7})
-    # # Not the gain, which invalidates nothing, nor the zoom, which it does not have.
+    # Not the gain, which invalidates nothing, nor the zoom, which it does not have.
     assert camera.was_set == [(AUTOFOCUS, 0), (FOCUS, 45)]
     assert keeper.values[FOCUS] == 45
     keeper.poll(BEGIN_S + SETTLES_S)

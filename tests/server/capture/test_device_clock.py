@@ -18,7 +18,7 @@ def test_the_jitter_of_the_way_is_taken_out_and_its_least_delay_stays() -> None:
     clock, random = DeviceClock(), np.random.default_rng(1)
     delays_s = 0.02 + random.exponential(0.03, size=600)
     errors_s = [stamped(clock, n * PERIOD_S, float(delay_s)) for n, delay_s in enumerate(delays_s)]
-    # # By arrival, the delays of the images would differ by 30 ms.
+    # By arrival, the delays of the images would differ by 30 ms.
     assert float(np.std(delays_s)) > 0.025
     assert float(np.std(errors_s[100:])) < 0.001
     assert errors_s[-1] == pytest.approx(0.02, abs=0.002)
@@ -35,7 +35,7 @@ def test_a_crystal_that_is_off_is_followed() -> None:
     for n in range(9000):
         taken_s = n * PERIOD_S
         at_s = clock.monotonic_s(ZERO_S + taken_s * (1.0 - 1e-4), arrived_s=taken_s + 0.02)
-    # # 30 ms in five minutes; only the drift within the window remains.
+    # 30 ms in five minutes; only the drift within the window remains.
     assert at_s - (taken_s + 0.02) == pytest.approx(-1e-4 * WINDOW_S, abs=2e-4)
 
 
@@ -47,7 +47,7 @@ def test_a_reset_clock_is_detected_and_mapped_again(jump_s: float) -> None:
     assert clock.jumps == 0
     stamped(clock, 2.0, 0.05, zero_s=ZERO_S + jump_s)
     assert clock.jumps == 1
-    # # Never older than it is, and within the delay of the first image after it.
+    # Never older than it is, and within the delay of the first image after it.
     assert 0.0 <= stamped(clock, 2.0 + PERIOD_S, 0.05, zero_s=ZERO_S + jump_s) <= 0.05 + 1e-9
     assert clock.jumps == 1
 

@@ -41,7 +41,7 @@ def test_a_time_not_after_the_last_one_is_replaced() -> None:
     again_s = last_s - 0.04
     assert clock.captured_at_s(again_s, arrived_s=last_s + PERIOD_S) == last_s + PERIOD_S
     clocks = [clock.clock]
-    # # The next one has the driver's time again, and is still later than the one before.
+    # The next one has the driver's time again, and is still later than the one before.
     after_s = clock.captured_at_s(last_s + 0.02, arrived_s=last_s + 2 * PERIOD_S)
     clocks.append(clock.clock)
     assert clocks == [ImageClock.ARRIVAL, ImageClock.DRIVER]
@@ -59,7 +59,7 @@ def test_an_image_that_waited_in_a_buffer_is_old_and_not_new() -> None:
     clock = DriverClock()
     last_s = warm(clock)
     taken_s = last_s + 0.01
-    # # The machine was suspended for five seconds; the buffer still contains earlier images.
+    # The machine was suspended for five seconds; the buffer still contains earlier images.
     assert clock.captured_at_s(taken_s, arrived_s=last_s + 5.0) == taken_s
     assert clock.clock is ImageClock.DRIVER
     assert not clock.gave_up

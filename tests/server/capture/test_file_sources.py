@@ -225,7 +225,7 @@ def test_images_that_say_to_be_turned_are_taken_as_the_camera_made_them(
     picture = np.zeros((12, 20, 3), np.uint8)
     picture[:, :10] = 200
     jpeg = cv2.imencode(".jpg", picture)[1].tobytes()
-    # # EXIF orientation 6: to be displayed rotated by a quarter turn.
+    # EXIF orientation 6: to be displayed rotated by a quarter turn.
     exif = b"Exif\0\0MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0\0\0\0\0"
     turned = jpeg[:2] + b"\xff\xe1" + (len(exif) + 2).to_bytes(2, "big") + exif + jpeg[2:]
     shown = cv2.imdecode(np.frombuffer(turned, np.uint8), cv2.IMREAD_COLOR)
@@ -234,7 +234,7 @@ def test_images_that_say_to_be_turned_are_taken_as_the_camera_made_them(
     (tmp_path / "1.jpg").write_bytes(turned)
     (shot,) = read_all(FolderSource(tmp_path, loop=False, fast=True, stop=stop))
     assert shot.image.shape == (12, 20, 3)
-    # # Calibration decodes with the same function, so its parameters apply to tracked images.
+    # Calibration decodes with the same function, so its parameters apply to tracked images.
     calibrated = decoded(turned)
     assert calibrated is not None
     assert np.array_equal(shot.image, calibrated)

@@ -44,7 +44,7 @@ class FakeBuffer:
         nodes = acquirer.remote_device.node_map
         width, height = nodes.Width.value, nodes.Height.value
         self._acquirer = acquirer
-        # # The producer's own memory, refilled after the buffer is returned.
+        # The producer's own memory, refilled after the buffer is returned.
         self.pixels = np.full(width * height, number, dtype=np.uint8)
         component = SimpleNamespace(
             width=width, height=height, num_components_per_pixel=1.0, data=self.pixels, data_format="Mono8"
@@ -140,7 +140,7 @@ def test_of_the_images_that_wait_the_newest_is_taken_and_all_buffers_are_given_b
     shot = source.read()
     assert shot is not None
     assert shot.number == 4
-    # # A copy, not the memory that the producer refills.
+    # A copy, not the memory that the producer refills.
     assert np.unique(shot.image).tolist() == [5]
     assert fake_library.given_back == 5
     assert source.camera.clock is ImageClock.DEVICE
@@ -186,7 +186,7 @@ def test_the_library_itself_gives_images_as_they_were_requested() -> None:
     mode = CameraMode(fourcc="RGBa8", size_wh_px=(320, 240), rate_hz=50.0)
     assert source.camera.requested == source.camera.granted == mode
     assert [shot.image.shape for shot in shots if shot is not None] == [(240, 320, 3)] * 3
-    # # Reopened, as after a loss.
+    # Reopened, as after a loss.
     source.open()
     assert source.read() is not None
     source.close()

@@ -128,7 +128,7 @@ def test_by_its_own_clock_images_are_stamped_without_the_jitter_of_the_way(
     for latency_s in (0.02, 0.03, 0.05, 0.02, 0.04):
         camera.latency_s = latency_s
         shot = read(source, camera)
-        # # The smallest delay remains, since nothing reveals it.
+        # The smallest delay remains, since nothing reveals it.
         assert shot.captured_at_s == pytest.approx(camera.now_s - latency_s + 0.02)
     assert source.camera.clock is ImageClock.DEVICE
 
@@ -140,7 +140,7 @@ def test_where_its_clock_can_be_read_no_delay_stays(camera: FakeIndustrialCamera
         shot = read(source, camera)
     assert shot.captured_at_s == pytest.approx(camera.now_s - 0.02, abs=1e-6)
     assert source.camera.clock is ImageClock.DEVICE
-    # # Reset to zero, as by GenICam's TimestampReset.
+    # Reset to zero, as by GenICam's TimestampReset.
     camera.device_zero_s = -camera.now_s
     read(source, camera)
     shot = read(source, camera)
@@ -230,7 +230,7 @@ def test_exposure_gain_and_white_balance_are_locked_once_they_have_settled(
     assert controls[CameraControl.EXPOSURE] == 12_000
     assert source.camera.exposure_ms == pytest.approx(12.0)
     assert controls[CameraControl.GAIN] == 325
-    # # Later changes by a user are detected.
+    # Later changes by a user are detected.
     camera.features["Gain"] = 6.0
     camera.now_s += 2.0
     read(source, camera)
@@ -262,7 +262,7 @@ def test_binning_and_the_place_of_the_cut_out_are_what_they_were_at_the_calibrat
     source = opened(source_of(camera, calibration=calibration))
     assert {name: source.camera.controls[name] for name in controls} == controls
     assert camera.calls.index("BinningHorizontal=2") < camera.calls.index("Width=800")
-    # # A calibration that is adopted later reopens the camera with its own mode.
+    # A calibration that is adopted later reopens the camera with its own mode.
     source.adopt(replace(calibration, controls={CameraControl.PAN: 160}))
     read(source, camera)
     assert source.camera.controls[CameraControl.PAN] == 160

@@ -128,7 +128,7 @@ def test_a_driver_whose_clock_is_wrong_is_reported_once_and_not_believed_any_mor
     with capture_logs() as logs:
         for _ in range(40):
             assert read(source, video).captured_at_s == video.now_s
-        # # Not even when it becomes plausible, nor after the device was reopened.
+        # Not even when it becomes plausible, nor after the device was reopened.
         video.stamp = lambda taken_s: taken_s
         source.open()
         for _ in range(40):
@@ -177,7 +177,7 @@ def test_a_calibration_that_is_adopted_sets_the_focus_and_the_size(video: FakeVi
     source.adopt(CalibratedCamera(size_wh_px=HD, controls={CameraControl.FOCUS: 50}))
     assert read(source, video).image.shape == (720, 1280, 3)
     assert source.camera.controls[CameraControl.FOCUS] == 50
-    # # When adopted again, nothing is set: a user's change remains.
+    # When adopted again, nothing is set: a user's change remains.
     video.camera.controls[CameraControl.FOCUS] = 60
     source.adopt(CalibratedCamera(size_wh_px=HD, controls={CameraControl.FOCUS: 50}))
     read(source, video, after_s=1.1)

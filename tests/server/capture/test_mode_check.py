@@ -53,7 +53,7 @@ def code_of(checked: ModeCheck) -> str:
         ),
         (NOTHING, mode(30), mode(30, size_wh_px=HD), "CAMERA_MODE_NOT_GRANTED", ["1920x1080", "1280x720"]),
         (NOTHING, mode(30), mode(15), "CAMERA_MODE_NOT_GRANTED", ["30 Hz", "15 Hz"]),
-        # # Offered modes are known on Linux only.
+        # Offered modes are known on Linux only.
         (
             WantedMode(size_wh_px=FULL_HD),
             None,

@@ -64,7 +64,7 @@ def test_images_that_were_replaced_before_they_were_read_are_counted() -> None:
 def test_an_image_from_before_the_source_was_opened_is_not_read() -> None:
     source = opened(Script(sent(3, 1.0), [sent(5, 2.0)]))
     shot = source.read()
-    # # One in between was skipped; an image from before is not delivered by this source.
+    # One in between was skipped; an image from before is not delivered by this source.
     assert shot is not None
     assert (shot.captured_at_s, shot.number) == (2.0, 1)
 
@@ -129,10 +129,10 @@ def test_a_focus_that_may_move_is_reported(focus: Focus, code: str | None) -> No
     assert source.defect is None
     source.read()
     assert (None if source.defect is None else source.defect.code) == code
-    # # Unknown values cannot be compared with a calibration, and are not invented.
+    # Unknown values cannot be compared with a calibration, and are not invented.
     known = {Focus.LOCKED: 0, Focus.AUTOMATIC: 1, Focus.UNKNOWN: None}[focus]
     assert source.camera.controls.get(CameraControl.AUTOFOCUS) == known
-    # # It disconnected, and its values with it.
+    # It disconnected, and its values with it.
     source.close()
     assert (source.defect, source.camera.controls) == (None, {})
 

@@ -96,7 +96,7 @@ def test_the_theatres_images_are_rendered_before_they_are_due(
         shots.append(shot)
         late_s.append(clock.now_s - shot.captured_at_s)
         clock.now_s += 1e-4
-    # # The age of an image counts from the instant that it shows, whatever its rendering time.
+    # The age of an image counts from the instant that it shows, whatever its rendering time.
     assert [shot.captured_at_s - began_s for shot in shots] == pytest.approx(
         [shot.number / 25 for shot in shots]
     )

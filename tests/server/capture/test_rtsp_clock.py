@@ -86,7 +86,7 @@ def test_an_image_that_was_held_back_for_a_moment_is_as_old_as_it_is(
     serve: Callable[..., RtspServer],
 ) -> None:
     delays_s = [MIN_S] * 60
-    # # Shorter than a pause: by rhythm alone these would be live.
+    # Shorter than a pause: by rhythm alone these would be live.
     stall_s = (PAUSE_PERIODS - 1.5) * PERIOD_S
     delays_s[30:33] = [MIN_S + stall_s] * 3
     shots = read(source_of(serve(images(60)), delays_s), 50)
@@ -94,7 +94,7 @@ def test_an_image_that_was_held_back_for_a_moment_is_as_old_as_it_is(
     assert time_errors_s(shots) == pytest.approx([MIN_S] * len(shots), abs=2e-4)
 
 
-# # FFmpeg treats a step back of more than a minute as a counter reset, and steps forward.
+# FFmpeg treats a step back of more than a minute as a counter reset, and steps forward.
 @pytest.mark.parametrize("jump_s", [3600.0, -3600.0, -50.0])
 def test_a_clock_that_jumps_is_reported_once_and_synchronised_again(
     serve: Callable[..., RtspServer], jump_s: float
@@ -122,7 +122,7 @@ def test_a_clock_that_does_not_keep_time_is_given_up_and_no_image_looked_younger
     assert source.camera.clock is ImageClock.ARRIVAL
     errors_s = time_errors_s(shots)
     assert max(errors_s) <= MIN_S + 1e-4
-    # # A slow clock makes them appear older, until that is implausible.
+    # A slow clock makes them appear older, until that is implausible.
     assert min(errors_s) > MIN_S - MAX_AGE_S - 0.2
     assert errors_s[-1] == pytest.approx(MIN_S, abs=1e-4)
 
@@ -175,7 +175,7 @@ def test_a_camera_that_stops_is_reported_and_taken_again_when_it_is_back(
     with capture_logs() as logs:
         _lose_and_find(capture)
     assert server.methods.count("PLAY") >= 2
-    # # A new connection has another clock.
+    # A new connection has another clock.
     assert "STREAM_CLOCK_JUMPED" not in [line.get("code") for line in logs]
     stop.set()
     capture.close(5.0)

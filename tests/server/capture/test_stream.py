@@ -39,7 +39,7 @@ class _Handler(BaseHTTPRequestHandler):
     def do_GET(self) -> None:
         server = self.server
         assert isinstance(server, MjpegServer)
-        # # An unchanging image would count as a frozen camera.
+        # An unchanging image would count as a frozen camera.
         contents = [cv2.imencode(".jpg", grey_image(grey))[1].tobytes() for grey in (99, 101)]
         head = b"--x\r\nContent-Type: image/jpeg\r\nContent-Length: %d\r\n\r\n"
         self.send_response(200)
@@ -122,7 +122,7 @@ def test_an_address_that_cannot_be_is_reported(stop: threading.Event) -> None:
     with pytest.raises(CaptureError) as caught:
         source.open()
     assert caught.value.code == "STREAM_ADDRESS_INVALID"
-    # # In place of the port there is the beginning of the password.
+    # In place of the port there is the beginning of the password.
     assert "secret" not in str(caught.value)
     assert caught.value.__cause__ is None
 

@@ -23,7 +23,7 @@ from tests.server.capture.small_videos import grey_image
 
 VGA, QVGA, WIDE = (640, 480), (320, 240), (640, 360)
 PERIOD_S = 1 / 30
-# # Images sent beyond those that a test reads: the decoder looks ahead.
+# Images sent beyond those that a test reads: the decoder looks ahead.
 AHEAD = 12
 
 
@@ -132,7 +132,7 @@ def test_what_was_held_back_during_a_stall_is_not_shown(
     serve: Callable[[Sequence[Sent]], LyingServer],
 ) -> None:
     sent = [Sent(grey=40 + 2 * number) for number in range(60 + AHEAD)]
-    # # Twenty in rhythm, a second of silence, the held-back images at once, then the rhythm again.
+    # Twenty in rhythm, a second of silence, the held-back images at once, then the rhythm again.
     intervals_s = [*[PERIOD_S] * 19, 1.0, *[0.001] * 15]
     shots = read(source_of(serve(sent), intervals_s), 30)
     assert [shot.number for shot in shots] == [*range(1, 20), *range(36, 47)]
@@ -185,7 +185,7 @@ def test_a_false_length_makes_no_false_image(
     source = source_of(serve(sent), [])
     source.open()
     shots: list[Shot] = []
-    # # The decoder may lose synchronisation: the stream then ends and is reopened.
+    # The decoder may lose synchronisation: the stream then ends and is reopened.
     with contextlib.suppress(CaptureError):
         shots += (shot for _ in range(12) if (shot := source.read()) is not None)
     source.close()
@@ -211,7 +211,7 @@ def test_a_stream_that_repeats_its_last_image_is_frozen(
     capture.close(5.0)
     assert problem.code == "SOURCE_FROZEN"
     assert status.state is SourceState.RECONNECTING
-    # # A quarter of a second of it, until it is known to be unchanged.
+    # A quarter of a second of it, until it is known to be unchanged.
     assert status.images <= 20 + 9
     assert status.camera is not None
     assert status.camera.clock is ImageClock.ARRIVAL

@@ -117,7 +117,7 @@ def devices(kernel: PlayedKernel, tmp_path: Path) -> KernelDevices:
 def test_records_and_requests_are_those_of_the_kernel(
     record: type[Structure], size: int, request_number: int, expected: int
 ) -> None:
-    # # As printed by a C program that includes linux/videodev2.h, on 64 bits.
+    # As printed by a C program that includes linux/videodev2.h, on 64 bits.
     assert sizeof(record) == size
     assert request_number == expected
 
@@ -156,11 +156,11 @@ def test_a_camera_reports_its_identity_and_modes(devices: KernelDevices) -> None
 def test_the_metadata_device_of_a_camera_gives_no_images(
     devices: KernelDevices, kernel: PlayedKernel
 ) -> None:
-    # # The hardware captures images, but not through this device file.
+    # The hardware captures images, but not through this device file.
     kernel.capabilities = (0x84A0_0001, 0x04A0_0000)
     with closing(devices.open(devices.paths()[0])) as camera:
         assert not camera.description().captures
-    # # An old driver does not distinguish them.
+    # An old driver does not distinguish them.
     kernel.capabilities = (0x0400_0001, 0)
     with closing(devices.open(devices.paths()[0])) as camera:
         assert camera.description().captures

@@ -71,7 +71,7 @@ def test_a_focal_length_from_the_first_row_is_not_checked_by_it(tmp_path: Path) 
     assert document["focal_length_px"] == pytest.approx(1032.7, abs=0.1)
     assert len(document["rows"]) == 4
     assert document["rows"][0]["error_mm"] == pytest.approx(-0.54, abs=0.01)
-    # # The paper's 0.5 mm does not hold for its own numbers in this way.
+    # The paper's 0.5 mm does not hold for its own numbers in this way.
     assert (status, document["passed"]) == (1, False)
 
 
@@ -170,7 +170,7 @@ def test_a_board_in_an_image_is_measured_at_its_points(tmp_path: Path, camera: P
     assert 0.0 < document["rms_error_mm"] < 0.03
     middle = TURN @ [50.0, 42.0, 0.0] + MOVE
     assert document["plane_distance_mm"] == pytest.approx(float(np.linalg.norm(middle)), abs=1.0)
-    # # The board's unit scales all lengths alike: only a tape measure reveals a wrong one.
+    # The board's unit scales all lengths alike: only a tape measure reveals a wrong one.
     doubled = (*BOARD[:-1], "16")
     assert json.loads(typed("accuracy", "--image", image, *doubled, "--camera", camera, "--json")[1])[
         "plane_distance_mm"

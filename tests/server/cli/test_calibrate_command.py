@@ -134,7 +134,7 @@ def test_a_bad_file_is_reported_and_affects_no_other(images: Path, tmp_path: Pat
     cv2.imwrite(str(folder / "tiny.png"), np.zeros((3, 3), np.uint8))
     shutil.copy(folder / "view0.png", folder / "view0-again.png")
     whole, spoilt = (json.loads(typed(*BOARD, "--json", one)[1]) for one in (images, folder))
-    # # Sums over threads differ in the last digit.
+    # Sums over threads differ in the last digit.
     np.testing.assert_allclose(spoilt["matrix"], whole["matrix"], rtol=1e-9)
     assert spoilt["passed"]
     reason_of = {view["image"]: view["reason"] for view in spoilt["views"] if not view["used"]}
@@ -148,7 +148,7 @@ def test_a_bad_file_is_reported_and_affects_no_other(images: Path, tmp_path: Pat
 
 
 def test_a_rig_is_written_with_its_baseline(images: Path, tmp_path: Path) -> None:
-    # # The same camera twice: the second replaces the first.
+    # The same camera twice: the second replaces the first.
     left, right = tmp_path / "left", tmp_path / "right"
     for folder in (left, right):
         folder.mkdir()

@@ -138,7 +138,7 @@ def test_industrial_cameras_are_reported_with_what_they_offer(
     assert values["serial"] == "4711"
     assert values["width_px"] == {"min": 16.0, "max": 1936.0, "step": 8.0}
     assert values["rate_hz"] == {"min": 1.0, "max": 160.0, "step": 0.0}
-    # # A triggered camera has no rate.
+    # A triggered camera has no rate.
     assert values["chosen"] == {"fourcc": "BayerRG8", "width_px": 1000, "height_px": 800, "rate_hz": 0.0}
 
 

@@ -46,7 +46,7 @@ def typed(
     """The same in this process, because starting another one takes longer than most of these commands."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COAXIAL_HOME", str(tmp_path / "home"))
-    # # Its stream ends with the command, but the process and its other tests continue.
+    # Its stream ends with the command, but the process and its other tests continue.
     monkeypatch.setattr("server.cli.track.configure_logging", lambda _settings: None)
 
     def ended(*words: str | Path) -> Ended:
@@ -124,7 +124,7 @@ def test_a_taken_port_is_reported(tmp_path: Path) -> None:
 
 
 def test_an_address_that_is_not_of_this_machine_is_reported(tmp_path: Path) -> None:
-    # # 192.0.2.1 is reserved for documentation: no machine has it.
+    # 192.0.2.1 is reserved for documentation: no machine has it.
     (tmp_path / "config.yaml").write_text("server:\n  host: 192.0.2.1\n", encoding="utf-8")
     result = coaxial("run", "--port", "0", folder=tmp_path)
     assert result.returncode == 2

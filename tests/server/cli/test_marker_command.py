@@ -120,7 +120,7 @@ def test_a_background_that_shows_the_marker_fails_the_check(design: Path, tmp_pa
     )
     picture = cv2.imread(str(tmp_path / "marker-closest.png"))
     assert picture is not None
-    # # Orange, around the print.
+    # Orange, around the print.
     orange = np.argwhere((picture[..., 2] > 200) & (picture[..., 0] < 90))
     assert orange.mean(axis=0) == pytest.approx([125, 179], abs=15)
 

@@ -24,7 +24,7 @@ def ct(tmp_path_factory: pytest.TempPathFactory) -> Path:
     field = rod_between_blocks(width_mm=8, height_mm=12, axis=axis, rod_hu=800, block_hu=800, around_hu=0)
     volume = scanned(field, spacing_mm=(0.8, 0.8, 1.0), noise_hu=10.0)
     path = tmp_path_factory.mktemp("ct") / "rod.nii.gz"
-    # # NIfTI axes point right and forward where LPS points left and back.
+    # NIfTI axes point right and forward where LPS points left and back.
     image = nib.Nifti1Image(
         volume.hu.transpose(2, 1, 0), np.diag([-1.0, -1.0, 1.0, 1.0]) @ volume.lps_from_ijk
     )
@@ -98,7 +98,7 @@ def test_both_pedicles_of_a_real_thoracic_vertebra() -> None:
         status, text = typed(folder, "--side", side, "--seed-lps-mm", seed, "--json")
         assert status == 0, text
         reported = json.loads(text)
-        # # Estimated from the slices: 7 to 10 mm wide, 16 to 22 mm high.
+        # Estimated from the slices: 7 to 10 mm wide, 16 to 22 mm high.
         assert 7.0 < reported["width_mm"] < 10.0
         assert 15.5 < reported["height_mm"] < 23.0
         assert reported["isthmus_lps_mm"][2] == pytest.approx(-788.0, abs=4.0)

@@ -51,7 +51,7 @@ def test_it_prints_one_address_serves_it_and_stops_without_a_word(
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        # # As in a terminal, where Ctrl+C reaches every process of the group; service managers do the same.
+        # As in a terminal, where Ctrl+C reaches every process of the group; service managers do the same.
         start_new_session=True,
     ) as server:
         assert server.stdout is not None

@@ -3,8 +3,8 @@
 import subprocess
 import sys
 
-# # Each takes 0.1 to 0.75 s, and is needed only by jobs, uploads, registration, a migration or a viewer of
-# # the 3-D scene.
+# Each takes 0.1 to 0.75 s, and is needed only by jobs, uploads, registration, a migration or a viewer of
+# the 3-D scene.
 NOT_AT_START = {
     *("alembic", "mako", "networkx", "pydicom", "trimesh", "viser"),
     *(

@@ -137,7 +137,7 @@ def test_poses_without_times_are_bad_input(tmp_path: Path, second: Path) -> None
     lines = (json.loads(line) for line in tracked(untimed, CAMERA.record(HAND)).read_text().splitlines())
     untimed.write_text("\n".join(json.dumps({**line, "time_s": None}) for line in lines))
     result = CliRunner().invoke(app, ["time-offset", str(untimed), str(second)])
-    # # Reported by `main` in one sentence, with status 2.
+    # Reported by `main` in one sentence, with status 2.
     assert isinstance(result.exception, InvalidInput)
     assert result.exception.code == "POSE_TIMES_MISSING"
     assert "untimed.jsonl, line 1" in result.exception.message

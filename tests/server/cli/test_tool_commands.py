@@ -286,7 +286,7 @@ def test_poses_that_were_tracked_with_another_side_make_no_tool(tmp_path: Path) 
     assert said.startswith("TOOL_SIDE_DIFFERS")
     assert "25 mm" in said
     assert "99 mm" in said
-    # # Without an option it is the side that they were tracked with.
+    # Without an option it is the side that they were tracked with.
     typed("pivot", lines, "--output", file, folder=tmp_path)
     assert yaml.safe_load(file.read_text())["side_mm"] == 25.0
     spin = tracked(tmp_path, spun(), side_mm=25.4)

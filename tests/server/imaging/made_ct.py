@@ -130,7 +130,7 @@ def compressed(slice_: Dataset, syntax: str) -> bytes:
     change.SetTransferSyntax(gdcm.TransferSyntax(gdcm.TransferSyntax.GetTSType(str(syntax))))
     change.SetInput(image)
     assert change.Change()
-    # # Each refers to the previous one, which must outlive it.
+    # Each refers to the previous one, which must outlive it.
     output = change.GetOutput()
     encoded = output.GetDataElement()
     fragments = encoded.GetSequenceOfFragments()

@@ -154,7 +154,7 @@ def test_a_ct_that_cannot_be_trusted_is_rejected(code: str, make: Case, tmp_path
         read_ct(make(given), into=into / "voxels.npy")
     error = caught.value
     assert error.code == code
-    # # Nothing is stored, nobody is named, and there is a remedy.
+    # Nothing is stored, nobody is named, and there is a remedy.
     assert list(into.iterdir()) == []
     reported = f"{error} {error.context}".casefold()
     for secret in (

@@ -11,7 +11,7 @@ from tests.real_data import real_data_file
 from tracker.errors import InvalidInput, NavigationError, PlanError
 from tracker.plan import Surface
 
-# # A block of 60 x 50 x 30 mm with binary corner numbers: x 1, y 2, z 4.
+# A block of 60 x 50 x 30 mm with binary corner numbers: x 1, y 2, z 4.
 CORNERS = np.array([[x, y, z] for z in (0.0, 30.0) for y in (-50.0, 0.0) for x in (100.0, 160.0)])
 QUADS = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
 FACES = np.array([f for a, b, c, d in QUADS for f in ((a, b, c), (a, c, d))])

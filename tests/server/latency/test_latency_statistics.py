@@ -99,7 +99,7 @@ def test_what_was_put_in_comes_out_with_each_stage() -> None:
     assert report.p99_ms == pytest.approx(float(np.percentile(truth, 99, method="higher")), abs=0.1)
     for stage, ms in AFTER_CAPTURE.items():
         assert report.stage_ms[stage] == pytest.approx(ms, abs=0.1), stage
-    # # A code waits for half an image period on average, which is stated.
+    # A code waits for half an image period on average, which is stated.
     assert report.late_on_average_ms == 16.5
     waited_ms = report.stage_ms["screen and camera"] - run.camera_ms
     assert waited_ms == pytest.approx(report.late_on_average_ms, abs=5.0)
@@ -112,7 +112,7 @@ def test_clocks_that_drift_leave_the_latency_and_its_stages(drift_ratio: float) 
     assert drifting.median_ms == still.median_ms
     assert drifting.p99_ms == still.p99_ms
     for stage, ms in still.stage_ms.items():
-        # # 4 ms in 20 s if uncorrected.
+        # 4 ms in 20 s if uncorrected.
         assert drifting.stage_ms[stage] == pytest.approx(ms, abs=0.3), stage
 
 
@@ -132,7 +132,7 @@ def test_slow_answers_say_nothing_of_the_clocks() -> None:
         ClockComparison(requested_at_ms=at, responded_at_ms=at + 2.0, server_s=(at + 1.0) / 1e3)
         for at in (0.0, 9e3)
     ]
-    # # All of its 300 ms on the return path.
+    # All of its 300 ms on the return path.
     slow = ClockComparison(requested_at_ms=4e3, responded_at_ms=4300.0, server_s=4.001)
     clock = ServerClock.of([*fast, slow])
     assert clock.page_ms(4.0) == pytest.approx(4000.0, abs=1e-6)
@@ -165,7 +165,7 @@ def test_numbers_that_begin_again_are_distinguished() -> None:
 def test_a_slow_camera_times_every_code_and_states_the_resolution() -> None:
     run = Run(period_ms=200.0)
     report = run.report()
-    # # Except those before the first image with a code, and the last one.
+    # Except those before the first image with a code, and the last one.
     assert report.samples == run.codes - 2
     assert (report.image_period_ms, report.late_on_average_ms) == (200.0, 100.0)
     truth = run.first_shown_ms(range(1, run.codes - 1))
@@ -173,7 +173,7 @@ def test_a_slow_camera_times_every_code_and_states_the_resolution() -> None:
 
 
 def test_images_that_the_page_missed_make_codes_late_and_hide_none() -> None:
-    # # Half a second in which the page drew nothing.
+    # Half a second in which the page drew nothing.
     run = Run(unseen=frozenset(range(300, 316)))
     report = run.report()
     assert report.samples == run.codes - 1

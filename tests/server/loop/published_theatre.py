@@ -29,7 +29,7 @@ from tracker.rehearsal import Renderer
 BEGIN_S = 14.0
 RATE_HZ = 30.0
 WIDTH, HEIGHT = 960, 540
-# # On the shaft behind the tip, where nothing else is drawn.
+# On the shaft behind the tip, where nothing else is drawn.
 SHAFT_MM = np.linspace(25.0, 85.0, 61)
 DRAWN_BY = 40
 SOURCE = SourceStatus(name="rehearsal", state=SourceState.RUNNING)

@@ -118,7 +118,7 @@ def test_the_calibration_of_a_case_brings_its_own_controls() -> None:
     assert from_settings.with_case(CaseSetup()).camera_controls == CALIBRATED
     of_case = CaseSetup(camera=preparation.camera, camera_controls={FOCUS: 45})
     assert from_settings.with_case(of_case).camera_controls == {FOCUS: 45}
-    # # A calibration of the case without controls is not compared with the controls of the settings' one.
+    # A calibration of the case without controls is not compared with the controls of the settings' one.
     assert from_settings.with_case(CaseSetup(camera=preparation.camera)).camera_controls == {}
     calibrated = from_settings.with_case(of_case).calibrated_camera
     assert calibrated is not None
@@ -143,7 +143,7 @@ def test_another_camera_than_the_calibrated_one_gives_no_millimetres_until_it_is
     preparation, image = prepared()
     tracking = Tracking(replace(preparation, camera_device="Webcam A"))
     reported = []
-    # # The status of a camera that is being opened has no controls.
+    # The status of a camera that is being opened has no controls.
     for number, device in enumerate(("Webcam A", "", "Webcam B", "", "Webcam A")):
         at_s = 1.0 + number * PERIOD_S
         shot = Shot(image=image, number=number, captured_at_s=at_s, source_time_s=at_s)

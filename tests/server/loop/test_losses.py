@@ -15,9 +15,9 @@ from tracker.rehearsal import Renderer
 
 AT_S = BEGIN_S + 0.5
 LONGEST_S = 1.6
-# # The fixed scene is checked periodically, and twice before the camera counts as moved.
+# The fixed scene is checked periodically, and twice before the camera counts as moved.
 SCENE_S = 3.0 * SCENE_PERIOD_S
-# # A marker that jumps is unseen in that image, and found in the next.
+# A marker that jumps is unseen in that image, and found in the next.
 SEARCH_S = 0.04
 
 
@@ -115,7 +115,7 @@ def test_what_is_lost_is_gone_everywhere_with_its_image(theatres: Theatres, name
         shown = theatre.image()
         assert loss.gone_after_s > 0.0 or not shown.is_in_message
         while loss.reason is not shown.reason:
-            # # All outputs or none, in every image.
+            # All outputs or none, in every image.
             assert shown.is_in_message == shown.is_hinted_at == shown.is_drawn == shown.is_on_stage
             assert shown.at_s < AT_S + loss.gone_after_s + SEARCH_S, "it is shown still"
             shown = theatre.image()
@@ -151,7 +151,7 @@ def test_a_camera_that_stalls_is_announced_and_leaves_no_picture(theatres: Theat
         while "CAMERA_STALLED" not in shown.alarms:
             assert shown.at_s - last_s < LONGEST_S
             shown = theatre.no_image()
-        # # Each display judges the age of a picture; after the alarm there is none.
+        # Each display judges the age of a picture; after the alarm there is none.
         assert shown.at_s - last_s == pytest.approx(0.5, abs=0.1)
         assert not shown.is_hinted_at
         assert shown.message.snapshot is None

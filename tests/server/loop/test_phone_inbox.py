@@ -26,7 +26,7 @@ def numbered(entry: tuple[int, PhoneUpdate] | None) -> int:
 def test_who_is_slow_reads_the_newest_and_nothing_twice() -> None:
     inbox = PhoneInbox()
     for number in range(1000):
-        # # Far more than the pipe holds: nobody reads, and nothing blocks.
+        # Far more than the pipe holds: nobody reads, and nothing blocks.
         inbox.put(sent(number))
     entry = inbox.next_after(0, 0.0)
     assert numbered(entry) == 999
@@ -70,7 +70,7 @@ def test_one_process_after_the_other_reads_what_came_since() -> None:
     assert read == 5
     reader.join(PATIENCE_S)
     reader.close()
-    # # The next process, which is this one, finds the connection unchanged.
+    # The next process, which is this one, finds the connection unchanged.
     assert inbox.next_after(after, 0.0) is None
     inbox.put(sent(6))
     assert numbered(inbox.next_after(after, PATIENCE_S)) == 6

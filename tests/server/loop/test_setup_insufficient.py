@@ -26,7 +26,7 @@ REHEARSAL = {"seed": 3, "skill": "good", "width": 960, "height": 540}
 @pytest.mark.parametrize(
     ("registered_sd_mm", "tolerance_mm", "verdict", "condition"),
     [
-        # # 95 % of a round normal distribution of 0.45 mm are within 1.11 mm.
+        # 95 % of a round normal distribution of 0.45 mm are within 1.11 mm.
         pytest.param(0.45, 0.5, Verdict.SETUP_INSUFFICIENT, Condition.SETUP_INSUFFICIENT, id="the-set-up"),
         pytest.param(0.0, 0.02, Verdict.UNCERTAIN, Condition.POSE_UNCERTAIN, id="the-image"),
         pytest.param(0.0, 3.0, None, None, id="neither"),
@@ -69,7 +69,7 @@ def test_headline_and_alarm_of_good_drilling_name_what_is_uncertain(
         conditions |= {one.condition for one in picture.alarms}
         assessment = snapshot.assessments[theatre.tool.name]
         if not isinstance(assessment, Assessment):
-            # # A single image does not yet resolve the planar pose ambiguity.
+            # A single image does not yet resolve the planar pose ambiguity.
             continue
         headline = headline_of(snapshot, picture)
         assert headline.verdict is assessment.verdict

@@ -27,7 +27,7 @@ class Stage:
         self, target: Target, watchdog: WatchdogSettings, compiled: Callable[[], Progress] = lambda: COMPILED
     ) -> None:
         self.hub = Seen()
-        # # Stopped unless a test advances it: start times of processes are not tested.
+        # Stopped unless a test advances it: start times of processes are not tested.
         self.now_s = 0.0
         status = SharedStatus("made")
         order = WorkerOrder(config=Config(), log=LogSettings(as_json=True))
@@ -107,7 +107,7 @@ def test_a_killed_process_is_reported_at_once_and_replaced(
     assert number(again) > number(before)
     sequences = [instant.sequence for instant in stage.hub.instants]
     assert sequences == list(range(len(sequences)))
-    # # From its death to the first new image there is no picture.
+    # From its death to the first new image there is no picture.
     between = stage.hub.instants[dead.sequence : again.sequence]
     assert all(instant.snapshot is None for instant in between)
 

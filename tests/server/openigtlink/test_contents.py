@@ -65,7 +65,7 @@ def test_ras_turns_the_vertebra_and_leaves_the_camera() -> None:
     )
     lps, ras = (devices(replace(snapshot, setup=setup), coordinates=one) for one in ("LPS", "RAS"))
     assert lps["drillToCamera"] == ras["drillToCamera"]
-    # # Each column, an axis or the tip, has x and y with the opposite sign.
+    # Each column, an axis or the tip, has x and y with the opposite sign.
     expected = matrix_of(lps["drillToVertebra"]) * np.array([[-1.0], [-1.0], [1.0], [1.0]])
     assert matrix_of(ras["drillToVertebra"]) == pytest.approx(expected)
     assert np.linalg.det(matrix_of(ras["drillToVertebra"])) == pytest.approx(1.0, abs=1e-5)

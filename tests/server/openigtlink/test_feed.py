@@ -79,7 +79,7 @@ def test_when_images_stop_the_client_is_informed_once_at_the_limit() -> None:
     assert said(expired(one, 101.0)) == {("STATUS", "Coaxial"): "TOO_OLD"}
     assert one.expires_at_s == inf
     assert expired(one, 200.0) == []
-    # # The next image restores everything.
+    # The next image restores everything.
     assert set(said(sent(one, captured_at_s=200.0))) == LIVE | {("STRING", "Headline"), ("STATUS", "Coaxial")}
 
 

@@ -118,7 +118,7 @@ def test_when_images_stop_the_client_is_informed_without_another_instant() -> No
         world.publish(3)
         reader = await world.client()
         await until(reader, HEADLINE)
-        # # The rate allows the next image from here on: the server waits only for an image.
+        # The rate allows the next image from here on: the server waits only for an image.
         world.now_s += 0.05
         while not world.hub._waiting:
             await asyncio.sleep(0)
@@ -177,7 +177,7 @@ def test_a_client_above_the_limit_is_rejected_and_the_others_stay() -> None:
         assert await rejected.read() == b""
         world.publish(4)
         await until(reader, HEADLINE)
-        # # A released place is given to the next client.
+        # A released place is given to the next client.
         world.writers[0].transport.abort()
         while world.server._clients:
             await asyncio.wait(world.server._clients)
@@ -225,7 +225,7 @@ def test_requests_are_answered_and_a_damaged_one_is_reported() -> None:
 
 def test_pyigtl_is_served_by_the_whole_application() -> None:
     hub, listener = LiveHub(), listening()
-    # # No image of this test is too old, however busy the machine.
+    # No image of this test is too old, however busy the machine.
     config = Config.model_validate({"limits": {"pose_stale_after_ms": 10_000.0}})
     with served(create_app(AppParts(hub=hub, config=config, openigtlink=listener))):
         client = pyigtl.OpenIGTLinkClient("127.0.0.1", listener.getsockname()[1])

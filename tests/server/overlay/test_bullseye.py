@@ -39,7 +39,7 @@ def test_the_channel_and_the_drill_have_their_true_places_and_sizes() -> None:
     image = drawn(tip, tip, tip)
     assert is_ink(image, INSET.px(tip + 2.0 * CIRCLE), DRILL_ORANGE).all()
     channel = is_ink(image, INSET.px(4.0 * CIRCLE), PLAN_BLUE)
-    # # The drill's ring does not cover it here.
+    # The drill's ring does not cover it here.
     assert channel.all()
 
 

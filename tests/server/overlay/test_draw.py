@@ -20,7 +20,7 @@ from tracker.pose import Seen
 SnapshotOf = Callable[..., NavigationSnapshot]
 Picture = npt.NDArray[np.uint8]
 GOLDEN = Path(__file__).parent / "golden"
-# # The panel's area in a picture of 640x360, with numbers and with text.
+# The panel's area in a picture of 640x360, with numbers and with text.
 PANELS_PX = (np.s_[20:, :132], np.s_[285:, :310])
 
 
@@ -109,7 +109,7 @@ def test_geometry_alone_has_the_lines_of_the_whole_and_no_panel(snapshot_of: Sna
     geometry = draw_overlay(grey(), snapshot_of(), content=OverlayContent.GEOMETRY)
     for colour in (DRILL_ORANGE, PLAN_BLUE):
         assert inked(geometry, colour).any()
-    # # Without tool and channel only the marker has lines; only the panel with its reason differs.
+    # Without tool and channel only the marker has lines; only the panel with its reason differs.
     bare = snapshot_of(with_tool=False, planned=False, seen=False)
     assert np.array_equal(draw_overlay(grey(), bare, content=OverlayContent.GEOMETRY), grey())
     assert not np.array_equal(draw_overlay(grey(), bare), grey())
@@ -172,7 +172,7 @@ def test_the_picture_looks_as_it_was_approved(
     approved = cv2.imread(str(path))
     assert approved is not None
     off = np.abs(approved.astype(np.int16) - drawn).max(axis=2)
-    # # Another build of OpenCV may differ in single edge pixels, never in a line or a digit.
+    # Another build of OpenCV may differ in single edge pixels, never in a line or a digit.
     assert (off > 60).mean() < 0.0005
 
 

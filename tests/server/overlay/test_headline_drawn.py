@@ -62,7 +62,7 @@ def test_all_of_it_has_its_place_in_the_picture(snapshot_of: SnapshotOf, size: t
     worst = snapshot_of(size_wh_px=size, tip_in_vertebra_mm=(20.0, 0.0, -99.0), tilt_rad=1.5)
     scale = min(size[1] / 720.0, size[0] / 880.0)
     drawn = draw_overlay(grey(size), worst)
-    # # The stack on the left overlaps neither the small print above it nor the lower border.
+    # The stack on the left overlaps neither the small print above it nor the lower border.
     height = size[1]
     changed = (drawn != 110).any(axis=2)[:, round(20 * scale) : round(60 * scale)].any(axis=1)
     rows = np.flatnonzero(changed)

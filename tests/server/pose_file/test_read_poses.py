@@ -31,7 +31,7 @@ def quaternion(rotation: np.ndarray) -> list[float]:
 
 
 def folder_of_text(folder: Path) -> Path:
-    # # Not in alphabetical order: numerically, 10 comes after 2.
+    # Not in alphabetical order: numerically, 10 comes after 2.
     for number, matrix in enumerate(MATRICES):
         (folder / f"pose{number}.txt").write_text(rows(matrix))
     (folder / "LICENSE").write_text("words\n")

@@ -28,7 +28,7 @@ Grey = npt.NDArray[np.uint8]
 
 
 def fixed(values: Points) -> npt.NDArray[np.int32]:
-    # # OpenCV's pixel (0, 0) is the centre of the first pixel, the page's (0, 0) its corner.
+    # OpenCV's pixel (0, 0) is the centre of the first pixel, the page's (0, 0) its corner.
     return np.asarray(np.rint((values * PX_PER_MM - 0.5) * 2**SUBPIXEL_BITS), dtype=np.int32)
 
 
@@ -115,7 +115,7 @@ def test_a_checkerboard_is_found_at_its_places() -> None:
     board = CheckerBoard(columns=9, rows=6, square_mm=25.0)
     found, corners = cv2.findChessboardCornersSB(page_of(board), (9, 6))
     assert found
-    # # OpenCV begins at a white outer square, which is the last one here.
+    # OpenCV begins at a white outer square, which is the last one here.
     assert_at_true_size(corners[::-1], board)
 
 
@@ -151,7 +151,7 @@ def test_a_charuco_board_is_opencv_s_own_picture_of_it(layout: CharucoLayout) ->
     mine = cv2.resize(
         page[first_row : first_row + height, first_column : first_column + width], own.shape[::-1]
     )
-    # # Except for a margin of a pixel along edges.
+    # Except for a margin of a pixel along edges.
     assert np.mean(cv2.erode(cv2.absdiff(mine, own), np.ones((3, 3), np.uint8)) > 100) < 1e-4
 
 

@@ -88,7 +88,7 @@ def test_the_table_of_the_pdf_points_at_its_objects() -> None:
     assert file[start:].startswith(b"xref\n0 7\n")
     offsets = [int(line[:10]) for line in file[start:].splitlines()[3:9]]
     assert [file[at : at + 7] for at in offsets] == [b"%d 0 obj" % n for n in range(1, 7)]
-    # # Each entry of the table is 20 bytes long, as readers assume.
+    # Each entry of the table is 20 bytes long, as readers assume.
     assert re.search(rb"xref\n0 7\n(.{18} \n|.{18}\r\n){7}trailer", file)
 
 

@@ -51,7 +51,7 @@ def _drill(theatre: RecordedTheatre) -> None:
     for number in range(5, 8):
         theatre.track(number)
     black = np.zeros_like(theatre.images[0])
-    # # Long enough for the alarm of an unseen drill, which is acknowledged.
+    # Long enough for the alarm of an unseen drill, which is acknowledged.
     for number in range(8, 13):
         theatre.track(number, image=black)
     theatre.alarms.acknowledge([one.number for one in theatre.alarms.picture.alarms], by="Anna")

@@ -31,13 +31,13 @@ from tracker.navigation.alarms import AlarmSnapshot
 RATE_HZ = 10.0
 WIDTH, HEIGHT = 320, 180
 BEGIN_S, UNIX_OFFSET_S = 100.0, 1_767_225_600.0
-# # Arguments of `seen_at`: depth, two offsets from the axis, and tilt.
+# Arguments of `seen_at`: depth, two offsets from the axis, and tilt.
 PLACES = {
     "path": (25.0, 0.1, 0.0, 0.2, 0.1, 1.0),
     "near": (29.0, 2.4, 0.0, 0.0, 0.0, 1.0),
     "breach": (29.0, 3.75, 0.0, 0.0, 0.0, 1.0),
 }
-# # The grey level of an image encodes its number.
+# The grey level of an image encodes its number.
 DRILLED = ("path",) * 10 + ("hidden",) * 8 + ("near",) * 6 + ("breach",) * 6 + ("path",) * 10
 ACKNOWLEDGED_AT, MARKED_AT, NAVIGATES = 27, 33, range(5, 36)
 SOURCE = SourceStatus(name="/dev/video0", state=SourceState.RUNNING)
@@ -78,7 +78,7 @@ def write_drilling(path: Path, modes: Sequence[str] = DRILLED) -> Path:
         sighting = UNSEEN if mode == "hidden" else seen_at(np.array(PLACES[mode]), setup.tools["drill"])
         snapshot = concluded(setup, reference, {"drill": sighting}, number=1000 + number, captured_at_s=now_s)
         snapshot = replace(snapshot, size_wh_px=(WIDTH, HEIGHT))
-        # # It has no stored state, so it can be reviewed but not replayed.
+        # It has no stored state, so it can be reviewed but not replayed.
         report = Report(
             source=SOURCE, snapshot=snapshot, tracked_images=number + 1, state=-1 if number == 0 else 0
         )

@@ -95,7 +95,7 @@ def test_a_piece_begins_at_a_state_and_replays_exactly(
 
 
 def test_a_changed_byte_is_found(two_states: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    # # Several chunks: those before the damage are compared.
+    # Several chunks: those before the damage are compared.
     monkeypatch.setattr("server.recording_file.copy.CHUNK_BYTES", 1000)
     piece = tmp_path / "piece.mcap"
     cut_recording(two_states, piece, from_s=0.0, to_s=0.2)
@@ -135,7 +135,7 @@ def test_without_a_state_a_section_starts_at_the_image_and_cannot_be_replayed(
     code, text = replayed(piece)
     assert (code, "no state is stored before it" in text) == (1, True)
     index = make_index(piece)
-    # # Figures as in the whole recording, with the alarms and documents in effect at its start.
+    # Figures as in the whole recording, with the alarms and documents in effect at its start.
     assert index.values.tolist() == make_index(led).values[18:26].tolist()
     assert (index.alarms[:, 1] > 0).all()
 

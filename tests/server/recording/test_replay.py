@@ -54,7 +54,7 @@ def test_a_changed_threshold_of_an_alarm_names_the_image(recorded: Path) -> None
     assert report.poses.first is None
     first = report.alarms.first
     assert first is not None
-    # # Unseen from image 8 on; with the recorded limit of 0.1 s it is unseen for too long in image 10.
+    # Unseen from image 8 on; with the recorded limit of 0.1 s it is unseen for too long in image 10.
     assert first.image_number == 10, str(first)
     assert "image 10" in str(first)
 
@@ -105,7 +105,7 @@ def test_images_that_were_overwritten_are_noted_and_the_next_state_resumes_the_c
     assert report.is_equal
     assert report.missing_images == 2
     assert report.remarks == ["2 tracked images are missing before this one"]
-    # # Of the 10 in the file, four follow the gap.
+    # Of the 10 in the file, four follow the gap.
     assert (report.images, report.unchecked_images) == (5, 4)
 
 

@@ -141,7 +141,7 @@ def test_a_recording_follows_navigation_where_the_settings_say_so(store: CaseSto
     theatre.navigate(on=True)
     theatre.service.stop()
     theatre.service.poll()
-    # # Stopped by a user: it does not start before the next navigation.
+    # Stopped by a user: it does not start before the next navigation.
     assert len(theatre.recorders) == 2
     assert theatre.service.state.name == ""
 
@@ -201,7 +201,7 @@ def test_without_consent_nothing_is_recorded_by_hand_or_by_itself(store: CaseSto
             theatre.service.start()
         assert rejected.value.code == "RECORDING_CONSENT_MISSING"
         theatre.navigate(on=True)
-        # # An operation without consent is no failure.
+        # An operation without consent is no failure.
         assert Condition.RECORDING_STOPPED not in theatre.conditions
         assert theatre.recorders == []
     theatre.service.answer_consent(case_id, is_given=True, made_by="Ben")

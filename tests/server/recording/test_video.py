@@ -52,14 +52,14 @@ def test_each_image_has_its_capture_time_and_the_overlay_of_its_results(
         assert pixels.shape[1] == WIDTH
         assert 0 < pixels.shape[0] - HEIGHT <= 30
         assert pixels.shape[0] % 2 == 0
-    # # Seen in the first image, covered in the fifth: the panel shows figures, then text.
+    # Seen in the first image, covered in the fifth: the panel shows figures, then text.
     first, fifth = (draw_overlay_of(recorded, number) for number in (0, 4))
     for number, drawn in ((0, first), (4, fifth)):
         plain = np.asarray(images[number].image)
         changed = np.abs(drawn.astype(int) - plain.astype(int)).max(axis=2) > 60
         assert changed.sum() > 2000
         video = found[number][1][:HEIGHT].astype(int)
-        # # Where the overlay changed the image, the video has the overlay's colour.
+        # Where the overlay changed the image, the video has the overlay's colour.
         near = np.abs(video - drawn.astype(int)).max(axis=2) < 40
         assert near[changed].mean() > 0.9, number
 
@@ -102,7 +102,7 @@ def test_what_is_drawn_from_messages_is_what_was_drawn_live(mode: str) -> None:
         live = draw_overlay(image, snapshot, picture, language=language)
         again = draw_overlay(image, snapshot_of(message, setup), alarms_of(shown), language=language)
         assert (live != image).any()
-        # # The ellipse is computed from its semi-axes and may be off by a sixteenth of a pixel.
+        # The ellipse is computed from its semi-axes and may be off by a sixteenth of a pixel.
         other = np.abs(again.astype(int) - live.astype(int)).max(axis=2)
         assert other.max() <= 20
         assert (other > 0).sum() < 200
@@ -132,7 +132,7 @@ def test_without_its_setup_an_image_states_that_its_results_are_not_drawn(tmp_pa
     expected = with_strip(image, "", note=note)[: image.shape[0]].astype(int)
     video = frames(tmp_path / "case.mp4")[0][1][: image.shape[0]].astype(int)
     assert np.abs(video - expected).mean() < 8
-    # # No figures in the panel at the lower left.
+    # No figures in the panel at the lower left.
     np.testing.assert_allclose(video[-60:, :80], image[-60:, :80].astype(int), atol=25)
 
 
@@ -148,7 +148,7 @@ def test_a_time_without_images_shows_the_card_and_no_old_figure(made: Make, tmp_
     stale_s = 1 / RATE_HZ + 0.5
     assert [at_s for at_s, _ in found] == pytest.approx([0.0, 1 / 30, stale_s, 2.0, 61 / 30], abs=2e-5)
     card, image = found[2][1][:HEIGHT], found[1][1][:HEIGHT]
-    # # The card is dark and grey except for its text.
+    # The card is dark and grey except for its text.
     assert np.median(card) < 50 < np.median(image)
 
 

@@ -46,7 +46,7 @@ def test_a_file_cut_anywhere_is_readable_up_to_the_cut(tmp_path: Path) -> None:
         assert [one.content for one in messages] == [one.content for one in every[: len(messages)]]
         counts.append(len(messages))
     assert counts == sorted(counts)
-    # # Truncation behind the data loses none of them: the index is not needed.
+    # Truncation behind the data loses none of them: the index is not needed.
     assert counts[0] == 0
     assert counts[-1] == len(every)
 
@@ -78,7 +78,7 @@ def test_another_file_is_rejected(content: bytes, tmp_path: Path) -> None:
 def test_a_damaged_length_ends_the_reading(tmp_path: Path, length: int) -> None:
     path = write_recording(tmp_path / "a.mcap")
     content = bytearray(path.read_bytes())
-    # # Of the first chunk, after opcode, length, times, size, checksum and the empty compression name.
+    # Of the first chunk, after opcode, length, times, size, checksum and the empty compression name.
     at = _first_record(content, Opcode.CHUNK) + struct.calcsize("<BQQQQII")
     content[at : at + 8] = struct.pack("<Q", length)
     path.write_bytes(content)

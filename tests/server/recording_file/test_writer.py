@@ -63,7 +63,7 @@ class FullDisk(io.FileIO):
         data = memoryview(content)  # type: ignore[arg-type]
         if self.left == 0:
             raise OSError(errno.ENOSPC, "No space left on device")
-        # # A nearly full disk accepts a part of it.
+        # A nearly full disk accepts a part of it.
         done = super().write(data[: min(self.left, len(data))])
         self.left -= done
         return done

@@ -39,7 +39,7 @@ def fed(server: Running, theatre: Theatre, *, first_image: int = 0, seen: bool =
             server.hub.publish(theatre.instant(sequence, image_number=image, seen=seen, tip_z_mm=tip))
             sequence += 1
 
-    # # Each feeder restarts the sequence, so earlier instants are forgotten first.
+    # Each feeder restarts the sequence, so earlier instants are forgotten first.
     server.hub._newest = None
     feeder = threading.Thread(target=feed)
     feeder.start()
@@ -118,7 +118,7 @@ def test_an_untouched_screen_comes_back_after_a_restart(browser: Browser, theatr
     with running(theatre) as server:
         port = server.port
         page = opened(browser, server.address)
-        # # The driver gives every page focus; a screen in theatre has none.
+        # The driver gives every page focus; a screen in theatre has none.
         page.context.new_cdp_session(page).send("Emulation.setFocusEmulationEnabled", {"enabled": False})
         other = browser.new_page()
         other.bring_to_front()
@@ -169,7 +169,7 @@ def test_nothing_outside_is_called_and_no_control_of_viser_is_there(
     assert [url for url in requested if not url.startswith(here)] == []
     assert f"ws://127.0.0.1:{server.port}/scene" in requested
     assert set(touched) == {"CANVAS"}
-    # # Unmodified, viser's client only sends its camera pose.
+    # Unmodified, viser's client only sends its camera pose.
     assert {verdict: count for verdict, count in counts.items() if count} == {"camera": counts["camera"]}
 
 
@@ -181,7 +181,7 @@ def test_a_silent_connection_is_reopened(
         page = opened(browser, server.address)
         with fed(server, theatre):
             reported(page, "m.image_number >= 5")
-        # # A server without power: the connection stays open, and nothing arrives.
+        # A server without power: the connection stays open, and nothing arrives.
         task = server.app.state.scene._update_task
         page.evaluate("received.length = 0")
         task.get_loop().call_soon_threadsafe(task.cancel)

@@ -34,5 +34,5 @@ def test_one_person_has_eight_places_and_takes_none_from_others_or_from_pictures
         watch("/ws/live", "s1")
         assert 'coaxial_viewers{kind="scene"} 9.0' in client.get("/metrics").text
         watching.pop_all().close()
-        # # Released places are free again.
+        # Released places are free again.
         watch("/scene", "s1")

@@ -230,7 +230,7 @@ def test_a_stalled_viewer_delays_no_other_and_is_dropped(
 ) -> None:
     monkeypatch.setattr(scene_module, "SEND_TIMEOUT_S", 0.3)
     monkeypatch.setattr(scene_module, "THINNEST_LINE_BYTES_PER_S", 1e9)
-    # # A surface of 24 MB exceeds the kernel's buffers for a client that does not read.
+    # A surface of 24 MB exceeds the kernel's buffers for a client that does not read.
     large = Theatre(
         setup=theatre.setup,
         surface=Surface(vertices_mm=np.zeros((2_000_000, 3)), faces=np.zeros((1, 3), dtype=np.int64)),

@@ -58,7 +58,7 @@ def test_a_server_opens_its_port_only_when_it_is_started() -> None:
 
 def test_the_attributes_that_viser_gives_its_server_are_those_that_the_door_gives() -> None:
     made = set(re.findall(r"self\.(_?\w+)(?:: [^=(]+)? = ", inspect.getsource(viser.ViserServer.__init__)))
-    # # Nothing reads _connection; gui and the share lock belong to features that are not used.
+    # Nothing reads _connection; gui and the share lock belong to features that are not used.
     assert made == {
         "_websock_server", "_initial_camera", "_connection", "_connected_clients", "_client_lock",
         "_scene_lifecycle_lock", "_client_connect_cb", "_client_disconnect_cb", "_thread_executor",

@@ -10,7 +10,7 @@ from server.security import Role
 from server.security.access_rules import ACCESS_RULES, Rule
 from tests.server.security.guarded_app import HOST, Guarded, addresses_of, guarded
 
-# # Written down a second time, so that a rule that slips into a wider group is noticed.
+# Written down a second time, so that a rule that slips into a wider group is noticed.
 VIEWERS_MAY = {
     "GET /api/session",
     "DELETE /api/session",
@@ -69,7 +69,7 @@ def test_the_table_holds_every_address_that_the_application_has_and_no_other(hou
     schema = house.app.openapi()["paths"]
     documented = {(method.upper(), path) for path, methods in schema.items() for method in methods}
     silent = {"/api/docs", "/api/openapi.json", "/scene", "/scene/", "/ws/live", "/ws/room", "/ws/view"}
-    # # Socket addresses of other modules are not documented either.
+    # Socket addresses of other modules are not documented either.
     assert {one for one in listed if one[0] != "WS" and one[1] not in silent} == documented
 
 
@@ -87,7 +87,7 @@ def test_what_each_role_may_is_what_was_agreed() -> None:
     viewer = may(Role.VIEWER, read=True) | may(Role.VIEWER, read=False)
     assert viewer - {"GET /health", "POST /api/session"} >= VIEWERS_MAY
     assert may(Role.SCREEN, read=True) == may(Role.VIEWER, read=True)
-    # # Roles of other modules are added here by name.
+    # Roles of other modules are added here by name.
     assert {one for one in may(Role.SUPERVISOR, read=False) if "/supervision" not in one} == SUPERVISORS_DO
     assert may(Role.SCREEN, read=False) == SCREENS_DO
     camera = may(Role.CAMERA, read=True) | may(Role.CAMERA, read=False)

@@ -163,7 +163,7 @@ def test_an_exported_log_is_verified_by_itself_and_against_its_last_sum(
 @pytest.mark.parametrize("cut", [1, 10, 60])
 def test_a_line_that_a_crash_cut_is_taken_away_and_reported(log: AuditLog, folder: Path, cut: int) -> None:
     whole = log.file.read_bytes()
-    # # The next line was begun but its head never stored.
+    # The next line was begun but its head never stored.
     log.file.write_bytes(whole + whole.splitlines()[-1][:cut])
     again = AuditLog(folder, clock=Clock().now)
     assert again.verify().fault is None
@@ -244,7 +244,7 @@ def test_what_is_changed_is_noted_in_its_request_and_else_has_a_line_of_its_own(
     log.record_change(change)
     assert json.loads(log.newest(1)[0])["changes"] == changes
     assert not note({"nobody": "listens"})
-    # # Patient data, and alarms, which have their own log.
+    # Patient data, and alarms, which have their own log.
     log.record_change(Change(case_id="a", kind="patient", name="Doe", before=None, after=1))
     log.record_change(Change(case_id="a", kind="alarm", name="log", before=1, after=2))
     assert log.head.count == LINES + 2

@@ -56,7 +56,7 @@ def test_a_session_that_was_there_before_is_another_one_after_signing_in(house: 
     enter(house, house.invited(Role.VIEWER))
     assert dict(house.door.cookies) != before
     assert [one.person.role for one in house.people.sessions()] == [Role.VIEWER]
-    # # A foreign cookie is not adopted.
+    # A foreign cookie is not adopted.
     house.door.cookies.clear()
     house.door.cookies.set("coaxial-8000", "0" * 12 + "." + "A" * 43)
     assert enter(house, house.invited()).status_code == 200
@@ -171,7 +171,7 @@ def test_where_the_disk_is_full_it_is_said_what_was_done_and_nothing_more_is_beg
     reported = house.door.post("/api/cases", json={"name": "two"}, headers=operator)
     assert (reported.status_code, reported.json()["code"]) == (507, "STORE_FULL")
     assert len(house.store.list()) == 1
-    # # Actions that must not wait for a disk are executed.
+    # Actions that must not wait for a disk are executed.
     reported = house.door.post("/api/alarms/hold", json={}, headers=operator)
     assert reported.json()["code"] == "AUDIT_NOT_WRITTEN"
     seen = house.door.get("/api/alarms", headers=operator).json()["alarms"]
@@ -293,7 +293,7 @@ def test_an_operator_signs_in_on_a_full_disk_to_make_room(
         assert (reported.status_code, reported.json()["code"]) == (507, "STORE_FULL")
     house.people.audit.catch_up()
     assert house.people.audit.head.count > before
-    # # They are stored with the next change.
+    # They are stored with the next change.
     house.invited(Role.VIEWER)
     again = people_of(tmp_path / "home" / "security", house.clock)
     assert [one.person.role for one in again.sessions()] == [Role.OPERATOR]

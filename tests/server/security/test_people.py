@@ -54,7 +54,7 @@ def test_who_invited_somebody_is_known_of_them_over_a_restart(tmp_path: Path, cl
     link = invited(people_of(tmp_path, clock))
     _, token = people_of(tmp_path, clock).sign_in(link, address=HERE)
     assert people_of(tmp_path, clock).session_of(token.text, address=HERE).person.invited_by == "test"
-    # # A legacy invitation without a stored author.
+    # A legacy invitation without a stored author.
     link, file = invited(people_of(tmp_path, clock)), tmp_path / PEOPLE_FILE
     older = json.loads(file.read_bytes())
     for one in (*older["invitations"], *older["sessions"]):
@@ -137,7 +137,7 @@ def test_failed_logins_are_limited_by_address_and_wait_a_minute(service: PeopleS
     assert reported.value.context == {"wait_s": 50}
     with pytest.raises(TooManyTries):
         service.session_of("nonsense", address=HERE)
-    # # That delays neither other addresses, nor valid links, nor existing sessions.
+    # That delays neither other addresses, nor valid links, nor existing sessions.
     with pytest.raises(InvitationRejected):
         service.sign_in("x", address="192.0.2.8")
     session, token = service.sign_in(link, address=HERE)
@@ -214,7 +214,7 @@ def test_ended_sessions_make_room_and_the_operator_gets_in_however_many_there_ar
     there = json.loads((tmp_path / "people.json").read_text())
     assert len(there["sessions"]) + len(there["invitations"]) == 12
     assert {active.id, last.id} <= {one["id"] for one in there["sessions"]}
-    # # Used links are removed too; only when valid ones fill the limit is an invitation rejected.
+    # Used links are removed too; only when valid ones fill the limit is an invitation rejected.
     service.sign_in(invited(service), address=HERE)
     for _ in range(9):
         invited(service)
@@ -262,11 +262,11 @@ def test_one_link_signs_in_forty_times_an_hour_and_its_audit_lines_end_there(
     )
     assert reported.value.context["wait_s"] == 3600 - 39 * 30
     assert reported.value.remedy
-    # # Existing sessions continue, and other links are accepted.
+    # Existing sessions continue, and other links are accepted.
     assert service.session_of(token.text, address=HERE) == session
     clock.passes(seconds=3600 - 39 * 30)
     service.sign_in(link, address=HERE)
-    # # A rejected attempt does not extend the wait; each attempt expires separately.
+    # A rejected attempt does not extend the wait; each attempt expires separately.
     with pytest.raises(TooManyTries) as reported:
         service.sign_in(link, address=HERE)
     assert reported.value.context["wait_s"] == 30

@@ -101,20 +101,20 @@ def test_who_connects_and_does_not_finish_the_handshake_is_cut_off(
     app = create_app(AppParts(hub=LiveHub(), config=Config()))
     trusting = ssl.create_default_context(cafile=str(tls.certificate))
     trusting.check_hostname = False
-    # # The connections end before the server, whose close would otherwise wait for an answer.
+    # The connections end before the server, whose close would otherwise wait for an answer.
     with served(app, tls=tls) as port, ExitStack() as lines:
 
         def connected() -> socket.socket:
-            # # asyncio alone would keep each of them for 60 s.
+            # asyncio alone would keep each of them for 60 s.
             return lines.enter_context(socket.create_connection(("127.0.0.1", port), timeout=20.0))
 
         silent, halting, whole = connected(), connected(), connected()
-        # # The first bytes of a handshake that never ends.
+        # The first bytes of a handshake that never ends.
         halting.sendall(b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03")
         chained_line = lines.enter_context(trusting.wrap_socket(whole))
         wait_for_end(silent)
         wait_for_end(halting)
-        # # A completed handshake has no further time limit.
+        # A completed handshake has no further time limit.
         chained_line.sendall(b"GET /health HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n")
         assert chained_line.recv(1024).startswith(b"HTTP/1.1 ")
 
@@ -253,7 +253,7 @@ def test_video_goes_through_tls_and_a_stalled_viewer_is_disconnected(
         while sum(size > 100_000 for size in sizes) < 3:
             view.send('{"next": true}')
             sizes.append(len(view.recv(timeout=60)))
-        # # It reads nothing; the buffered data is read after the server has closed the connection.
+        # It reads nothing; the buffered data is read after the server has closed the connection.
         while 'coaxial_viewer_let_go_total{kind="mjpeg"} 1.0' not in _metrics(port, context, cookie[1]):
             view.send('{"next": true}')
             view.recv(timeout=60)

@@ -22,7 +22,7 @@ from server.stream.messages import live_message
 
 PATIENCE_S = 120.0
 SETTINGS = LogSettings(as_json=True)
-# # A sink writes what it receives, and behaves as the message's source name orders.
+# A sink writes what it receives, and behaves as the message's source name orders.
 MODULE = """
 import os
 from pathlib import Path

@@ -15,7 +15,7 @@ from server.slicer_file import (
 from tracker.errors import InvalidInput
 from tracker.plan import Channel, Landmark, PlanDocument, PlannedChannel, VertebraPlan
 
-# # From back to front and to the middle, as in a left pedicle in LPS.
+# From back to front and to the middle, as in a left pedicle in LPS.
 CHANNEL = Channel(
     name="L3 left",
     entry_in_vertebra_mm=np.array([15.0, 30.0, 5.0]),

@@ -59,7 +59,7 @@ class Promised:
         elif what == "file":
             self.files[case_id, said["id"]] = said["sha256"]
         elif what == "leaving":
-            # # Begun and possibly done: neither its presence nor its absence is promised.
+            # Begun and possibly done: neither its presence nor its absence is promised.
             self.cases.pop(case_id, None)
         elif what == "gone":
             self.deleted.add(case_id)
@@ -118,7 +118,7 @@ class Writers:
         requested.flush()
         pid = int(said.readline())
         lines = [said.readline().decode() for _ in range(after_changes)]
-        # # Not a wait for an event: the time of the kill is the variable.
+        # Not a wait for an event: the time of the kill is the variable.
         time.sleep(after_s)
         with contextlib.suppress(ProcessLookupError):
             os.kill(pid, signal.SIGKILL)
@@ -126,7 +126,7 @@ class Writers:
             lines.append(line)
         assert line == f"end {signal.SIGKILL}\n", "the child ended by itself, with an error"
         for line in lines:
-            # # An incomplete line does not count.
+            # An incomplete line does not count.
             with contextlib.suppress(json.JSONDecodeError):
                 promised.note(line)
 
@@ -152,7 +152,7 @@ def fork_for_ever(*, fault: str) -> None:
                 traceback.print_exc()
             os._exit(1)
         _, status = os.waitpid(pid, 0)
-        # # On its own line, even if the child was killed within one.
+        # On its own line, even if the child was killed within one.
         _say_line(f"\nend {os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0}")
 
 

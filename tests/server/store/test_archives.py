@@ -110,7 +110,7 @@ def test_what_came_in_never_looks_as_if_somebody_here_had_made_it(
     plan = store.latest(again.id, DocumentKind.PLAN, "L3 😀")
     assert plan is not None
     assert plan.makers == ("abe", "M. Ito")
-    # # Documents made after the import were made here, also if based on imported ones.
+    # Documents made after the import were made here, also if based on imported ones.
     made = store.put(again.id, DocumentKind.CHECK, "tip", {}, made_by="abe", depends_on=[plan.id])
     assert (made.imported, made.maker, made.makers) == (None, "abe", ("abe",))
     assert [one.heading.maker for one in store.outline(case.id) if one.heading.imported is None][:1] == [
@@ -225,7 +225,7 @@ def test_a_hostile_archive_is_rejected_whole(
     store: CaseStore, home: Home, case: Case, tmp_path: Path, change: Damaging, said: str, *, agreeing: bool
 ) -> None:
     parts = parts_of(store.export_case(case.id, with_identity=True).path)
-    # # The patient's line comes first and is not compared.
+    # The patient's line comes first and is not compared.
     parts["documents.jsonl"] = parts["documents.jsonl"].split(b"\n", 1)[1]
     if not agreeing:
         parts = parts_of(written(tmp_path, parts))
@@ -254,7 +254,7 @@ def test_an_archive_cut_or_changed_anywhere_is_rejected(store: CaseStore, case: 
         for changed in (whole[:n], whole[:n] + bytes([whole[n] ^ 0x55]) + whole[n + 1 :]):
             path.write_bytes(changed)
             with contextlib.suppress(InvalidInput):
-                # # The byte may be insignificant, such as a time inside the zip.
+                # The byte may be insignificant, such as a time inside the zip.
                 taken = store.import_archive(path, by="M. Ito")
                 assert store.verify(taken.id) == ()
                 assert len(store.outline(taken.id)) == 4
@@ -322,7 +322,7 @@ def test_a_case_is_not_deleted_while_it_is_copied_out(
         return ()
 
     monkeypatch.setattr("server.store.archive.packing.all_files", all_files)
-    # # Inside the read transaction a writer of the same thread must not wait for itself.
+    # Inside the read transaction a writer of the same thread must not wait for itself.
     store.export_case(case.id)
     assert rejections == ["CASE_IN_USE"]
     store.delete(case.id, confirm=PATIENT)

@@ -57,7 +57,7 @@ def test_a_full_disk_while_a_file_is_written_is_reported(store: CaseStore, case_
     with pytest.raises(StoreError) as full:
         write(errno.ENOSPC)
     assert full.value.code == "STORE_FULL"
-    # # An error unrelated to the disk is the caller's.
+    # An error unrelated to the disk is the caller's.
     with pytest.raises(ConnectionResetError):
         write(errno.ECONNRESET)
     assert store.files(case_id) == ()
@@ -176,7 +176,7 @@ def test_power_lost_between_any_two_steps_costs_nothing_that_was_confirmed(
         with Home(copy) as home, CaseStore(home) as again:
             there = {case.name for case in again.list()}
             assert ("one" in there) or number >= after_copy, number
-            # # A deletion is confirmed at its end, and effective from its first commit.
+            # A deletion is confirmed at its end, and effective from its first commit.
             assert ("one" not in there) or number <= after_copy, number
             assert (f"Case {case_id[:6]}" in there) is (number >= after_copy), number
             for case in again.list():

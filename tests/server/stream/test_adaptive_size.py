@@ -69,7 +69,7 @@ def test_a_connection_that_gets_faster_gets_larger_pictures_again() -> None:
 
 
 def test_a_connection_between_two_sizes_does_not_oscillate() -> None:
-    # # Idle enough at half size to try full size, of which it carries less than half.
+    # Idle enough at half size to try full size, of which it carries less than half.
     adaptive_size = AdaptiveSize()
     now_s, sizes = 0.0, []
     while now_s < 600.0:
@@ -79,14 +79,14 @@ def test_a_connection_between_two_sizes_does_not_oscillate() -> None:
         adaptive_size.sent(began_s=now_s, ended_s=now_s + took_s, missed=missed)
         now_s += max(took_s, 1.0 / RATE_HZ)
     changes = sum(one is not other for one, other in itertools.pairwise(sizes))
-    # # Increasing intervals: 5, 10, 20, 40, 80, 80 ... s after each failed attempt.
+    # Increasing intervals: 5, 10, 20, 40, 80, 80 ... s after each failed attempt.
     assert 10 <= changes <= 25
 
 
 def test_a_viewer_that_is_idle_between_images_keeps_its_size() -> None:
     adaptive_size = AdaptiveSize()
     for second in range(60):
-        # # One request per second: 29 images are skipped, none of them because of the connection.
+        # One request per second: 29 images are skipped, none of them because of the connection.
         adaptive_size.sent(began_s=float(second), ended_s=second + 0.03, missed=29)
     assert adaptive_size.size is PictureSize.FULL
 
@@ -119,6 +119,6 @@ def test_a_viewer_that_cannot_show_more_gets_no_more_and_less_on_a_slow_connecti
     sizes = [line.adaptive_size.size]
     line.carry(bytes_per_s=1e6 / 8, seconds=10.0)
     sizes.append(line.adaptive_size.size)
-    # # An explicitly requested size is sent.
+    # An explicitly requested size is sent.
     line.adaptive_size.choose(SizeChoice.FULL)
     assert [*sizes, line.adaptive_size.size] == [PictureSize.HALF, PictureSize.QUARTER, PictureSize.FULL]

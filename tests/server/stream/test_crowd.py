@@ -50,7 +50,7 @@ def test_the_third_of_two_is_rejected_with_a_remedy(
                 1013,
                 "2 viewers are connected, the maximum is 2",
             )
-    # # They have disconnected, so there is room again.
+    # They have disconnected, so there is room again.
     with open_socket("/ws/live") as live:
         assert live.receive_text()
 

@@ -116,7 +116,7 @@ def test_each_text_and_picture_is_made_once_for_all(crowd: Crowd) -> None:
     in_full = sum(size is PictureSize.FULL for _, size in pictures.made)
     smaller = [message for _, message in crowd.thin.came if message["shown_scale_ratio"] < 1.0]
     assert in_full == IMAGES
-    # # Only the requests of the slow connection.
+    # Only the requests of the slow connection.
     assert len(pictures.made) - in_full == len(smaller)
 
 
@@ -135,7 +135,7 @@ def test_the_slow_connection_gets_small_pictures_that_are_young(crowd: Crowd) ->
     assert ratios[0] == 1.0
     settled = [came for came in crowd.thin.came if came[0] > 4.0]
     assert {message["shown_scale_ratio"] for _, message in settled} == {0.25}
-    # # Some 8 a second, each the newest when its transmission begins.
+    # Some 8 a second, each the newest when its transmission begins.
     assert len(settled) > (SECONDS - 4.0) * 6
     assert max(message["snapshot"]["age_ms"] for _, message in settled) < 1000.0 / RATE_HZ
 
@@ -158,6 +158,6 @@ def test_a_viewer_on_a_slow_connection_who_insists_gets_full_pictures_rarely(
         came.extend(message["shown_scale_ratio"] for _, message in page.came)
 
     run_in_made_time(run())
-    # # 130 kB over 1 Mbit/s take 1.04 s: slow but not stalled.
+    # 130 kB over 1 Mbit/s take 1.04 s: slow but not stalled.
     assert came == [1.0] * 7
     assert view.viewers.disconnected(ViewerKind.VIEW) == 0

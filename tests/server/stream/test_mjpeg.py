@@ -161,7 +161,7 @@ def test_a_card_replaces_the_last_image_when_messages_stop(
     monkeypatch.setattr(mjpeg, "time", LoopTime)
     viewers, hub, said = Viewers(), LiveHub(), live_instant(0)
     assert said.snapshot is not None
-    # # 30 ms old on arrival: at the viewer's timeout it is older than 500 ms.
+    # 30 ms old on arrival: at the viewer's timeout it is older than 500 ms.
     snapshot = dataclasses.replace(said.snapshot, captured_at_s=-0.03)
     video = Video(hub=hub, viewers=viewers, pictures=PictureCache(quality=80), stale_after_ms=500.0)
     came: list[tuple[float, int | None]] = []
@@ -198,7 +198,7 @@ def test_a_stalled_viewer_is_disconnected_and_delays_no_other(
         while metric(port, 'coaxial_viewer_let_go_total{kind="mjpeg"}') == 0.0:
             publish()
             assert time.monotonic() < deadline
-        # # Its connection is closed for good: pending data is dropped.
+        # Its connection is closed for good: pending data is dropped.
         assert received_until_cut(stalled) < 2 * len(noise)
         assert metric(port, 'coaxial_viewers{kind="mjpeg"}') == 0.0
     publish()

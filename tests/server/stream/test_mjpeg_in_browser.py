@@ -14,7 +14,7 @@ from tracker.navigation import NavigationSnapshot
 
 pytestmark = pytest.mark.browser
 
-# # Whether the picture has this brightness.
+# Whether the picture has this brightness.
 IS_SHOWN = """bright => {
     const img = document.querySelector('img')
     if (!img || !img.naturalWidth) return false
@@ -32,7 +32,7 @@ def test_the_browser_shows_an_image_without_waiting_for_the_next(
     snapshot_of: Callable[..., NavigationSnapshot],
     instant_of: Callable[..., Instant],
 ) -> None:
-    # # No card during this test: it would be a next part and hide that the browser waits for one.
+    # No card during this test: it would be a next part and hide that the browser waits for one.
     port = serve(patient_app)
 
     def publish(sequence: int, bright: int) -> None:

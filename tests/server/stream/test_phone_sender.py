@@ -22,7 +22,7 @@ CAMERA = {
     "focus_mm": 400,
     "zoom_percent": None,
 }
-# # Offset of the page's clock from this machine's.
+# Offset of the page's clock from this machine's.
 AHEAD_S = 5000.0
 
 
@@ -59,7 +59,7 @@ def test_an_image_in_parts_is_whole_with_its_last_one() -> None:
     assert received.jpeg == jpeg
     assert (received.clock, received.arrived_s) == (ImageClock.BROWSER, 1.05)
     assert received.camera.focus is Focus.LOCKED
-    # # Never younger than true, and older at most by the transfer time of a ping.
+    # Never younger than true, and older at most by the transfer time of a ping.
     assert 1.0 - 0.004 - 1e-6 <= received.captured_at_s <= 1.0 + 1e-6
 
 
@@ -116,7 +116,7 @@ def test_no_more_is_taken_than_was_granted() -> None:
         sender.take_part(jpeg, 1.5 + number)
     with pytest.raises(ProtocolViolation, match="beyond the credit"):
         announce(sender, jpeg, captured_s=9.0)
-    # # Each received image grants one more, as soon as it is acknowledged.
+    # Each received image grants one more, as soon as it is acknowledged.
     assert sender.update_credit(9.0).credit == 2 * MAX_IMAGES_IN_FLIGHT
     announce(sender, jpeg, captured_s=9.0)
 
@@ -226,10 +226,10 @@ def test_a_page_whose_clock_stood_still_is_taken_at_its_new_word() -> None:
     clock = PageClock()
     for number in range(3):
         clock.take(sent_s=number, page_s=number + 0.005 + AHEAD_S, received_s=number + 0.01)
-    # # The device slept for three seconds, and its clock with it.
+    # The device slept for three seconds, and its clock with it.
     clock.take(sent_s=9.0, page_s=6.005 + AHEAD_S, received_s=9.01)
     assert clock.captured_at_s(7.0 + AHEAD_S) == pytest.approx(10.0, abs=0.006)
-    # # A clock that jumps ahead makes nothing look younger.
+    # A clock that jumps ahead makes nothing look younger.
     clock.take(sent_s=11.0, page_s=20.005 + AHEAD_S, received_s=11.01)
     assert clock.captured_at_s(21.0 + AHEAD_S) == pytest.approx(12.0, abs=0.006)
 
@@ -240,5 +240,5 @@ def test_clocks_that_drift_apart_are_followed() -> None:
         at_s = float(number)
         clock.take(sent_s=at_s, page_s=at_s * faster + 0.1 + AHEAD_S, received_s=at_s + 0.2)
     captured_at_s = clock.captured_at_s(99.0 * faster + AHEAD_S)
-    # # Of the total drift (10 ms) only the part within the window remains.
+    # Of the total drift (10 ms) only the part within the window remains.
     assert captured_at_s == pytest.approx(99.0 - 0.1, abs=0.0011)

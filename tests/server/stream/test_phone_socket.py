@@ -25,7 +25,7 @@ from tests.server.capture.fake_phone import CAMERA, jpeg_of
 from tests.server.stream.test_phone_sender import CAMERA as CAMERA_SAID
 from tracker.camera import CameraControl
 
-# # The server sends at least twice a second.
+# The server sends at least twice a second.
 MAX_MESSAGES = 20
 KEY, OTHER_KEY = "0" * 32, "1" * 32
 ITO = Person(id="ito", name="Dr. Ito", role=Role.OPERATOR)
@@ -141,7 +141,7 @@ def test_images_reach_the_inbox_with_their_time_and_each_one_grants_the_next(
         assert before_s - 5.0 < image.captured_at_s <= time.monotonic()
         assert note["delay_ms"] >= 0.0
         assert note["problem"] is None
-    # # The page is closed: nobody is connected, which is reported at once.
+    # The page is closed: nobody is connected, which is reported at once.
     assert newest(inbox) == PhoneUpdate(sender="")
 
 
@@ -185,7 +185,7 @@ def test_a_second_device_is_rejected_with_a_sentence_and_the_first_goes_on(
 
 
 def test_the_page_that_lost_its_connection_gets_its_slot_back(door: TestClient, inbox: PhoneInbox) -> None:
-    # # Its first connection is half-open: the server has not noticed its end.
+    # Its first connection is half-open: the server has not noticed its end.
     with connected(door) as hanging, connected(door) as socket:
         first = Phone(hanging)
         first.begin()
@@ -194,7 +194,7 @@ def test_the_page_that_lost_its_connection_gets_its_slot_back(door: TestClient, 
         assert ending(hanging).code == phone_socket.REPLACED
         again.send(jpeg_of(50))
         again.note_after(1)
-        # # The end of the first connection has not released the second one's place.
+        # The end of the first connection has not released the second one's place.
         assert newest(inbox).sender
 
 

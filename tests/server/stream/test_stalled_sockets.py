@@ -15,14 +15,14 @@ from server.live import Instant, LiveHub, Problem, SourceState, SourceStatus
 from server.stream.connection import ViewerHttpProtocol
 
 DEADLINE_S = 60.0
-# # More than all buffers between both sides hold.
+# More than all buffers between both sides hold.
 LARGE = 8_000_000
 HANDSHAKE = (
     "GET /ws/{kind} HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
     "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n"
 )
 NEXT_REQUEST = b'{"next": true}'
-# # A text message in one frame, masked with zeros, since a client must mask it.
+# A text message in one frame, masked with zeros, since a client must mask it.
 GRANT_FRAME = bytes([0x81, 0x80 | len(NEXT_REQUEST), 0, 0, 0, 0]) + NEXT_REQUEST
 
 
@@ -86,7 +86,7 @@ def test_a_later_request_whose_head_trickles_is_cut(
         ended = threading.Event()
         reading = threading.Thread(target=_read_to_the_end, args=(slow, ended))
         reading.start()
-        # # Byte by byte, which once kept the connection open while only silence counted.
+        # Byte by byte, which once kept the connection open while only silence counted.
         while not ended.wait(0.01):
             with contextlib.suppress(BrokenPipeError, ConnectionResetError):
                 slow.sendall(bytes([next(trickle)]))
@@ -110,7 +110,7 @@ def test_a_socket_outlives_the_wait_for_a_request(
             contextlib.suppress(ConnectionResetError),
             socket.create_connection(("127.0.0.1", port), timeout=DEADLINE_S) as silent,
         ):
-            # # Arrives later and is closed: the time limit of the socket has expired too.
+            # Arrives later and is closed: the time limit of the socket has expired too.
             assert silent.recv(1) == b""
         hub.publish(live_instant(2))
         received = b""

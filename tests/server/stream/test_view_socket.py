@@ -37,7 +37,7 @@ def test_an_image_and_its_pose_come_in_one_message(
         header, jpeg = unpacked(socket.receive_bytes())
     assert header["sequence"] == 5
     assert header["snapshot"]["image_number"] == 1005
-    # # The published bytes: nothing is encoded again.
+    # The published bytes: nothing is encoded again.
     assert jpeg == instant.jpeg
 
 
@@ -48,12 +48,12 @@ def test_each_image_is_requested_and_is_the_newest_then(
     with open_socket("/ws/view") as socket:
         socket.send_text('{"next": true}')
         assert unpacked(socket.receive_bytes())[0]["sequence"] == 0
-        # # 1 and 2 were not requested and are never sent.
+        # 1 and 2 were not requested and are never sent.
         for sequence in (1, 2, 3):
             hub.publish(live_instant(sequence))
         socket.send_text('{"next":true}')
         assert unpacked(socket.receive_bytes())[0]["sequence"] == 3
-        # # Requested before there is a newer one: the answer arrives with it.
+        # Requested before there is a newer one: the answer arrives with it.
         socket.send_text('{"next": true}')
         hub.publish(live_instant(4))
         assert unpacked(socket.receive_bytes())[0]["sequence"] == 4
@@ -160,7 +160,7 @@ def test_the_interval_that_a_client_asks_for_is_kept(
         hub.publish(live_instant(0))
         socket.send_text('{"next": true}')
         first = unpacked(socket.receive_bytes())[0]
-        # # Within a second of the first, and not sent; one without an image is not held back.
+        # Within a second of the first, and not sent; one without an image is not held back.
         hub.publish(live_instant(1))
         socket.send_text('{"next": true}')
         hub.publish(instant_of(2))
@@ -182,7 +182,7 @@ def test_the_size_is_requested_in_the_query_and_changed_later(
             decoded = cv2.imdecode(np.frombuffer(jpeg, np.uint8), cv2.IMREAD_COLOR)
             assert decoded is not None
             shown.append((header["shown_scale_ratio"], decoded.shape[1], header["snapshot"]["width_px"]))
-    # # Pixel coordinates in the message always refer to the camera's image.
+    # Pixel coordinates in the message always refer to the camera's image.
     assert shown == [(0.5, 80, 160), (0.25, 40, 160), (1.0, 160, 160), (1.0, 160, 160)]
 
 

@@ -15,7 +15,7 @@ def test_two_who_saw_the_same_go_one_by_one() -> None:
         with viewers.register(ViewerKind.LIVE) as goes:
             stays.mark_taken(7)
             goes.mark_taken(7)
-        # # The other viewer's counts are its own.
+        # The other viewer's counts are its own.
         stays.mark_taken(9)
         assert viewers.count(ViewerKind.LIVE) == 1
         assert viewers.dropped(ViewerKind.LIVE) == 1

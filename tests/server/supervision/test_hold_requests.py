@@ -46,7 +46,7 @@ def test_a_hold_survives_a_restart_with_its_requester_and_time(start: Callable[.
     holds, service = start("2026-11-21T15:00:00.000Z")
     assert [(one.name, one.at) for one in holds.requests] == [("Dr Sato", "2026-11-21T14:03:00.000Z")]
     assert alarms_of(service) == [("HOLD_REQUESTED", "Dr Sato")]
-    # # Repeated requests keep the time of the first.
+    # Repeated requests keep the time of the first.
     holds.request(SATO)
     holds.request(KIM)
     holds, service = start()
@@ -103,7 +103,7 @@ def test_it_is_on_the_disk_for_its_owner_alone_before_it_is_confirmed(
 
     monkeypatch.setattr(os, "fsync", counted_fsync)
     start()[0].request(SATO)
-    # # The file, and the folder that contains its name.
+    # The file, and the folder that contains its name.
     assert len(synced) == 2
     assert (tmp_path / HOLDS_FILE).stat().st_mode & 0o777 == 0o600
 

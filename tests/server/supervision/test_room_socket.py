@@ -118,7 +118,7 @@ def test_the_operator_clears_what_others_drew(page: Callable[..., Page], image: 
         [],
         [],
     ]
-    # # None of it returns with the next drawing.
+    # None of it returns with the next drawing.
     sato.say(draw={"key": 8, "shape": "circle", "points_px": [[200, 100], [250, 100]], **image})
     (after,) = ito.until(lambda reported: reported["drawings"])["drawings"]
     assert after != drawn["key"]
@@ -199,7 +199,7 @@ def test_holds_of_several_stand_until_each_has_released(client: TestClient) -> N
     def by(reported: Any) -> list[str]:  # noqa: ANN401  JSON
         return [one["by"] for one in reported["alarms"] if one["condition"] == "HOLD_REQUESTED"]
 
-    # # The session's name is used, whatever was entered.
+    # The session's name is used, whatever was entered.
     assert by(post("hold", "s1")) == ["Dr Sato"]
     rejected = post("release", "s2", 409)
     assert (rejected["code"], "Dr Sato" in rejected["message"]) == ("HOLD_NOT_YOURS", True)

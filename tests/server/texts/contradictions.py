@@ -18,7 +18,7 @@ from tests.server.texts.random_drilling import Moment
 from tracker.navigation import FigureName, Verdict
 from tracker.navigation.alarms import AlarmState, Condition, Presence
 
-# # From an image with a breach to its alarm: two images, or 80 ms and the next evaluation.
+# From an image with a breach to its alarm: two images, or 80 ms and the next evaluation.
 MAX_UNANNOUNCED = 2
 INSTRUCTION = re.compile(r"Stop\.|Anhalten\.")
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
@@ -153,7 +153,7 @@ class ContradictionCheck:
             assert isinstance(sentence, dict)
             if change == "raised":
                 shown = by_number[_number(line)]
-                # # The log line is of this occurrence; the screen also names earlier ones.
+                # The log line is of this occurrence; the screen also names earlier ones.
                 for language, word in (("en", "Earlier"), ("de", "Zuvor")):
                     own, reported = sentence[language], getattr(shown.sentence, language)
                     is_again = shown.earlier_worst is not None

@@ -26,8 +26,8 @@ CAMERA_FROM_VERTEBRA = Rigid[Camera, Vertebra].from_vector([-1.2, 0.3, 0.1], [0.
 SD = np.array([0.08] * 3 + [0.0004] * 3)
 CORNERS_MM = [[-12.5, 12.5, 0.0], [12.5, 12.5, 0.0], [12.5, -12.5, 0.0], [-12.5, -12.5, 0.0]]
 UNSEEN = Unseen(reason=UnseenReason.NO_CANDIDATE)
-# # Depth, medial and cranial offset at the entry [mm], medial and cranial angle [deg], and the factor of
-# # the pose's uncertainty.
+# Depth, medial and cranial offset at the entry [mm], medial and cranial angle [deg], and the factor of
+# the pose's uncertainty.
 Where: TypeAlias = Sequence[float] | npt.NDArray[np.float64]
 
 

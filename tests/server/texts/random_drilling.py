@@ -30,7 +30,7 @@ RUNS = SourceStatus(name="rehearsal", state=SourceState.RUNNING)
 WORKS = ProcessStatus(state=ProcessState.RUNNING)
 START = datetime(2026, 1, 2, 10, 41, 13, tzinfo=UTC)
 
-# # Targets of the hand: (depth, medial, cranial, medial_deg, cranial_deg), and the factor of the uncertainty.
+# Targets of the hand: (depth, medial, cranial, medial_deg, cranial_deg), and the factor of the uncertainty.
 PLACES: Sequence[tuple[float, float, float, float, float, float]] = [
     (-15.0, 0.2, 0.1, 0.3, 0.2, 1.0),  # before the entry, on path
     (25.0, 0.1, 0.0, 0.2, 0.1, 1.0),  # inside, on path

@@ -15,11 +15,11 @@ from tracker.camera import LampFlicker
         (50, 27.0, 30.0, ["20.0", "30.0"]),
         (60, 7.0, 30.0, ["8.3", "16.7"]),
         (60, None, 30.0, ["8.3", "16.7"]),
-        # # Not longer than the interval of images.
+        # Not longer than the interval of images.
         (50, 7.0, 60.0, ["10.0"]),
         (60, 4.0, 100.0, ["8.3"]),
         (50, 4.0, 120.0, []),
-        # # The present exposure is not proposed.
+        # The present exposure is not proposed.
         (50, 10.0, 30.0, ["20.0", "30.0"]),
     ],
 )

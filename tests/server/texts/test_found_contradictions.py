@@ -163,7 +163,7 @@ def test_when_tracking_dies_in_a_breach_its_number_is_at_once_of_the_past() -> N
     picture = theatre.service.observe(None, RUNS, DIED)
     assert theatre.alarm(Condition.BREACH).presence is Presence.UNKNOWN
     assert theatre.sentence(Condition.BREACH).startswith("Not tracked. Was ")
-    # # A publisher that publishes on change publishes this one.
+    # A publisher that publishes on change publishes this one.
     assert picture.revision > before.revision
 
 

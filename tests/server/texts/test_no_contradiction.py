@@ -32,7 +32,7 @@ def test_no_moment_of_a_random_drilling_contradicts_itself() -> None:
                 if alarm.condition is Condition.BREACH
             )
         again += check.again
-    # # Without events the test would prove nothing.
+    # Without events the test would prove nothing.
     assert set(verdicts) == {None, *Verdict} - {Verdict.NOT_ASSESSED}
     assert set(breaches) >= {
         (AlarmState.ACTIVE, Presence.YES),

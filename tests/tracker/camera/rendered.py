@@ -18,7 +18,7 @@ CAMERA = CameraModel(
     size_wh_px=(640, 480),
 )
 Pose = tuple[tuple[float, float, float], tuple[float, float, float]]
-# # Rotation in degrees (about x, y, z), and position of the board's centre in mm.
+# Rotation in degrees (about x, y, z), and position of the board's centre in mm.
 POSES: tuple[Pose, ...] = (
     ((0, 0, 0), (0, 0, 260)),
     ((25, 0, 5), (-30, -20, 250)),

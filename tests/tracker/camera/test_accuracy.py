@@ -69,7 +69,7 @@ def test_points_that_displacements_share_are_left_out_of_the_fit() -> None:
     chain = Displacements(
         first_mm=GRID[:8], second_mm=GRID[1:9], first_px=seen_at(GRID[:8]), second_px=seen_at(GRID[1:9])
     )
-    # # Nine points on a line: no plane, however many rows are stated.
+    # Nine points on a line: no plane, however many rows are stated.
     with pytest.raises(CalibrationError, match="one line"):
         accuracy_left_out(CAMERA, chain)
     ring = np.array([0, 8, 62, 54, 31])

@@ -22,7 +22,7 @@ def seen(
     far_mm: float = 450.0,
 ) -> np.ndarray:
     """Pixels of a 9x6 board with its centre `at` mm beside the axis."""
-    # # A positive angle about x moves the lower edge away; leaning back is the opposite.
+    # A positive angle about x moves the lower edge away; leaning back is the opposite.
     turned = rotation_from_vector(np.radians([0.0, rotation_deg, 0.0])) @ rotation_from_vector(
         np.radians([-lean_deg, 0.0, 0.0])
     )

@@ -44,7 +44,7 @@ def test_every_number_lies_in_its_interval_as_often_as_is_said() -> None:
         true_value = known.true_value_from_name
         inside += sum(one.low_95 <= true_value[one.name] <= one.high_95 for one in report.parameters)
         every += len(report.parameters)
-    # # 108 values, with neighbours correlated: three standard deviations of 95 %.
+    # 108 values, with neighbours correlated: three standard deviations of 95 %.
     assert 0.85 <= inside / every < 1.0
 
 
@@ -188,7 +188,7 @@ def test_views_of_two_cameras_show_in_the_rms(camera: KnownCamera, views: list[B
     other = known_camera(np.random.default_rng(99))
     mixed = [*views[:5], *views_of(other, np.random.default_rng(98), 5)]
     report = calibrated(mixed, camera)
-    # # No view is dropped to hide it: the gate on the RMS detects it.
+    # No view is dropped to hide it: the gate on the RMS detects it.
     assert report.rms_px > 1.0
     assert report.views_used == len(mixed)
 

@@ -50,7 +50,7 @@ def test_every_point_is_where_and_which_it_is(board: Board, pose: int, within_px
     assert view.ambiguity is PlacementAmbiguity.NONE
     assert view.ids.size > 0.9 * len(board.object_points_mm)
     off = np.linalg.norm(view.image_points_px - true_px(board, POSES[pose])[view.ids], axis=1)
-    # # Larger than the noise of a corner, far smaller than a step: no point is mislabelled.
+    # Larger than the noise of a corner, far smaller than a step: no point is mislabelled.
     assert off.max() < 6 * within_px
     assert np.median(off) < within_px
 

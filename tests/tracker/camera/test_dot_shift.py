@@ -63,7 +63,7 @@ def view_of_large_dots(pose: Pose) -> BoardView:
     spots = np.asarray(board.object_points_mm)[:, None, :] + disc.reshape(-1, 3)
     px = CAMERA.px_from_camera(spots.reshape(-1, 3) @ rotation.T + translation).reshape(len(spots), -1, 2)
     depth = (spots @ rotation[2] + translation[2])[..., None]
-    # # The nearer a part of a dot, the larger its image.
+    # The nearer a part of a dot, the larger its image.
     middles = (px / depth**3).sum(axis=1) / (1.0 / depth**3).sum(axis=1)
     rng = np.random.default_rng(round(10.0 * sum(pose[0]) + 1000.0))
     middles += rng.normal(0.0, 0.01, middles.shape)

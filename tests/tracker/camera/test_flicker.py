@@ -125,7 +125,7 @@ def _grey(level: float, at_s: float, depth_ratio: float) -> Image:
 
 
 def test_where_the_rate_cannot_tell_the_mains_both_are_named() -> None:
-    # # At 27.5 images/s, light at 100 Hz and at 120 Hz has the same beat, 10 Hz up and down.
+    # At 27.5 images/s, light at 100 Hz and at 120 Hz has the same beat, 10 Hz up and down.
     times_s = np.arange(0.0, WINDOW_S, 1.0 / 27.5)
     verdict = detect_flicker(list(times_s), [brightness_grid(_grey(120.0, at_s, 0.1)) for at_s in times_s])
     assert verdict.flicker is not None
@@ -154,6 +154,6 @@ def test_a_monitor_tells_flicker_until_light_is_seen_steady() -> None:
 
     assert not shown(0.0, 0.0)
     assert shown(11.0, 0.05)
-    # # Without evidence nothing is ruled out.
+    # Without evidence nothing is ruled out.
     assert shown(22.0, 0.0, level=3.0)
     assert not shown(33.0, 0.0)

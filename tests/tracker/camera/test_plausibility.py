@@ -98,7 +98,7 @@ def coefficients(**values: float) -> list[float]:
             "corners",
             id="a-pole",
         ),
-        # # In mm, as in a data sheet.
+        # In mm, as in a data sheet.
         pytest.param(lambda: camera(3.6), "at least 192 px", "OpenCV", id="focal-length-in-mm"),
     ],
 )

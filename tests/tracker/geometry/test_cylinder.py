@@ -26,7 +26,7 @@ def test_lines_of_sight_touch_the_cylinder_along_its_outline(
     start, end = np.array([x, y, 200.0]), np.array([x + dx, y + dy, 240.0])
     axis = (end - start) / np.linalg.norm(end - start)
     to_axis = start - (start @ axis) * axis
-    # # On the wall itself, rounding decides the side of the eye.
+    # On the wall itself, rounding decides the side of the eye.
     assume(abs(np.linalg.norm(to_axis) - radius_mm) > 1e-9)
     lines = cylinder_silhouette_mm(start, end, radius_mm)
     if np.linalg.norm(to_axis) <= radius_mm:
@@ -36,7 +36,7 @@ def test_lines_of_sight_touch_the_cylinder_along_its_outline(
     for near, far in lines:
         assert np.linalg.norm(near - start) == pytest.approx(radius_mm)
         assert np.allclose(far - near, end - start)
-        # # Tangent: the normal at the line is perpendicular to the line of sight.
+        # Tangent: the normal at the line is perpendicular to the line of sight.
         assert (near - start) @ near == pytest.approx(0.0, abs=1e-6)
 
 

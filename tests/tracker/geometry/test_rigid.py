@@ -95,7 +95,7 @@ def test_what_is_no_rigid_motion_is_rejected(
 def test_a_rotation_with_six_digits_is_taken() -> None:
     rotation = rotation_from_vector([0.3, -0.5, 1.1])
     taken: Motion = Rigid(rotation=np.round(rotation, 6), translation_mm=np.zeros(3))
-    # # Only the rounding error remains: it is the stored rotation.
+    # Only the rounding error remains: it is the stored rotation.
     assert np.abs(taken.rotation - rotation).max() <= 0.5e-6
     assert vector_from_rotation(taken.rotation) == pytest.approx([0.3, -0.5, 1.1], abs=2e-6)
     with pytest.raises(InvalidInput):

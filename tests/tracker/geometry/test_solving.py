@@ -5,7 +5,7 @@ import pytest
 
 from tracker.geometry.geometry_kernels import pose_rows, solve_banded, solve_positive
 
-# # 20 unknowns coupled to those less than 4 away, and 5 coupled to all.
+# 20 unknowns coupled to those less than 4 away, and 5 coupled to all.
 BANDED, WIDE, REST = 20, 4, 5
 
 
@@ -17,7 +17,7 @@ def bordered_matrix() -> np.ndarray:
         first = random.integers(BANDED - WIDE + 1)
         row[first : first + WIDE] = random.standard_normal(WIDE)
         row[BANDED:] = random.standard_normal(REST)
-    # # Millimetres and radians together.
+    # Millimetres and radians together.
     units = 10.0 ** random.uniform(-2.0, 2.0, count)
     return np.asarray(slopes.T @ slopes * np.outer(units, units))
 

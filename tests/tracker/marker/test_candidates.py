@@ -134,7 +134,7 @@ def test_each_round_yields_few_new_candidates_the_best_first() -> None:
     assert len(given) >= 2
     for candidates in (one[0] for one in given):
         assert len(candidates) <= 4
-        # # After the most similar candidates come those that are most similar part by part.
+        # After the most similar candidates come those that are most similar part by part.
         assert all(one.correlation <= candidates[0].correlation for one in candidates)
     every = [candidate.corners_px for one in given for candidate in one[0]]
     for i, a in enumerate(every):

@@ -97,7 +97,7 @@ def test_corners_move_to_the_adjacent_sides() -> None:
     moved = _shifted(offset, outline)
     expected = np.array([[0.4 - 0.02 * b * 12.5, -0.3 + 0.02 * a * 12.5] for a, b in CORNERS])
     np.testing.assert_allclose(moved, expected, atol=0.02)
-    # # One outlier beside a corner changes nothing; without edgels a corner stays.
+    # One outlier beside a corner changes nothing; without edgels a corner stays.
     wild = offset.copy()
     wild[np.flatnonzero(outline)[::9]] += 2.5
     np.testing.assert_allclose(_shifted(wild, outline), expected, atol=0.05)

@@ -26,7 +26,7 @@ def rod(
     length = ROD_BACK_MM - ROD_FRONT_MM - 2.0 * shorter_mm
     mesh = trimesh.creation.cylinder(radius=radius_mm, height=length, sections=96)
     faces = mesh.faces[:, ::-1] if turned_inside_out else mesh.faces
-    # # A rotation about the patient's left-right axis lays it down.
+    # A rotation about the patient's left-right axis lays it down.
     return Surface(vertices_mm=mesh.vertices[:, [0, 2, 1]] * [1.0, -1.0, 1.0] + middle, faces=faces)
 
 

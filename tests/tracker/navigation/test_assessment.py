@@ -64,7 +64,7 @@ OVER = {Status.OVER, Status.THROUGH}
             id="runs-too-far-to-the-feet",
         ),
         pytest.param(
-            # # Entry 1.7 of 1.8 mm and angle 2.0 of 5.7 degrees: each is allowed, both are through the wall.
+            # Entry 1.7 of 1.8 mm and angle 2.0 of 5.7 degrees: each is allowed, both are through the wall.
             {"depth_mm": 2.0, "medial_mm": 1.7, "medial_deg": 2.0},
             Verdict.CORRECT_END,
             ((math.nan, Direction.LATERAL),),
@@ -183,7 +183,7 @@ def test_a_figure_equal_to_its_limit_on_the_screen_is_within_it() -> None:
 
 
 def test_the_error_is_that_of_the_whole_chain_and_not_of_the_marker_alone() -> None:
-    # # A registration with 0.5 mm uncertainty, and a marker with 0.01 mm.
+    # A registration with 0.5 mm uncertainty, and a marker with 0.01 mm.
     registered = np.diag([0.5**2] * 3 + [0.0] * 3)
     place = drill_at(ROD_CHANNEL, 30.0)
     judged = drill_reference().analyse(UncertainPose(pose=place, covariance=registered), drill(), ROD_CHANNEL)
@@ -238,7 +238,7 @@ def test_a_set_up_that_does_not_suffice_makes_no_verdict_calmer(
         return
     is_likely = known.figures[FigureName.RISK].status is Status.OVER
     assert known.verdict is (Verdict.BREACH_LIKELY if is_likely else Verdict.SETUP_INSUFFICIENT)
-    # # No headline that only asks for a correction hides it.
+    # No headline that only asks for a correction hides it.
     assert known.verdict.severity > Verdict.NEAR_WALL.severity
 
 
@@ -276,7 +276,7 @@ def _is_over(name: FigureName, figure: Figure) -> bool:
     if name is FigureName.TO_GO:
         return figure.value < 0.0
     if name is FigureName.DEPTH:
-        # # One rule for both: 46.9 of 46.9 may be 0.04 mm past, and then nothing remains.
+        # One rule for both: 46.9 of 46.9 may be 0.04 mm past, and then nothing remains.
         return figure.status is Status.THROUGH
     return not figure.value <= figure.limit
 

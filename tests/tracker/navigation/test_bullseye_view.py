@@ -40,7 +40,7 @@ def test_places_in_the_view(
     at_target: tuple[float, float],
 ) -> None:
     seen = bullseye_view(drill(tip_mm, direction), straight())
-    # # The channel itself is inclined by a thousandth of a millimetre.
+    # The channel itself is inclined by a thousandth of a millimetre.
     np.testing.assert_allclose(seen.tip_mm, tip, atol=2e-3)
     np.testing.assert_allclose(seen.at_entry_mm, at_entry, atol=2e-3)
     np.testing.assert_allclose(seen.at_target_mm, at_target, atol=2e-3)

@@ -48,7 +48,7 @@ def test_until_five_images_are_known_there_is_no_speed_and_none_across_a_gap() -
     for number in range(8):
         tip.take(np.array([number * 1.0, 0.0, 0.0]), at_s=number / RATE_HZ)
     assert isnan(tip.take(np.array([200.0, 0.0, 0.0]), at_s=3.0))
-    # # A repeated image, and a clock that was set back, also reset it.
+    # A repeated image, and a clock that was set back, also reset it.
     assert isnan(tip.take(np.array([201.0, 0.0, 0.0]), at_s=3.0))
 
 

@@ -82,7 +82,7 @@ def test_a_moved_camera_is_reported_within_a_third_of_a_second_until_the_next_re
     assert (before.camera_moved, before.scene) == (False, SceneState.STILL)
     after = shifted(picture, 6.0)
     assert play.show(after, images=10).camera_moved
-    # # The state persists although the scene is still again.
+    # The state persists although the scene is still again.
     later = play.show(after, images=60)
     assert (later.camera_moved, later.scene) == (True, SceneState.STILL)
     play.watching.begin(from_s=play.now_s, now_s=play.now_s)
@@ -126,7 +126,7 @@ def test_a_reference_that_another_camera_model_places_elsewhere_was_not_bumped(
     farther = seen(replace(REFERENCE, translation_mm=REFERENCE.translation_mm * np.array([1.0, 1.0, 1.02])))
     reported = play.show(picture, farther, images=30)
     assert (reported.reference_moved, reported.jumped) == (False, frozenset())
-    # # A later bump counts.
+    # A later bump counts.
     bumped = seen(moved(farther.camera_from_marker, 8.0))
     assert play.show(picture, bumped, images=30).reference_moved
 

@@ -22,7 +22,7 @@ from tracker.navigation import (
 from tracker.plan import Channel
 from tracker.registration import Registration
 
-# # From the origin 40 mm along +y.
+# From the origin 40 mm along +y.
 CHANNEL = Channel(
     name="L3 left",
     entry_in_vertebra_mm=np.zeros(3),
@@ -94,7 +94,7 @@ def test_the_deviation_does_not_depend_on_where_the_patient_lies() -> None:
     )
     drill = _drill((2.0, 11.0, -1.0), (0.1, 1.0, -0.2))
     here, there = deviation_from_channel(drill, CHANNEL), deviation_from_channel(move @ drill, moved)
-    # # Values in the patient's directions rotate with the patient.
+    # Values in the patient's directions rotate with the patient.
     for name in ("entry_offset_mm", "angle_deg", "depth_mm", "remaining_mm", "tip_offset_mm"):
         assert getattr(there, name) == pytest.approx(getattr(here, name), abs=1e-9)
 

@@ -55,7 +55,7 @@ def test_a_shift_moves_entry_and_isthmus_alike() -> None:
 
 
 def test_a_rotation_moves_the_isthmus_more_than_the_entry_by_its_lever() -> None:
-    # # The anchor's origin is that of the plan: rotations are about it.
+    # The anchor's origin is that of the plan: rotations are about it.
     pose: Rigid[Vertebra, Anchor] = Rigid(rotation=POSE.rotation, translation_mm=np.zeros(3))
     registration = UncertainPose(pose=pose, covariance=np.diag([0.0, 0.0, 0.0, 1e-4, 1e-4, 1e-4]))
     check = check_registration(registration, CHANNEL, tolerance(5.0))
@@ -139,7 +139,7 @@ def test_the_least_error_of_a_set_up_has_registration_tool_and_tracking(
 
 
 def test_a_tip_that_registered_cancels_where_the_drill_can_be_held_as_at_the_captures() -> None:
-    # # Captured with the marker as on the planned channel, rotated by 60 degrees about it.
+    # Captured with the marker as on the planned channel, rotated by 60 degrees about it.
     across = channel_directions(CHANNEL)
     side = np.cross(across.cranial, across.axis)
     planned = np.column_stack([side, across.cranial, across.axis]) @ rotation_from_vector(
@@ -150,7 +150,7 @@ def test_a_tip_that_registered_cancels_where_the_drill_can_be_held_as_at_the_cap
     jacobian = np.vstack([anchor_from_marker, np.zeros((3, 3))])
     registered = registration(jacobian @ tool.tip_covariance_mm2 @ jacobian.T, tip_jacobian=jacobian)
     assert check_setup(registered, tool, CHANNEL, tolerance(1.0)).error_95_mm == pytest.approx(0.0, abs=0.01)
-    # # Errors of different tools are independent: the root of two errors of 0.2 mm.
+    # Errors of different tools are independent: the root of two errors of 0.2 mm.
     other = drill(tip_sd_mm=0.2, name="awl")
     assert check_setup(registered, other, CHANNEL, tolerance(1.0)).error_95_mm == 0.7
 

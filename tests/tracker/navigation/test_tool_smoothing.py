@@ -82,7 +82,7 @@ def test_away_from_the_wall_a_tool_is_smoothed_and_states_its_lag() -> None:
     alone = make_snapshot(tip_in_vertebra_mm=FAR).deviations["drill"]
     assert isinstance(last, Deviation)
     assert isinstance(alone, Deviation)
-    # # The tremor of 0.005 mm is removed.
+    # The tremor of 0.005 mm is removed.
     assert last.tip_offset_mm == pytest.approx(alone.tip_offset_mm, abs=1e-4)
 
 

@@ -52,7 +52,7 @@ def _measure_a_pedicle() -> None:
 
 
 def test_after_the_warm_up_no_image_and_no_ct_makes_anything_compile() -> None:
-    # # In its own process, because other tests call the kernels with other arrays.
+    # In its own process, because other tests call the kernels with other arrays.
     reported = subprocess.run(
         [sys.executable, "-m", "tests.tracker.pipeline.test_nothing_compiles"],
         cwd=CHECKOUT,

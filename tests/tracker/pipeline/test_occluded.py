@@ -51,5 +51,5 @@ def test_a_marker_is_kept_when_a_finger_hides_nearly_a_half_of_it(side_px: float
 @pytest.mark.parametrize("field", OUTER_FIELDS)
 def test_a_look_alike_is_not_kept_for_a_finger_on_its_other_side(field: int, side_px: float) -> None:
     found = _covered(NEIGHBOURS[field], side_px, away_from_deg(field))
-    # # A quarter turn of the remaining part still matches the marker.
+    # A quarter turn of the remaining part still matches the marker.
     assert isinstance(found, Unseen) or found.found_by == "search"

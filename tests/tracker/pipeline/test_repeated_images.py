@@ -40,10 +40,10 @@ def test_a_frozen_camera_makes_no_doubtful_pose_surer_and_a_live_one_does() -> N
         live = images_of(seed, count=10)
         frozen = [live[0].copy() for _ in range(10)]
         for k, image in enumerate(frozen):
-            # # A clock in a corner keeps running.
+            # A clock in a corner keeps running.
             image[:4, :4] = k
         frozen_leads = leads_of(tracker, frozen, from_s=20.0 * seed)
-        # # The first image is searched; tracked copies add no evidence.
+        # The first image is searched; tracked copies add no evidence.
         if frozen_leads[1] >= DECIDED_COST:
             continue
         doubtful += 1
@@ -70,7 +70,7 @@ def test_a_marker_in_a_frozen_image_is_tracked_on_and_where_it_is_when_it_moves_
     moving = [pose_of((120.0 + 4 * k, 150.0)) for k in range(4)]
     for k, pose in enumerate(moving):
         tracker.step(image_of(pose, seed=k), captured_at_s=k / 30.0)
-    # # It is moving; for two seconds the image is frozen.
+    # It is moving; for two seconds the image is frozen.
     for k in range(60):
         found = seen(tracker.step(image_of(moving[-1], seed=3), captured_at_s=(4 + k) / 30.0)["code"])
         assert found.found_by == "track"
@@ -86,6 +86,6 @@ def test_a_pixel_of_the_marker_makes_another_image_and_a_clock_beside_it_does_no
     assert patch.is_repeated(image)
     image[2, 60] += 1
     assert patch.is_repeated(image)
-    # # The caller overwrites this image with the next.
+    # The caller overwrites this image with the next.
     image[30, 37] += 1
     assert not patch.is_repeated(image)

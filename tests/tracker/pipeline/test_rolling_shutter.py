@@ -29,7 +29,7 @@ from tracker import InvalidInput, Seen, Tracker
 RIG = Rig(name="rolling", size_wh_px=(320, 240), focal_px=500.0, depth_mm=(240.0, 300.0))
 FACE = FACES[0]
 RATE_HZ, READOUT_S = 30.0, 0.016
-# # The marker moves by less than 0.02 px while this many rows are read.
+# The marker moves by less than 0.02 px while this many rows are read.
 ROWS_AT_ONCE, IMAGES, SEEDS = 2, 6, 4
 
 
@@ -87,7 +87,7 @@ def test_a_marker_that_moves_is_reported_as_if_the_shutter_were_global() -> None
         float(np.median([one.errors["tip_mm"] for one in judgements]))
         for judgements in (after_first, unaware)
     )
-    # # Otherwise the tip is off by about a millimetre, with too small a stated error.
+    # Otherwise the tip is off by about a millimetre, with too small a stated error.
     assert unaware_mm > 0.6
     assert max(_inside(unaware)) < 0.3
     assert tip_mm < 0.4 * unaware_mm
@@ -97,7 +97,7 @@ def test_a_marker_that_moves_is_reported_as_if_the_shutter_were_global() -> None
 def test_of_the_first_image_alone_it_is_said_how_unsure_a_moving_hand_makes_it() -> None:
     first = [said[0] for said in _followed(READOUT_S)]
     assert min(_inside(first)) == 1.0
-    # # A search has no motion estimate, and states the larger error.
+    # A search has no motion estimate, and states the larger error.
     tracker = Tracker(camera=RIG.camera, models=[FACE.model], readout_s=READOUT_S)
     for seed in range(SEEDS):
         _, scene, image = _shown(seed)[3]
@@ -136,7 +136,7 @@ def test_an_image_that_comes_again_shows_the_marker_where_it_was() -> None:
         assert isinstance(again, Seen)
         moved_mm = again.camera_from_marker.translation_mm - once.camera_from_marker.translation_mm
         assert float(np.linalg.norm(moved_mm)) < 0.1
-        # # A copy does not reveal the motion, least of all of the first image.
+        # A copy does not reveal the motion, least of all of the first image.
         assert (np.diag(again.pose_covariance) > 0.8 * np.diag(once.pose_covariance)).all()
 
 

@@ -102,7 +102,7 @@ def test_a_look_alike_that_differs_in_one_field_is_not_taken(fields: Fields) -> 
         image = image_of(pose_of(side_px=side_px, tilt_deg=tilt_deg, roll_deg=50.0 * k), fields=fields)
         sighting = tracker_of().search(image)["code"]
         assert isinstance(sighting, Unseen), (side_px, tilt_deg)
-        # # It was refined, and evidence against it was found.
+        # It was refined, and evidence against it was found.
         assert (sighting.best_score_ratio or 0.0) > 0.4
 
 
@@ -134,7 +134,7 @@ def test_in_poor_light_a_search_looks_once_more_for_what_it_does_not_find_and_a_
     image = image_of(pose_of())
     assert isinstance(tracker.search(image)["code"], Seen)
     assert requested == [], "where one is found for certain the light is good"
-    # # Seen, but not with certainty.
+    # Seen, but not with certainty.
     monkeypatch.setattr("tracker.pipeline.fitter.CERTAIN_RANK_SCORE", 4.0)
     tracker.step(image, captured_at_s=0.0)
     tracker_of().search(image)

@@ -47,7 +47,7 @@ def test_a_marker_that_moves_is_searched_for_once_and_tracked_from_then() -> Non
         found = seen(tracker.step(image_of(pose, seed=k), captured_at_s=k / 30)["code"])
         assert off_px(found, pose) < 0.3
         found_by.append(found.found_by)
-    # # Nine pixels exceed the reach: the second image is searched, then the speed is known.
+    # Nine pixels exceed the reach: the second image is searched, then the speed is known.
     assert found_by[0] == "search"
     assert found_by[2:] == ["track"] * 6
 

@@ -169,7 +169,7 @@ def test_each_stage_has_its_name_and_its_time() -> None:
     tracker = tracker_of(clock=lambda: next(ticks))
     image = image_of(pose_of())
     tracker.search(image)
-    # # The second candidate search is for a second print.
+    # The second candidate search is for a second print.
     assert tracker.stage_ms == pytest.approx(
         {"grey": 4.0, "gradient": 4.0, "candidates": 8.0, "fit": 4.0, "score": 4.0, "judgement": 4.0}
     )

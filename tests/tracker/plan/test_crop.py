@@ -38,7 +38,7 @@ def test_a_part_that_is_too_large_is_averaged_where_its_voxels_are_finest() -> N
     assert part.hu.nbytes <= 300_000
     np.testing.assert_allclose(part.spacing_mm, [2.0, 2.5, 2.0], rtol=1e-9)
     places = np.random.default_rng(1).uniform([-5, -50, -20], [35, 35, 20], (500, 3))
-    # # A voxel is rounded in each of the two steps, and in the CT itself.
+    # A voxel is rounded in each of the two steps, and in the CT itself.
     assert np.abs(part.sample_hu(places) - places @ HU_PER_MM).max() < 1.5
 
 

@@ -46,7 +46,7 @@ def test_a_wall_is_where_bone_has_fallen_halfway_to_its_outside(
 
 
 def test_the_outside_is_looked_for_only_so_far_behind_the_first_fall() -> None:
-    # # A trough of 400, then further out one of -1000 that belongs to another bone.
+    # A trough of 400, then further out one of -1000 that belongs to another bone.
     profile = np.array([800, 800, 400, 400, 400, 400, -1000, -1000], float)
     assert _steps(profile, behind=7) == pytest.approx(1.5)
     assert _steps(profile, behind=8) == pytest.approx(5.0 + 0.5 * 150.0 / 700.0)

@@ -100,7 +100,7 @@ def test_random_phantoms_on_both_sides(seed: int) -> None:
     [
         pytest.param(800.0, 800.0, 0.0, (0.8, 0.8, 1.2), 1, id="one-material"),
         pytest.param(800.0, 300.0, 0.0, (0.8, 0.8, 1.2), 1, id="softer-blocks"),
-        # # With such contrast to their surroundings, the fit takes many steps.
+        # With such contrast to their surroundings, the fit takes many steps.
         *(
             pytest.param(350.0, 350.0, -1000.0, (0.8, 0.8, 0.8), seed, id=f"faint-rod-in-air-{seed}")
             for seed in (1, 2, 6, 8)

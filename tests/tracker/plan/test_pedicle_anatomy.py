@@ -43,7 +43,7 @@ def test_a_lower_thoracic_pedicle_runs_forwards_inside_the_bone(
         assert 0.0 <= one.transverse_deg <= 12.0
         assert 6.0 <= one.width_mm <= 12.0
         assert np.linalg.norm(one.isthmus_lps_mm - np.mean(clicks, axis=0)) < 5.0
-        # # A short pedicle determines its direction to some degrees only, as stated.
+        # A short pedicle determines its direction to some degrees only, as stated.
         assert 2.0 <= one.sd.transverse_deg <= 8.0
         assert bone_around(thoracic(), one) > 1.0
     assert np.ptp([one.transverse_deg for one in found]) < 4.0

@@ -76,7 +76,7 @@ def test_the_smaller_extent_of_an_oblique_section_is_the_width_and_its_sd_covers
     assert one.is_oblique
     assert (one.width_mm, one.height_mm) == pytest.approx((11.0, 16.0), abs=0.05)
     assert one.width_sd_mm > 2.0
-    # # Its wall is further from the axis than half of the stated width.
+    # Its wall is further from the axis than half of the stated width.
     assert medial_wall_mm(one, "left") == pytest.approx(6.9, abs=0.2)
 
 

@@ -95,7 +95,7 @@ def test_tolerance_is_what_keeps_the_cylinder_within_the_walls() -> None:
     assert left.max_offset_mm == pytest.approx(1.5, abs=0.02)
     assert left.max_angle_deg == pytest.approx(np.degrees(np.arctan(1.5 / 18.0)), abs=0.1)
     assert left.deg_at_offset[-1] == pytest.approx(0.0, abs=1e-9)
-    # # Checked against the walls: the worst combination is still inside, slightly more is not.
+    # Checked against the walls: the worst combination is still inside, slightly more is not.
     for share, inside in ((0.98, True), (1.15, False)):
         tilt = np.tan(np.radians(left.both_deg)) * share
         start = left.both_mm * share
@@ -115,7 +115,7 @@ def test_a_longer_pedicle_leaves_less_angle() -> None:
     assert left.max_offset_mm == pytest.approx(1.5, abs=0.02)
     assert left.max_angle_deg == pytest.approx(np.degrees(np.arctan(1.5 / 24.0)), abs=0.1)
     assert left.deg_at_offset[-1] == pytest.approx(0.0, abs=1e-9)
-    # # The part that leaves the longer pedicle is a breach, which the isthmus alone would not show.
+    # The part that leaves the longer pedicle is a breach, which the isthmus alone would not show.
     tilted = channel_from_points(
         "tilted",
         entry_lps_mm=(0.0, 15.0, 0.0),

@@ -135,7 +135,7 @@ def test_a_slice_along_a_channel_holds_its_axis_at_any_turn(
     channel = Channel(name="L3", entry_in_vertebra_mm=entry, target_in_vertebra_mm=target, radius_mm=3.0)
     one = along_channel(volume, channel, rotation_deg=turn, size_mm=(20.0, 20.0), pixel_mm=1.0)
     assert np.abs(one.beyond_mm(np.array([entry, target]))).max() < 1e-9
-    # # Entry below, target above, both in the middle column.
+    # Entry below, target above, both in the middle column.
     assert one.pixel_from_lps(entry) == pytest.approx([10.0, 16.0])
     assert one.pixel_from_lps(target) == pytest.approx([10.0, 4.0])
     assert one.pixel_from_lps(one.lps_from_pixel(pixel)) == pytest.approx(pixel, abs=1e-6)

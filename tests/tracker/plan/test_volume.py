@@ -81,7 +81,7 @@ def test_what_is_no_volume_is_rejected(hu: np.ndarray, affine: np.ndarray, said:
 
 def test_the_axes_are_put_in_the_patients_order_whatever_that_of_the_file() -> None:
     truth = ramp(SHEARED)
-    # # As in a file whose first axis runs to the head and whose last runs to the left.
+    # As in a file whose first axis runs to the head and whose last runs to the left.
     turned = Volume(hu=truth.hu.transpose(2, 1, 0).copy(), lps_from_ijk=SHEARED[:, [2, 1, 0, 3]])
     seen = turned.in_patient_order()
     assert np.array_equal(seen.hu, truth.hu)

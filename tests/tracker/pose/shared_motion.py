@@ -10,7 +10,7 @@ from tracker.geometry import Array
 from tracker.pose.temporal_calibration import PoseSeries
 
 SECONDS = 12.0
-# # Times (n,) in s to orientations (n) and positions (n, 3) in mm of the tool in the room.
+# Times (n,) in s to orientations (n) and positions (n, 3) in mm of the tool in the room.
 Movement = Callable[[Array], tuple[Rotation, Array]]
 
 
@@ -35,7 +35,7 @@ class HandMotion:
         random = np.random.default_rng(self.seed)
         rates = random.uniform(*self.rates_hz, size=(8, 6))
         starts = random.uniform(0.0, 2.0 * np.pi, size=(8, 6))
-        # # Larger motion is slower.
+        # Larger motion is slower.
         sizes = 1.0 / rates / np.sqrt((rates**-2.0).sum(axis=0) / 2.0)
         waves = (sizes * np.sin(2.0 * np.pi * rates * times_s[:, None, None] + starts)).sum(axis=1)
         turned = Rotation.from_rotvec(np.radians(self.rotation_deg) * waves[:, 3:])

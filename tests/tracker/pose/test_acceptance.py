@@ -61,7 +61,7 @@ def test_a_marker_smeared_over_a_quarter_of_its_side_is_seen_and_where_it_is(fro
     image = motion_blurred(rendered(CAMERA, [Print(picture=code_image(), pose=pose)]), 8.0, from_deg)
     sighting = _accepted(image, pose)
     assert isinstance(sighting, Seen), sighting
-    # # Its edges are detected up to three pixels off.
+    # Its edges are detected up to three pixels off.
     off = corners_px_of(CAMERA, sighting.camera_from_marker) - corners_px_of(CAMERA, pose)
     assert float(np.abs(off).max()) < 1.0
     assert float(np.abs(sighting.corners_px - corners_px_of(CAMERA, pose)).max()) < 1.0

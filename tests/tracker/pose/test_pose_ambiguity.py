@@ -55,7 +55,7 @@ def _fitted(image: Image8, expected: PosePrediction | None) -> Seen:
         fit_error_px2=found.agreement.fit_error_px2,
         found_by="track",
         delta_chi2=found.fit.delta_chi2,
-        # # As if noise explained all residuals.
+        # As if noise explained all residuals.
         systematic_residual_ratio=0.0,
     )
 
@@ -83,7 +83,7 @@ def test_a_prior_that_took_the_wrong_solution_gives_it_up_within_a_few_images() 
         turning_deg_s.append(float(np.degrees(np.linalg.norm(prior.rates[3:]))))
     assert off_deg[0] > 20.0, "one image alone does not speak loud enough"
     assert max(off_deg[4:]) < 5.0
-    # # A switch of solution is no rotation of the hand.
+    # A switch of solution is no rotation of the hand.
     assert max(turning_deg_s) < 300.0
 
 
@@ -110,7 +110,7 @@ def test_an_even_race_leaves_even_doubt_and_a_covariance_that_reaches_the_other(
     spread = flip_covariance(TRUTH, flipped_pose(TRUTH), delta_chi2=0.0, expected=None)
     reach_deg = np.degrees(np.sqrt(np.trace(spread[3:, 3:])))
     turn = np.radians(_turned_deg(TRUTH, flipped_pose(TRUTH)))
-    # # Along the tangent by the whole rotation, and across it by the arc's deviation.
+    # Along the tangent by the whole rotation, and across it by the arc's deviation.
     assert reach_deg == pytest.approx(np.degrees(np.sqrt(0.5 * (turn**2 + 3.0 * (1.0 - np.cos(turn)) ** 2))))
     assert not flip_covariance(TRUTH, flipped_pose(TRUTH), delta_chi2=19.0, expected=None).any()
 

@@ -40,7 +40,7 @@ def _fit_at(pose: Rigid[Camera, Marker]) -> RefinedPose:
 
 def _given(monkeypatch: pytest.MonkeyPatch, fits: Sequence[RefinedPose]) -> None:
     monkeypatch.setattr(photometric_refinement, "refine_poses", lambda *_, **__: list(fits))
-    # # Both are assumed to lie on the edges, so that only their residuals decide.
+    # Both are assumed to lie on the edges, so that only their residuals decide.
     monkeypatch.setattr(photometric_refinement, "MAX_APART_PX", 1e3)
 
 
@@ -82,7 +82,7 @@ def test_two_solutions_that_explain_alike_are_both_in_the_covariance(
         (0.01, 0.01, 1.6),
         (0.04, 0.04, 1.15),
         (0.05, 0.06, 1.096),
-        # # This share of the residuals is not noise.
+        # This share of the residuals is not noise.
         (0.05, 0.04, 1.216),
         (0.05, 0.0, 1.6),
     ],
@@ -91,7 +91,7 @@ def test_what_residuals_do_not_tell_is_added_less_the_more_of_them_is_noise(
     monkeypatch: pytest.MonkeyPatch, found: Seen, left_ratio: float, noise_ratio: float, factor: float
 ) -> None:
     fit = _fit_at(POSE)
-    # # Its rotation is so certain that the arc's deviation from its tangent is negligible.
+    # Its rotation is so certain that the arc's deviation from its tangent is negligible.
     sure = replace(fit, covariance=1e-4 * fit.covariance, residual_sd_grey=left_ratio * fit.contrast_grey)
     _given(monkeypatch, [sure])
     pixels = replace(PIXELS, noise_grey=noise_ratio * fit.contrast_grey)
@@ -112,7 +112,7 @@ def _moved_by_px(pose: Rigid[Camera, Marker], moved_px: float) -> Rigid[Camera, 
         (8.0, 0.8, True, True),
         (0.0, 0.8, False, False),
         (2.0, 0.8, False, False),
-        # # If pixels explain everything, their pose is used, with the probability from edges.
+        # If pixels explain everything, their pose is used, with the probability from edges.
         (2.0, 0.9, True, False),
     ],
 )
@@ -131,7 +131,7 @@ def test_a_fit_may_end_half_a_smear_from_where_edges_are(
     monkeypatch.setattr(photometric_refinement, "refine_poses", lambda *_, **__: [fit])
     exact = photometric_refinement.refine_photometrically(CAMERA, MODEL, PIXELS, found)
     assert exact.camera_from_marker is (there if is_by_pixels else found.camera_from_marker)
-    # # If pixels contradict edges, the stated error covers both.
+    # If pixels contradict edges, the stated error covers both.
     by_mm = there.translation_mm[0] - found.camera_from_marker.translation_mm[0]
     alone_mm2 = (fit.covariance if is_by_pixels else found.pose_covariance)[0, 0]
     assert 0.4 * by_mm**2 > 20.0 * alone_mm2
@@ -172,7 +172,7 @@ def _expected(near: Rigid[Camera, Marker], delta_chi2: float) -> PosePrediction:
         (10.0, _expected(POSE, 1e3), 2),
         (np.inf, _expected(POSE, 1e3), 2),
         (1e3, None, 2),
-        # # Edges alone do not override what earlier images left open or decided otherwise.
+        # Edges alone do not override what earlier images left open or decided otherwise.
         (1e3, _expected(POSE, 10.0), 2),
         (1e3, _expected(flipped_pose(POSE), 1e3), 2),
     ],

@@ -77,7 +77,7 @@ def test_against_what_was_said_before_an_image_speaks_with_its_own_weight() -> N
         prior = Prior()
         prior.update(_seen(POSE, delta_chi2=before_sd2 / 0.9, systematic_residual_ratio=0.0), 0.0)
         assert prior.delta_chi2 == pytest.approx(before_sd2)
-        # # By 5 more than all before: the other solution.
+        # By 5 more than all before: the other solution.
         turned = _seen(
             flipped_pose(POSE), delta_chi2=5.0, systematic_residual_ratio=systematic_residual_ratio
         )

@@ -41,7 +41,7 @@ def test_on_a_ramp_the_pose_is_the_one_of_the_stated_time_before(rate_hz: float,
     times = np.arange(20) / rate_hz
     last = taken(PoseSmoother(lag_ms=lag_ms), times[:, None] * speed, period_s=1.0 / rate_hz)[-1]
     assert 0.0 < last.lag_ms <= lag_ms + 1e-6
-    # # The longest mean that meets the allowed lag.
+    # The longest mean that meets the allowed lag.
     assert last.lag_ms > lag_ms - 1000.0 / rate_hz
     then = pose_at(speed * (times[-1] - last.lag_ms / 1000.0))
     assert apart(last.camera_from_marker, then) == pytest.approx(np.zeros(6), abs=1e-9)

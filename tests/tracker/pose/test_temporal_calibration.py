@@ -130,7 +130,7 @@ def test_clocks_that_count_from_1970_give_the_same_offset() -> None:
 
 @pytest.mark.parametrize("motion", Motion)
 def test_a_gap_is_not_interpolated_across(motion: Motion) -> None:
-    # # While the first source sees nothing, the tool moves violently.
+    # While the first source sees nothing, the tool moves violently.
     def thrown(times_s: np.ndarray) -> tuple[object, np.ndarray]:
         turned, places_mm = HandMotion(seed=4, rotation_deg=60.0, shift_mm=300.0, rates_hz=(1.0, 3.0))(
             times_s
@@ -168,7 +168,7 @@ def test_a_pose_that_a_lost_tracker_repeats_is_a_gap() -> None:
         pytest.param(at_rest, "TIME_OFFSET_NO_MOTION", id="at-rest"),
         pytest.param(steady, "TIME_OFFSET_MOTION_UNIFORM", id="one-velocity"),
         pytest.param(waving(0.8), "TIME_OFFSET_AMBIGUOUS", id="waving"),
-        # # Half a period too: reversed, one direction equals the other.
+        # Half a period too: reversed, one direction equals the other.
         pytest.param(waving(1.6), "TIME_OFFSET_AMBIGUOUS", id="waving-at-half-a-period"),
         pytest.param(circling(1.5), "TIME_OFFSET_AMBIGUOUS", id="circling"),
         pytest.param(circling(4.0), "TIME_OFFSET_AMBIGUOUS", id="circling-slowly"),

@@ -13,7 +13,7 @@ from tests.tracker.pose.shared_motion import HandMotion, Source
 from tracker.errors import CalibrationError
 from tracker.pose.temporal_calibration import Motion, PoseSeries, TimeOffsetLimits, calibrate_time_offset
 
-# # Only the overlap is required, so that results that would be rejected count too.
+# Only the overlap is required, so that results that would be rejected count too.
 OPEN = TimeOffsetLimits(
     min_rotation_deg_s=0.0,
     min_translation_mm_s=0.0,
@@ -90,7 +90,7 @@ def _ratios(one: PoseSeries, other: PoseSeries, motion: Motion) -> tuple[float, 
     try:
         offset = calibrate_time_offset(one, other, motion=motion, limits=OPEN)
     except CalibrationError as error:
-        # # The best offset is at the end of the search range: no result would be stated.
+        # The best offset is at the end of the search range: no result would be stated.
         if error.code != "TIME_OFFSET_AT_SEARCH_LIMIT":
             raise
         return 0.0, 0.0

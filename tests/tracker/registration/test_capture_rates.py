@@ -104,7 +104,7 @@ def test_a_camera_too_slow_for_a_hand_is_named_with_its_rate_and_a_remedy(
     assert error.code == code
     assert said in error.message
     assert "camera.rate_hz" in error.remedy
-    # # A user should not hold a tip for ten seconds in vain.
+    # A user should not hold a tip for ten seconds in vain.
     assert int(str(error.context["images"])) <= 4
 
 
@@ -130,7 +130,7 @@ def test_lost_images_are_noticed_at_every_rate(rate_hz: float, gap_s: float, all
 
 def test_two_rests_on_a_landmark_are_not_one_however_few_the_images() -> None:
     few = CaptureSettings(min_images=3, min_s=0.4)
-    # # The mean of both intervals would be a possible period and allow either.
+    # The mean of both intervals would be a possible period and allow either.
     error = rejected(collected(samples([0.033, 0.9]), few))
     assert error.code == "CAPTURE_INTERRUPTED"
     assert error.context["allowed_s"] == 0.25

@@ -48,7 +48,7 @@ def test_a_shift_moves_every_point_along_the_patients_axis(axis: NudgeAxis, way:
 def test_a_turn_leaves_the_pivot_and_turns_the_rest() -> None:
     nudged = NudgedRegistration(made=made(), pivot_mm=PIVOT).nudged(turn(NudgeAxis.HEAD, 1.0))
     assert np.allclose(moved_mm(nudged, PIVOT), 0.0, atol=1e-9)
-    # # Right-handed about the direction to the head: points left of the pivot move backwards.
+    # Right-handed about the direction to the head: points left of the pivot move backwards.
     expected = 30.0 * np.array([np.cos(np.radians(1.0)) - 1.0, np.sin(np.radians(1.0)), 0.0])
     assert np.allclose(moved_mm(nudged, PIVOT + np.array([30.0, 0.0, 0.0])), expected)
 

@@ -30,7 +30,7 @@ from tracker.registration.points.uncertainty import expected_tre_mm, variance_ra
 RUNS = 500
 # Along the camera's depth noise is four times as large as across it.
 LIKE_A_NEEDLE = np.diag([0.3, 0.3, 1.2]) ** 2
-# # No floor, order check or gross errors: the noise itself is tested.
+# No floor, order check or gross errors: the noise itself is tested.
 BARE = PointSettings(min_fle_mm=1e-3, max_accepted_fre_mm=20.0, max_left_out_mm=np.inf)
 
 
@@ -172,7 +172,7 @@ def test_the_covariance_of_the_inverse_is_that_of_inverted_samples() -> None:
         np.cov(np.array(samples).T) / np.outer(scale, scale), stated / np.outer(scale, scale), atol=0.08
     )
     assert np.allclose(inverse_covariance(there.inverse, stated), covariance)
-    # # A point at the far end has the same uncertainty from either side.
+    # A point at the far end has the same uncertainty from either side.
     at = np.array([5.0, 6.0, 7.0])
     one = point_covariance_mm2(there, covariance, at)
     other = point_covariance_mm2(there.inverse, stated, there.move_points(at))
@@ -208,7 +208,7 @@ def test_stated_and_common_errors_have_their_own_shares_with_more_landmarks() ->
     twice = np.vstack([VERTEBRA, VERTEBRA * [1.0, -1.0, 1.0] + [0.0, 6.0, 0.0]])
     twice[6:] += VERTEBRA.mean(axis=0) - twice[6:].mean(axis=0)
     target = np.array([15.0, -20.0, 5.0])
-    # # All captured with one orientation of the marker: a common shift of 0.3 mm that no landmark reduces.
+    # All captured with one orientation of the marker: a common shift of 0.3 mm that no landmark reduces.
     tip = CommonTip(
         tool="drill", covariance_mm2=0.3**2 * np.eye(3), anchor_from_marker=np.tile(np.eye(3), (12, 1, 1))
     )
@@ -244,6 +244,6 @@ def test_planned_landmarks_are_expected_to_give_what_their_fit_states() -> None:
         stated.append(np.trace(register_points(pairs, settings=BARE).target_covariance_mm2(target)))
     planned = np.trace(point_covariance_mm2(identity, expected_covariance(VERTEBRA, 0.7), target))
     assert np.sqrt(planned / np.mean(stated)) == pytest.approx(1.0, abs=0.1)
-    # # More landmarks of the same spread are equivalent to repetitions.
+    # More landmarks of the same spread are equivalent to repetitions.
     twice = expected_covariance(np.vstack([VERTEBRA, VERTEBRA]), 0.7)
     assert expected_covariance(VERTEBRA, 0.7, more=len(VERTEBRA)) == pytest.approx(twice)

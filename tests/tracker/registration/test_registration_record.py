@@ -92,7 +92,7 @@ def test_without_the_reference_the_vertebra_has_no_pose() -> None:
     assert concluded(SETUP, unseen).vertebra == Absent(reason=AbsentReason.REFERENCE_UNSEEN)
     twice = Unseen(reason=UnseenReason.MARKER_TWICE)
     assert concluded(SETUP, twice).vertebra == Absent(reason=AbsentReason.MARKER_TWICE)
-    # # Not even if the settings name no reference: the registration is relative to one.
+    # Not even if the settings name no reference: the registration is relative to one.
     nameless = replace(SETUP, reference="")
     assert concluded(nameless, SEEN).vertebra == Absent(reason=AbsentReason.REFERENCE_UNSEEN)
 
@@ -129,7 +129,7 @@ def test_a_pose_and_its_inverse_err_by_the_same() -> None:
     again = inverse_covariance(back, there)
     np.testing.assert_allclose(again, OF_REFERENCE, rtol=1e-9, atol=1e-12)
     both = chained_covariance(CAMERA_FROM_REFERENCE, OF_REFERENCE, back, there)
-    # # Back at the start, both rotations have moved the origin of the other frame, which is as far away.
+    # Back at the start, both rotations have moved the origin of the other frame, which is as far away.
     swing = np.eye(6)
     swing[:3, 3:] = skew(CAMERA_FROM_REFERENCE.translation_mm)
     np.testing.assert_allclose(both, 2.0 * swing @ OF_REFERENCE @ swing.T, rtol=1e-9, atol=1e-12)

@@ -16,7 +16,7 @@ from tracker.rehearsal.anatomy import (
 from tracker.rehearsal.marker_images import drill_marker_image
 from tracker.rehearsal.meshing import surface_net
 
-# # The entry is on a slope of the bone: the cylinder's rim is inside from here on.
+# The entry is on a slope of the bone: the cylinder's rim is inside from here on.
 RIM_MM = 1.5
 
 
@@ -43,7 +43,7 @@ def test_the_whole_channel_lies_in_bone_and_leaves_the_canal_alone(channel: Chan
 @pytest.mark.parametrize("channel", pedicle_channels(), ids=lambda channel: channel.name)
 def test_the_channel_starts_on_the_surface_and_fills_most_of_its_pedicle(channel: Channel) -> None:
     assert abs(float(bone_field(channel.entry_in_vertebra_mm))) < 0.05
-    # # With 1.5 mm more it would break through the narrowest part.
+    # With 1.5 mm more it would break through the narrowest part.
     assert bone_field(mantle(channel, channel.radius_mm + 1.5, 5.0)).max() > 0.0
 
 
@@ -57,7 +57,7 @@ def test_left_is_left_in_lps_and_right_mirrors_it() -> None:
 def test_the_surface_is_closed_and_wound_outwards() -> None:
     surface = vertebra_surface()
     directed = np.concatenate([surface.faces[:, [0, 1]], surface.faces[:, [1, 2]], surface.faces[:, [2, 0]]])
-    # # Each edge is used once in each direction: closed, with consistent orientation.
+    # Each edge is used once in each direction: closed, with consistent orientation.
     key = directed[:, 0] * len(surface.vertices_mm) + directed[:, 1]
     back = directed[:, 1] * len(surface.vertices_mm) + directed[:, 0]
     assert len(np.unique(key)) == len(key)

@@ -86,7 +86,7 @@ def test_a_markers_noise_is_new_in_each_image(name: str) -> None:
     rows, columns = (min(field.shape[axis] for field in fields) for axis in (0, 1))
     inner = np.s_[8 : rows - 8, 8 : columns - 8]
     for one, other in pairwise(fields):
-        # # Nor is it the previous noise, shifted slightly.
+        # Nor is it the previous noise, shifted slightly.
         moved = [
             np.roll(other[:rows, :columns], (down, across), axis=(0, 1))[inner]
             for down in range(-8, 9, 2)

@@ -129,7 +129,7 @@ def test_another_seed_or_another_time_gives_another_image() -> None:
     _, two = staged(seed=2, noise=1.0, size=(640, 360))
     here = one.image_at(12.0).astype(np.int16)
     assert np.abs(here - two.image_at(12.0)).mean() > 3.0
-    # # The noise does not repeat with the motion's period.
+    # The noise does not repeat with the motion's period.
     assert np.abs(here - one.image_at(52.0)).mean() > 0.5
 
 
@@ -151,7 +151,7 @@ def test_blur_softens_the_marker() -> None:
         low = theatre.truth_at(9.0).corners_px.min(axis=0).astype(int)
         grey = cv2.cvtColor(renderer.image_at(9.0), cv2.COLOR_BGR2GRAY)
         part = grey[low[1] - 10 : low[1] + 90, low[0] - 10 : low[0] + 90]
-        # # The steepest of the marker's edges, not the single best pixel.
+        # The steepest of the marker's edges, not the single best pixel.
         slopes = np.sort(np.abs(cv2.Sobel(part, cv2.CV_64F, 1, 0)).ravel())
         sharpness.append(float(slopes[-300:].mean()))
     assert sharpness[0] > 1.2 * sharpness[1] > 1.2 * 1.5 * sharpness[2]

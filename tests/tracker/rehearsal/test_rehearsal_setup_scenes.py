@@ -18,7 +18,7 @@ SIZE = (960, 540)
 
 
 def board_theatre(kind: BoardKind) -> tuple[Theatre, BoardRenderer]:
-    # # In a smaller image OpenCV finds all ChArUco markers only by chance, however it is rendered.
+    # In a smaller image OpenCV finds all ChArUco markers only by chance, however it is rendered.
     size = (1280, 720) if kind is BoardKind.CHARUCO else SIZE
     theatre = Theatre(TheatreSettings(seed=4, size_wh_px=size, scene=Scene.BOARD, board=kind))
     renderer = theatre.renderer()
@@ -68,7 +68,7 @@ def test_a_board_is_seen_where_the_truth_has_it(
         )
         seen = found_in(grey, board)
         off = np.abs(seen - truth)
-        # # A rotationally symmetric board may be read from its other end.
+        # A rotationally symmetric board may be read from its other end.
         turned = np.abs(seen[::-1] - truth)
         assert min(np.median(off), np.median(turned)) < within_px
 

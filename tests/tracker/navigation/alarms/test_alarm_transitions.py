@@ -39,7 +39,7 @@ def trait(*, latches: bool, persists_when_unknown: bool) -> AlarmRule:
     )
 
 
-# # Next state by observation and elapsed time; where it matters, by (latches, holds).
+# Next state by observation and elapsed time; where it matters, by (latches, holds).
 OVER: dict[tuple[AlarmState, Evidence], AlarmState | dict[tuple[bool, bool], AlarmState]] = {
     (N, SHOWS): A,
     (N, GONE): N,

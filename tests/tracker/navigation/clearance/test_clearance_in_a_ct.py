@@ -65,7 +65,7 @@ def test_the_distance_at_the_true_wall_is_zero(name: str) -> None:
     points = wall_points_mm(SCANS[name])
     assert np.abs(SCANS[name].phantom.bone_distance_mm(points)).max() < 0.01
     wall, sd_mm = wall_of(name)
-    # # Negative here means that the clearance is overestimated.
+    # Negative here means that the clearance is overestimated.
     off_mm, _ = wall.distances_mm(points)
     assert -0.08 < np.median(off_mm) < 0.1
     assert np.sqrt(np.mean(off_mm**2)) < sd_mm

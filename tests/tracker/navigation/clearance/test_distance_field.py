@@ -63,7 +63,7 @@ def test_the_gradient_is_the_slope_and_points_outwards(solid_rod: WallDistanceFi
     wrong = np.abs((gradient * outwards).sum(axis=1) - 1.0)
     assert np.median(wrong) < 0.02
     assert np.percentile(wrong, 99) < 0.12
-    # # Two nodes half a millimetre apart, each true to 0.06 mm.
+    # Two nodes half a millimetre apart, each true to 0.06 mm.
     assert wrong.max() < 2.0 * 0.06 / 0.5
 
 
@@ -86,7 +86,7 @@ def test_marrow_counts_as_bone_and_its_walls_as_none() -> None:
 @pytest.mark.parametrize(("hole_mm", "closing_radius_mm"), [(0.8, 1.0), (2.2, 3.0)])
 def test_a_hole_in_the_cortex_does_not_let_the_outside_in(hole_mm: float, closing_radius_mm: float) -> None:
     marrow = rod(3.5, turned_inside_out=True, shorter_mm=2.0)
-    # # Fine triangles with a hole in both walls.
+    # Fine triangles with a hole in both walls.
     fine = _finer(together(rod(), marrow))
     middle = middles_mm(fine)
     hole = (np.hypot(middle[:, 1], middle[:, 0]) < hole_mm) & (middle[:, 2] > 0.0)
@@ -111,7 +111,7 @@ def test_a_bone_cut_open_in_front_goes_on_there() -> None:
 
 
 def test_the_canal_is_outside_even_where_nothing_joins_it_to_the_rest() -> None:
-    # # A block as high as the grid, with a through canal: it has side walls only.
+    # A block as high as the grid, with a through canal: it has side walls only.
     block = trimesh.creation.box(extents=(60.0, 60.0, 200.0))
     canal = trimesh.creation.cylinder(radius=8.0, height=400.0, sections=64)
     bone = together(
@@ -132,7 +132,7 @@ def test_the_canal_is_outside_even_where_nothing_joins_it_to_the_rest() -> None:
 def test_near_the_rehearsed_pedicle_s_wall_the_distance_is_true_to_a_tenth() -> None:
     channel = pedicle_channels()[0]
     field = bone_distance_field(vertebra_surface(), channel, margin_mm=15.0)
-    # # From points inside, perpendicular to the wall: the bone's implicit shape gives the crossing.
+    # From points inside, perpendicular to the wall: the bone's implicit shape gives the crossing.
     along = np.linspace(12.0, 30.0, 10)[:, None] * channel.axis_in_vertebra
     centre = channel.entry_in_vertebra_mm + along
     _, gradient = field.distances_mm(centre + np.array([2.5, 0.0, 0.5]))
@@ -140,7 +140,7 @@ def test_near_the_rehearsed_pedicle_s_wall_the_distance_is_true_to_a_tenth() -> 
     steps = np.arange(0.0, 9.0, 0.01)
     line = centre[:, None] + np.array([2.5, 0.0, 0.5]) + steps[:, None] * way[:, None]
     wall = line[np.arange(10), (bone_field(line) > 0.0).argmax(axis=1)]
-    # # The mesh itself is up to some hundredths off that shape.
+    # The mesh itself is up to some hundredths off that shape.
     assert np.abs(field.distances_mm(wall)[0]).max() < 0.12
 
 
@@ -149,7 +149,7 @@ def test_a_field_is_small_read_only_and_goes_through_a_pipe(solid_rod: WallDista
     assert len(sent) < 2 * solid_rod.values.size + 200_000
     received = pickle.loads(sent)  # noqa: S301  # our own bytes
     np.testing.assert_array_equal(received.values, solid_rod.values)
-    # # Writable arrays would make the kernels compile again, in theatre.
+    # Writable arrays would make the kernels compile again, in theatre.
     for field in (solid_rod, received):
         for array in (field.values, field.grid.origin_mm, field.posterior.floor_mm):
             assert not array.flags.writeable

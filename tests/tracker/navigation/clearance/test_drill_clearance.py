@@ -82,14 +82,14 @@ def test_clearance_is_what_a_hand_measures(
 def test_a_tilted_drill_is_nearest_at_its_rim_where_it_is_deepest() -> None:
     pose = drill_at(ROD_CHANNEL, 30.0, medial_deg=3.0)
     now = _clearance(pose, ROD_CHANNEL, _field("rod")).now
-    # # The axis is off by 30 tan 3 = 1.57 there, and the rim is closer by the cosine.
+    # The axis is off by 30 tan 3 = 1.57 there, and the rim is closer by the cosine.
     assert _mm(now) == pytest.approx(5.0 - 1.572 - 2.0 * np.cos(np.radians(3.0)), abs=0.1)
     assert isinstance(now, NearestWall)
     assert now.point_in_vertebra_mm[1] == pytest.approx(-10.0, abs=1.2)
 
 
 def test_the_shaft_is_through_where_the_tip_is_not() -> None:
-    # # In through the posterior side wall, tip back on the axis in front.
+    # In through the posterior side wall, tip back on the axis in front.
     pose = drill_at(ROD_CHANNEL, 40.0, medial_mm=5.0, medial_deg=float(np.degrees(np.arctan(-5.0 / 40.0))))
     now = _clearance(pose, ROD_CHANNEL, _field("rod")).now
     assert isinstance(now, NearestWall)
@@ -235,7 +235,7 @@ def test_all_the_way_down_the_plan_nothing_is_said_to_be_near_that_is_not() -> N
             continue
         assert clearance.now.grade is GertzbeinRobbins.A
         if depth < 8.0:
-            # # The posterior surface beside the tip is no wall here.
+            # The posterior surface beside the tip is no wall here.
             continue
         pose = drill_at(LEFT, float(depth))
         around = pose.rotation[:, 0] * np.cos(turn)[:, None] + pose.rotation[:, 1] * np.sin(turn)[:, None]

@@ -70,5 +70,5 @@ def test_the_time_since_the_last_sight_is_reported_for_each_marker() -> None:
     sight = sight.after({"drill": UNSEEN, "reference": UNSEEN}, at_s=10.5)
     assert sight.ages_s(["drill", "reference"], at_s=10.5) == {"drill": 0.5, "reference": NeverSeen()}
     assert sight.after({"reference": SEEN}, at_s=11.0).age_s("reference", at_s=11.0) == 0.0
-    # # The earlier record is unchanged.
+    # The earlier record is unchanged.
     assert sight.age_s("reference", at_s=11.0) == NeverSeen()

@@ -60,7 +60,7 @@ def _shift(sd_mm: tuple[float, float, float]) -> Array:
 @pytest.mark.parametrize("sd_mm", [0.2, 0.5])
 def test_an_error_in_one_direction_gives_the_normal_distribution(medial_mm: float, sd_mm: float) -> None:
     judged = _judged(drill_at(ROD_CHANNEL, 30.0, medial_mm=medial_mm), _shift((sd_mm, 0.0, 0.0)))
-    # # On the other side the rod ends at the same distance: 3 mm to both.
+    # On the other side the rod ends at the same distance: 3 mm to both.
     expected = ndtr((medial_mm - 3.0) / sd_mm) + ndtr((-medial_mm - 3.0) / sd_mm)
     assert judged.now.through_ratio == pytest.approx(expected, abs=0.02)
     assert judged.now.sd_mm == pytest.approx(sd_mm, rel=0.05)

@@ -104,9 +104,9 @@ def test_the_chain_s_covariance_is_that_of_the_chain_drawn_at_random(*, with_ref
     )
     drawn = np.cov(steps.T)
     scale = np.sqrt(np.outer(np.diag(reported.covariance), np.diag(reported.covariance)))
-    # # 3,000 draws determine a variance to 2.6 %, a correlation to 1.8 %.
+    # 3,000 draws determine a variance to 2.6 %, a correlation to 1.8 %.
     np.testing.assert_allclose(drawn / scale, reported.covariance / scale, atol=0.11)
-    # # The ellipsoid contains the tip, and the cone the axis, in 95 %.
+    # The ellipsoid contains the tip, and the cone the axis, in 95 %.
     spread = propagate_uncertainty(reported, CHANNEL)
     inverse = np.linalg.inv(spread.tip_covariance_mm2)
     tips = steps[:, :3]

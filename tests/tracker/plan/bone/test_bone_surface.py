@@ -54,7 +54,7 @@ def test_in_noise_smoothing_brings_the_surface_nearer_to_the_truth() -> None:
         settings = BoneSettings(threshold_hu=HALF_HU, smoothing_rounds=rounds, max_faces=None)
         made = bone_surface(scan, settings)
         rms[rounds] = float(np.sqrt(np.mean(BODY.distances_mm(made.surface.vertices_mm) ** 2)))
-        # # Laplacian smoothing alone would shrink it by a tenth in 40 rounds.
+        # Laplacian smoothing alone would shrink it by a tenth in 40 rounds.
         assert made.surface.volume_ml == pytest.approx(BODY.volume_ml, rel=0.01)
     assert rms[40] < rms[10] < 0.7 * rms[0]
 
@@ -114,7 +114,7 @@ def test_bone_that_the_scan_cuts_is_reported_with_the_end() -> None:
 def test_too_many_voxels_are_averaged_and_stay_in_their_place() -> None:
     scan = scanned((BODY,), WAYS["all-of-it"])
     made = bone_surface(scan, BoneSettings(threshold_hu=HALF_HU, max_voxels=31_000))
-    # # The closest voxels are merged first: 0.5 mm by 0.5 mm before 1 mm.
+    # The closest voxels are merged first: 0.5 mm by 0.5 mm before 1 mm.
     assert made.averaged_ijk == (2, 2, 1)
     assert made.voxel_mm[:2] == pytest.approx([1.0, 1.0])
     assert codes(made) == ["BONE_AVERAGED"]

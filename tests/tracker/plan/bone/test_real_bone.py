@@ -23,7 +23,7 @@ def test_a_lumbar_vertebra_is_cut_out_of_a_real_scan() -> None:
     assert 0.0 < made.proposal.surroundings_hu < 60.0
     assert made.averaged_ijk == (1, 1, 1)
     assert made.cut_at == ()
-    # # About as large as segmented automatically; thin processes vanish in voxels of 3 mm.
+    # About as large as segmented automatically; thin processes vanish in voxels of 3 mm.
     for ends in (np.min, np.max):
         assert np.abs(ends(made.surface.vertices_mm, axis=0) - ends(voxels, axis=0)).max() < 15.0
     assert made.surface.volume_ml > 0.0

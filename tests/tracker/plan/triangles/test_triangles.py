@@ -95,7 +95,7 @@ def test_equal_rows_are_found_as_numpy_does() -> None:
 
 def test_normals_of_vertices_point_outwards_and_weigh_triangles_by_area() -> None:
     normals = vertex_normals(TETRAHEDRON, OUTWARDS)
-    # # Three equal triangles meet at the origin; the large one tilts the normal towards itself.
+    # Three equal triangles meet at the origin; the large one tilts the normal towards itself.
     np.testing.assert_allclose(normals[0], -np.ones(3) / np.sqrt(3.0))
     np.testing.assert_allclose(normals[1], [1.0, 0.0, 0.0], atol=1e-12)
     np.testing.assert_allclose(vertex_normals(*sheet()), np.tile([0.0, 0.0, 1.0], (144, 1)))

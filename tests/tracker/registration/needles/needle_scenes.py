@@ -28,7 +28,7 @@ CAMERA = CameraModel(
 ENTRIES = np.array([[-20.1, 18.6, 18.8], [-0.6, 48.5, 0.3], [-0.4, 51.5, -17.0]])
 NAMES = ("right superior articular process", "spinous process above", "spinous process below")
 PLACING_MM, CLICK_PX, TOUCH_MM = 0.7, 1.0, 0.5
-# # The standard deviations that the measured view states.
+# The standard deviations that the measured view states.
 STATED = RulerMeasurement(vertical_mm=1.0, horizontal_mm=1.0)
 
 
@@ -54,14 +54,14 @@ def scene(seed: int, *, entry_is_seen: bool = True, touched: int = 0, entries: A
             -np.cos(elevation) * np.cos(azimuth),
         ]
     )
-    # # The ruler assumes a flat patient; the vertebra is rotated from there.
+    # The ruler assumes a flat patient; the vertebra is rotated from there.
     lying = rotation_from_vector(random.normal(0.0, np.radians(STATED.prone_sd_deg), 3))
     right = np.cross(-to_camera, [0.0, 1.0, 0.0])
     right /= np.linalg.norm(right)
     level = rotation_from_vector(-to_camera * random.normal(0.0, np.radians(STATED.roll_sd_deg)))
     flat = np.stack([right, np.cross(-to_camera, right), -to_camera]) @ level
     middle = np.array([*random.uniform(-40.0, 40.0, 2), distance_mm])
-    # # A camera not centred on the needles is rotated, so that the ruler's line of sight stays true.
+    # A camera not centred on the needles is rotated, so that the ruler's line of sight stays true.
     sight = middle / np.linalg.norm(middle)
     off_axis = _turn(np.array([0.0, 0.0, 1.0]), sight)
     rotation = off_axis @ flat @ lying
