@@ -2,9 +2,9 @@
 
 python -m tests.benchmarks.first_page [--seconds 60] [--sizes 1920x1080,390x844]
 
-Starts a server with the rehearsal at its defaults and a headless Chromium (`COAXIAL_CHROMIUM`) that draws by
-the processor, watches the real page from inside it, and prints a table. Its figures are of this machine and
-moment: the load stands beside them.
+Starts a server with the rehearsal at its defaults, measures its processor time without a viewer, then opens
+the page in a headless Chromium (`COAXIAL_CHROMIUM`) that draws without a graphics card, measures inside the
+page, and prints tables. The figures are valid for this machine and moment: the load is printed beside them.
 """
 
 import argparse
@@ -14,7 +14,7 @@ from pathlib import Path
 from playwright.sync_api import sync_playwright
 
 from tests.benchmarks.first_page.report import report
-from tests.benchmarks.first_page.screen import load_text, measured_screen
+from tests.benchmarks.first_page.screen import load_text, measured_screen, unwatched_use
 from tests.benchmarks.machine import machine_line
 from tests.benchmarks.options import BenchmarkOptions
 from tests.benchmarks.running_server import running_server
@@ -36,6 +36,7 @@ def main(arguments: list[str] | None = None) -> None:
         running_server(BenchmarkOptions(), seed=1, live_rate_hz=RATE_HZ) as server,
         sync_playwright() as playwright,
     ):
+        unwatched = unwatched_use(server, seconds=given.seconds, settling_s=given.settling_seconds)
         browser = playwright.chromium.launch(executable_path=chromium_path(), headless=True, args=list(flags))
         for size_px in given.sizes:
             one = measured_screen(
@@ -48,7 +49,7 @@ def main(arguments: list[str] | None = None) -> None:
             )
             seen.append(one)
         browser.close()
-    sys.stdout.write(report(seen))
+    sys.stdout.write(report(seen, unwatched))
 
 
 def _parser() -> argparse.ArgumentParser:

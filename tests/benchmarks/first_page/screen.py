@@ -61,6 +61,15 @@ def measured_screen(
     )
 
 
+def unwatched_use(server: RunningServer, *, seconds: float, settling_s: float) -> dict[str, float]:
+    """Return the share of one core by process of a server that nobody watches, after its first images."""
+    time.sleep(settling_s)
+    began_s, before = time.monotonic(), processor_time(server.pid, os.getpid())
+    time.sleep(seconds)
+    after = processor_time(server.pid, os.getpid())
+    return processor_use(before, after, time.monotonic() - began_s)
+
+
 def load_text() -> str:
     """Return the machine's load of the last minute."""
     return f"{os.getloadavg()[0]:.1f}"
