@@ -32,9 +32,7 @@ class Part(StrEnum):
 
     SEARCH = "search"  # search and tracking of a marker
     FIT = "fit"  # photometric refinement of a pose, the last step of tracking
-    REST = (
-        "rest"  # verification under uneven illumination, bone distances, CT sections, the rehearsal's drill
-    )
+    REST = "rest"  # verification under uneven illumination, distances, CT sections, the rehearsal's drill
 
 
 def warm_up(*parts: Part) -> None:
