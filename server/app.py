@@ -31,6 +31,7 @@ from server.api.navigation_ct import navigation_ct_router
 from server.api.needles import needles_router
 from server.api.page import mount_page, page_addresses, page_folder
 from server.api.people import people_router
+from server.api.placements import placements_router
 from server.api.plan import plan_router
 from server.api.procedure import procedure_router
 from server.api.readout import readout_router
@@ -275,6 +276,7 @@ def _add_procedure(app: FastAPI, parts: AppParts) -> None:
         app.include_router(tools_router(parts.steps.tool))
         app.include_router(ct_router(parts.steps.ct, parts.steps.ct_provider, parts.store.home))
         app.include_router(navigation_ct_router(parts.steps.navigation_ct))
+        app.include_router(placements_router(parts.steps.placement))
         app.include_router(
             plan_router(
                 parts.steps.plan,

@@ -19,7 +19,15 @@ from server.tool_file import tool_from_config
 from tracker.camera import CameraControl, CameraModel
 from tracker.errors import CalibrationError
 from tracker.marker import MarkerModel, ScoreSettings
-from tracker.navigation import Absent, AbsentReason, DrillLimits, DrillReference, MeasuredLatency, Setup
+from tracker.navigation import (
+    Absent,
+    AbsentReason,
+    DrillLimits,
+    DrillReference,
+    MeasuredLatency,
+    PlacedScrew,
+    Setup,
+)
 from tracker.navigation.clearance import select_wall
 from tracker.pipeline import Tracker
 from tracker.plan import Channel
@@ -77,6 +85,7 @@ class CaseSetup:
         withheld: Why numbers are withheld although everything is known.
         confirmed_from_s: see `confirmation_reason`.
         ct_id: of the CT on which the channel was planned; empty if unknown.
+        placed_screws: screws already placed in the vertebra of the active channel.
     """
 
     camera: CameraModel | None = None
@@ -93,6 +102,7 @@ class CaseSetup:
     withheld: AbsentReason | None = None
     confirmed_from_s: float | None = None
     ct_id: str = ""
+    placed_screws: tuple[PlacedScrew, ...] = ()
 
     def tracked_from(self, tracked_from_s: float) -> "CaseSetup":
         """Return the setup for a tracking process that monitors motion since this time only."""
@@ -124,6 +134,7 @@ class Preparation:
             settings.
         same_sensor_area: Images of all sizes show the same area of the sensor (setting).
         ct_id: of the CT on which the channel was planned; empty if there is none.
+        placed_screws: see `CaseSetup`.
     """
 
     camera: CameraModel | None
@@ -146,6 +157,7 @@ class Preparation:
     camera_device: str = ""
     same_sensor_area: bool = False
     ct_id: str = ""
+    placed_screws: tuple[PlacedScrew, ...] = ()
 
     def drill_reference_for(self, channel: Channel) -> DrillReference:
         """Return the drill reference of a channel: bone of the case, of the rehearsal, or the channel."""
@@ -232,6 +244,7 @@ class Preparation:
             registered_from_s=case.registered_from_s,
             drill_reference=case.drill_reference,
             ct_id=case.ct_id,
+            placed_screws=case.placed_screws,
         )
 
     def _readout_s(self, readout_ms: float | None) -> float:
@@ -262,6 +275,7 @@ class Preparation:
             max_tip_sd_mm=self.max_tip_sd_mm,
             limits=self.limits,
             ct_id=self.ct_id,
+            placed_screws=self.placed_screws,
         )
 
 

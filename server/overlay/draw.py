@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from server.overlay.alarm_band import draw_alarm_band
 from server.overlay.bullseye import Inset, Target, draw_bullseye, reach_of
-from server.overlay.channel import draw_channel
+from server.overlay.channel import draw_channel, draw_placed_screw
 from server.overlay.drill import draw_drill, draw_marker
 from server.overlay.headline import draw_headline
 from server.overlay.panel import MARGIN_PX, WIDTH_PX, draw_panel, draw_small_print
@@ -100,7 +100,10 @@ def _draw_theatre(image: Image, snapshot: NavigationSnapshot, scale: float) -> N
     setup = snapshot.setup
     view = View.of(setup.camera)
     if not isinstance(setup.channel, Absent) and not isinstance(snapshot.vertebra, Absent):
-        draw_channel(image, view, snapshot.vertebra.camera_from_vertebra, setup.channel, scale)
+        camera_from_vertebra = snapshot.vertebra.camera_from_vertebra
+        for screw in setup.placed_screws:
+            draw_placed_screw(image, view, camera_from_vertebra, screw, scale)
+        draw_channel(image, view, camera_from_vertebra, setup.channel, scale)
     for name, in_view in snapshot.tools.items():
         if not isinstance(in_view, Absent):
             ahead = _ahead_mm(snapshot.deviations[name])

@@ -16,6 +16,7 @@ Colour: TypeAlias = tuple[int, int, int]
 
 # BGR. Blue and orange are distinguishable with every kind of colour blindness; their shapes differ as well.
 PLAN_BLUE: Colour = (245, 185, 80)
+PLACED_GREY: Colour = (212, 200, 190)
 DRILL_ORANGE: Colour = (20, 150, 255)
 WHITE: Colour = (255, 255, 255)
 QUIET: Colour = (205, 205, 205)

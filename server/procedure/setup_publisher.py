@@ -20,6 +20,7 @@ from server.procedure.confirmation import confirmation_name
 from server.procedure.drill_reference import DrillReferenceBuilder
 from server.procedure.facts import facts_of
 from server.procedure.markers import MarkerStep
+from server.procedure.placement import placed_screws
 from server.procedure.plan import ACTIVE_CHANNEL, active_channel_from_document, planned_ct_id
 from server.procedure.registration_record import (
     CheckRecord,
@@ -126,7 +127,8 @@ class SetupPublisher:
             ]
         )
         newest += [document for document in (active, *registered) if document is not None]
-        newest += self._store.all(case.id, DocumentKind.SIGNATURE)
+        for kind in (DocumentKind.SIGNATURE, DocumentKind.PLACEMENT):
+            newest += self._store.all(case.id, kind)
         return [document for document in newest if isinstance(self._store.validity(document), Current)]
 
     def _setup_of(self, documents: list[Document]) -> CaseSetup:
@@ -172,6 +174,11 @@ class SetupPublisher:
             tools=tools,
             channel=channel,
             ct_id=ct_id,
+            placed_screws=()
+            if registered is None
+            else placed_screws(
+                [one for one in documents if one.kind is DocumentKind.PLACEMENT], registered.vertebra
+            ),
             registration=None if registered is None else registered.registration,
             registered_from_s=None if registered is None else self._from_s(registered, check),
             withheld=None if registered is None else self._withheld(),

@@ -20,6 +20,7 @@ from server.procedure.drill_reference import DrillReferenceBuilder
 from server.procedure.latency import LatencyStep
 from server.procedure.markers import MarkerStep
 from server.procedure.navigation_ct import NavigationCtProvider
+from server.procedure.placement import PlacementStep
 from server.procedure.plan import PlanStep
 from server.procedure.readout import ReadoutStep
 from server.procedure.registration import RegistrationSteps
@@ -62,6 +63,7 @@ class Steps:
         procedure: state of the procedure and order of its steps.
         registration: registers the vertebra on the patient.
         confirm: confirms a registration after a restart.
+        placement: stores where screws were placed.
         setup_check: whether the planned screw can be navigated with the registration.
     """
 
@@ -78,6 +80,7 @@ class Steps:
     procedure: Procedure
     registration: RegistrationSteps
     confirm: ConfirmStep
+    placement: PlacementStep
     setup_check: SetupChecker
 
     @classmethod
@@ -125,6 +128,7 @@ class Steps:
         ct_provider = CtProvider(store)
         surface = SurfaceStep(store=store, jobs=jobs, ct_provider=ct_provider)
         plan = PlanStep(store=store, jobs=jobs, ct_provider=ct_provider, config=config.plan)
+        registration = _registration(hub, store, config, procedure, defaults, plan=plan, surface=surface)
         return cls(
             camera=_camera_step(hub, store, jobs, config, defaults),
             readout=ReadoutStep(hub=hub, store=store, jobs=jobs, source=defaults.source),
@@ -145,8 +149,16 @@ class Steps:
             plan=plan,
             surface=surface,
             procedure=procedure,
-            registration=_registration(hub, store, config, procedure, defaults, plan=plan, surface=surface),
+            registration=registration,
             confirm=ConfirmStep(hub=hub, store=store, procedure=procedure),
+            placement=PlacementStep(
+                hub=hub,
+                store=store,
+                plans=plan.repository,
+                registrations=registration.repository,
+                run=procedure.run,
+                max_age_s=config.limits.pose_stale_after_ms / 1000.0,
+            ),
             setup_check=SetupChecker(store=store, defaults=defaults, tools=tools, catalogue=plan.catalogue),
         )
 

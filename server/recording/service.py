@@ -47,7 +47,7 @@ EXPORTS = ".exports"
 POLL_S = 0.25
 # Waiting time after a failure, instead of an attempt at each of the four polls per second.
 RETRY_AFTER_S = 30.0
-# Documents that configure tracking and alarms; a replay needs no others.
+# Documents that configure tracking, alarms and overlay; a replay needs no others.
 RECORDED_KINDS = (
     DocumentKind.CAMERA,
     DocumentKind.MARKER,
@@ -56,6 +56,7 @@ RECORDED_KINDS = (
     DocumentKind.REGISTRATION,
     DocumentKind.CHECK,
     DocumentKind.CONFIRMATION,
+    DocumentKind.PLACEMENT,
     DocumentKind.SIGNATURE,
 )
 

@@ -12,7 +12,7 @@ from viser.transforms import SO3
 
 from tracker.camera import CameraModel
 from tracker.geometry import Array, rotation_between
-from tracker.navigation import ScrewSize
+from tracker.navigation import PlacedScrew, ScrewSize
 from tracker.plan import Channel, Surface
 from tracker.pose import ToolModel
 
@@ -124,6 +124,22 @@ def add_screw(scene: viser.SceneApi, root: str, channel: Channel, screw: ScrewSi
         opacity=0.55,
         wxyz=quaternion(rotation_between([0.0, 0.0, 1.0], axis)),
         position=vector(channel.entry_in_vertebra_mm + axis * screw.length_mm / 2),
+        cast_shadow=False,
+        receive_shadow=False,
+    )
+
+
+def add_placed_screw(scene: viser.SceneApi, name: str, screw: PlacedScrew) -> None:
+    """Add a placed screw, opaque."""
+    along = screw.tip_in_vertebra_mm - screw.head_in_vertebra_mm
+    length_mm = float(np.linalg.norm(along))
+    scene.add_cylinder(
+        name,
+        radius=screw.radius_mm,
+        height=length_mm,
+        color=SCREW,
+        wxyz=quaternion(rotation_between([0.0, 0.0, 1.0], along / length_mm)),
+        position=vector((screw.head_in_vertebra_mm + screw.tip_in_vertebra_mm) / 2),
         cast_shadow=False,
         receive_shadow=False,
     )

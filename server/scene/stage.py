@@ -12,6 +12,7 @@ from server.scene.nodes import (
     add_bone,
     add_camera,
     add_channel,
+    add_placed_screw,
     add_reference,
     add_screw,
     quaternion,
@@ -154,6 +155,8 @@ class Stage:
                 add_channel(scene, root, setup.channel)
                 if setup.screw is not None:
                     add_screw(scene, root, setup.channel, setup.screw)
+                for index, screw in enumerate(setup.placed_screws):
+                    add_placed_screw(scene, f"{root}/placed_{index}", screw)
         if setup.camera_calibrated:
             self._camera = add_camera(scene, root, setup.camera)
             if setup.reference:
@@ -208,6 +211,10 @@ def _key(setup: Setup) -> tuple[object, ...]:
         setup.camera_calibrated,
         setup.reference,
         setup.screw,
+        tuple(
+            (one.head_in_vertebra_mm.tobytes(), one.tip_in_vertebra_mm.tobytes(), one.radius_mm)
+            for one in setup.placed_screws
+        ),
         setup.camera.size_wh_px,
         setup.camera.matrix.tobytes(),
         tuple((name, tool.radius_mm, tool.length_mm) for name, tool in setup.tools.items()),

@@ -38,6 +38,7 @@ GET     /api/alarms
 GET     /api/alarms/sound/{priority}.wav
 GET     /api/procedure
 GET     /api/navigation/ct
+GET     /api/navigation/placements
 GET     /api/latency
 GET     /video/{camera}.mjpg
 GET     /api/supervision/room
@@ -138,6 +139,8 @@ DELETE  /api/people/invitations/{invitation_id}
 DELETE  /api/people/sessions/{session_id}
 PUT     /api/rehearsal
 POST    /api/procedure/confirmation
+POST    /api/navigation/placements
+DELETE  /api/navigation/placements/{document_id}
 POST    /api/recordings/consent
 POST    /api/recordings/start
 POST    /api/recordings/stop

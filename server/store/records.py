@@ -22,6 +22,7 @@ class DocumentKind(StrEnum):
     REGISTRATION = "registration"
     CHECK = "check"
     CONFIRMATION = "confirmation"
+    PLACEMENT = "placement"
     SIGNATURE = "signature"
     CONSENT = "consent"
     COMMENT = "comment"

@@ -55,6 +55,17 @@ class ScrewMessage(Message):
     length_mm: float
 
 
+class PlacedScrewMessage(Message):
+    """A screw that was placed in this vertebra."""
+
+    name: str
+    """Of its channel."""
+    head_in_vertebra_mm: list[float]
+    """Where its axis meets the entry plane."""
+    tip_in_vertebra_mm: list[float]
+    diameter_mm: float
+
+
 class ChannelMessage(Message):
     """The planned channel with which the drill is compared, in the vertebra frame (LPS of its CT, in mm)."""
 
@@ -66,6 +77,8 @@ class ChannelMessage(Message):
     """Null where none is planned."""
     ct_id: str | None
     """Of the CT on which it was planned, as `GET /api/navigation/ct` states it; null without one."""
+    placed_screws: list[PlacedScrewMessage]
+    """Screws already placed in the same vertebra, in the same frame."""
 
 
 class MotionMonitorMessage(Message):
@@ -161,6 +174,15 @@ def channel_message(setup: Setup) -> ChannelMessage | None:
         if screw is None
         else ScrewMessage(diameter_mm=2.0 * screw.radius_mm, length_mm=screw.length_mm),
         ct_id=setup.ct_id or None,
+        placed_screws=[
+            PlacedScrewMessage(
+                name=one.name,
+                head_in_vertebra_mm=one.head_in_vertebra_mm.tolist(),
+                tip_in_vertebra_mm=one.tip_in_vertebra_mm.tolist(),
+                diameter_mm=2.0 * one.radius_mm,
+            )
+            for one in setup.placed_screws
+        ],
     )
 
 

@@ -23,6 +23,7 @@ from tracker.navigation.deviation import Deviation
 from tracker.navigation.drill_reference import ScrewSize
 from tracker.navigation.figures import DrillLimits
 from tracker.navigation.monitoring import NeverSeen, SceneState
+from tracker.navigation.placed_screw import PlacedScrew
 from tracker.navigation.uncertainty import DrillAnalysis
 from tracker.plan import Channel
 from tracker.plan.pedicle import Side
@@ -92,6 +93,7 @@ class Setup:
         ct_id: of the CT on which the channel was planned; empty if there is none.
         min_errors_95_mm: by tool name, the minimum 95 % error on the channel with this registration, see
             `registration_check.check_setup`. Tools for which it is not known are missing.
+        placed_screws: screws already placed in this vertebra.
     """
 
     camera: CameraModel
@@ -107,6 +109,7 @@ class Setup:
     side: Side | None = None
     ct_id: str = ""
     min_errors_95_mm: Mapping[str, float] = field(default_factory=dict)
+    placed_screws: tuple[PlacedScrew, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

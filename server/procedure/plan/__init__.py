@@ -9,7 +9,7 @@ from server.procedure.plan.active_channel import (
 )
 from server.procedure.plan.exchange import export_plan, import_plan
 from server.procedure.plan.picture import reference_picture, reference_slice
-from server.procedure.plan.repository import PlanRepository, StoredPlan
+from server.procedure.plan.repository import PlanRepository, StoredPlan, is_same_channel
 from server.procedure.plan.step import Author, PlanStep, Proposal
 
 __all__ = [
@@ -24,6 +24,7 @@ __all__ = [
     "active_channel_from_document",
     "export_plan",
     "import_plan",
+    "is_same_channel",
     "planned_ct_id",
     "reference_picture",
     "reference_slice",

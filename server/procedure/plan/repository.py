@@ -217,10 +217,11 @@ def _has(plan: PlanDocument, active: ActiveChannel) -> bool:
         channel = channel_of(vertebra_named(plan, active.vertebra), active.side).channel
     except PlanError:
         return False
-    return _is_same(channel, active.channel)
+    return is_same_channel(channel, active.channel)
 
 
-def _is_same(one: Channel, other: Channel) -> bool:
+def is_same_channel(one: Channel, other: Channel) -> bool:
+    """Return whether two channels are equal to the last digit."""
     return (
         one.name == other.name
         and one.radius_mm == other.radius_mm
