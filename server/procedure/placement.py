@@ -33,6 +33,7 @@ from tracker.navigation import (
 )
 from tracker.navigation.clearance import NearestWall
 from tracker.navigation.directions import Wall
+from tracker.navigation.figures import rounded_down
 from tracker.plan.document.changes import channel_of, vertebra_named
 from tracker.plan.pedicle import Side
 from tracker.plan.screw import GertzbeinRobbins
@@ -78,7 +79,7 @@ class PlacementRecord(Section):
     wall: Wall | None
     """Wall nearest to the screw at the planned depth in this direction; None if unknown."""
     clearance_mm: float | None
-    """From the screw's surface to it; negative for a breach."""
+    """From the screw's surface to it, rounded down; negative for a breach."""
     grade: GertzbeinRobbins | None
     figures: dict[FigureName, PlacedFigure]
 
@@ -337,7 +338,7 @@ class PlacementStep:
             cone_95_deg=None if spread is None else spread.cone_95_deg,
             verdict=assessment.verdict,
             wall=None if wall is None else wall.wall,
-            clearance_mm=None if wall is None else wall.clearance_mm,
+            clearance_mm=None if wall is None else rounded_down(wall.clearance_mm),
             grade=None if wall is None else wall.grade,
             figures={
                 name: PlacedFigure(

@@ -77,6 +77,26 @@ describe("in a cut along a drill in the planned axis", () => {
   });
 });
 
+test("placed screws are drawn where they were placed, also without a drill", () => {
+  const placed = (name: string, x: number): ReturnType<typeof channel>["placed_screws"][number] => ({
+    name,
+    head_in_vertebra_mm: [x, 10, 0],
+    tip_in_vertebra_mm: [x, -30, 0],
+    diameter_mm: 6,
+  });
+  const grid = cutGrid("axial", ON_AXIS.pose, FIELD, 0);
+  const { paths } = overlayOf("axial", grid, {
+    channel: channel({ placed_screws: [placed("L3 left", 15), placed("L3 right", -15)] }),
+    drill: null,
+    aheadMm: 0,
+    maxOffsetMm: null,
+  });
+  const [left = "", right = ""] = paths.placed.split("Z").filter((one) => one !== "");
+  const entry = planeFromLps(grid, ENTRY);
+  near(reach(left, entry).map(Math.abs).sort((a, b) => a - b), [2, 2, 4, 42]);
+  near(reach(right, entry).map(Math.abs).sort((a, b) => a - b), [2, 26, 32, 42]);
+});
+
 describe("the probe's eye", () => {
   /** 3 mm off to one side, 20 mm deep. */
   const beside = (by: Vec3): Drill => ({

@@ -19,6 +19,7 @@ import { directionLetter, isAnatomical, type CutName, type Pose } from "./planes
 export const PARTS = [
   "channel",
   "screw",
+  "placed",
   "axis",
   "entry",
   "target",
@@ -120,7 +121,7 @@ function edgesOf(grid: PixelGrid): Overlay["edges"] {
   };
 }
 
-/** Channel and screw intersected with the plane, and the planned axis projected onto it. */
+/** Channel, planned and placed screws intersected with the plane, and the planned axis projected onto it. */
 function drawPlan({ paths }: Overlay, grid: PixelGrid, channel: ChannelMessage, planned: Planned): void {
   const { entry, target, axis } = planned;
   const onPlane = (points: readonly Vec3[]): string => closed(points.map((one) => planeFromLps(grid, one)));
@@ -129,6 +130,12 @@ function drawPlan({ paths }: Overlay, grid: PixelGrid, channel: ChannelMessage, 
     const end = plus(entry, times(axis, channel.screw.length_mm));
     paths.screw = onPlane(cylinderOnSlice(grid, entry, end, channel.screw.diameter_mm / 2));
   }
+  paths.placed = channel.placed_screws
+    .map(({ head_in_vertebra_mm, tip_in_vertebra_mm, diameter_mm }) => {
+      const [head, tip] = [vec3(head_in_vertebra_mm), vec3(tip_in_vertebra_mm)];
+      return head === null || tip === null ? "" : onPlane(cylinderOnSlice(grid, head, tip, diameter_mm / 2));
+    })
+    .join("");
   const [from, to] = [planeFromLps(grid, entry), planeFromLps(grid, target)];
   paths.axis = line([from, to]);
   paths.entry = circle(from, CROSS_MM);

@@ -77,6 +77,7 @@ export function channel(changes: Partial<ChannelMessage> = {}): ChannelMessage {
     radius_mm: 4,
     screw: { diameter_mm: 6.5, length_mm: 45 },
     ct_id: "ct-1",
+    placed_screws: [],
     ...changes,
   };
 }

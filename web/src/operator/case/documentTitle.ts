@@ -12,6 +12,7 @@ const NAMED: readonly [kind: Heading["kind"], name: RegExp, title: Title][] = [
   ["check", /^tip of (.+)$/, "tip"],
   ["check", /^accuracy of the camera$/, "accuracy"],
   ["confirmation", /^going on with (.+)$/, "confirmation"],
+  ["placement", /^(.+)$/, "placement"],
   ["plan", /^active channel$/, "channel"],
   ["plan", /^main$/, "plan"],
   ["camera", /^main$/, "camera"],

@@ -11,6 +11,7 @@ import { RehearsalStrip } from "../registration/RehearsalStrip";
 import { ChannelSwitch } from "./ChannelSwitch";
 import { Gates } from "./Gates";
 import { MovementWarning } from "./MovementWarning";
+import { PlacedScrews } from "./PlacedScrews";
 import { Steadiness } from "./Steadiness";
 
 /** The operator's page during drilling: gates, numbers, picture, cuts and the active channel. */
@@ -33,6 +34,7 @@ export function NavigatePage(): ReactNode {
       <div className="work">
         <Steadiness />
         <ChannelSwitch />
+        <PlacedScrews />
       </div>
       <RehearsalStrip scenes={["operation"]} />
     </div>

@@ -7,13 +7,20 @@ export type FactName = keyof ReportTexts["facts"];
 export interface Fact {
   name: FactName;
   value: number | string;
-  unit: "mm" | "px" | "";
+  unit: "mm" | "°" | "px" | "";
   /** The limit at that time; null if there was none. */
   limit: number | null;
 }
 
 /** Kinds of documents that are opened for the report. */
-export const TELLING: ReadonlySet<string> = new Set(["camera", "tool", "registration", "check", "plan"]);
+export const TELLING: ReadonlySet<string> = new Set([
+  "camera",
+  "tool",
+  "registration",
+  "check",
+  "plan",
+  "placement",
+]);
 
 /** Missing values are omitted, never guessed. */
 export function factsOf(kind: string, content: Content): Fact[] {
@@ -23,7 +30,23 @@ export function factsOf(kind: string, content: Content): Fact[] {
     return some(textFact("vertebra", content["vertebra"]), textFact("side", content["side"]));
   if (kind === "check") return checkFacts(content);
   if (kind === "registration") return registrationFacts(content);
+  if (kind === "placement") return placementFacts(content);
   return [];
+}
+
+function placementFacts(content: Content): Fact[] {
+  const figures = part(content["figures"]);
+  const figure = (name: FactName, of: string, unit: Fact["unit"]): Fact | null =>
+    mm(name, part(figures[of])["value"], part(figures[of])["limit"], unit);
+  return some(
+    mm("diameter", content["diameter_mm"]),
+    mm("length", content["length_mm"]),
+    figure("entryOffset", "entry", "mm"),
+    figure("angle", "angle", "°"),
+    figure("error95", "error", "mm"),
+    mm("screwClearance", content["clearance_mm"]),
+    textFact("grade", content["grade"]),
+  );
 }
 
 function checkFacts(content: Content): Fact[] {

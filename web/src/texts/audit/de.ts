@@ -16,6 +16,8 @@ export const auditDe: AuditTexts = {
     "POST /api/alarms/release": "Hat die Bitte um Anhalten zurückgenommen",
     "PUT /api/rehearsal": "Hat den Probebetrieb geändert",
     "POST /api/procedure/confirmation": "Hat nach einem Neustart bestätigt",
+    "POST /api/navigation/placements": "Ort einer gesetzten Schraube gespeichert",
+    "DELETE /api/navigation/placements/{document_id}": "Gesetzte Schraube zurückgezogen",
     "POST /api/recordings/consent": "Hat die Einwilligung in Aufnahmen angegeben",
     "POST /api/recordings/start": "Hat eine Aufnahme gestartet",
     "POST /api/recordings/stop": "Hat die Aufnahme beendet",

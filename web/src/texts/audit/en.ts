@@ -15,6 +15,8 @@ export const auditEn = {
     "POST /api/alarms/release": "Released the hold",
     "PUT /api/rehearsal": "Changed the rehearsal",
     "POST /api/procedure/confirmation": "Confirmed after a restart",
+    "POST /api/navigation/placements": "Stored where a screw was placed",
+    "DELETE /api/navigation/placements/{document_id}": "Withdrew a placed screw",
     "POST /api/recordings/consent": "Stated whether the patient consented to recordings",
     "POST /api/recordings/start": "Started a recording",
     "POST /api/recordings/stop": "Stopped the recording",

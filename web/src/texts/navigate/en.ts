@@ -29,6 +29,26 @@ export const navigateEn = {
   otherVertebra:
     "Another vertebra: {vertebra} needs its own registration and check. No numbers are shown until then.",
   switchSure: "Yes, drill {channel}",
+  screws: {
+    title: "Screws",
+    planned: "planned",
+    registered: "registered",
+    active: "being drilled",
+    placed: "placed",
+    placeHere: "{channel}: placed here",
+    replaceSure: "Yes, replace {channel}",
+    hint: "Touch while the drill or screwdriver is in its final place: its position in this image is stored, and the screw is drawn there.",
+    withdraw: "Withdraw",
+    withdrawSure: "Yes, not placed",
+    outOfDate: "Stored with an earlier registration, therefore not drawn.",
+    diameter: "Diameter (mm)",
+    length: "Length (mm)",
+    entry: "entry {mm} mm",
+    angle: "angle {deg}°",
+    error: "95 % error ±{mm} mm",
+    wall: "nearest wall {wall} {mm} mm",
+    grade: "Gertzbein-Robbins {grade}",
+  },
 };
 
 export type NavigateTexts = typeof navigateEn;

@@ -59,5 +59,12 @@ export const reportDe: ReportTexts = {
     needle: "Größte Abweichung einer Nadel",
     surface: "Abstand der Messpunkte zum Knochen (RMS)",
     nudged: "Von Hand verschoben",
+    diameter: "Durchmesser der Schraube",
+    length: "Länge der Schraube",
+    entryOffset: "Abweichung am Eintrittspunkt",
+    angle: "Winkel zur Planung",
+    error95: "95-%-Fehler",
+    screwClearance: "Abstand der Schraube zur nächsten Wand",
+    grade: "Grad nach Gertzbein und Robbins",
   },
 };

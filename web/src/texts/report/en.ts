@@ -57,6 +57,13 @@ export const reportEn = {
     needle: "Largest deviation of a needle",
     surface: "Distance of the measured points to the bone (RMS)",
     nudged: "Shifted by hand",
+    diameter: "Diameter of the screw",
+    length: "Length of the screw",
+    entryOffset: "Offset at the entry point",
+    angle: "Angle to the plan",
+    error95: "95 % error",
+    screwClearance: "Clearance of the screw to the nearest wall",
+    grade: "Gertzbein-Robbins grade",
   },
 };
 

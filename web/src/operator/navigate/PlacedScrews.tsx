@@ -1,0 +1,189 @@
+import { NumberInput } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { useProcedure } from "../../app/procedure";
+import { formatNumber } from "../../live/rounding";
+import { answered, server } from "../../rest/client";
+import { QueryStatus } from "../../rest/QueryStatus";
+import { useAction } from "../../rest/useAction";
+import { useQuery } from "../../rest/useQuery";
+import type { components } from "../../schema";
+import { useTexts } from "../../texts/TextsContext";
+import { interpolate } from "../../texts/interpolate";
+import { ConfirmButton } from "../parts/ConfirmButton";
+import { formatTime } from "../parts/format";
+import { ConfirmOrCancelButton } from "../registration/ConfirmOrCancelButton";
+import { RegistrationRejection } from "../registration/RegistrationRejection";
+import { useMadeBy } from "../registration/useMadeBy";
+import { useSides } from "../registration/useSides";
+import { placedFigures } from "./placedFigures";
+
+type Channel = components["schemas"]["ChannelStateMessage"];
+type Placements = components["schemas"]["PlacementsMessage"];
+
+/** The planned channels with their state; "placed here" stores where the drill is now. */
+export function PlacedScrews(): ReactNode {
+  const procedure = useProcedure();
+  const plan = procedure.data?.steps.find((one) => one.step === "plan");
+  const isPlanned = plan !== undefined && plan.document_id !== null;
+  if (!isPlanned) return null;
+  // Plan, registration and active channel change the list.
+  const key = procedure.data?.steps.map((one) => `${one.state} ${one.document_id ?? ""}`).join(" ") ?? "";
+  return <Channels stepsKey={key} />;
+}
+
+function Channels({ stepsKey }: { stepsKey: string }): ReactNode {
+  const texts = useTexts().navigate.screws;
+  const madeBy = useMadeBy();
+  const query = useQuery((signal) => answered(server.GET("/api/navigation/placements", { signal })), {
+    key: stepsKey,
+  });
+  const acting = useAction();
+  const act = (request: () => Promise<Placements>): void => {
+    void acting
+      .run(async () => {
+        await request();
+      })
+      .then(query.refetch);
+  };
+  if (query.data === null) return <QueryStatus query={query} Note={RegistrationRejection} />;
+  const active = query.data.channels.find((one) => one.is_active);
+  return (
+    <section className="card" data-testid="placed-screws">
+      <h3>{texts.title}</h3>
+      <ul className="placed-screws">
+        {query.data.channels.map((one) => (
+          <ChannelRow
+            key={`${one.vertebra} ${one.side}`}
+            channel={one}
+            busy={acting.busy}
+            onWithdraw={(documentId) => {
+              const params = { path: { document_id: documentId }, query: { made_by: madeBy } };
+              act(() => answered(server.DELETE("/api/navigation/placements/{document_id}", { params })));
+            }}
+          />
+        ))}
+      </ul>
+      {active !== undefined && (
+        <PlaceHere
+          channel={active}
+          busy={acting.busy}
+          onPlace={(size) => {
+            act(() =>
+              answered(server.POST("/api/navigation/placements", { body: { made_by: madeBy, ...size } })),
+            );
+          }}
+        />
+      )}
+      <RegistrationRejection rejection={acting.rejection} />
+    </section>
+  );
+}
+
+function ChannelRow({
+  channel,
+  busy,
+  onWithdraw,
+}: {
+  channel: Channel;
+  busy: boolean;
+  onWithdraw: (documentId: string) => void;
+}): ReactNode {
+  const all = useTexts();
+  const texts = all.navigate.screws;
+  const sideName = useSides();
+  const { placement } = channel;
+  const screw = placement?.screw ?? channel.screw;
+  return (
+    <li data-testid={`screw-${channel.vertebra}-${channel.side}`} data-placed={placement !== null}>
+      <p className="row">
+        <strong>
+          {channel.vertebra} {sideName(channel.side)}
+        </strong>
+        {screw !== null && (
+          <span>
+            {formatNumber(screw.diameter_mm)} × {formatNumber(screw.length_mm, 0)} mm
+          </span>
+        )}
+        <span>
+          {placement !== null
+            ? `✓ ${texts.placed}`
+            : channel.is_active
+              ? `● ${texts.active}`
+              : channel.is_registered
+                ? `○ ${texts.registered}`
+                : `○ ${texts.planned}`}
+        </span>
+      </p>
+      {placement !== null && (
+        <>
+          <p>{placedFigures(placement, all)}</p>
+          {placement.out_of_date !== null && <p className="warning">▲ {texts.outOfDate}</p>}
+          <div className="row">
+            <span className="quiet">
+              {formatTime(placement.placed_at, all.language)} · {placement.placed_by}
+            </span>
+            <ConfirmButton
+              confirmLabel={texts.withdrawSure}
+              loading={busy}
+              testId={`withdraw-${channel.vertebra}-${channel.side}`}
+              onConfirm={() => {
+                onWithdraw(placement.document_id);
+              }}
+            >
+              {texts.withdraw}
+            </ConfirmButton>
+          </div>
+        </>
+      )}
+    </li>
+  );
+}
+
+interface Size {
+  diameter_mm: number;
+  length_mm: number;
+}
+
+function PlaceHere({
+  channel,
+  busy,
+  onPlace,
+}: {
+  channel: Channel;
+  busy: boolean;
+  onPlace: (size: Size | null) => void;
+}): ReactNode {
+  const texts = useTexts().navigate.screws;
+  const sideName = useSides();
+  const [diameter, setDiameter] = useState<number | string>("");
+  const [length, setLength] = useState<number | string>("");
+  const size =
+    typeof diameter === "number" && typeof length === "number"
+      ? { diameter_mm: diameter, length_mm: length }
+      : null;
+  const name = `${channel.vertebra} ${sideName(channel.side)}`;
+  return (
+    <div className="stack">
+      {channel.screw === null && (
+        <div className="row">
+          <NumberInput label={texts.diameter} min={1} max={20} value={diameter} onChange={setDiameter} />
+          <NumberInput label={texts.length} min={5} max={200} value={length} onChange={setLength} />
+        </div>
+      )}
+      <ConfirmOrCancelButton
+        // The first placement can be withdrawn; another one replaces what is stored.
+        needsConfirmation={channel.placement !== null}
+        confirmLabel={interpolate(texts.replaceSure, { channel: name })}
+        busy={busy}
+        disabled={channel.screw === null && size === null}
+        testId="place-here"
+        onConfirm={() => {
+          onPlace(channel.screw === null ? size : null);
+        }}
+      >
+        {interpolate(texts.placeHere, { channel: name })}
+      </ConfirmOrCancelButton>
+      <p className="quiet">{texts.hint}</p>
+    </div>
+  );
+}
