@@ -45,6 +45,9 @@ SETTINGS = {
 HAS_ANGLE = r"""() => /^.?\d+\.\d$/.test(
     document.querySelector("[data-testid='reading-angle']")?.textContent ?? "")"""
 
+IS_IN_BONE = """() => Number(
+    document.querySelector("[data-testid='reading-depth']")?.textContent ?? NaN) > 5"""
+
 
 @pytest.fixture
 def server(tmp_path: Path) -> Iterator[RealServer]:
@@ -103,6 +106,7 @@ def registered_checked_and_navigated(tablet: Tablet, server: RealServer, browser
     tablet.tap("scene-operation")
     tablet.page.wait_for_function(HAS_ANGLE)
     tablet.looked_at("navigate")
+    places_the_screw(tablet)
     switch_to_the_left(tablet)
     signs_plan_and_registration(sato.page)
     in_theatre(browser, server, tablet, sato)
@@ -127,6 +131,26 @@ def signs_plan_and_registration(page: Page) -> None:
         page.get_by_test_id(f"cosign-{what}").click()
         page.get_by_test_id(f"cosign-{what}").click()
         expect(sign).to_have_attribute("data-signed", "true", timeout=PATIENCE_MS)
+
+
+def places_the_screw(tablet: Tablet) -> None:
+    """The screw is stored where the drill is, listed with its figures, and drawn with the next image."""
+    page = tablet.page
+    placed = page.get_by_test_id("screw-L3-right")
+    expect(placed).to_have_attribute("data-placed", "false", timeout=PATIENCE_MS)
+    while True:
+        page.wait_for_function(IS_IN_BONE)
+        with page.expect_response(lambda answer: answer.url.endswith("/placements")) as answered:
+            tablet.tap("place-here")
+        if answered.value.status == 201:
+            break
+        # The drill has left the bone, or was hidden, in the image of the touch.
+        assert answered.value.json()["code"] in ("DRILL_NOT_IN_BONE", "PLACEMENT_NO_NUMBERS")
+    expect(placed).to_have_attribute("data-placed", "true", timeout=PATIENCE_MS)
+    tablet.reads("screw-L3-right", "95 % error")
+    tablet.looked_at("placed")
+    (screw,) = tablet.asks("/api/live")["snapshot"]["channel"]["placed_screws"]
+    assert screw["name"] == "L3 right"
 
 
 def switch_to_the_left(tablet: Tablet) -> None:

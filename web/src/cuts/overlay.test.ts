@@ -93,8 +93,18 @@ test("placed screws are drawn where they were placed, also without a drill", () 
   });
   const [left = "", right = ""] = paths.placed.split("Z").filter((one) => one !== "");
   const entry = planeFromLps(grid, ENTRY);
-  near(reach(left, entry).map(Math.abs).sort((a, b) => a - b), [2, 2, 4, 42]);
-  near(reach(right, entry).map(Math.abs).sort((a, b) => a - b), [2, 26, 32, 42]);
+  near(
+    reach(left, entry)
+      .map(Math.abs)
+      .sort((a, b) => a - b),
+    [2, 2, 4, 42],
+  );
+  near(
+    reach(right, entry)
+      .map(Math.abs)
+      .sort((a, b) => a - b),
+    [2, 26, 32, 42],
+  );
 });
 
 describe("the probe's eye", () => {
