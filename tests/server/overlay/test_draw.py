@@ -1,5 +1,6 @@
 """Overlays are drawn at their true positions, and absent values are not drawn."""
 
+import dataclasses
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,8 +14,9 @@ from hypothesis import strategies as st
 from server.overlay import OverlayContent, draw_overlay, encode_jpeg
 from server.overlay.primitives import DRILL_ORANGE, PLAN_BLUE
 from tracker.errors import InvalidInput
-from tracker.geometry import Camera, Rigid, Vertebra
-from tracker.navigation import Absent, NavigationSnapshot, ToolPose
+from tracker.geometry import Camera, Rigid, Vertebra, cylinder_ring_mm
+from tracker.navigation import Absent, NavigationSnapshot, PlacedScrew, ToolPose, VertebraPose
+from tracker.plan import Channel
 from tracker.pose import Seen
 
 SnapshotOf = Callable[..., NavigationSnapshot]
@@ -103,6 +105,27 @@ def test_only_what_is_known_is_drawn(
     drawn = draw_overlay(grey(), snapshot_of(**theatre))
     assert inked(drawn, DRILL_ORANGE).any() == drill
     assert inked(drawn, PLAN_BLUE).any() == plan
+
+
+def test_a_placed_screw_is_drawn_where_it_was_placed(snapshot_of: SnapshotOf) -> None:
+    snapshot = snapshot_of()
+    channel, vertebra = snapshot.setup.channel, snapshot.vertebra
+    assert isinstance(channel, Channel)
+    assert isinstance(vertebra, VertebraPose)
+    head = channel.entry_in_vertebra_mm + np.array([14.0, 0.0, 0.0])
+    tip = head + 30.0 * channel.axis_in_vertebra
+    screw = PlacedScrew(name="L3", head_in_vertebra_mm=head, tip_in_vertebra_mm=tip, radius_mm=3.0)
+    setup = dataclasses.replace(snapshot.setup, placed_screws=(screw,))
+    drawn = draw_overlay(grey(), dataclasses.replace(snapshot, setup=setup))
+    ring = cylinder_ring_mm(
+        vertebra.camera_from_vertebra.move_points(head),
+        vertebra.camera_from_vertebra.rotate_directions(channel.axis_in_vertebra),
+        3.0,
+    )
+    px = inside_video(snapshot.setup.camera.px_from_camera(ring), drawn)
+    assert len(px) > 10
+    changed = np.abs(drawn.astype(int) - draw_overlay(grey(), snapshot)).max(axis=2) > 30
+    assert inked_near(np.asarray(changed, dtype=np.bool_), px).mean() > 0.9
 
 
 def test_geometry_alone_has_the_lines_of_the_whole_and_no_panel(snapshot_of: SnapshotOf) -> None:

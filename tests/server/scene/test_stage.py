@@ -15,7 +15,7 @@ from server.live import Instant
 from server.scene.door import Door
 from server.scene.stage import NUMBER_NODE, Stage
 from tests.server.scene.scene_theatre import Theatre
-from tracker.navigation import Absent, ScrewSize
+from tracker.navigation import Absent, PlacedScrew, ScrewSize
 from tracker.plan import Channel
 
 Batch = list[dict[str, Any]]
@@ -199,6 +199,31 @@ def test_the_planned_screw_lies_in_its_channel_from_the_entry_on(theatre: Theatr
         assert isinstance(channel, Channel)
         middle = channel.entry_in_vertebra_mm + 15.0 * channel.axis_in_vertebra
         np.testing.assert_allclose(place["position"], middle, atol=1e-4)
+
+    on_stage(theatre, play)
+
+
+def test_a_placed_screw_lies_where_it_was_placed(theatre: Theatre) -> None:
+    head, tip = np.array([10.0, 12.0, 1.0]), np.array([4.0, -20.0, 3.0])
+    placed = PlacedScrew(name="L3 right", head_in_vertebra_mm=head, tip_in_vertebra_mm=tip, radius_mm=2.75)
+    later = replace(theatre, setup=replace(theatre.setup, placed_screws=(placed,)))
+
+    async def play(stage: Stage, viewer: Viewer) -> None:
+        await viewer.batches.get()
+        stage.show(later.instant(1, image_number=3))
+        batch = await viewer.batches.get()
+        screw = of_kind(batch, "CylinderMessage", "/setup_2/placed_0")
+        assert screw is not None
+        assert screw["props"]["radius"] == 2.75
+        assert screw["props"]["height"] == pytest.approx(np.linalg.norm(tip - head))
+        place = of_kind(batch, "SetPositionMessage", "/setup_2/placed_0")
+        turn = of_kind(batch, "SetOrientationMessage", "/setup_2/placed_0")
+        assert place is not None
+        assert turn is not None
+        np.testing.assert_allclose(place["position"], (head + tip) / 2, atol=1e-4)
+        w, x, y, z = turn["wxyz"]
+        along = [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)]
+        np.testing.assert_allclose(along, (tip - head) / np.linalg.norm(tip - head), atol=1e-4)
 
     on_stage(theatre, play)
 

@@ -20,6 +20,7 @@ from tracker.navigation import (
     MotionDetection,
     MotionState,
     NavigationSnapshot,
+    PlacedScrew,
     ScrewSize,
 )
 from tracker.navigation.clearance import NearestWall
@@ -159,8 +160,17 @@ def test_the_channel_is_sent_with_the_screw_and_the_ct_on_which_it_was_planned(
     bare = _sent(snapshot).channel
     assert bare is not None
     assert (bare.screw, bare.ct_id) == (None, None)
+    placed = PlacedScrew(
+        name="L3 left",
+        head_in_vertebra_mm=np.array([15.0, 14.0, 2.0]),
+        tip_in_vertebra_mm=np.array([8.0, -26.0, 3.0]),
+        radius_mm=2.75,
+    )
     setup = dataclasses.replace(
-        snapshot.setup, screw=ScrewSize(radius_mm=3.25, length_mm=45.0), ct_id="ct-of-case"
+        snapshot.setup,
+        screw=ScrewSize(radius_mm=3.25, length_mm=45.0),
+        ct_id="ct-of-case",
+        placed_screws=(placed,),
     )
     sent = _sent(dataclasses.replace(snapshot, setup=setup)).channel
     assert sent is not None
@@ -170,6 +180,14 @@ def test_the_channel_is_sent_with_the_screw_and_the_ct_on_which_it_was_planned(
         "radius_mm": channel.radius_mm,
         "screw": {"diameter_mm": 6.5, "length_mm": 45.0},
         "ct_id": "ct-of-case",
+        "placed_screws": [
+            {
+                "name": "L3 left",
+                "head_in_vertebra_mm": [15.0, 14.0, 2.0],
+                "tip_in_vertebra_mm": [8.0, -26.0, 3.0],
+                "diameter_mm": 5.5,
+            }
+        ],
     }
     unplanned = dataclasses.replace(snapshot.setup, channel=Absent(reason=AbsentReason.NO_PLAN))
     assert _sent(dataclasses.replace(snapshot, setup=unplanned)).channel is None
