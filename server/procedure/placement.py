@@ -314,7 +314,7 @@ class PlacementStep:
             raise SetupOrderError(
                 "PLACEMENT_NO_NUMBERS",
                 f"the newest image does not show where the drill is in the bone ({_reason(snapshot)})",
-                "Hold drill and markers in view of the camera, then touch again.",
+                "Complete the steps that are due, hold drill and markers in view, then touch again.",
             )
         placed = PlacedScrew.on_drill(active.channel, pose, screw)
         analysis = snapshot.analyses[tool]

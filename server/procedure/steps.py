@@ -157,7 +157,7 @@ class Steps:
                 plans=plan.repository,
                 registrations=registration.repository,
                 run=procedure.run,
-                max_age_s=config.limits.pose_stale_after_ms / 1000.0,
+                max_age_s=config.limits.video_stale_after_ms / 1000.0,
             ),
             setup_check=SetupChecker(store=store, defaults=defaults, tools=tools, catalogue=plan.catalogue),
         )
