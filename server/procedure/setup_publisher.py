@@ -32,7 +32,7 @@ from server.procedure.registration_record import (
 from server.procedure.state import Procedure, SetupDefaults
 from server.procedure.tool import tool_from_document
 from server.setup import CaseSetup
-from server.store import CaseStore, Current, Document, DocumentKind
+from server.store import CaseStore, Document, DocumentKind
 from tracker.errors import NavigationError
 from tracker.navigation import AbsentReason, DrillReference, MeasuredLatency
 from tracker.plan import Channel
@@ -113,21 +113,18 @@ class SetupPublisher:
         if case is None:
             return []
         kinds = (DocumentKind.CAMERA, DocumentKind.MARKER, DocumentKind.TOOL)
-        newest = [document for kind in kinds for document in self._store.all(case.id, kind)]
-        active = self._store.latest(case.id, DocumentKind.PLAN, ACTIVE_CHANNEL)
+        documents = [document for kind in kinds for document in self._store.all_current(case.id, kind)]
+        named = [(DocumentKind.PLAN, ACTIVE_CHANNEL)]
         vertebra = self._procedure.active_vertebra(case.id)
-        registered = (
-            []
-            if vertebra is None
-            else [
-                self._store.latest(case.id, DocumentKind.REGISTRATION, vertebra),
-                self._store.latest(case.id, DocumentKind.CHECK, check_name(vertebra)),
-                self._store.latest(case.id, DocumentKind.CONFIRMATION, confirmation_name(vertebra)),
+        if vertebra is not None:
+            named += [
+                (DocumentKind.REGISTRATION, vertebra),
+                (DocumentKind.CHECK, check_name(vertebra)),
+                (DocumentKind.CONFIRMATION, confirmation_name(vertebra)),
             ]
-        )
-        newest += [document for document in (active, *registered) if document is not None]
-        newest += self._store.all(case.id, DocumentKind.SIGNATURE)
-        return [document for document in newest if isinstance(self._store.validity(document), Current)]
+        found = [self._store.find_current(case.id, kind, name) for kind, name in named]
+        documents += [document for document in found if document is not None]
+        return [*documents, *self._store.all_current(case.id, DocumentKind.SIGNATURE)]
 
     def _setup_of(self, documents: list[Document]) -> CaseSetup:
         cameras: dict[str, CameraFile] = {}

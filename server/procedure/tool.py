@@ -15,7 +15,7 @@ from server.procedure.documents import parse_document
 from server.procedure.markers import MarkerStep
 from server.procedure.open_case import require_open_case
 from server.procedure.tool_collection import ToolCollection
-from server.store import CaseStore, Current, Document, DocumentKind, Validity
+from server.store import CaseStore, Document, DocumentKind, Validity
 from server.tool_file import ToolFile, pivot_part, spin_part
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.pose import ToolModel
@@ -292,10 +292,8 @@ class ToolStep:
     def _record(self, tool: str) -> ToolRecord | None:
         """Return the valid record of a tool in the open case, or None."""
         case = require_open_case(self._store)
-        document = self._store.latest(case.id, DocumentKind.TOOL, tool)
-        if document is None or not isinstance(self._store.validity(document), Current):
-            return None
-        return tool_from_document(document)
+        document = self._store.find_current(case.id, DocumentKind.TOOL, tool)
+        return None if document is None else tool_from_document(document)
 
     def _marker_in_settings(self, tool: str, known: Sequence[str]) -> str:
         if tool in self._tools:
