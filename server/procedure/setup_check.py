@@ -311,7 +311,4 @@ def _with_exact_tool(registration: Registration, tool: ToolModel) -> tuple[Regis
     exact = replace(tool, tip_covariance_mm2=np.zeros((3, 3)), axis_sd_deg=0.0)
     if registration.tool != tool.name:
         return registration, exact
-    of_tip = registration.tip_jacobian @ tool.tip_covariance_mm2 @ registration.tip_jacobian.T
-    values, vectors = np.linalg.eigh(registration.covariance - of_tip)
-    covariance = (vectors * np.maximum(values, 0.0)) @ vectors.T
-    return replace(registration, covariance=covariance), exact
+    return registration.without_tip_error(tool.tip_covariance_mm2), exact

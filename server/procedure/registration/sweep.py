@@ -26,6 +26,7 @@ from tracker.registration.surface import (
     ClosestPointQuery,
     SurfaceGate,
     SurfaceRegistration,
+    principal_extents_mm,
     register_surface,
 )
 
@@ -94,7 +95,7 @@ class SweepSession:
                 taking=self._taking and self._listener.running,
                 points=len(points),
                 unseen=self._unseen,
-                reach_mm=_reach_mm(points),
+                reach_mm=principal_extents_mm(points),
                 from_s=self._from_s,
                 problem=self._listener.problem,
             )
@@ -278,13 +279,3 @@ class SweepStep(CollectingStep[SweepSession]):
             moving_covariances_mm2=np.array([one["tip_covariance_mm2"] for one in used]),
             labels=tuple(str(one["landmark"]) for one in used),
         )
-
-
-def _reach_mm(points: Array) -> tuple[float, float, float]:
-    if len(points) < 2:
-        return 0.0, 0.0, 0.0
-    off = points - points.mean(axis=0)
-    _, _, axes = np.linalg.svd(off, full_matrices=False)
-    spans = [float(np.ptp(off @ axis)) for axis in axes]
-    longest, middle, shortest = (*spans, 0.0, 0.0)[:3]
-    return longest, middle, shortest

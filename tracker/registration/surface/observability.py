@@ -50,3 +50,16 @@ def description(way: Array) -> str:
     if shift >= turn:
         return SHIFTS[int(np.argmax(np.abs(way[:3])))]
     return TURNS[int(np.argmax(np.abs(way[3:])))]
+
+
+def principal_extents_mm(points_mm: Array) -> tuple[float, float, float]:
+    """Return the extents of points (n, 3) along their principal axes, the longest first; zeros for one point.
+
+    A sweep that is short or narrow leaves motion modes unobservable.
+    """
+    if len(points_mm) < 2:
+        return 0.0, 0.0, 0.0
+    off = points_mm - points_mm.mean(axis=0)
+    _, _, axes = np.linalg.svd(off, full_matrices=False)
+    longest, middle, shortest = (*(float(np.ptp(off @ axis)) for axis in axes), 0.0, 0.0)[:3]
+    return longest, middle, shortest
