@@ -87,6 +87,7 @@ class SetupPublisher:
             None,
             None,
         )
+        self._warned_of: set[tuple[str, str]] = set()
         drill_references.on_change = self.refresh
 
     def refresh(self) -> None:
@@ -138,9 +139,7 @@ class SetupPublisher:
                 if document.kind is DocumentKind.CAMERA:
                     camera_file = camera_from_document(document, source=self._defaults.source)
                     cameras[document.name] = camera_file
-                    warn_of_doubtful_camera(
-                        camera_file, title=document.title, max_rms_px=self._defaults.max_rms_px
-                    )
+                    self._warn_once(document, camera_file)
                 elif document.kind is DocumentKind.MARKER:
                     # Markers are read together, because they must be distinguishable from each other.
                     continue
@@ -176,6 +175,12 @@ class SetupPublisher:
             if registered is None
             else self._procedure.confirmed_from_s(registered, documents[0].case_id),
         )
+
+    def _warn_once(self, document: Document, camera: CameraFile) -> None:
+        """Log the warning about a doubtful camera once for each document, not at each publication."""
+        if (document.case_id, document.id) not in self._warned_of:
+            self._warned_of.add((document.case_id, document.id))
+            warn_of_doubtful_camera(camera, title=document.title, max_rms_px=self._defaults.max_rms_px)
 
     def _withheld(self) -> AbsentReason | None:
         """Return why numbers are withheld although the vertebra is registered."""
