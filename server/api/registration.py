@@ -166,7 +166,4 @@ def _points(step: PointsStep) -> PointsMessage:
 
 
 def _problem_message(error: RegistrationError) -> ProblemMessage:
-    problem = Problem.from_error(error)
-    return ProblemMessage(
-        code=problem.code, message=problem.message, remedy=problem.remedy, context=problem.context
-    )
+    return ProblemMessage.model_validate(Problem.from_error(error), from_attributes=True)
