@@ -134,8 +134,8 @@ class AlarmService:
     def is_navigating(self) -> bool:
         """Whether navigation is on."""
         with self._lock:
-            said = self._facts.navigating
-            return self._evaluation.is_navigating if said is None else said
+            stated = self._facts.navigating
+            return self._evaluation.is_navigating if stated is None else stated
 
     def set_recording_runs(self, *, runs: bool) -> None:
         """Set whether a recording that should be written is being written."""

@@ -153,13 +153,7 @@ class VerificationMessage(Message):
 
 def case_message(case: Case) -> CaseMessage:
     """Return the message of a case."""
-    return CaseMessage(
-        id=case.id,
-        name=case.name,
-        created_at=case.created_at,
-        changed_at=case.changed_at,
-        copied_from=case.copied_from,
-    )
+    return CaseMessage.model_validate(case, from_attributes=True)
 
 
 def imported_message(imported: ImportRecord | None, *, claimed_maker: str) -> ImportedMessage | None:
@@ -199,12 +193,7 @@ def documents_message(entries: tuple[Entry, ...]) -> DocumentsMessage:
 
 def files_message(files: tuple[StoredFile, ...]) -> FilesMessage:
     """Return the message of the files of a case."""
-    return FilesMessage(
-        files=[
-            FileMessage(id=file.id, size_bytes=file.size_bytes, sha256=file.sha256, made_at=file.made_at)
-            for file in files
-        ]
-    )
+    return FilesMessage(files=[FileMessage.model_validate(file, from_attributes=True) for file in files])
 
 
 def verification_message(damages: tuple[Damage, ...]) -> VerificationMessage:
@@ -226,4 +215,4 @@ def verification_message(damages: tuple[Damage, ...]) -> VerificationMessage:
 def _withdrawal_message(withdrawal: Withdrawal | None) -> WithdrawalMessage | None:
     if withdrawal is None:
         return None
-    return WithdrawalMessage(at=withdrawal.at, by=withdrawal.by, reason=withdrawal.reason)
+    return WithdrawalMessage.model_validate(withdrawal, from_attributes=True)

@@ -29,7 +29,7 @@ def latency_router(step: LatencyStep) -> APIRouter:
         """Return the last latency measurement of this camera."""
         result = step.newest()
         return LatencyMessage(
-            measuring=step.is_measuring,
+            measuring=step.is_collecting,
             result=None if result is None else result_message(result),
             applies=result is not None and step.applies(result),
         )
@@ -46,7 +46,7 @@ def latency_router(step: LatencyStep) -> APIRouter:
     @router.get("/measurement", responses=rejections(409))
     async def reading() -> LatencyReadingMessage:
         """Return the number of images with a code, and the clock of the server."""
-        return reading_message(step.measurement, now_s=time.monotonic())
+        return reading_message(step.collection, now_s=time.monotonic())
 
     @router.delete("/measurement", status_code=204)
     def end() -> Response:

@@ -67,7 +67,9 @@ def _add_running(router: APIRouter, steps: RegistrationSteps) -> None:
     def running() -> RunningMessage:
         """Return the registrations and checks in progress, so that a page can continue them."""
         return RunningMessage(
-            points=steps.points.running, sweep=steps.sweep.running, check=steps.check.running
+            points=steps.points.is_collecting,
+            sweep=steps.sweep.is_collecting,
+            check=steps.check.is_collecting,
         )
 
 
@@ -92,19 +94,19 @@ def _add_points(router: APIRouter, step: PointsStep) -> None:
     @router.post("/points/captures", status_code=202, responses=rejections(409, 422))
     def capture(requested: LandmarkRequest) -> PointsMessage:
         """Capture the tip at rest on this landmark from the next images; a repetition replaces the point."""
-        step.session.capture(requested.landmark)
+        step.collection.capture(requested.landmark)
         return _points(step)
 
     @router.put("/points/use", responses=rejections(409, 422))
     def use(requested: UseRequest) -> PointsMessage:
         """Include a captured landmark in the fit, or exclude it."""
-        step.session.use(requested.landmark, used=requested.used)
+        step.collection.use(requested.landmark, used=requested.used)
         return _points(step)
 
     @router.delete("/points/captures", responses=rejections(409, 422))
     def forget(landmark: Annotated[str, Query(min_length=1, max_length=60)]) -> PointsMessage:
         """Discard the captured point of a landmark."""
-        step.session.forget(landmark)
+        step.collection.forget(landmark)
         return _points(step)
 
     @router.post("/points/conclusion", status_code=201, responses=STORE_ERRORS)
@@ -122,7 +124,7 @@ def _add_check(router: APIRouter, step: CheckStep) -> None:
     @router.get("/check", responses=rejections(409))
     def progress() -> CheckMessage:
         """Return the progress of the check and the distance of the tip from the planned landmark."""
-        return check_message(step.session.status)
+        return check_message(step.collection.status)
 
     @router.delete("/check", status_code=204)
     def end() -> Response:
@@ -159,12 +161,9 @@ def _add_nudges(router: APIRouter, step: NudgeStep) -> None:
 
 
 def _points(step: PointsStep) -> PointsMessage:
-    status = step.session.status
+    status = step.collection.status
     return points_message(status, [_problem_message(error) for error in step.failures(status)], step.gate)
 
 
 def _problem_message(error: RegistrationError) -> ProblemMessage:
-    problem = Problem.from_error(error)
-    return ProblemMessage(
-        code=problem.code, message=problem.message, remedy=problem.remedy, context=problem.context
-    )
+    return ProblemMessage.model_validate(Problem.from_error(error), from_attributes=True)

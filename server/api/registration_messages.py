@@ -259,12 +259,7 @@ def points_message(
         targets=[]
         if fit is None
         else [
-            TargetMessage(
-                side=error.side,
-                depth_mm=error.depth_mm,
-                expected_mm=error.expected_mm,
-                stated_mm=error.stated_mm,
-            )
+            TargetMessage.model_validate(error, from_attributes=True)
             for error in target_errors(status.context, fit)
         ],
         limits=PointLimitsMessage(
@@ -281,7 +276,7 @@ def points_message(
 
 def remark_message(remark: Remark) -> RemarkMessage:
     """Return the message of a remark."""
-    return RemarkMessage(code=remark.code, message=remark.message, remedy=remark.remedy)
+    return RemarkMessage.model_validate(remark, from_attributes=True)
 
 
 def capture_message(status: CaptureStatus) -> CaptureMessage:

@@ -27,19 +27,19 @@ async def set_requester(asking: HTTPConnection) -> None:
     _asking.set(person_of(asking.scope))
 
 
-def _maker(said: object, read: ValidatorFunctionWrapHandler) -> str:
+def _maker(value: object, read: ValidatorFunctionWrapHandler) -> str:
     """Return the author; rejects an invalid name before a long upload or job starts."""
     person = _asking.get()
     if person != LOCAL_USER:
         return person.name
-    if said == "":
+    if value == "":
         raise PydanticKnownError("missing")
-    return validate_name(str(read(said)), of="name of who makes it")
+    return validate_name(str(read(value)), of="name of who makes it")
 
 
-def _doer(said: object, read: ValidatorFunctionWrapHandler) -> str | None:
+def _doer(value: object, read: ValidatorFunctionWrapHandler) -> str | None:
     person = _asking.get()
-    return read(said) if person == LOCAL_USER else person.name
+    return read(value) if person == LOCAL_USER else person.name
 
 
 MadeBy: TypeAlias = Annotated[

@@ -77,10 +77,4 @@ def _remedy(remedy: Remedy) -> RemedyMessage:
 
 
 def _channel_error(check: RegistrationCheck) -> ChannelErrorMessage:
-    return ChannelErrorMessage(
-        entry_95_mm=check.entry_95_mm,
-        isthmus_95_mm=check.isthmus_95_mm,
-        error_95_mm=check.error_95_mm,
-        tolerance_mm=check.tolerance_mm,
-        suffices=check.suffices,
-    )
+    return ChannelErrorMessage.model_validate(check, from_attributes=True)

@@ -67,17 +67,17 @@ async def _talk(websocket: WebSocket, room_hub: RoomHub, viewers: Viewers, here:
             await viewers.send(websocket.send_text(message.model_dump_json()), line)
 
     def receive_text(text: str) -> None:
-        said = _said(text)
-        if said.next:
+        message = _parse_message(text)
+        if message.next:
             here.session.answered(room_hub.now_s)
             requested.set()
             return
         try:
-            _do(said, room_hub, here)
+            _do(message, room_hub, here)
         except RoomPolicyViolation as unfair:
             _log.warning("room_misused", by=here.session.person.name, why=str(unfair))
             raise ProtocolViolation(REJECTED, str(unfair)) from unfair
-        room_hub.on_mark(_mark_json(said, here))
+        room_hub.on_mark(_mark_json(message, here))
         room_hub.notify()
 
     await run_duplex(websocket, viewers, send=send, receive_text=receive_text)
@@ -91,44 +91,44 @@ async def _until_news(wakeup: asyncio.Event, max_s: float) -> None:
         return
 
 
-def _said(text: str) -> ClientMessage:
+def _parse_message(text: str) -> ClientMessage:
     try:
         return ClientMessage.model_validate_json(text, strict=True)
     except ValidationError as error:
         raise ProtocolViolation(REJECTED, f"invalid message: {error.errors()[0]['msg']}"[:120]) from None
 
 
-def _mark_json(said: ClientMessage, here: RoomSubscription) -> str:
+def _mark_json(message: ClientMessage, here: RoomSubscription) -> str:
     """Return a command and its author as JSON."""
     person = here.session.person
-    done = said.model_dump(mode="json", exclude_unset=True)
+    done = message.model_dump(mode="json", exclude_unset=True)
     return json.dumps({"by": person.name, "role": person.role.value, **done}, ensure_ascii=False)
 
 
-def _do(said: ClientMessage, room_hub: RoomHub, here: RoomSubscription) -> None:
+def _do(message: ClientMessage, room_hub: RoomHub, here: RoomSubscription) -> None:
     room, session, now_s = room_hub.room, here.session, room_hub.now_s
-    if said.point is not None:
-        moment = Moment(image_number=said.point.image_number, captured_at_s=said.point.captured_at_s)
-        x, y = said.point.at_px
+    if message.point is not None:
+        moment = Moment(image_number=message.point.image_number, captured_at_s=message.point.captured_at_s)
+        x, y = message.point.at_px
         room.point(session, (x, y), moment, room_hub.shown, now_s=now_s)
-    elif said.draw is not None:
-        _draw(said, room_hub, here)
-    elif said.extend is not None:
-        points = [(x, y) for x, y in said.extend.points_px]
-        room.extend(session, said.extend.key, points, room_hub.shown, now_s=now_s)
-    elif said.undo:
+    elif message.draw is not None:
+        _draw(message, room_hub, here)
+    elif message.extend is not None:
+        points = [(x, y) for x, y in message.extend.points_px]
+        room.extend(session, message.extend.key, points, room_hub.shown, now_s=now_s)
+    elif message.undo:
         if room.undo(session, now_s=now_s):
             _log.info("drawing_taken_back", by=session.person.name)
-    elif said.clear is not None:
-        gone = room.clear(session, everybodys=said.clear == "all", now_s=now_s)
-        _log.info("drawings_cleared", by=session.person.name, whose=said.clear, drawings=gone)
+    elif message.clear is not None:
+        gone = room.clear(session, everybodys=message.clear == "all", now_s=now_s)
+        _log.info("drawings_cleared", by=session.person.name, whose=message.clear, drawings=gone)
     else:
         room.lift(session, now_s=now_s)
 
 
-def _draw(said: ClientMessage, room_hub: RoomHub, here: RoomSubscription) -> None:
+def _draw(message: ClientMessage, room_hub: RoomHub, here: RoomSubscription) -> None:
     """Log author, time and image of a drawing; its points are not stored."""
-    draw = said.draw
+    draw = message.draw
     if draw is None:
         return
     moment = Moment(image_number=draw.image_number, captured_at_s=draw.captured_at_s)

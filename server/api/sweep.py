@@ -62,13 +62,13 @@ def sweep_router(step: SweepStep) -> APIRouter:
     @router.get("", responses=rejections(409))
     def progress() -> SweepMessage:
         """Return the progress of the sweep."""
-        return _message(step.session.status)
+        return _message(step.collection.status)
 
     @router.put("", responses=rejections(409))
     def take(requested: TakingRequest) -> SweepMessage:
         """Pause or resume recording, for example while the tip is lifted off the bone."""
-        step.session.take(taking=requested.taking)
-        return _message(step.session.status)
+        step.collection.take(taking=requested.taking)
+        return _message(step.collection.status)
 
     @router.delete("", status_code=204)
     def end() -> Response:
@@ -81,7 +81,7 @@ def sweep_router(step: SweepStep) -> APIRouter:
         """Fit the sweep to the bone without storing it. Rejected if a direction is undetermined."""
         found, failures, _ = step.fit()
         return SweepFitMessage(
-            numbers=step.numbers(step.session.status, found),
+            numbers=step.numbers(step.collection.status, found),
             weakest=found.weakest_mode.description,
             remarks=[remark_message(remark) for remark in found.remarks],
             missing=[

@@ -203,13 +203,7 @@ class PhoneSource:
         if self._received >= 0:
             self._number += max(0, received.number - self._received - 1)
         self._received, self._last = received.number, received
-        shot = Shot(
-            image=image,
-            number=self._number,
-            captured_at_s=received.captured_at_s,
-            source_time_s=received.captured_at_s,
-            jpeg=received.jpeg,
-        )
+        shot = Shot.live(image, number=self._number, captured_at_s=received.captured_at_s, jpeg=received.jpeg)
         self._number += 1
         return shot
 

@@ -53,11 +53,10 @@ class PluginSource:
         except Exception as error:
             raise self._failed("returned no image", error) from error
         self._captured_at_s = self._checked_time_s(captured_at_s, arrived_at_s=time.monotonic())
-        shot = Shot(
-            image=self._checked_image(image),
+        shot = Shot.live(
+            self._checked_image(image),
             number=self._number,
             captured_at_s=self._captured_at_s,
-            source_time_s=self._captured_at_s,
             is_predicted=bool(getattr(self._source, "is_predicted", False)),
         )
         clock = ImageClock.ARRIVAL if captured_at_s is None else ImageClock.DRIVER

@@ -33,6 +33,26 @@ class Shot:
     is_predicted: bool = False
     jpeg: bytes = b""
 
+    @classmethod
+    def live(
+        cls,
+        image: npt.NDArray[np.uint8],
+        *,
+        number: int,
+        captured_at_s: float,
+        is_predicted: bool = False,
+        jpeg: bytes = b"",
+    ) -> "Shot":
+        """Return an image of a live source, whose own time is that of the capture."""
+        return cls(
+            image=image,
+            number=number,
+            captured_at_s=captured_at_s,
+            source_time_s=captured_at_s,
+            is_predicted=is_predicted,
+            jpeg=jpeg,
+        )
+
 
 class Source(Protocol):
     """A source of images; `read` blocks until the next image.

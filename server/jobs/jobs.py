@@ -21,7 +21,7 @@ from server.jobs.records import Job, JobState
 from server.jobs.worker import Progress, Result, Work, run_work, to_json_value
 from server.live import Problem
 from server.logs import LogSettings
-from server.loop.forks import exit_text, forking_context
+from server.loop.forks import end_process, exit_text, forking_context
 from tracker.errors import NavigationError
 
 # Number of finished jobs whose state stays available.
@@ -181,15 +181,11 @@ class Jobs:
                 entry.process = process
                 entry.job = replace(entry.job, state=JobState.RUNNING)
             outcome = self._listen(entry, process, ours)
-        process.join(END_TIMEOUT_S)
-        ended = exit_text(process.exitcode)
         with self._lock:
             entry.process = None
-        # The outcome has been received; do not wait for a process that hangs while exiting.
-        process.kill()
-        process.join(END_TIMEOUT_S)
-        process.close()
-        self._end(entry, outcome if outcome is not None else _crashed(f"ended {ended}"))
+        # The outcome has been received, so that a process that hangs while exiting is killed.
+        exitcode = end_process(process, timeout_s=END_TIMEOUT_S)
+        self._end(entry, outcome if outcome is not None else _crashed(f"ended {exit_text(exitcode)}"))
 
     def _listen(
         self, entry: _JobProcess, process: ForkServerProcess, ours: Connection

@@ -45,12 +45,18 @@ def exit_text(exitcode: int | None) -> str:
     return f"with status {exitcode}"
 
 
-def end_process(process: BaseProcess, *, timeout_s: float) -> None:
-    """Wait for a started process to end, kill it after `timeout_s`, and release it."""
+def end_process(process: BaseProcess, *, timeout_s: float) -> int | None:
+    """Wait for a started process to end, kill it after `timeout_s`, and release it.
+
+    Returns:
+        Its exit code; None if it had to be killed.
+    """
     process.join(timeout_s)
-    if process.exitcode is None:
+    exitcode = process.exitcode
+    if exitcode is None:
         process.kill()
         process.join(timeout_s)
     # Not released while even a killed process remains, in a system call that does not return.
     with contextlib.suppress(ValueError):
         process.close()
+    return exitcode

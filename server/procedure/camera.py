@@ -9,8 +9,8 @@ from server.config import CalibrationConfig
 from server.errors import CaptureError, SetupOrderError
 from server.jobs import Job, Jobs, Report
 from server.live import LiveHub
-from server.procedure.active_collection import ActiveCollection
 from server.procedure.board_collection import BoardCollection, CollectedView
+from server.procedure.collecting_step import CollectingStep
 from server.procedure.open_case import require_open_case
 from server.setup import camera_for_size
 from server.store import Case, CaseStore, Document, DocumentKind, Validity
@@ -26,7 +26,7 @@ ACCURACY = "accuracy of the camera"
 READOUT_KEYS = ("readout_ms", "readout_sd_ms", "readout_found_by")
 
 
-class CameraStep:
+class CameraStep(CollectingStep[BoardCollection]):
     """Calibrates the camera from live views; one collection at a time. Thread-safe.
 
     Args:
@@ -48,38 +48,20 @@ class CameraStep:
         source: str,
         same_sensor_area: bool = False,
     ) -> None:
+        super().__init__(
+            "collection of board views is",
+            remedy="Start a collection for a calibration board.",
+        )
         self._hub = hub
         self._store = store
         self._jobs = jobs
         self._gate = gate
         self._source = source
         self._same_sensor_area = same_sensor_area
-        self._active: ActiveCollection[BoardCollection] = ActiveCollection(
-            "collection of board views is",
-            remedy="Start a collection for a calibration board.",
-        )
 
     def begin(self, board: Board) -> BoardCollection:
         """Start to collect views of this board; a previous collection is discarded."""
-        return self._active.begin(lambda: BoardCollection(self._hub, board))
-
-    @property
-    def collection(self) -> BoardCollection:
-        """The active collection.
-
-        Raises:
-            SetupOrderError: COLLECTION_MISSING.
-        """
-        return self._active.get()
-
-    @property
-    def is_collecting(self) -> bool:
-        """Whether there is an active collection."""
-        return self._active.is_active
-
-    def end(self) -> None:
-        """Stop the collection and discard its views."""
-        self._active.end()
+        return self._start(lambda: BoardCollection(self._hub, board))
 
     def calibrate(self, *, made_by: str) -> Job:
         """Fit the camera to the collected views, and store it in the open case if it is accepted.

@@ -10,7 +10,7 @@ from server.jobs import Jobs
 from server.planning.surface import measure_wall
 from server.procedure.plan import ActiveChannel, active_channel_from_document
 from server.procedure.surface import MAIN_SURFACE
-from server.store import CaseStore, Current, Document, DocumentKind
+from server.store import CaseStore, Document, DocumentKind
 from tracker.errors import NavigationError
 from tracker.navigation import DrillReference, ScrewSize
 from tracker.navigation.clearance import WallSelection, WallSource, select_wall
@@ -116,10 +116,8 @@ class DrillReferenceBuilder:
         )
 
     def _surface(self, case_id: str) -> Document | None:
-        document = self._store.latest(case_id, DocumentKind.SURFACE, MAIN_SURFACE)
-        if document is None or not document.files:
-            return None
-        return document if isinstance(self._store.validity(document), Current) else None
+        document = self._store.find_current(case_id, DocumentKind.SURFACE, MAIN_SURFACE)
+        return document if document is not None and document.files else None
 
 
 def planned_pedicle(store: CaseStore, active: Document) -> PlannedPedicle:

@@ -20,7 +20,7 @@ from server.latency import (
     plan_codes,
 )
 from server.live import Instant, LiveHub, Problem
-from server.procedure.active_collection import ActiveCollection
+from server.procedure.collecting_step import CollectingStep
 from server.procedure.live_listener import LiveListener
 from server.store import CaseStore
 from server.store.latency_file import LatencyFile
@@ -168,7 +168,7 @@ class LatencyMeasurement:
             )
 
 
-class LatencyStep:
+class LatencyStep(CollectingStep[LatencyMeasurement]):
     """Measures the latency of the camera and a page; one measurement at a time. Thread-safe.
 
     Args:
@@ -192,6 +192,7 @@ class LatencyStep:
         wall: Clock = utc_now,
         on_result: Callable[[], None] = lambda: None,
     ) -> None:
+        super().__init__("latency measurement is", remedy="Start a measurement on the camera's page.")
         self._hub = hub
         self._store = store
         self._file = file
@@ -200,9 +201,6 @@ class LatencyStep:
         self._wall = wall
         self._on_result = on_result
         self._case_id: str | None = None
-        self._active: ActiveCollection[LatencyMeasurement] = ActiveCollection(
-            "latency measurement is", remedy="Start a measurement on the camera's page."
-        )
         store.add_commit_listener(self._follow_case)
 
     def begin(self, codes: int) -> LatencyMeasurement:
@@ -221,25 +219,7 @@ class LatencyStep:
             )
         self._case_id = self._opened_id()
         plan = plan_codes(codes, rate_hz=rate_hz)
-        return self._active.begin(lambda: LatencyMeasurement(self._hub, plan, clock=self._clock))
-
-    @property
-    def measurement(self) -> LatencyMeasurement:
-        """The active measurement.
-
-        Raises:
-            SetupOrderError: COLLECTION_MISSING.
-        """
-        return self._active.get()
-
-    @property
-    def is_measuring(self) -> bool:
-        """Whether there is an active measurement."""
-        return self._active.is_active
-
-    def end(self) -> None:
-        """Stop the measurement and discard its data."""
-        self._active.end()
+        return self._start(lambda: LatencyMeasurement(self._hub, plan, clock=self._clock))
 
     def conclude(self, times: PageTimes, *, made_by: str) -> LatencyResult:
         """Compute the latencies and store the result; the measurement ends even if it is rejected.
@@ -249,7 +229,7 @@ class LatencyStep:
             CalibrationError: as `latency_report`.
             StoreError: it cannot be stored.
         """
-        measurement = self.measurement
+        measurement = self.collection
         self.end()
         problem = measurement.status().problem
         if problem is not None:
@@ -298,9 +278,9 @@ class LatencyStep:
 
     def _follow_case(self) -> None:
         """End the measurement if the open case has changed; called after each change of the store."""
-        if not self.is_measuring or self._opened_id() == self._case_id:
+        if not self.is_collecting or self._opened_id() == self._case_id:
             return
-        self.measurement.end_for(
+        self.collection.end_for(
             SetupOrderError(
                 "LATENCY_CASE_CHANGED",
                 "the open case was closed or changed during the latency measurement",

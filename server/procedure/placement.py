@@ -19,7 +19,7 @@ from server.procedure.documents import parse_document
 from server.procedure.open_case import require_open_case
 from server.procedure.plan import ActiveChannel, PlanRepository, StoredPlan, is_same_channel
 from server.procedure.registration import RegistrationRepository
-from server.store import CaseStore, Current, Document, DocumentKind, Validity
+from server.store import CaseStore, Document, DocumentKind, Validity
 from tracker.errors import NavigationError
 from tracker.navigation import (
     Absent,
@@ -193,11 +193,7 @@ class PlacementStep:
         stored = self._plans.latest()
         case_id, active = stored.document.case_id, stored.active
         placed = {one.document.name: one for one in self._placements(case_id)}
-        registered = {
-            one.name
-            for one in self._store.all(case_id, DocumentKind.REGISTRATION)
-            if isinstance(self._store.validity(one), Current)
-        }
+        registered = {one.name for one in self._store.all_current(case_id, DocumentKind.REGISTRATION)}
         return tuple(
             ChannelState(
                 vertebra=vertebra.name,

@@ -9,8 +9,8 @@ from server.camera_file import readout_in
 from server.errors import SetupOrderError
 from server.jobs import Job, Jobs, Report
 from server.live import LiveHub
-from server.procedure.active_collection import ActiveCollection
 from server.procedure.camera import MAIN_CAMERA, READOUT_KEYS, camera_from_document
+from server.procedure.collecting_step import CollectingStep
 from server.procedure.open_case import require_open_case
 from server.procedure.readout_collection import BurstStage, ReadoutCollection
 from server.store import Case, CaseStore, Document, DocumentKind
@@ -41,7 +41,7 @@ class ReadoutRecord:
     found_by: ReadoutSource
 
 
-class ReadoutStep:
+class ReadoutStep(CollectingStep[ReadoutCollection]):
     """Measures or stores the readout time; one burst at a time. Thread-safe.
 
     It is stored as a new version of the calibration. Documents that depend on the previous version become
@@ -55,13 +55,11 @@ class ReadoutStep:
     """
 
     def __init__(self, *, hub: LiveHub, store: CaseStore, jobs: Jobs, source: str) -> None:
+        super().__init__("readout measurement is", remedy="Start a measurement of the readout time.")
         self._hub = hub
         self._store = store
         self._jobs = jobs
         self._source = source
-        self._active: ActiveCollection[ReadoutCollection] = ActiveCollection(
-            "readout measurement is", remedy="Start a measurement of the readout time."
-        )
 
     def begin(self, board: Board) -> ReadoutCollection:
         """Wait for this board to move, and take a burst; a previous burst is discarded.
@@ -71,25 +69,7 @@ class ReadoutStep:
             OutOfDateError: DOCUMENT_MISSING or DOCUMENT_OUT_OF_DATE, the camera has to be calibrated first.
         """
         self._calibration(require_open_case(self._store))
-        return self._active.begin(lambda: ReadoutCollection(self._hub, board))
-
-    @property
-    def collection(self) -> ReadoutCollection:
-        """The active burst.
-
-        Raises:
-            SetupOrderError: COLLECTION_MISSING.
-        """
-        return self._active.get()
-
-    @property
-    def is_collecting(self) -> bool:
-        """Whether there is an active burst."""
-        return self._active.is_active
-
-    def end(self) -> None:
-        """Stop the burst and discard its images."""
-        self._active.end()
+        return self._start(lambda: ReadoutCollection(self._hub, board))
 
     def stored_readout(self) -> ReadoutRecord | None:
         """Return the readout time of the newest calibration of the open case; None if it is unknown."""

@@ -8,7 +8,7 @@ import structlog
 from server.imaging.meshes import mesh_from_bytes
 from server.procedure.plan import active_channel_document
 from server.procedure.surface import MAIN_SURFACE
-from server.store import CaseStore, Current, Document, DocumentKind
+from server.store import CaseStore, Document, DocumentKind
 from tracker.errors import NavigationError
 from tracker.plan import Surface
 from tracker.plan.mesh.intake import Space
@@ -58,11 +58,8 @@ class SceneBone:
         if case is None:
             return None, None
         planned = active_channel_document(self._store, case.id)
-        surface = self._current(self._store.latest(case.id, DocumentKind.SURFACE, MAIN_SURFACE))
+        surface = self._store.find_current(case.id, DocumentKind.SURFACE, MAIN_SURFACE)
         return planned, surface if planned is not None and surface is not None and surface.files else None
-
-    def _current(self, document: Document | None) -> Document | None:
-        return document if document and isinstance(self._store.validity(document), Current) else None
 
     def _read(self, wanted: str, document: Document) -> None:
         surface: Surface | None = None

@@ -6,7 +6,7 @@ registration the check assumes the planned landmarks, localised to `LANDMARK_SD_
 """
 
 import threading
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -24,7 +24,7 @@ from server.procedure.registration_record import (
 from server.procedure.state import SetupDefaults
 from server.procedure.surface import MAIN_SURFACE
 from server.procedure.tool import tool_from_document
-from server.store import CaseStore, Current, Document, DocumentKind
+from server.store import CaseStore, Document, DocumentKind
 from tracker.errors import NavigationError
 from tracker.geometry import Anchor, Array, Rigid, Vertebra
 from tracker.navigation import RegistrationCheck, check_registration, check_setup
@@ -139,13 +139,10 @@ class SetupChecker:
         if active is None:
             return None
         vertebra = str(active.content.get("vertebra"))
-        registered = self._current(active.case_id, DocumentKind.REGISTRATION, vertebra)
-        surface = self._current(active.case_id, DocumentKind.SURFACE, MAIN_SURFACE)
-        tools = [one for one in self._store.all(active.case_id, DocumentKind.TOOL) if self._is_current(one)]
-        key = tuple(
-            "" if one is None else one.id
-            for one in (active, registered, surface, *sorted(tools, key=lambda one: one.name))
-        )
+        registered = self._store.find_current(active.case_id, DocumentKind.REGISTRATION, vertebra)
+        surface = self._store.find_current(active.case_id, DocumentKind.SURFACE, MAIN_SURFACE)
+        tools = self._store.all_current(active.case_id, DocumentKind.TOOL)
+        key = tuple("" if one is None else one.id for one in (active, registered, surface, *tools))
         with self._lock:
             if self._made[0] == key:
                 return self._made[1]
@@ -158,7 +155,7 @@ class SetupChecker:
         self,
         active: Document,
         registered: Document | None,
-        tools: list[Document],
+        tools: Sequence[Document],
         *,
         has_surface: bool,
     ) -> SetupCheck | None:
@@ -176,7 +173,7 @@ class SetupChecker:
             log.warning(error.message, code=error.code, remedy=error.remedy, document=active.title)
             return None
 
-    def _known(self, documents: list[Document]) -> dict[str, ToolModel]:
+    def _known(self, documents: Sequence[Document]) -> dict[str, ToolModel]:
         """Return the tools of settings and case, without those that cannot be read."""
         known = dict(self._tools)
         for document in documents:
@@ -194,13 +191,6 @@ class SetupChecker:
         plan = self._store.document(active.case_id, active.depends_on[0])
         vertebra = vertebra_named(plan_from_mapping(plan.content), planned.active.vertebra)
         return np.array([one.point_lps_mm for one in vertebra.landmarks]).reshape(-1, 3)
-
-    def _current(self, case_id: str, kind: DocumentKind, name: str) -> Document | None:
-        document = self._store.latest(case_id, kind, name)
-        return document if document is not None and self._is_current(document) else None
-
-    def _is_current(self, document: Document) -> bool:
-        return isinstance(self._store.validity(document), Current)
 
 
 def check_of_registration(
@@ -321,7 +311,4 @@ def _with_exact_tool(registration: Registration, tool: ToolModel) -> tuple[Regis
     exact = replace(tool, tip_covariance_mm2=np.zeros((3, 3)), axis_sd_deg=0.0)
     if registration.tool != tool.name:
         return registration, exact
-    of_tip = registration.tip_jacobian @ tool.tip_covariance_mm2 @ registration.tip_jacobian.T
-    values, vectors = np.linalg.eigh(registration.covariance - of_tip)
-    covariance = (vectors * np.maximum(values, 0.0)) @ vectors.T
-    return replace(registration, covariance=covariance), exact
+    return registration.without_tip_error(tool.tip_covariance_mm2), exact

@@ -33,7 +33,7 @@ from server.procedure.registration_record import (
 from server.procedure.state import Procedure, SetupDefaults
 from server.procedure.tool import tool_from_document
 from server.setup import CaseSetup
-from server.store import CaseStore, Current, Document, DocumentKind
+from server.store import CaseStore, Document, DocumentKind
 from tracker.errors import NavigationError
 from tracker.navigation import AbsentReason, DrillReference, MeasuredLatency
 from tracker.plan import Channel
@@ -88,6 +88,7 @@ class SetupPublisher:
             None,
             None,
         )
+        self._warned_of: set[tuple[str, str]] = set()
         drill_references.on_change = self.refresh
 
     def refresh(self) -> None:
@@ -114,22 +115,20 @@ class SetupPublisher:
         if case is None:
             return []
         kinds = (DocumentKind.CAMERA, DocumentKind.MARKER, DocumentKind.TOOL)
-        newest = [document for kind in kinds for document in self._store.all(case.id, kind)]
-        active = self._store.latest(case.id, DocumentKind.PLAN, ACTIVE_CHANNEL)
+        documents = [document for kind in kinds for document in self._store.all_current(case.id, kind)]
+        named = [(DocumentKind.PLAN, ACTIVE_CHANNEL)]
         vertebra = self._procedure.active_vertebra(case.id)
-        registered = (
-            []
-            if vertebra is None
-            else [
-                self._store.latest(case.id, DocumentKind.REGISTRATION, vertebra),
-                self._store.latest(case.id, DocumentKind.CHECK, check_name(vertebra)),
-                self._store.latest(case.id, DocumentKind.CONFIRMATION, confirmation_name(vertebra)),
+        if vertebra is not None:
+            named += [
+                (DocumentKind.REGISTRATION, vertebra),
+                (DocumentKind.CHECK, check_name(vertebra)),
+                (DocumentKind.CONFIRMATION, confirmation_name(vertebra)),
             ]
-        )
-        newest += [document for document in (active, *registered) if document is not None]
+        found = [self._store.find_current(case.id, kind, name) for kind, name in named]
+        documents += [document for document in found if document is not None]
         for kind in (DocumentKind.SIGNATURE, DocumentKind.PLACEMENT):
-            newest += self._store.all(case.id, kind)
-        return [document for document in newest if isinstance(self._store.validity(document), Current)]
+            documents += self._store.all_current(case.id, kind)
+        return documents
 
     def _setup_of(self, documents: list[Document]) -> CaseSetup:
         cameras: dict[str, CameraFile] = {}
@@ -143,9 +142,7 @@ class SetupPublisher:
                 if document.kind is DocumentKind.CAMERA:
                     camera_file = camera_from_document(document, source=self._defaults.source)
                     cameras[document.name] = camera_file
-                    warn_of_doubtful_camera(
-                        camera_file, title=document.title, max_rms_px=self._defaults.max_rms_px
-                    )
+                    self._warn_once(document, camera_file)
                 elif document.kind is DocumentKind.MARKER:
                     # Markers are read together, because they must be distinguishable from each other.
                     continue
@@ -186,6 +183,12 @@ class SetupPublisher:
             if registered is None
             else self._procedure.confirmed_from_s(registered, documents[0].case_id),
         )
+
+    def _warn_once(self, document: Document, camera: CameraFile) -> None:
+        """Log the warning about a doubtful camera once for each document, not at each publication."""
+        if (document.case_id, document.id) not in self._warned_of:
+            self._warned_of.add((document.case_id, document.id))
+            warn_of_doubtful_camera(camera, title=document.title, max_rms_px=self._defaults.max_rms_px)
 
     def _withheld(self) -> AbsentReason | None:
         """Return why numbers are withheld although the vertebra is registered."""

@@ -9,13 +9,13 @@ from pydantic import Field
 
 from server.config import Point, ToolConfig
 from server.live import LiveHub
-from server.procedure.active_collection import ActiveCollection
 from server.procedure.camera import MAIN_CAMERA
+from server.procedure.collecting_step import CollectingStep
 from server.procedure.documents import parse_document
 from server.procedure.markers import MarkerStep
 from server.procedure.open_case import require_open_case
 from server.procedure.tool_collection import ToolCollection
-from server.store import CaseStore, Current, Document, DocumentKind, Validity
+from server.store import CaseStore, Document, DocumentKind, Validity
 from server.tool_file import ToolFile, pivot_part, spin_part
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.pose import ToolModel
@@ -76,7 +76,7 @@ def tool_from_document(document: Document) -> ToolRecord:
     )
 
 
-class ToolStep:
+class ToolStep(CollectingStep[ToolCollection]):
     """Calibrates and checks tools from live poses; one collection at a time. Thread-safe.
 
     Args:
@@ -96,15 +96,15 @@ class ToolStep:
         markers: MarkerStep,
         tools: Mapping[str, ToolConfig],
     ) -> None:
+        super().__init__(
+            "collection of tool poses is",
+            remedy="Start a collection for a tool and a purpose.",
+        )
         self._hub = hub
         self._store = store
         self._gate = gate
         self._markers = markers
         self._tools = tools
-        self._active: ActiveCollection[ToolCollection] = ActiveCollection(
-            "collection of tool poses is",
-            remedy="Start a collection for a tool and a purpose.",
-        )
 
     def begin(self, tool: str, *, marker: str | None, purpose: Purpose) -> ToolCollection:
         """Start to collect poses of this tool; a previous collection is discarded.
@@ -135,7 +135,7 @@ class ToolStep:
             )
         document = known[marker]
         tip = None if record is None or purpose is Purpose.PIVOT else np.array(record.pivot.tip_in_marker_mm)
-        return self._active.begin(
+        return self._start(
             lambda: ToolCollection(
                 self._hub,
                 tool=tool,
@@ -167,24 +167,6 @@ class ToolStep:
     def validity(self, document: Document) -> Validity:
         """Return whether a tool's calibration is valid."""
         return self._store.validity(document)
-
-    @property
-    def collection(self) -> ToolCollection:
-        """The active collection.
-
-        Raises:
-            SetupOrderError: COLLECTION_MISSING.
-        """
-        return self._active.get()
-
-    @property
-    def is_collecting(self) -> bool:
-        """Whether there is an active collection."""
-        return self._active.is_active
-
-    def end(self) -> None:
-        """Stop the collection and discard its poses."""
-        self._active.end()
 
     def conclude(
         self,
@@ -292,10 +274,8 @@ class ToolStep:
     def _record(self, tool: str) -> ToolRecord | None:
         """Return the valid record of a tool in the open case, or None."""
         case = require_open_case(self._store)
-        document = self._store.latest(case.id, DocumentKind.TOOL, tool)
-        if document is None or not isinstance(self._store.validity(document), Current):
-            return None
-        return tool_from_document(document)
+        document = self._store.find_current(case.id, DocumentKind.TOOL, tool)
+        return None if document is None else tool_from_document(document)
 
     def _marker_in_settings(self, tool: str, known: Sequence[str]) -> str:
         if tool in self._tools:

@@ -260,11 +260,10 @@ class _Replay:
         if self._tracking is None or pixels is None:
             self.report.unchecked_images += 1
             return
-        shot = Shot(
-            image=pixels,
+        shot = Shot.live(
+            pixels,
             number=number,
             captured_at_s=tracked.captured_at_s,
-            source_time_s=tracked.captured_at_s,
             is_predicted=tracked.is_predicted,
         )
         self.report.images += 1

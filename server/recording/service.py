@@ -37,7 +37,7 @@ from server.recording.timeline import index_path
 from server.recording_file import Topic, WriterLimits
 from server.recording_file.locations import read_duration_s
 from server.recording_file.topics import SUFFIX
-from server.store import Case, CaseStore, Current, DocumentKind, NotFound, StoreError
+from server.store import Case, CaseStore, DocumentKind, NotFound, StoreError
 from server.store.home import PRIVATE, RECORDINGS, sync_file, sync_folder
 
 NAME = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{4}\.mcap")
@@ -539,10 +539,7 @@ class RecordingService:
         if running is None:
             return
         documents = [
-            document
-            for kind in RECORDED_KINDS
-            for document in self._store.all(running.case.id, kind)
-            if isinstance(self._store.validity(document), Current)
+            document for kind in RECORDED_KINDS for document in self._store.all_current(running.case.id, kind)
         ]
         ids = tuple(document.id for document in documents)
         if ids == self._documents:

@@ -241,7 +241,7 @@ class _Events:
         self._navigation: list[tuple[float, bool]] = []
         self._open: dict[int, tuple[float, str]] = {}
         self._alarms: list[tuple[float, float | None, str]] = []
-        self._noted: dict[str, float] = {}
+        self._last_note_s: dict[str, float] = {}
         self._has_steps = False
 
     def add_step(self, unix_s: float, step: Json) -> None:
@@ -283,8 +283,8 @@ class _Events:
 
     def add_note(self, unix_s: float, note: Json) -> None:
         code = str(note.get("code", ""))
-        before_s = self._noted.get(code)
-        self._noted[code] = unix_s
+        before_s = self._last_note_s.get(code)
+        self._last_note_s[code] = unix_s
         if before_s is None or unix_s - before_s > MAX_NOTE_GAP_S:
             self._moments.append(TimelineEvent(kind="note", from_s=unix_s, code=code))
 

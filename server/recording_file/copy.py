@@ -1,15 +1,12 @@
 """Byte-by-byte copy of messages from one recording to another."""
 
-import json
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from mcap.writer import CompressionType, IndexType, Writer
-
 from server.recording_file.reader import RecordedMessage, RecordingReader
-from server.recording_file.topics import JSON, PROFILE, SCHEMA_ENCODING, Topic
-from server.recording_file.writer import CHUNK_BYTES
+from server.recording_file.topics import JSON, PROFILE, Topic
+from server.recording_file.writer import CHUNK_BYTES, mcap_writer, register_json_schema
 
 
 class RecordingCopy:
@@ -28,13 +25,7 @@ class RecordingCopy:
         self._channels: dict[int, int] = {}
         self._schemas: dict[int, int] = {0: 0}
         self._file = target.open("wb")
-        # Not compressed, because the index reads messages at their position in the file.
-        self._writer = Writer(
-            self._file,
-            chunk_size=CHUNK_BYTES,
-            compression=CompressionType.NONE,
-            index_types=IndexType.CHUNK,
-        )
+        self._writer = mcap_writer(self._file, chunk_bytes=CHUNK_BYTES)
         self._writer.start(profile=PROFILE, library=source.library)
 
     def __enter__(self) -> "RecordingCopy":
@@ -64,10 +55,7 @@ class RecordingCopy:
 
     def add_json(self, topic: Topic, text: str, *, log_ns: int, schema: dict[str, Any]) -> None:
         """Add a new JSON message."""
-        content = json.dumps(schema, ensure_ascii=False).encode()
-        schema_id = self._writer.register_schema(
-            name=str(schema["title"]), encoding=SCHEMA_ENCODING, data=content
-        )
+        schema_id = register_json_schema(self._writer, schema, title=topic.value)
         channel_id = self._writer.register_channel(
             topic=topic.value, message_encoding=JSON, schema_id=schema_id
         )

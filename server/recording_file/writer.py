@@ -44,6 +44,20 @@ class WriterLimits:
     min_free_bytes: float
 
 
+def mcap_writer(file: IO[bytes], *, chunk_bytes: int) -> Writer:
+    """Return a writer of uncompressed chunks, because the index reads messages at their position."""
+    return Writer(file, chunk_size=chunk_bytes, compression=CompressionType.NONE, index_types=IndexType.CHUNK)
+
+
+def register_json_schema(writer: Writer, schema: Mapping[str, Any], *, title: str) -> int:
+    """Register the JSON schema of a topic's messages, and return its id; `title` if it has none."""
+    content = json.dumps(schema, ensure_ascii=False).encode()
+    schema_id: int = writer.register_schema(
+        name=str(schema.get("title", title)), encoding=SCHEMA_ENCODING, data=content
+    )
+    return schema_id
+
+
 def compressed_json(content: Json) -> bytes:
     """Return an encoded value as compressed JSON."""
     return zstandard.ZstdCompressor(level=LEVEL).compress(json.dumps(content).encode())
@@ -85,12 +99,7 @@ class RecordingWriter:
         except OSError as error:
             raise _not_written(path, error) from error
         self._sync = _SyncThread(self._file.fileno())
-        self._writer = Writer(
-            cast(IO[bytes], self._file),
-            chunk_size=2 * CHUNK_BYTES,
-            compression=CompressionType.NONE,
-            index_types=IndexType.CHUNK,
-        )
+        self._writer = mcap_writer(cast(IO[bytes], self._file), chunk_bytes=2 * CHUNK_BYTES)
         self._guarded(lambda: self._writer.start(profile=PROFILE, library=library))
 
     @property
@@ -105,12 +114,7 @@ class RecordingWriter:
         key = (topic.value, encoding)
         if key in self._channels:
             return
-        schema_id = 0
-        if schema is not None:
-            content = json.dumps(schema, ensure_ascii=False).encode()
-            schema_id = self._writer.register_schema(
-                name=str(schema.get("title", topic.value)), encoding=SCHEMA_ENCODING, data=content
-            )
+        schema_id = 0 if schema is None else register_json_schema(self._writer, schema, title=topic.value)
         self._channels[key] = self._writer.register_channel(
             topic=topic.value, message_encoding=encoding, schema_id=schema_id
         )

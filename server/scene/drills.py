@@ -7,7 +7,7 @@ import viser
 
 from server.scene.nodes import World, add_tool, quaternion, vector
 from server.scene.trace import Trace
-from tracker.geometry import Array, Rigid, Tool
+from tracker.geometry import Array, Rigid, Tool, rotation_from_half_axes
 from tracker.navigation.uncertainty import DrillUncertainty
 from tracker.pose import ToolModel
 
@@ -94,7 +94,7 @@ class DrillNodes:
             return
         reach_mm = np.maximum(np.linalg.norm(spread.tip_ellipsoid_mm, axis=1), MIN_MM)
         self._ellipsoid.scale = vector(reach_mm)
-        self._ellipsoid.wxyz = quaternion(_axes(spread.tip_ellipsoid_mm))
+        self._ellipsoid.wxyz = quaternion(rotation_from_half_axes(spread.tip_ellipsoid_mm))
         self._ellipsoid.position = vector(now.world_from_tool.translation_mm)
         wide_mm = max(CONE_MM * float(np.tan(np.radians(min(spread.cone_95_deg, 60.0)))), MIN_MM)
         self._cone.scale = (wide_mm, wide_mm, CONE_MM)
@@ -107,13 +107,6 @@ class DrillNodes:
             segments = self._trace.segments_mm
             self._line.points = segments.astype(np.float32) if len(segments) else NO_SEGMENT
         self._line.visible = len(self._trace.segments_mm) > 0
-
-
-def _axes(ellipsoid_mm: Array) -> Array:
-    """Return the rotation (3, 3) whose columns are the directions of the half axes, also of length 0."""
-    directions, _ = np.linalg.qr(np.asarray(ellipsoid_mm).T + 1e-12 * np.eye(3))
-    directions[:, 2] *= np.sign(np.linalg.det(directions))
-    return np.asarray(directions)
 
 
 def _cone() -> tuple[Array, Array]:

@@ -43,8 +43,8 @@ def token_in_cookie(scope: Scope, *, secure: bool) -> str | None:
 
 def token_in_header(scope: Scope) -> str | None:
     """Return the token of `Authorization: Bearer`; None without one."""
-    said = Headers(scope=scope).get("authorization", "")
-    return said[len(BEARER) :].strip() if said.lower().startswith(BEARER) else None
+    header = Headers(scope=scope).get("authorization", "")
+    return header[len(BEARER) :].strip() if header.lower().startswith(BEARER) else None
 
 
 def cookie_header(scope: Scope, token: str, *, secure: bool, lasts_s: int) -> str:

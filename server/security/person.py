@@ -49,7 +49,7 @@ def person_of(scope: MutableMapping[str, Any]) -> Person:
     return person if isinstance(person, Person) else LOCAL_USER
 
 
-def actor_name(scope: MutableMapping[str, Any], said: str | None) -> str:
+def actor_name(scope: MutableMapping[str, Any], stated: str | None) -> str:
     """Return the name of who acts: of the signed-in person, else the name in the request."""
     person = person_of(scope)
-    return (said or LOCAL_USER.name) if person == LOCAL_USER else person.name
+    return (stated or LOCAL_USER.name) if person == LOCAL_USER else person.name

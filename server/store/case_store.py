@@ -18,6 +18,7 @@ from server.store.home import Home
 from server.store.read_cache import ReadCache
 from server.store.records import (
     Case,
+    Current,
     Damage,
     Document,
     DocumentKind,
@@ -250,21 +251,35 @@ class CaseStore:
             OutOfDateError: DOCUMENT_MISSING, DOCUMENT_OUT_OF_DATE.
         """
         document = self.latest(case_id, kind, name)
-        validity = (
-            OutOfDate(reason=f"there is no {kind.value} '{name}'")
-            if document is None
-            else self.validity(document)
-        )
-        if document is not None and not isinstance(validity, OutOfDate):
-            return document
-        reason = validity.reason if isinstance(validity, OutOfDate) else ""
-        missing = document is None
-        raise OutOfDateError(
-            "DOCUMENT_MISSING" if missing else "DOCUMENT_OUT_OF_DATE",
-            reason if missing else f"{kind.value} '{name}' is out of date: {reason}",
-            f"Create the {kind.value} first." if missing else f"Create the {kind.value} again.",
-            {"kind": kind.value, "name": name},
-        )
+        if document is None:
+            raise OutOfDateError(
+                "DOCUMENT_MISSING",
+                f"there is no {kind.value} '{name}'",
+                f"Create the {kind.value} first.",
+                {"kind": kind.value, "name": name},
+            )
+        validity = self.validity(document)
+        if isinstance(validity, OutOfDate):
+            raise OutOfDateError(
+                "DOCUMENT_OUT_OF_DATE",
+                f"{kind.value} '{name}' is out of date: {validity.reason}",
+                f"Create the {kind.value} again.",
+                {"kind": kind.value, "name": name},
+            )
+        return document
+
+    def find_current(self, case_id: str, kind: DocumentKind, name: str) -> Document | None:
+        """Return the newest version, if it is valid; None if there is none or it is out of date."""
+        document = self.latest(case_id, kind, name)
+        return document if document is not None and self.is_current(document) else None
+
+    def all_current(self, case_id: str, kind: DocumentKind) -> tuple[Document, ...]:
+        """Return the newest version of each name, as far as they are valid, ordered by name."""
+        return tuple(document for document in self.all(case_id, kind) if self.is_current(document))
+
+    def is_current(self, document: Heading) -> bool:
+        """Return whether a document is valid; see `validity` for the reason if it is not."""
+        return isinstance(self.validity(document), Current)
 
     def withdraw(self, document: Heading, *, by: str, reason: str) -> Document:
         """Mark a document as withdrawn; withdrawing it again has no effect."""

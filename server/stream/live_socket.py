@@ -23,12 +23,12 @@ async def watch_live(websocket: WebSocket, *, hub: LiveHub, viewers: Viewers, te
     await websocket.accept()
     try:
         with viewers.register(ViewerKind.LIVE, person=person_of(websocket.scope)) as viewer:
-            await _tell(websocket, viewer, hub=hub, viewers=viewers, texts=texts)
+            await _send_messages(websocket, viewer, hub=hub, viewers=viewers, texts=texts)
     except TooManyViewers as full:
         await reject_viewer(websocket, full)
 
 
-async def _tell(
+async def _send_messages(
     websocket: WebSocket, viewer: Viewer, *, hub: LiveHub, viewers: Viewers, texts: MessageCache
 ) -> None:
     connection = connection_of(websocket.scope)

@@ -67,6 +67,18 @@ def rotation_between(a: npt.ArrayLike, b: npt.ArrayLike) -> Array:
     return rotation_from_vector(axis / sine * np.arctan2(sine, cosine))
 
 
+def rotation_from_half_axes(half_axes: npt.ArrayLike) -> Array:
+    """Return the rotation (3, 3) whose columns are the directions of an ellipsoid's half axes.
+
+    Args:
+        half_axes: (3, 3), perpendicular rows, the longest first. Rows of length 0 get a direction that
+            completes a right-handed frame; the sign of a direction is arbitrary.
+    """
+    directions, _ = np.linalg.qr(np.asarray(half_axes, dtype=np.float64).T + 1e-12 * np.eye(3))
+    directions[:, 2] *= np.sign(np.linalg.det(directions))
+    return np.asarray(directions)
+
+
 def orthonormality_error(matrix: Array) -> tuple[float, float]:
     """Return the largest deviation of a matrix (3, 3) from orthonormal columns, and its determinant.
 

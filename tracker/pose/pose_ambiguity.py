@@ -89,10 +89,10 @@ def flip_covariance(
         return np.zeros((6, 6))
     if expected is not None and _is_flip_of_expected(better, worse, expected):
         delta_chi2 = min(delta_chi2, UNDECIDED_COST)
-    apart = pose_difference(better, worse)
-    if delta_chi2 > DECIDED_COST or float(np.linalg.norm(apart[3:])) < MIN_ROTATION_RAD:
+    difference = pose_difference(better, worse)
+    if delta_chi2 > DECIDED_COST or float(np.linalg.norm(difference[3:])) < MIN_ROTATION_RAD:
         return np.zeros((6, 6))
-    return _spread(apart, _probability_of_worse(delta_chi2))
+    return _spread(difference, _probability_of_worse(delta_chi2))
 
 
 def mixture_covariance(
@@ -117,12 +117,12 @@ def is_nearer_in_rotation(
     return _rotation_rad(one, to) < _rotation_rad(one, than)
 
 
-def _spread(apart: Array, probability: float) -> Array:
-    """Return the mixture covariance (6, 6) for another pose at `apart` (6,) with this probability."""
-    spread = np.outer(apart, apart)
+def _spread(difference: Array, probability: float) -> Array:
+    """Return the mixture covariance (6, 6) for another pose at `difference` (6,) with this probability."""
+    spread = np.outer(difference, difference)
     # A rotation moves points on an arc, first-order propagation on its tangent. The deviation shortens the
     # lever to the tip; its term vanishes for a small probability.
-    beside = float(1.0 - np.cos(np.linalg.norm(apart[3:])))
+    beside = float(1.0 - np.cos(np.linalg.norm(difference[3:])))
     spread[3:, 3:] += beside**2 * np.eye(3)
     spread[:3, :3] += (
         (TOOL_REACH_MM * beside) ** 2 * probability / (probability + SMALL_PROBABILITY) * np.eye(3)

@@ -102,13 +102,15 @@ class PoseSmoother:
 
 def _agree(old: _TimedPose, new: _TimedPose) -> bool:
     """Return whether noise and a still hand can explain the difference of two poses."""
-    apart = _apart(old.pose, new.pose)
-    if float(np.linalg.norm(apart[3:])) > np.radians(MAX_TURN_DEG):
+    difference = _apart(old.pose, new.pose)
+    if float(np.linalg.norm(difference[3:])) > np.radians(MAX_TURN_DEG):
         return False
     try:
-        mahalanobis_squared = float(apart @ np.linalg.solve(old.covariance + new.covariance + STILL, apart))
+        mahalanobis_squared = float(
+            difference @ np.linalg.solve(old.covariance + new.covariance + STILL, difference)
+        )
     except np.linalg.LinAlgError:
-        return not apart.any()
+        return not difference.any()
     return mahalanobis_squared <= MAX_MAHALANOBIS_SQUARED
 
 
@@ -125,9 +127,9 @@ def _mean(chosen: list[_TimedPose]) -> SmoothedPose:
         return SmoothedPose(
             camera_from_marker=new.pose, pose_covariance=new.covariance, lag_ms=0.0, noise_ratio=1.0, images=1
         )
-    apart = np.array([_apart(one.pose, new.pose) for one in chosen])
+    difference = np.array([_apart(one.pose, new.pose) for one in chosen])
     age_s = np.array([new.at_s - one.at_s for one in chosen])
-    step, lag_s = apart.mean(axis=0), float(age_s.mean())
+    step, lag_s = difference.mean(axis=0), float(age_s.mean())
     covariance = np.mean([one.covariance for one in chosen], axis=0) + np.outer(step, step)
     return SmoothedPose(
         camera_from_marker=Rigid(

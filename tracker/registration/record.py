@@ -9,7 +9,7 @@ drill has the orientation of the captures, and doubles if it is reversed. Assumi
 % region contains 88 to 100 % of the true values; with the Jacobian, 95 to 97 %.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 import numpy as np
@@ -112,6 +112,17 @@ class Registration:
         ):
             array.setflags(write=False)
             object.__setattr__(self, name, array)
+
+    def without_tip_error(self, tip_covariance_mm2: Array) -> "Registration":
+        """Return the registration as it would be if the tip that captured it were known exactly.
+
+        Args:
+            tip_covariance_mm2: (3, 3), of the calibration of the tip, in the frame of `tip_jacobian`.
+        """
+        of_tip = self.tip_jacobian @ np.asarray(tip_covariance_mm2) @ self.tip_jacobian.T
+        # Clipped, because rounding or a newer calibration can leave a slightly negative variance.
+        values, vectors = np.linalg.eigh(self.covariance - of_tip)
+        return replace(self, covariance=(vectors * np.maximum(values, 0.0)) @ vectors.T)
 
     def point_covariance_mm2(self, point_in_vertebra_mm: Array) -> Array:
         """Return the covariance (3, 3) of a point of the plan, in the anchor frame."""

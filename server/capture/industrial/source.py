@@ -154,12 +154,7 @@ class IndustrialCameraSource:
         if self._check is not None:
             height, width = image.shape[:2]
             self._check.take((width, height), captured_at_s)
-        shot = Shot(
-            image=np.asarray(image, dtype=np.uint8),
-            number=self._number,
-            captured_at_s=captured_at_s,
-            source_time_s=captured_at_s,
-        )
+        shot = Shot.live(np.asarray(image, dtype=np.uint8), number=self._number, captured_at_s=captured_at_s)
         self._number += 1
         return shot
 

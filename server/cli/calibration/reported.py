@@ -85,7 +85,7 @@ def json_of(
     return json.dumps(whole, allow_nan=False)
 
 
-def tell(report: CalibrationReport, entries: Sequence[ImageEntry], *, max_rms_px: float) -> None:
+def print_report(report: CalibrationReport, entries: Sequence[ImageEntry], *, max_rms_px: float) -> None:
     """Print the report."""
     console = Console(file=sys.stdout, width=None if sys.stdout.isatty() else WIDTH_WITHOUT_TERMINAL)
     used = sum(entry.used for entry in entries)
@@ -121,7 +121,7 @@ def tell(report: CalibrationReport, entries: Sequence[ImageEntry], *, max_rms_px
 def _sentences(report: CalibrationReport, max_rms_px: float) -> list[str]:
     coverage = report.coverage
     width, height = report.camera.size_wh_px
-    said = [
+    lines = [
         f"RMS {report.rms_px:.3f} px (limit {max_rms_px:g} px), {width}x{height} px, "
         f"fy/fx {report.pixel_aspect_ratio:.4f}.",
         f"Points cover {100 * coverage.cells_ratio:.0f} % of the image cells, and this share of the way to "
@@ -131,11 +131,11 @@ def _sentences(report: CalibrationReport, max_rms_px: float) -> list[str]:
         f"Lens: {report.choice.coefficients} coefficients; {report.choice.reason}.",
     ]
     if report.is_noise_correlated:
-        said.append(
+        lines.append(
             "Errors of neighbouring points are correlated; the standard deviations are therefore computed "
             "from the differences between views."
         )
-    return said + [f"Warning: {one.message}. {one.remedy}" for one in report.warnings]
+    return lines + [f"Warning: {one.message}. {one.remedy}" for one in report.warnings]
 
 
 def _entry(entry: ImageEntry) -> dict[str, object]:

@@ -12,7 +12,7 @@ import yaml
 from server.cli.board_names import BoardOptions
 from server.cli.board_options import boards_of, described
 from server.cli.calibration.images import files_of
-from server.cli.calibration.run import FAILED, Looked, flattened, looked_at
+from server.cli.calibration.run import FAILED, DetectedBoards, detect_boards, flattened
 from server.cli.output import write_atomically
 from server.cli.progress import shown_steps
 from server.config_file import load_config
@@ -44,15 +44,15 @@ def calibrate_cameras(order: RigOrder, *, as_json: bool) -> int:
     files_from_camera = _files(order.cameras)
     boards = boards_of(order.board)
     with shown_steps() as steps:
-        looked = {}
+        detected = {}
         for name, files in files_from_camera.items():
-            looked[name] = looked_at(files, boards, steps)
+            detected[name] = detect_boards(files, boards, steps)
             # The properties of the board found with the first camera apply to all.
-            boards = looked[name].boards
-    reports = {name: _alone(one) for name, one in looked.items()}
-    names = next(iter(looked.values())).names
+            boards = detected[name].boards
+    reports = {name: _alone(one) for name, one in detected.items()}
+    names = next(iter(detected.values())).names
     shots = [
-        {name: view for name, one in looked.items() if isinstance(view := one.seen[index][0], BoardView)}
+        {name: view for name, one in detected.items() if isinstance(view := one.seen[index][0], BoardView)}
         for index in range(len(names))
     ]
     report = calibrate_rig(shots, reports, names=names)
@@ -64,7 +64,7 @@ def calibrate_cameras(order: RigOrder, *, as_json: bool) -> int:
     if as_json:
         typer.echo(json.dumps({**whole, "max_rms_px": max_rms_px, "passed": passed}, allow_nan=False))
     else:
-        _tell(report, max_rms_px)
+        _print_report(report, max_rms_px)
     if not passed:
         typer.echo(
             f"Error: the reprojection error is {report.rms_px:.3f} px RMS, limit {max_rms_px:g} px.\n"
@@ -102,9 +102,9 @@ def _files(cameras: Sequence[str]) -> dict[str, list[Path]]:
     return found
 
 
-def _alone(looked: Looked) -> CalibrationReport:
-    views, owners = flattened(looked)
-    return calibrate(views, size_wh_px=looked.size_wh_px, names=[looked.names[owner] for owner in owners])
+def _alone(detected: DetectedBoards) -> CalibrationReport:
+    views, owners = flattened(detected)
+    return calibrate(views, size_wh_px=detected.size_wh_px, names=[detected.names[owner] for owner in owners])
 
 
 def _whole(report: RigReport, alone: dict[str, CalibrationReport]) -> dict[str, object]:
@@ -140,7 +140,7 @@ def _camera(camera: RigCamera) -> dict[str, object]:
     }
 
 
-def _tell(report: RigReport, max_rms_px: float) -> None:
+def _print_report(report: RigReport, max_rms_px: float) -> None:
     typer.echo(
         f"RMS {report.rms_px:.3f} px (limit {max_rms_px:g} px), {report.shared_shots} of "
         f"{len(report.shots)} views are shared."

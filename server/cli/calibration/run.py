@@ -12,7 +12,7 @@ from server.camera_file import CameraFile, camera_file_text
 from server.cli.board_names import BoardOptions
 from server.cli.board_options import boards_of, described
 from server.cli.calibration.images import Picture, Unusable, files_of, names_of, read_picture, usual_size
-from server.cli.calibration.reported import ImageEntry, Sight, entries_of, json_of, tell
+from server.cli.calibration.reported import ImageEntry, Sight, entries_of, json_of, print_report
 from server.cli.output import write_atomically
 from server.cli.progress import Steps, shown_steps
 from server.config_file import load_config
@@ -28,7 +28,7 @@ from tracker.errors import CalibrationError, InvalidInput
 
 FAILED = 1
 # Images from which unspecified properties of a board are determined.
-LOOKED_AT_FIRST = 8
+MAX_TRIAL_IMAGES = 8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,7 +47,7 @@ class CalibrationOrder:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Looked:
+class DetectedBoards:
     """Boards found in the images.
 
     Attributes:
@@ -76,34 +76,34 @@ def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
     files = files_of(order.images)
     _reject_writing_over(order.output, files)
     with shown_steps() as steps:
-        looked = looked_at(files, boards, steps)
-    views, owners = flattened(looked)
+        detected = detect_boards(files, boards, steps)
+    views, owners = flattened(detected)
     report = calibrate(
         views,
-        size_wh_px=looked.size_wh_px,
-        names=[looked.names[owner] for owner in owners],
+        size_wh_px=detected.size_wh_px,
+        names=[detected.names[owner] for owner in owners],
         settings=CalibrationSettings(coefficients=order.coefficients),
     )
-    for at, board in enumerate(looked.boards):
-        shown = [sight[at] for sight in looked.seen if at < len(sight)]
+    for at, board in enumerate(detected.boards):
+        shown = [sight[at] for sight in detected.seen if at < len(sight)]
         report = with_board_size_warning(report, [one for one in shown if isinstance(one, BoardView)], board)
-    entries = entries_of(looked.names, looked.seen, report)
+    entries = entries_of(detected.names, detected.seen, report)
     passed = report.rms_px <= max_rms_px
     if passed:
         # Checked before a file is written, because all other commands would reject the file.
         report.camera.require_plausible()
-    written = _write(order, report, entries, looked.boards) if passed else ()
+    written = _write(order, report, entries, detected.boards) if passed else ()
     if as_json:
         typer.echo(
             json_of(
                 report,
                 entries,
-                boards=[described(board) for board in looked.boards],
+                boards=[described(board) for board in detected.boards],
                 more={"max_rms_px": max_rms_px, "passed": passed, "files": [str(one) for one in written]},
             )
         )
     else:
-        tell(report, entries, max_rms_px=max_rms_px)
+        print_report(report, entries, max_rms_px=max_rms_px)
         if written:
             typer.echo(f"Wrote {', '.join(map(str, written))}.")
         if passed and order.output is None:
@@ -117,7 +117,7 @@ def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
     return 0 if passed else FAILED
 
 
-def looked_at(files: Sequence[Path], boards: Sequence[Board], steps: Steps) -> Looked:
+def detect_boards(files: Sequence[Path], boards: Sequence[Board], steps: Steps) -> DetectedBoards:
     """Search every image for every board; unreadable images and those of another size are unusable.
 
     Raises:
@@ -125,8 +125,8 @@ def looked_at(files: Sequence[Path], boards: Sequence[Board], steps: Steps) -> L
         CalibrationError: IMAGE_SIZES_DIFFER, no size is in the majority.
     """
     names = names_of(files)
-    every = max(1, len(files) // LOOKED_AT_FIRST)
-    some = {n: read_picture(files[n], names[n]) for n in range(0, len(files), every)[:LOOKED_AT_FIRST]}
+    every = max(1, len(files) // MAX_TRIAL_IMAGES)
+    some = {n: read_picture(files[n], names[n]) for n in range(0, len(files), every)[:MAX_TRIAL_IMAGES]}
     first = [one.image for one in some.values() if isinstance(one, Picture)]
     seen_boards = tuple(board_as_seen(first, board) for board in boards)
     seen: list[Sight] = []
@@ -146,7 +146,7 @@ def looked_at(files: Sequence[Path], boards: Sequence[Board], steps: Steps) -> L
         size_of[name] = (one.image.shape[1], one.image.shape[0])
         seen.append(tuple(_found(one, board) for board in seen_boards))
     size = usual_size(size_of, [one for sight in seen for one in sight if isinstance(one, Unusable)])
-    return Looked(
+    return DetectedBoards(
         boards=seen_boards,
         names=tuple(names),
         seen=tuple(
@@ -164,14 +164,14 @@ def _other_size(name: str, size: tuple[int, int], usual: tuple[int, int]) -> Unu
     )
 
 
-def flattened(looked: Looked) -> tuple[list[BoardView], list[int]]:
+def flattened(detected: DetectedBoards) -> tuple[list[BoardView], list[int]]:
     """Return all views, and for each the index of its image.
 
     Raises:
         CalibrationError: BOARD_NOT_FOUND, no image shows the board.
     """
     views, owners = [], []
-    for index, found in enumerate(looked.seen):
+    for index, found in enumerate(detected.seen):
         for one in found:
             if isinstance(one, BoardView):
                 views.append(one)
@@ -179,16 +179,17 @@ def flattened(looked: Looked) -> tuple[list[BoardView], list[int]]:
     if not views:
         at, why = next(
             (at, one)
-            for at, found in enumerate(looked.seen)
+            for at, found in enumerate(detected.seen)
             for one in found
             if isinstance(one, BoardNotFound)
         )
         raise CalibrationError(
             "BOARD_NOT_FOUND",
-            f"the board was found in none of {len(looked.names)} images ({looked.names[at]}: {why.sentence})",
+            f"the board was found in none of {len(detected.names)} images "
+            f"({detected.names[at]}: {why.sentence})",
             "Check --pattern and --size (dots, inner corners of a checkerboard, squares of a ChArUco board), "
             "and that the board is sharp and evenly lit.",
-            {"images": len(looked.names), "reason": why.reason.value},
+            {"images": len(detected.names), "reason": why.reason.value},
         )
     return views, owners
 

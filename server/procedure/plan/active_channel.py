@@ -7,7 +7,7 @@ A change of the plan that leaves the channel as it is renews the choice in the s
 from dataclasses import dataclass
 from typing import cast
 
-from server.store import CaseStore, Current, Document, DocumentKind
+from server.store import CaseStore, Document, DocumentKind
 from tracker.plan import Channel
 from tracker.plan.document import channel_from_mapping
 from tracker.plan.pedicle import Side, checked_side
@@ -33,8 +33,7 @@ class ActiveChannel:
 
 def active_channel_document(store: CaseStore, case_id: str) -> Document | None:
     """Return the document of the active channel; None without one, or if it is out of date."""
-    document = store.latest(case_id, DocumentKind.PLAN, ACTIVE_CHANNEL)
-    return document if document is not None and isinstance(store.validity(document), Current) else None
+    return store.find_current(case_id, DocumentKind.PLAN, ACTIVE_CHANNEL)
 
 
 def active_channel_from_document(document: Document) -> ActiveChannel:

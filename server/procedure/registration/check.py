@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from server.config import RegistrationConfig
 from server.live import LiveHub
-from server.procedure.active_collection import ActiveCollection
+from server.procedure.collecting_step import CollectingStep
 from server.procedure.registration.capture_settings import capture_settings
 from server.procedure.registration.context import RegistrationContext, RegistrationContextFinder
 from server.procedure.registration.landmark_capture import CaptureStatus, LandmarkCapture
@@ -110,7 +110,7 @@ class CheckSession:
         )
 
 
-class CheckStep:
+class CheckStep(CollectingStep[CheckSession]):
     """Checks registrations on anatomy; one check at a time. Thread-safe.
 
     Args:
@@ -132,15 +132,13 @@ class CheckStep:
         procedure: Procedure,
         gate: RegistrationConfig,
     ) -> None:
+        super().__init__("check is", remedy="Start a check on a landmark.")
         self._hub = hub
         self._store = store
         self._contexts = contexts
         self._repository = repository
         self._procedure = procedure
         self._gate = gate
-        self._active: ActiveCollection[CheckSession] = ActiveCollection(
-            "check is", remedy="Start a check on a landmark."
-        )
 
     def begin(self, landmark: str, *, tool: str) -> CheckSession:
         """Start to capture the tip on this landmark of the active vertebra.
@@ -154,7 +152,7 @@ class CheckStep:
         context = self._contexts.find(vertebra=None, tool=tool, step=StepName.CHECK)
         stored = self._repository.current(context.vertebra.name)
         _reject_used(stored, context.landmark(landmark))
-        return self._active.begin(
+        return self._start(
             lambda: CheckSession(
                 self._hub,
                 context=context,
@@ -165,24 +163,6 @@ class CheckStep:
             )
         )
 
-    @property
-    def session(self) -> CheckSession:
-        """The active check.
-
-        Raises:
-            SetupOrderError: COLLECTION_MISSING.
-        """
-        return self._active.get()
-
-    @property
-    def running(self) -> bool:
-        """Whether there is an active check."""
-        return self._active.is_active
-
-    def end(self) -> None:
-        """Stop the check."""
-        self._active.end()
-
     def conclude(self, *, made_by: str) -> Document:
         """Store the check, passed or failed, and end the session.
 
@@ -191,7 +171,7 @@ class CheckStep:
             OutOfDateError: REGISTRATION_CHANGED, the checked registration is no longer the newest.
             RegistrationError: CHECK_NOT_CAPTURED, or why the capture was rejected.
         """
-        session = self.session
+        session = self.collection
         status = session.status
         if status.outcome is None:
             problem = status.capture.problem

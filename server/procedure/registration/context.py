@@ -8,7 +8,7 @@ from server.procedure.camera import MAIN_CAMERA
 from server.procedure.open_case import require_open_case
 from server.procedure.plan import PlanRepository
 from server.procedure.state import Procedure, SetupDefaults, StepName
-from server.store import CaseStore, Current, Document, DocumentKind, OutOfDateError
+from server.store import CaseStore, DocumentKind, OutOfDateError
 from tracker.errors import InvalidInput, PlanError
 from tracker.geometry import Array
 from tracker.plan import Landmark
@@ -102,8 +102,8 @@ class RegistrationContextFinder:
         planned = vertebra_named(stored.plan, name)
         if tool is not None:
             self._reject_unknown(tool)
-        camera = self._current(case.id, DocumentKind.CAMERA, MAIN_CAMERA)
-        of_tool = None if tool is None else self._current(case.id, DocumentKind.TOOL, tool)
+        camera = self._store.find_current(case.id, DocumentKind.CAMERA, MAIN_CAMERA)
+        of_tool = None if tool is None else self._store.find_current(case.id, DocumentKind.TOOL, tool)
         return RegistrationContext(
             case_id=case.id,
             vertebra=planned,
@@ -138,12 +138,6 @@ class RegistrationContextFinder:
                 f"Available tools: {', '.join(sorted(known)) or 'none'}. Calibrate tip and axis first.",
                 {"tool": tool},
             )
-
-    def _current(self, case_id: str, kind: DocumentKind, name: str) -> Document | None:
-        document = self._store.latest(case_id, kind, name)
-        if document is None or not isinstance(self._store.validity(document), Current):
-            return None
-        return document
 
 
 def landmark_named(landmarks: Sequence[Landmark], name: str) -> Landmark:

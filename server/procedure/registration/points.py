@@ -8,7 +8,7 @@ import numpy as np
 from server.config import RegistrationConfig
 from server.live import LiveHub
 from server.point_limits import point_gate, point_settings
-from server.procedure.active_collection import ActiveCollection
+from server.procedure.collecting_step import CollectingStep
 from server.procedure.registration.capture_settings import capture_settings
 from server.procedure.registration.context import RegistrationContext, RegistrationContextFinder
 from server.procedure.registration.points_session import PointsSession, PointsStatus, residuals_mm
@@ -46,7 +46,7 @@ class TargetError:
     stated_mm: float
 
 
-class PointsStep:
+class PointsStep(CollectingStep[PointsSession]):
     """Registers by points; one session at a time. Thread-safe.
 
     Args:
@@ -64,16 +64,16 @@ class PointsStep:
         repository: RegistrationRepository,
         gate: RegistrationConfig,
     ) -> None:
+        super().__init__(
+            "registration by landmarks is",
+            remedy="Start a registration by landmarks with a tool.",
+        )
         self._hub = hub
         self._contexts = contexts
         self._repository = repository
         self.gate = gate
         self._captures = capture_settings(gate)
         self._settings = point_settings(gate)
-        self._active: ActiveCollection[PointsSession] = ActiveCollection(
-            "registration by landmarks is",
-            remedy="Start a registration by landmarks with a tool.",
-        )
 
     def begin(self, *, tool: str, vertebra: str | None = None) -> PointsSession:
         """Start to capture a vertebra's landmarks with this tool; a previous session is discarded.
@@ -93,25 +93,7 @@ class PointsStep:
                 "Mark more landmarks on the CT in the plan, including one for the check.",
                 {"landmarks": there, "needed": needed},
             )
-        return self._active.begin(lambda: PointsSession(self._hub, context, self._captures, self._settings))
-
-    @property
-    def session(self) -> PointsSession:
-        """The active session.
-
-        Raises:
-            SetupOrderError: COLLECTION_MISSING.
-        """
-        return self._active.get()
-
-    @property
-    def running(self) -> bool:
-        """Whether there is an active session."""
-        return self._active.is_active
-
-    def end(self) -> None:
-        """Stop the session and discard its points."""
-        self._active.end()
+        return self._start(lambda: PointsSession(self._hub, context, self._captures, self._settings))
 
     def failures(self, status: PointsStatus) -> tuple[RegistrationError, ...]:
         """Return the errors that prevent the registration; empty if it is accepted."""
@@ -139,7 +121,7 @@ class PointsStep:
             OutOfDateError: REGISTRATION_CONTEXT_CHANGED.
             RegistrationError: The points are insufficient, or a limit is exceeded.
         """
-        session = self.session
+        session = self.collection
         self._contexts.reject_changed(session.context)
         status = session.status
         failures = self.failures(status)
@@ -178,7 +160,7 @@ def touched_points(step: PointsStep) -> tuple[TouchedPoint, ...]:
         SetupOrderError: COLLECTION_MISSING.
         RegistrationError: TOUCHED_BESIDE_REFERENCE, the points are not in the camera's frame.
     """
-    status = step.session.status
+    status = step.collection.status
     if status.context.reference:
         raise RegistrationError(
             "TOUCHED_BESIDE_REFERENCE",

@@ -8,7 +8,7 @@ import numpy as np
 from server.config import RegistrationConfig
 from server.imaging.meshes import read_mesh
 from server.live import Instant, LiveHub, Problem
-from server.procedure.active_collection import ActiveCollection
+from server.procedure.collecting_step import CollectingStep
 from server.procedure.live_listener import LiveListener
 from server.procedure.registration.context import RegistrationContext, RegistrationContextFinder
 from server.procedure.registration.landmark_capture import tip_of
@@ -26,6 +26,7 @@ from tracker.registration.surface import (
     ClosestPointQuery,
     SurfaceGate,
     SurfaceRegistration,
+    principal_extents_mm,
     register_surface,
 )
 
@@ -94,7 +95,7 @@ class SweepSession:
                 taking=self._taking and self._listener.running,
                 points=len(points),
                 unseen=self._unseen,
-                reach_mm=_reach_mm(points),
+                reach_mm=principal_extents_mm(points),
                 from_s=self._from_s,
                 problem=self._listener.problem,
             )
@@ -119,7 +120,7 @@ class SweepSession:
             self._points.append(tip.tip_in_anchor_mm)
 
 
-class SweepStep:
+class SweepStep(CollectingStep[SweepSession]):
     """Refines registrations on the bone surface; one sweep at a time. Thread-safe.
 
     Args:
@@ -141,6 +142,7 @@ class SweepStep:
         surfaces: SurfaceStep,
         gate: RegistrationConfig,
     ) -> None:
+        super().__init__("sweep is", remedy="Start a sweep with a tool.")
         self._hub = hub
         self._contexts = contexts
         self._repository = repository
@@ -149,9 +151,6 @@ class SweepStep:
         self._gate = SurfaceGate(max_rms_mm=gate.max_surface_rms_mm, max_tre_mm=gate.max_tre_mm)
         self._lock = threading.Lock()
         self._nearest: tuple[str, ClosestPointQuery] | None = None
-        self._active: ActiveCollection[SweepSession] = ActiveCollection(
-            "sweep is", remedy="Start a sweep with a tool."
-        )
 
     def begin(self, *, tool: str) -> SweepSession:
         """Start a sweep of the active vertebra, which must be registered.
@@ -171,25 +170,7 @@ class SweepStep:
                 f"anchored to the {context.anchored_to}",
                 "Register by points again, then sweep.",
             )
-        return self._active.begin(lambda: SweepSession(self._hub, context, start))
-
-    @property
-    def session(self) -> SweepSession:
-        """The active sweep.
-
-        Raises:
-            SetupOrderError: COLLECTION_MISSING.
-        """
-        return self._active.get()
-
-    @property
-    def running(self) -> bool:
-        """Whether there is an active sweep."""
-        return self._active.is_active
-
-    def end(self) -> None:
-        """Stop the sweep and discard its points."""
-        self._active.end()
+        return self._start(lambda: SweepSession(self._hub, context, start))
 
     def fit(self) -> tuple[SurfaceRegistration, tuple[RegistrationError, ...], str]:
         """Fit the sweep to the surface; return the fit, the reasons to reject it, and the surface's id.
@@ -198,7 +179,7 @@ class SweepStep:
             SetupOrderError: COLLECTION_MISSING, SURFACE_MISSING.
             RegistrationError: as `register_surface`, for example if the sweep can slide on the surface.
         """
-        session = self.session
+        session = self.collection
         status, points = session.status, session.points_mm
         surface_id, nearest = self._bone()
         record = status.start.record
@@ -220,7 +201,7 @@ class SweepStep:
             RegistrationError: As `fit`, or a limit is exceeded.
             StoreConflict: VERSION_CONFLICT, the registration was changed since the sweep started.
         """
-        status = self.session.status
+        status = self.collection.status
         self._contexts.reject_changed(status.context)
         found, failures, surface_id = self.fit()
         if failures:
@@ -238,7 +219,7 @@ class SweepStep:
                 "points": status.start.record.made_from.get("points", []),
                 "weakest": found.weakest_mode.description,
                 "remarks": [remark.message for remark in found.remarks],
-                "sweep_in_anchor_mm": np.round(self.session.points_mm, 3).tolist(),
+                "sweep_in_anchor_mm": np.round(self.collection.points_mm, 3).tolist(),
             },
             made_by=made_by,
             from_s=self._from_s(status),
@@ -298,13 +279,3 @@ class SweepStep:
             moving_covariances_mm2=np.array([one["tip_covariance_mm2"] for one in used]),
             labels=tuple(str(one["landmark"]) for one in used),
         )
-
-
-def _reach_mm(points: Array) -> tuple[float, float, float]:
-    if len(points) < 2:
-        return 0.0, 0.0, 0.0
-    off = points - points.mean(axis=0)
-    _, _, axes = np.linalg.svd(off, full_matrices=False)
-    spans = [float(np.ptp(off @ axis)) for axis in axes]
-    longest, middle, shortest = (*spans, 0.0, 0.0)[:3]
-    return longest, middle, shortest

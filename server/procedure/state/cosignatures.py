@@ -13,7 +13,7 @@ from enum import StrEnum
 from server.config import CosignConfig, Section
 from server.procedure.documents import parse_document
 from server.procedure.state.records import VALID_STATES, Finding, MissingCosignature, StepName
-from server.store import CaseStore, Current, Document, DocumentKind
+from server.store import CaseStore, Document, DocumentKind
 from tracker.errors import NavigationError
 
 
@@ -73,7 +73,7 @@ def signatures_of(store: CaseStore, document: Document) -> tuple[tuple[Document,
         except NavigationError:
             continue
         fits = record.document_id == document.id and record.content_sha256 == sha256
-        if fits and isinstance(store.validity(one), Current):
+        if fits and store.is_current(one):
             found.append((one, record))
     return tuple(sorted(found, key=lambda pair: pair[0].made_at))
 

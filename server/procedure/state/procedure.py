@@ -122,8 +122,8 @@ class Procedure:
     def confirmed_from_s(self, registration: RegistrationRecord, case_id: str) -> float | None:
         """Return when the registration was last captured, checked or confirmed; None before this run."""
         name = registration.vertebra
-        check = self._current(case_id, DocumentKind.CHECK, check_name(name))
-        confirmation = self._current(case_id, DocumentKind.CONFIRMATION, confirmation_name(name))
+        check = self._store.find_current(case_id, DocumentKind.CHECK, check_name(name))
+        confirmation = self._store.find_current(case_id, DocumentKind.CONFIRMATION, confirmation_name(name))
         try:
             return confirmed_from_s(
                 registration,
@@ -136,7 +136,11 @@ class Procedure:
             return None
 
     def _confirmation(self, case_id: str, vertebra: str | None) -> ConfirmationPrompt | None:
-        document = None if vertebra is None else self._current(case_id, DocumentKind.REGISTRATION, vertebra)
+        document = (
+            None
+            if vertebra is None
+            else self._store.find_current(case_id, DocumentKind.REGISTRATION, vertebra)
+        )
         if document is None:
             return None
         try:
@@ -172,7 +176,7 @@ class Procedure:
             return _unusable(found, error)
         report = found.content.get("report")
         rms_px = report.get("rms_px") if isinstance(report, dict) else None
-        accuracy = self._current(case_id, DocumentKind.CHECK, ACCURACY)
+        accuracy = self._store.find_current(case_id, DocumentKind.CHECK, ACCURACY)
         numbers = {"rms_px": rms_px}
         if accuracy is None:
             return _done(found, "the camera is calibrated", numbers)
@@ -267,7 +271,9 @@ class Procedure:
 
     def _check(self, case_id: str, vertebra: str | None) -> Finding:
         registration = (
-            None if vertebra is None else self._current(case_id, DocumentKind.REGISTRATION, vertebra)
+            None
+            if vertebra is None
+            else self._store.find_current(case_id, DocumentKind.REGISTRATION, vertebra)
         )
         if vertebra is None or registration is None:
             return Finding(
@@ -289,17 +295,11 @@ class Procedure:
         return check_finding(
             registration=record,
             title=registration.title,
-            check=self._current(case_id, DocumentKind.CHECK, check_name(vertebra)),
+            check=self._store.find_current(case_id, DocumentKind.CHECK, check_name(vertebra)),
             run=self.run,
             again_after_min=self._gate.check_again_after_min,
             now=self._clock(),
         )
-
-    def _current(self, case_id: str, kind: DocumentKind, name: str) -> Document | None:
-        document = self._store.latest(case_id, kind, name)
-        if document is None or not isinstance(self._store.validity(document), Current):
-            return None
-        return document
 
     def _found(self, case_id: str, kind: DocumentKind, name: str, *, remedy: str) -> Document | Finding:
         """Return the newest document if it is valid, otherwise the finding with the reason."""

@@ -44,8 +44,8 @@ def verify_files(file: Path, head_file: Path | None) -> Verdict:
     if verdict.fault is None and head_file is not None and known is None:
         # A server's log has this file from its first start on: without it missing lines at the end are
         # undetectable.
-        said = f"where the log ended is not known: {head_file.name} beside it is missing or damaged"
-        return Verdict(head=verdict.head, fault=Fault(line=max(verdict.head.count, 1), reason=said))
+        reason = f"where the log ended is not known: {head_file.name} beside it is missing or damaged"
+        return Verdict(head=verdict.head, fault=Fault(line=max(verdict.head.count, 1), reason=reason))
     return verdict
 
 

@@ -42,8 +42,8 @@ def verify_content(content: bytes, known: Head | None, checked: LogVerifier) -> 
     if verdict.fault is not None:
         return verdict
     if content and not content.endswith(b"\n"):
-        said = "it has no line end: it was truncated by a crash or by hand"
-        return Verdict(head=head, fault=Fault(line=head.count + 1, reason=said))
+        reason = "it has no line end: it was truncated by a crash or by hand"
+        return Verdict(head=head, fault=Fault(line=head.count + 1, reason=reason))
     return Verdict(head=head, fault=None if known is None else end_fault(content, head, known))
 
 
@@ -51,8 +51,8 @@ def end_fault(content: bytes, head: Head, known: Head) -> Fault | None:
     """Return a fault if a valid chain that ends at `head` does not contain the known end."""
     more = head.count - known.count
     if more < 0:
-        said = f"the end is missing: {known.count} lines were written, {head.count} are there"
-        return Fault(line=head.count + 1, reason=said)
+        reason = f"the end is missing: {known.count} lines were written, {head.count} are there"
+        return Fault(line=head.count + 1, reason=reason)
     if known.count == 0:
         return None if known == Head() else Fault(line=1, reason="it was changed after it was written")
     whole = content[: content.rfind(b"\n")]

@@ -143,9 +143,9 @@ def _own(certificate: Path, key: Path) -> Tls:
         _reject_certificate(f"the TLS key {key} is protected by a password", key)
     except ssl.SSLError as error:
         mismatch = "MISMATCH" in (error.reason or "")
-        said = f"does not match the key {key}" if mismatch else "cannot be used with its key"
+        problem = f"does not match the key {key}" if mismatch else "cannot be used with its key"
         _reject_certificate(
-            f"the TLS certificate {certificate} {said} ({error.reason or error})", certificate
+            f"the TLS certificate {certificate} {problem} ({error.reason or error})", certificate
         )
     except ValueError:
         _reject_certificate(f"there is no certificate in {certificate}", certificate)

@@ -60,7 +60,7 @@ async def receive_phone(websocket: WebSocket, endpoint: PhoneEndpoint) -> None:
             return
         hello = parse_hello(await _text(websocket))
         with receiver.sending(hello.key, person_of(websocket.scope)) as slot:
-            await _tell(websocket, endpoint, PhoneServerMessage(welcome=receiver.welcome()))
+            await _send(websocket, endpoint, PhoneServerMessage(welcome=receiver.welcome()))
             await _PhoneConnection(websocket, endpoint, receiver, slot).run()
     except PhoneTaken as taken:
         await _reject(websocket, endpoint, Problem.from_error(taken))
@@ -99,7 +99,7 @@ class _PhoneConnection:
     async def _send_notes(self) -> None:
         while True:
             self._news.clear()
-            await _tell(self._websocket, self._endpoint, PhoneServerMessage(note=self._note()))
+            await _send(self._websocket, self._endpoint, PhoneServerMessage(note=self._note()))
             with contextlib.suppress(TimeoutError):
                 async with asyncio.timeout(NOTE_EVERY_S):
                     await self._news.wait()
@@ -166,7 +166,7 @@ async def _text(websocket: WebSocket) -> str:
     return text
 
 
-async def _tell(websocket: WebSocket, endpoint: PhoneEndpoint, message: PhoneServerMessage) -> None:
+async def _send(websocket: WebSocket, endpoint: PhoneEndpoint, message: PhoneServerMessage) -> None:
     text = message.model_dump_json(exclude_unset=True)
     await endpoint.viewers.send(websocket.send_text(text), connection_of(websocket.scope))
 
@@ -174,7 +174,7 @@ async def _tell(websocket: WebSocket, endpoint: PhoneEndpoint, message: PhoneSer
 async def _reject(websocket: WebSocket, endpoint: PhoneEndpoint, problem: Problem) -> None:
     """Send the full problem, because the reason of a close has 123 bytes; then close."""
     with contextlib.suppress(Stalled, WebSocketDisconnect, RuntimeError):
-        await _tell(websocket, endpoint, PhoneServerMessage(rejected=problem_message(problem)))
+        await _send(websocket, endpoint, PhoneServerMessage(rejected=problem_message(problem)))
         await websocket.close(REJECTED, problem.message[:MAX_REASON_BYTES])
 
 

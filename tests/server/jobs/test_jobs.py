@@ -50,7 +50,8 @@ def test_work_is_polite_and_in_another_process(jobs: Jobs) -> None:
     job = jobs.wait_for(jobs.start("looking", job_functions.go_back).id)
     assert isinstance(job.result, list)
     politeness, pid = job.result
-    assert politeness == 10 + os.nice(0)
+    # Linux has no lower priority than 19.
+    assert politeness == min(10 + os.nice(0), 19)
     assert pid != os.getpid()
 
 

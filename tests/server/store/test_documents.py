@@ -116,6 +116,21 @@ def test_a_step_gets_only_what_holds(store: CaseStore, put: Put, case_id: str) -
     assert old.value.code == "DOCUMENT_OUT_OF_DATE"
 
 
+def test_only_the_newest_valid_documents_are_found(store: CaseStore, put: Put, case_id: str) -> None:
+    assert store.find_current(case_id, PLAN, "L3") is None
+    ct = put(CT)
+    put(PLAN, "L3", ct)
+    plan, other = put(PLAN, "L3", ct), put(PLAN, "L4")
+    assert store.find_current(case_id, PLAN, "L3") == plan
+    assert store.all_current(case_id, PLAN) == (plan, other)
+    # The newest plan of L3 depends on a replaced CT, and the older one is not used in its place.
+    put(CT)
+    assert store.find_current(case_id, PLAN, "L3") is None
+    assert store.all_current(case_id, PLAN) == (other,)
+    store.withdraw(other, by="M. Ito", reason="wrong level")
+    assert store.all_current(case_id, PLAN) == ()
+
+
 @pytest.mark.parametrize("expected", [0, 1, 3])
 def test_a_change_made_on_another_version_is_rejected_with_both_numbers(
     store: CaseStore, put: Put, case_id: str, expected: int

@@ -15,6 +15,7 @@ from tracker.geometry import (
     nearest_rotation,
     point_covariance_mm2,
     rotation_between,
+    rotation_from_half_axes,
     rotation_from_vector,
     skew,
     vector_from_rotation,
@@ -207,3 +208,16 @@ def test_a_turn_does_not_move_the_point_it_turns_about() -> None:
     np.testing.assert_array_equal(point_covariance_mm2(pose, only_turns, [0, 0, 0]), np.zeros((3, 3)))
     at_100_mm = point_covariance_mm2(Rigid[Camera, Tool].identity(), only_turns, [100, 0, 0])
     np.testing.assert_allclose(at_100_mm, np.diag([0.0, 1.0, 1.0]), atol=1e-12)
+
+
+@given(vectors, st.sampled_from([(5.0, 2.0, 0.5), (5.0, 2.0, 0.0), (5.0, 0.0, 0.0), (0.0, 0.0, 0.0)]))
+def test_a_rotation_takes_the_axes_to_the_half_axes_of_an_ellipsoid(
+    turn: tuple[float, float, float], lengths: tuple[float, float, float]
+) -> None:
+    half_axes = np.diag(lengths) @ rotation_from_vector(turn).T
+    rotation = rotation_from_half_axes(half_axes)
+    np.testing.assert_allclose(rotation @ rotation.T, np.eye(3), atol=1e-9)
+    assert np.linalg.det(rotation) > 0.0
+    # The shape is the same; the sign of a half axis is arbitrary.
+    shape = rotation @ np.diag(np.square(lengths)) @ rotation.T
+    np.testing.assert_allclose(shape, half_axes.T @ half_axes, atol=1e-9)

@@ -144,3 +144,20 @@ def test_a_covariance_that_is_none_is_rejected() -> None:
             covariance=-np.eye(6),
         )
     assert rejected.value.code == "REGISTRATION_COVARIANCE_INVALID"
+
+
+def test_an_exact_tip_removes_its_part_of_the_covariance_and_no_more() -> None:
+    jacobian = RANDOM.normal(size=(6, 3)) * 0.4
+    tip = covariance_of(0.3, 0.003)[:3, :3]
+    one = Registration(
+        method=Method.POINTS,
+        anchored_to=AnchoredTo.REFERENCE,
+        anchor_from_vertebra=REFERENCE_FROM_VERTEBRA,
+        covariance=OF_REGISTRATION + jacobian @ tip @ jacobian.T,
+        tip_jacobian=jacobian,
+        tool="drill",
+    )
+    np.testing.assert_allclose(one.without_tip_error(tip).covariance, OF_REGISTRATION, atol=1e-12)
+    # A tip stated worse than the registration leaves no negative variance.
+    left = one.without_tip_error(100.0 * tip).covariance
+    assert np.linalg.eigvalsh(left).min() >= -1e-12

@@ -14,6 +14,7 @@ from tests.tracker.registration.sweeps import (
     vertebra,
 )
 from tracker.errors import RegistrationError
+from tracker.geometry import rotation_from_vector
 from tracker.plan import Surface
 from tracker.registration import AnchoredTo, Method
 from tracker.registration.points import PointPairs
@@ -22,6 +23,7 @@ from tracker.registration.surface import (
     SurfaceGate,
     SurfaceRegistration,
     SurfaceSettings,
+    principal_extents_mm,
     register_surface,
 )
 from tracker.registration.surface.closest_points import closest_points_on_triangles
@@ -226,3 +228,11 @@ def test_nearest_points_are_the_nearest_of_all_triangles() -> None:
     grid = np.linalg.norm(sampled[None] - points[:20, None, None], axis=3).min(axis=(1, 2))
     assert (found[:20] <= grid + 1e-9).all()
     assert (grid - found[:20]).max() < 3.0
+
+
+def test_the_extents_of_a_sweep_are_those_of_its_box_in_any_pose() -> None:
+    corners = np.array(np.meshgrid([0.0, 30.0], [0.0, 12.0], [0.0, 4.0])).reshape(3, -1).T
+    turned = corners @ rotation_from_vector([0.4, -1.1, 0.7]).T + [7.0, -90.0, 400.0]
+    np.testing.assert_allclose(principal_extents_mm(turned), (30.0, 12.0, 4.0), atol=1e-9)
+    np.testing.assert_allclose(principal_extents_mm(turned[:2]), (np.ptp(corners[:2]), 0.0, 0.0), atol=1e-9)
+    assert principal_extents_mm(turned[:1]) == (0.0, 0.0, 0.0)

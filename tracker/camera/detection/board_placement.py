@@ -36,41 +36,41 @@ class BoardPlacement:
 def place_on_board(
     cells: Cells,
     px: Array,
-    looks: npt.NDArray[np.int64],
+    labels: npt.NDArray[np.int64],
     board: npt.NDArray[np.int64],
-    board_looks: npt.NDArray[np.int64],
+    board_labels: npt.NDArray[np.int64],
     *,
-    quarters_swap_looks: bool = False,
+    quarter_turn_swaps_labels: bool = False,
 ) -> BoardPlacement | None:
     """Return the best placement of grid cells (n, 2) on a board; None if there is none.
 
     Args:
         cells: grid cell of each point, from 0.
         px: (n, 2), pixels; among equally good placements, the first row runs to the right in the image.
-        looks: (n,), label of each point; -1 if unknown.
+        labels: (n,), label of each point; -1 if unknown.
         board: (rows, columns), id of the board's point at each cell, -1 if there is none.
-        board_looks: (points,), label of each point of the board.
-        quarters_swap_looks: whether a rotation by 90 degrees exchanges the labels 0 and 1, as for the colours
-            around a corner.
+        board_labels: (points,), label of each point of the board.
+        quarter_turn_swaps_labels: whether a rotation by 90 degrees exchanges the labels 0 and 1, as for the
+            colours around a corner.
     """
     found: list[tuple[int, float, int, npt.NDArray[np.int64], int]] = []
     for quarter, turn in enumerate(TURNS):
-        swap = quarters_swap_looks and quarter % 2 == 1
-        turned_looks = np.where(looks < 0, looks, 1 - looks) if swap else looks
+        swap = quarter_turn_swaps_labels and quarter % 2 == 1
+        turned_labels = np.where(labels < 0, labels, 1 - labels) if swap else labels
         turned = cells @ turn
         turned = turned - turned.min(axis=0)
         size = turned.max(axis=0) + 1
-        way = _way_right(turned, px)
+        deviation = _deviation_from_right(turned, px)
         for shift_y in range(board.shape[0] - int(size[1]) + 1):
             for shift_x in range(board.shape[1] - int(size[0]) + 1):
                 ids = board[turned[:, 1] + shift_y, turned[:, 0] + shift_x]
                 if (ids < 0).any():
                     continue
-                misfits = int(((turned_looks >= 0) & (board_looks[ids] != turned_looks)).sum())
+                misfits = int(((turned_labels >= 0) & (board_labels[ids] != turned_labels)).sum())
                 off_middle = abs(2 * shift_x + int(size[0]) - board.shape[1]) + abs(
                     2 * shift_y + int(size[1]) - board.shape[0]
                 )
-                found.append((misfits, way, off_middle, ids, quarter))
+                found.append((misfits, deviation, off_middle, ids, quarter))
     if not found:
         return None
     fewest = min(one[0] for one in found)
@@ -109,7 +109,7 @@ def _ambiguity_of(quarters: list[int]) -> PlacementAmbiguity:
     return PlacementAmbiguity.HALF_TURN if len(set(quarters)) == len(quarters) else PlacementAmbiguity.PLACE
 
 
-def _way_right(cells: Cells, px: Array) -> float:
+def _deviation_from_right(cells: Cells, px: Array) -> float:
     """Return the deviation of the rows from pointing right in the image: 0 for right, 2 for left."""
     design = np.column_stack([cells, np.ones(len(cells))])
     affine, *_ = np.linalg.lstsq(design, px, rcond=None)

@@ -73,7 +73,7 @@ def _part_viewed(
     contrast = np.abs(_quarters(grey, points, cells))
     clear = contrast > MIN_CONTRAST_RATIO * np.percentile(contrast, 90)
     points, cells = points[clear], cells[clear]
-    odd = (_looks(grey, points, cells) + cells.sum(axis=1)) % 2
+    odd = (_corner_labels(grey, points, cells) + cells.sum(axis=1)) % 2
     usual = odd == round(float(odd.mean()))
     inside, retained = trim_to_board(cells[usual], board.columns, board.rows)
     seen = points[usual][retained]
@@ -133,8 +133,8 @@ def _viewed(
     place = None
     if min(wide, high) >= min(MIN_SIDE, board.columns, board.rows):
         # If the placement is ambiguous, the outermost square at the first corner is assumed dark.
-        looks = _looks(grey, corners, cells)
-        place = place_on_board(cells, corners, looks, grid, names, quarters_swap_looks=True)
+        labels = _corner_labels(grey, corners, cells)
+        place = place_on_board(cells, corners, labels, grid, names, quarter_turn_swaps_labels=True)
     if place is None:
         return BoardNotFound(
             reason=NotFoundReason.OTHER_SIZE,
@@ -157,7 +157,7 @@ def _viewed(
     )
 
 
-def _looks(grey: GreyImage, corners: Array, cells: Cells) -> npt.NDArray[np.int64]:
+def _corner_labels(grey: GreyImage, corners: Array, cells: Cells) -> npt.NDArray[np.int64]:
     """Return the label of each corner: 0 if the square towards the next column and row is dark, else 1."""
     return np.asarray(_quarters(grey, corners, cells) > 0, dtype=np.int64)
 

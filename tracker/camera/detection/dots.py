@@ -41,12 +41,12 @@ def find_dots(grey: GreyImage, board: DotBoard) -> BoardView | BoardNotFound:
     _, cell_areas_px2 = step_lengths_px(px, lattice.cells)
     share = areas_px2 / cell_areas_px2
     larger = share > LARGER_AREA_RATIO * float(np.median(share))
-    looks = larger.astype(np.int64) if board.fiducials else np.full(len(px), -1, dtype=np.int64)
-    board_looks = np.zeros(board.columns * board.rows, dtype=np.int64)
-    board_looks[list(board.fiducials)] = 1
+    labels = larger.astype(np.int64) if board.fiducials else np.full(len(px), -1, dtype=np.int64)
+    board_labels = np.zeros(board.columns * board.rows, dtype=np.int64)
+    board_labels[list(board.fiducials)] = 1
     cells, retained = _on_board(lattice.cells, board)
-    px, looks, share, larger = px[retained], looks[retained], share[retained], larger[retained]
-    place = place_on_board(cells, px, looks, _cells_of(board), board_looks)
+    px, labels, share, larger = px[retained], labels[retained], share[retained], larger[retained]
+    place = place_on_board(cells, px, labels, _cells_of(board), board_labels)
     if place is None:
         wide, high = cells.max(axis=0) + 1
         return BoardNotFound(
@@ -54,7 +54,7 @@ def find_dots(grey: GreyImage, board: DotBoard) -> BoardView | BoardNotFound:
             sentence=f"a grid of {wide} x {high} steps, and the board has {board.columns} x {board.rows}",
             seen_points=len(cells),
         )
-    expected = int(board_looks[place.ids].sum())
+    expected = int(board_labels[place.ids].sum())
     if board.fiducials and place.misfits > max(1, expected // 2):
         return BoardNotFound(
             reason=NotFoundReason.OTHER_FIDUCIALS,

@@ -1,7 +1,7 @@
 """Surface-based registration: points swept over the lamina against the CT's surface."""
 
 from tracker.registration.surface.closest_points import ClosestPointQuery, ClosestPoints
-from tracker.registration.surface.observability import MotionMode
+from tracker.registration.surface.observability import MotionMode, principal_extents_mm
 from tracker.registration.surface.registration import SurfaceRegistration, register_surface
 from tracker.registration.surface.settings import SurfaceGate, SurfaceSettings
 
@@ -12,5 +12,6 @@ __all__ = [
     "SurfaceGate",
     "SurfaceRegistration",
     "SurfaceSettings",
+    "principal_extents_mm",
     "register_surface",
 ]

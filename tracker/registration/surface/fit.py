@@ -22,14 +22,14 @@ class Sweep:
 
     Attributes:
         points_mm: (n, 3) in the anchor's frame.
-        shares: (n,) weight of each point against the density of points; 1 for an isolated one.
+        point_weights: (n,) weight of each point against the density of points; 1 for an isolated one.
         landmarks_fixed_mm, landmarks_moving_mm: (m, 3) on the CT and as touched; m may be 0.
         landmark_weights: (m, 3, 3) the inverse covariance of each, on the CT's axes.
         min_sd_mm, tip_radius_mm: see `SurfaceSettings`.
     """
 
     points_mm: Array
-    shares: Array
+    point_weights: Array
     landmarks_fixed_mm: Array
     landmarks_moving_mm: Array
     landmark_weights: Array
@@ -109,7 +109,7 @@ def evaluate(nearest: ClosestPointQuery, sweep: Sweep, fit: Rigid[Vertebra, Anch
     normals = np.where(aslant[:, None], way * (sign / np.maximum(length, 1e-12))[:, None], at.normals)
     off = np.where(aslant, sign * length, off) - sweep.tip_radius_mm
     order = np.argsort(np.abs(off))
-    middle = np.searchsorted(np.cumsum(sweep.shares[order]), 0.5 * sweep.shares.sum())
+    middle = np.searchsorted(np.cumsum(sweep.point_weights[order]), 0.5 * sweep.point_weights.sum())
     median = float(np.abs(off)[order[min(int(middle), len(order) - 1)]])
     sd = max(SD_FROM_MEDIAN * median, sweep.min_sd_mm)
     weights = np.clip(1.0 - (off / (TUKEY * sd)) ** 2, 0.0, None) ** 2
@@ -128,8 +128,8 @@ def equations(
         laid.normals if normals is None else normals,
         jacobians(fit.move_points(sweep.points_mm) - about_mm),
     )
-    say = laid.weights * sweep.shares / laid.sd_mm**2
-    normal, right = (rows * say[:, None]).T @ rows, -rows.T @ (say * laid.off_mm)
+    weight = laid.weights * sweep.point_weights / laid.sd_mm**2
+    normal, right = (rows * weight[:, None]).T @ rows, -rows.T @ (weight * laid.off_mm)
     if landmarks and len(sweep.landmarks_fixed_mm):
         moved = fit.move_points(sweep.landmarks_moving_mm)
         arms = jacobians(moved - about_mm)
@@ -142,7 +142,7 @@ def equations(
 def cost(sweep: Sweep, laid: SweepFit, sd_mm: float) -> float:
     """Return the truncated sum of squares of sweep and landmarks, in standard deviations."""
     squares = np.minimum((laid.off_mm / sd_mm) ** 2, TUKEY**2)
-    total = float((sweep.shares * squares).sum())
+    total = float((sweep.point_weights * squares).sum())
     if len(sweep.landmarks_fixed_mm):
         off = laid.fixed_from_moving.move_points(sweep.landmarks_moving_mm) - sweep.landmarks_fixed_mm
         total += float(np.einsum("ni,nij,nj->", off, sweep.landmark_weights, off))

@@ -28,24 +28,24 @@ def multi_start_fit(
     sweep: Sweep,
     start: Rigid[Vertebra, Anchor],
     first: SweepFit,
-    weak_way: Array,
+    weak_direction: Array,
     lever_mm: float,
     settings: SurfaceSettings,
 ) -> tuple[SweepFit, list[SweepFit]]:
     """Return the best fit from all starts, and the others."""
     middle = start.move_points(sweep.points_mm).mean(axis=0)
-    ways = np.zeros((7, 6))
-    ways[:3, :3] = settings.start_shift_mm * np.eye(3)
-    ways[3:6, 3:] = np.radians(settings.start_rotation_deg) * np.eye(3)
+    offsets = np.zeros((7, 6))
+    offsets[:3, :3] = settings.start_shift_mm * np.eye(3)
+    offsets[3:6, 3:] = np.radians(settings.start_rotation_deg) * np.eye(3)
     # Along the least observable mode, by the same distance.
-    ways[6] = settings.start_shift_mm * weak_way / np.concatenate([np.ones(3), np.full(3, lever_mm)])
+    offsets[6] = settings.start_shift_mm * weak_direction / np.concatenate([np.ones(3), np.full(3, lever_mm)])
     fits = [first]
-    for way in (*ways, *-ways):
-        turn = rotation_from_vector(way[3:])
-        base = first.fixed_from_moving if np.array_equal(np.abs(way), np.abs(ways[6])) else start
+    for offset in (*offsets, *-offsets):
+        turn = rotation_from_vector(offset[3:])
+        base = first.fixed_from_moving if np.array_equal(np.abs(offset), np.abs(offsets[6])) else start
         moved: Rigid[Vertebra, Anchor] = Rigid(
             rotation=turn @ base.rotation,
-            translation_mm=turn @ (base.translation_mm - middle) + middle + way[:3],
+            translation_mm=turn @ (base.translation_mm - middle) + middle + offset[:3],
         )
         fits.append(fit_sweep(nearest, sweep, moved, tolerance_mm=COARSE_TOLERANCE_MM))
     sd = min(fit.sd_mm for fit in fits)
@@ -70,18 +70,18 @@ def reject_ambiguous(
     moving = best.fixed_from_moving.inverse.move_points(targets_mm)
     for alternative in alternatives:
         shifts = alternative.fixed_from_moving.move_points(moving) - targets_mm
-        apart = np.linalg.norm(shifts, axis=1)
-        if apart.max() <= settings.max_apart_mm:
+        distances_mm = np.linalg.norm(shifts, axis=1)
+        if distances_mm.max() <= settings.max_apart_mm:
             continue
         if cost(sweep, alternative, best.sd_mm) - minimum < max(
             MIN_DELTA_CHI2, MIN_DELTA_CHI2_RATIO * minimum
         ):
-            way = np.concatenate([shifts[int(np.argmax(apart))], np.zeros(3)])
+            offset = np.concatenate([shifts[int(np.argmax(distances_mm))], np.zeros(3)])
             raise_ambiguous(
-                float(apart.max()), description(way), (_rms(sweep, best), _rms(sweep, alternative))
+                float(distances_mm.max()), description(offset), (_rms(sweep, best), _rms(sweep, alternative))
             )
 
 
 def _rms(sweep: Sweep, laid: SweepFit) -> float:
-    say = sweep.shares * (laid.weights > 0.0)
-    return float(np.sqrt((say * laid.off_mm**2).sum() / say.sum()))
+    weight = sweep.point_weights * (laid.weights > 0.0)
+    return float(np.sqrt((weight * laid.off_mm**2).sum() / weight.sum()))

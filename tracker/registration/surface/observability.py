@@ -19,12 +19,12 @@ class MotionMode:
     """An independent rigid motion of a bone, and its uncertainty.
 
     Attributes:
-        way: (6,) unit vector: a shift in mm and a rotation in mm at the lever, on the CT axes.
+        direction: (6,) unit vector: a shift in mm and a rotation in mm at the lever, on the CT axes.
         sd_mm: standard deviation; infinite if unobservable.
         description: for a surgeon.
     """
 
-    way: Array
+    direction: Array
     sd_mm: float
     description: str
 
@@ -35,18 +35,31 @@ def motion_modes(normal: Array, lever_mm: float) -> list[MotionMode]:
     Rotations are scaled by the lever, as displacement at the target.
     """
     scale = np.diag([1.0] * 3 + [1.0 / lever_mm] * 3)
-    values, ways = np.linalg.eigh(scale @ normal @ scale)
+    values, directions = np.linalg.eigh(scale @ normal @ scale)
     floor = 1e-9 * max(float(values[-1]), 1e-12)
     found = []
-    for value, way in zip(values, ways.T, strict=True):
+    for value, direction in zip(values, directions.T, strict=True):
         sd = float(1.0 / np.sqrt(value)) if value > floor else np.inf
-        found.append(MotionMode(way=way, sd_mm=sd, description=description(way)))
+        found.append(MotionMode(direction=direction, sd_mm=sd, description=description(direction)))
     return found
 
 
-def description(way: Array) -> str:
+def description(direction: Array) -> str:
     """Describe the dominant axis of a motion (6,)."""
-    shift, turn = float(np.linalg.norm(way[:3])), float(np.linalg.norm(way[3:]))
+    shift, turn = float(np.linalg.norm(direction[:3])), float(np.linalg.norm(direction[3:]))
     if shift >= turn:
-        return SHIFTS[int(np.argmax(np.abs(way[:3])))]
-    return TURNS[int(np.argmax(np.abs(way[3:])))]
+        return SHIFTS[int(np.argmax(np.abs(direction[:3])))]
+    return TURNS[int(np.argmax(np.abs(direction[3:])))]
+
+
+def principal_extents_mm(points_mm: Array) -> tuple[float, float, float]:
+    """Return the extents of points (n, 3) along their principal axes, the longest first; zeros for one point.
+
+    A sweep that is short or narrow leaves motion modes unobservable.
+    """
+    if len(points_mm) < 2:
+        return 0.0, 0.0, 0.0
+    off = points_mm - points_mm.mean(axis=0)
+    _, _, axes = np.linalg.svd(off, full_matrices=False)
+    longest, middle, shortest = (*(float(np.ptp(off @ axis)) for axis in axes), 0.0, 0.0)[:3]
+    return longest, middle, shortest

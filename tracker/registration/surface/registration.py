@@ -134,9 +134,9 @@ def register_surface(
     """
     settings = settings or SurfaceSettings()
     points = validate_sweep(np.asarray(points_mm, dtype=np.float64))
-    shares = density_weights(points, settings.correlation_length_mm) if len(points) else np.empty(0)
-    reject_small(points, shares, settings)
-    sweep = _sweep(points, shares, landmarks, start, settings)
+    point_weights = density_weights(points, settings.correlation_length_mm) if len(points) else np.empty(0)
+    reject_small(points, point_weights, settings)
+    sweep = _sweep(points, point_weights, landmarks, start, settings)
     reject_far(evaluate(nearest, sweep, start), settings)
     targets = np.array([start.move_points(points.mean(axis=0)), *targets_mm], dtype=np.float64).reshape(-1, 3)
     first = fit_sweep(nearest, sweep, start)
@@ -145,7 +145,7 @@ def register_surface(
     alone, with_landmarks = _directions(nearest, sweep, first, middle, lever)
     reject_disagreement(first, sweep, settings)
     reject_sliding(with_landmarks, settings)
-    best, alternatives = multi_start_fit(nearest, sweep, start, first, alone.way, lever, settings)
+    best, alternatives = multi_start_fit(nearest, sweep, start, first, alone.direction, lever, settings)
     reject_disagreement(best, sweep, settings)
     reject_ambiguous(sweep, best, alternatives, targets, settings)
     middle = best.fixed_from_moving.move_points(points).mean(axis=0)
@@ -156,7 +156,7 @@ def register_surface(
 
 def _sweep(
     points: Array,
-    shares: Array,
+    point_weights: Array,
     landmarks: PointPairs | None,
     start: Rigid[Vertebra, Anchor],
     settings: SurfaceSettings,
@@ -170,7 +170,7 @@ def _sweep(
         weights = weights_on_ct(start, noise)
     return Sweep(
         points_mm=points,
-        shares=shares,
+        point_weights=point_weights,
         landmarks_fixed_mm=fixed,
         landmarks_moving_mm=moving,
         landmark_weights=weights,
@@ -218,7 +218,7 @@ def _result(
     off = np.array(best.off_mm)
     for array in (covariance, expected, off, used):
         array.setflags(write=False)
-    say = sweep.shares * used
+    weight = sweep.point_weights * used
     moved = fit.move_points(middle_of_sweep) - start.move_points(middle_of_sweep)
     return SurfaceRegistration(
         fixed_from_moving=fit,
@@ -226,8 +226,8 @@ def _result(
         covariance_expected=expected,
         off_mm=off,
         used=used,
-        used_ratio=float(say.sum() / sweep.shares.sum()),
-        rms_mm=float(np.sqrt((say * off**2).sum() / say.sum())),
+        used_ratio=float(weight.sum() / sweep.point_weights.sum()),
+        rms_mm=float(np.sqrt((weight * off**2).sum() / weight.sum())),
         moved_mm=float(np.linalg.norm(moved)),
         moved_deg=float(np.degrees(np.linalg.norm(turned))),
         weakest_mode=alone,
@@ -242,10 +242,10 @@ def _covariances(nearest: ClosestPointQuery, sweep: Sweep, best: SweepFit) -> tu
     """
     fit = best.fixed_from_moving
     middle = fit.move_points(sweep.points_mm).mean(axis=0)
-    say = sweep.shares * best.weights
-    freedom = max(float(say.sum()) + 3.0 * len(sweep.landmarks_fixed_mm) - 6.0, 1.0)
+    weight = sweep.point_weights * best.weights
+    freedom = max(float(weight.sum()) + 3.0 * len(sweep.landmarks_fixed_mm) - 6.0, 1.0)
     # Lower bound, because points exactly on the mesh have no residual.
-    residual_variance = max(float((say * best.off_mm**2).sum()) / freedom, 1e-12)
+    residual_variance = max(float((weight * best.off_mm**2).sum()) / freedom, 1e-12)
     smooth = nearest.smooth_normals(best.nearest_mm)
     by_sweep = equations(sweep, best, middle, normals=smooth, landmarks=False)[0] * best.sd_mm**2
     by_landmarks = equations(sweep, best, middle, normals=smooth)[0] - by_sweep / best.sd_mm**2

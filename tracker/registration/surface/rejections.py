@@ -28,9 +28,9 @@ def validate_sweep(points_mm: Array) -> Array:
     return points
 
 
-def reject_small(points_mm: Array, shares: Array, settings: SurfaceSettings) -> None:
+def reject_small(points_mm: Array, point_weights: Array, settings: SurfaceSettings) -> None:
     """Raise SURFACE_SWEEP_SMALL for too few different points or too small a spread."""
-    places = float(shares.sum())
+    places = float(point_weights.sum())
     spread = float(np.sqrt(((points_mm - points_mm.mean(axis=0)) ** 2).sum(axis=1).mean())) if places else 0.0
     if places >= settings.min_points and spread >= MIN_SPREAD_MM:
         return
@@ -58,7 +58,7 @@ def reject_far(laid: SweepFit, settings: SurfaceSettings) -> None:
 
 def reject_disagreement(laid: SweepFit, sweep: Sweep, settings: SurfaceSettings) -> None:
     """Raise SURFACE_DISAGREES if the share of inliers is too small."""
-    ratio = float(sweep.shares[laid.weights > 0.0].sum() / sweep.shares.sum())
+    ratio = float(sweep.point_weights[laid.weights > 0.0].sum() / sweep.point_weights.sum())
     if ratio < settings.min_used_ratio:
         raise RegistrationError(
             "SURFACE_DISAGREES",

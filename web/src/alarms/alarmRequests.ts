@@ -6,7 +6,7 @@ const server = createClient<paths>({ baseUrl: location.origin });
 const SCREENS = "/api/alarms/screens";
 
 /** Identifier of this page load. */
-export const SCREEN = Array.from(crypto.getRandomValues(new Uint8Array(8)), (byte) =>
+const SCREEN = Array.from(crypto.getRandomValues(new Uint8Array(8)), (byte) =>
   byte.toString(16).padStart(2, "0"),
 ).join("");
 /** Without sign-in, actions are attributed to the screen. */

@@ -5,7 +5,7 @@ import { reportArmed, reportClosed } from "./alarmRequests";
 import { AlarmPlayer } from "./player";
 import { alarmsVerdict, requestedSound } from "./verdict";
 
-export const OWN_PAUSE_MS = 120_000;
+const OWN_PAUSE_MS = 120_000;
 
 export interface AlarmSound {
   armed: boolean;

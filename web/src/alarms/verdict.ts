@@ -3,7 +3,7 @@ import { SILENT_AFTER_MS } from "../live/assess";
 import type { LinkState } from "../live/viewConnection";
 import type { AlarmsMessage, LiveMessage, Sound } from "../live/messages";
 
-export interface ServerContact {
+interface ServerContact {
   link: LinkState;
   silentMs: number;
   newest: LiveMessage | null;
@@ -32,7 +32,7 @@ const SILENCE: RequestedSound = { sound: "silent", number: 0 };
 /** The screen's own alarm: the server that evaluates alarms does not answer. */
 const SERVER_GONE: RequestedSound = { sound: "medium", number: -1 };
 /** A connection that returns at once raises no alarm. */
-export const GONE_SOUNDS_AFTER_MS = 2000;
+const GONE_SOUNDS_AFTER_MS = 2000;
 
 /** The sound of this screen, if it is armed. */
 export function requestedSound(

@@ -38,7 +38,7 @@ export function volumeAfter(error: unknown): VolumeState {
 }
 
 /** Numbers that disappear briefly do not switch the cut to the plan. */
-export const PLAN_AFTER_MS = 1000;
+const PLAN_AFTER_MS = 1000;
 
 /** Whether to cut along the plan: the newest image has had a reason for missing figures for a while. */
 export function wantsPlan(numbers: NumbersVerdict, untrackedMs: number | null): boolean {

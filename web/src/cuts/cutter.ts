@@ -45,7 +45,7 @@ export interface Cut extends Wanted {
 }
 
 /** A pane that shows a cut. */
-export interface CutViewer {
+interface CutViewer {
   name: CutName;
   /** The plane to cut for this pose; null while the pane has no size. */
   gridFor: (pose: Pose) => Wanted | null;

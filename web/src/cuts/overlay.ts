@@ -33,7 +33,7 @@ export const PARTS = [
   "wall",
   "off",
 ] as const;
-export type Part = (typeof PARTS)[number];
+type Part = (typeof PARTS)[number];
 
 export interface Overlay {
   paths: Record<Part, string>;

@@ -7,7 +7,7 @@ import { cross, dot, lengthOf, minus, plus, times, unit, type Vec3 } from "../op
 export const IN_LINE = ["axial", "sagittal"] as const;
 export const ANATOMICAL = ["anatomical-axial", "anatomical-sagittal", "anatomical-coronal"] as const;
 type InLine = (typeof IN_LINE)[number];
-export type Anatomical = (typeof ANATOMICAL)[number];
+type Anatomical = (typeof ANATOMICAL)[number];
 export type CutName = InLine | Anatomical | "probe";
 
 /** A drill, or the plan in its place: tip and unit drilling direction in the vertebra frame. */
@@ -17,12 +17,12 @@ export interface Pose {
 }
 
 /** Field of a stage, in mm. */
-export interface Field {
+interface Field {
   widthMm: number;
   heightMm: number;
 }
 
-export const PIXEL_MM = 0.25;
+const PIXEL_MM = 0.25;
 /** Shorter side of the field, and the maximum of the longer one. */
 const SHORT_SIDE_MM = { plane: 64, probe: 44 };
 const MAX_SIDE_MM = 110;

@@ -22,7 +22,7 @@ export async function loadVolume(signal: AbortSignal): Promise<Volume | null> {
 }
 
 /** Parses an answer; throws if header and voxels do not match. */
-export function volumeFrom(header: string, content: ArrayBuffer): Volume {
+function volumeFrom(header: string, content: ArrayBuffer): Volume {
   const { ct_id, size_ijk, lps_from_ijk, presets } = JSON.parse(header) as {
     ct_id: string;
     size_ijk: [number, number, number];

@@ -17,7 +17,7 @@ export function ConnectionNote(): ReactNode {
 }
 
 /** "Slow connection: 4 images/s, 640x360"; empty at full rate and size. */
-export function connectionText(
+function connectionText(
   { limitedBy, imagesPerS, widthPx, heightPx }: PictureDelivery,
   texts: ConnectionTexts,
 ): string {

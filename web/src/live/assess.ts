@@ -130,7 +130,7 @@ export function isOfNow(numbers: NumbersVerdict): boolean {
 }
 
 /** The reason to remove everything at once, or null. */
-export function commonCause(situation: Situation, nowMs: number): Cause | null {
+function commonCause(situation: Situation, nowMs: number): Cause | null {
   const { link, hidden, lastReceivedAtMs, newest } = situation;
   if (hidden) return "hidden";
   const first = firstMessageAt(situation, nowMs);

@@ -23,7 +23,7 @@ export const UNLIMITED: DrawingBudget = {
   largestPicture: "full",
 };
 
-export type Strain = "strained" | "normal" | "idle";
+type Strain = "strained" | "normal" | "idle";
 
 const SCENE_INTERVALS_MS = [0, 80, 125, 200];
 /** Below half resolution the letters of the scene would cover it. */

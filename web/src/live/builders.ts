@@ -124,7 +124,7 @@ export function judgement(changes: Partial<JudgementMessage> = {}): JudgementMes
 }
 
 /** Beside the axis, rotated slightly to the right. */
-export function along(changes: Partial<BullseyeMessage> = {}): BullseyeMessage {
+function along(changes: Partial<BullseyeMessage> = {}): BullseyeMessage {
   return {
     tip_mm: [1, -0.5],
     at_entry_mm: [0.6, 0.8],

@@ -4,7 +4,7 @@ import { messageFromText } from "./frame";
 import type { LiveMessage } from "./messages";
 import { ReconnectingSocket, type WebSocketLike } from "./reconnectingSocket";
 
-export interface MessageConnectionOptions {
+interface MessageConnectionOptions {
   open(): WebSocketLike;
   later(action: () => void, waitMs: number): void;
   onMessage(message: LiveMessage): void;

@@ -16,10 +16,10 @@ export interface PictureDelivery {
 }
 
 /** What holds the images up. */
-export type SlowPart = "thin" | "server" | "decoding" | "drawing";
+type SlowPart = "thin" | "server" | "decoding" | "drawing";
 
 /** What this device allows, and its area for the picture. */
-export interface Device {
+interface Device {
   largestPicture: "full" | "half";
   /** Scale that suffices for the picture's area. */
   neededRatio: number;

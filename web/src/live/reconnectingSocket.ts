@@ -11,7 +11,7 @@ export interface WebSocketLike {
   close(): void;
 }
 
-export interface ReconnectingSocketOptions<S extends WebSocketLike> {
+interface ReconnectingSocketOptions<S extends WebSocketLike> {
   open(): S;
   later(action: () => void, waitMs: number): void;
   /** The socket is open: the first message may be sent. */

@@ -8,7 +8,7 @@ export interface ViewSocket extends WebSocketLike {
   binaryType: BinaryType;
 }
 
-export interface ViewConnectionOptions {
+interface ViewConnectionOptions {
   open(): ViewSocket;
   later(action: () => void, waitMs: number): void;
   onLink(state: LinkState): void;

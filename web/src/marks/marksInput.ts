@@ -5,7 +5,7 @@ import { POINTER_GOES_AFTER_MS } from "../room/roomState";
 export type Tool = "point" | Shape;
 
 /** Drawn here and not yet confirmed by the server. */
-export interface LocalMark {
+interface LocalMark {
   key: number;
   shape: Shape;
   points: Point[];
@@ -24,7 +24,7 @@ const MAX_A_DRAWING = 380;
 const FORGOTTEN_AFTER_MS = 3000;
 
 /** Position of this pointer as others see it. */
-export interface LocalPointer {
+interface LocalPointer {
   at: Point;
   goesAtMs: number;
 }

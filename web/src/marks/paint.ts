@@ -6,7 +6,7 @@ import { onStage, type Placement } from "./place";
 
 const CASE = "#05090ce6";
 
-export interface Painted {
+interface Painted {
   seat: number;
   name: string;
   shape: Shape;

@@ -12,7 +12,7 @@ import { RegistrationPage } from "./registration/RegistrationPage";
 import { ReportPage } from "./report/ReportPage";
 import { ToolPage } from "./tool/ToolPage";
 
-export type PageName =
+type PageName =
   | "case"
   | "camera"
   | "tool"

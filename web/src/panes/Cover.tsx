@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 
 /** `none` while a page is loading, which is no alarm. */
-export type Urgency = "medium" | "low" | "none";
+type Urgency = "medium" | "low" | "none";
 
 const MARKS: Record<Urgency, string> = { medium: "▲▲", low: "●", none: "◌" };
 

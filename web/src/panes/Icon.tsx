@@ -14,7 +14,7 @@ const LINES = {
   cross: "M5 5l14 14M19 5L5 19",
 } as const;
 
-export type IconName = keyof typeof LINES;
+type IconName = keyof typeof LINES;
 
 /** An icon as large as the adjacent text. Decorative: its button carries the label. */
 export function Icon({ name }: { name: IconName }): ReactNode {

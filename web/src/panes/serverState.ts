@@ -4,7 +4,7 @@ import type { LinkState } from "../live/viewConnection";
 import type { View } from "../live/live";
 import type { LiveMessage } from "../live/messages";
 
-export interface ServerState {
+interface ServerState {
   linkState: LinkState | "not-reached";
   source: LiveMessage["source"] | null;
   snapshot: LiveMessage["snapshot"];

@@ -11,7 +11,7 @@ export interface Capabilities {
   focusDistance?: Range;
 }
 
-export interface Settings {
+interface Settings {
   width?: number;
   height?: number;
   frameRate?: number;
@@ -26,7 +26,7 @@ interface FocusConstraint extends MediaTrackConstraintSet {
   focusDistance?: number;
 }
 
-export interface Constraints extends MediaTrackConstraints {
+interface Constraints extends MediaTrackConstraints {
   resizeMode: { ideal: string };
   advanced?: FocusConstraint[];
 }

@@ -10,13 +10,13 @@ import { keepScreenOn } from "./wakeLock";
 const FOCUS_SETTLES_MS = 3000;
 const CHECK_EVERY_MS = 500;
 
-export interface SentImage {
+interface SentImage {
   images: number;
   bytes: number;
   clock: FrameTime["clock"];
 }
 
-export interface Listener {
+interface Listener {
   onWelcome(welcome: Welcome): void;
   onFacts(facts: CameraFacts): void;
   onSent(sent: SentImage): void;

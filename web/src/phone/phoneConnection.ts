@@ -7,7 +7,7 @@ export interface PhoneSocket extends WebSocketLike {
   send(data: string | ArrayBuffer): void;
 }
 
-export interface PhoneConnectionOptions {
+interface PhoneConnectionOptions {
   open(): PhoneSocket;
   later(action: () => void, waitMs: number): void;
   nowMs(): number;

@@ -5,7 +5,7 @@ import { noCameraOf, type NoCamera } from "./noCamera";
 import { Rate } from "./rate";
 import { startCameraStream } from "./cameraStream";
 
-export type CameraStreamState = "idle" | "connecting" | "opening" | "sending" | "lost" | "none";
+type CameraStreamState = "idle" | "connecting" | "opening" | "sending" | "lost" | "none";
 
 export interface CameraStream {
   state: CameraStreamState;

@@ -2,7 +2,7 @@
 import { useCallback, useRef, useState } from "react";
 import { Rejection } from "./client";
 
-export interface Action {
+interface Action {
   busy: boolean;
   rejection: Rejection | null;
   /** Runs the action; resolves to true on success. Ignored while one is running. */

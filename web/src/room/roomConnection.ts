@@ -6,7 +6,7 @@ export interface RoomSocket extends WebSocketLike {
   readonly bufferedAmount: number;
 }
 
-export interface RoomConnectionOptions {
+interface RoomConnectionOptions {
   open(): RoomSocket;
   later(action: () => void, waitMs: number): void;
   now(): number;

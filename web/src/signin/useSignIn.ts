@@ -6,7 +6,7 @@ import { homeOf } from "../app/views";
 import { answered, Rejection, server } from "../rest/client";
 import { takeToken } from "./token";
 
-export interface SignIn {
+interface SignIn {
   busy: boolean;
   rejection: Rejection | null;
   signIn: (token: string) => void;

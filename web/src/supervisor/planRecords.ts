@@ -9,7 +9,7 @@ export interface ChannelShown {
   screw: ScrewShown | null;
 }
 
-export interface ScrewShown {
+interface ScrewShown {
   diameterMm: number;
   lengthMm: number;
   minMm: number | null;
@@ -26,7 +26,7 @@ export interface VertebraShown {
 }
 
 const WALLS = ["medial", "lateral", "superior", "inferior"] as const;
-export type Wall = (typeof WALLS)[number];
+type Wall = (typeof WALLS)[number];
 type Json = Record<string, unknown>;
 
 export function vertebraeOf(plan: unknown): VertebraShown[] {

@@ -3,7 +3,7 @@ import type { SupervisorTexts } from "../texts/supervisor/en";
 
 type NumberName = keyof SupervisorTexts["registration"]["numbers"];
 
-export interface Row {
+interface Row {
   name: NumberName;
   value: number;
   unit: "mm" | "°" | "";

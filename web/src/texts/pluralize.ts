@@ -1,7 +1,7 @@
 import { interpolate } from "./interpolate";
 
 /** A sentence for one thing and for several. `{count}` is the number. */
-export interface PluralText {
+interface PluralText {
   one: string;
   other: string;
 }

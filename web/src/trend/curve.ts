@@ -5,7 +5,7 @@ import { MAX_STEP_MS, SPAN_MS, type Sample, type TrendFigure } from "./history";
 
 type Point = readonly [number, number];
 
-export interface Stroke {
+interface Stroke {
   status: Status;
   points: Point[];
 }
@@ -17,7 +17,7 @@ interface Joint {
   at: Point;
 }
 
-export interface Curve {
+interface Curve {
   /** Segments of equal status; they do not meet across gaps. */
   strokes: Stroke[];
   /** The limit at each sample. */
@@ -37,7 +37,7 @@ const RANGES: Record<FigureName, { below: [number, number]; above: [number, numb
 };
 
 /** The chart: time of its right edge and its size; samples further apart than `maxStepMs` are not joined. */
-export interface Frame {
+interface Frame {
   nowMs: number;
   width: number;
   height: number;

@@ -5,7 +5,7 @@ import { FIGURES, figureOf, type FigureName } from "../panes/limits";
 
 export const SPAN_MS = 30_000;
 /** Images within this interval share a sample, the worst of them, so that no peak is lost. */
-export const BUCKET_MS = 100;
+const BUCKET_MS = 100;
 /** Samples further apart are not joined: the values between them are unknown. */
 export const MAX_STEP_MS = 700;
 

@@ -22,7 +22,7 @@ const MIN_SIDE_PX = 12;
 const MIN_LABELLED_PX = 120;
 const LABEL_PX = 13;
 
-export interface TrendFrame {
+interface TrendFrame {
   /** Space at the right edge. */
   nowMs: number;
   spanMs?: number;

@@ -1,5 +1,5 @@
 // Parses a calibration document; its content is not trusted.
-export interface Parameter {
+interface Parameter {
   name: string;
   value: number;
   low95: number | null;
@@ -14,13 +14,13 @@ export interface View {
   reason: string;
 }
 
-export interface Warning {
+interface Warning {
   code: string;
   message: string;
   remedy: string;
 }
 
-export interface Report {
+interface Report {
   rmsPx: number | null;
   noisePx: number | null;
   cellsRatio: number | null;

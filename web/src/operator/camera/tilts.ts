@@ -1,7 +1,7 @@
 // Tilt of a board to each side.
 export type Way = "up" | "down" | "left" | "right";
 
-export interface Arm {
+interface Arm {
   /** The edge that leans away from the camera. */
   way: Way;
   reachedDeg: number;

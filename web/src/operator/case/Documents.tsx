@@ -11,7 +11,7 @@ import { sentence, formatTime } from "../parts/format";
 import { documentTitle } from "./documentTitle";
 import { newestOf } from "./newest";
 
-export type Heading = components["schemas"]["HeadingMessage"];
+type Heading = components["schemas"]["HeadingMessage"];
 
 const ASK_EVERY_MS = 3000;
 

@@ -1,6 +1,6 @@
 // Sequence of codes and their times. Pure.
 
-export interface CodePlan {
+interface CodePlan {
   patterns: readonly string[];
   codes: number;
   min_code_ms: number;

@@ -2,7 +2,7 @@
 import type { components } from "../../schema";
 import type { PaintedImage } from "../../live/view";
 
-export type Conclusion = components["schemas"]["LatencyConclusionRequest"];
+type Conclusion = components["schemas"]["LatencyConclusionRequest"];
 type Painted = Conclusion["painted"][number];
 type ShownImage = Conclusion["shown"][number];
 type Comparison = Conclusion["comparisons"][number];

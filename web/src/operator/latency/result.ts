@@ -5,4 +5,3 @@ export type Result = components["schemas"]["LatencyResultMessage"];
 
 /** The stages of the latency. */
 export const STAGES = ["screen and camera", "tracking", "server", "line", "page"] as const;
-export type Stage = (typeof STAGES)[number];

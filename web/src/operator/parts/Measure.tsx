@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { NOT_KNOWN, formatFigure } from "../../live/rounding";
 import { useTexts } from "../../texts/TextsContext";
 
-export interface Limit {
+interface Limit {
   kind: "max" | "min";
   value: number;
 }

@@ -3,7 +3,7 @@ import type { components } from "../../schema";
 import type { Texts } from "../../texts/catalogue";
 import { documentTitle } from "../case/documentTitle";
 
-export interface AuditRow {
+interface AuditRow {
   number: number;
   at: string;
   who: string;

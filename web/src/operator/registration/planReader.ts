@@ -1,6 +1,6 @@
 // Parts of the plan that the registration pages need.
 
-export interface PlannedLandmark {
+interface PlannedLandmark {
   name: string;
   pointMm: number[];
 }
@@ -32,7 +32,7 @@ export function usedLandmarks(madeFrom: Record<string, unknown>): string[] {
     .map((one) => String(one["landmark"]));
 }
 
-export function recordsIn(value: unknown): Record<string, unknown>[] {
+function recordsIn(value: unknown): Record<string, unknown>[] {
   return Array.isArray(value)
     ? value.filter((one): one is Record<string, unknown> => typeof one === "object" && one !== null)
     : [];

@@ -1,6 +1,6 @@
 import { useLive } from "../../live/LiveContext";
 
-export interface ImageSize {
+interface ImageSize {
   widthPx: number;
   heightPx: number;
 }

@@ -1,5 +1,5 @@
 // Counts the lines of the alarm log by alarm.
-export interface AlarmCount {
+interface AlarmCount {
   condition: string;
   raised: number;
   firstAt: string;

@@ -2,7 +2,7 @@
 import type { ReportTexts } from "../../texts/report/en";
 
 type Content = Readonly<Record<string, unknown>>;
-export type FactName = keyof ReportTexts["facts"];
+type FactName = keyof ReportTexts["facts"];
 
 export interface Fact {
   name: FactName;

@@ -1,5 +1,5 @@
 // Planned channels of a plan document; its content is not trusted.
-export interface ReportedChannel {
+interface ReportedChannel {
   vertebra: string;
   side: string;
   diameterMm: number | null;

@@ -6,7 +6,7 @@ export type ToolGate = components["schemas"]["ToolCalibrationConfig"];
 export type PoseCollectionState = components["schemas"]["PoseCollectionMessage"];
 export type Purpose = components["schemas"]["Purpose"];
 
-export interface ToolRecord {
+interface ToolRecord {
   marker: string;
   sideMm: number | null;
   radiusMm: number | null;

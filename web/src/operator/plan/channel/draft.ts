@@ -53,7 +53,7 @@ export function lengthMm(draft: Draft): number {
   return lengthOf(minus(draft.target, draft.entry));
 }
 
-export function axisOf(draft: Draft): Vec3 {
+function axisOf(draft: Draft): Vec3 {
   return unit(minus(draft.target, draft.entry));
 }
 

@@ -6,7 +6,7 @@ import { useTexts } from "../../../texts/TextsContext";
 import { pluralize } from "../../../texts/pluralize";
 
 /** Properties of a series before it is read. */
-export interface Series {
+interface Series {
   series: string;
   modality: string;
   words: string;

@@ -5,9 +5,9 @@ import type { Job } from "../../../rest/useJob";
 import { uploadCt } from "./send";
 import { MAX_BYTES, MAX_FILES, zipFiles } from "./zip";
 
-export type Phase = "packing" | "sending" | "fetching";
+type Phase = "packing" | "sending" | "fetching";
 
-export interface Uploading {
+interface Uploading {
   phase: Phase | null;
   ratio: number;
   rejection: Rejection | null;
@@ -26,7 +26,7 @@ export interface Upload extends Uploading {
 }
 
 /** The job that reads the upload; for a CT with the id for choosing a series. */
-export type Begun = Job & { upload_id?: string };
+type Begun = Job & { upload_id?: string };
 
 export function useUpload(address: () => string, onTaken: (begun: Begun) => void): Upload {
   const [state, setState] = useState<Uploading>(IDLE);

@@ -7,7 +7,7 @@ const NAMED_FROM_PX = 300;
 /** Approximate width of a letter; wider than in most fonts. */
 const LETTER_PX = 8.6;
 
-export interface Label {
+interface Label {
   text: string;
   /** Whether it is to the left of its point. */
   isLeft: boolean;

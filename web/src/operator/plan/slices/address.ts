@@ -3,12 +3,12 @@ import type { components } from "../../../schema";
 import { minus, unit, dot, type Vec3 } from "./vectors";
 
 export type Ct = components["schemas"]["CtMessage"];
-export type Flat = "axial" | "sagittal" | "coronal";
+type Flat = "axial" | "sagittal" | "coronal";
 export type PlaneName = Flat | "along" | "across";
 export type Greys = components["schemas"]["WindowMessage"];
 
 export const FLAT: readonly Flat[] = ["axial", "sagittal", "coronal"];
-export const AXIS: Record<Flat, 0 | 1 | 2> = { sagittal: 0, coronal: 1, axial: 2 };
+const AXIS: Record<Flat, 0 | 1 | 2> = { sagittal: 0, coronal: 1, axial: 2 };
 
 export const isFlat = (plane: PlaneName): plane is Flat => plane !== "along" && plane !== "across";
 

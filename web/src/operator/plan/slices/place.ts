@@ -3,7 +3,7 @@
 // Three coordinates of one point: LPS in mm; (u, v) in pixels, with (0, 0) at the centre of the top-left pixel; and
 // (x, y) in mm on the slice's plane (u and v times the spacing of columns and rows), in which drawings are made.
 import type { components } from "../../../schema";
-import { cross, dot, lengthOf, minus, plus, times, unit, type Vec3 } from "./vectors";
+import { cross, dot, minus, plus, times, unit, type Vec3 } from "./vectors";
 
 export type Place = components["schemas"]["SliceMessage"];
 /** Placement of a picture's pixels: all that drawing needs. */
@@ -88,8 +88,4 @@ export function nearPart(
   if (start > end) return null;
   const way = minus(to, from);
   return [plus(from, times(way, start)), plus(from, times(way, end))];
-}
-
-export function lengthMm(a: Vec3, b: Vec3): number {
-  return lengthOf(minus(a, b));
 }

@@ -10,7 +10,7 @@ export interface SliceState<Slice> {
   problem: unknown;
 }
 
-export type LoadSlice<Slice> = (key: string) => Promise<Slice>;
+type LoadSlice<Slice> = (key: string) => Promise<Slice>;
 
 /** Cache of loaded slices; evicts the least recently used. */
 export class SliceRepository<Slice> {

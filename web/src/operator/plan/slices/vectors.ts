@@ -8,7 +8,6 @@ export const times = (a: Vec3, by: number): Vec3 => [a[0] * by, a[1] * by, a[2] 
 export const dot = (a: Vec3, b: Vec3): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 export const lengthOf = (a: Vec3): number => Math.hypot(...a);
 export const unit = (a: Vec3): Vec3 => times(a, 1 / lengthOf(a));
-export const between = (a: Vec3, b: Vec3, ratio: number): Vec3 => plus(a, times(minus(b, a), ratio));
 
 export const cross = (a: Vec3, b: Vec3): Vec3 => [
   a[1] * b[2] - a[2] * b[1],

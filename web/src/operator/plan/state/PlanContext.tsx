@@ -7,7 +7,7 @@ import { vertebraeOf, type PlanAnswer, type Side, type Vertebra } from "./shape"
 import { lastStep, read, withChange, withoutLast, type Step } from "./undo";
 import { usePlan } from "./usePlan";
 
-export interface By {
+interface By {
   made_by: string;
   expected_version: number;
 }

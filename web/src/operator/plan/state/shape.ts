@@ -56,7 +56,7 @@ export interface SliceLine {
   ends_lps_mm: [Vec3, Vec3];
 }
 
-export interface Reference {
+interface Reference {
   slice_index: number;
   apart_mm: number;
   lines: SliceLine[];

@@ -6,7 +6,7 @@ import type { PlanAnswer } from "./shape";
 
 const ASK_EVERY_MS = 3000;
 
-export interface PlanQuery {
+interface PlanQuery {
   plan: PlanAnswer | null;
   /** Why the plan cannot be shown; null if there is none yet. */
   rejection: Rejection | null;

@@ -13,8 +13,8 @@ export interface Overlay {
   fade_ratio: number;
 }
 
-export const MIN_SCALE = 0.05;
-export const MAX_SCALE = 100;
+const MIN_SCALE = 0.05;
+const MAX_SCALE = 100;
 
 export function translateOverlay(overlay: Overlay, by: Px): Overlay {
   const [x, y] = placeOf(overlay);

@@ -1,4 +1,4 @@
-"""The data collection that is active in a step: one at a time, until it is stored or discarded."""
+"""Base of the steps that collect from live images, one collection at a time."""
 
 import threading
 from collections.abc import Callable
@@ -17,48 +17,49 @@ class Stoppable(Protocol):
 Collection = TypeVar("Collection", bound=Stoppable)
 
 
-class ActiveCollection(Generic[Collection]):
-    """The collection that a step works on, if there is one. Thread-safe.
+class CollectingStep(Generic[Collection]):
+    """A step with at most one active collection, until it is stored or discarded. Thread-safe.
 
     Args:
-        what: Subject and verb of the error message if there is none, such as "sweep is".
+        what: Subject and verb of the error message if there is no collection, such as "sweep is".
         remedy: How to start a collection, one sentence.
     """
 
     def __init__(self, what: str, *, remedy: str) -> None:
         self._what = what
         self._remedy = remedy
-        self._lock = threading.Lock()
+        self._collection_lock = threading.Lock()
         self._collection: Collection | None = None
 
-    def begin(self, make: Callable[[], Collection]) -> Collection:
+    def _start(self, make: Callable[[], Collection]) -> Collection:
         """Stop and discard the active collection, then start a new one."""
-        with self._lock:
+        with self._collection_lock:
             if self._collection is not None:
                 self._collection.stop()
             self._collection = make()
             return self._collection
 
-    def get(self) -> Collection:
-        """Return the active collection.
+    @property
+    def collection(self) -> Collection:
+        """The active collection.
 
         Raises:
             SetupOrderError: COLLECTION_MISSING.
         """
-        with self._lock:
+        with self._collection_lock:
             if self._collection is None:
                 raise SetupOrderError("COLLECTION_MISSING", f"no {self._what} in progress", self._remedy)
             return self._collection
 
     @property
-    def is_active(self) -> bool:
+    def is_collecting(self) -> bool:
         """Whether there is an active collection."""
-        with self._lock:
+        with self._collection_lock:
             return self._collection is not None
 
     def end(self) -> None:
         """Stop the active collection and discard its data."""
-        with self._lock:
+        with self._collection_lock:
             if self._collection is not None:
                 self._collection.stop()
             self._collection = None
