@@ -10,15 +10,6 @@ from playwright.sync_api import Error as PlaywrightError
 
 from tests.browser.theatre import CHECKOUT, PATIENCE_MS, Theatre, WatchedPage
 
-# It waits minutes for the motions of a whole procedure.
-LONGEST = "test_three_people.py"
-
-
-@pytest.hookimpl(trylast=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Begin the browser tests with the longest file, so that no worker waits for it at the end."""
-    items.sort(key=lambda item: (item.get_closest_marker("browser") is not None, item.path.name != LONGEST))
-
 
 @pytest.fixture(scope="session")
 def playhouse() -> Iterator[Theatre]:
