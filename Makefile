@@ -119,8 +119,8 @@ types-python: $(STAMPS)/dev
 types-page: $(STAMPS)/page-packages
 	@$(NPM) run --silent types
 
-# The static checks of the gate, in two parts that may run in parallel. Those of the page run one after the other,
-# because each generates the schema's types.
+# The static checks of the gate, in two parts that run in parallel. Those of the page run one after the other, because
+# two at once could both generate the schema's types.
 .PHONY: judged-python judged-page
 judged-python:
 	@$(MAKE) lint-python

@@ -14,5 +14,15 @@ export default defineConfig({
       ]),
     ),
   },
-  test: { environment: "node", include: ["src/**/*.test.ts", "src/**/*.test.tsx"] },
+  test: {
+    environment: "node",
+    include: ["src/**/*.test.ts", "src/**/*.test.tsx"],
+    setupFiles: "src/testLocation.ts",
+    // Test files share one copy of the modules, because importing React and Mantine for each took four fifths of the
+    // time. So a module under test keeps no state, and a file that replaces a global restores it.
+    pool: "threads",
+    isolate: false,
+    // Only for a test that hangs, because other programs may delay a test.
+    testTimeout: 60_000,
+  },
 });

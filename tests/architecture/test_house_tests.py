@@ -44,9 +44,13 @@ def test_each_file_of_tests_is_run_once(tmp_path: Path) -> None:
     code, called = run(tmp_path)
     assert code == 0
     first, *others, alone, judged = called
-    assert len(others) == 2
-    scenes = next(requested for requested in others if "-m browser" not in requested)
-    browser = next(requested for requested in others if "-m browser" in requested)
+    (scenes,) = (requested for requested in others if "-m browser" not in requested)
+    ageless, browser = (requested for requested in others if "-m browser" in requested)
+    in_parallel = {word for word in ageless.split() if word.endswith(".py")}
+    assert all((ROOT / file).is_file() for file in in_parallel)
+    assert in_parallel | {ALONE} == {
+        word.removeprefix("--ignore=") for word in browser.split() if "--ignore=" in word
+    }
     # The first part runs everything except browser tests and its exclusions.
     assert "-m not browser" in first
     left_out = {word.removeprefix("--ignore=") for word in first.split() if word.startswith("--ignore=")}
@@ -61,12 +65,19 @@ def test_each_file_of_tests_is_run_once(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "fails",
-    ["not browser", "pytest-scenes.xml", "pytest-browser.xml", "pytest-alone.xml", "some-test-passed"],
+    [
+        "not browser",
+        "pytest-scenes.xml",
+        "pytest-ageless.xml",
+        "pytest-browser.xml",
+        "pytest-alone.xml",
+        "some-test-passed",
+    ],
 )
 def test_the_run_fails_with_any_of_its_parts(tmp_path: Path, fails: str) -> None:
     code, called = run(tmp_path, fails=fails)
     assert code != 0
-    assert len(called) == (5 if fails == "some-test-passed" else 4)
+    assert len(called) == (6 if fails == "some-test-passed" else 5)
 
 
 def test_what_is_narrowed_runs_in_two_parts_of_which_one_may_be_empty(tmp_path: Path) -> None:

@@ -42,6 +42,9 @@ PAGES = [
     ("s1", "supervisor"),
     *(("o1", f"operator{step}") for step in STEPS),
 ]
+# These show nothing live beside the frame of all pages of the operator, so that the order of answers and live
+# messages does not matter to them.
+WITHOUT_LIVE = {f"operator/{step}" for step in ("case", "plan", "report", "people")}
 
 # None of this is true of the server, so it may never appear.
 FALSE = [
@@ -87,7 +90,7 @@ RECORDER = f"""(() => {{
     }}).observe(document, {{ subtree: true, childList: true, characterData: true, attributes: true }});
 }})()"""
 # Loading may take this long on a busy machine; a silent server counts as lost after 0.8 s.
-LOADS_FOR_MS = 4000
+LOADS_FOR_MS = 2000
 REACHED_WITHIN_MS = 10_000
 # The longest delay before a reconnect.
 NEXT_LINE_AFTER_MS = 500
@@ -109,12 +112,13 @@ class Loading:
         self.page.route_web_socket(re.compile(r"/ws/(view|live|room)"), self._line)
         self.page.clock.install(time=0)
 
-    def go(self, path: str) -> None:
+    def go(self, address: str, path: str) -> None:
         """Load the page with its clock stopped."""
-        self.page.goto(path)
-        # The views are separate files, which are not held back.
-        for view in sorted((CHECKOUT / "web" / "dist" / "assets").glob("*View-*.js")):
-            self.page.evaluate("name => import(name)", f"/assets/{view.name}")
+        self.page.goto(f"{address}/{path}")
+        # Most views are separate files, which are not held back.
+        view = path.split("/", maxsplit=1)[0].capitalize()
+        for file in (CHECKOUT / "web" / "dist" / "assets").glob(f"{view}View-*.js"):
+            self.page.evaluate("name => import(name)", f"/assets/{file.name}")
         self.page.clock.pause_at(600_000)
 
     def release(self, *kinds: str) -> None:
@@ -188,7 +192,7 @@ def begun(watch: Watch, server: Supervised, person: str, path: str, *, rejects: 
     address = f"http://127.0.0.1:{server.port}"
     watched.page.context.add_cookies([{"name": "person", "value": person, "url": address}])
     loading = Loading(watched, rejects=rejects)
-    loading.go(f"{address}/{path}")
+    loading.go(address, path)
     return loading
 
 
@@ -217,8 +221,15 @@ def is_true(page: Page, path: str, within_ms: float) -> None:
     expect(bands).to_have_count(0, timeout=within_ms)
 
 
-@pytest.mark.parametrize("first", ["rest", "live"])
-@pytest.mark.parametrize(("person", "path"), PAGES)
+@pytest.mark.parametrize(
+    ("person", "path", "first"),
+    [
+        (person, path, first)
+        for person, path in PAGES
+        for first in ("rest", "live")
+        if first == "rest" or path not in WITHOUT_LIVE
+    ],
+)
 def test_nothing_false_is_seen_while_a_page_loads(
     supervised: Supervised, watch: Watch, person: str, path: str, first: str
 ) -> None:

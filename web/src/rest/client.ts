@@ -4,10 +4,7 @@ import type { components, paths } from "../schema";
 
 export type Problem = components["schemas"]["ProblemMessage"];
 
-// Tests of pure parts run without a browser.
-const baseUrl = typeof location === "undefined" ? "" : location.origin;
-
-export const server = createClient<paths>({ baseUrl, cache: "no-store" });
+export const server = createClient<paths>({ baseUrl: location.origin, cache: "no-store" });
 
 const gone = new EventTarget();
 const GONE = "session-gone";

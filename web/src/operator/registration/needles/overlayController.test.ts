@@ -3,11 +3,6 @@ import { Rejection } from "../../../rest/client";
 import { applyMatrix, translateOverlay, placeOf, type Overlay } from "./overlay";
 import { OverlayController, type OverlayDrawing } from "./overlayController";
 
-// Before any import, since the API client reads the page's origin.
-vi.hoisted(() => {
-  vi.stubGlobal("location", { origin: "http://127.0.0.1" });
-});
-
 const RULER: Overlay = { shift_px: [640, 360], rotation_deg: 0, scale_px_per_mm: 3, fade_ratio: 0.5 };
 
 function laid(overlay: Overlay): OverlayDrawing {
