@@ -16,6 +16,7 @@ NavigationError
 import math
 
 from server.security.person import Person, Role
+from server.texts import reason_of_error, requested_language
 from tracker.errors import NavigationError
 
 SIGN_IN = "Sign in with the link that the server printed at its start, or ask the operator for an invitation."
@@ -222,10 +223,13 @@ def status_of(rejection: NavigationError) -> int:
 
 
 def body_of(rejection: NavigationError) -> dict[str, object]:
-    """Return an error in the common shape of all errors."""
+    """Return an error in the common shape of all errors, in the language of the request."""
+    language = requested_language()
+    why = reason_of_error(rejection)
     return {
         "code": rejection.code,
-        "message": rejection.message,
-        "remedy": rejection.remedy,
+        "message": why.message[language],
+        "remedy": why.remedy[language],
         "context": rejection.context,
+        "language": why.language(language),
     }

@@ -250,21 +250,22 @@ class CaseStore:
             OutOfDateError: DOCUMENT_MISSING, DOCUMENT_OUT_OF_DATE.
         """
         document = self.latest(case_id, kind, name)
-        validity = (
-            OutOfDate(reason=f"there is no {kind.value} '{name}'")
-            if document is None
-            else self.validity(document)
-        )
-        if document is not None and not isinstance(validity, OutOfDate):
-            return document
-        reason = validity.reason if isinstance(validity, OutOfDate) else ""
-        missing = document is None
-        raise OutOfDateError(
-            "DOCUMENT_MISSING" if missing else "DOCUMENT_OUT_OF_DATE",
-            reason if missing else f"{kind.value} '{name}' is out of date: {reason}",
-            f"Create the {kind.value} first." if missing else f"Create the {kind.value} again.",
-            {"kind": kind.value, "name": name},
-        )
+        if document is None:
+            raise OutOfDateError(
+                "DOCUMENT_MISSING",
+                f"there is no {kind.value} '{name}'",
+                f"Create the {kind.value} first.",
+                {"kind": kind.value, "name": name},
+            )
+        validity = self.validity(document)
+        if isinstance(validity, OutOfDate):
+            raise OutOfDateError(
+                "DOCUMENT_OUT_OF_DATE",
+                f"{kind.value} '{name}' is out of date: {validity.reason}",
+                f"Create the {kind.value} again.",
+                {"kind": kind.value, "name": name, "reason": validity.why.message},
+            )
+        return document
 
     def withdraw(self, document: Heading, *, by: str, reason: str) -> Document:
         """Mark a document as withdrawn; withdrawing it again has no effect."""

@@ -20,7 +20,15 @@ from server.stream.alarm_messages import AlarmsMessage, alarms_message
 from server.stream.assessment_messages import HeadlineMessage, TextMessage, headline_message, text_message
 from server.stream.message import Message as Message  # noqa: PLC0414  the doors take it from here
 from server.stream.snapshot_messages import SnapshotMessage, snapshot_message
-from server.texts import PREDICTED_VIDEO, flicker_note, headline_of
+from server.texts import (
+    PREDICTED_VIDEO,
+    Language,
+    error_reason,
+    flicker_note,
+    headline_of,
+    requested_language,
+)
+from tracker.errors import NavigationError
 
 
 class ProblemMessage(Message):
@@ -30,6 +38,8 @@ class ProblemMessage(Message):
     message: str
     remedy: str
     context: dict[str, object]
+    language: Language = "en"
+    """Language of message and remedy: as requested by `Accept-Language`; English without a translation."""
 
 
 class CameraModeMessage(Message):
@@ -174,8 +184,17 @@ def process_message(process: ProcessStatus) -> ProcessMessage:
 
 def problem_message(problem: Problem | None) -> ProblemMessage | None:
     """Return the message of a problem; None without one."""
-    if problem is None:
-        return None
+    return None if problem is None else translated_problem(problem)
+
+
+def translated_problem(problem: Problem | NavigationError) -> ProblemMessage:
+    """Return the message of a problem or error in the language of the request."""
+    language = requested_language()
+    why = error_reason(problem.code, problem.message, problem.remedy, problem.context)
     return ProblemMessage(
-        code=problem.code, message=problem.message, remedy=problem.remedy, context=problem.context
+        code=problem.code,
+        message=why.message[language],
+        remedy=why.remedy[language],
+        context=problem.context,
+        language=why.language(language),
     )

@@ -2,7 +2,7 @@
 
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 from server.errors import SetupOrderError
@@ -21,6 +21,7 @@ from server.procedure.state.cosignatures import (
 from server.security import LOCAL_USER, Person, Role
 from server.security.audit import note
 from server.store import CaseStore, Current, Document, DocumentKind, ImportRecord, Validity
+from server.texts import NO_TEXT, WITHDRAWALS, Text
 from tracker.errors import NavigationError
 
 Requirement: TypeAlias = Literal["required", "offered"]
@@ -78,7 +79,7 @@ class Signable:
     claimed_maker: str = ""
     imported: ImportRecord | None = None
     sha256: str = ""
-    out_of_date: str = ""
+    out_of_date: Text = field(default_factory=lambda: NO_TEXT)
     signatures: tuple[Signature, ...] = ()
     is_cosigned: bool = False
     was_signed: bool = False
@@ -187,7 +188,7 @@ class SignatureService:
                 f"this was signed by {document.made_by}, not by {person.name}",
                 "Ask the signer or the operator to withdraw it.",
             )
-        self._store.withdraw(document, by=person.name, reason="the signature was withdrawn")
+        self._store.withdraw(document, by=person.name, reason=WITHDRAWALS["SIGNATURE_WITHDRAWN"]["en"])
         return self.overview()
 
     def _reject(self, what: CosignTarget, document: Document, document_id: str, person: Person) -> None:
@@ -259,5 +260,5 @@ class SignatureService:
         return False
 
 
-def _out_of_date_reason(validity: Validity) -> str:
-    return "" if isinstance(validity, Current) else validity.reason
+def _out_of_date_reason(validity: Validity) -> Text:
+    return NO_TEXT if isinstance(validity, Current) else validity.why.message
