@@ -77,7 +77,13 @@ test("what a hand did is undone as a whole, and so is the way back to the ruler"
 });
 
 test("a rejection keeps the server's last answer and ends the requests", async () => {
-  const rejection = new Rejection({ code: "NO_PICTURE", message: "no", remedy: "Wait.", context: {} });
+  const rejection = new Rejection({
+    code: "NO_PICTURE",
+    message: "no",
+    remedy: "Wait.",
+    context: {},
+    language: "en",
+  } as const);
   let count = 0;
   const controller = new OverlayController((overlay) => {
     count += 1;
