@@ -240,6 +240,7 @@ class ToolStep:
                     "TOOL_TIP_MISSING",
                     f"the tip of '{tool}' is no longer available",
                     "Calibrate the tip by pivoting first.",
+                    {"tool": tool},
                 )
             whole = record.model_copy(update={"spin": spin_part(outcome)})
         else:

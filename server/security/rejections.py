@@ -52,7 +52,12 @@ class RoleRejected(NavigationError):
             "ROLE_REJECTED",
             f"this requires the role {may}, but {person.name} is signed in as {person.role.value}",
             "Ask a person with this role to do it, or to invite you with this role.",
-            {"role": person.role.value, "allowed": sorted(role.value for role in roles)},
+            {
+                "role": person.role.value,
+                "allowed": sorted(role.value for role in roles),
+                "may": may,
+                "person": person.name,
+            },
         )
 
 
@@ -94,7 +99,7 @@ class MethodUnknown(NavigationError):
             "METHOD_NOT_ALLOWED",
             f"{path[:200]} does not support {method}",
             "See /api/docs for all addresses.",
-            {"path": path[:200]},
+            {"path": path[:200], "method": method},
         )
 
 
@@ -172,7 +177,7 @@ class TooManyTries(NavigationError):
             f"this link was used for {count} sign-ins within {minutes} min; the next is possible in "
             f"{left} min",
             "Stay signed in, or ask the operator for another link.",
-            {"wait_s": wait_s, "sign_ins": count, "within_s": within_s},
+            {"wait_s": wait_s, "sign_ins": count, "within_s": within_s, "minutes": minutes, "left_min": left},
         )
 
 

@@ -187,6 +187,7 @@ class SignatureService:
                 "SIGNATURE_NOT_YOURS",
                 f"this was signed by {document.made_by}, not by {person.name}",
                 "Ask the signer or the operator to withdraw it.",
+                {"signer": document.made_by, "person": person.name},
             )
         self._store.withdraw(document, by=person.name, reason=WITHDRAWALS["SIGNATURE_WITHDRAWN"]["en"])
         return self.overview()
@@ -197,7 +198,12 @@ class SignatureService:
                 "SIGNED_VERSION_OLD",
                 f"the {what.value} has changed since it was displayed; it is now {document.title}",
                 "Review the newest version, then sign it.",
-                {"newest_id": document.id, "requested_id": document_id},
+                {
+                    "newest_id": document.id,
+                    "requested_id": document_id,
+                    "kind": what.value,
+                    "title": document.title_text,
+                },
             )
         if person.id != LOCAL_USER.id and may_have_made(person.name, document):
             taken_in = "" if document.imported is None else f" and imported by {document.imported.by}"

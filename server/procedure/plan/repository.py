@@ -109,7 +109,7 @@ class PlanRepository:
                 "PLAN_OUT_OF_DATE",
                 f"the plan is out of date: {validity.reason}",
                 "Review the plan on this CT and store it again completely, or store an empty plan.",
-                {"version": document.version},
+                {"version": document.version, "reason": validity.why.message},
             )
         return plan_from_mapping(document.content), document.version, ct
 

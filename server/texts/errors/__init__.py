@@ -15,10 +15,13 @@ from server.texts.steps import KINDS, METHODS, STEPS
 from tracker.errors import NavigationError
 
 # Values that are codes, and the words for them.
+_NONE: Mapping[str, Text] = {"none": {"en": "none", "de": "keine"}}
 WORDS: Mapping[str, Mapping[str, Text]] = {
     "kind": KINDS,
+    "landmarks": _NONE,
     "method": METHODS,
     "step": STEPS,
+    "tools": _NONE,
     "waits_for": STEPS,
 }
 
