@@ -42,6 +42,15 @@ class ProblemMessage(Message):
     """Language of message and remedy: as requested by `Accept-Language`; English without a translation."""
 
 
+class LiveProblemMessage(Message):
+    """A present fault in every language, in the messages that all viewers share."""
+
+    code: str
+    message: TextMessage
+    remedy: TextMessage
+    context: dict[str, object]
+
+
 class CameraModeMessage(Message):
     """Pixel format, size and rate of a camera."""
 
@@ -80,7 +89,7 @@ class SourceMessage(Message):
 
     name: str
     state: SourceState
-    problem: ProblemMessage | None
+    problem: LiveProblemMessage | None
     images: int
     skipped_images: int
     rate_hz: float
@@ -93,7 +102,7 @@ class ProcessMessage(Message):
 
     state: ProcessState
     restarts: int
-    problem: ProblemMessage | None
+    problem: LiveProblemMessage | None
 
 
 class LiveMessage(Message):
@@ -135,7 +144,7 @@ def source_message(source: SourceStatus) -> SourceMessage:
     return SourceMessage(
         name=source.name,
         state=source.state,
-        problem=problem_message(source.problem),
+        problem=_live_problem_message(source.problem),
         images=source.images,
         skipped_images=source.skipped_images,
         rate_hz=source.rate_hz,
@@ -178,7 +187,19 @@ def _mode_message(mode: CameraMode | None) -> CameraModeMessage | None:
 def process_message(process: ProcessStatus) -> ProcessMessage:
     """Return the message of the tracking process."""
     return ProcessMessage(
-        state=process.state, restarts=process.restarts, problem=problem_message(process.problem)
+        state=process.state, restarts=process.restarts, problem=_live_problem_message(process.problem)
+    )
+
+
+def _live_problem_message(problem: Problem | None) -> LiveProblemMessage | None:
+    if problem is None:
+        return None
+    why = error_reason(problem.code, problem.message, problem.remedy, problem.context)
+    return LiveProblemMessage(
+        code=problem.code,
+        message=text_message(why.message),
+        remedy=text_message(why.remedy),
+        context=problem.context,
     )
 
 

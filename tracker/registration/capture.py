@@ -219,7 +219,13 @@ def _reject_unseen(samples: Sequence[TipSample | UnseenSample], rate: CaptureRat
             f"the tip was known in {seen} of {len(samples)} images{_at(rate)} and not in {len(reasons)} "
             f"({reason}), needed in all",
             "Turn the markers to the camera, do not cover them, and touch the landmark again.",
-            {"seen": seen, "images": len(samples), "unseen": len(reasons), "reason": reason, "rate_hz": _hz(rate)},
+            {
+                "seen": seen,
+                "images": len(samples),
+                "unseen": len(reasons),
+                "reason": reason,
+                "rate_hz": _hz(rate),
+            },
         )
 
 

@@ -86,7 +86,7 @@ class ProcedureState:
             return
         raise reason_error(
             SetupOrderError,
-            _waits("WAITS_FOR_COSIGNATURE", missing_cosignature.reason),
+            _waits(missing_cosignature.reason, "WAITS_FOR_COSIGNATURE"),
             code=f"{step.name}_NOT_COSIGNED",
             context={"step": StepName.NAVIGATE.value, "waits_for": step.value},
         )
@@ -172,11 +172,11 @@ def _navigation(
     confirmation: ConfirmationPrompt | None,
 ) -> Finding:
     if blocking is None and unsigned is not None:
-        return Finding(state=StepState.MISSING, reason=_waits("WAITS_FOR_COSIGNATURE", unsigned.reason))
+        return Finding(state=StepState.MISSING, reason=_waits(unsigned.reason, "WAITS_FOR_COSIGNATURE"))
     if blocking is None and confirmation is not None:
         return Finding(
             state=StepState.MISSING,
-            reason=_waits("WAITS_FOR_CONFIRMATION", confirmation.reason),
+            reason=_waits(confirmation.reason, "WAITS_FOR_CONFIRMATION"),
             document_id=confirmation.registration.id,
         )
     if blocking is None:
@@ -187,10 +187,10 @@ def _navigation(
 
 def _waits_for(step: StepName, blocking: StepName, why: Reason) -> Reason:
     steps = {"step": STEPS[step.value], "waits_for": STEPS[blocking.value]}
-    return _waits("WAITS_FOR_STEP", why, steps)
+    return _waits(why, "WAITS_FOR_STEP", steps)
 
 
-def _waits(code: str, why: Reason, steps: Mapping[str, Value] | None = None) -> Reason:
+def _waits(why: Reason, code: str, steps: Mapping[str, Value] | None = None) -> Reason:
     """Return the reason of a step that waits for what another reason states."""
     waits = reason(code, {"reason": why.message, **(steps or {})}, remedy=why.remedy)
     return replace(waits, is_translated=why.is_translated)
