@@ -14,9 +14,9 @@ steps.py        reasons of the steps of the procedure and of documents that are 
 errors/         translations of errors by code, a module an area, and of their remedies
 
 A message that all viewers share (headline, alarms, problems of camera and tracking) has all languages; an
-answer to a request has the language of the request. A value is formatted by the template of each language with the
-same format, so that its digits are the same. Texts that a person typed, names of devices and what another
-program reported are not translated.
+answer to a request has the language of the request. A value is formatted by the template of each language
+with the same format, so that its digits are the same. Texts that a person typed, names of devices and what
+another program reported are not translated.
 
 An error is raised in English. To translate one, add its template to the module of its area and its remedy to
 `errors/remedies.py`, and give the error its values by name in `context`. Errors without German stay English;
