@@ -23,6 +23,7 @@ from server.api.gates import gates_router
 from server.api.guide import guide_folder, is_guide, mount_guide
 from server.api.health import health_router
 from server.api.jobs import jobs_router
+from server.api.language import LanguageMiddleware
 from server.api.latency import latency_router
 from server.api.live import live_router
 from server.api.markers import markers_router
@@ -225,6 +226,7 @@ def _add_guards(app: FastAPI, parts: AppParts) -> None:
     app.add_middleware(HostGuard, hosts=KnownHosts.of(server.host))
     app.add_middleware(SecurityHeaders)
     app.add_middleware(BodyDrainMiddleware)
+    app.add_middleware(LanguageMiddleware)
 
 
 def _add_people(app: FastAPI, parts: AppParts) -> None:

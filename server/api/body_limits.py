@@ -154,5 +154,10 @@ class _Body:
                 "BODY_TOO_LARGE",
                 f"the request has at least {size:.0f} kB, the maximum is {allowed:g} kB",
                 "Send less data per request; send files to the upload addresses.",
-                {"size_bytes": size_bytes, "allowed_bytes": self._max_bytes},
+                {
+                    "size_bytes": size_bytes,
+                    "allowed_bytes": self._max_bytes,
+                    "size_kb": size,
+                    "allowed_kb": allowed,
+                },
             )

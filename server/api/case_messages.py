@@ -19,6 +19,7 @@ from server.store import (
     Withdrawal,
 )
 from server.stream.messages import Message
+from server.texts import requested_language
 
 Words = Annotated[str, Field(min_length=1, max_length=1000)]
 
@@ -177,7 +178,7 @@ def heading_message(heading: Heading, validity: Validity) -> HeadingMessage:
         files=list(heading.files),
         withdrawn=_withdrawal_message(heading.withdrawn),
         current=isinstance(validity, Current),
-        out_of_date=None if isinstance(validity, Current) else validity.reason,
+        out_of_date=None if isinstance(validity, Current) else validity.why.message[requested_language()],
     )
 
 

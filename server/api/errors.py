@@ -14,7 +14,7 @@ from server.jobs import JobUnknown
 from server.security import rejections as door
 from server.store import NotFound, OutOfDateError, StoreConflict, StoreError
 from server.stream.errors import CameraUnknown, TooManyViewers
-from server.stream.messages import ProblemMessage
+from server.stream.messages import ProblemMessage, translated_problem
 from server.stream.scaling.sizes import ChoiceUnknown
 from tracker.errors import CalibrationError, InvalidInput, NavigationError, PlanError, RegistrationError
 
@@ -119,9 +119,7 @@ def _answer(status: int, problem: ProblemMessage, headers: dict[str, str] | None
 async def _navigation(_request: Request, error: Exception) -> JSONResponse:
     if not isinstance(error, NavigationError):
         raise error
-    problem = ProblemMessage(
-        code=error.code, message=error.message, remedy=error.remedy, context=error.context
-    )
+    problem = translated_problem(error)
     status = status_of(error)
     headers = {
         TIMEOUT: {"Connection": "close"},

@@ -49,6 +49,7 @@ def add_markups(router: APIRouter, step: PlanStep, home: Home) -> None:
                 "PLAN_EMPTY",
                 f"the plan has {len(stored.plan.vertebrae)} vertebrae, but no landmark and no channel",
                 "Set landmarks or place a channel first.",
+                {"vertebrae": len(stored.plan.vertebrae)},
             )
         return Response(
             markups_to_bytes(markups),

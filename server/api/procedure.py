@@ -16,6 +16,7 @@ from server.recording.service import RecordingService
 from server.security.person import person_of
 from server.setup import ConfirmationReason
 from server.stream.messages import Message
+from server.texts import Language, requested_language
 
 
 class MissingSignatureMessage(Message):
@@ -31,10 +32,14 @@ class StepMessage(Message):
     step: StepName
     state: StepState
     """missing, out_of_date, failed, due (valid, but to be repeated), done."""
-    message: str
+    code: str
     """The reason."""
+    message: str
+    """The reason as a sentence without its full stop."""
     remedy: str
     """What to do; empty if nothing."""
+    language: Language
+    """Language of message and remedy: as requested by `Accept-Language`; English without a translation."""
     numbers: dict[str, float | int | bool | str | None]
     """Values compared with its limits."""
     document_id: str | None
@@ -125,7 +130,8 @@ def procedure_router(
 def procedure_message(
     state: ProcedureState, recording: RecordingStateMessage | None, setup_check: SetupCheck | None
 ) -> ProcedureMessage:
-    """Return the message of the procedure."""
+    """Return the message of the procedure in the language of the request."""
+    language = requested_language()
     return ProcedureMessage(
         case_id=state.case_id or None,
         case_name=state.case_name or None,
@@ -133,15 +139,18 @@ def procedure_message(
             StepMessage(
                 step=one.step,
                 state=one.finding.state,
-                message=one.finding.message,
-                remedy=one.finding.remedy,
+                code=one.finding.reason.code,
+                message=one.finding.reason.message[language],
+                remedy=one.finding.reason.remedy[language],
+                language=one.finding.reason.language(language),
                 numbers=dict(one.finding.numbers),
                 document_id=one.finding.document_id or None,
                 allowed=one.allowed,
                 missing_cosignature=None
                 if one.missing_cosignature is None
                 else MissingSignatureMessage(
-                    message=one.missing_cosignature.message, remedy=one.missing_cosignature.remedy
+                    message=one.missing_cosignature.reason.message[language],
+                    remedy=one.missing_cosignature.reason.remedy[language],
                 ),
             )
             for one in state.steps
@@ -155,11 +164,12 @@ def procedure_message(
 
 
 def confirmation_message(needed: ConfirmationPrompt) -> ConfirmationMessage:
-    """Return the message of a required confirmation."""
+    """Return the message of a required confirmation in the language of the request."""
+    language = requested_language()
     return ConfirmationMessage(
         because=needed.because,
-        message=needed.message,
-        remedy=needed.remedy,
+        message=needed.reason.message[language],
+        remedy=needed.reason.remedy[language],
         registration_id=needed.registration.id,
         vertebra=needed.vertebra,
         registered_at=needed.registration.made_at,

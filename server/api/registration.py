@@ -26,7 +26,6 @@ from server.api.registration_messages import (
 )
 from server.api.requester import MadeByQuery
 from server.config import RegistrationConfig
-from server.live import Problem
 from server.procedure.registration import (
     CheckStep,
     NudgeStep,
@@ -35,8 +34,7 @@ from server.procedure.registration import (
     RegistrationSteps,
 )
 from server.store import Current
-from server.stream.messages import ProblemMessage
-from tracker.errors import RegistrationError
+from server.stream.messages import translated_problem
 from tracker.registration.nudge import Nudge
 
 STORE_ERRORS = rejections(409, 422, 503, 507)
@@ -162,8 +160,4 @@ def _add_nudges(router: APIRouter, step: NudgeStep) -> None:
 
 def _points(step: PointsStep) -> PointsMessage:
     status = step.collection.status
-    return points_message(status, [_problem_message(error) for error in step.failures(status)], step.gate)
-
-
-def _problem_message(error: RegistrationError) -> ProblemMessage:
-    return ProblemMessage.model_validate(Problem.from_error(error), from_attributes=True)
+    return points_message(status, [translated_problem(error) for error in step.failures(status)], step.gate)

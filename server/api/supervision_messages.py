@@ -13,6 +13,7 @@ from server.supervision.marks import Drawing, Pointer, Shape
 from server.supervision.participants import ConnectionState, Participant, RoomSession, View
 from server.supervision.room_updates import DrawingExtension, RoomUpdate
 from server.supervision.signatures import Requirement, Signable
+from server.texts import requested_language
 
 Coordinate = Annotated[float, Field(ge=-1.0, le=8192.0, allow_inf_nan=False)]
 PixelMessage = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
@@ -235,7 +236,7 @@ def signable_message(signable: Signable, your_id: str) -> SignableMessage:
         made_at=signable.made_at,
         imported=imported_message(signable.imported, claimed_maker=signable.claimed_maker),
         sha256=signable.sha256,
-        out_of_date=signable.out_of_date,
+        out_of_date=signable.out_of_date[requested_language()],
         signatures=[
             SignatureMessage(
                 id=one.id,

@@ -52,7 +52,7 @@ async def _write(request: Request, path: Path, home: Home, *, max_bytes: int) ->
                 "UPLOAD_CUT",
                 f"the connection ended after {taken_bytes / 2**20:.1f} MB",
                 "Send it again; the received part was discarded.",
-                {"taken_bytes": taken_bytes},
+                {"taken_bytes": taken_bytes, "taken_mb": taken_bytes / 2**20},
             ) from None
         finally:
             await to_thread.run_sync(stream.close)
@@ -73,5 +73,10 @@ def _reject_above(size_bytes: int, max_bytes: int) -> None:
             "UPLOAD_TOO_LARGE",
             f"the file has {size_bytes / 2**20:.1f} MB or more, the maximum is {max_bytes / 2**20:g} MB",
             "Send a smaller file.",
-            {"size_bytes": size_bytes, "allowed_bytes": max_bytes},
+            {
+                "size_bytes": size_bytes,
+                "allowed_bytes": max_bytes,
+                "size_mb": size_bytes / 2**20,
+                "max_mb": max_bytes / 2**20,
+            },
         )

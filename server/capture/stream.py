@@ -102,7 +102,7 @@ class StreamSource:
                 "STREAM_WITHOUT_VIDEO",
                 f"the stream {self.name} is reachable, but sent no video within {OPEN_TIMEOUT_MS / 1000:g} s",
                 "Check path, user and password of the stream; it is retried automatically.",
-                {"stream": self.name, "timeout_ms": OPEN_TIMEOUT_MS},
+                {"stream": self.name, "timeout_ms": OPEN_TIMEOUT_MS, "timeout_s": OPEN_TIMEOUT_MS / 1000},
             )
         images = float(stream.get(cv2.CAP_PROP_FRAME_COUNT))
         self._is_file = math.isfinite(images) and images > 0
@@ -227,7 +227,7 @@ class StreamSource:
             "STREAM_STOPPED",
             f"the stream {self.name} stopped: no image within {READ_TIMEOUT_MS / 1000:g} s, or closed",
             "Check the camera, its power and the network; it is retried automatically.",
-            {"stream": self.name, "timeout_ms": READ_TIMEOUT_MS},
+            {"stream": self.name, "timeout_ms": READ_TIMEOUT_MS, "timeout_s": READ_TIMEOUT_MS / 1000},
         )
 
     def _check_reachable(self) -> None:

@@ -213,7 +213,7 @@ def _check_archive(members: list[zipfile.ZipInfo]) -> None:
             "CT_ARCHIVE_TOO_LARGE",
             f"the zip would unpack to {size / 2**30:.1f} GiB, the maximum is {MAX_BYTES / 2**30:.0f} GiB",
             "Give a zip that contains only this series.",
-            {"bytes": size, "max_bytes": MAX_BYTES},
+            {"bytes": size, "max_bytes": MAX_BYTES, "size_gib": size / 2**30, "max_gib": MAX_BYTES / 2**30},
         )
 
 

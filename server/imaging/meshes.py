@@ -79,7 +79,7 @@ def mesh_from_bytes(
             "MESH_TOO_LARGE",
             f"the mesh has {faces.shape[0]} triangles, the maximum is {MAX_FACES}",
             "Export it with fewer triangles; 60000 are enough for a vertebra.",
-            {"faces": int(faces.shape[0])},
+            {"faces": int(faces.shape[0]), "max_faces": MAX_FACES},
         )
     return surface_from_mesh(mesh.vertices, faces, unit=unit, space=space or stated or Space.LPS)
 
@@ -112,7 +112,7 @@ def _reject_large(size: int) -> None:
             "MESH_TOO_LARGE",
             f"the mesh has {size / 2**20:.0f} MB, the maximum is {MAX_BYTES / 2**20:.0f} MB",
             "Export it with fewer triangles, or as binary STL or PLY.",
-            {"bytes": size},
+            {"bytes": size, "size_mb": size / 2**20, "max_mb": MAX_BYTES / 2**20},
         )
 
 

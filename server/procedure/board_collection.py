@@ -221,7 +221,14 @@ class BoardCollection:
                 "IMAGE_SIZE_CHANGED",
                 f"the image size changed from {before[0]}x{before[1]} px to {width}x{height} px",
                 "Set the camera to its working size, and start again.",
-                {"size_wh_px": [width, height], "before_wh_px": list(before)},
+                {
+                    "size_wh_px": [width, height],
+                    "before_wh_px": list(before),
+                    "before_width_px": before[0],
+                    "before_height_px": before[1],
+                    "width_px": width,
+                    "height_px": height,
+                },
             )
         return self._collector
 

@@ -234,7 +234,7 @@ def camera_from_document(document: Document, *, source: str) -> CameraFile:
             "CAMERA_DIFFERS",
             f"{document.title} was calibrated for '{made_for}', but images come from '{source}'",
             "Calibrate this camera, or start with the calibrated one.",
-            {"calibrated": made_for, "source": source},
+            {"calibrated": made_for, "source": source, "title": document.title_text},
         )
     report = document.content.get("report")
     return CameraFile(

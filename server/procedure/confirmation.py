@@ -17,20 +17,7 @@ from server.procedure.documents import parse_document
 from server.procedure.registration_record import CheckRecord, RegistrationRecord
 from server.setup import ConfirmationReason, confirmation_reason
 from server.store import Document
-from tracker.registration import AnchoredTo
-
-MESSAGES = {
-    ConfirmationReason.SERVER_STARTED: "the server was restarted, and nobody has confirmed yet "
-    "that patient, marker and camera have not moved",
-    ConfirmationReason.TRACKING_STARTED: "tracking was restarted, and a move of the camera "
-    "meanwhile was not detected",
-}
-REMEDY = {
-    AnchoredTo.REFERENCE: "Verify that this is the patient and that the marker on the bone is untouched. "
-    "Then confirm, or check on a landmark.",
-    AnchoredTo.CAMERA: "Verify in the video that the planned channel is still on the bone. Then "
-    "confirm, or check on a landmark.",
-}
+from server.texts import CONFIRM, Reason, reason
 
 
 class ConfirmationRecord(Section):
@@ -50,16 +37,14 @@ class ConfirmationPrompt:
 
     Attributes:
         because: why it is needed.
-        message: the same as a sentence without its full stop.
-        remedy: what to verify, one or two sentences.
+        reason: the same in words, and what to verify.
         vertebra: the registered vertebra.
         registration: document of the registration.
         reference: the reference marker that it is anchored to; empty if it is anchored to the camera.
     """
 
     because: ConfirmationReason
-    message: str
-    remedy: str
+    reason: Reason
     vertebra: str
     registration: Document
     reference: str
@@ -119,8 +104,7 @@ def confirmation_prompt(
         return None
     return ConfirmationPrompt(
         because=because,
-        message=MESSAGES[because],
-        remedy=REMEDY[registration.anchored_to],
+        reason=reason(because.name, remedy=CONFIRM[registration.anchored_to.value]),
         vertebra=registration.vertebra,
         registration=document,
         reference=registration.reference,

@@ -80,5 +80,5 @@ def _reject_another(needed: ConfirmationPrompt, registration_id: str) -> None:
             "CONFIRMATION_OUT_OF_DATE",
             f"the displayed registration is no longer in use; {needed.registration.title} is in use now",
             LOOK_AGAIN,
-            {"registration_id": needed.registration.id},
+            {"registration_id": needed.registration.id, "title": needed.registration.title_text},
         )

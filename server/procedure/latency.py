@@ -142,7 +142,14 @@ class LatencyMeasurement:
                     f"the image size changed from {self._size_wh_px[0]}x{self._size_wh_px[1]} px to "
                     f"{snapshot.size_wh_px[0]}x{snapshot.size_wh_px[1]} px",
                     "Set the camera to its working size, and measure again.",
-                    {"size_wh_px": list(snapshot.size_wh_px), "before_wh_px": list(self._size_wh_px)},
+                    {
+                        "size_wh_px": list(snapshot.size_wh_px),
+                        "before_wh_px": list(self._size_wh_px),
+                        "before_width_px": self._size_wh_px[0],
+                        "before_height_px": self._size_wh_px[1],
+                        "width_px": snapshot.size_wh_px[0],
+                        "height_px": snapshot.size_wh_px[1],
+                    },
                 )
             self._size_wh_px = snapshot.size_wh_px
             self._read.setdefault(one.image_number, one)

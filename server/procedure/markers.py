@@ -20,6 +20,7 @@ from server.marker_file import load_marker_image, marker_image
 from server.procedure.documents import parse_document
 from server.procedure.open_case import require_open_case
 from server.store import CaseStore, Document, DocumentKind, NotFound
+from server.texts import WITHDRAWALS
 from tracker.errors import InvalidInput, NavigationError
 from tracker.marker import MarkerModel, reject_mirror_symmetric, reject_similar
 
@@ -145,7 +146,7 @@ class MarkerStep:
         # Also a marker whose image is unreadable.
         document = self._store.latest(case.id, DocumentKind.MARKER, name) or self.one(name).document
         if document is not None:
-            self._store.withdraw(document, by=by, reason="the marker was removed")
+            self._store.withdraw(document, by=by, reason=WITHDRAWALS["MARKER_REMOVED"]["en"])
 
     def _model_of(self, document: Document) -> MarkerModel:
         record = parse_document(

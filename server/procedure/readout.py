@@ -103,6 +103,7 @@ class ReadoutStep(CollectingStep[ReadoutCollection]):
                 "COLLECTION_UNREADY",
                 f"{status.read_images} images of the burst have been processed so far",
                 "Move the board until all images are taken and processed.",
+                {"images": status.read_images},
             )
         camera = camera_from_document(self._calibration(case), source=self._source).model
         _reject_other_size(collection.size_wh_px, camera)

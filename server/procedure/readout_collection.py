@@ -140,7 +140,11 @@ class ReadoutCollection:
                         f"after {len(self._images)} images the next one came {at_s - last_s:.1f} s later, "
                         f"limit {MAX_PAUSE_S:.1f} s, or with another size",
                         "Wait until the video runs smoothly, and start again.",
-                        {"images": len(self._images), "pause_s": round(at_s - last_s, 2)},
+                        {
+                            "images": len(self._images),
+                            "pause_s": round(at_s - last_s, 2),
+                            "max_pause_s": MAX_PAUSE_S,
+                        },
                     )
             self._images.append((at_s, grey.copy()))
             self._size_wh_px = (grey.shape[1], grey.shape[0])

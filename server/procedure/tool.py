@@ -222,6 +222,7 @@ class ToolStep(CollectingStep[ToolCollection]):
                     "TOOL_TIP_MISSING",
                     f"the tip of '{tool}' is no longer available",
                     "Calibrate the tip by pivoting first.",
+                    {"tool": tool},
                 )
             whole = record.model_copy(update={"spin": spin_part(outcome)})
         else:

@@ -116,7 +116,10 @@ class RecordingReview:
         image = unpacked(packed)
         if image is None:
             raise RecordingError(
-                "RECORDING_DAMAGED", f"image {number} of {name} cannot be decoded", "Open another image."
+                "RECORDING_DAMAGED",
+                f"image {number} of {name} cannot be decoded",
+                "Open another image.",
+                {"number": number, "name": name},
             )
         return encode_jpeg(image, JPEG_QUALITY)
 
@@ -136,13 +139,14 @@ class RecordingReview:
                 "RECORDING_NOT_INDEXED",
                 f"{name} is not indexed yet",
                 "Load its timeline, and wait until it is ready.",
+                {"name": name},
             )
         if not 0 <= number < len(index):
             raise NotFound(
                 "RECORDED_IMAGE_UNKNOWN",
                 f"{name} has {len(index)} images, but no image {number}",
                 "Give a number from 0 to the number of images minus 1.",
-                {"images": len(index)},
+                {"images": len(index), "name": name, "number": number},
             )
         return self._recordings.path(name), index
 

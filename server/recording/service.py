@@ -324,7 +324,7 @@ class RecordingService:
                 f"{free_bytes / 1e9:.2f} GB are free on the disk of the cases, and "
                 f"{min_free_gb:g} GB must stay free (recording.min_free_gb)",
                 "Free disk space first.",
-                {"free_bytes": free_bytes},
+                {"free_bytes": free_bytes, "free_gb": free_bytes / 1000000000.0, "min_free_gb": min_free_gb},
             )
 
     def protect(self, name: str, *, is_protected: bool) -> None:
@@ -377,6 +377,7 @@ class RecordingService:
                     "RECORDING_UNKNOWN",
                     f"{recording.name} was deleted meanwhile",
                     "Load the list of recordings again.",
+                    {"name": recording.name},
                 )
             folder = exports_folder(recording)
             folder.mkdir(mode=PRIVATE, exist_ok=True)

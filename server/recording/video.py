@@ -103,7 +103,10 @@ def write_video(
     index = stored_index(recording) or make_index(recording)
     if not len(index):
         raise RecordingError(
-            "RECORDING_EMPTY", f"{recording.name} has no image", "Choose a recording with images."
+            "RECORDING_EMPTY",
+            f"{recording.name} has no image",
+            "Choose a recording with images.",
+            {"name": recording.name},
         )
     pictures = _Pictures(recording, index, language)
     images = gaps = 0

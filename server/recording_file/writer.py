@@ -203,7 +203,7 @@ class RecordingWriter:
                 f"{free_bytes / 1e9:.2f} GB are free on the disk of the cases, and "
                 f"{self._limits.min_free_bytes / 1e9:.2f} GB must stay free (recording.min_free_gb)",
                 "Free disk space, then start the recording again. Navigation continues.",
-                {"free_bytes": free_bytes},
+                {"free_bytes": free_bytes, "free_gb": free_bytes / 1000000000.0},
             )
 
 

@@ -127,4 +127,5 @@ def _not_audited(problem: NavigationError) -> dict[str, object]:
         "message": f"the action was done, but is not in the audit log yet: {problem.message}",
         "remedy": "Do not repeat it. Free space on the server's disk; the entry is then written.",
         "context": problem.context,
+        "language": "en",
     }

@@ -106,6 +106,7 @@ def _unknown_host(host: str) -> dict[str, object]:
         "message": f"this server does not accept the host name '{host[:80]}'",
         "remedy": "Open it by its address or its own name, or set server.host to this name.",
         "context": {"host": host[:80]},
+        "language": "en",
     }
 
 
@@ -116,6 +117,7 @@ def _cross_origin(origin: str | None, host: str) -> dict[str, object]:
         "message": f"a page from '{shown}' may not do this at '{host[:80]}'",
         "remedy": "Open the dashboard of this server itself, at its own address.",
         "context": {"origin": shown, "host": host[:80]},
+        "language": "en",
     }
 
 

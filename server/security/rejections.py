@@ -16,6 +16,7 @@ NavigationError
 import math
 
 from server.security.person import Person, Role
+from server.texts import reason_of_error, requested_language
 from tracker.errors import NavigationError
 
 SIGN_IN = "Sign in with the link that the server printed at its start, or ask the operator for an invitation."
@@ -51,7 +52,12 @@ class RoleRejected(NavigationError):
             "ROLE_REJECTED",
             f"this requires the role {may}, but {person.name} is signed in as {person.role.value}",
             "Ask a person with this role to do it, or to invite you with this role.",
-            {"role": person.role.value, "allowed": sorted(role.value for role in roles)},
+            {
+                "role": person.role.value,
+                "allowed": sorted(role.value for role in roles),
+                "may": may,
+                "person": person.name,
+            },
         )
 
 
@@ -93,7 +99,7 @@ class MethodUnknown(NavigationError):
             "METHOD_NOT_ALLOWED",
             f"{path[:200]} does not support {method}",
             "See /api/docs for all addresses.",
-            {"path": path[:200]},
+            {"path": path[:200], "method": method},
         )
 
 
@@ -171,7 +177,7 @@ class TooManyTries(NavigationError):
             f"this link was used for {count} sign-ins within {minutes} min; the next is possible in "
             f"{left} min",
             "Stay signed in, or ask the operator for another link.",
-            {"wait_s": wait_s, "sign_ins": count, "within_s": within_s},
+            {"wait_s": wait_s, "sign_ins": count, "within_s": within_s, "minutes": minutes, "left_min": left},
         )
 
 
@@ -222,10 +228,13 @@ def status_of(rejection: NavigationError) -> int:
 
 
 def body_of(rejection: NavigationError) -> dict[str, object]:
-    """Return an error in the common shape of all errors."""
+    """Return an error in the common shape of all errors, in the language of the request."""
+    language = requested_language()
+    why = reason_of_error(rejection)
     return {
         "code": rejection.code,
-        "message": rejection.message,
-        "remedy": rejection.remedy,
+        "message": why.message[language],
+        "remedy": why.remedy[language],
         "context": rejection.context,
+        "language": why.language(language),
     }

@@ -264,7 +264,7 @@ class CaseStore:
                 "DOCUMENT_OUT_OF_DATE",
                 f"{kind.value} '{name}' is out of date: {validity.reason}",
                 f"Create the {kind.value} again.",
-                {"kind": kind.value, "name": name},
+                {"kind": kind.value, "name": name, "reason": validity.why.message},
             )
         return document
 

@@ -220,7 +220,12 @@ def _next_version(session: Session, case_id: str, new: NewDocument) -> int:
             f"{new.kind.value} '{new.name}' is at version {found}, but the change was made on version "
             f"{new.expected_version}",
             "Load the newest version, and apply the change to it again.",
-            {"found_version": found, "expected_version": new.expected_version},
+            {
+                "found_version": found,
+                "expected_version": new.expected_version,
+                "kind": new.kind.value,
+                "name": new.name,
+            },
         )
     return found + 1
 

@@ -6,6 +6,8 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TypeAlias
 
+from server.texts import Reason, Text, document_title
+
 SAYS_ARCHIVE = ", says the archive"
 
 
@@ -125,8 +127,13 @@ class Heading:
 
     @property
     def title(self) -> str:
+        """Kind, name and version in English."""
+        return self.title_text["en"]
+
+    @property
+    def title_text(self) -> Text:
         """Kind, name and version, for display."""
-        return f"{self.kind.value} '{self.name}' version {self.version}"
+        return document_title(self.kind.value, self.name, self.version)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -171,10 +178,15 @@ class OutOfDate:
     """The document is no longer valid.
 
     Attributes:
-        reason: the reason, as a sentence without its full stop.
+        why: the reason.
     """
 
-    reason: str
+    why: Reason
+
+    @property
+    def reason(self) -> str:
+        """The reason in English, as a sentence without its full stop, for errors and logs."""
+        return self.why.message["en"]
 
 
 Validity: TypeAlias = Current | OutOfDate

@@ -9,6 +9,7 @@ from sqlalchemy.orm import Session
 from server.store.documents import IN_ORDER, imported_of, links_of, withdrawal_of
 from server.store.records import Current, DocumentKind, Heading, OutOfDate, Validity
 from server.store.tables import BasisRow, DocumentRow
+from server.texts import Text, Value, reason, withdrawal_text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -16,8 +17,9 @@ class _Fault:
     """Why a document is invalid: the nearest document in its lineage that was replaced or withdrawn."""
 
     steps: int
-    title: str
-    what: str
+    title: Text
+    code: str
+    values: Mapping[str, Value]
 
 
 class Lineage:
@@ -37,16 +39,17 @@ class Lineage:
         fault = self._faults.get(document_id)
         if fault is None:
             return Current()
-        way = "" if fault.steps == 0 else "it depends on "
-        return OutOfDate(reason=f"{way}{fault.title}{', which' if way else ''} {fault.what}")
+        code = fault.code if fault.steps == 0 else f"BASIS_{fault.code}"
+        return OutOfDate(why=reason(code, {"title": fault.title, **fault.values}))
 
     def _own_fault(self, heading: Heading) -> _Fault | None:
         if heading.withdrawn is not None:
-            what = f"was withdrawn by {heading.withdrawn.by}: {heading.withdrawn.reason}"
-            return _Fault(steps=0, title=heading.title, what=what)
+            why = withdrawal_text(heading.withdrawn.reason)
+            values: dict[str, Value] = {"by": heading.withdrawn.by, "why": why}
+            return _Fault(steps=0, title=heading.title_text, code="WITHDRAWN", values=values)
         newest = self._newest[heading.kind, heading.name]
         if newest > heading.version:
-            return _Fault(steps=0, title=heading.title, what=f"was replaced by version {newest}")
+            return _Fault(steps=0, title=heading.title_text, code="REPLACED", values={"version": newest})
         return None
 
     def _inherited_fault(self, heading: Heading) -> _Fault | None:

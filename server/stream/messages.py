@@ -20,7 +20,15 @@ from server.stream.alarm_messages import AlarmsMessage, alarms_message
 from server.stream.assessment_messages import HeadlineMessage, TextMessage, headline_message, text_message
 from server.stream.message import Message as Message  # noqa: PLC0414  the doors take it from here
 from server.stream.snapshot_messages import SnapshotMessage, snapshot_message
-from server.texts import PREDICTED_VIDEO, flicker_note, headline_of
+from server.texts import (
+    PREDICTED_VIDEO,
+    Language,
+    error_reason,
+    flicker_note,
+    headline_of,
+    requested_language,
+)
+from tracker.errors import NavigationError
 
 
 class ProblemMessage(Message):
@@ -29,6 +37,17 @@ class ProblemMessage(Message):
     code: str
     message: str
     remedy: str
+    context: dict[str, object]
+    language: Language = "en"
+    """Language of message and remedy: as requested by `Accept-Language`; English without a translation."""
+
+
+class LiveProblemMessage(Message):
+    """A present fault in every language, in the messages that all viewers share."""
+
+    code: str
+    message: TextMessage
+    remedy: TextMessage
     context: dict[str, object]
 
 
@@ -70,7 +89,7 @@ class SourceMessage(Message):
 
     name: str
     state: SourceState
-    problem: ProblemMessage | None
+    problem: LiveProblemMessage | None
     images: int
     skipped_images: int
     rate_hz: float
@@ -83,7 +102,7 @@ class ProcessMessage(Message):
 
     state: ProcessState
     restarts: int
-    problem: ProblemMessage | None
+    problem: LiveProblemMessage | None
 
 
 class LiveMessage(Message):
@@ -125,7 +144,7 @@ def source_message(source: SourceStatus) -> SourceMessage:
     return SourceMessage(
         name=source.name,
         state=source.state,
-        problem=problem_message(source.problem),
+        problem=_live_problem_message(source.problem),
         images=source.images,
         skipped_images=source.skipped_images,
         rate_hz=source.rate_hz,
@@ -168,14 +187,35 @@ def _mode_message(mode: CameraMode | None) -> CameraModeMessage | None:
 def process_message(process: ProcessStatus) -> ProcessMessage:
     """Return the message of the tracking process."""
     return ProcessMessage(
-        state=process.state, restarts=process.restarts, problem=problem_message(process.problem)
+        state=process.state, restarts=process.restarts, problem=_live_problem_message(process.problem)
+    )
+
+
+def _live_problem_message(problem: Problem | None) -> LiveProblemMessage | None:
+    if problem is None:
+        return None
+    why = error_reason(problem.code, problem.message, problem.remedy, problem.context)
+    return LiveProblemMessage(
+        code=problem.code,
+        message=text_message(why.message),
+        remedy=text_message(why.remedy),
+        context=problem.context,
     )
 
 
 def problem_message(problem: Problem | None) -> ProblemMessage | None:
     """Return the message of a problem; None without one."""
-    if problem is None:
-        return None
+    return None if problem is None else translated_problem(problem)
+
+
+def translated_problem(problem: Problem | NavigationError) -> ProblemMessage:
+    """Return the message of a problem or error in the language of the request."""
+    language = requested_language()
+    why = error_reason(problem.code, problem.message, problem.remedy, problem.context)
     return ProblemMessage(
-        code=problem.code, message=problem.message, remedy=problem.remedy, context=problem.context
+        code=problem.code,
+        message=why.message[language],
+        remedy=why.remedy[language],
+        context=problem.context,
+        language=why.language(language),
     )

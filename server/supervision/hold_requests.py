@@ -71,7 +71,11 @@ class HoldRequests:
                     "HOLD_NOT_YOURS",
                     f"the hold was requested by {self._names()}, not by {person.name}",
                     "Ask this person or the operator to release it.",
-                    {"requested_by": [one.name for one in self._requests.values()]},
+                    {
+                        "requested_by": [one.name for one in self._requests.values()],
+                        "by": self._names(),
+                        "person": person.name,
+                    },
                 )
             others = {key: one for key, one in self._requests.items() if key != person.id and not is_operator}
             return self._changed(others, by=name or person.name)

@@ -2,7 +2,7 @@
 
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 from server.errors import SetupOrderError
@@ -21,6 +21,7 @@ from server.procedure.state.cosignatures import (
 from server.security import LOCAL_USER, Person, Role
 from server.security.audit import note
 from server.store import CaseStore, Current, Document, DocumentKind, ImportRecord, Validity
+from server.texts import NO_TEXT, WITHDRAWALS, Text
 from tracker.errors import NavigationError
 
 Requirement: TypeAlias = Literal["required", "offered"]
@@ -78,7 +79,7 @@ class Signable:
     claimed_maker: str = ""
     imported: ImportRecord | None = None
     sha256: str = ""
-    out_of_date: str = ""
+    out_of_date: Text = field(default_factory=lambda: NO_TEXT)
     signatures: tuple[Signature, ...] = ()
     is_cosigned: bool = False
     was_signed: bool = False
@@ -186,8 +187,9 @@ class SignatureService:
                 "SIGNATURE_NOT_YOURS",
                 f"this was signed by {document.made_by}, not by {person.name}",
                 "Ask the signer or the operator to withdraw it.",
+                {"signer": document.made_by, "person": person.name},
             )
-        self._store.withdraw(document, by=person.name, reason="the signature was withdrawn")
+        self._store.withdraw(document, by=person.name, reason=WITHDRAWALS["SIGNATURE_WITHDRAWN"]["en"])
         return self.overview()
 
     def _reject(self, what: CosignTarget, document: Document, document_id: str, person: Person) -> None:
@@ -196,7 +198,12 @@ class SignatureService:
                 "SIGNED_VERSION_OLD",
                 f"the {what.value} has changed since it was displayed; it is now {document.title}",
                 "Review the newest version, then sign it.",
-                {"newest_id": document.id, "requested_id": document_id},
+                {
+                    "newest_id": document.id,
+                    "requested_id": document_id,
+                    "kind": what.value,
+                    "title": document.title_text,
+                },
             )
         if person.id != LOCAL_USER.id and may_have_made(person.name, document):
             taken_in = "" if document.imported is None else f" and imported by {document.imported.by}"
@@ -259,5 +266,5 @@ class SignatureService:
         return False
 
 
-def _out_of_date_reason(validity: Validity) -> str:
-    return "" if isinstance(validity, Current) else validity.reason
+def _out_of_date_reason(validity: Validity) -> Text:
+    return NO_TEXT if isinstance(validity, Current) else validity.why.message

@@ -13,6 +13,7 @@ from server.errors import SetupOrderError
 from server.procedure.state import Finding, MissingCosignature, StepName, StepState, derive_state
 from server.security.audit import collect_changes
 from server.store import DocumentKind
+from server.texts import reason
 from tests.procedure.conftest import Server, serving
 from tests.procedure.patient import Patient, plan_content, ready, with_plan, withheld
 from tests.procedure.test_camera_step import open_a_case
@@ -262,25 +263,19 @@ def test_the_room_is_informed_of_a_signature_at_once(guarded: Callable[..., Serv
 
 
 def test_only_navigation_waits_for_a_signature() -> None:
-    done = Finding(state=StepState.DONE, message="done")
+    done = Finding(state=StepState.DONE, reason=reason("NAVIGATION_ALLOWED"))
     findings = dict.fromkeys(StepName, done)
     del findings[StepName.NAVIGATE]
-    lack = MissingCosignature(
-        message="plan 'main' version 3 is not signed by a second person", remedy="Sign it."
-    )
+    lack = MissingCosignature(reason=reason("NOT_COSIGNED", {"title": "plan 'main' version 3"}))
     state = derive_state("case", findings, missing_cosignature={StepName.PLAN: lack})
     assert [one.step for one in state.steps if not one.allowed] == [StepName.NAVIGATE]
     state.require_earlier_steps(StepName.CHECK)
     with pytest.raises(SetupOrderError) as caught:
         state.require_earlier_steps(StepName.NAVIGATE)
-    assert (caught.value.code, caught.value.remedy) == ("PLAN_NOT_COSIGNED", "Sign it.")
+    assert (caught.value.code, caught.value.remedy) == ("PLAN_NOT_COSIGNED", lack.reason.remedy["en"])
     missing = {
         **findings,
-        StepName.TOOL: Finding(state=StepState.MISSING, message="no tool", remedy="Pivot."),
+        StepName.TOOL: Finding(state=StepState.MISSING, reason=reason("NO_TOOL_CALIBRATED")),
     }
-    assert (
-        "no tool"
-        in derive_state("case", missing, missing_cosignature={StepName.PLAN: lack})
-        .status(StepName.NAVIGATE)
-        .finding.message
-    )
+    waiting = derive_state("case", missing, missing_cosignature={StepName.PLAN: lack})
+    assert "no tool" in waiting.status(StepName.NAVIGATE).finding.reason.message["en"]

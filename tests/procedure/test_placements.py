@@ -29,7 +29,7 @@ TARGET = {"left": np.array([8.0, -30.0, 3.0]), "right": np.array([-8.0, -30.0, 3
 
 def axis_of(side: str) -> np.ndarray:
     along = TARGET[side] - ENTRY[side]
-    return along / np.linalg.norm(along)
+    return np.asarray(along / np.linalg.norm(along))
 
 
 def drilled(depth_mm: float, *, side: str = "left") -> Seen:

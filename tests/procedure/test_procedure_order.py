@@ -11,6 +11,7 @@ from server.procedure.registration_record import CheckRecord, RegistrationRecord
 from server.procedure.state import Finding, StepName, StepState, derive_state, no_case
 from server.procedure.state.check_finding import check_finding
 from server.store import Document, DocumentKind
+from server.texts import as_is, reason
 from tests.procedure.conftest import Server
 from tests.procedure.patient import (
     DRILL,
@@ -36,8 +37,8 @@ Five: TypeAlias = tuple[StepState, StepState, StepState, StepState, StepState]
 
 def found(*five: StepState) -> dict[StepName, Finding]:
     return {
-        step: Finding(state=state, message=f"{step} is {state}", remedy="Do it.")
-        for step, state in zip(StepName, five, strict=False)
+        step: Finding(state=state, reason=reason("NOT_REGISTERED", {"vertebra": f"L{number}"}))
+        for number, (step, state) in enumerate(zip(StepName, five, strict=False))
     }
 
 
@@ -72,7 +73,7 @@ def test_a_step_waits_for_all_of_its_dependencies(five: Five, next_step: str, al
             state.require_earlier_steps(one.step)
         waits_for = StepName(str(caught.value.context["waits_for"]))
         assert ORDER.index(waits_for) < ORDER.index(one.step)
-        assert state.status(waits_for).finding.message in caught.value.message
+        assert state.status(waits_for).finding.reason.message["en"] in caught.value.message
         assert caught.value.remedy
         assert caught.value.code == f"{waits_for.name}_{state.status(waits_for).finding.state.name}"
 
@@ -158,11 +159,11 @@ def test_a_check_holds_for_its_time_and_its_run(
             content=stored.model_dump(mode="json"),
         )
     found = check_finding(
-        registration=registration, title="it", check=document, run=HERE, again_after_min=30, now=NOW
+        registration=registration, title=as_is("it"), check=document, run=HERE, again_after_min=30, now=NOW
     )
     assert found.state is state
-    assert found.message
-    assert bool(found.remedy) is (state is not DONE)
+    assert found.reason.message["de"]
+    assert bool(found.reason.remedy["de"]) is (state is not DONE)
 
 
 def nothing(server: Server) -> None:

@@ -77,7 +77,13 @@ def grey_of(image: npt.NDArray[np.uint8], *, size_wh_px: tuple[int, int]) -> Gre
             f"the image is {width}x{height} px, the camera was calibrated at "
             f"{size_wh_px[0]}x{size_wh_px[1]} px",
             "Set the camera to the size it was calibrated at, or calibrate it at this size.",
-            {"width_px": width, "height_px": height, "calibrated_wh_px": list(size_wh_px)},
+            {
+                "width_px": width,
+                "height_px": height,
+                "calibrated_wh_px": list(size_wh_px),
+                "calibrated_width_px": size_wh_px[0],
+                "calibrated_height_px": size_wh_px[1],
+            },
         )
     grey = np.ascontiguousarray(image) if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
     return np.asarray(grey, dtype=np.uint8)

@@ -219,7 +219,13 @@ def _reject_unseen(samples: Sequence[TipSample | UnseenSample], rate: CaptureRat
             f"the tip was known in {seen} of {len(samples)} images{_at(rate)} and not in {len(reasons)} "
             f"({reason}), needed in all",
             "Turn the markers to the camera, do not cover them, and touch the landmark again.",
-            {"seen": seen, "images": len(samples), "reason": reason, "rate_hz": _hz(rate)},
+            {
+                "seen": seen,
+                "images": len(samples),
+                "unseen": len(reasons),
+                "reason": reason,
+                "rate_hz": _hz(rate),
+            },
         )
 
 
@@ -251,7 +257,9 @@ def _reject_short(seen: Sequence[TipSample], rate: CaptureRate | None, settings:
         "images": len(seen),
         "lasted_s": lasted_s,
         "needed": settings.min_images,
+        "min_s": settings.min_s,
         "hold_s": hold_s,
+        "max_s": settings.max_s,
         "rate_hz": _hz(rate),
     }
     if rate is not None and hold_s > settings.max_s:
@@ -303,5 +311,10 @@ def _reject_moved(scatter: Array, off_mm: float, settings: CaptureSettings) -> N
             f"the tip moved: it spreads by {sd:.2f} mm (standard deviation, allowed {settings.max_sd_mm:g}) "
             f"and by {off_mm:.2f} mm at most (allowed {settings.max_off_mm:g})",
             "Rest the hand, hold the tip still on the landmark, and touch it again.",
-            {"spread_mm": sd, "max_off_mm": off_mm, "allowed_mm": settings.max_sd_mm},
+            {
+                "spread_mm": sd,
+                "max_off_mm": off_mm,
+                "allowed_mm": settings.max_sd_mm,
+                "allowed_off_mm": settings.max_off_mm,
+            },
         )

@@ -49,7 +49,14 @@ class LandmarkCheck:
                 f"on '{self.landmark}' the tip is displayed {self.distance_mm:.1f} mm off, allowed "
                 f"{self.max_mm:g} mm (left {left:+.1f}, back {back:+.1f}, head {head:+.1f} mm)",
                 "Touch it again; if the error remains, patient or reference has moved: register again.",
-                {"landmark": self.landmark, "distance_mm": self.distance_mm, "allowed_mm": self.max_mm},
+                {
+                    "landmark": self.landmark,
+                    "distance_mm": self.distance_mm,
+                    "allowed_mm": self.max_mm,
+                    "left_mm": left,
+                    "back_mm": back,
+                    "head_mm": head,
+                },
             ),
         )
 
@@ -87,7 +94,7 @@ def check_landmark(
                 f"'{landmark}' lies {apart:.1f} mm from '{name}', which was used for the registration; "
                 f"needed {MIN_APART_MM:g} mm",
                 "Check on another landmark: one that was used fits by construction.",
-                {"landmark": landmark, "used": name, "apart_mm": apart},
+                {"landmark": landmark, "used": name, "apart_mm": apart, "needed_mm": MIN_APART_MM},
             )
     back = registration.anchor_from_vertebra.inverse
     off = back.move_points(tip) - at

@@ -116,7 +116,12 @@ class NudgedRegistration:
                 f"from where it was made, allowed {self.limits.max_mm:g} mm and "
                 f"{self.limits.max_deg:g} deg",
                 "Undo nudges, or register again: an error of this size needs a new registration.",
-                {"shift_mm": shift_mm, "rotation_deg": rotation_deg},
+                {
+                    "shift_mm": shift_mm,
+                    "rotation_deg": rotation_deg,
+                    "max_mm": self.limits.max_mm,
+                    "max_deg": self.limits.max_deg,
+                },
             )
         return after
 

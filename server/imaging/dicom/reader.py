@@ -85,6 +85,6 @@ def _fill(voxels: Voxels, frames: list[Frame], stack: Stack, progress: Progress,
             f"{places} of {len(stack.slices)} positions have several slices with different pixels: the "
             "series contains more than one pass (phase, energy or kernel)",
             "Export one pass as a separate series, and give only that series.",
-            {"places": places, "slices": len(frames)},
+            {"places": places, "slices": len(frames), "positions": len(stack.slices)},
         )
     return beyond

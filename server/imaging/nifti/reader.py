@@ -126,5 +126,5 @@ def _check_missing(missing: int, voxels: int) -> None:
             "CT_VALUES_MISSING",
             f"{missing} of {voxels} voxels are NaN, the maximum is {MAX_NAN_RATIO:.0%}",
             CONVERT_AGAIN,
-            {"missing": missing, "voxels": voxels},
+            {"missing": missing, "voxels": voxels, "max_ratio": MAX_NAN_RATIO},
         )

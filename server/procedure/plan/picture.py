@@ -35,7 +35,7 @@ def reference_slice(vertebra: VertebraPlan, volume: Volume) -> Slice:
             "SLICE_OUTSIDE_CT",
             f"the reference slice is number {k}, the CT has {volume.shape_ijk[2]}",
             "Select the slice again on this CT.",
-            {"slice_index": k},
+            {"slice_index": k, "slices": volume.shape_ijk[2]},
         )
     hu, start = volume.hu[k], np.array([0.0, 0.0, float(k)])
     steps = volume.lps_from_ijk[:3, :2].copy()

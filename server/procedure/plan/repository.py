@@ -16,6 +16,7 @@ from server.procedure.plan.active_channel import (
     active_channel_from_document,
 )
 from server.store import CaseStore, Current, Document, DocumentKind, NewDocument, OutOfDateError, Validity
+from server.texts import WITHDRAWALS
 from tracker.errors import NavigationError, PlanError
 from tracker.plan import Channel, PlanDocument, plan_from_mapping, plan_to_mapping
 from tracker.plan.document import plain
@@ -108,7 +109,7 @@ class PlanRepository:
                 "PLAN_OUT_OF_DATE",
                 f"the plan is out of date: {validity.reason}",
                 "Review the plan on this CT and store it again completely, or store an empty plan.",
-                {"version": document.version},
+                {"version": document.version, "reason": validity.why.message},
             )
         return plan_from_mapping(document.content), document.version, ct
 
@@ -186,7 +187,7 @@ class PlanRepository:
         stored = self.latest()
         document = self._store.latest(stored.document.case_id, DocumentKind.PLAN, ACTIVE_CHANNEL)
         if document is not None:
-            self._store.withdraw(document, by=made_by, reason="the active channel was unset")
+            self._store.withdraw(document, by=made_by, reason=WITHDRAWALS["CHANNEL_UNSET"]["en"])
         return self.latest()
 
     def _active(self, case_id: str) -> ActiveChannel | None:

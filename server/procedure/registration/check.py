@@ -184,7 +184,11 @@ class CheckStep(CollectingStep[CheckSession]):
                 "REGISTRATION_CHANGED",
                 f"{session.stored.document.title} was checked, but the newest version is {document.version}",
                 "Check the newest registration.",
-                {"checked_version": session.stored.document.version, "version": document.version},
+                {
+                    "checked_version": session.stored.document.version,
+                    "version": document.version,
+                    "title": session.stored.document.title_text,
+                },
             )
         record = self._store.put(
             document.case_id,
@@ -207,7 +211,12 @@ def _not_captured(capture: CaptureStatus) -> RegistrationError:
         "CHECK_NOT_CAPTURED",
         f"the tip was seen in {capture.images} images{at_rate}, needed {capture.wanted}",
         f"Hold the tip still on the landmark{how_long} until it is captured.",
-        {"images": capture.images, "needed": capture.wanted, "rate_hz": capture.rate_hz},
+        {
+            "images": capture.images,
+            "needed": capture.wanted,
+            "rate_hz": capture.rate_hz,
+            "left_s": capture.left_s,
+        },
     )
 
 

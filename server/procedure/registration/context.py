@@ -132,11 +132,12 @@ class RegistrationContextFinder:
         newest = self._hub.newest
         known = {} if newest is None or newest.snapshot is None else newest.snapshot.setup.tools
         if newest is not None and newest.snapshot is not None and tool not in known:
+            tools = ", ".join(sorted(known)) or "none"
             raise InvalidInput(
                 "TOOL_UNKNOWN",
                 f"there is no tool '{tool}' in use",
-                f"Available tools: {', '.join(sorted(known)) or 'none'}. Calibrate tip and axis first.",
-                {"tool": tool},
+                f"Available tools: {tools}. Calibrate tip and axis first.",
+                {"tool": tool, "tools": tools},
             )
 
 
@@ -149,9 +150,10 @@ def landmark_named(landmarks: Sequence[Landmark], name: str) -> Landmark:
     for one in landmarks:
         if one.name == name:
             return one
+    names = ", ".join(one.name for one in landmarks) or "none"
     raise PlanError(
         "LANDMARK_UNKNOWN",
         f"the vertebra has no landmark '{name[:60]}'",
-        f"Existing landmarks: {', '.join(one.name for one in landmarks) or 'none'}. Set them in the plan.",
-        {"landmark": name[:60]},
+        f"Existing landmarks: {names}. Set them in the plan.",
+        {"landmark": name[:60], "landmarks": names},
     )

@@ -10,12 +10,13 @@ from server.procedure.live_listener import LiveListener
 from server.procedure.registration_record import check_name
 from server.procedure.state import Procedure
 from server.store import CaseStore, Document, DocumentKind
+from server.texts import WITHDRAWALS
 from tracker.errors import NavigationError
 from tracker.navigation import Absent, AbsentReason, NavigationSnapshot
 
 MOVED = {
-    AbsentReason.CAMERA_MOVED: "the camera has moved since the registration",
-    AbsentReason.REFERENCE_MOVED: "the marker on the patient has moved since the registration",
+    AbsentReason.CAMERA_MOVED: WITHDRAWALS["CAMERA_MOVED"]["en"],
+    AbsentReason.REFERENCE_MOVED: WITHDRAWALS["REFERENCE_MOVED"]["en"],
 }
 WITHDRAWN_BY = "Coaxial"
 MIN_PAUSE_S = 0.05

@@ -91,7 +91,7 @@ class PointsStep(CollectingStep[PointsSession]):
                 "LANDMARKS_TOO_FEW",
                 f"the plan has {there} landmarks on {context.vertebra.name}, the minimum is {needed}",
                 "Mark more landmarks on the CT in the plan, including one for the check.",
-                {"landmarks": there, "needed": needed},
+                {"landmarks": there, "needed": needed, "vertebra": context.vertebra.name},
             )
         return self._start(lambda: PointsSession(self._hub, context, self._captures, self._settings))
 

@@ -5,16 +5,15 @@ from datetime import UTC, datetime
 from server.procedure.registration_record import CheckRecord, RegistrationRecord, check_from_document
 from server.procedure.state.records import Finding, Number, StepState
 from server.store import Document
+from server.texts import Text, reason, reason_of_error
 from tracker.errors import NavigationError
 from tracker.registration import AnchoredTo
-
-CHECK = "Hold the tip on a landmark that was not used."
 
 
 def check_finding(
     *,
     registration: RegistrationRecord,
-    title: str,
+    title: Text,
     check: Document | None,
     run: str,
     again_after_min: float,
@@ -37,13 +36,11 @@ def check_finding(
     if check is None:
         if is_loose and registration.run != run:
             return _after_start(registration.vertebra, "")
-        return Finding(
-            state=StepState.MISSING, message=f"{title} has not been checked on a landmark", remedy=CHECK
-        )
+        return Finding(state=StepState.MISSING, reason=reason("NOT_CHECKED", {"title": title}))
     try:
         record = check_from_document(check)
     except NavigationError as error:
-        return Finding(state=StepState.MISSING, message=error.message, remedy=error.remedy)
+        return Finding(state=StepState.MISSING, reason=reason_of_error(error))
     if record.passed and is_loose and record.run != run:
         return _after_start(registration.vertebra, check.id)
     return _of(record, check, again_after_min=again_after_min, minutes=minutes_since(check.made_at, now))
@@ -57,27 +54,21 @@ def _of(record: CheckRecord, check: Document, *, again_after_min: float, minutes
         "landmark": record.landmark,
         "age_min": minutes,
     }
-    text = f"the tip on {record.landmark} was {record.distance_mm:.2f} mm from the planned landmark, limit "
-    text += f"{record.max_mm:.2f} mm"
     if not record.passed:
-        state, remedy = StepState.FAILED, "Check again, nudge the registration, or register again."
+        state, code = StepState.FAILED, "CHECK_FAILED"
     # A negative age means that the clock was set back; the age is then unknown.
     elif not 0.0 <= minutes < again_after_min:
-        state, remedy = StepState.DUE, CHECK
-        text = (
-            f"the check on {record.landmark} is {minutes:.0f} min old, required every {again_after_min:g} min"
-        )
+        state, code = StepState.DUE, "CHECK_DUE"
     else:
-        state, remedy = StepState.DONE, ""
-    return Finding(state=state, message=text, remedy=remedy, numbers=numbers, document_id=check.id)
+        state, code = StepState.DONE, "CHECK_PASSED"
+    why = reason(code, {**numbers, "again_after_min": again_after_min})
+    return Finding(state=state, reason=why, numbers=numbers, document_id=check.id)
 
 
 def _after_start(vertebra: str, document_id: str) -> Finding:
     return Finding(
         state=StepState.OUT_OF_DATE,
-        message=f"the server was restarted after {vertebra} was registered to the camera; a move of the "
-        "camera meanwhile was not detected",
-        remedy=CHECK,
+        reason=reason("UNCHECKED_SINCE_RESTART", {"vertebra": vertebra}),
         document_id=document_id,
     )
 

@@ -14,6 +14,7 @@ from server.config import CosignConfig, Section
 from server.procedure.documents import parse_document
 from server.procedure.state.records import VALID_STATES, Finding, MissingCosignature, StepName
 from server.store import CaseStore, Document, DocumentKind
+from server.texts import reason
 from tracker.errors import NavigationError
 
 
@@ -22,9 +23,6 @@ class CosignTarget(StrEnum):
 
     PLAN = "plan"
     REGISTRATION = "registration"
-
-
-REMEDY = "Have a second person review and sign it on the supervisor's page."
 
 
 class SignatureRecord(Section):
@@ -112,6 +110,6 @@ def missing_cosignatures(
         document = store.document(case_id, finding.document_id)
         if not is_cosigned(store, document):
             missing_cosignature[step] = MissingCosignature(
-                message=f"{document.title} is not signed by a second person", remedy=REMEDY
+                reason=reason("NOT_COSIGNED", {"title": document.title_text})
             )
     return missing_cosignature

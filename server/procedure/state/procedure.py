@@ -23,26 +23,16 @@ from server.procedure.registration_record import (
     check_name,
     registration_from_document,
 )
-from server.procedure.state.check_finding import CHECK, check_finding, minutes_since
+from server.procedure.state.check_finding import check_finding, minutes_since
 from server.procedure.state.cosignatures import missing_cosignatures
 from server.procedure.state.procedure_state import ProcedureState, derive_state, no_case
 from server.procedure.state.records import Finding, StepName, StepState
 from server.procedure.tool import tool_from_document
 from server.store import CaseStore, Current, Document, DocumentKind
+from server.texts import METHODS, Reason, reason, reason_of_error, withdrawal_text
 from tracker.errors import NavigationError
 from tracker.plan import plan_from_mapping
 from tracker.plan.document.changes import vertebra_named
-
-NOT_DONE = {
-    DocumentKind.CAMERA: "the camera is not calibrated",
-    DocumentKind.TOOL: "the tool '{name}' is not calibrated",
-    DocumentKind.PLAN: "nothing is planned",
-    DocumentKind.REGISTRATION: "{name} is not registered",
-}
-CALIBRATE = "Calibrate the camera with views of the board."
-PIVOT = "Calibrate the tool by pivoting it."
-CHOOSE = "Select the channel to be drilled in the plan."
-REGISTER = "Register by touching the landmarks of the plan."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -165,10 +155,12 @@ class Procedure:
             return None
 
     def _camera(self, case_id: str) -> Finding:
-        found = self._found(case_id, DocumentKind.CAMERA, MAIN_CAMERA, remedy=CALIBRATE)
+        found = self._found(
+            case_id, DocumentKind.CAMERA, MAIN_CAMERA, missing=reason("CAMERA_NOT_CALIBRATED")
+        )
         if isinstance(found, Finding):
             if found.state is StepState.MISSING and self._defaults.has_camera:
-                return Finding(state=StepState.DONE, message="the camera calibration is in the settings")
+                return Finding(state=StepState.DONE, reason=reason("CAMERA_IN_SETTINGS"))
             return found
         try:
             camera_from_document(found, source=self._defaults.source)
@@ -179,26 +171,27 @@ class Procedure:
         accuracy = self._store.find_current(case_id, DocumentKind.CHECK, ACCURACY)
         numbers = {"rms_px": rms_px}
         if accuracy is None:
-            return _done(found, "the camera is calibrated", numbers)
-        maximum, error_mm = accuracy.content.get("limit_mm"), accuracy.content.get("maximum_error_mm")
-        numbers = {**numbers, "maximum_error_mm": _number(error_mm), "limit_mm": _number(maximum)}
+            return _done(found, reason("CAMERA_CALIBRATED"), numbers)
+        maximum = _number(accuracy.content.get("limit_mm"))
+        error_mm = _number(accuracy.content.get("maximum_error_mm"))
+        numbers = {**numbers, "maximum_error_mm": error_mm, "limit_mm": maximum}
         if accuracy.content.get("passed") is True:
-            return _done(found, "the camera is calibrated and its accuracy checked", numbers)
+            return _done(found, reason("CAMERA_CHECKED"), numbers)
         return Finding(
             state=StepState.FAILED,
-            message=f"the error of a known distance is {error_mm} mm, limit {maximum} mm",
-            remedy="Check the accuracy again on a flat board, or calibrate the camera again.",
+            reason=reason("CAMERA_INACCURATE", {"error_mm": error_mm, "limit_mm": maximum}),
             numbers=numbers,
             document_id=accuracy.id,
         )
 
     def _tool(self, case_id: str) -> Finding:
         known = dict.fromkeys(self._defaults.tools)
+        no_tool = reason("NO_TOOL_CALIBRATED")
         lost: list[Finding] = []
         documents = self._store.all(case_id, DocumentKind.TOOL)
         numbers: dict[str, float | None] = {}
         for document in documents:
-            found = self._found(case_id, DocumentKind.TOOL, document.name, remedy=PIVOT)
+            found = self._found(case_id, DocumentKind.TOOL, document.name, missing=no_tool)
             if isinstance(found, Finding):
                 lost.append(found)
                 continue
@@ -213,48 +206,33 @@ class Procedure:
             known[found.name] = None
             numbers[f"{found.name}_rms_3d_mm"] = record.pivot.rms_3d_mm
         if known:
-            return Finding(
-                state=StepState.DONE, message=f"calibrated: {', '.join(sorted(known))}", numbers=numbers
-            )
-        return (
-            lost[0]
-            if lost
-            else Finding(state=StepState.MISSING, message="no tool is calibrated", remedy=PIVOT)
-        )
+            tools = reason("TOOLS_CALIBRATED", {"tools": ", ".join(sorted(known))})
+            return Finding(state=StepState.DONE, reason=tools, numbers=numbers)
+        return lost[0] if lost else Finding(state=StepState.MISSING, reason=no_tool)
 
     def _plan(self, case_id: str) -> Finding:
-        found = self._found(
-            case_id,
-            DocumentKind.PLAN,
-            MAIN_PLAN,
-            remedy="Upload the CT, and add a vertebra to the plan.",
-        )
+        found = self._found(case_id, DocumentKind.PLAN, MAIN_PLAN, missing=reason("NOT_PLANNED"))
         if isinstance(found, Finding):
             return found
         vertebra = self.active_vertebra(case_id)
         if vertebra is None:
             return Finding(
                 state=StepState.MISSING,
-                message="no channel is selected for drilling",
-                remedy=CHOOSE,
+                reason=reason("NO_CHANNEL_SELECTED"),
                 document_id=found.id,
             )
         try:
             planned = vertebra_named(plan_from_mapping(found.content), vertebra)
         except NavigationError as error:
             return _unusable(found, error)
-        return _done(
-            found, f"a channel of {vertebra} is to be drilled", {"landmarks": len(planned.landmarks)}
-        )
+        selected = reason("CHANNEL_SELECTED", {"vertebra": vertebra})
+        return _done(found, selected, {"landmarks": len(planned.landmarks)})
 
     def _registration(self, case_id: str, vertebra: str | None) -> Finding:
         if vertebra is None:
-            return Finding(
-                state=StepState.MISSING,
-                message="the vertebra to be drilled is not known",
-                remedy=CHOOSE,
-            )
-        found = self._found(case_id, DocumentKind.REGISTRATION, vertebra, remedy=REGISTER)
+            return Finding(state=StepState.MISSING, reason=reason("VERTEBRA_UNKNOWN"))
+        missing = reason("NOT_REGISTERED", {"vertebra": vertebra})
+        found = self._found(case_id, DocumentKind.REGISTRATION, vertebra, missing=missing)
         if isinstance(found, Finding):
             return found
         try:
@@ -267,7 +245,8 @@ class Procedure:
             "age_min": minutes_since(found.made_at, self._clock()),
             **record.numbers,
         }
-        return _done(found, f"{vertebra} is registered by {record.method.value}", numbers)
+        done = reason("REGISTERED", {"vertebra": vertebra, "method": METHODS[record.method.value]})
+        return _done(found, done, numbers)
 
     def _check(self, case_id: str, vertebra: str | None) -> Finding:
         registration = (
@@ -276,9 +255,7 @@ class Procedure:
             else self._store.find_current(case_id, DocumentKind.REGISTRATION, vertebra)
         )
         if vertebra is None or registration is None:
-            return Finding(
-                state=StepState.MISSING, message="there is no registration to check", remedy=REGISTER
-            )
+            return Finding(state=StepState.MISSING, reason=reason("NOTHING_TO_CHECK"))
         try:
             record = registration_from_document(registration, reference=self._defaults.reference)
         except NavigationError as error:
@@ -288,47 +265,47 @@ class Procedure:
         if withdrawn is not None and registration.id in history[-1].depends_on:
             return Finding(
                 state=StepState.OUT_OF_DATE,
-                message=f"the check was withdrawn by {withdrawn.by}: {withdrawn.reason}",
-                remedy=CHECK,
+                reason=reason(
+                    "CHECK_WITHDRAWN", {"by": withdrawn.by, "why": withdrawal_text(withdrawn.reason)}
+                ),
                 document_id=history[-1].id,
             )
         return check_finding(
             registration=record,
-            title=registration.title,
+            title=registration.title_text,
             check=self._store.find_current(case_id, DocumentKind.CHECK, check_name(vertebra)),
             run=self.run,
             again_after_min=self._gate.check_again_after_min,
             now=self._clock(),
         )
 
-    def _found(self, case_id: str, kind: DocumentKind, name: str, *, remedy: str) -> Document | Finding:
-        """Return the newest document if it is valid, otherwise the finding with the reason."""
+    def _found(self, case_id: str, kind: DocumentKind, name: str, *, missing: Reason) -> Document | Finding:
+        """Return the newest document if it is valid, otherwise the finding with the reason.
+
+        `missing` is the reason where there is none; its remedy also makes a new version of one out of date.
+        """
         history = self._store.history(case_id, kind, name)
         if not history:
-            return Finding(state=StepState.MISSING, message=NOT_DONE[kind].format(name=name), remedy=remedy)
+            return Finding(state=StepState.MISSING, reason=missing)
         validity = self._store.validity(history[-1])
         if isinstance(validity, Current):
             return history[-1]
-        return Finding(
-            state=StepState.OUT_OF_DATE, message=validity.reason, remedy=remedy, document_id=history[-1].id
-        )
+        why = replace(validity.why, remedy=missing.remedy)
+        return Finding(state=StepState.OUT_OF_DATE, reason=why, document_id=history[-1].id)
 
 
-def _done(document: Document, message: str, numbers: dict[str, float | int | bool | str | None]) -> Finding:
-    return Finding(state=StepState.DONE, message=message, numbers=numbers, document_id=document.id)
+def _done(document: Document, done: Reason, numbers: dict[str, float | int | bool | str | None]) -> Finding:
+    return Finding(state=StepState.DONE, reason=done, numbers=numbers, document_id=document.id)
 
 
 def _unusable(document: Document, error: NavigationError) -> Finding:
-    return Finding(
-        state=StepState.OUT_OF_DATE, message=error.message, remedy=error.remedy, document_id=document.id
-    )
+    return Finding(state=StepState.OUT_OF_DATE, reason=reason_of_error(error), document_id=document.id)
 
 
 def _axis_missing(document: Document) -> Finding:
     return Finding(
         state=StepState.MISSING,
-        message=f"the axis of '{document.name}' is not calibrated",
-        remedy="Calibrate the axis by spinning the tool about it.",
+        reason=reason("TOOL_AXIS_MISSING", {"tool": document.name}),
         document_id=document.id,
     )
 

@@ -1,7 +1,7 @@
 """The order of the steps: derives the state of the procedure from the findings of its steps."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from server.errors import SetupOrderError
 from server.procedure.confirmation import ConfirmationPrompt
@@ -13,22 +13,10 @@ from server.procedure.state.records import (
     StepState,
     StepStatus,
 )
+from server.texts import STEPS, Reason, Value, reason, reason_error
 
 NONE_MISSING: Mapping[StepName, MissingCosignature] = {}
-NO_CASE = Finding(
-    state=StepState.MISSING,
-    message="no case is open",
-    remedy="Create a case and open it, or open an existing one.",
-)
-# The error for a step that is requested too early names the step that it waits for.
-STEP_NAMES = {
-    StepName.CAMERA: "the camera",
-    StepName.TOOL: "the tool",
-    StepName.PLAN: "the plan",
-    StepName.REGISTER: "the registration",
-    StepName.CHECK: "the check on anatomy",
-    StepName.NAVIGATE: "navigation",
-}
+NO_CASE = Finding(state=StepState.MISSING, reason=reason("NO_CASE_OPEN"))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,29 +66,29 @@ class ProcedureState:
                 PLAN_NOT_COSIGNED.
         """
         if not self.case_id:
-            raise SetupOrderError("NO_CASE_OPEN", NO_CASE.message, NO_CASE.remedy)
+            raise reason_error(SetupOrderError, NO_CASE.reason)
         blocking = _blocking(step, {one.step: one.finding for one in self.steps}, self.check_required)
         if blocking is None:
             if step is StepName.NAVIGATE and self.unsigned is not None:
                 self._reject_unsigned(self.unsigned)
             return
         finding = self.status(blocking).finding
-        raise SetupOrderError(
-            f"{blocking.name}_{finding.state.name}",
-            f"{STEP_NAMES[step]} waits for {STEP_NAMES[blocking]}: {finding.message}",
-            finding.remedy,
-            {"step": step.value, "waits_for": blocking.value, "state": finding.state.value},
+        raise reason_error(
+            SetupOrderError,
+            _waits_for(step, blocking, finding.reason),
+            code=f"{blocking.name}_{finding.state.name}",
+            context={"step": step.value, "waits_for": blocking.value, "state": finding.state.value},
         )
 
     def _reject_unsigned(self, step: StepName) -> None:
         missing_cosignature = self.status(step).missing_cosignature
         if missing_cosignature is None:
             return
-        raise SetupOrderError(
-            f"{step.name}_NOT_COSIGNED",
-            f"navigation waits for a co-signature: {missing_cosignature.message}",
-            missing_cosignature.remedy,
-            {"step": StepName.NAVIGATE.value, "waits_for": step.value},
+        raise reason_error(
+            SetupOrderError,
+            _waits(missing_cosignature.reason, "WAITS_FOR_COSIGNATURE"),
+            code=f"{step.name}_NOT_COSIGNED",
+            context={"step": StepName.NAVIGATE.value, "waits_for": step.value},
         )
 
 
@@ -184,23 +172,25 @@ def _navigation(
     confirmation: ConfirmationPrompt | None,
 ) -> Finding:
     if blocking is None and unsigned is not None:
-        return Finding(
-            state=StepState.MISSING,
-            message=f"navigation waits for a co-signature: {unsigned.message}",
-            remedy=unsigned.remedy,
-        )
+        return Finding(state=StepState.MISSING, reason=_waits(unsigned.reason, "WAITS_FOR_COSIGNATURE"))
     if blocking is None and confirmation is not None:
         return Finding(
             state=StepState.MISSING,
-            message=f"navigation waits for a confirmation: {confirmation.message}",
-            remedy=confirmation.remedy,
+            reason=_waits(confirmation.reason, "WAITS_FOR_CONFIRMATION"),
             document_id=confirmation.registration.id,
         )
     if blocking is None:
-        return Finding(state=StepState.DONE, message="the tool is shown relative to the channel")
+        return Finding(state=StepState.DONE, reason=reason("NAVIGATION_ALLOWED"))
     first = findings[blocking]
-    return Finding(
-        state=StepState.MISSING,
-        message=f"navigation waits for {STEP_NAMES[blocking]}: {first.message}",
-        remedy=first.remedy,
-    )
+    return Finding(state=StepState.MISSING, reason=_waits_for(StepName.NAVIGATE, blocking, first.reason))
+
+
+def _waits_for(step: StepName, blocking: StepName, why: Reason) -> Reason:
+    steps = {"step": STEPS[step.value], "waits_for": STEPS[blocking.value]}
+    return _waits(why, "WAITS_FOR_STEP", steps)
+
+
+def _waits(why: Reason, code: str, steps: Mapping[str, Value] | None = None) -> Reason:
+    """Return the reason of a step that waits for what another reason states."""
+    waits = reason(code, {"reason": why.message, **(steps or {})}, remedy=why.remedy)
+    return replace(waits, is_translated=why.is_translated)

@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import TypeAlias
 
+from server.texts import Reason
+
 Number: TypeAlias = float | int | bool | str | None
 
 
@@ -38,15 +40,13 @@ class Finding:
 
     Attributes:
         state: the state.
-        message: the reason, as a sentence without its full stop.
-        remedy: what to do next, one full sentence; empty if there is nothing to do.
+        reason: the reason with its code and values, and what to do next.
         numbers: results and their limits, by name.
         document_id: document that the step made; empty if there is none.
     """
 
     state: StepState
-    message: str
-    remedy: str = ""
+    reason: Reason
     numbers: Mapping[str, Number] = field(default_factory=dict)
     document_id: str = ""
 
@@ -56,12 +56,10 @@ class MissingCosignature:
     """A co-signature that a completed step needs before navigation is allowed.
 
     Attributes:
-        message: what is missing, as a sentence without its full stop.
-        remedy: what to do, one full sentence.
+        reason: what is missing, and what to do.
     """
 
-    message: str
-    remedy: str
+    reason: Reason
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -30,6 +30,7 @@ def test_there_is_nothing_to_tell_before_the_first_instant(client: TestClient) -
         "message": "the tracking process has sent no message since the server started",
         "remedy": "Try again in a second; if the error persists, check /health and the server log.",
         "context": {},
+        "language": "en",
     }
 
 
@@ -74,7 +75,7 @@ def test_every_rejection_has_the_one_shape(
 ) -> None:
     answer = client.request(method, path)
     assert answer.status_code == status
-    assert set(answer.json()) == {"code", "message", "remedy", "context"}
+    assert set(answer.json()) == {"code", "message", "remedy", "context", "language"}
     assert answer.json()["code"] == code
 
 
@@ -100,6 +101,7 @@ def test_errors_of_the_tracker_keep_their_words(client: TestClient) -> None:
         "message": "3 dots found",
         "remedy": "Hold it still.",
         "context": {"dots": 3},
+        "language": "en",
     }
     wrong = client.get("/api/trial?count=x")
     assert wrong.status_code == 422

@@ -84,7 +84,7 @@ def test_a_case_from_its_making_to_its_end(door: TestClient) -> None:
 def test_a_name_that_cannot_be_is_rejected(door: TestClient, name: object) -> None:
     answer = door.post("/api/cases", json={"name": name})
     assert answer.status_code == 422
-    assert set(answer.json()) == {"code", "message", "remedy", "context"}
+    assert set(answer.json()) == {"code", "message", "remedy", "context", "language"}
     assert door.get("/api/cases").json()["cases"] == []
 
 
@@ -114,7 +114,7 @@ def test_what_is_not_there_is_reported(door: TestClient, method: str, path: str)
         answer = door.request(method, f"/api/cases/{case_id}{path}")
         # A path with `..` belongs to no case but to the page, which only accepts GET.
         assert answer.status_code == 404 or (".." in case_id and answer.status_code == 405)
-        assert set(answer.json()) == {"code", "message", "remedy", "context"}
+        assert set(answer.json()) == {"code", "message", "remedy", "context", "language"}
 
 
 def test_documents_tell_what_they_stand_on_and_whether_they_hold(door: TestClient, store: CaseStore) -> None:

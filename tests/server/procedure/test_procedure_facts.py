@@ -7,8 +7,9 @@ import pytest
 from server.alarms import ProcedureFacts
 from server.procedure.facts import facts_of
 from server.procedure.state import Finding, StepName, StepState, derive_state, no_case
+from server.texts import reason
 
-DONE = {step: Finding(state=StepState.DONE, message="done") for step in StepName}
+DONE = {step: Finding(state=StepState.DONE, reason=reason("NAVIGATION_ALLOWED")) for step in StepName}
 CHECKED = replace(DONE[StepName.CHECK], numbers={"age_min": 10.0})
 
 
@@ -16,7 +17,10 @@ def facts(**states: StepState) -> ProcedureFacts:
     findings = {
         **DONE,
         StepName.CHECK: CHECKED,
-        **{StepName(step): Finding(state=state, message=state.value) for step, state in states.items()},
+        **{
+            StepName(step): Finding(state=state, reason=reason("NOT_PLANNED"))
+            for step, state in states.items()
+        },
     }
     return facts_of(derive_state("case", findings), now_s=5000.0)
 

@@ -254,5 +254,5 @@ def _reject_disagreement(retained: InlierViews, usable: int) -> None:
         "VIEWS_DISAGREE",
         f"{usable - left} of {usable} views do not fit the camera of the others, allowed is half of them",
         "Check columns, rows and layout of the board; zoom and focus must stay the same in all images.",
-        {"usable": usable, "used": left},
+        {"usable": usable, "used": left, "disagreeing": usable - left},
     )

@@ -245,6 +245,7 @@ class PoseCollector:
                 "TOOL_TOO_FEW_POSES",
                 f"there are {len(poses)} poses",
                 "Tilt the tool with its tip in the divot.",
+                {"poses": len(poses)},
             )
         if self._purpose is Purpose.SPIN:
             # Only the direction matters; the length is arbitrary.

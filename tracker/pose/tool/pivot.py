@@ -119,7 +119,7 @@ class PivotCalibration:
                     f"only {int(self.used.sum())} of {compared} poses agree on one pivot, "
                     f"needed {gate.min_used_ratio:.0%}",
                     "The tip slipped or was moved: calibrate again in one divot.",
-                    {"used": int(self.used.sum()), "poses": compared},
+                    {"used": int(self.used.sum()), "poses": compared, "needed_ratio": gate.min_used_ratio},
                 )
             )
         return tuple(found)

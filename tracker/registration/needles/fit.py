@@ -133,6 +133,7 @@ def _reject_unpaired(places: Sequence[PlannedNeedle], seen: Sequence[NeedleObser
             "NEEDLES_UNPAIRED",
             f"{len(places)} needles are planned and {len(seen)} are marked in the image",
             "Mark each planned needle once.",
+            {"planned": len(places), "marked": len(seen)},
         )
 
 
@@ -198,7 +199,12 @@ def _reject_offset(residuals: Sequence[NeedleResidual], gate: NeedleLimits) -> N
             f"needle '{worst.name[:40]}' is {worst.offset_mm:.1f} mm ({worst.offset_px:.1f} px) off its "
             f"place, allowed {gate.max_offset_mm:g} mm",
             "Check that each needle is on its landmark and marked at its entry into the bone.",
-            {"needle": worst.name[:40], "offset_mm": worst.offset_mm, "offset_px": worst.offset_px},
+            {
+                "needle": worst.name[:40],
+                "offset_mm": worst.offset_mm,
+                "offset_px": worst.offset_px,
+                "allowed_mm": gate.max_offset_mm,
+            },
         )
 
 
@@ -214,7 +220,11 @@ def _reject_ambiguous_pose(found: Sequence[Solution], gate: NeedleLimits) -> Non
                 f"two poses, {turned_deg:.0f} deg apart, fit the needles: the second is worse by "
                 f"{delta_chi2:.1f} in chi squared, needed {gate.min_delta_chi2:g}",
                 "Touch a needle's entry with the tool's tip, or measure the camera's tilt more accurately.",
-                {"delta_chi2": delta_chi2, "turned_deg": turned_deg},
+                {
+                    "delta_chi2": delta_chi2,
+                    "turned_deg": turned_deg,
+                    "needed_delta_chi2": gate.min_delta_chi2,
+                },
             )
 
 

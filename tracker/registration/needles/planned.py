@@ -141,7 +141,7 @@ def reject_poor_geometry(places: Sequence[PlannedNeedle]) -> None:
             "NEEDLES_TOO_FEW",
             f"{len(places)} needles are planned, needed {MIN_NEEDLES}",
             "Set a landmark for each needle on the CT.",
-            {"needles": len(places)},
+            {"needles": len(places), "needed": MIN_NEEDLES},
         )
     points = np.stack([one.point_lps_mm for one in places])
     apart, one, other = min(
@@ -154,7 +154,7 @@ def reject_poor_geometry(places: Sequence[PlannedNeedle]) -> None:
             "NEEDLES_TOO_CLOSE",
             f"needles '{other[:40]}' and '{one[:40]}' are {apart:.1f} mm apart, needed {MIN_APART_MM:g} mm",
             "Put the needles farther apart.",
-            {"apart_mm": apart},
+            {"apart_mm": apart, "one": other[:40], "other": one[:40], "needed_mm": MIN_APART_MM},
         )
     across_mm = height_mm(places)
     if across_mm < MIN_APART_MM and not _are_lines(places):
@@ -162,7 +162,7 @@ def reject_poor_geometry(places: Sequence[PlannedNeedle]) -> None:
             "NEEDLES_COLLINEAR",
             f"the needles are within {across_mm:.1f} mm of one straight line, needed {MIN_APART_MM:g} mm",
             "Put one needle farther from the line through the others.",
-            {"across_mm": across_mm},
+            {"across_mm": across_mm, "needed_mm": MIN_APART_MM},
         )
 
 

@@ -39,7 +39,7 @@ def reject_small(points_mm: Array, point_weights: Array, settings: SurfaceSettin
         f"the sweep touches about {places:.0f} different places spread over {spread:.1f} mm (RMS), "
         f"needed {settings.min_points} over {MIN_SPREAD_MM:g} mm",
         SWEEP_REMEDY,
-        {"places": places, "spread_mm": spread, "needed": settings.min_points},
+        {"places": places, "spread_mm": spread, "needed": settings.min_points, "needed_mm": MIN_SPREAD_MM},
     )
 
 

@@ -6,7 +6,13 @@ import type { CutSubject } from "./cutter";
 import { Rejection } from "../rest/client";
 import { cutVerdict, volumeAfter, type CutVerdict } from "./cutVerdict";
 
-const PROBLEM = { code: "PLAN_MISSING", message: "no plan", remedy: "Plan.", context: {} };
+const PROBLEM = {
+  code: "PLAN_MISSING",
+  message: "no plan",
+  remedy: "Plan.",
+  context: {},
+  language: "en",
+} as const;
 
 const LIVE = numbersVerdict(situation(), 1000);
 const UNREAD: NumbersVerdict = {

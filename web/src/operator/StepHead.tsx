@@ -4,11 +4,11 @@ import { RejectionNote } from "../rest/RejectionNote";
 import { useTexts } from "../texts/TextsContext";
 import { NextStep } from "./NextStep";
 import type { OperatorPage } from "./pages";
+import { sentence } from "./parts/format";
 import { useGates } from "./parts/useGates";
 import { bringIntoView } from "./parts/useIntoView";
 import { useProcedure } from "../app/procedure";
 import { MARK_OF_STATE } from "./stepMarks";
-import { stepReason } from "./stepReason";
 import { stateText, stepNote } from "./stepTexts";
 
 /** A remedy with an API address is for programs; the page has its own buttons. */
@@ -23,7 +23,6 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
   const head = useArrival();
   const step = data?.steps.find((one) => one.step === page.step) ?? null;
   const note = step === null ? "" : stepNote(step, gates?.registration.min_points ?? null, all);
-  const reason = step === null || data === null ? null : stepReason(step, data, all);
   // While navigation is allowed, its page lists the passed gates below.
   const isSaidByGates = step?.step === "navigate" && step.state === "done";
   return (
@@ -33,20 +32,20 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
         <NextStep page={page} />
       </div>
       <RejectionNote rejection={rejection} />
-      {step !== null && reason !== null && !isSaidByGates && (
+      {step !== null && !isSaidByGates && (
         <p className="step-said" data-state={step.state} data-testid="step-said">
           <strong>
             <span aria-hidden="true">{MARK_OF_STATE[step.state]}</span> {stateText(step, texts)}
           </strong>{" "}
-          <span lang={reason.lang}>{reason.message}</span>{" "}
+          <span lang={step.language}>{sentence(step.message)}</span>{" "}
           {note !== "" && (
             <span className="step-remedy" data-testid="step-note">
               ▲ {note}
             </span>
           )}
-          {reason.remedy !== "" && !reason.remedy.includes(FOR_MACHINES) && (
-            <span className="step-remedy" lang={reason.lang}>
-              {reason.remedy}
+          {step.remedy !== "" && !step.remedy.includes(FOR_MACHINES) && (
+            <span className="step-remedy" lang={step.language}>
+              {step.remedy}
             </span>
           )}
         </p>

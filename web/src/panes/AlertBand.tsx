@@ -1,4 +1,5 @@
 import type { ReactNode } from "react";
+import { sentence } from "../operator/parts/format";
 import { useLive } from "../live/LiveContext";
 import { useTexts } from "../texts/TextsContext";
 import { textOf } from "../texts/text";
@@ -15,10 +16,9 @@ export function AlertBand(): ReactNode {
       {problems.map(({ code, message, remedy }) => (
         <p className="alert" key={code} data-testid="alert">
           <span aria-hidden="true">▲▲</span>
-          {/* Error messages of the server are English only. */}
-          <strong lang="en">{message}.</strong>
+          <strong>{sentence(textOf(message, texts))}</strong>
           <span>
-            {texts.alerts.remedy} <span lang="en">{remedy}</span> <code>{code}</code>
+            {texts.alerts.remedy} {textOf(remedy, texts)} <code>{code}</code>
           </span>
         </p>
       ))}

@@ -1,20 +1,25 @@
 import type { ReactNode } from "react";
 import type { Cause } from "../live/assess";
-import type { ProblemMessage } from "../live/messages";
+import type { LiveProblemMessage } from "../live/messages";
+import { sentence } from "../operator/parts/format";
+import { textOf } from "../texts/text";
 import { useTexts } from "../texts/TextsContext";
 import { Cover } from "./Cover";
 
 interface VideoCoverProps {
   cause: Cause;
   /** The problem that the server reports, if any. */
-  problem?: ProblemMessage | undefined;
+  problem?: LiveProblemMessage | undefined;
 }
 
 /** Covers the video while there is none, with the reason; plain while the page is loading. */
 export function VideoCover({ cause, problem }: VideoCoverProps): ReactNode {
   const texts = useTexts();
-  const { state, sentence } = texts.cause[cause];
-  if (cause === "connecting") return <Cover urgency="none" title={state} sentence={sentence} />;
-  const text = problem === undefined ? sentence : `${problem.message}. ${problem.remedy}`;
+  const { state, sentence: reason } = texts.cause[cause];
+  if (cause === "connecting") return <Cover urgency="none" title={state} sentence={reason} />;
+  const text =
+    problem === undefined
+      ? reason
+      : `${sentence(textOf(problem.message, texts))} ${textOf(problem.remedy, texts)}`;
   return <Cover urgency="medium" title={texts.video.none} state={state} sentence={text} />;
 }

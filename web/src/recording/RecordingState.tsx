@@ -27,7 +27,7 @@ export function RecordingState({ testId = "recording-state" }: { testId?: string
       </span>
       <span className="recording-details" data-warns={warnings.length > 0} title={all || serverReason}>
         {all}
-        {serverReason !== "" && <span lang="en">{serverReason}</span>}
+        {serverReason !== "" && <span lang={data.recording.problem?.language}>{serverReason}</span>}
       </span>
     </p>
   );

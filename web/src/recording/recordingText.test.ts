@@ -37,7 +37,13 @@ test("warnings precede what a narrow header may truncate", () => {
 });
 
 test("an interrupted recording shows the reason, in the page's words if it has them", () => {
-  const problem = { code: "RECORDING_DISK_FULL", message: "0.10 GB are free", remedy: "", context: {} };
+  const problem = {
+    code: "RECORDING_DISK_FULL",
+    message: "0.10 GB are free",
+    remedy: "",
+    context: {},
+    language: "en",
+  } as const;
   const ended = { is_recording: false, name: null, problem };
   expect(textOf(ended)).toMatchObject({ state: "stopped", details: ["the disk is full"], serverReason: "" });
   const other = textOf({ ...ended, problem: { ...problem, code: "SOMETHING_NEW" } });

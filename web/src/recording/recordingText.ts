@@ -13,7 +13,7 @@ export interface RecordingText {
   details: string[];
   /** Warnings: missing images, a disk that is nearly full. */
   warnings: string[];
-  /** The server's English reason if the page has no text for it; otherwise empty. */
+  /** The server's reason if the page has no text for it; otherwise empty. */
   serverReason: string;
 }
 

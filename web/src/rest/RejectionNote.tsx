@@ -7,16 +7,15 @@ import type { Rejection } from "./client";
 export function RejectionNote({ rejection }: { rejection: Rejection | null }): ReactNode {
   const texts = useTexts();
   if (rejection === null) return null;
-  const { message, remedy, code } = rejection.problem;
+  const { message, remedy, code, language } = rejection.problem;
   const silent = message === "";
   return (
     <Alert
       className="rejection"
       role="alert"
-      title={silent ? texts.rest.noAnswer : <span lang="en">{sentence(message)}</span>}
+      title={silent ? texts.rest.noAnswer : <span lang={language}>{sentence(message)}</span>}
     >
-      {/* Error messages of the server are English only. */}
-      {silent ? texts.rest.noAnswerRemedy : <span lang="en">{remedy}</span>} <code>{code}</code>
+      {silent ? texts.rest.noAnswerRemedy : <span lang={language}>{remedy}</span>} <code>{code}</code>
     </Alert>
   );
 }

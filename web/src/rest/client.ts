@@ -1,6 +1,7 @@
 // Typed client of the server's API. A rejection keeps the server's message, context and remedy.
 import createClient from "openapi-fetch";
 import type { components, paths } from "../schema";
+import { pageLanguage } from "../texts/pageLanguage";
 
 export type Problem = components["schemas"]["ProblemMessage"];
 
@@ -10,6 +11,9 @@ const gone = new EventTarget();
 const GONE = "session-gone";
 
 server.use({
+  onRequest({ request }) {
+    request.headers.set("Accept-Language", pageLanguage());
+  },
   onResponse({ response }) {
     if (response.status === 401) gone.dispatchEvent(new Event(GONE));
   },
@@ -34,7 +38,13 @@ export class Rejection extends Error {
   }
 }
 
-const NO_ANSWER: Problem = { code: "NO_ANSWER", message: "", remedy: "", context: {} };
+export const NO_ANSWER: Problem = {
+  code: "NO_ANSWER",
+  message: "",
+  remedy: "",
+  context: {},
+  language: "en",
+};
 
 interface Answer<Data> {
   data?: Data;

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
-import { useProcedure, type Procedure, type Step } from "../app/procedure";
-import { stepReason } from "../operator/stepReason";
+import { useProcedure, type Step } from "../app/procedure";
+import { sentence } from "../operator/parts/format";
 import { stateText } from "../operator/stepTexts";
 import { QueryStatus } from "../rest/QueryStatus";
 import { useTexts } from "../texts/TextsContext";
@@ -35,19 +35,12 @@ export function StepsShown(): ReactNode {
           <div>
             <b>{texts.operator.page[step.step]}</b> ·{" "}
             {step.missing_cosignature === null ? stateText(step, texts.operator) : own.steps.lacks}
-            <Reason step={step} procedure={data} />
+            <p className="soft" lang={step.language}>
+              {sentence(step.message)}
+            </p>
           </div>
         </li>
       ))}
     </ol>
-  );
-}
-
-function Reason({ step, procedure }: { step: Step; procedure: Procedure }): ReactNode {
-  const { message, lang } = stepReason(step, procedure, useTexts());
-  return (
-    <p className="soft" lang={lang}>
-      {message}
-    </p>
   );
 }

@@ -7,7 +7,15 @@ import type { Procedure } from "../app/procedure";
 type State = Procedure["steps"][number]["state"];
 
 function procedureWith(check: State, checkAgeMin: number | null = 3): Procedure {
-  const step = { message: "", remedy: "", document_id: null, allowed: true, missing_cosignature: null };
+  const step = {
+    code: "REGISTERED",
+    language: "en" as const,
+    message: "",
+    remedy: "",
+    document_id: null,
+    allowed: true,
+    missing_cosignature: null,
+  };
   return {
     case_id: "c1",
     case_name: "Phantom 4",

@@ -4,7 +4,9 @@ import { formatNumber } from "../../live/rounding";
 import { cameraFacts } from "../../panes/cameraFacts";
 import { searchTimeMs } from "../../panes/searchTime";
 import { problemsOf } from "../../panes/problems";
+import { textOf } from "../../texts/text";
 import { useTexts } from "../../texts/TextsContext";
+import { sentence } from "../parts/format";
 import { Card } from "../parts/Card";
 
 /** Current images of the camera: source, size, rate, age. */
@@ -53,7 +55,7 @@ export function CameraTest(): ReactNode {
       </dl>
       {problemsOf(view).map((problem) => (
         <p key={problem.code} className="bad" role="alert">
-          ▲ {problem.message}. {problem.remedy}
+          ▲ {sentence(textOf(problem.message, texts))} {textOf(problem.remedy, texts)}
         </p>
       ))}
       {snapshot === null && problemsOf(view).length === 0 && <p className="soft">{texts.camera.waiting}</p>}

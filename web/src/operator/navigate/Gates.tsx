@@ -4,9 +4,9 @@ import { formatNumber } from "../../live/rounding";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useTexts } from "../../texts/TextsContext";
 import { interpolate } from "../../texts/interpolate";
-import { stepReason } from "../stepReason";
+import { sentence } from "../parts/format";
 import { stateText } from "../stepTexts";
-import { useProcedure, type Procedure, type Step } from "../../app/procedure";
+import { useProcedure, type Step } from "../../app/procedure";
 
 /** Steps that are not valid or due again, with reasons and links; or that all are valid. */
 export function Gates(): ReactNode {
@@ -38,7 +38,7 @@ export function Gates(): ReactNode {
                 {steps.map((one) => texts.operator.page[one.step]).join(", ")} ·{" "}
                 {stateText(steps[0], texts.operator)}
               </strong>{" "}
-              <Reason step={steps[0]} procedure={data} />
+              <span lang={steps[0].language}>{sentence(steps[0].message)}</span>
             </span>
             {steps.map((one) => (
               <Link key={one.step} className="big-link" href={`/operator/${one.step}`}>
@@ -68,9 +68,4 @@ function checkSaid(texts: string, { landmark, distance_mm, max_mm }: Step["numbe
   if (typeof landmark !== "string" || typeof distance_mm !== "number" || typeof max_mm !== "number")
     return "";
   return interpolate(texts, { landmark, mm: formatNumber(distance_mm, 1), max: formatNumber(max_mm, 1) });
-}
-
-function Reason({ step, procedure }: { step: Step; procedure: Procedure }): ReactNode {
-  const { message, lang } = stepReason(step, procedure, useTexts());
-  return <span lang={lang}>{message}</span>;
 }

@@ -12,6 +12,7 @@ test.each(["", "<html>", "null", '"text"', '{"detail": 1}'])(
     expect(problemIn(text, 502)).toEqual({
       code: "NO_ANSWER",
       message: "",
+      language: "en",
       remedy: "",
       context: { status: 502 },
     });

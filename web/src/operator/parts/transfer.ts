@@ -1,5 +1,6 @@
 // Uploads and downloads in one piece with progress; both can be cancelled.
 import { Rejection } from "../../rest/client";
+import { pageLanguage } from "../../texts/pageLanguage";
 import { parsed, problemIn } from "./problem";
 
 export interface TransferredBytes {
@@ -25,6 +26,7 @@ export function uploadFile<Answer>(
     const request = new XMLHttpRequest();
     request.open("POST", path);
     request.setRequestHeader("Content-Type", body.type || "application/octet-stream");
+    request.setRequestHeader("Accept-Language", pageLanguage());
     request.upload.onprogress = (event): void => {
       onMoved({ doneBytes: event.loaded, allBytes: event.lengthComputable ? event.total : body.size });
     };
@@ -53,7 +55,7 @@ export function uploadFile<Answer>(
 export async function downloadFile(path: string, onMoved: OnProgress, signal: AbortSignal): Promise<Blob> {
   let answer: Response;
   try {
-    answer = await fetch(path, { signal, cache: "no-store" });
+    answer = await fetch(path, { signal, cache: "no-store", headers: { "Accept-Language": pageLanguage() } });
   } catch (error) {
     if (signal.aborted) throw error;
     throw new Rejection(problemIn("", 0));

@@ -2,9 +2,8 @@ import { Table } from "@mantine/core";
 import type { ReactNode } from "react";
 import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
-import { stepReason, type StepReason } from "../stepReason";
 import { stateText } from "../stepTexts";
-import { formatTime } from "../parts/format";
+import { formatTime, sentence } from "../parts/format";
 import { interpolate } from "../../texts/interpolate";
 
 interface StepsReportProps {
@@ -33,7 +32,9 @@ export function StepsReport({ procedure, readAt }: StepsReportProps): ReactNode 
                 <Table.Th scope="row">{texts.operator.page[step.step]}</Table.Th>
                 <Table.Td>
                   <strong>{stateText(step, texts.operator)}</strong>
-                  <Reason reason={stepReason(step, procedure, texts)} />
+                  <p className="soft" lang={step.language}>
+                    {sentence(step.message)}
+                  </p>
                 </Table.Td>
               </Table.Tr>
             ))}
@@ -41,13 +42,5 @@ export function StepsReport({ procedure, readAt }: StepsReportProps): ReactNode 
         </Table>
       </Table.ScrollContainer>
     </section>
-  );
-}
-
-function Reason({ reason }: { reason: StepReason }): ReactNode {
-  return (
-    <p className="soft" lang={reason.lang}>
-      {reason.message}
-    </p>
   );
 }

@@ -1,5 +1,6 @@
 // Sends a large file with XMLHttpRequest, since fetch reports no upload progress.
-import { Rejection, type Problem } from "../../../rest/client";
+import { NO_ANSWER, Rejection, type Problem } from "../../../rest/client";
+import { pageLanguage } from "../../../texts/pageLanguage";
 
 /**
  * Returns the server's answer to a POST of this body.
@@ -15,9 +16,10 @@ export function uploadCt<Answer>(
 ): Promise<Answer> {
   return new Promise((resolve, reject) => {
     const request = new XMLHttpRequest();
-    const noAnswer = new Rejection({ code: "NO_ANSWER", message: "", remedy: "", context: {} });
+    const noAnswer = new Rejection(NO_ANSWER);
     request.open("POST", address);
     request.setRequestHeader("Content-Type", "application/octet-stream");
+    request.setRequestHeader("Accept-Language", pageLanguage());
     request.upload.onprogress = (event) => {
       if (event.lengthComputable) onSent(event.loaded / event.total);
     };

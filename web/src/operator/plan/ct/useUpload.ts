@@ -2,6 +2,7 @@
 import { useRef, useState } from "react";
 import { Rejection } from "../../../rest/client";
 import type { Job } from "../../../rest/useJob";
+import { pageLanguage } from "../../../texts/pageLanguage";
 import { uploadCt } from "./send";
 import { MAX_BYTES, MAX_FILES, zipFiles } from "./zip";
 
@@ -85,7 +86,7 @@ export function useUpload(address: () => string, onTaken: (begun: Begun) => void
   const sendFrom = (from: string): void => {
     void run(async (stop) => {
       setState({ ...IDLE, phase: "fetching" });
-      const answer = await fetch(from, { signal: stop });
+      const answer = await fetch(from, { signal: stop, headers: { "Accept-Language": pageLanguage() } });
       if (!answer.ok) throw new Rejection((await answer.json()) as Rejection["problem"]);
       return answer.blob();
     });

@@ -1,5 +1,6 @@
 // Loads a slice: pixels and position from one answer.
-import { Rejection, type Problem } from "../../../rest/client";
+import { NO_ANSWER, Rejection, type Problem } from "../../../rest/client";
+import { pageLanguage } from "../../../texts/pageLanguage";
 import type { Place } from "./place";
 import { SliceRepository } from "./sliceLoader";
 
@@ -26,9 +27,9 @@ export class OtherCt extends Error {}
 export async function loadSlice(address: string): Promise<Slice> {
   let answer: Response;
   try {
-    answer = await fetch(address);
+    answer = await fetch(address, { headers: { "Accept-Language": pageLanguage() } });
   } catch {
-    throw new Rejection({ code: "NO_ANSWER", message: "", remedy: "", context: {} });
+    throw new Rejection(NO_ANSWER);
   }
   if (!answer.ok) throw new Rejection((await answer.json()) as Problem);
   const placeHeader = answer.headers.get("slice-place");

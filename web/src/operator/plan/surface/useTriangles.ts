@@ -1,4 +1,4 @@
-import { answered, Rejection, server } from "../../../rest/client";
+import { answered, NO_ANSWER, Rejection, server } from "../../../rest/client";
 import { useQuery } from "../../../rest/useQuery";
 import { hasDocument } from "../state/documents";
 import { trianglesOf, type Triangles } from "./triangles";
@@ -27,5 +27,5 @@ async function fetched(): Promise<Triangles | null> {
     // Reported elsewhere, like any lost connection.
   }
   cache = null;
-  throw new Rejection({ code: "NO_ANSWER", message: "", remedy: "", context: {} });
+  throw new Rejection(NO_ANSWER);
 }

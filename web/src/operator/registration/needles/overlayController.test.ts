@@ -1,4 +1,4 @@
-import { expect, test, vi } from "vitest";
+import { expect, test } from "vitest";
 import { Rejection } from "../../../rest/client";
 import { applyMatrix, translateOverlay, placeOf, type Overlay } from "./overlay";
 import { OverlayController, type OverlayDrawing } from "./overlayController";
@@ -72,7 +72,13 @@ test("what a hand did is undone as a whole, and so is the way back to the ruler"
 });
 
 test("a rejection keeps the server's last answer and ends the requests", async () => {
-  const rejection = new Rejection({ code: "NO_PICTURE", message: "no", remedy: "Wait.", context: {} });
+  const rejection = new Rejection({
+    code: "NO_PICTURE",
+    message: "no",
+    remedy: "Wait.",
+    context: {},
+    language: "en",
+  } as const);
   let count = 0;
   const controller = new OverlayController((overlay) => {
     count += 1;

@@ -1,0 +1,61 @@
+"""Translations of errors.
+
+An error is raised with its code, its message and remedy in English, and its values by name (`context`). The
+catalogue has the template of that message in all languages. It is used only where the English template with
+the values of the error gives exactly the message that was raised: a translation therefore has the same
+numbers, and an error that was reworded without its translation stays English.
+"""
+
+from collections.abc import Iterator, Mapping
+
+from server.texts.errors.catalogue import MESSAGES, REMEDIES
+from server.texts.language import Text
+from server.texts.reason import Reason, as_is, filled
+from server.texts.steps import KINDS, METHODS, STEPS
+from tracker.errors import NavigationError
+
+# Values that are codes, and the words for them.
+_NONE: Mapping[str, Text] = {"none": {"en": "none", "de": "keine"}}
+WORDS: Mapping[str, Mapping[str, Text]] = {
+    "kind": KINDS,
+    "landmarks": _NONE,
+    "method": METHODS,
+    "step": STEPS,
+    "tools": _NONE,
+    "waits_for": STEPS,
+}
+
+
+def reason_of_error(error: NavigationError) -> Reason:
+    """Return an error as a reason in all languages."""
+    return error_reason(error.code, error.message, error.remedy, error.context)
+
+
+def error_reason(code: str, message: str, remedy: str, context: Mapping[str, object]) -> Reason:
+    """Return the parts of an error as a reason in all languages, in English where it has no translation."""
+    values = {name: _word(name, value) for name, value in context.items()}
+    said = _translation(message, MESSAGES.get(code, ()), values)
+    advised = _translation(remedy, REMEDIES, values)
+    if said is None or advised is None:
+        return Reason(code=code, message=as_is(message), remedy=as_is(remedy), is_translated=False)
+    return Reason(code=code, message=said, remedy=advised)
+
+
+def _word(name: str, value: object) -> object:
+    return WORDS[name].get(str(value), value) if name in WORDS else value
+
+
+def _translation(english: str, templates: tuple[Text, ...], values: Mapping[str, object]) -> Text | None:
+    """Return the first template that gives this English sentence, with its values."""
+    if not english:
+        return as_is("")
+    return next((text for text in _filled(templates, values) if text["en"] == english), None)
+
+
+def _filled(templates: tuple[Text, ...], values: Mapping[str, object]) -> Iterator[Text]:
+    for template in templates:
+        try:
+            yield filled(template, values)
+        except (KeyError, IndexError, AttributeError, TypeError, ValueError):
+            # Raised elsewhere with this code, and with other values.
+            continue

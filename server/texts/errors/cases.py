@@ -1,0 +1,150 @@
+"""Messages of errors of cases, documents and files, by code."""
+
+from collections.abc import Mapping
+
+from server.texts.language import Text
+
+CASES: Mapping[str, tuple[Text, ...]] = {
+    "ARCHIVE_NEWER": (
+        {
+            "en": "the archive has format version {found}, but this Coaxial reads version {known}",
+            "de": "das Archiv hat die Formatversion {found}, dieses Coaxial liest Version {known}",
+        },
+    ),
+    "CASE_IN_USE": (
+        {
+            "en": "the case {case_id} is in use by {in_use} write or export operations",
+            "de": "der Fall {case_id} wird von {in_use} Schreib- oder Exportvorgängen verwendet",
+        },
+    ),
+    "CASE_OPEN": (
+        {
+            "en": "the case {case_id} is open, and an open case cannot be deleted",
+            "de": "der Fall {case_id} ist geöffnet, und ein geöffneter Fall kann nicht gelöscht werden",
+        },
+    ),
+    "CASE_UNKNOWN": ({"en": "there is no case {case_id}", "de": "es gibt keinen Fall {case_id}"},),
+    "CONFIRMATION_WRONG": (
+        {
+            "en": "the confirmation is not the name of the case {case_id}",
+            "de": "die Bestätigung ist nicht der Name des Falls {case_id}",
+        },
+    ),
+    "CT_AFFINE_MISSING": (
+        {
+            "en": "the NIfTI does not state the positions of its voxels (sform and qform code are both 0), "
+            "so that left, right and sizes are unknown",
+            "de": "das NIfTI gibt die Orte seiner Voxel nicht an (sform- und qform-Code sind beide 0), "
+            "daher sind links, rechts und Größen unbekannt",
+        },
+    ),
+    "CT_ARCHIVE_BROKEN": (
+        {
+            "en": "the zip of {bytes} bytes cannot be read: its directory is damaged or truncated",
+            "de": "das Zip mit {bytes} Bytes ist nicht lesbar: sein Verzeichnis ist beschädigt oder "
+            "abgeschnitten",
+        },
+    ),
+    "CT_ARCHIVE_ENCRYPTED": (
+        {
+            "en": "{files} of {of} files in the zip are encrypted",
+            "de": "{files} von {of} Dateien im Zip sind verschlüsselt",
+        },
+    ),
+    "CT_ARCHIVE_TOO_LARGE": (
+        {
+            "en": "the zip would unpack to {size_gib:.1f} GiB, the maximum is {max_gib:.0f} GiB",
+            "de": "das Zip würde entpackt {size_gib:.1f} GiB haben, höchstens {max_gib:.0f} GiB",
+        },
+    ),
+    "CT_ARCHIVE_UNSAFE": (
+        {
+            "en": "{files} of {of} files in the zip have names that point outside of it",
+            "de": "{files} von {of} Dateien im Zip haben Namen, die aus ihm hinausführen",
+        },
+    ),
+    "CT_FILE_DAMAGED": (
+        {
+            "en": "{damaged} of {files} files are truncated or damaged DICOM files",
+            "de": "{damaged} von {files} Dateien sind abgeschnittene oder beschädigte DICOM-Dateien",
+        },
+    ),
+    "CT_NIFTI_PAIR": (
+        {
+            "en": "this is the header of a NIfTI pair, its voxels are in a second file",
+            "de": "dies ist der Kopf eines NIfTI-Paars, seine Voxel stehen in einer zweiten Datei",
+        },
+    ),
+    "CT_NOT_THERE": (
+        {"en": "the file or folder does not exist", "de": "die Datei oder der Ordner existiert nicht"},
+    ),
+    "CT_SLICES_CONTRADICT": (
+        {
+            "en": "{places} of {positions} positions have several slices with different pixels: the series "
+            "contains more than one pass (phase, energy or kernel)",
+            "de": "an {places} von {positions} Positionen gibt es mehrere Schichten mit verschiedenen "
+            "Pixeln: die Serie enthält mehr als einen Durchlauf (Phase, Energie oder Kernel)",
+        },
+    ),
+    "CT_SPACES_DIFFER": (
+        {
+            "en": "the slices have {spaces} frames of reference, expected 1: the patient may have moved",
+            "de": "die Schichten haben {spaces} Bezugssysteme, erwartet 1: der Patient hat sich vielleicht "
+            "bewegt",
+        },
+    ),
+    "CT_TOO_FEW_SLICES": (
+        {
+            "en": "the CT has {slices} slice, the minimum is 2",
+            "de": "das CT hat {slices} Schicht, mindestens 2",
+        },
+    ),
+    "CT_TOO_MANY_FILES": (
+        {
+            "en": "there are {files} files or more, the maximum is {max_files}",
+            "de": "es sind {files} Dateien oder mehr, höchstens {max_files}",
+        },
+    ),
+    "CT_VALUES_MISSING": (
+        {
+            "en": "{missing} of {voxels} voxels are NaN, the maximum is {max_ratio:.0%}",
+            "de": "{missing} von {voxels} Voxeln sind NaN, höchstens {max_ratio:.0%}",
+        },
+    ),
+    "DOCUMENT_MISSING": (
+        {"en": "there is no {kind} '{name}'", "de": "es gibt kein Dokument {kind} „{name}“"},
+    ),
+    "DOCUMENT_OUT_OF_DATE": (
+        {"en": "{kind} '{name}' is out of date: {reason}", "de": "{kind} „{name}“ ist veraltet: {reason}"},
+    ),
+    "DOCUMENT_UNKNOWN": (
+        {
+            "en": "there is no document {document_id} in the case {case_id}",
+            "de": "es gibt kein Dokument {document_id} im Fall {case_id}",
+        },
+    ),
+    "FILE_UNKNOWN": (
+        {
+            "en": "there is no file {file_id} in the case {case_id}",
+            "de": "es gibt keine Datei {file_id} im Fall {case_id}",
+        },
+    ),
+    "MESH_TOO_LARGE": (
+        {
+            "en": "the mesh has {size_mb:.0f} MB, the maximum is {max_mb:.0f} MB",
+            "de": "das Netz hat {size_mb:.0f} MB, höchstens {max_mb:.0f} MB",
+        },
+        {
+            "en": "the mesh has {faces} triangles, the maximum is {max_faces}",
+            "de": "das Netz hat {faces} Dreiecke, höchstens {max_faces}",
+        },
+    ),
+    "VERSION_CONFLICT": (
+        {
+            "en": "{kind} '{name}' is at version {found_version}, but the change was made on version "
+            "{expected_version}",
+            "de": "{kind} „{name}“ ist in Version {found_version}, die Änderung bezog sich auf Version "
+            "{expected_version}",
+        },
+    ),
+}

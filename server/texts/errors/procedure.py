@@ -1,0 +1,250 @@
+"""Messages of errors of procedure, plan and supervision, by code."""
+
+from collections.abc import Mapping
+
+from server.texts.language import Text
+
+PROCEDURE: Mapping[str, tuple[Text, ...]] = {
+    "BODY_TOO_LARGE": (
+        {
+            "en": "the request has at least {size_kb:.0f} kB, the maximum is {allowed_kb:g} kB",
+            "de": "die Anfrage hat mindestens {size_kb:.0f} kB, höchstens {allowed_kb:g} kB",
+        },
+    ),
+    "CALIBRATION_ABOVE_GATE": (
+        {
+            "en": "the reprojection error is {rms_px} px RMS, limit {max_rms_px:g} px; the calibration was "
+            "not stored",
+            "de": "der Reprojektionsfehler ist {rms_px} px RMS, Grenze {max_rms_px:g} px; die Kalibrierung "
+            "wurde nicht gespeichert",
+        },
+    ),
+    "CAMERA_DIFFERS": (
+        {
+            "en": "the camera changed from '{before}' to '{now}' while views were taken",
+            "de": "die Kamera wechselte während der Aufnahme von „{before}“ zu „{now}“",
+        },
+        {
+            "en": "{title} was calibrated for '{calibrated}', but images come from '{source}'",
+            "de": "{title} wurde für „{calibrated}“ kalibriert, die Bilder kommen aber von „{source}“",
+        },
+        {
+            "en": "the camera '{calibrated}' was calibrated, but images come from '{camera}'",
+            "de": "kalibriert wurde die Kamera „{calibrated}“, die Bilder kommen aber von „{camera}“",
+        },
+    ),
+    "CASE_NOT_OPEN": (
+        {"en": "the case {case_id} is not open", "de": "der Fall {case_id} ist nicht geöffnet"},
+        {
+            "en": "another case was opened since the question was asked",
+            "de": "inzwischen wurde ein anderer Fall geöffnet",
+        },
+    ),
+    "COLLECTION_EMPTY": (
+        {
+            "en": "no view of the board has been taken yet",
+            "de": "es ist noch keine Ansicht der Tafel aufgenommen",
+        },
+    ),
+    "COLLECTION_UNREADY": (
+        {
+            "en": "{images} images of the burst have been processed so far",
+            "de": "bisher sind {images} Bilder der Serie verarbeitet",
+        },
+    ),
+    "CONFIRMATION_OUT_OF_DATE": (
+        {
+            "en": "the displayed registration is no longer in use; {title} is in use now",
+            "de": "die angezeigte Registrierung gilt nicht mehr; jetzt gilt {title}",
+        },
+    ),
+    "CONFIRMATION_UNSEEN": (
+        {
+            "en": "there is no image of the camera, so nothing can be verified",
+            "de": "es gibt kein Bild der Kamera, daher kann nichts geprüft werden",
+        },
+    ),
+    "CT_CHANGED": (
+        {
+            "en": "the CT was replaced during the measurement of the pedicle; nothing was stored",
+            "de": "das CT wurde während der Messung des Pedikels ersetzt; nichts wurde gespeichert",
+        },
+    ),
+    "CT_MISSING": ({"en": "the open case has no CT", "de": "der geöffnete Fall hat kein CT"},),
+    "CT_REPLACED": (
+        {
+            "en": "the channel was not planned on the newest CT of this case",
+            "de": "der Kanal wurde nicht auf dem neuesten CT dieses Falls geplant",
+        },
+    ),
+    "HOLD_NOT_YOURS": (
+        {
+            "en": "the hold was requested by {by}, not by {person}",
+            "de": "den Halt hat {by} erbeten, nicht {person}",
+        },
+    ),
+    "IMAGE_SIZE_CHANGED": (
+        {
+            "en": "the image size changed from {before_width_px}x{before_height_px} px to "
+            "{width_px}x{height_px} px",
+            "de": "die Bildgröße änderte sich von {before_width_px}x{before_height_px} px auf "
+            "{width_px}x{height_px} px",
+        },
+    ),
+    "IMAGE_UNREADABLE": (
+        {
+            "en": "{image} is not a readable image ({size_bytes} bytes)",
+            "de": "{image} ist kein lesbares Bild ({size_bytes} Bytes)",
+        },
+    ),
+    "JOB_UNKNOWN": ({"en": "there is no job {job_id}", "de": "es gibt keinen Auftrag {job_id}"},),
+    "LATENCY_CASE_CHANGED": (
+        {
+            "en": "the open case was closed or changed during the latency measurement",
+            "de": "der geöffnete Fall wurde während der Latenzmessung geschlossen oder gewechselt",
+        },
+    ),
+    "LATENCY_PAGE_LEFT": (
+        {
+            "en": "the page that shows the codes was silent for {silent_s:.1f} s, limit {max_silent_s:g} s",
+            "de": "die Seite mit den Codes war {silent_s:.1f} s still, Grenze {max_silent_s:g} s",
+        },
+    ),
+    "LATENCY_TOO_LONG": (
+        {
+            "en": "no result after {images} images, the maximum",
+            "de": "kein Ergebnis nach {images} Bildern, das ist die Höchstzahl",
+        },
+    ),
+    "MARKERS_ENOUGH": (
+        {
+            "en": "{markers} markers are tracked, the maximum is {allowed}",
+            "de": "{markers} Marker werden verfolgt, höchstens {allowed}",
+        },
+    ),
+    "MARKER_OF_SETTINGS": (
+        {
+            "en": "the marker '{marker}' is defined in the settings and cannot be changed in a case",
+            "de": "der Marker „{marker}“ steht in den Einstellungen und kann in einem Fall nicht geändert "
+            "werden",
+        },
+    ),
+    "MARKER_UNKNOWN": (
+        {"en": "there is no marker '{marker}'", "de": "es gibt keinen Marker „{marker}“"},
+        {"en": "the marker '{marker}' is not tracked", "de": "der Marker „{marker}“ wird nicht verfolgt"},
+    ),
+    "NOTHING_YET": (
+        {
+            "en": "the tracking process has sent no message since the server started",
+            "de": "der Tracking-Prozess hat seit dem Start des Servers nichts gemeldet",
+        },
+    ),
+    "NOT_A_REHEARSAL": (
+        {
+            "en": "images come from {source}, not from the rehearsal",
+            "de": "die Bilder kommen von {source}, nicht aus dem Probebetrieb",
+        },
+    ),
+    "NO_ACTIVE_CHANNEL": (
+        {
+            "en": "the open case has no active channel",
+            "de": "im geöffneten Fall ist kein Kanal zum Bohren gewählt",
+        },
+    ),
+    "NO_CASE_OPEN": (
+        {
+            "en": "no case is open, so no result can be stored",
+            "de": "es ist kein Fall geöffnet, daher kann kein Ergebnis gespeichert werden",
+        },
+    ),
+    "NO_PICTURE": (
+        {"en": "there is no image for the measurement", "de": "es gibt kein Bild für die Messung"},
+        {
+            "en": "the camera delivers no images, so that nothing can be timed",
+            "de": "die Kamera liefert keine Bilder, daher ist keine Zeitmessung möglich",
+        },
+        {"en": "there are no more images", "de": "es kommen keine Bilder mehr"},
+        {
+            "en": "there is no image in which needles could be detected",
+            "de": "es gibt kein Bild, in dem Nadeln gesucht werden könnten",
+        },
+    ),
+    "PLAN_EMPTY": (
+        {
+            "en": "the plan has {vertebrae} vertebrae, but no landmark and no channel",
+            "de": "die Planung hat {vertebrae} Wirbel, aber keine Landmarke und keinen Kanal",
+        },
+    ),
+    "PLAN_MISSING": ({"en": "the open case has no plan", "de": "der geöffnete Fall hat keine Planung"},),
+    "PLAN_OF_ANOTHER_CT": (
+        {
+            "en": "the plan was made on another CT than that of the open case, or does not state its CT",
+            "de": "die Planung entstand auf einem anderen CT als dem des geöffneten Falls, oder sie nennt "
+            "ihr CT nicht",
+        },
+    ),
+    "PLAN_OUT_OF_DATE": (
+        {"en": "the plan is out of date: {reason}", "de": "die Planung ist veraltet: {reason}"},
+    ),
+    "REFERENCE_MISSING": (
+        {"en": "{vertebra} has no reference slice", "de": "{vertebra} hat keine Referenzschicht"},
+    ),
+    "REGISTRATION_CHANGED": (
+        {
+            "en": "{title} was checked, but the newest version is {version}",
+            "de": "geprüft wurde {title}, die neueste Version ist aber {version}",
+        },
+    ),
+    "SCREW_INCOMPLETE": (
+        {
+            "en": "only one of diameter_mm and length_mm was given",
+            "de": "nur eines von diameter_mm und length_mm wurde angegeben",
+        },
+    ),
+    "SIGNATURE_NOT_YOURS": (
+        {
+            "en": "this was signed by {signer}, not by {person}",
+            "de": "dies hat {signer} gegengezeichnet, nicht {person}",
+        },
+    ),
+    "SIGNED_VERSION_OLD": (
+        {
+            "en": "the {kind} has changed since it was displayed; it is now {title}",
+            "de": "{kind}: seit der Anzeige geändert; jetzt {title}",
+        },
+    ),
+    "SLICE_OUTSIDE_CT": (
+        {
+            "en": "the reference slice is number {slice_index}, the CT has {slices}",
+            "de": "die Referenzschicht hat die Nummer {slice_index}, das CT hat {slices}",
+        },
+    ),
+    "SURFACE_MISSING": (
+        {"en": "the open case has no bone surface", "de": "der geöffnete Fall hat keine Knochenoberfläche"},
+    ),
+    "UPLOAD_CUT": (
+        {
+            "en": "the connection ended after {taken_mb:.1f} MB",
+            "de": "die Verbindung endete nach {taken_mb:.1f} MB",
+        },
+    ),
+    "UPLOAD_EMPTY": ({"en": "the request body is empty", "de": "die Anfrage enthält keine Datei"},),
+    "UPLOAD_TOO_LARGE": (
+        {
+            "en": "the file has {size_mb:.1f} MB or more, the maximum is {max_mb:g} MB",
+            "de": "die Datei hat {size_mb:.1f} MB oder mehr, höchstens {max_mb:g} MB",
+        },
+    ),
+    "UPLOAD_UNKNOWN": (
+        {
+            "en": "no upload {upload_id} is being read or waits for the choice of a series",
+            "de": "kein Upload {upload_id} wird gelesen oder wartet auf die Wahl einer Serie",
+        },
+    ),
+    "VIEWS_ENOUGH": (
+        {
+            "en": "{views} views have been taken, the maximum",
+            "de": "{views} Ansichten sind aufgenommen, das ist die Höchstzahl",
+        },
+    ),
+}

@@ -1,0 +1,57 @@
+"""Messages of errors of recordings, by code."""
+
+from collections.abc import Mapping
+
+from server.texts.language import Text
+
+RECORDINGS: Mapping[str, tuple[Text, ...]] = {
+    "EXPORT_UNKNOWN": (
+        {"en": "{name} has no export of this name", "de": "{name} hat keinen Export dieses Namens"},
+    ),
+    "RECORDED_IMAGE_UNKNOWN": (
+        {
+            "en": "{name} has {images} images, but no image {number}",
+            "de": "{name} hat {images} Bilder, aber kein Bild {number}",
+        },
+    ),
+    "RECORDING_BUDGET_EXCEEDED": (
+        {
+            "en": "all recordings together have reached recording.max_total_gb, {max_total_gb:g} GB",
+            "de": "alle Aufnahmen zusammen haben recording.max_total_gb erreicht, {max_total_gb:g} GB",
+        },
+    ),
+    "RECORDING_CONSENT_MISSING": (
+        {
+            "en": "nobody has stated that the patient consented to a recording",
+            "de": "niemand hat angegeben, dass der Patient in eine Aufnahme eingewilligt hat",
+        },
+    ),
+    "RECORDING_DAMAGED": (
+        {
+            "en": "image {number} of {name} cannot be decoded",
+            "de": "Bild {number} von {name} lässt sich nicht dekodieren",
+        },
+    ),
+    "RECORDING_DISK_FULL": (
+        {
+            "en": "{free_gb:.2f} GB are free on the disk of the cases, and {min_free_gb:g} GB must stay "
+            "free (recording.min_free_gb)",
+            "de": "{free_gb:.2f} GB sind auf der Platte der Fälle frei, {min_free_gb:g} GB müssen frei "
+            "bleiben (recording.min_free_gb)",
+        },
+    ),
+    "RECORDING_EMPTY": ({"en": "{name} has no image", "de": "{name} hat kein Bild"},),
+    "RECORDING_NOT_INDEXED": ({"en": "{name} is not indexed yet", "de": "{name} ist noch nicht eingelesen"},),
+    "RECORDING_PROTECTED": (
+        {"en": "{name} is protected from deletion", "de": "{name} ist vor dem Löschen geschützt"},
+    ),
+    "RECORDING_RUNS": ({"en": "{name} is being written", "de": "{name} wird gerade geschrieben"},),
+    "RECORDING_SWITCHED_OFF": ({"en": "recording.when is never", "de": "recording.when ist never"},),
+    "RECORDING_UNKNOWN": (
+        {
+            "en": "the open case has no recording {name!r}",
+            "de": "der geöffnete Fall hat keine Aufnahme {name!r}",
+        },
+        {"en": "{name} was deleted meanwhile", "de": "{name} wurde inzwischen gelöscht"},
+    ),
+}

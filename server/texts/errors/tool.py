@@ -1,0 +1,95 @@
+"""Messages of errors of calibrating a tool, by code."""
+
+from collections.abc import Mapping
+
+from server.texts.language import Text
+
+TOOL: Mapping[str, tuple[Text, ...]] = {
+    "PIVOT_POSES_DISAGREE": (
+        {
+            "en": "only {used} of {poses} poses agree on one pivot, needed {needed_ratio:.0%}",
+            "de": "nur {used} von {poses} Lagen passen zu einem Drehpunkt, nötig {needed_ratio:.0%}",
+        },
+    ),
+    "PIVOT_RESIDUAL_TOO_LARGE": (
+        {
+            "en": "the tip is {rms_3d_mm:.2f} mm from the pivot (3-D RMS), allowed {allowed_mm:.2f} mm",
+            "de": "die Spitze liegt {rms_3d_mm:.2f} mm vom Drehpunkt (3-D RMS), erlaubt {allowed_mm:.2f} mm",
+        },
+    ),
+    "PIVOT_TILT_TOO_SMALL": (
+        {
+            "en": "about one direction the tool was tilted by only {turned_deg:.1f} degrees from end to "
+            "end, needed {needed_deg:g} degrees about each of two directions",
+            "de": "um eine Richtung wurde das Instrument von Ende zu Ende nur um {turned_deg:.1f}° "
+            "geschwenkt, nötig {needed_deg:g}° um jede von zwei Richtungen",
+        },
+    ),
+    "PIVOT_TIP_UNCERTAIN": (
+        {
+            "en": "the tip has a standard deviation of {tip_sd_mm:.2f} mm, allowed {allowed_mm:.2f} mm",
+            "de": "die Spitze hat eine Standardabweichung von {tip_sd_mm:.2f} mm, erlaubt {allowed_mm:.2f} "
+            "mm",
+        },
+    ),
+    "SPIN_AXIS_UNCERTAIN": (
+        {
+            "en": "the axis has a standard deviation of {axis_sd_deg:.2f} degrees, allowed {allowed_deg:.2f}",
+            "de": "die Achse hat eine Standardabweichung von {axis_sd_deg:.2f}°, erlaubt {allowed_deg:.2f}",
+        },
+    ),
+    "SPIN_NOT_ABOUT_TOOL": (
+        {
+            "en": "the axis of this motion is {off_deg:.0f} degrees from the direction to the tip, allowed "
+            "{allowed_deg:g}: the tool was tilted, not spun",
+            "de": "die Achse dieser Bewegung liegt {off_deg:.0f}° neben der Richtung zur Spitze, erlaubt "
+            "{allowed_deg:g}: das Instrument wurde geschwenkt, nicht gedreht",
+        },
+    ),
+    "TIP_CHECK_FAILED": (
+        {
+            "en": "the tip moves by {rms_3d_mm:.2f} mm (3-D RMS) and by {max_mm:.2f} mm at most, allowed "
+            "{allowed_mm:.2f} mm (3-D RMS)",
+            "de": "die Spitze bewegt sich um {rms_3d_mm:.2f} mm (3-D RMS) und um höchstens {max_mm:.2f} mm, "
+            "erlaubt {allowed_mm:.2f} mm (3-D RMS)",
+        },
+    ),
+    "TIP_CHECK_TILT_TOO_SMALL": (
+        {
+            "en": "about one direction the tool was tilted by only {turned_deg:.1f} degrees from end to "
+            "end, needed {needed_deg:g}: a wrong tip would not be detected",
+            "de": "um eine Richtung wurde das Instrument von Ende zu Ende nur um {turned_deg:.1f}° "
+            "geschwenkt, nötig {needed_deg:g}: eine falsche Spitze würde nicht auffallen",
+        },
+    ),
+    "TOOL_MARKER_UNKNOWN": (
+        {
+            "en": "the marker of the tool '{tool}' is not specified",
+            "de": "der Marker des Instruments „{tool}“ ist nicht angegeben",
+        },
+    ),
+    "TOOL_SHAPE_UNKNOWN": (
+        {
+            "en": "radius and length of '{tool}' are not known",
+            "de": "Radius und Länge von „{tool}“ sind nicht bekannt",
+        },
+    ),
+    "TOOL_TIP_MISSING": (
+        {
+            "en": "the tip of '{tool}' is not calibrated in this case",
+            "de": "die Spitze von „{tool}“ ist in diesem Fall nicht kalibriert",
+        },
+        {
+            "en": "the tip of '{tool}' is no longer available",
+            "de": "die Spitze von „{tool}“ gibt es nicht mehr",
+        },
+        {"en": "there is no tip to check", "de": "es gibt keine Spitze, die geprüft werden könnte"},
+    ),
+    "TOOL_TOO_FEW_POSES": (
+        {"en": "there are {poses} poses", "de": "es gibt {poses} Lagen"},
+        {
+            "en": "there are {different} different poses of {poses}, needed {needed}",
+            "de": "es gibt {different} verschiedene Lagen von {poses}, nötig {needed}",
+        },
+    ),
+}

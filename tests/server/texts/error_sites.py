@@ -1,0 +1,75 @@
+"""Finds by the syntax tree where errors are raised, and the templates of their messages and remedies."""
+
+import ast
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[3]
+CODE = re.compile(r"[A-Z][A-Z0-9]*(_[A-Z0-9]+)+")
+# Names of values are left out: a template in the catalogue names what an f-string computes.
+FIELD = re.compile(r"\{[^{}!:]*((?:![rs])?(?::[^{}]*)?)\}")
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorSite:
+    """Code, message and remedy as written; a part is None where it is not a literal."""
+
+    where: str
+    code: str
+    message: str | None
+    remedy: str | None
+
+
+def error_sites() -> Iterator[ErrorSite]:
+    """Yield all places in tracker and server at which an error with a literal code is made.
+
+    Errors of the command line are left out: no page shows them, and it is in English.
+    """
+    for folder in ("server", "tracker"):
+        for path in sorted((ROOT / folder).rglob("*.py")):
+            if "cli" not in path.relative_to(ROOT).parts:
+                yield from _sites_in(path)
+
+
+def _sites_in(path: Path) -> Iterator[ErrorSite]:
+    tree = ast.parse(path.read_text())
+    constants = {
+        target.id: node.value
+        for node in tree.body
+        if isinstance(node, ast.Assign)
+        for target in node.targets
+        if isinstance(target, ast.Name)
+    }
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call) or len(node.args) < 3:
+            continue
+        code, message, remedy = node.args[:3]
+        if isinstance(code, ast.Constant) and isinstance(code.value, str) and CODE.fullmatch(code.value):
+            where = f"{path.relative_to(ROOT)}:{node.lineno}"
+            yield ErrorSite(where, code.value, _shape(message, constants), _shape(remedy, constants))
+
+
+def shape_of(template: str) -> str:
+    """Return a template without the names of its values, for the comparison with an f-string."""
+    return FIELD.sub(r"{\1}", template)
+
+
+def _shape(node: ast.expr, constants: dict[str, ast.expr]) -> str | None:
+    if isinstance(node, ast.Name):
+        node = constants.get(node.id, node)
+    if isinstance(node, ast.Constant):
+        return str(node.value)
+    if not isinstance(node, ast.JoinedStr):
+        return None
+    return "".join(
+        str(part.value) if isinstance(part, ast.Constant) else _field(part) for part in node.values
+    )
+
+
+def _field(part: ast.expr) -> str:
+    assert isinstance(part, ast.FormattedValue)
+    conversion = "" if part.conversion < 0 else f"!{chr(part.conversion)}"
+    spec = "" if part.format_spec is None else ast.unparse(part.format_spec)[2:-1]
+    return f"{{{conversion}{':' + spec if spec else ''}}}"
