@@ -23,7 +23,7 @@ from numba.core.event import Event, Listener, register
 from tests.benchmarks.tables import Table, number
 
 
-class CompileTimes(Listener):  # type: ignore[misc]  # Numba has no types
+class CompileTimes(Listener):
     """Processor time of each function that Numba compiles, in s, and of LLVM in it.
 
     Attributes:
