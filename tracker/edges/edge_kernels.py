@@ -338,6 +338,7 @@ def join_collinear(segments, max_gap, max_off, min_cos):
                 break
             joined[2], joined[3] = segments[j, 2], segments[j, 3]
             j = next_segment[j]
-        found_segments[m] = joined
+        for k in range(4):
+            found_segments[m, k] = joined[k]
         m += 1
     return found_segments[:m].copy()

@@ -11,6 +11,22 @@ NO_BAND = (0, 0)
 
 
 @compiled
+def copy_vector(values, out):
+    """Copy values (n,) into `out` (n,)."""
+    for k in range(len(values)):
+        out[k] = values[k]
+
+
+@compiled
+def copy_pose(rotation, translation, out_rotation, out_translation):
+    """Copy a pose into `out_rotation` (3, 3) and `out_translation` (3,)."""
+    for r in range(3):
+        out_translation[r] = translation[r]
+        for c in range(3):
+            out_rotation[r, c] = rotation[r, c]
+
+
+@compiled
 def mirror(rotation, translation, out):
     """Write the rotation of the flipped planar solution: mirrored across the line of sight."""
     squared = translation[0] ** 2 + translation[1] ** 2 + translation[2] ** 2

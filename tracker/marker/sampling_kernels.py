@@ -69,10 +69,12 @@ def sample_quads(image, quads, cells, ring):
 
 
 @compiled
-def sample_square(image, corners, fields, samples):
-    """Return the mean grey value of fields x fields cells of a square, samples x samples in each."""
+def sample_square(image, corners, samples, out):
+    """Write the mean grey value of each cell of a square to `out` (n, n), of samples x samples in it."""
     height, width = image.shape
-    out, n = np.zeros((fields, fields)), fields * samples
+    fields = len(out)
+    n = fields * samples
+    out[:, :] = 0.0
     h, us, vs = np.empty(8), np.empty(n), np.empty(n)
     square_to_quad(corners, h)
     for r in range(n):
@@ -83,7 +85,9 @@ def sample_square(image, corners, fields, samples):
             for k in range(c * samples, c * samples + samples):
                 total += _between(image, us[k], vs[k])
             line[c] += total
-    return out / (samples * samples)
+    for r in range(fields):
+        for c in range(fields):
+            out[r, c] /= samples * samples
 
 
 @compiled

@@ -16,7 +16,7 @@ was known, with tip errors of 20 mm at a stated sd of 1 mm.
 import numpy as np
 
 from tracker.compiled import compiled
-from tracker.geometry.geometry_kernels import NO_BAND
+from tracker.geometry.geometry_kernels import NO_BAND, copy_vector
 from tracker.photometric.response_kernels import ILLUMINATION, PLANAR_PARAMETERS
 
 # Kinds of illumination and their parameters from ILLUMINATION on. Planar: dark level and contrast, each with
@@ -221,7 +221,7 @@ def _fill_plane(plane, nodes, field):
 def from_planar(parameters, illumination, out):
     """Convert the parameters of a fit under planar illumination to this illumination model."""
     kind, nodes = illumination
-    out[:ILLUMINATION] = parameters[:ILLUMINATION]
+    copy_vector(parameters[:ILLUMINATION], out)
     dark, contrast = (
         parameters[ILLUMINATION : ILLUMINATION + 3],
         parameters[ILLUMINATION + 3 : ILLUMINATION + 6],
@@ -233,7 +233,7 @@ def from_planar(parameters, illumination, out):
         rest[0], rest[1] = dark[0] / max(contrast[0], 1.0), 0.0
     elif kind == ADDITIVE:
         _fill_plane(dark, nodes, field)
-        rest[:] = contrast
+        copy_vector(contrast, rest)
     else:
         _fill_plane(dark, nodes, field)
         _fill_plane(contrast, nodes, rest)
@@ -316,7 +316,7 @@ def add_illumination_priors(a, g, parameters, scale, illumination):
             cost += _add_zero_prior(a, g, parameters, ILLUMINATION + k, slope, scale)
         return cost
     rest = ILLUMINATION + nodes * nodes
-    cost += _add_smoothness_prior(a, g, parameters, ILLUMINATION, nodes, contrast, scale)
+    cost += _add_smoothness_prior(a, g, parameters, np.int64(ILLUMINATION), nodes, contrast, scale)
     if kind == MULTIPLICATIVE:
         cost += _add_zero_prior(a, g, parameters, rest + 1, NO_LIGHT_RATIO * contrast, scale)
     elif kind == ADDITIVE:

@@ -60,4 +60,6 @@ def illumination_pattern_chi2(values, prediction, response, scale, cutoff):
     for m in range(ROWS):
         for k in range(count):
             g[m] += weights[k] * residuals[k] * rows[m, k]
-    return (_chi2_decrease(a, g, ROWS) - _chi2_decrease(a, g, EVEN_ROWS)) / (scale * scale)
+    return (_chi2_decrease(a, g, np.int64(ROWS)) - _chi2_decrease(a, g, np.int64(EVEN_ROWS))) / (
+        scale * scale
+    )

@@ -4,7 +4,7 @@ import numpy as np
 
 from tracker.camera.blur_kernels import clamp_blur
 from tracker.compiled import compiled
-from tracker.geometry.geometry_kernels import rotate_by, solve_banded
+from tracker.geometry.geometry_kernels import copy_pose, copy_vector, rotate_by, solve_banded
 from tracker.photometric.equation_kernels import (
     PLANAR_COUNT,
     add_priors,
@@ -172,7 +172,8 @@ def refine_pose(
         )
         if share == 0.0:
             return failed
-        old_rotation[:, :], old_translation[:], old[:] = rotation, translation, parameters
+        copy_pose(rotation, translation, old_rotation, old_translation)
+        copy_vector(parameters, old)
         facing = _apply_step(rotation, translation, parameters, step, share, min_blur)
         if facing and gain < min_gain_chi2 * scale * scale and share == 1.0:
             break
@@ -184,7 +185,8 @@ def refine_pose(
             )
         fallen = (cost - new_cost) / (scale * scale)
         if not fallen >= 0.0:
-            rotation[:, :], translation[:], parameters[:] = old_rotation, old_translation, old
+            copy_pose(old_rotation, old_translation, rotation, translation)
+            copy_vector(old, parameters)
             # Converged within the linearisation error of the texture; otherwise the step was too long.
             if fallen > -CONVERGED_COST_CHI2 or damping > 1.0:
                 break

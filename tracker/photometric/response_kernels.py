@@ -3,7 +3,7 @@
 import numpy as np
 
 from tracker.compiled import compiled
-from tracker.geometry.geometry_kernels import add_products, solve_positive
+from tracker.geometry.geometry_kernels import add_products, copy_vector, solve_positive
 
 # Parameters of a fit: translation 3, rotation 3, blur 3 (variances along u, v, covariance), response 1,
 # illumination.
@@ -72,7 +72,8 @@ def fit_planar_illumination(picture, at, values, parameters, scale, cutoff):
             a[m, m] += 0.02 * a[0, 0]
         if not solve_positive(a, g, out):
             return False
-        residuals[:] = values
+        for i in range(n):
+            residuals[i] = values[i]
         for m in range(PLANAR_PARAMETERS):
             for i in range(n):
                 residuals[i] -= out[m] * rows[m, i]
@@ -80,5 +81,5 @@ def fit_planar_illumination(picture, at, values, parameters, scale, cutoff):
             scale = max(1.4826 * np.median(np.abs(residuals)), scale)
         for i in range(n):
             weights[i] = 1.0 / (1.0 + (residuals[i] / (cutoff * scale)) ** 2) ** 2
-    parameters[ILLUMINATION : ILLUMINATION + PLANAR_PARAMETERS] = out
+    copy_vector(out, parameters[ILLUMINATION:])
     return True

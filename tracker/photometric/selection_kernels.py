@@ -5,6 +5,7 @@ import numpy as np
 from tracker.camera.blur_kernels import level_of, mapped
 from tracker.camera.projection_kernels import project_with_derivative
 from tracker.compiled import compiled
+from tracker.geometry.geometry_kernels import copy_vector
 from tracker.photometric.render_kernels import footprint
 from tracker.photometric.texture import STEEPNESS
 
@@ -13,6 +14,8 @@ SATURATED_GREY = 254
 APART_PX = 8
 # Lens distortion moves the sides of the sampled area by less than this.
 OUTLINE_MARGIN_PX = 3.0
+# Newton steps to the first ray of a row, to the second, and to each later one. No literals, see `compiled`.
+FIRST_STEPS, SECOND_STEPS, NEXT_STEPS = np.int64(3), np.int64(2), np.int64(1)
 
 
 @compiled
@@ -114,22 +117,24 @@ def _row_of_rays(r, c0, count, step, lens, here, rays):
             xs[k], ys[k] = (step * (c0 + k) + half - lens[2]) / lens[0], (v - lens[3]) / lens[1]
         return
     workspace = (np.empty((2, 3)), np.empty(3))
-    _solve_ray(step * c0 + half, v, lens, here, 3, workspace)
+    _solve_ray(step * c0 + half, v, lens, here, FIRST_STEPS, workspace)
     start, middle, ahead = here.copy(), here.copy(), here.copy()
-    _solve_ray(step * (c0 + APART_PX) + half, v, lens, middle, 2, workspace)
+    _solve_ray(step * (c0 + APART_PX) + half, v, lens, middle, SECOND_STEPS, workspace)
     for first in range(0, count, 2 * APART_PX):
         if first > 0:
-            middle[:] = 2.0 * start - middle
-            _solve_ray(step * (c0 + first + APART_PX) + half, v, lens, middle, 1, workspace)
-        ahead[:] = 2.0 * middle - start
-        _solve_ray(step * (c0 + first + 2 * APART_PX) + half, v, lens, ahead, 1, workspace)
+            for k in range(2):
+                middle[k] = 2.0 * start[k] - middle[k]
+            _solve_ray(step * (c0 + first + APART_PX) + half, v, lens, middle, NEXT_STEPS, workspace)
+        for k in range(2):
+            ahead[k] = 2.0 * middle[k] - start[k]
+        _solve_ray(step * (c0 + first + 2 * APART_PX) + half, v, lens, ahead, NEXT_STEPS, workspace)
         # Over this distance the distortion is quadratic.
         dx, dy = 0.5 * (ahead[0] - start[0]), 0.5 * (ahead[1] - start[1])
         ddx, ddy = 0.5 * (ahead[0] + start[0]) - middle[0], 0.5 * (ahead[1] + start[1]) - middle[1]
         for k in range(min(2 * APART_PX, count - first)):
             t = k / APART_PX - 1.0
             xs[first + k], ys[first + k] = middle[0] + t * (dx + t * ddx), middle[1] + t * (dy + t * ddy)
-        start[:] = ahead
+        copy_vector(ahead, start)
 
 
 @compiled

@@ -38,8 +38,8 @@ def pose_from_foreshortening(homography, rotation, translation):
     scale = np.sqrt(0.5 * (squares + np.sqrt(max(squares * squares - 4.0 * area * area, 0.0))))
     if not scale > 1e-12:
         return False
-    columns[:2, :2] = seen / scale
     for k in range(2):
+        columns[0, k], columns[1, k] = seen[0, k] / scale, seen[1, k] / scale
         columns[2, k] = np.sqrt(max(1.0 - columns[0, k] ** 2 - columns[1, k] ** 2, 0.0))
     if columns[0, 0] * columns[0, 1] + columns[1, 0] * columns[1, 1] > 0.0:
         columns[2, 1] = -columns[2, 1]

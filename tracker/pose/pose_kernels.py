@@ -5,7 +5,7 @@ import numpy as np
 from tracker.camera.projection_kernels import project_with_derivative
 from tracker.compiled import compiled
 from tracker.edges.edge_kernels import crossing
-from tracker.geometry.geometry_kernels import mirror, rotate_by, solve_positive
+from tracker.geometry.geometry_kernels import copy_pose, copy_vector, mirror, rotate_by, solve_positive
 
 PARAMETERS = 7  # translation, rotation, and one shift common to all edges
 MIN_EDGES = 12
@@ -270,12 +270,12 @@ def fit_square(corners, half, rotation, translation, rounds):
                     for n in range(6):
                         a[m, n] += row[m] * row[n]
         if not left < before:
-            rotation[:, :], translation[:] = old_rotation, old_translation
+            copy_pose(old_rotation, old_translation, rotation, translation)
             return before
         if iteration == rounds or left > 0.999 * before:
             return left
         before, damping = left, 0.1 * damping
-        old_rotation[:, :], old_translation[:] = rotation, translation
+        copy_pose(rotation, translation, old_rotation, old_translation)
         for m in range(6):
             a[m, m] *= 1.0 + damping
         if not solve_positive(a, g, step):
@@ -305,13 +305,13 @@ def fit_both_solutions(
     """
     rotations, translations = np.empty((3, 3, 3)), np.empty((3, 3))
     matrices, statistics = np.zeros((3, PARAMETERS, PARAMETERS)), np.zeros((3, 5))
-    rotations[0], translations[0] = rotation, translation
     seed_rotation, seed_translation = rotation.copy(), translation.copy()
+    copy_pose(seed_rotation, seed_translation, rotations[0], translations[0])
     better, other, free, abandon_above_px2 = -1, -1, 0, np.inf
     for fit in range(max_fits + 1):
         if fit > 0:
             mirror(seed_rotation, seed_translation, rotations[free])
-            translations[free] = seed_translation
+            copy_vector(seed_translation, translations[free])
         fits = _refine(
             gx,
             gy,
@@ -336,7 +336,7 @@ def fit_both_solutions(
             break
         if fits:
             better, other = free, better
-            seed_rotation[:, :], seed_translation[:] = rotations[free], translations[free]
+            copy_pose(rotations[free], translations[free], seed_rotation, seed_translation)
             cost, squares, weights = statistics[free, 0], statistics[free, 2], statistics[free, 3]
             abandon_above_px2 = cost + decided * max(
                 squares / weights, cost / max(strength.sum(), 1.0), min_px2

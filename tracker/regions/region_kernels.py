@@ -210,7 +210,8 @@ def _largest_quad(hull, n, quad):
         if na == a and nc == c:
             break
         a, c = na, nc
-    quad[0], quad[1], quad[2], quad[3] = hull[a], hull[b], hull[c], hull[d]
+    for k, corner in enumerate((a, b, c, d)):
+        quad[k, 0], quad[k, 1] = hull[corner, 0], hull[corner, 1]
 
 
 @compiled

@@ -8,6 +8,7 @@ import pytest
 
 from server.loop import compiling
 from server.loop.compiling import PARTS_PER_PROCESS, Progress, compile_tracker, progress
+from tracker.compiled import DISPATCHERS
 from tracker.warm_up import Part
 
 
@@ -39,6 +40,19 @@ def put_index(
 def test_the_environment_of_these_tests_is_compiled() -> None:
     assert progress().is_complete
     assert progress().total > 150
+
+
+def test_no_loop_has_the_error_message_of_arrays_of_different_shapes() -> None:
+    # Assigning an array to a part of another one compiles the message into the function and its callers.
+    compiled = {
+        file.name: file.read_bytes()
+        for loop in DISPATCHERS
+        for file in Path(loop.stats.cache_path).glob(
+            f"*.{loop.py_func.__qualname__}-{loop.py_func.__code__.co_firstlineno}.*.nbc"
+        )
+    }
+    assert len(compiled) >= len(DISPATCHERS)
+    assert [name for name, code in compiled.items() if b"cannot assign slice" in code] == []
 
 
 def test_a_loop_counts_once_its_index_is_there(loop: SimpleNamespace) -> None:

@@ -103,7 +103,8 @@ class Estimator:
         """Sample the image and render the model with an isotropic blur, before any fit."""
         self.blur, ahead = np.empty(3), self.ahead
         lens_blur(ahead, blur_px, self.blur)
-        self.observed = sample_cells(self.image, self.to_px, self.corners)
+        self.observed = np.empty((GRID_CELLS, GRID_CELLS))
+        sample_cells(self.image, self.to_px, self.corners, self.observed)
         render_model(self.pictures.layers, self.pictures.blurs_cells, self.blur, ahead, self.rendered)
 
     @property

@@ -157,7 +157,7 @@ def solve(
     ended = False
     for iteration in range(rounds):
         if free > 0:
-            observed[:, :] = sample_cells(image, h, corners)
+            sample_cells(image, h, corners, observed)
             cells_per_px(h, corners, ahead)
             render_model(layers, blurs, blur, ahead, rendered)
         for r in range(GRID_CELLS):

@@ -32,8 +32,8 @@ def cell_coordinate(c):
 
 
 @compiled
-def sample_cells(image, h, corners):
-    """Sample the cells (GRID_CELLS, GRID_CELLS) of a square and its paper.
+def sample_cells(image, h, corners, out):
+    """Sample the cells of a square and its paper into `out` (GRID_CELLS, GRID_CELLS).
 
     Its corners (4, 2) are in the unit square of the homography h (8,).
     """
@@ -43,7 +43,7 @@ def sample_cells(image, h, corners):
         a = mu + (corners[k, 0] - mu) * (GRID_CELLS / SQUARE_CELLS)
         b = mv + (corners[k, 1] - mv) * (GRID_CELLS / SQUARE_CELLS)
         px[k, 0], px[k, 1] = through(h, a, b)
-    return sample_square(image, px, GRID_CELLS, SAMPLES)
+    sample_square(image, px, SAMPLES, out)
 
 
 @compiled

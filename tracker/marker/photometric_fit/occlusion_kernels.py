@@ -3,7 +3,7 @@
 import numpy as np
 
 from tracker.compiled import compiled
-from tracker.geometry.geometry_kernels import solve_positive
+from tracker.geometry.geometry_kernels import copy_vector, solve_positive
 from tracker.marker.photometric_fit.fit_kernels import SATURATED_GREY, correlation, solve
 from tracker.marker.photometric_fit.grid_kernels import (
     GRID_CELLS,
@@ -16,6 +16,10 @@ from tracker.marker.photometric_fit.grid_kernels import (
     sample_cells,
 )
 from tracker.marker.sampling_kernels import square_to_quad
+
+# No literals, see `compiled`.
+ILLUMINATION_ONLY, ONE_ROUND = np.int64(0), np.int64(1)
+NO_RING, ANY_AREA = np.int64(0), np.int64(1)
 
 
 @compiled
@@ -156,7 +160,7 @@ def half_plane_weights(observed, picture, angles, places, limit, weight):
             cost = _cost(at, values, ink, solution, limit, near)
             if cost < minimum:
                 minimum, found = cost, True
-                best[:] = solution
+                copy_vector(solution, best)
     if not found:
         return False
     for r in range(GRID_CELLS):
@@ -187,10 +191,9 @@ def shape_mismatch(image, corners_px, layers, blurs, blur_px, cell_px, offset_ba
     to_px, corners, blur_here = np.empty(8), np.zeros((4, 2)), np.empty(3)
     square_to_quad(corners_px, to_px)
     corners[1, 0] = corners[2, 0] = corners[2, 1] = corners[3, 1] = 1.0
-    observed, rendered = (
-        sample_cells(image, to_px, corners),
-        np.empty((6, GRID_CELLS, GRID_CELLS), np.float32),
-    )
+    observed = np.empty((GRID_CELLS, GRID_CELLS))
+    sample_cells(image, to_px, corners, observed)
+    rendered = np.empty((6, GRID_CELLS, GRID_CELLS), np.float32)
     ahead = np.empty((2, 2))
     cells_per_px(to_px, corners, ahead)
     lens_blur(ahead, blur_px, blur_here)
@@ -200,13 +203,13 @@ def shape_mismatch(image, corners_px, layers, blurs, blur_px, cell_px, offset_ba
     residual, lit = np.empty((GRID_CELLS, GRID_CELLS)), np.empty((GRID_CELLS, GRID_CELLS))
     contrast = solve(
         image, to_px, layers, blurs, corners, blur_here, reference_gain, visible, weight, offset_basis, even,
-        cell_px, rounds, 0, observed, rendered, residual, lit,
+        cell_px, rounds, ILLUMINATION_ONLY, observed, rendered, residual, lit,
     )  # fmt: skip
     if not contrast > 0.0:
         return 0, 1.0, -1.0
     labels, end = np.zeros((SQUARE_CELLS, SQUARE_CELLS), np.int64), RING + SQUARE_CELLS
     own_rest, own_lit = residual[RING:end, RING:end].copy(), lit[RING:end, RING:end].copy()
-    areas = residual_components(own_rest, own_lit, 0, limit, 1, labels)
+    areas = residual_components(own_rest, own_lit, NO_RING, limit, ANY_AREA, labels)
     largest, occluded = 0, 0
     for area in areas:
         largest = max(largest, area)
@@ -218,7 +221,7 @@ def shape_mismatch(image, corners_px, layers, blurs, blur_px, cell_px, offset_ba
     weight[:, :] = 1.0
     contrast = solve(
         image, to_px, layers, blurs, corners, blur_here, reference_gain, visible, weight, offset_basis, even,
-        cell_px, 1, 0, observed, rendered, residual, lit,
+        cell_px, ONE_ROUND, ILLUMINATION_ONLY, observed, rendered, residual, lit,
     )  # fmt: skip
     if not contrast > 0.0:
         return largest, occluded / SQUARE_CELLS**2, -1.0

@@ -204,6 +204,13 @@ def _solve(factor, right):
 
 
 @compiled
+def _copy_quad(quad, out):
+    """Copy corners (4, 2)."""
+    for k in range(4):
+        out[k, 0], out[k, 1] = quad[k, 0], quad[k, 1]
+
+
+@compiled
 def _move_corners(quad, off):
     """Move each corner, in place, by its offset (8,), in sides of the square's plane."""
     h, moved = np.empty(8), np.empty((4, 2))
@@ -212,7 +219,8 @@ def _move_corners(quad, off):
         a = (1.0 if k in (1, 2) else 0.0) - min(max(off[2 * k], -MAX_STEP_SIDES), MAX_STEP_SIDES)
         b = (1.0 if k > 1 else 0.0) - min(max(off[2 * k + 1], -MAX_STEP_SIDES), MAX_STEP_SIDES)
         moved[k, 0], moved[k, 1] = through(h, a, b)
-    quad[:] = moved
+    for k in range(4):
+        quad[k, 0], quad[k, 1] = moved[k, 0], moved[k, 1]
 
 
 @compiled
@@ -246,7 +254,7 @@ def align_to_templates(
     right = np.empty(UNKNOWNS, np.float32)
     quad = np.empty((1, 4, 2), np.float32)
     for q in range(len(quads)):
-        quad[0] = quads[q]
+        _copy_quad(quads[q], quad[0])
         picture, mask, worst, ncc = -1, -1, 0.0, 0.0
         for step in range(steps + 1):
             seen = sample_quads(image, quad, cells, ring)
@@ -259,7 +267,7 @@ def align_to_templates(
                 if ncc > correlation[q]:
                     correlation[q] = ncc
                     if 1.0 - ncc * ncc < worst:
-                        found[q] = quad[0]
+                        _copy_quad(quad[0], found[q])
                 picture, mask = p, c
             if step == steps:
                 break

@@ -5,6 +5,7 @@ from math import erfc
 import numpy as np
 
 from tracker.compiled import compiled
+from tracker.geometry.geometry_kernels import copy_vector
 
 SQRT_HALF = 0.7071067811865476
 
@@ -48,7 +49,7 @@ def rank_contacts(points, clearance, gradient, tip, direction, root, wall_sd, ma
             here = clearance[s, r] / max(sd, 1e-6)
             if here < worst:
                 worst, worst_sd = here, sd
-                slopes[:] = row
+                copy_vector(row, slopes)
             for p in range(count):
                 if here < mahalanobis[p, r]:
                     for q in range(count - 1, p, -1):
