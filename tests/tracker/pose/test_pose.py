@@ -40,7 +40,7 @@ from tracker.rehearsal import Theatre, TheatreSettings
 CAMERA = camera_of()
 MODEL = code_model()
 TIP_MM = np.array([0.0, -120.0, -10.0])
-# Two poses of each size; how accurate any pose is, and how often it lies in its ellipsoid, the benchmark states.
+# Two poses of each size. How accurate poses are, and how often inside of their ellipsoid, is a benchmark.
 SEEDS = (1, 2)
 # 95 % of a normal distribution in three dimensions lie within this squared distance.
 CHI2_95 = 7.815
