@@ -23,10 +23,13 @@ from server.procedure import Steps
 from server.setup import CaseSetup, Preparation, build_setup
 from server.store import CaseStore, Home
 from tests.server.recording.no_recorder import recordings_without_process
+from tests.shared_validators import share_validators
 from tracker.geometry import Rigid, rotation_from_vector
 from tracker.navigation import Absent, AbsentReason, NavigationSnapshot, navigate
 from tracker.pose import Seen, Unseen, UnseenReason
 from tracker.rehearsal import Theatre
+
+share_validators()
 
 DEADLINE_S = 120.0
 

@@ -1,5 +1,6 @@
 """After a start there is no navigation until a person has confirmed that nothing has moved."""
 
+import shutil
 import time
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -39,16 +40,23 @@ def beside_a_reference(server: Server) -> Patient:
     return Patient(server=server, camera_from_reference=CAMERA_FROM_REFERENCE)
 
 
+@pytest.fixture(scope="module")
+def checked_home(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a server whose open case was registered to the patient marker and checked."""
+    folder = tmp_path_factory.mktemp("checked")
+    with serving(folder, REFERENCE) as server:
+        ready(server)
+        patient = beside_a_reference(server)
+        patient.register()
+        patient.check()
+        assert requested(server) is None
+    return folder
+
+
 @pytest.fixture
-def started_again(tmp_path: Path, turns: ExitStack) -> Server:
-    """A server whose open case was registered to the patient marker and checked before its start."""
-    server = turns.enter_context(serving(tmp_path, REFERENCE))
-    ready(server)
-    patient = beside_a_reference(server)
-    patient.register()
-    patient.check()
-    assert requested(server) is None
-    turns.close()
+def started_again(checked_home: Path, tmp_path: Path, turns: ExitStack) -> Server:
+    """A server started in a copy of that folder."""
+    shutil.copytree(checked_home, tmp_path, dirs_exist_ok=True)
     return turns.enter_context(serving(tmp_path, REFERENCE))
 
 

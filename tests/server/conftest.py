@@ -11,6 +11,7 @@ from fastapi import FastAPI
 
 from server.live import Instant, ProcessState, ProcessStatus, SourceState, SourceStatus
 from tests.served import served
+from tests.shared_validators import share_validators
 from tracker import CameraModel, Seen, ToolModel, Unseen, UnseenReason
 from tracker.geometry import Camera, Rigid, Tool, Vertebra
 from tracker.navigation import (
@@ -24,6 +25,8 @@ from tracker.navigation import (
 )
 from tracker.plan import Channel
 from tracker.registration import Registration
+
+share_validators()
 
 SIDE_MM = 25.0
 CORNERS_MM = np.array([[-0.5, 0.5, 0], [0.5, 0.5, 0], [0.5, -0.5, 0], [-0.5, -0.5, 0]]) * SIDE_MM

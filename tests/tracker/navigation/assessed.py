@@ -7,7 +7,7 @@ import numpy as np
 
 from tests.tracker.navigation.bones import ROD_CHANNEL, drill_at, rod
 from tracker.navigation import Assessment, DrillLimits, DrillReference, assess, deviation_from_channel
-from tracker.navigation.clearance import bone_distance_field
+from tracker.navigation.clearance import WallDistanceField, bone_distance_field
 from tracker.navigation.uncertainty import DrillAnalysis, PedicleTolerance, UncertainPose
 from tracker.pose import ToolModel
 
@@ -18,10 +18,14 @@ LIMITS = DrillLimits(warning_distance_mm=1.0, breach_ratio=0.05)
 
 
 @cache
+def _rod_wall() -> WallDistanceField:
+    return bone_distance_field(rod(), ROD_CHANNEL)
+
+
 def drill_reference(tolerance_mm: float = 1.8, lever_mm: float = 18.0) -> DrillReference:
     """The rod as bone, with this tolerance."""
     return DrillReference(
-        wall=bone_distance_field(rod(), ROD_CHANNEL),
+        wall=_rod_wall(),
         tolerance=PedicleTolerance(tolerance_mm=tolerance_mm, lever_mm=lever_mm),
         side="left",
     )
